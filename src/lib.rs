@@ -1,0 +1,5 @@
+//! A renderer on Vulkan that antialiases only where an image aliases.
+
+#![warn(missing_docs)]
+
+pub mod scene;

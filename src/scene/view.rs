@@ -1,0 +1,43 @@
+//! Cameras that a file holds.
+
+use glam::{DMat3, DVec3};
+
+/// A glTF camera's projection (glTF 2.0, section 3.10).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SceneProjection {
+    /// Perspective.
+    Perspective {
+        /// Vertical field of view in radians, above 0 and below pi.
+        yfov: f64,
+        /// Width over height, where the file prescribes one.
+        aspect: Option<f64>,
+        /// Distance of the near plane, above 0.
+        near: f64,
+        /// Distance of the far plane; `None` is infinite.
+        far: Option<f64>,
+    },
+    /// Orthographic.
+    Orthographic {
+        /// Half of the width.
+        xmag: f64,
+        /// Half of the height.
+        ymag: f64,
+        /// Distance of the near plane, 0 or more.
+        near: f64,
+        /// Distance of the far plane, above `near`.
+        far: f64,
+    },
+}
+
+/// A camera placed in the world, at the moment of the pose.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneCamera {
+    /// The camera's or else its node's name.
+    pub name: Option<String>,
+    /// World position.
+    pub eye: DVec3,
+    /// Columns: right, up and backward in world space, orthonormal (the camera looks along the negative third).
+    pub axes: DMat3,
+    /// Its projection.
+    pub projection: SceneProjection,
+}
