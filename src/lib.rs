@@ -2,4 +2,6 @@
 
 #![warn(missing_docs)]
 
+pub mod reference;
+pub mod sampling;
 pub mod scene;
