@@ -97,9 +97,18 @@ impl EdgeFunctions {
     /// The factors l0, l1, l2 with l0 v0 + l1 v1 + l2 v2 = (x, y, 1), by which any attribute that is linear in clip
     /// space is interpolated: their sum is 1/w at the sample, and with each vertex's clip-space z they give z/w. Each
     /// has a relative error below 2^-49.
-    pub fn factors(&self, [x, y]: [f64; 2]) -> [f64; 3] {
-        self.edges
-            .map(|edge| dot(&edge, [x, y, 1.0]) / self.determinant)
+    pub fn factors(&self, sample: [f64; 2]) -> [f64; 3] {
+        self.values(sample).map(|value| value / self.determinant)
+    }
+
+    /// The edge functions at a sample, each rounded once: the factors times the determinant.
+    pub(super) fn values(&self, [x, y]: [f64; 2]) -> [f64; 3] {
+        self.edges.map(|edge| dot(&edge, [x, y, 1.0]))
+    }
+
+    /// The facing determinant's magnitude.
+    pub(super) fn determinant(&self) -> f64 {
+        self.determinant
     }
 }
 

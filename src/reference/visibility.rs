@@ -80,13 +80,14 @@ impl Surface {
 
     /// The depth of the triangle's plane at a sample, and the size of the terms that it is summed from.
     fn depth(&self, sample: [f64; 2]) -> [f64; 2] {
-        let factors = self.edges.factors(sample);
+        let values = self.edges.values(sample);
         // Summed in the vertices' own order, so that coincident triangles agree to the bit.
-        let terms = self.order.map(|vertex| factors[vertex] * self.z[vertex]);
-        [
+        let terms = self.order.map(|vertex| values[vertex] * self.z[vertex]);
+        let sums: [f64; 2] = [
             terms.iter().sum(),
             terms.iter().map(|term| term.abs()).sum(),
-        ]
+        ];
+        sums.map(|sum| sum / self.edges.determinant())
     }
 }
 

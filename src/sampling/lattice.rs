@@ -1,4 +1,4 @@
-//! Lattices: the rotated square one, whose rows are straight, and Korobov's, which err least on average.
+//! Lattices: the rotated square one, whose rows are straight, and Korobov's, which err less.
 
 use super::{Location, locate};
 

@@ -22,8 +22,9 @@ pub enum Pattern {
     /// `y = -1/2 + (j + 1/2)/k - (i - (k - 1)/2)/k^2` for column i and row j from 0, rounded to 2^-16. For counts that are
     /// no square, [Korobov](Pattern::Korobov)'s. Any count.
     Lattice,
-    /// The rank-1 lattice (i, g i mod N) with the best generator g: any count. Its error on straight edges is the least
-    /// on average; at its worst orientations it errs more than Sobol points.
+    /// The rank-1 lattice (i, g i mod N) with the best generator g: any count. On average over straight edges it errs as
+    /// little as the grid, without the grid's weakness along the axes; at its own worst orientations it errs more than
+    /// Sobol points.
     Korobov,
     /// The centres of a k x k grid; square counts only. The worst on edges along an axis, which meet k samples at once.
     Grid,

@@ -142,7 +142,8 @@ pub struct Influences {
     pub weights: Vec<[f32; 4]>,
 }
 
-#[derive(Clone, Debug)]
+/// Empty where no node with a mesh refers to it.
+#[derive(Clone, Debug, Default)]
 pub struct Skin {
     /// Nodes.
     pub joints: Vec<usize>,

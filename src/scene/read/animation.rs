@@ -20,9 +20,12 @@ pub fn read_all(context: &mut Context<'_>, nodes: &[Node]) -> Result<Vec<Animati
     let mut cache = Cache::new();
     let mut animations = Vec::new();
     for item in context.root.objects("animations")? {
-        let samplers = item.objects("samplers")?;
+        let parts = item
+            .objects("samplers")
+            .and_then(|samplers| Ok(Some((samplers, item.objects("channels")?))));
+        let (samplers, items) = context.tolerate(parts).unwrap_or_default();
         let mut channels: Vec<Channel> = Vec::new();
-        for channel in item.objects("channels")? {
+        for channel in items {
             let read = read_channel(&channel, &samplers, context, nodes, &mut cache);
             channels.extend(context.tolerate(read));
         }

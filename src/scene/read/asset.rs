@@ -1,7 +1,11 @@
 //! What a file says about itself: its version and its extensions (glTF 2.0, sections 3.2 and 3.12).
 
-use super::{Context, container::CONVERT_OLD, json::Item};
-use crate::scene::{SceneError, document::Asset, error::Fault};
+use super::{container::CONVERT_OLD, json::Item};
+use crate::scene::{
+    SceneError,
+    document::Asset,
+    error::{Fault, Warnings},
+};
 
 /// The extensions that are implemented.
 const SUPPORTED: [&str; 8] = [
@@ -37,8 +41,7 @@ const VISIBLE: [&str; 16] = [
 ];
 
 /// Reads `asset` and the extension lists; refuses what is not supported.
-pub fn read(context: &mut Context<'_>, file: &str) -> Result<Asset, SceneError> {
-    let root = context.root.clone();
+pub fn read(root: &Item<'_>, file: &str, warnings: &mut Warnings) -> Result<Asset, SceneError> {
     let malformed = |fault: Fault| fault.into_error(file);
     let asset = root.require("asset").map_err(malformed)?;
     let version_item = asset.require("version").map_err(malformed)?;
@@ -60,7 +63,7 @@ pub fn read(context: &mut Context<'_>, file: &str) -> Result<Asset, SceneError> 
             way_out: EXPORT_2,
         });
     }
-    let required = names(&root, "extensionsRequired").map_err(malformed)?;
+    let required = names(root, "extensionsRequired").map_err(malformed)?;
     let supported = |name: &str| SUPPORTED.contains(&name);
     if let Some(name) = required.iter().find(|name| !supported(name)) {
         return Err(SceneError::Extension {
@@ -69,14 +72,14 @@ pub fn read(context: &mut Context<'_>, file: &str) -> Result<Asset, SceneError> 
             way_out: way_out(name),
         });
     }
-    let used = names(&root, "extensionsUsed").map_err(malformed)?;
+    let used = names(root, "extensionsUsed").map_err(malformed)?;
     let visible: Vec<&str> = used
         .iter()
         .map(String::as_str)
         .filter(|name| VISIBLE.contains(name))
         .collect();
     if !visible.is_empty() {
-        context.warn(&Fault::new(
+        warnings.push(&Fault::new(
             "/extensionsUsed",
             format!("drawn without {}", visible.join(", ")),
         ));

@@ -12,17 +12,11 @@ const MAX_INSTANCES: u64 = 1 << 24;
 /// What was read so far.
 #[derive(Debug, Default)]
 pub struct Budget {
-    triangles: AtomicU64,
     vertices: AtomicU64,
     instances: AtomicU64,
 }
 
 impl Budget {
-    /// Counts triangles that are about to be read.
-    pub fn add_triangles(&self, count: u64, place: &str) -> Result<(), Fault> {
-        add(&self.triangles, count, MAX_ELEMENTS, "triangles", place)
-    }
-
     /// Counts vertices, and displacements of vertices, that are about to be read.
     pub fn add_vertices(&self, count: u64, place: &str) -> Result<(), Fault> {
         add(&self.vertices, count, MAX_ELEMENTS, "vertices", place)

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::{
     Context,
     json::Item,
+    limits::MAX_ELEMENTS,
     primitive::{self, Outcome},
 };
 use crate::scene::{
@@ -35,6 +36,16 @@ pub fn read_all(
     }
 
     let shared = &*context;
+    let triangles = primitives
+        .iter()
+        .map(|(_, item)| primitive::claimed_triangles(item, shared))
+        .fold(0, u64::saturating_add);
+    if triangles > MAX_ELEMENTS {
+        return Err(Fault::new(
+            "/meshes",
+            format!("{triangles} triangles exceed the limit of {MAX_ELEMENTS}; split the scene"),
+        ));
+    }
     let read: Vec<_> = primitives
         .into_par_iter()
         .map(|(mesh, item)| {
@@ -57,8 +68,8 @@ pub fn read_all(
         context.warn(&Fault::new(
             "/meshes",
             format!(
-                "{points} primitives of points and {lines} of lines are left out; only triangles \
-                 are drawn"
+                "only triangles are drawn; primitives left out: {points} of points and {lines} of \
+                 lines"
             ),
         ));
     }

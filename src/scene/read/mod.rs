@@ -77,14 +77,16 @@ pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, Sce
     let container = container::open(bytes, file)?;
     let malformed = |fault: Fault| fault.into_error(file);
     let root = Item::root(&container.json);
+    let mut warnings = Warnings::new(file);
+    // First, for a file of another version looks malformed throughout.
+    let asset = asset::read(&root, file, &mut warnings)?;
     let mut context = Context {
         accessors: root.objects("accessors").map_err(malformed)?,
         buffers: Buffers::new(&root, container.binary, base).map_err(malformed)?,
         budget: Budget::default(),
-        warnings: Warnings::new(file),
+        warnings,
         root,
     };
-    let asset = asset::read(&mut context, file)?;
     let mut scene = read_scene(&mut context).map_err(malformed)?;
     scene.document.asset = asset;
     scene.document.file = file.to_owned();
@@ -109,7 +111,7 @@ fn read_scene(context: &mut Context<'_>) -> Result<Scene, Fault> {
     let mut materials = material::read_all(context)?;
     let (textures, images) = texture::resolve(context, &mut materials)?;
     let meshes = mesh::read_all(context, &nodes, &materials)?;
-    let skins = skin::read_all(context, nodes.len())?;
+    let skins = skin::read_all(context, &nodes)?;
     skin::check_joints(&nodes, &meshes, &skins)?;
     let animations = animation::read_all(context, &nodes)?;
     Ok(Scene {

@@ -31,13 +31,13 @@ pub fn read(
     materials: &[Material],
     notes: &mut Vec<Fault>,
 ) -> Result<Outcome, Fault> {
-    let topology = match item.usize_or("mode", 4)? {
-        0 => return Ok(Outcome::Points),
-        1..=3 => return Ok(Outcome::Lines),
-        4 => Topology::List,
-        5 => Topology::Strip,
-        6 => Topology::Fan,
-        other => return Err(item.fault(format!("{other} is no primitive mode"))),
+    let mode = item.usize_or("mode", TRIANGLES)?;
+    let Some(topology) = topology(mode) else {
+        return match mode {
+            0 => Ok(Outcome::Points),
+            1..=3 => Ok(Outcome::Lines),
+            _ => Err(item.fault(format!("{mode} is no primitive mode"))),
+        };
     };
     let attributes = item.require("attributes")?;
     let Some(positions) = attributes.get("POSITION") else {
@@ -124,6 +124,33 @@ pub fn read(
     Ok(Outcome::Drawn(Box::new(primitive)))
 }
 
+/// The default mode.
+const TRIANGLES: usize = 4;
+
+fn topology(mode: usize) -> Option<Topology> {
+    match mode {
+        TRIANGLES => Some(Topology::List),
+        5 => Some(Topology::Strip),
+        6 => Some(Topology::Fan),
+        _ => None,
+    }
+}
+
+/// How many triangles `item` will be read to at most, found without reading them; 0 where that will
+/// fail.
+pub fn claimed_triangles(item: &Item<'_>, context: &Context<'_>) -> u64 {
+    let defining = item
+        .get("indices")
+        .or_else(|| item.get("attributes")?.get("POSITION"));
+    let mode = item.usize_or("mode", TRIANGLES).ok();
+    let number = |topology| {
+        let accessor = context.accessor(&defining?).ok()?;
+        accessor.check_justified().ok()?;
+        Some(triangles::number(topology, accessor.count) as u64)
+    };
+    mode.and_then(topology).and_then(number).unwrap_or(0)
+}
+
 /// The elements of `accessor` at `sources`.
 pub fn gather<const N: usize>(accessor: &Accessor<'_>, sources: &[u32]) -> Vec<[f32; N]> {
     sources
@@ -155,9 +182,6 @@ fn read_triangles(
     let defining = indices.as_ref().unwrap_or(positions);
     defining.check_justified()?;
     let count = defining.count;
-    context
-        .budget
-        .add_triangles(triangles::number(topology, count) as u64, item.place())?;
     let (mut triangles, left_over) = match &indices {
         Some(indices) => triangles::assemble(topology, count, |i| {
             let [index] = indices.integers(i);

@@ -1,5 +1,7 @@
 //! Skins (glTF 2.0, section 3.7.3).
 
+use std::collections::BTreeSet;
+
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::{Context, accessor::Component, json::Item};
@@ -8,16 +10,18 @@ use crate::scene::{
     error::Fault,
 };
 
-/// Reads all skins.
-pub fn read_all(context: &mut Context<'_>, nodes: usize) -> Result<Vec<Skin>, Fault> {
+/// Reads the skins of the nodes that have a mesh; the others stay empty.
+pub fn read_all(context: &Context<'_>, nodes: &[Node]) -> Result<Vec<Skin>, Fault> {
     let items = context.root.objects("skins")?;
-    items
-        .iter()
-        .map(|item| read(item, context, nodes))
-        .collect()
+    let mut skins = vec![Skin::default(); items.len()];
+    let used: BTreeSet<usize> = nodes.iter().filter_map(|node| node.skin).collect();
+    for index in used {
+        skins[index] = read(&items[index], context, nodes.len())?;
+    }
+    Ok(skins)
 }
 
-fn read(item: &Item<'_>, context: &mut Context<'_>, nodes: usize) -> Result<Skin, Fault> {
+fn read(item: &Item<'_>, context: &Context<'_>, nodes: usize) -> Result<Skin, Fault> {
     let joints: Vec<usize> = item
         .array("joints")?
         .iter()
