@@ -14,9 +14,17 @@ const VARIANTS: &[(&str, &str, &[(&str, &str)])] = &[
     ("raster_opaque", "raster.frag", &[]),
     ("raster_masked", "raster.frag", &[("MASKED", "")]),
     ("raster_opaque_bytes", "raster.frag", &[("BYTES", "")]),
-    ("raster_masked_bytes", "raster.frag", &[("MASKED", ""), ("BYTES", "")]),
+    (
+        "raster_masked_bytes",
+        "raster.frag",
+        &[("MASKED", ""), ("BYTES", "")],
+    ),
     ("detect", "detect.comp", &[]),
-    ("detect_multisampled", "detect.comp", &[("MULTISAMPLED", "")]),
+    (
+        "detect_multisampled",
+        "detect.comp",
+        &[("MULTISAMPLED", "")],
+    ),
     ("cull", "cull.comp", &[]),
     ("bin", "bin.comp", &[]),
     ("schedule", "schedule.comp", &[]),
@@ -25,12 +33,36 @@ const VARIANTS: &[(&str, &str, &[(&str, &str)])] = &[
     ("sample_2", "sample.comp", &[("ROWS", "2")]),
     ("sample_8", "sample.comp", &[("ROWS", "8")]),
     ("sample_32", "sample.comp", &[("ROWS", "32")]),
-    ("sample_chained_1", "sample.comp", &[("ROWS", "1"), ("CHAINED", "")]),
-    ("sample_chained_8", "sample.comp", &[("ROWS", "8"), ("CHAINED", "")]),
-    ("sample_unlisted_1", "sample.comp", &[("ROWS", "1"), ("UNLISTED", "")]),
-    ("sample_unlisted_8", "sample.comp", &[("ROWS", "8"), ("UNLISTED", "")]),
-    ("sample_chained_unlisted_1", "sample.comp", &[("ROWS", "1"), ("CHAINED", ""), ("UNLISTED", "")]),
-    ("sample_chained_unlisted_8", "sample.comp", &[("ROWS", "8"), ("CHAINED", ""), ("UNLISTED", "")]),
+    (
+        "sample_chained_1",
+        "sample.comp",
+        &[("ROWS", "1"), ("CHAINED", "")],
+    ),
+    (
+        "sample_chained_8",
+        "sample.comp",
+        &[("ROWS", "8"), ("CHAINED", "")],
+    ),
+    (
+        "sample_unlisted_1",
+        "sample.comp",
+        &[("ROWS", "1"), ("UNLISTED", "")],
+    ),
+    (
+        "sample_unlisted_8",
+        "sample.comp",
+        &[("ROWS", "8"), ("UNLISTED", "")],
+    ),
+    (
+        "sample_chained_unlisted_1",
+        "sample.comp",
+        &[("ROWS", "1"), ("CHAINED", ""), ("UNLISTED", "")],
+    ),
+    (
+        "sample_chained_unlisted_8",
+        "sample.comp",
+        &[("ROWS", "8"), ("CHAINED", ""), ("UNLISTED", "")],
+    ),
     ("sort", "sort.comp", &[]),
     ("shade", "shade.comp", &[]),
     ("resolve", "resolve.comp", &[]),
@@ -44,7 +76,8 @@ fn main() {
     println!("cargo:rerun-if-changed=shaders");
     println!("cargo:rerun-if-changed=build.rs");
     println!("cargo:rerun-if-env-changed=GPC_SPIRV");
-    let root = PathBuf::from(std::env::var("CARGO_MANIFEST_DIR").expect("cargo sets CARGO_MANIFEST_DIR"));
+    let root =
+        PathBuf::from(std::env::var("CARGO_MANIFEST_DIR").expect("cargo sets CARGO_MANIFEST_DIR"));
     let out = PathBuf::from(std::env::var("OUT_DIR").expect("cargo sets OUT_DIR"));
     let sources = root.join("shaders");
     let checked_in = sources.join("spirv");
@@ -67,7 +100,9 @@ fn main() {
 fn fingerprint(sources: &Path) -> String {
     let mut files: Vec<PathBuf> = [sources.to_path_buf(), sources.join("include")]
         .iter()
-        .flat_map(|folder| fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display())))
+        .flat_map(|folder| {
+            fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()))
+        })
         .map(|entry| entry.expect("a folder's entry").path())
         .filter(|path| path.is_file())
         .collect();
@@ -105,11 +140,15 @@ fn spirv(sources: &Path, checked_in: &Path, out: &Path) -> PathBuf {
     if mode == "write" {
         let _ = fs::remove_dir_all(checked_in);
         fs::create_dir_all(checked_in).expect("shaders/ is writable");
-        fs::write(checked_in.join("fingerprint"), fingerprint(sources)).expect("shaders/spirv is writable");
+        fs::write(checked_in.join("fingerprint"), fingerprint(sources))
+            .expect("shaders/spirv is writable");
     }
     if mode == "check" {
         let made_from = fs::read_to_string(checked_in.join("fingerprint")).unwrap_or_default();
-        assert!(made_from == fingerprint(sources), "\n\nshaders/spirv/fingerprint is stale: run `make shaders`\n");
+        assert!(
+            made_from == fingerprint(sources),
+            "\n\nshaders/spirv/fingerprint is stale: run `make shaders`\n"
+        );
     }
     for (name, words) in compiled {
         let file = format!("{name}.spv");
@@ -118,7 +157,10 @@ fn spirv(sources: &Path, checked_in: &Path, out: &Path) -> PathBuf {
         }
         if mode == "check" {
             let found = fs::read(checked_in.join(&file)).unwrap_or_default();
-            assert!(found == words, "\n\nshaders/spirv/{file} is not what its source compiles to: run `make shaders`\n");
+            assert!(
+                found == words,
+                "\n\nshaders/spirv/{file} is not what its source compiles to: run `make shaders`\n"
+            );
         }
         fs::write(folder.join(&file), &words).expect("OUT_DIR is writable");
     }
@@ -132,14 +174,29 @@ fn compile(sources: &Path) -> Vec<(&'static str, Vec<u8>)> {
         .iter()
         .map(|(name, source, definitions)| {
             let mut options = shaderc::CompileOptions::new().expect("shaderc options");
-            options.set_target_env(shaderc::TargetEnv::Vulkan, shaderc::EnvVersion::Vulkan1_3 as u32);
+            options.set_target_env(
+                shaderc::TargetEnv::Vulkan,
+                shaderc::EnvVersion::Vulkan1_3 as u32,
+            );
             options.set_optimization_level(shaderc::OptimizationLevel::Performance);
             options.set_include_callback(|requested, _, from, _| {
-                let nested = Path::new(from).parent().map(|folder| sources.join(folder).join(requested));
-                let path = nested.filter(|path| path.is_file()).unwrap_or_else(|| sources.join(requested));
-                let content = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
-                let resolved_name = path.strip_prefix(sources).unwrap_or(&path).display().to_string();
-                Ok(shaderc::ResolvedInclude { resolved_name, content })
+                let nested = Path::new(from)
+                    .parent()
+                    .map(|folder| sources.join(folder).join(requested));
+                let path = nested
+                    .filter(|path| path.is_file())
+                    .unwrap_or_else(|| sources.join(requested));
+                let content =
+                    fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+                let resolved_name = path
+                    .strip_prefix(sources)
+                    .unwrap_or(&path)
+                    .display()
+                    .to_string();
+                Ok(shaderc::ResolvedInclude {
+                    resolved_name,
+                    content,
+                })
             });
             for (key, value) in *definitions {
                 options.add_macro_definition(key, Some(value));
@@ -149,7 +206,8 @@ fn compile(sources: &Path) -> Vec<(&'static str, Vec<u8>)> {
                 Some("frag") => shaderc::ShaderKind::Fragment,
                 _ => shaderc::ShaderKind::Compute,
             };
-            let text = fs::read_to_string(sources.join(source)).unwrap_or_else(|e| panic!("shaders/{source}: {e}"));
+            let text = fs::read_to_string(sources.join(source))
+                .unwrap_or_else(|e| panic!("shaders/{source}: {e}"));
             let artifact = compiler
                 .compile_into_spirv(&text, kind, source, "main", Some(&options))
                 .unwrap_or_else(|e| panic!("\n\nshaders/{source} as {name}:\n{e}\n"));

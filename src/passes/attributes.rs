@@ -14,7 +14,13 @@ impl Attributes {
     /// # Errors
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
-        let pipeline = compute_pipeline(&layout.gpu, layout.pipeline, spirv::ATTRIBUTES, &Constants::new(), None)?;
+        let pipeline = compute_pipeline(
+            &layout.gpu,
+            layout.pipeline,
+            spirv::ATTRIBUTES,
+            &Constants::new(),
+            None,
+        )?;
         Ok(Self { pipeline })
     }
 

@@ -16,8 +16,11 @@ impl Bin {
     /// # Errors
     /// If the driver refuses one.
     pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
-        let make = |code, constants| compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, None);
-        let bin = |scatter, large| make(spirv::BIN, Constants::new().flag(0, scatter).flag(1, large));
+        let make = |code, constants| {
+            compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, None)
+        };
+        let bin =
+            |scatter, large| make(spirv::BIN, Constants::new().flag(0, scatter).flag(1, large));
         Ok(Self {
             arguments: make(spirv::ARGUMENTS, Constants::new().with(0, 1))?,
             count: [bin(false, false)?, bin(false, true)?],

@@ -15,8 +15,17 @@ impl BoxFilter {
     /// # Errors
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
-        let pipeline = compute_pipeline(&layout.gpu, layout.pipeline, spirv::BOX_FILTER, &Constants::new(), None)?;
-        Ok(Self { layout: layout.pipeline, pipeline })
+        let pipeline = compute_pipeline(
+            &layout.gpu,
+            layout.pipeline,
+            spirv::BOX_FILTER,
+            &Constants::new(),
+            None,
+        )?;
+        Ok(Self {
+            layout: layout.pipeline,
+            pipeline,
+        })
     }
 
     /// Records it for a region that becomes `pixels` pixels, each of `side` x `side`.

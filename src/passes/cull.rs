@@ -15,8 +15,13 @@ impl Cull {
     /// # Errors
     /// If the driver refuses one.
     pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
-        let make = |code, constants| compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, None);
-        Ok(Self { arguments: make(spirv::ARGUMENTS, Constants::new().with(0, 0))?, pipeline: make(spirv::CULL, Constants::new())? })
+        let make = |code, constants| {
+            compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, None)
+        };
+        Ok(Self {
+            arguments: make(spirv::ARGUMENTS, Constants::new().with(0, 0))?,
+            pipeline: make(spirv::CULL, Constants::new())?,
+        })
     }
 
     /// Records it.

@@ -29,10 +29,21 @@ impl Detect {
     ///
     /// # Errors
     /// If the driver refuses it.
-    pub fn new(layout: &FrameLayout, mode: DetectMode, has_blend: bool, multisampled: bool) -> Result<Self, VulkanError> {
+    pub fn new(
+        layout: &FrameLayout,
+        mode: DetectMode,
+        has_blend: bool,
+        multisampled: bool,
+    ) -> Result<Self, VulkanError> {
         let constants = Constants::new().with(0, mode as u32).flag(1, has_blend);
-        let code = if multisampled { spirv::DETECT_MULTISAMPLED } else { spirv::DETECT };
-        Ok(Self { pipeline: compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, None)? })
+        let code = if multisampled {
+            spirv::DETECT_MULTISAMPLED
+        } else {
+            spirv::DETECT
+        };
+        Ok(Self {
+            pipeline: compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, None)?,
+        })
     }
 
     /// Records it for a region of `tiles` tiles.

@@ -50,7 +50,13 @@ impl Encode {
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout, encoding: Encoding) -> Result<Self, VulkanError> {
         let constants = Constants::new().with(0, u32::from(encoding == Encoding::Rgba16Float));
-        let pipeline = compute_pipeline(&layout.gpu, layout.pipeline, spirv::ENCODE, &constants, None)?;
+        let pipeline = compute_pipeline(
+            &layout.gpu,
+            layout.pipeline,
+            spirv::ENCODE,
+            &constants,
+            None,
+        )?;
         Ok(Self { pipeline })
     }
 

@@ -150,9 +150,15 @@ impl FrameLayout {
     /// # Errors
     /// [`VulkanError::Call`] if the driver refuses them.
     pub fn new(gpu: &Arc<Gpu>) -> Result<Arc<Self>, VulkanError> {
-        let stages = vk::ShaderStageFlags::VERTEX | vk::ShaderStageFlags::FRAGMENT | vk::ShaderStageFlags::COMPUTE;
+        let stages = vk::ShaderStageFlags::VERTEX
+            | vk::ShaderStageFlags::FRAGMENT
+            | vk::ShaderStageFlags::COMPUTE;
         let frame = BINDINGS.map(|(binding, kind)| {
-            vk::DescriptorSetLayoutBinding::default().binding(binding).descriptor_type(kind).descriptor_count(1).stage_flags(stages)
+            vk::DescriptorSetLayoutBinding::default()
+                .binding(binding)
+                .descriptor_type(kind)
+                .descriptor_count(1)
+                .stage_flags(stages)
         });
         let textures: Vec<_> = (0..TEXTURES)
             .map(|binding| {
@@ -173,15 +179,25 @@ impl FrameLayout {
         unsafe {
             let make = |bindings: &[vk::DescriptorSetLayoutBinding<'_>]| {
                 let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(bindings);
-                gpu.device.create_descriptor_set_layout(&info, None).map_err(VulkanError::of("vkCreateDescriptorSetLayout"))
+                gpu.device
+                    .create_descriptor_set_layout(&info, None)
+                    .map_err(VulkanError::of("vkCreateDescriptorSetLayout"))
             };
             layout.frame_set = make(&frame)?;
             layout.texture_set = make(&textures)?;
             let sets = [layout.frame_set, layout.texture_set];
-            let push = [vk::PushConstantRange { stage_flags: vk::ShaderStageFlags::COMPUTE, offset: 0, size: 16 }];
-            let info = vk::PipelineLayoutCreateInfo::default().set_layouts(&sets).push_constant_ranges(&push);
-            layout.pipeline =
-                gpu.device.create_pipeline_layout(&info, None).map_err(VulkanError::of("vkCreatePipelineLayout"))?;
+            let push = [vk::PushConstantRange {
+                stage_flags: vk::ShaderStageFlags::COMPUTE,
+                offset: 0,
+                size: 16,
+            }];
+            let info = vk::PipelineLayoutCreateInfo::default()
+                .set_layouts(&sets)
+                .push_constant_ranges(&push);
+            layout.pipeline = gpu
+                .device
+                .create_pipeline_layout(&info, None)
+                .map_err(VulkanError::of("vkCreatePipelineLayout"))?;
         }
         Ok(Arc::new(layout))
     }
@@ -192,7 +208,10 @@ impl FrameLayout {
         for (_, kind) in BINDINGS {
             match sizes.iter_mut().find(|size| size.ty == kind) {
                 Some(size) => size.descriptor_count += frames,
-                None => sizes.push(vk::DescriptorPoolSize { ty: kind, descriptor_count: frames }),
+                None => sizes.push(vk::DescriptorPoolSize {
+                    ty: kind,
+                    descriptor_count: frames,
+                }),
             }
         }
         sizes.retain(|size| size.descriptor_count > 0);
@@ -202,10 +221,16 @@ impl FrameLayout {
                 descriptor_count: bins * TEXTURES,
             });
         }
-        let info = vk::DescriptorPoolCreateInfo::default().max_sets(frames + bins).pool_sizes(&sizes);
+        let info = vk::DescriptorPoolCreateInfo::default()
+            .max_sets(frames + bins)
+            .pool_sizes(&sizes);
         // SAFETY: plain creation on a live device.
-        let raw = unsafe { self.gpu.device.create_descriptor_pool(&info, None) }.map_err(VulkanError::of("vkCreateDescriptorPool"))?;
-        Ok(DescriptorPool { gpu: self.gpu.clone(), raw })
+        let raw = unsafe { self.gpu.device.create_descriptor_pool(&info, None) }
+            .map_err(VulkanError::of("vkCreateDescriptorPool"))?;
+        Ok(DescriptorPool {
+            gpu: self.gpu.clone(),
+            raw,
+        })
     }
 }
 
@@ -214,8 +239,12 @@ impl Drop for FrameLayout {
         // SAFETY: owners drop the layout after the frames that use it; null handles are ignored.
         unsafe {
             self.gpu.device.destroy_pipeline_layout(self.pipeline, None);
-            self.gpu.device.destroy_descriptor_set_layout(self.texture_set, None);
-            self.gpu.device.destroy_descriptor_set_layout(self.frame_set, None);
+            self.gpu
+                .device
+                .destroy_descriptor_set_layout(self.texture_set, None);
+            self.gpu
+                .device
+                .destroy_descriptor_set_layout(self.frame_set, None);
         }
     }
 }
@@ -227,12 +256,17 @@ pub(crate) struct DescriptorPool {
 }
 
 impl DescriptorPool {
-    pub(crate) fn allocate(&self, layout: vk::DescriptorSetLayout) -> Result<vk::DescriptorSet, VulkanError> {
+    pub(crate) fn allocate(
+        &self,
+        layout: vk::DescriptorSetLayout,
+    ) -> Result<vk::DescriptorSet, VulkanError> {
         let layouts = [layout];
-        let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(self.raw).set_layouts(&layouts);
+        let info = vk::DescriptorSetAllocateInfo::default()
+            .descriptor_pool(self.raw)
+            .set_layouts(&layouts);
         // SAFETY: the pool and the layout are alive.
-        let sets =
-            unsafe { self.gpu.device.allocate_descriptor_sets(&info) }.map_err(VulkanError::of("vkAllocateDescriptorSets"))?;
+        let sets = unsafe { self.gpu.device.allocate_descriptor_sets(&info) }
+            .map_err(VulkanError::of("vkAllocateDescriptorSets"))?;
         Ok(sets.first().copied().unwrap_or_default())
     }
 }
@@ -249,23 +283,53 @@ mod tests {
     use super::*;
 
     fn shader_constant(name: &str) -> Option<usize> {
-        include_str!("../../shaders/include/counters.glsl").lines().find_map(|line| {
-            let mut words = line.split_whitespace();
-            (words.next() == Some("#define") && words.next() == Some(name)).then(|| words.next()?.parse().ok()).flatten()
-        })
+        include_str!("../../shaders/include/counters.glsl")
+            .lines()
+            .find_map(|line| {
+                let mut words = line.split_whitespace();
+                (words.next() == Some("#define") && words.next() == Some(name))
+                    .then(|| words.next()?.parse().ok())
+                    .flatten()
+            })
     }
 
     fn shouted(name: &str) -> String {
-        name.chars().enumerate().flat_map(|(i, c)| (i > 0 && c.is_uppercase()).then_some('_').into_iter().chain(c.to_uppercase())).collect()
+        name.chars()
+            .enumerate()
+            .flat_map(|(i, c)| {
+                (i > 0 && c.is_uppercase())
+                    .then_some('_')
+                    .into_iter()
+                    .chain(c.to_uppercase())
+            })
+            .collect()
     }
 
     #[test]
     fn counters_and_arguments_are_the_shaders() {
         use Counter as C;
         for counter in [
-            C::Superpixels, C::Tiles, C::Survivors, C::Large, C::Outside, C::Backfacing, C::Degenerate, C::Untouching, C::RoundFirst,
-            C::NextTile, C::Unfinished, C::Records, C::PlainTiles, C::MaskedTiles, C::BlendedTiles, C::UnlistedTiles, C::Rounds,
-            C::CandidatesTotal, C::RecordsTotal, C::ShadedTotal, C::UnlistedTotal,
+            C::Superpixels,
+            C::Tiles,
+            C::Survivors,
+            C::Large,
+            C::Outside,
+            C::Backfacing,
+            C::Degenerate,
+            C::Untouching,
+            C::RoundFirst,
+            C::NextTile,
+            C::Unfinished,
+            C::Records,
+            C::PlainTiles,
+            C::MaskedTiles,
+            C::BlendedTiles,
+            C::UnlistedTiles,
+            C::Rounds,
+            C::CandidatesTotal,
+            C::RecordsTotal,
+            C::ShadedTotal,
+            C::UnlistedTotal,
         ] {
             let name = format!("COUNTER_{}", shouted(&format!("{counter:?}")));
             assert_eq!(shader_constant(&name), Some(counter as usize), "{name}");
@@ -273,8 +337,18 @@ mod tests {
         assert_eq!(shader_constant("COUNTER_COUNT"), Some(Counter::COUNT));
         use Argument as A;
         for argument in [
-            A::Cull, A::BinSmall, A::BinLarge, A::SamplePlain, A::SampleMasked, A::SampleBlended, A::SampleUnlisted, A::ResolveMerged,
-            A::ResolveChained, A::ResolveUnlisted, A::Sort, A::Shade,
+            A::Cull,
+            A::BinSmall,
+            A::BinLarge,
+            A::SamplePlain,
+            A::SampleMasked,
+            A::SampleBlended,
+            A::SampleUnlisted,
+            A::ResolveMerged,
+            A::ResolveChained,
+            A::ResolveUnlisted,
+            A::Sort,
+            A::Shade,
         ] {
             let name = format!("ARGUMENT_{}", shouted(&format!("{argument:?}")));
             assert_eq!(shader_constant(&name), Some(argument as usize), "{name}");
@@ -285,12 +359,23 @@ mod tests {
     #[test]
     fn the_uniform_block_is_the_shaders() {
         let text = include_str!("../../shaders/include/frame.glsl");
-        let block = text.split("uniform Frame {").nth(1).and_then(|rest| rest.split("} frame;").next()).unwrap();
+        let block = text
+            .split("uniform Frame {")
+            .nth(1)
+            .and_then(|rest| rest.split("} frame;").next())
+            .unwrap();
         let mut offset = 0_usize;
         let mut offsets = Vec::new();
         for line in block.lines() {
-            let code = line.split("//").next().unwrap().trim().trim_end_matches(';');
-            let Some((kind, name)) = code.split_once(' ') else { continue };
+            let code = line
+                .split("//")
+                .next()
+                .unwrap()
+                .trim()
+                .trim_end_matches(';');
+            let Some((kind, name)) = code.split_once(' ') else {
+                continue;
+            };
             let (size, align) = match kind {
                 "mat4" => (64, 16),
                 "vec4" => (16, 16),
@@ -306,9 +391,29 @@ mod tests {
             ($($field:ident),*) => { [$((stringify!($field).to_owned(), std::mem::offset_of!(FrameUniform, $field))),*] };
         }
         let host = host!(
-            transform, eye, view_direction, background, raster_scale, raster_offset, origin, size, tiles, interior_low,
-            interior_high, vertex_count, triangle_count, first_mask, first_blend, sample_count, list_capacity,
-            record_capacity, bin_count, light_count, contrast, exposure, footprint
+            transform,
+            eye,
+            view_direction,
+            background,
+            raster_scale,
+            raster_offset,
+            origin,
+            size,
+            tiles,
+            interior_low,
+            interior_high,
+            vertex_count,
+            triangle_count,
+            first_mask,
+            first_blend,
+            sample_count,
+            list_capacity,
+            record_capacity,
+            bin_count,
+            light_count,
+            contrast,
+            exposure,
+            footprint
         );
         assert_eq!(offsets, host);
         assert_eq!(offset.next_multiple_of(16), size_of::<FrameUniform>());

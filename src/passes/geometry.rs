@@ -1,11 +1,13 @@
 //! A posed scene on the device.
 
+use super::FrameLayout;
 use super::frame::DescriptorPool;
 use super::material::{AlphaAtlas, GpuLight, GpuMaterial, texture_uses};
 use super::raster::double_sided;
 use super::texture::{DeviceSampler, Texture};
-use super::FrameLayout;
-use crate::scene::{AlphaMode, DrawClass, Image as SceneImage, LightKind, Material, Pose, Sampler, Scene};
+use crate::scene::{
+    AlphaMode, DrawClass, Image as SceneImage, LightKind, Material, Pose, Sampler, Scene,
+};
 use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 use glam::DVec3;
@@ -89,7 +91,12 @@ impl Uploader<'_> {
             return Ok(());
         }
         let size = bytes.len() as u64;
-        let mut upload = self.memory.buffer(&format!("{name} upload"), size, vk::BufferUsageFlags::TRANSFER_SRC, MemoryUse::Upload)?;
+        let mut upload = self.memory.buffer(
+            &format!("{name} upload"),
+            size,
+            vk::BufferUsageFlags::TRANSFER_SRC,
+            MemoryUse::Upload,
+        )?;
         if let Some(mapped) = upload.bytes_mut().get_mut(..bytes.len()) {
             mapped.copy_from_slice(bytes);
         }
@@ -97,16 +104,30 @@ impl Uploader<'_> {
         Ok(())
     }
 
-    fn texels(&mut self, name: &str, format: vk::Format, data: &[[u32; 4]]) -> Result<BufferView, VulkanError> {
+    fn texels(
+        &mut self,
+        name: &str,
+        format: vk::Format,
+        data: &[[u32; 4]],
+    ) -> Result<BufferView, VulkanError> {
         let usage = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
-        let mut view = self.memory.texel_buffer(name, data.len() as u64, format, usage, MemoryUse::Device)?;
+        let mut view =
+            self.memory
+                .texel_buffer(name, data.len() as u64, format, usage, MemoryUse::Device)?;
         self.fill(name, &mut view.buffer, bytemuck::cast_slice(data))?;
         Ok(view)
     }
 
-    fn floats<const N: usize>(&mut self, name: &str, data: &[[f32; N]], fill: f32) -> Result<BufferView, VulkanError> {
-        let wide: Vec<[u32; 4]> =
-            data.iter().map(|v| std::array::from_fn(|i| v.get(i).copied().unwrap_or(fill).to_bits())).collect();
+    fn floats<const N: usize>(
+        &mut self,
+        name: &str,
+        data: &[[f32; N]],
+        fill: f32,
+    ) -> Result<BufferView, VulkanError> {
+        let wide: Vec<[u32; 4]> = data
+            .iter()
+            .map(|v| std::array::from_fn(|i| v.get(i).copied().unwrap_or(fill).to_bits()))
+            .collect();
         self.texels(name, vk::Format::R32G32B32A32_SFLOAT, &wide)
     }
 
@@ -114,7 +135,12 @@ impl Uploader<'_> {
         let limit = self.memory.gpu().limits().max_storage_bytes;
         let needed = bytes.len() as u64;
         if needed > limit {
-            return Err(VulkanError::TooLarge { what: name.to_owned(), needed, unit: "bytes", limit });
+            return Err(VulkanError::TooLarge {
+                what: name.to_owned(),
+                needed,
+                unit: "bytes",
+                limit,
+            });
         }
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
         let mut buffer = self.memory.buffer(name, needed, usage, MemoryUse::Device)?;
@@ -128,57 +154,126 @@ impl GpuScene {
     ///
     /// # Errors
     /// If memory runs out or the scene passes a limit of the device.
-    pub fn new(layout: &FrameLayout, memory: &Memory, scene: &Scene, pose: &Pose) -> Result<Self, VulkanError> {
+    pub fn new(
+        layout: &FrameLayout,
+        memory: &Memory,
+        scene: &Scene,
+        pose: &Pose,
+    ) -> Result<Self, VulkanError> {
         let geometry = &pose.geometry;
-        let mut uploader = Uploader { memory, uploads: Vec::new() };
+        let mut uploader = Uploader {
+            memory,
+            uploads: Vec::new(),
+        };
         let materials_found = scene.materials.len() as u64;
         if materials_found > MATERIAL_LIMIT {
-            return Err(VulkanError::TooLarge { what: "the scene".to_owned(), needed: materials_found, unit: "materials", limit: MATERIAL_LIMIT });
+            return Err(VulkanError::TooLarge {
+                what: "the scene".to_owned(),
+                needed: materials_found,
+                unit: "materials",
+                limit: MATERIAL_LIMIT,
+            });
         }
         let has_colors = !geometry.streams.colors.is_empty();
         let mut textures = TextureSet::new(memory);
-        let (bin_of, keys) = bins(scene, geometry.draws.iter().map(|draw| draw.material), has_colors, &mut textures)?;
+        let (bin_of, keys) = bins(
+            scene,
+            geometry.draws.iter().map(|draw| draw.material),
+            has_colors,
+            &mut textures,
+        )?;
         let bin_count = keys.len() as u64;
         if bin_count > BIN_LIMIT {
-            return Err(VulkanError::TooLarge { what: "the scene".to_owned(), needed: bin_count, unit: "combinations of textures", limit: BIN_LIMIT });
+            return Err(VulkanError::TooLarge {
+                what: "the scene".to_owned(),
+                needed: bin_count,
+                unit: "combinations of textures",
+                limit: BIN_LIMIT,
+            });
         }
 
         let mut words = vec![0_u32; geometry.triangles.len()];
         let mut runs: Vec<Run> = Vec::new();
         for draw in &geometry.draws {
             let bin = bin_of.get(&draw.material).copied().unwrap_or(0);
-            let word = draw.material | bin << 16 | if double_sided(draw.class) { DOUBLE_SIDED_BIT } else { 0 };
+            let word = draw.material
+                | bin << 16
+                | if double_sided(draw.class) {
+                    DOUBLE_SIDED_BIT
+                } else {
+                    0
+                };
             let first = draw.first_triangle as usize;
             words[first..first + draw.triangle_count as usize].fill(word);
             match runs.last_mut() {
                 Some(run) if run.class == draw.class => run.triangle_count += draw.triangle_count,
-                _ => runs.push(Run { class: draw.class, first_triangle: draw.first_triangle, triangle_count: draw.triangle_count }),
+                _ => runs.push(Run {
+                    class: draw.class,
+                    first_triangle: draw.first_triangle,
+                    triangle_count: draw.triangle_count,
+                }),
             }
         }
-        let triangles: Vec<[u32; 4]> = geometry.triangles.iter().zip(&words).map(|(&[a, b, c], &w)| [a, b, c, w]).collect();
+        let triangles: Vec<[u32; 4]> = geometry
+            .triangles
+            .iter()
+            .zip(&words)
+            .map(|(&[a, b, c], &w)| [a, b, c, w])
+            .collect();
         let triangle_count = triangles.len() as u32;
-        let first_of = |class: DrawClass| runs.iter().find(|run| run.class >= class).map_or(triangle_count, |run| run.first_triangle);
+        let first_of = |class: DrawClass| {
+            runs.iter()
+                .find(|run| run.class >= class)
+                .map_or(triangle_count, |run| run.first_triangle)
+        };
 
         let mut atlas = AlphaAtlas::default();
-        let materials: Vec<GpuMaterial> = scene.materials.iter().map(|m| GpuMaterial::new(m, atlas.place(scene, m))).collect();
-        let lights: Vec<GpuLight> = pose.lights.iter().map(|light| GpuLight::new(light, geometry.origin)).collect();
+        let materials: Vec<GpuMaterial> = scene
+            .materials
+            .iter()
+            .map(|m| GpuMaterial::new(m, atlas.place(scene, m)))
+            .collect();
+        let lights: Vec<GpuLight> = pose
+            .lights
+            .iter()
+            .map(|light| GpuLight::new(light, geometry.origin))
+            .collect();
         // The alpha test reads both streams whether or not the scene has them.
-        let has_mask = scene.materials.iter().any(|m| matches!(m.alpha_mode, AlphaMode::Mask { .. }));
+        let has_mask = scene
+            .materials
+            .iter()
+            .any(|m| matches!(m.alpha_mode, AlphaMode::Mask { .. }));
         let filled = |stream: &Vec<[f32; 4]>, value: f32| {
-            if stream.is_empty() && has_mask { vec![[value; 4]; geometry.positions.len()] } else { stream.clone() }
+            if stream.is_empty() && has_mask {
+                vec![[value; 4]; geometry.positions.len()]
+            } else {
+                stream.clone()
+            }
         };
         let colors = filled(&geometry.streams.colors, 1.0);
         let uvs = filled(&geometry.streams.uvs, 0.0);
 
         let float4 = vk::Format::R32G32B32A32_SFLOAT;
-        let clip_usage = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | vk::BufferUsageFlags::STORAGE_TEXEL_BUFFER;
-        let pool = if keys.is_empty() { None } else { Some(layout.pool(0, keys.len() as u32)?) };
+        let clip_usage =
+            vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | vk::BufferUsageFlags::STORAGE_TEXEL_BUFFER;
+        let pool = if keys.is_empty() {
+            None
+        } else {
+            Some(layout.pool(0, keys.len() as u32)?)
+        };
         let bins = keys
             .iter()
             .map(|key| {
-                let set = pool.as_ref().map(|pool| pool.allocate(layout.texture_set)).transpose()?.unwrap_or_default();
+                let set = pool
+                    .as_ref()
+                    .map(|pool| pool.allocate(layout.texture_set))
+                    .transpose()?
+                    .unwrap_or_default();
                 textures.write(layout, set, key);
-                Ok(MaterialBin { features: key.features, textures: set })
+                Ok(MaterialBin {
+                    features: key.features,
+                    textures: set,
+                })
             })
             .collect::<Result<Vec<_>, VulkanError>>()?;
         Ok(Self {
@@ -188,7 +283,13 @@ impl GpuScene {
             tangents: uploader.floats("tangents", &geometry.streams.tangents, 0.0)?,
             uvs: uploader.floats("texture coordinates", &uvs, 0.0)?,
             colors: uploader.floats("vertex colours", &colors, 1.0)?,
-            clip: memory.texel_buffer("clip-space vertices", geometry.positions.len() as u64, float4, clip_usage, MemoryUse::Device)?,
+            clip: memory.texel_buffer(
+                "clip-space vertices",
+                geometry.positions.len() as u64,
+                float4,
+                clip_usage,
+                MemoryUse::Device,
+            )?,
             materials: uploader.storage("materials", bytemuck::cast_slice(&materials))?,
             lights: uploader.storage("lights", bytemuck::cast_slice(&lights))?,
             alpha_atlas: uploader.storage("alpha atlas", bytemuck::cast_slice(&atlas.words))?,
@@ -199,12 +300,19 @@ impl GpuScene {
             first_blend: first_of(DrawClass::Blend),
             light_features: LightFeatures {
                 count: lights.len() as u32,
-                local: pose.lights.iter().any(|light| light.kind != LightKind::Directional),
+                local: pose
+                    .lights
+                    .iter()
+                    .any(|light| light.kind != LightKind::Directional),
             },
             origin: geometry.origin,
             runs,
             textures: textures.textures,
-            _samplers: textures.samplers.into_iter().map(|(_, sampler)| sampler).collect(),
+            _samplers: textures
+                .samplers
+                .into_iter()
+                .map(|(_, sampler)| sampler)
+                .collect(),
             _pool: pool,
             uploads: uploader.uploads,
         })
@@ -215,7 +323,11 @@ impl GpuScene {
         for (upload, target, size) in &self.uploads {
             let region = [vk::BufferCopy::default().size(*size)];
             // SAFETY: the recorder's contract; both buffers hold `size` bytes.
-            unsafe { recorder.device().cmd_copy_buffer(recorder.raw(), upload.raw, *target, &region) };
+            unsafe {
+                recorder
+                    .device()
+                    .cmd_copy_buffer(recorder.raw(), upload.raw, *target, &region)
+            };
         }
         for texture in &self.textures {
             texture.record_upload(recorder);
@@ -306,18 +418,34 @@ struct TextureSet<'a> {
 
 impl<'a> TextureSet<'a> {
     fn new(memory: &'a Memory) -> Self {
-        Self { memory, textures: Vec::new(), known: HashMap::new(), samplers: Vec::new(), white: None }
+        Self {
+            memory,
+            textures: Vec::new(),
+            known: HashMap::new(),
+            samplers: Vec::new(),
+            white: None,
+        }
     }
 
     /// Indices of image and sampler.
-    fn get(&mut self, scene: &Scene, texture: u32, srgb: bool) -> Result<Option<(usize, usize)>, VulkanError> {
-        let Some(texture) = scene.textures.get(texture as usize) else { return Ok(None) };
-        let Some(image) = scene.images.get(texture.image as usize) else { return Ok(None) };
+    fn get(
+        &mut self,
+        scene: &Scene,
+        texture: u32,
+        srgb: bool,
+    ) -> Result<Option<(usize, usize)>, VulkanError> {
+        let Some(texture) = scene.textures.get(texture as usize) else {
+            return Ok(None);
+        };
+        let Some(image) = scene.images.get(texture.image as usize) else {
+            return Ok(None);
+        };
         let index = match self.known.get(&(texture.image, srgb)) {
             Some(index) => *index,
             None => {
                 self.textures.push(Texture::new(self.memory, image, srgb)?);
-                self.known.insert((texture.image, srgb), self.textures.len() - 1);
+                self.known
+                    .insert((texture.image, srgb), self.textures.len() - 1);
                 self.textures.len() - 1
             }
         };
@@ -325,10 +453,15 @@ impl<'a> TextureSet<'a> {
     }
 
     fn sampler(&mut self, sampler: Sampler) -> Result<usize, VulkanError> {
-        if let Some(index) = self.samplers.iter().position(|(known, _)| *known == sampler) {
+        if let Some(index) = self
+            .samplers
+            .iter()
+            .position(|(known, _)| *known == sampler)
+        {
             return Ok(index);
         }
-        self.samplers.push((sampler, DeviceSampler::new(self.memory.gpu(), &sampler)?));
+        self.samplers
+            .push((sampler, DeviceSampler::new(self.memory.gpu(), &sampler)?));
         Ok(self.samplers.len() - 1)
     }
 
@@ -337,8 +470,13 @@ impl<'a> TextureSet<'a> {
         let index = match self.white {
             Some(index) => index,
             None => {
-                let texel = SceneImage { width: 1, height: 1, pixels: vec![255; 4] };
-                self.textures.push(Texture::new(self.memory, &texel, false)?);
+                let texel = SceneImage {
+                    width: 1,
+                    height: 1,
+                    pixels: vec![255; 4],
+                };
+                self.textures
+                    .push(Texture::new(self.memory, &texel, false)?);
                 self.textures.len() - 1
             }
         };
@@ -388,7 +526,9 @@ fn bins(
         if bin_of.contains_key(&material_index) {
             continue;
         }
-        let Some(material) = scene.materials.get(material_index as usize) else { continue };
+        let Some(material) = scene.materials.get(material_index as usize) else {
+            continue;
+        };
         let key = bin_key(scene, material, has_colors, textures)?;
         let next = keys.len() as u32;
         let bin = *index_of.entry(key).or_insert(next);
@@ -400,7 +540,12 @@ fn bins(
     Ok((bin_of, keys))
 }
 
-fn bin_key(scene: &Scene, material: &Material, has_colors: bool, textures: &mut TextureSet<'_>) -> Result<BinKey, VulkanError> {
+fn bin_key(
+    scene: &Scene,
+    material: &Material,
+    has_colors: bool,
+    textures: &mut TextureSet<'_>,
+) -> Result<BinKey, VulkanError> {
     const SRGB: [bool; 5] = [true, false, false, false, true];
     let mut found = [None; 5];
     for (i, used) in texture_uses(material).into_iter().enumerate() {
@@ -410,11 +555,18 @@ fn bin_key(scene: &Scene, material: &Material, has_colors: bool, textures: &mut 
             None => None,
         };
     }
-    let features = ShadeFeatures { textures: found.map(|texture| texture.is_some()), vertex_colors: has_colors, unlit: material.unlit };
+    let features = ShadeFeatures {
+        textures: found.map(|texture| texture.is_some()),
+        vertex_colors: has_colors,
+        unlit: material.unlit,
+    };
     for texture in &mut found {
         if texture.is_none() {
             *texture = Some(textures.unused()?);
         }
     }
-    Ok(BinKey { features, textures: found })
+    Ok(BinKey {
+        features,
+        textures: found,
+    })
 }

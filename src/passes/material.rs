@@ -1,6 +1,9 @@
 //! Materials, lights and the alpha atlas as the shaders read them.
 
-use crate::scene::{AlphaMode, Filter, Image, Light, LightKind, Material, Sampler, Scene, TextureTransform, TextureUse, Wrap};
+use crate::scene::{
+    AlphaMode, Filter, Image, Light, LightKind, Material, Sampler, Scene, TextureTransform,
+    TextureUse, Wrap,
+};
 use glam::DVec3;
 
 /// `Material` of `shaders/include/frame.glsl`.
@@ -39,17 +42,30 @@ impl GpuMaterial {
     pub(super) fn new(material: &Material, alpha: [u32; 4]) -> Self {
         let mut uv_rows = [[0.0; 4]; 10];
         for (i, used) in texture_uses(material).into_iter().enumerate() {
-            let used = used.unwrap_or(TextureUse { texture: 0, uv_set: 0, transform: TextureTransform::default() });
+            let used = used.unwrap_or(TextureUse {
+                texture: 0,
+                uv_set: 0,
+                transform: TextureTransform::default(),
+            });
             let [u, v] = used.transform.0;
             uv_rows[2 * i] = [u[0], u[1], u[2], used.uv_set as f32];
             uv_rows[2 * i + 1] = [v[0], v[1], v[2], 0.0];
         }
         let [r, g, b] = material.emissive;
-        let cutoff = if let AlphaMode::Mask { cutoff } = material.alpha_mode { cutoff } else { 0.0 };
+        let cutoff = if let AlphaMode::Mask { cutoff } = material.alpha_mode {
+            cutoff
+        } else {
+            0.0
+        };
         Self {
             base_color: material.base_color,
             emissive_metallic: [r, g, b, material.metallic],
-            roughness_normal_occlusion_cutoff: [material.roughness, material.normal_scale, material.occlusion_strength, cutoff],
+            roughness_normal_occlusion_cutoff: [
+                material.roughness,
+                material.normal_scale,
+                material.occlusion_strength,
+                cutoff,
+            ],
             alpha,
             uv_rows,
         }
@@ -64,12 +80,18 @@ impl GpuLight {
         let (kind, scale, offset) = match light.kind {
             LightKind::Directional => (0.0, 0.0, 1.0),
             LightKind::Point => (1.0, 0.0, 1.0),
-            LightKind::Spot { inner_angle, outer_angle } => {
+            LightKind::Spot {
+                inner_angle,
+                outer_angle,
+            } => {
                 let scale = 1.0 / (inner_angle.cos() - outer_angle.cos()).max(0.001);
                 (2.0, scale, -outer_angle.cos() * scale)
             }
         };
-        let range = light.range.filter(|range| *range > 0.0).map_or(0.0, |range| 1.0 / (range * range));
+        let range = light
+            .range
+            .filter(|range| *range > 0.0)
+            .map_or(0.0, |range| 1.0 / (range * range));
         Self {
             position_range: [position.x, position.y, position.z, range],
             direction_kind: [direction.x, direction.y, direction.z, kind],
@@ -97,11 +119,23 @@ impl AlphaAtlas {
     /// Places a material's alpha texture, once for each texture; what its `GpuMaterial::alpha` is.
     pub(super) fn place(&mut self, scene: &Scene, material: &Material) -> [u32; 4] {
         let none = [0, 0x1_0001, 1, NO_MIP];
-        let (AlphaMode::Mask { .. }, Some(used)) = (material.alpha_mode, material.base_color_texture) else { return none };
-        let Some(texture) = scene.textures.get(used.texture as usize) else { return none };
-        let Some(image) = scene.images.get(texture.image as usize) else { return none };
+        let (AlphaMode::Mask { .. }, Some(used)) =
+            (material.alpha_mode, material.base_color_texture)
+        else {
+            return none;
+        };
+        let Some(texture) = scene.textures.get(used.texture as usize) else {
+            return none;
+        };
+        let Some(image) = scene.images.get(texture.image as usize) else {
+            return none;
+        };
         let flags = flags(&texture.sampler);
-        if let Some((_, _, alpha)) = self.placed.iter().find(|(index, known, _)| *index == texture.image && *known == flags) {
+        if let Some((_, _, alpha)) = self
+            .placed
+            .iter()
+            .find(|(index, known, _)| *index == texture.image && *known == flags)
+        {
             return *alpha;
         }
         let first = self.words.len() as u32;
@@ -122,12 +156,20 @@ impl AlphaAtlas {
     /// Appends a level as words of 2 x 2 texels, the first of them half outside of the image.
     fn push(&mut self, level: &[u8], [width, height]: [u32; 2], sampler: &Sampler) {
         let texel = |x: i64, y: i64| {
-            let (x, y) = (wrap(x, width, sampler.wrap_u), wrap(y, height, sampler.wrap_v));
+            let (x, y) = (
+                wrap(x, width, sampler.wrap_u),
+                wrap(y, height, sampler.wrap_v),
+            );
             u32::from(level[y * width as usize + x])
         };
         for y in -1..i64::from(height) {
             for x in -1..i64::from(width) {
-                self.words.push(texel(x, y) | texel(x + 1, y) << 8 | texel(x, y + 1) << 16 | texel(x + 1, y + 1) << 24);
+                self.words.push(
+                    texel(x, y)
+                        | texel(x + 1, y) << 8
+                        | texel(x, y + 1) << 16
+                        | texel(x + 1, y + 1) << 24,
+                );
             }
         }
     }
@@ -140,8 +182,16 @@ fn flags(sampler: &Sampler) -> u32 {
         Wrap::ClampToEdge => 2_u32,
     };
     TEXTURED
-        | if sampler.mag == Filter::Nearest { NEAREST_MAG } else { 0 }
-        | if sampler.min == Filter::Nearest { NEAREST_MIN } else { 0 }
+        | if sampler.mag == Filter::Nearest {
+            NEAREST_MAG
+        } else {
+            0
+        }
+        | if sampler.min == Filter::Nearest {
+            NEAREST_MIN
+        } else {
+            0
+        }
         | match sampler.mip {
             None => NO_MIP,
             Some(Filter::Nearest) => NEAREST_MIP,
@@ -199,8 +249,17 @@ mod tests {
     fn host_structs_are_the_shaders() {
         let text = include_str!("../../shaders/include/frame.glsl");
         let vectors = |name: &str| {
-            let body = text.split(&format!("struct {name} {{")).nth(1).unwrap().split("};").next().unwrap();
-            body.lines().filter(|line| line.contains("vec4 ")).map(|line| if line.contains("[10]") { 10 } else { 1 }).sum::<usize>()
+            let body = text
+                .split(&format!("struct {name} {{"))
+                .nth(1)
+                .unwrap()
+                .split("};")
+                .next()
+                .unwrap();
+            body.lines()
+                .filter(|line| line.contains("vec4 "))
+                .map(|line| if line.contains("[10]") { 10 } else { 1 })
+                .sum::<usize>()
         };
         assert_eq!(vectors("Material") * 16, size_of::<GpuMaterial>());
         assert_eq!(vectors("Light") * 16, size_of::<GpuLight>());

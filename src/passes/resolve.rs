@@ -13,12 +13,28 @@ impl Resolve {
     ///
     /// # Errors
     /// If the driver refuses one.
-    pub fn new(layout: &FrameLayout, sample: &Sample, has_blend: bool, display_codes: bool, output: &Constants) -> Result<Self, VulkanError> {
+    pub fn new(
+        layout: &FrameLayout,
+        sample: &Sample,
+        has_blend: bool,
+        display_codes: bool,
+        output: &Constants,
+    ) -> Result<Self, VulkanError> {
         let kernels = sample
             .lists()
             .map(|list| {
                 let chained = has_blend && matches!(list, TileList::Blended | TileList::Unlisted);
-                Ok((list, Self::pipeline(layout, list, sample.block(list), chained, display_codes, output)?))
+                Ok((
+                    list,
+                    Self::pipeline(
+                        layout,
+                        list,
+                        sample.block(list),
+                        chained,
+                        display_codes,
+                        output,
+                    )?,
+                ))
             })
             .collect::<Result<_, VulkanError>>()?;
         Ok(Self { kernels })
@@ -28,16 +44,49 @@ impl Resolve {
     ///
     /// # Errors
     /// If the driver refuses it.
-    pub fn for_multisample(layout: &FrameLayout, samples: u32, display_codes: bool, output: &Constants) -> Result<Self, VulkanError> {
-        let pipeline = Self::pipeline(layout, TileList::Plain, samples, false, display_codes, output)?;
-        Ok(Self { kernels: vec![(TileList::Plain, pipeline)] })
+    pub fn for_multisample(
+        layout: &FrameLayout,
+        samples: u32,
+        display_codes: bool,
+        output: &Constants,
+    ) -> Result<Self, VulkanError> {
+        let pipeline = Self::pipeline(
+            layout,
+            TileList::Plain,
+            samples,
+            false,
+            display_codes,
+            output,
+        )?;
+        Ok(Self {
+            kernels: vec![(TileList::Plain, pipeline)],
+        })
     }
 
-    fn pipeline(layout: &FrameLayout, list: TileList, block: u32, chained: bool, display_codes: bool, output: &Constants) -> Result<Pipeline, VulkanError> {
+    fn pipeline(
+        layout: &FrameLayout,
+        list: TileList,
+        block: u32,
+        chained: bool,
+        display_codes: bool,
+        output: &Constants,
+    ) -> Result<Pipeline, VulkanError> {
         let lanes = layout.gpu.limits().subgroup_size;
-        let constants =
-            output.clone().with(0, lanes).with(1, lanes).with(2, block).flag(3, chained).with(4, list as u32).flag(5, display_codes);
-        compute_pipeline(&layout.gpu, layout.pipeline, spirv::RESOLVE, &constants, Some(lanes))
+        let constants = output
+            .clone()
+            .with(0, lanes)
+            .with(1, lanes)
+            .with(2, block)
+            .flag(3, chained)
+            .with(4, list as u32)
+            .flag(5, display_codes);
+        compute_pipeline(
+            &layout.gpu,
+            layout.pipeline,
+            spirv::RESOLVE,
+            &constants,
+            Some(lanes),
+        )
     }
 
     /// Records it over the tiles of the round.

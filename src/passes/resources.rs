@@ -69,6 +69,11 @@ impl SampleSet {
     pub fn count(&self) -> u32 {
         self.count
     }
+
+    /// The descriptor set.
+    pub(crate) fn descriptor(&self) -> vk::DescriptorSet {
+        self.set
+    }
 }
 
 /// Buffers that passes hand to each other.
@@ -97,7 +102,9 @@ pub struct Resources {
 }
 
 const STORAGE: vk::BufferUsageFlags = vk::BufferUsageFlags::from_raw(
-    vk::BufferUsageFlags::STORAGE_BUFFER.as_raw() | vk::BufferUsageFlags::TRANSFER_DST.as_raw() | vk::BufferUsageFlags::TRANSFER_SRC.as_raw(),
+    vk::BufferUsageFlags::STORAGE_BUFFER.as_raw()
+        | vk::BufferUsageFlags::TRANSFER_DST.as_raw()
+        | vk::BufferUsageFlags::TRANSFER_SRC.as_raw(),
 );
 const TEXELS: vk::BufferUsageFlags = vk::BufferUsageFlags::from_raw(
     vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER.as_raw()
@@ -126,19 +133,35 @@ impl Resources {
         let storage = |name: &str, bytes: u64| {
             let limit = memory.gpu().limits().max_storage_bytes;
             if bytes > limit {
-                return Err(VulkanError::TooLarge { what: name.to_owned(), needed: bytes, unit: "bytes", limit });
+                return Err(VulkanError::TooLarge {
+                    what: name.to_owned(),
+                    needed: bytes,
+                    unit: "bytes",
+                    limit,
+                });
             }
             memory.buffer(name, bytes, STORAGE, MemoryUse::Device)
         };
-        let texels = |name: &str, elements: u64, format| memory.texel_buffer(name, elements, format, TEXELS, MemoryUse::Device);
+        let texels = |name: &str, elements: u64, format| {
+            memory.texel_buffer(name, elements, format, TEXELS, MemoryUse::Device)
+        };
         let float4 = vk::Format::R32G32B32A32_SFLOAT;
         let pool = layout.pool(location_lists.len() as u32, 0)?;
         let sets = location_lists
             .iter()
             .map(|locations| {
                 let bytes = bytemuck::cast_slice(locations);
-                let view = texels("sub-sample locations", locations.len() as u64, vk::Format::R32G32_SFLOAT)?;
-                let mut upload = memory.buffer("location upload", bytes.len() as u64, vk::BufferUsageFlags::TRANSFER_SRC, MemoryUse::Upload)?;
+                let view = texels(
+                    "sub-sample locations",
+                    locations.len() as u64,
+                    vk::Format::R32G32_SFLOAT,
+                )?;
+                let mut upload = memory.buffer(
+                    "location upload",
+                    bytes.len() as u64,
+                    vk::BufferUsageFlags::TRANSFER_SRC,
+                    MemoryUse::Upload,
+                )?;
                 if let Some(mapped) = upload.bytes_mut().get_mut(..bytes.len()) {
                     mapped.copy_from_slice(bytes);
                 }
@@ -178,7 +201,11 @@ impl Resources {
                 MemoryUse::Device,
             )?,
             filtered: texels("filtered colour", u64::from(sizes.filtered), float4)?,
-            attributes: texels("attributes", if sizes.attributes { 2 * pixels } else { 1 }, float4)?,
+            attributes: texels(
+                "attributes",
+                if sizes.attributes { 2 * pixels } else { 1 },
+                float4,
+            )?,
             encoded: storage("encoded colour", sizes.encoded)?,
             layout: layout.clone(),
             _pool: pool,
@@ -207,17 +234,36 @@ impl Resources {
             if let Some(upload) = &set.upload {
                 let region = [vk::BufferCopy::default().size(u64::from(set.count) * 8)];
                 // SAFETY: the recorder's contract; both buffers hold all locations.
-                unsafe { recorder.device().cmd_copy_buffer(recorder.raw(), upload.raw, set.locations.buffer.raw, &region) };
+                unsafe {
+                    recorder.device().cmd_copy_buffer(
+                        recorder.raw(),
+                        upload.raw,
+                        set.locations.buffer.raw,
+                        &region,
+                    )
+                };
             }
         }
         recorder.barrier();
     }
 
     /// Begins work on a region: its uniform block, cleared counters and tiles, bound sets.
-    pub(crate) fn record_begin(&self, recorder: &Recorder<'_>, set: &SampleSet, uniform: &FrameUniform) {
+    pub(crate) fn record_begin(
+        &self,
+        recorder: &Recorder<'_>,
+        set: &SampleSet,
+        uniform: &FrameUniform,
+    ) {
         recorder.barrier();
         // SAFETY: the recorder's contract; the block is below the 65,536 bytes that an inline update can have.
-        unsafe { recorder.device().cmd_update_buffer(recorder.raw(), set.uniform.raw, 0, bytemuck::bytes_of(uniform)) };
+        unsafe {
+            recorder.device().cmd_update_buffer(
+                recorder.raw(),
+                set.uniform.raw,
+                0,
+                bytemuck::bytes_of(uniform),
+            )
+        };
         recorder.clear(&self.counters);
         recorder.clear(&self.tiles);
         recorder.barrier();
@@ -258,16 +304,29 @@ impl Resources {
             texel(35, &self.filtered, true),
             texel(36, &self.attributes, true),
         ];
-        let views: Vec<[vk::BufferView; 1]> = texel_writes.iter().map(|(_, view, _)| [*view]).collect();
+        let views: Vec<[vk::BufferView; 1]> =
+            texel_writes.iter().map(|(_, view, _)| [*view]).collect();
         let mut writes: Vec<vk::WriteDescriptorSet<'_>> = texel_writes
             .iter()
             .zip(&views)
             .map(|((binding, _, storage), view)| {
-                let kind = if *storage { vk::DescriptorType::STORAGE_TEXEL_BUFFER } else { vk::DescriptorType::UNIFORM_TEXEL_BUFFER };
-                vk::WriteDescriptorSet::default().dst_set(set.set).dst_binding(*binding).descriptor_type(kind).texel_buffer_view(view)
+                let kind = if *storage {
+                    vk::DescriptorType::STORAGE_TEXEL_BUFFER
+                } else {
+                    vk::DescriptorType::UNIFORM_TEXEL_BUFFER
+                };
+                vk::WriteDescriptorSet::default()
+                    .dst_set(set.set)
+                    .dst_binding(*binding)
+                    .descriptor_type(kind)
+                    .texel_buffer_view(view)
             })
             .collect();
-        let buffer = |buffer: &Buffer| [vk::DescriptorBufferInfo::default().buffer(buffer.raw).range(vk::WHOLE_SIZE)];
+        let buffer = |buffer: &Buffer| {
+            [vk::DescriptorBufferInfo::default()
+                .buffer(buffer.raw)
+                .range(vk::WHOLE_SIZE)]
+        };
         let storage = [
             (7, buffer(&scene.materials)),
             (8, buffer(&scene.lights)),
@@ -302,10 +361,17 @@ impl Resources {
         );
         // A pipeline reads either the single-sampled or the multisampled bindings; the other ones stay unwritten.
         // Without BLEND its binding shows the opaque IDs, which specialised shaders do not read.
-        let image = |view| [vk::DescriptorImageInfo::default().image_view(view).image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)];
+        let image = |view| {
+            [vk::DescriptorImageInfo::default()
+                .image_view(view)
+                .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)]
+        };
         let blend_view = targets.blend_ids.as_ref().unwrap_or(&targets.ids).view;
         let first = if targets.multisampled() { 14 } else { 12 };
-        let images = [(first, image(targets.ids.view)), (first + 1, image(blend_view))];
+        let images = [
+            (first, image(targets.ids.view)),
+            (first + 1, image(blend_view)),
+        ];
         for (binding, info) in &images {
             writes.push(
                 vk::WriteDescriptorSet::default()

@@ -32,15 +32,32 @@ pub struct Sample {
 }
 
 /// Register rows of the kernels for tiles with and without layers, least first.
-const PLAIN: [(u32, &[u8]); 4] = [(1, spirv::SAMPLE_1), (2, spirv::SAMPLE_2), (8, spirv::SAMPLE_8), (32, spirv::SAMPLE_32)];
-const MASKED: [(u32, &[u8]); 3] = [(1, spirv::SAMPLE_1), (2, spirv::SAMPLE_2), (8, spirv::SAMPLE_8)];
+const PLAIN: [(u32, &[u8]); 4] = [
+    (1, spirv::SAMPLE_1),
+    (2, spirv::SAMPLE_2),
+    (8, spirv::SAMPLE_8),
+    (32, spirv::SAMPLE_32),
+];
+const MASKED: [(u32, &[u8]); 3] = [
+    (1, spirv::SAMPLE_1),
+    (2, spirv::SAMPLE_2),
+    (8, spirv::SAMPLE_8),
+];
 const CHAINED: [(u32, &[u8]); 2] = [(1, spirv::SAMPLE_CHAINED_1), (8, spirv::SAMPLE_CHAINED_8)];
 const UNLISTED: [(u32, &[u8]); 2] = [(1, spirv::SAMPLE_UNLISTED_1), (8, spirv::SAMPLE_UNLISTED_8)];
-const CHAINED_UNLISTED: [(u32, &[u8]); 2] = [(1, spirv::SAMPLE_CHAINED_UNLISTED_1), (8, spirv::SAMPLE_CHAINED_UNLISTED_8)];
+const CHAINED_UNLISTED: [(u32, &[u8]); 2] = [
+    (1, spirv::SAMPLE_CHAINED_UNLISTED_1),
+    (8, spirv::SAMPLE_CHAINED_UNLISTED_8),
+];
 
 /// The smallest kernel that holds all samples at once, or else the largest.
 fn kernel(kernels: &[(u32, &'static [u8])], rows_needed: u32) -> (u32, &'static [u8]) {
-    kernels.iter().find(|(rows, _)| *rows >= rows_needed).or(kernels.last()).copied().unwrap_or((1, &[]))
+    kernels
+        .iter()
+        .find(|(rows, _)| *rows >= rows_needed)
+        .or(kernels.last())
+        .copied()
+        .unwrap_or((1, &[]))
 }
 
 impl Sample {
@@ -48,7 +65,13 @@ impl Sample {
     ///
     /// # Errors
     /// If the driver refuses one.
-    pub fn new(layout: &FrameLayout, samples: u32, per_sample: bool, has_mask: bool, has_blend: bool) -> Result<Self, VulkanError> {
+    pub fn new(
+        layout: &FrameLayout,
+        samples: u32,
+        per_sample: bool,
+        has_mask: bool,
+        has_blend: bool,
+    ) -> Result<Self, VulkanError> {
         let lanes = layout.gpu.limits().subgroup_size;
         let rows_needed = samples.div_ceil(lanes);
         // One block size serves all tiles with layers, so that headers have one stride.
@@ -56,8 +79,16 @@ impl Sample {
         let layered_rows = if rows_needed <= 1 { 1 } else { 8 };
         let mut kernels = Vec::new();
         let mut add = |list: TileList, code: &[u8], mask: bool| -> Result<(), VulkanError> {
-            let constants = Constants::new().with(0, lanes).with(1, lanes).flag(2, per_sample).flag(3, mask).with(4, list as u32);
-            kernels.push((list, compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, Some(lanes))?));
+            let constants = Constants::new()
+                .with(0, lanes)
+                .with(1, lanes)
+                .flag(2, per_sample)
+                .flag(3, mask)
+                .with(4, list as u32);
+            kernels.push((
+                list,
+                compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, Some(lanes))?,
+            ));
             Ok(())
         };
         add(TileList::Plain, plain, false)?;
@@ -65,18 +96,38 @@ impl Sample {
             add(TileList::Masked, kernel(&MASKED, layered_rows).1, true)?;
         }
         if has_blend {
-            add(TileList::Blended, kernel(&CHAINED, layered_rows).1, has_mask)?;
-            add(TileList::Unlisted, kernel(&CHAINED_UNLISTED, layered_rows).1, has_mask)?;
+            add(
+                TileList::Blended,
+                kernel(&CHAINED, layered_rows).1,
+                has_mask,
+            )?;
+            add(
+                TileList::Unlisted,
+                kernel(&CHAINED_UNLISTED, layered_rows).1,
+                has_mask,
+            )?;
         } else {
-            add(TileList::Unlisted, kernel(&UNLISTED, layered_rows).1, has_mask)?;
+            add(
+                TileList::Unlisted,
+                kernel(&UNLISTED, layered_rows).1,
+                has_mask,
+            )?;
         }
-        Ok(Self { kernels, plain_block: plain_rows * lanes, layered_block: layered_rows * lanes })
+        Ok(Self {
+            kernels,
+            plain_block: plain_rows * lanes,
+            layered_block: layered_rows * lanes,
+        })
     }
 
     /// Samples that a kernel holds at once, for tiles of the list.
     #[must_use]
     pub fn block(&self, list: TileList) -> u32 {
-        if list == TileList::Plain { self.plain_block } else { self.layered_block }
+        if list == TileList::Plain {
+            self.plain_block
+        } else {
+            self.layered_block
+        }
     }
 
     /// The lists that the scene can fill.

@@ -14,7 +14,12 @@ impl Schedule {
     ///
     /// # Errors
     /// If the driver refuses it.
-    pub fn new(layout: &FrameLayout, sample: &Sample, per_sample: bool, layers: u32) -> Result<Self, VulkanError> {
+    pub fn new(
+        layout: &FrameLayout,
+        sample: &Sample,
+        per_sample: bool,
+        layers: u32,
+    ) -> Result<Self, VulkanError> {
         let lanes = layout.gpu.limits().subgroup_size;
         let constants = Constants::new()
             .with(0, lanes)
@@ -22,7 +27,13 @@ impl Schedule {
             .with(2, sample.block(TileList::Masked))
             .flag(3, per_sample)
             .with(4, layers);
-        let pipeline = compute_pipeline(&layout.gpu, layout.pipeline, spirv::SCHEDULE, &constants, Some(lanes))?;
+        let pipeline = compute_pipeline(
+            &layout.gpu,
+            layout.pipeline,
+            spirv::SCHEDULE,
+            &constants,
+            Some(lanes),
+        )?;
         Ok(Self { pipeline })
     }
 

@@ -34,14 +34,25 @@ impl Shade {
     ///
     /// # Errors
     /// If the driver refuses one.
-    pub fn new(layout: &Arc<FrameLayout>, scene: &GpuScene, source: ShadeSource, output: &Constants) -> Result<Self, VulkanError> {
+    pub fn new(
+        layout: &Arc<FrameLayout>,
+        scene: &GpuScene,
+        source: ShadeSource,
+        output: &Constants,
+    ) -> Result<Self, VulkanError> {
         let lights = scene.light_features();
         let pixels = source != ShadeSource::Records;
         let common = output
             .clone()
             .flag(0, pixels)
             .flag(1, scene.bins.len() > 1)
-            .flag(2, source == ShadeSource::Pixels { display_codes: true })
+            .flag(
+                2,
+                source
+                    == ShadeSource::Pixels {
+                        display_codes: true,
+                    },
+            )
             .flag(10, lights.count > 0)
             .flag(11, lights.local)
             .flag(12, !pixels && scene.has_blend());
@@ -56,14 +67,27 @@ impl Shade {
             }
             let constants = (3..)
                 .zip(features.textures)
-                .fold(common.clone(), |constants, (id, read)| constants.flag(id, read))
+                .fold(common.clone(), |constants, (id, read)| {
+                    constants.flag(id, read)
+                })
                 .flag(8, features.vertex_colors)
                 .flag(9, features.unlit);
-            pipelines.push(compute_pipeline(&layout.gpu, layout.pipeline, spirv::SHADE, &constants, None)?);
+            pipelines.push(compute_pipeline(
+                &layout.gpu,
+                layout.pipeline,
+                spirv::SHADE,
+                &constants,
+                None,
+            )?);
             known.insert(features, pipelines.len() - 1);
             bins.push(pipelines.len() - 1);
         }
-        Ok(Self { layout: layout.clone(), source, pipelines, bins })
+        Ok(Self {
+            layout: layout.clone(),
+            source,
+            pipelines,
+            bins,
+        })
     }
 
     /// Whether entries must be sorted by bin first.
@@ -79,9 +103,17 @@ impl Shade {
     }
 
     /// Records it, over `pixels` pixels or the records of the round.
-    pub fn record(&self, recorder: &Recorder<'_>, scene: &GpuScene, arguments: &Buffer, pixels: u32) {
+    pub fn record(
+        &self,
+        recorder: &Recorder<'_>,
+        scene: &GpuScene,
+        arguments: &Buffer,
+        pixels: u32,
+    ) {
         for (bin, (material_bin, pipeline)) in scene.bins.iter().zip(&self.bins).enumerate() {
-            let Some(pipeline) = self.pipelines.get(*pipeline) else { continue };
+            let Some(pipeline) = self.pipelines.get(*pipeline) else {
+                continue;
+            };
             // SAFETY: the recorder's contract; the set matches the pipelines' layout.
             unsafe {
                 recorder.device().cmd_bind_descriptor_sets(
@@ -95,9 +127,17 @@ impl Shade {
             }
             recorder.push(self.layout.pipeline, &[bin as u32]);
             match (self.needs_order(), self.source) {
-                (true, _) => recorder.dispatch_indirect_unordered(pipeline, arguments, Argument::Shade as u32 + bin as u32),
-                (false, ShadeSource::Pixels { .. }) => recorder.dispatch(pipeline, u64::from(pixels.div_ceil(64))),
-                (false, ShadeSource::Records) => recorder.dispatch_indirect(pipeline, arguments, Argument::Sort as u32),
+                (true, _) => recorder.dispatch_indirect_unordered(
+                    pipeline,
+                    arguments,
+                    Argument::Shade as u32 + bin as u32,
+                ),
+                (false, ShadeSource::Pixels { .. }) => {
+                    recorder.dispatch(pipeline, u64::from(pixels.div_ceil(64)))
+                }
+                (false, ShadeSource::Records) => {
+                    recorder.dispatch_indirect(pipeline, arguments, Argument::Sort as u32)
+                }
             }
         }
         recorder.barrier();

@@ -29,11 +29,29 @@ impl Sort {
     ///
     /// # Errors
     /// If the driver refuses one.
-    pub fn new(layout: &FrameLayout, source: SortSource, output: &Constants) -> Result<Self, VulkanError> {
-        let make = |code, constants| compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, None);
+    pub fn new(
+        layout: &FrameLayout,
+        source: SortSource,
+        output: &Constants,
+    ) -> Result<Self, VulkanError> {
+        let make = |code, constants| {
+            compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, None)
+        };
         let pixels = source != SortSource::Records;
-        let codes = source == SortSource::Pixels { display_codes: true };
-        let sort = |scatter| make(spirv::SORT, output.clone().flag(0, scatter).flag(1, pixels).flag(2, codes));
+        let codes = source
+            == SortSource::Pixels {
+                display_codes: true,
+            };
+        let sort = |scatter| {
+            make(
+                spirv::SORT,
+                output
+                    .clone()
+                    .flag(0, scatter)
+                    .flag(1, pixels)
+                    .flag(2, codes),
+            )
+        };
         Ok(Self {
             source,
             before: make(spirv::ARGUMENTS, Constants::new().with(0, 2))?,
@@ -48,8 +66,12 @@ impl Sort {
         recorder.clear(bins);
         recorder.barrier();
         let run = |pipeline| match self.source {
-            SortSource::Pixels { .. } => recorder.dispatch(pipeline, u64::from(pixels.div_ceil(64))),
-            SortSource::Records => recorder.dispatch_indirect(pipeline, arguments, Argument::Sort as u32),
+            SortSource::Pixels { .. } => {
+                recorder.dispatch(pipeline, u64::from(pixels.div_ceil(64)))
+            }
+            SortSource::Records => {
+                recorder.dispatch_indirect(pipeline, arguments, Argument::Sort as u32)
+            }
         };
         if self.source == SortSource::Records {
             recorder.dispatch(&self.before, 1);

@@ -13,27 +13,56 @@ pub(super) struct Texture {
 
 impl Texture {
     /// `srgb` for colours, otherwise values are taken as they are.
-    pub(super) fn new(memory: &Memory, source: &SceneImage, srgb: bool) -> Result<Self, VulkanError> {
+    pub(super) fn new(
+        memory: &Memory,
+        source: &SceneImage,
+        srgb: bool,
+    ) -> Result<Self, VulkanError> {
         let limit = u64::from(memory.gpu().limits().max_image_side);
         let side = u64::from(source.width.max(source.height));
         if side > limit {
-            return Err(VulkanError::TooLarge { what: "a texture's side".to_owned(), needed: side, unit: "texels", limit });
+            return Err(VulkanError::TooLarge {
+                what: "a texture's side".to_owned(),
+                needed: side,
+                unit: "texels",
+                limit,
+            });
         }
         let info = vk::ImageCreateInfo::default()
             .image_type(vk::ImageType::TYPE_2D)
-            .format(if srgb { vk::Format::R8G8B8A8_SRGB } else { vk::Format::R8G8B8A8_UNORM })
-            .extent(vk::Extent3D { width: source.width, height: source.height, depth: 1 })
+            .format(if srgb {
+                vk::Format::R8G8B8A8_SRGB
+            } else {
+                vk::Format::R8G8B8A8_UNORM
+            })
+            .extent(vk::Extent3D {
+                width: source.width,
+                height: source.height,
+                depth: 1,
+            })
             .mip_levels(side.ilog2() + 1)
             .array_layers(1)
             .samples(vk::SampleCountFlags::TYPE_1)
-            .usage(vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST | vk::ImageUsageFlags::TRANSFER_SRC);
+            .usage(
+                vk::ImageUsageFlags::SAMPLED
+                    | vk::ImageUsageFlags::TRANSFER_DST
+                    | vk::ImageUsageFlags::TRANSFER_SRC,
+            );
         let image = memory.image("texture", &info, vk::ImageAspectFlags::COLOR)?;
         let bytes = &source.pixels;
-        let mut upload = memory.buffer("texture upload", bytes.len() as u64, vk::BufferUsageFlags::TRANSFER_SRC, MemoryUse::Upload)?;
+        let mut upload = memory.buffer(
+            "texture upload",
+            bytes.len() as u64,
+            vk::BufferUsageFlags::TRANSFER_SRC,
+            MemoryUse::Upload,
+        )?;
         if let Some(mapped) = upload.bytes_mut().get_mut(..bytes.len()) {
             mapped.copy_from_slice(bytes);
         }
-        Ok(Self { image, upload: Some(upload) })
+        Ok(Self {
+            image,
+            upload: Some(upload),
+        })
     }
 
     /// Copies the first level and makes each further one from the one before, by the device's linear blit.
@@ -48,8 +77,14 @@ impl Texture {
             base_array_layer: 0,
             layer_count: 1,
         };
-        let extent = vk::Extent3D { width: image.extent.width, height: image.extent.height, depth: 1 };
-        let copy = [vk::BufferImageCopy::default().image_subresource(layer(0)).image_extent(extent)];
+        let extent = vk::Extent3D {
+            width: image.extent.width,
+            height: image.extent.height,
+            depth: 1,
+        };
+        let copy = [vk::BufferImageCopy::default()
+            .image_subresource(layer(0))
+            .image_extent(extent)];
         // SAFETY: the recorder's contract; the buffer holds the whole level, which is in the layout named.
         unsafe { device.cmd_copy_buffer_to_image(raw, upload.raw, image.raw, general, &copy) };
         let corner = |level: u32| vk::Offset3D {
@@ -65,7 +100,17 @@ impl Texture {
                 .dst_subresource(layer(level))
                 .dst_offsets([vk::Offset3D::default(), corner(level)])];
             // SAFETY: as above; source and destination are different levels.
-            unsafe { device.cmd_blit_image(raw, image.raw, general, image.raw, general, &blit, vk::Filter::LINEAR) };
+            unsafe {
+                device.cmd_blit_image(
+                    raw,
+                    image.raw,
+                    general,
+                    image.raw,
+                    general,
+                    &blit,
+                    vk::Filter::LINEAR,
+                )
+            };
         }
         recorder.transition(image, general, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
     }
@@ -102,10 +147,18 @@ impl DeviceSampler {
             })
             .address_mode_u(wrap(sampler.wrap_u))
             .address_mode_v(wrap(sampler.wrap_v))
-            .max_lod(if sampler.mip.is_some() { vk::LOD_CLAMP_NONE } else { 0.25 });
+            .max_lod(if sampler.mip.is_some() {
+                vk::LOD_CLAMP_NONE
+            } else {
+                0.25
+            });
         // SAFETY: plain creation on a live device.
-        let raw = unsafe { gpu.device.create_sampler(&info, None) }.map_err(VulkanError::of("vkCreateSampler"))?;
-        Ok(Self { gpu: gpu.clone(), raw })
+        let raw = unsafe { gpu.device.create_sampler(&info, None) }
+            .map_err(VulkanError::of("vkCreateSampler"))?;
+        Ok(Self {
+            gpu: gpu.clone(),
+            raw,
+        })
     }
 }
 

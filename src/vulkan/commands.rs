@@ -16,7 +16,11 @@ impl<'a> Recorder<'a> {
     /// - `raw` was allocated from `gpu`'s device, for its queue family, and is in the recording state.
     /// - What is recorded is submitted only while everything it refers to is alive.
     #[must_use]
-    pub unsafe fn new(gpu: &'a Gpu, raw: vk::CommandBuffer, timings: Option<&'a mut Timings>) -> Self {
+    pub unsafe fn new(
+        gpu: &'a Gpu,
+        raw: vk::CommandBuffer,
+        timings: Option<&'a mut Timings>,
+    ) -> Self {
         Self { gpu, raw, timings }
     }
 
@@ -61,7 +65,11 @@ impl<'a> Recorder<'a> {
     /// Binds a pipeline.
     pub fn bind(&self, pipeline: &Pipeline) {
         // SAFETY: `new`'s contract.
-        unsafe { self.gpu.device.cmd_bind_pipeline(self.raw, pipeline.bind_point, pipeline.raw) };
+        unsafe {
+            self.gpu
+                .device
+                .cmd_bind_pipeline(self.raw, pipeline.bind_point, pipeline.raw)
+        };
     }
 
     /// Runs a pipeline over `groups` workgroups, folded into rows of 32,768.
@@ -69,7 +77,11 @@ impl<'a> Recorder<'a> {
         self.bind(pipeline);
         let rows = groups.div_ceil(32768) as u32;
         // SAFETY: `new`'s contract; 32,768 is below every device's limit of 65,535.
-        unsafe { self.gpu.device.cmd_dispatch(self.raw, groups.min(32768) as u32, rows, 1) };
+        unsafe {
+            self.gpu
+                .device
+                .cmd_dispatch(self.raw, groups.min(32768) as u32, rows, 1)
+        };
         self.barrier();
     }
 
@@ -83,20 +95,36 @@ impl<'a> Recorder<'a> {
     pub fn dispatch_indirect_unordered(&self, pipeline: &Pipeline, arguments: &Buffer, index: u32) {
         self.bind(pipeline);
         // SAFETY: `new`'s contract; the buffer is larger than the index and was created for indirect use.
-        unsafe { self.gpu.device.cmd_dispatch_indirect(self.raw, arguments.raw, u64::from(index) * 16) };
+        unsafe {
+            self.gpu
+                .device
+                .cmd_dispatch_indirect(self.raw, arguments.raw, u64::from(index) * 16)
+        };
     }
 
     /// Sets the push constants of `layout`.
     pub fn push(&self, layout: vk::PipelineLayout, words: &[u32]) {
         let bytes = bytemuck::cast_slice(words);
         // SAFETY: `new`'s contract; layouts reserve 16 bytes for compute.
-        unsafe { self.gpu.device.cmd_push_constants(self.raw, layout, vk::ShaderStageFlags::COMPUTE, 0, bytes) };
+        unsafe {
+            self.gpu.device.cmd_push_constants(
+                self.raw,
+                layout,
+                vk::ShaderStageFlags::COMPUTE,
+                0,
+                bytes,
+            )
+        };
     }
 
     /// Fills a buffer with zeros.
     pub fn clear(&self, buffer: &Buffer) {
         // SAFETY: `new`'s contract; the buffer was created as a transfer destination.
-        unsafe { self.gpu.device.cmd_fill_buffer(self.raw, buffer.raw, 0, vk::WHOLE_SIZE, 0) };
+        unsafe {
+            self.gpu
+                .device
+                .cmd_fill_buffer(self.raw, buffer.raw, 0, vk::WHOLE_SIZE, 0)
+        };
     }
 
     /// Ends a named stretch of the frame: the time since the mark before is booked under `name`.
@@ -128,16 +156,27 @@ impl Timings {
     /// # Errors
     /// [`VulkanError::Call`] if the pool can't be made.
     pub fn new(gpu: &Arc<Gpu>, capacity: u32) -> Result<Self, VulkanError> {
-        let info = vk::QueryPoolCreateInfo::default().query_type(vk::QueryType::TIMESTAMP).query_count(capacity);
+        let info = vk::QueryPoolCreateInfo::default()
+            .query_type(vk::QueryType::TIMESTAMP)
+            .query_count(capacity);
         // SAFETY: plain creation on a live device.
-        let pool = unsafe { gpu.device.create_query_pool(&info, None) }.map_err(VulkanError::of("vkCreateQueryPool"))?;
-        Ok(Self { gpu: gpu.clone(), pool, capacity, names: Vec::new() })
+        let pool = unsafe { gpu.device.create_query_pool(&info, None) }
+            .map_err(VulkanError::of("vkCreateQueryPool"))?;
+        Ok(Self {
+            gpu: gpu.clone(),
+            pool,
+            capacity,
+            names: Vec::new(),
+        })
     }
 
     fn begin(&mut self, gpu: &Gpu, raw: vk::CommandBuffer) {
         self.names.clear();
         // SAFETY: the recorder's contract; the pool is not in use, as the frame before is done.
-        unsafe { gpu.device.cmd_reset_query_pool(raw, self.pool, 0, self.capacity) };
+        unsafe {
+            gpu.device
+                .cmd_reset_query_pool(raw, self.pool, 0, self.capacity)
+        };
         self.mark(gpu, raw, None);
     }
 
@@ -147,7 +186,14 @@ impl Timings {
             return;
         }
         // SAFETY: the recorder's contract; the query was reset at the frame's begin.
-        unsafe { gpu.device.cmd_write_timestamp2(raw, vk::PipelineStageFlags2::ALL_COMMANDS, self.pool, index) };
+        unsafe {
+            gpu.device.cmd_write_timestamp2(
+                raw,
+                vk::PipelineStageFlags2::ALL_COMMANDS,
+                self.pool,
+                index,
+            )
+        };
         self.names.push(name);
     }
 
@@ -160,13 +206,19 @@ impl Timings {
         if !stamps.is_empty() {
             let flags = vk::QueryResultFlags::TYPE_64 | vk::QueryResultFlags::WAIT;
             // SAFETY: the queries were written by a finished frame.
-            unsafe { self.gpu.device.get_query_pool_results(self.pool, 0, &mut stamps, flags) }
-                .map_err(VulkanError::of("vkGetQueryPoolResults"))?;
+            unsafe {
+                self.gpu
+                    .device
+                    .get_query_pool_results(self.pool, 0, &mut stamps, flags)
+            }
+            .map_err(VulkanError::of("vkGetQueryPoolResults"))?;
         }
         let period = f64::from(self.gpu.limits().timestamp_period) * 1e-6;
         let mut times: Vec<(&'static str, f64)> = Vec::new();
         for (pair, name) in stamps.windows(2).zip(self.names.iter().skip(1)) {
-            let (Some(name), &[before, after]) = (name, pair) else { continue };
+            let (Some(name), &[before, after]) = (name, pair) else {
+                continue;
+            };
             let ms = after.saturating_sub(before) as f64 * period;
             match times.iter_mut().find(|(known, _)| known == name) {
                 Some((_, sum)) => *sum += ms,

@@ -29,7 +29,9 @@ pub enum VulkanError {
     #[error("the device was lost; its driver may have reset it")]
     DeviceLost,
     /// Memory ran out.
-    #[error("out of memory: {what} of {bytes} bytes could not be allocated; try a smaller size, fewer samples or --max-memory")]
+    #[error(
+        "out of memory: {what} of {bytes} bytes could not be allocated; try a smaller size, fewer samples or --max-memory"
+    )]
     OutOfMemory {
         /// What the memory was for.
         what: String,
@@ -49,7 +51,9 @@ pub enum VulkanError {
         limit: u64,
     },
     /// The validation layer was asked for and is not installed.
-    #[error("the validation layer VK_LAYER_KHRONOS_validation is not installed (Debian: vulkan-validationlayers)")]
+    #[error(
+        "the validation layer VK_LAYER_KHRONOS_validation is not installed (Debian: vulkan-validationlayers)"
+    )]
     NoValidation,
     /// Any other error of Vulkan.
     #[error("{call} failed: {result}")]
@@ -73,7 +77,10 @@ impl VulkanError {
         move |result| match result {
             vk::Result::ERROR_DEVICE_LOST => Self::DeviceLost,
             vk::Result::ERROR_OUT_OF_DEVICE_MEMORY | vk::Result::ERROR_OUT_OF_HOST_MEMORY => {
-                Self::OutOfMemory { what: call.to_owned(), bytes: 0 }
+                Self::OutOfMemory {
+                    what: call.to_owned(),
+                    bytes: 0,
+                }
             }
             result => Self::Call { call, result },
         }

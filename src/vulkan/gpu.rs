@@ -50,8 +50,6 @@ pub struct Limits {
 
 /// A device in use.
 pub struct Gpu {
-    pub(crate) instance: ash::Instance,
-    pub(crate) physical_device: vk::PhysicalDevice,
     pub(crate) device: ash::Device,
     pub(crate) queue_family: u32,
     /// `None` only while dropping.
@@ -77,12 +75,24 @@ impl Gpu {
 
     /// # Safety
     /// As [`Gpu::new`]; with an `owner`, the device is ours to destroy.
-    pub(super) unsafe fn owning(host: Host, owner: Option<Arc<Instance>>) -> Result<Arc<Self>, VulkanError> {
-        let Host { instance, physical_device, device, queue_family, allocator } = host;
+    pub(super) unsafe fn owning(
+        host: Host,
+        owner: Option<Arc<Instance>>,
+    ) -> Result<Arc<Self>, VulkanError> {
+        let Host {
+            instance,
+            physical_device,
+            device,
+            queue_family,
+            allocator,
+        } = host;
         let limits = limits(&instance, physical_device, queue_family);
         let missing: Vec<Missing> = Requirements::missing(&instance, physical_device);
         if !missing.is_empty() {
-            return Err(VulkanError::Missing { device: limits.device_name, missing });
+            return Err(VulkanError::Missing {
+                device: limits.device_name,
+                missing,
+            });
         }
         let allocator = match allocator {
             Some(shared) => shared,
@@ -95,10 +105,19 @@ impl Gpu {
                     buffer_device_address: false,
                     allocation_sizes: gpu_allocator::AllocationSizes::default(),
                 })
-                .map_err(|_| VulkanError::Call { call: "the allocator", result: vk::Result::ERROR_INITIALIZATION_FAILED })?,
+                .map_err(|_| VulkanError::Call {
+                    call: "the allocator",
+                    result: vk::Result::ERROR_INITIALIZATION_FAILED,
+                })?,
             )),
         };
-        Ok(Arc::new(Self { instance, physical_device, device, queue_family, allocator: Some(allocator), limits, owner }))
+        Ok(Arc::new(Self {
+            device,
+            queue_family,
+            allocator: Some(allocator),
+            limits,
+            owner,
+        }))
     }
 
     /// Properties of the device.
@@ -116,7 +135,9 @@ impl Gpu {
     /// The allocator; a poisoned lock is taken over, as an allocation that panicked left nothing half made.
     pub(super) fn with_allocator<R>(&self, f: impl FnOnce(&mut Allocator) -> R) -> Option<R> {
         let allocator = self.allocator.as_ref()?;
-        let mut guard = allocator.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let mut guard = allocator
+            .lock()
+            .unwrap_or_else(std::sync::PoisonError::into_inner);
         Some(f(&mut guard))
     }
 }
@@ -136,25 +157,45 @@ fn limits(instance: &ash::Instance, device: vk::PhysicalDevice, queue_family: u3
     let mut driver = vk::PhysicalDeviceDriverProperties::default();
     let mut subgroup = vk::PhysicalDeviceSubgroupProperties::default();
     let mut control = vk::PhysicalDeviceSubgroupSizeControlProperties::default();
-    let mut properties =
-        vk::PhysicalDeviceProperties2::default().push_next(&mut driver).push_next(&mut subgroup).push_next(&mut control);
+    let mut properties = vk::PhysicalDeviceProperties2::default()
+        .push_next(&mut driver)
+        .push_next(&mut subgroup)
+        .push_next(&mut control);
     // SAFETY: the device belongs to the instance.
     let families = unsafe {
         instance.get_physical_device_properties2(device, &mut properties);
         instance.get_physical_device_queue_family_properties(device)
     };
     let basic = properties.properties;
-    let timestamps = families.get(queue_family as usize).is_some_and(|family| family.timestamp_valid_bits > 0);
-    let text = |name: Result<&std::ffi::CStr, _>| name.map(|n: &std::ffi::CStr| n.to_string_lossy().into_owned()).unwrap_or_default();
+    let timestamps = families
+        .get(queue_family as usize)
+        .is_some_and(|family| family.timestamp_valid_bits > 0);
+    let text = |name: Result<&std::ffi::CStr, _>| {
+        name.map(|n: &std::ffi::CStr| n.to_string_lossy().into_owned())
+            .unwrap_or_default()
+    };
     Limits {
         device_name: text(basic.device_name_as_c_str()),
-        driver: format!("{} {}", text(driver.driver_name_as_c_str()), text(driver.driver_info_as_c_str())),
-        subgroup_size: subgroup.subgroup_size.min(32).clamp(control.min_subgroup_size, control.max_subgroup_size),
-        can_require_subgroup_size: control.required_subgroup_size_stages.contains(vk::ShaderStageFlags::COMPUTE),
+        driver: format!(
+            "{} {}",
+            text(driver.driver_name_as_c_str()),
+            text(driver.driver_info_as_c_str())
+        ),
+        subgroup_size: subgroup
+            .subgroup_size
+            .min(32)
+            .clamp(control.min_subgroup_size, control.max_subgroup_size),
+        can_require_subgroup_size: control
+            .required_subgroup_size_stages
+            .contains(vk::ShaderStageFlags::COMPUTE),
         max_image_side: basic.limits.max_image_dimension2_d,
         max_texel_elements: u64::from(basic.limits.max_texel_buffer_elements),
         max_storage_bytes: u64::from(basic.limits.max_storage_buffer_range),
-        timestamp_period: if timestamps { basic.limits.timestamp_period } else { 0.0 },
+        timestamp_period: if timestamps {
+            basic.limits.timestamp_period
+        } else {
+            0.0
+        },
         sample_counts: basic.limits.framebuffer_color_sample_counts
             & basic.limits.framebuffer_depth_sample_counts
             & basic.limits.sampled_image_color_sample_counts,

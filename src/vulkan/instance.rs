@@ -25,7 +25,8 @@ pub(crate) struct Messages {
 
 /// A Vulkan instance.
 pub struct Instance {
-    entry: ash::Entry,
+    /// Keeps the loader's library open.
+    _entry: ash::Entry,
     pub(crate) raw: ash::Instance,
     debug: Option<(ash::ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
     messages: Arc<Messages>,
@@ -60,7 +61,11 @@ unsafe extern "system" fn on_message(
     // until after the messenger is destroyed.
     let (text, messages) = unsafe {
         let message = (*data).p_message;
-        let text = if message.is_null() { String::new() } else { CStr::from_ptr(message).to_string_lossy().into_owned() };
+        let text = if message.is_null() {
+            String::new()
+        } else {
+            CStr::from_ptr(message).to_string_lossy().into_owned()
+        };
         (text, &*user.cast::<Messages>())
     };
     if severity.contains(vk::DebugUtilsMessageSeverityFlagsEXT::ERROR) {
@@ -83,7 +88,8 @@ impl Instance {
     /// and not installed, [`VulkanError::Call`] otherwise.
     pub fn new(options: InstanceOptions) -> Result<Arc<Self>, VulkanError> {
         // SAFETY: loading the system's Vulkan loader runs its initialisers, which any Vulkan program trusts.
-        let entry = unsafe { ash::Entry::load() }.map_err(|e| VulkanError::NoLoader(e.to_string()))?;
+        let entry =
+            unsafe { ash::Entry::load() }.map_err(|e| VulkanError::NoLoader(e.to_string()))?;
         let application = vk::ApplicationInfo::default()
             .application_name(c"gpc")
             .engine_name(c"gpc")
@@ -92,12 +98,16 @@ impl Instance {
         let mut layers = Vec::new();
         let mut extensions = Vec::new();
         let enabled = [vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION];
-        let mut features = vk::ValidationFeaturesEXT::default().enabled_validation_features(&enabled);
+        let mut features =
+            vk::ValidationFeaturesEXT::default().enabled_validation_features(&enabled);
         if options.validation {
             // SAFETY: a global query.
             let found = unsafe { entry.enumerate_instance_layer_properties() }
                 .map_err(VulkanError::of("vkEnumerateInstanceLayerProperties"))?;
-            if !found.iter().any(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION)) {
+            if !found
+                .iter()
+                .any(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION))
+            {
                 return Err(VulkanError::NoValidation);
             }
             layers.push(VALIDATION.as_ptr());
@@ -112,15 +122,18 @@ impl Instance {
             info = info.push_next(&mut features);
         }
         // SAFETY: `info` and all it points to live until after the call.
-        let raw = unsafe { entry.create_instance(&info, None) }.map_err(VulkanError::of("vkCreateInstance"))?;
+        let raw = unsafe { entry.create_instance(&info, None) }
+            .map_err(VulkanError::of("vkCreateInstance"))?;
         let debug = if options.validation {
             let loader = ash::ext::debug_utils::Instance::new(&entry, &raw);
             let info = vk::DebugUtilsMessengerCreateInfoEXT::default()
                 .message_severity(
-                    vk::DebugUtilsMessageSeverityFlagsEXT::WARNING | vk::DebugUtilsMessageSeverityFlagsEXT::ERROR,
+                    vk::DebugUtilsMessageSeverityFlagsEXT::WARNING
+                        | vk::DebugUtilsMessageSeverityFlagsEXT::ERROR,
                 )
                 .message_type(
-                    vk::DebugUtilsMessageTypeFlagsEXT::VALIDATION | vk::DebugUtilsMessageTypeFlagsEXT::PERFORMANCE,
+                    vk::DebugUtilsMessageTypeFlagsEXT::VALIDATION
+                        | vk::DebugUtilsMessageTypeFlagsEXT::PERFORMANCE,
                 )
                 .pfn_user_callback(Some(on_message))
                 .user_data(Arc::as_ptr(&messages).cast_mut().cast());
@@ -131,13 +144,22 @@ impl Instance {
         } else {
             None
         };
-        Ok(Arc::new(Self { entry, raw, debug, messages }))
+        Ok(Arc::new(Self {
+            _entry: entry,
+            raw,
+            debug,
+            messages,
+        }))
     }
 
     /// Everything the validation layer has said so far.
     #[must_use]
     pub fn validation_messages(&self) -> Vec<String> {
-        self.messages.texts.lock().map(|texts| texts.clone()).unwrap_or_default()
+        self.messages
+            .texts
+            .lock()
+            .map(|texts| texts.clone())
+            .unwrap_or_default()
     }
 
     /// Every device, suitable or not.
@@ -145,7 +167,11 @@ impl Instance {
     /// # Errors
     /// [`VulkanError::Call`] if devices can't be enumerated.
     pub fn devices(&self) -> Result<Vec<DeviceInfo>, VulkanError> {
-        Ok(self.physical_devices()?.into_iter().map(|device| self.describe(device)).collect())
+        Ok(self
+            .physical_devices()?
+            .into_iter()
+            .map(|device| self.describe(device))
+            .collect())
     }
 
     fn physical_devices(&self) -> Result<Vec<vk::PhysicalDevice>, VulkanError> {
@@ -161,15 +187,21 @@ impl Instance {
     fn describe(&self, device: vk::PhysicalDevice) -> DeviceInfo {
         let mut driver = vk::PhysicalDeviceDriverProperties::default();
         let mut subgroup = vk::PhysicalDeviceSubgroupProperties::default();
-        let mut properties = vk::PhysicalDeviceProperties2::default().push_next(&mut driver).push_next(&mut subgroup);
+        let mut properties = vk::PhysicalDeviceProperties2::default()
+            .push_next(&mut driver)
+            .push_next(&mut subgroup);
         // SAFETY: the device belongs to this instance, created for 1.3; chained structures of a version that the
         // device lacks are left at their defaults.
         let memory = unsafe {
-            self.raw.get_physical_device_properties2(device, &mut properties);
+            self.raw
+                .get_physical_device_properties2(device, &mut properties);
             self.raw.get_physical_device_memory_properties(device)
         };
         let basic = properties.properties;
-        let text = |name: Result<&CStr, _>| name.map(|n: &CStr| n.to_string_lossy().into_owned()).unwrap_or_default();
+        let text = |name: Result<&CStr, _>| {
+            name.map(|n: &CStr| n.to_string_lossy().into_owned())
+                .unwrap_or_default()
+        };
         DeviceInfo {
             name: text(basic.device_name_as_c_str()),
             kind: match basic.device_type {
@@ -179,7 +211,11 @@ impl Instance {
                 vk::PhysicalDeviceType::CPU => "cpu",
                 _ => "other",
             },
-            driver: format!("{} {}", text(driver.driver_name_as_c_str()), text(driver.driver_info_as_c_str())),
+            driver: format!(
+                "{} {}",
+                text(driver.driver_name_as_c_str()),
+                text(driver.driver_info_as_c_str())
+            ),
             api: format!(
                 "{}.{}.{}",
                 vk::api_version_major(basic.api_version),
@@ -193,7 +229,10 @@ impl Instance {
                 .filter(|heap| heap.flags.contains(vk::MemoryHeapFlags::DEVICE_LOCAL))
                 .map(|heap| heap.size)
                 .sum(),
-            missing: Requirements::missing(&self.raw, device).iter().map(ToString::to_string).collect(),
+            missing: Requirements::missing(&self.raw, device)
+                .iter()
+                .map(ToString::to_string)
+                .collect(),
         }
     }
 
@@ -207,34 +246,59 @@ impl Instance {
         let mut suitable = Vec::new();
         for device in self.physical_devices()? {
             let info = self.describe(device);
-            let named = name.is_none_or(|name| info.name.to_lowercase().contains(&name.to_lowercase()));
-            let lacks = if info.missing.is_empty() { String::new() } else { format!(" lacks {}", info.missing.join(", ")) };
+            let named =
+                name.is_none_or(|name| info.name.to_lowercase().contains(&name.to_lowercase()));
+            let lacks = if info.missing.is_empty() {
+                String::new()
+            } else {
+                format!(" lacks {}", info.missing.join(", "))
+            };
             found.push(format!("\"{}\"{lacks}", info.name));
             if named && info.missing.is_empty() {
-                let rank = ["discrete", "integrated", "virtual", "cpu", "other"].iter().position(|kind| *kind == info.kind);
+                let rank = ["discrete", "integrated", "virtual", "cpu", "other"]
+                    .iter()
+                    .position(|kind| *kind == info.kind);
                 suitable.push((rank, device));
             }
         }
         let Some((_, physical_device)) = suitable.into_iter().min_by_key(|(rank, _)| *rank) else {
-            let found = if found.is_empty() { "no device was found".to_owned() } else { format!("found {}", found.join("; ")) };
-            return Err(VulkanError::NoDevice { asked: name.map(str::to_owned), found });
+            let found = if found.is_empty() {
+                "no device was found".to_owned()
+            } else {
+                format!("found {}", found.join("; "))
+            };
+            return Err(VulkanError::NoDevice {
+                asked: name.map(str::to_owned),
+                found,
+            });
         };
-        let queue_family = Requirements::queue_family(&self.raw, physical_device)
-            .ok_or_else(|| VulkanError::Missing { device: found.join(", "), missing: vec![Missing::Queue] })?;
+        let queue_family =
+            Requirements::queue_family(&self.raw, physical_device).ok_or_else(|| {
+                VulkanError::Missing {
+                    device: found.join(", "),
+                    missing: vec![Missing::Queue],
+                }
+            })?;
         let priorities = [1.0];
-        let queues = [vk::DeviceQueueCreateInfo::default().queue_family_index(queue_family).queue_priorities(&priorities)];
+        let queues = [vk::DeviceQueueCreateInfo::default()
+            .queue_family_index(queue_family)
+            .queue_priorities(&priorities)];
         let mut features = Requirements::features13();
-        let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).push_next(&mut features);
+        let info = vk::DeviceCreateInfo::default()
+            .queue_create_infos(&queues)
+            .push_next(&mut features);
         // SAFETY: the physical device has everything asked for, as checked above.
         let device = unsafe { self.raw.create_device(physical_device, &info, None) }
             .map_err(VulkanError::of("vkCreateDevice"))?;
-        let host = Host { instance: self.raw.clone(), physical_device, device, queue_family, allocator: None };
+        let host = Host {
+            instance: self.raw.clone(),
+            physical_device,
+            device,
+            queue_family,
+            allocator: None,
+        };
         // SAFETY: the handles are alive, belong together, and the Gpu keeps the instance and owns the device.
         unsafe { Gpu::owning(host, Some(self.clone())) }
-    }
-
-    pub(crate) fn entry(&self) -> &ash::Entry {
-        &self.entry
     }
 }
 

@@ -29,7 +29,11 @@ impl Memory {
     /// An account of at most `limit` bytes.
     #[must_use]
     pub fn new(gpu: Arc<Gpu>, limit: Option<u64>) -> Self {
-        Self { gpu, used: AtomicU64::new(0), limit: limit.unwrap_or(u64::MAX) }
+        Self {
+            gpu,
+            used: AtomicU64::new(0),
+            limit: limit.unwrap_or(u64::MAX),
+        }
     }
 
     /// The device.
@@ -44,8 +48,17 @@ impl Memory {
         self.used.load(Ordering::Relaxed)
     }
 
-    fn allocate(&self, name: &str, requirements: vk::MemoryRequirements, location: MemoryUse, linear: bool) -> Result<Allocation, VulkanError> {
-        let refuse = || VulkanError::OutOfMemory { what: name.to_owned(), bytes: requirements.size };
+    fn allocate(
+        &self,
+        name: &str,
+        requirements: vk::MemoryRequirements,
+        location: MemoryUse,
+        linear: bool,
+    ) -> Result<Allocation, VulkanError> {
+        let refuse = || VulkanError::OutOfMemory {
+            what: name.to_owned(),
+            bytes: requirements.size,
+        };
         if self.used() + requirements.size > self.limit {
             return Err(refuse());
         }
@@ -74,18 +87,34 @@ impl Memory {
     ///
     /// # Errors
     /// [`VulkanError::OutOfMemory`] past the account's bound or the device's memory.
-    pub fn buffer(&self, name: &str, size: u64, usage: vk::BufferUsageFlags, location: MemoryUse) -> Result<Buffer, VulkanError> {
+    pub fn buffer(
+        &self,
+        name: &str,
+        size: u64,
+        usage: vk::BufferUsageFlags,
+        location: MemoryUse,
+    ) -> Result<Buffer, VulkanError> {
         let size = size.max(16);
         let info = vk::BufferCreateInfo::default().size(size).usage(usage);
         // SAFETY: the device is alive as long as the Gpu; on failure below nothing but the handle is leaked to `Drop`.
-        let raw = unsafe { self.gpu.device.create_buffer(&info, None) }.map_err(VulkanError::of("vkCreateBuffer"))?;
-        let mut buffer = Buffer { gpu: self.gpu.clone(), raw, allocation: None, size };
+        let raw = unsafe { self.gpu.device.create_buffer(&info, None) }
+            .map_err(VulkanError::of("vkCreateBuffer"))?;
+        let mut buffer = Buffer {
+            gpu: self.gpu.clone(),
+            raw,
+            allocation: None,
+            size,
+        };
         // SAFETY: the buffer was just made from this device.
         let requirements = unsafe { self.gpu.device.get_buffer_memory_requirements(raw) };
         let allocation = self.allocate(name, requirements, location, true)?;
         // SAFETY: the memory is unused, of a type the buffer takes, and bound once.
-        unsafe { self.gpu.device.bind_buffer_memory(raw, allocation.memory(), allocation.offset()) }
-            .map_err(VulkanError::of("vkBindBufferMemory"))?;
+        unsafe {
+            self.gpu
+                .device
+                .bind_buffer_memory(raw, allocation.memory(), allocation.offset())
+        }
+        .map_err(VulkanError::of("vkBindBufferMemory"))?;
         buffer.allocation = Some(allocation);
         Ok(buffer)
     }
@@ -104,7 +133,12 @@ impl Memory {
     ) -> Result<BufferView, VulkanError> {
         let limit = self.gpu.limits().max_texel_elements;
         if elements > limit {
-            return Err(VulkanError::TooLarge { what: name.to_owned(), needed: elements, unit: "elements", limit });
+            return Err(VulkanError::TooLarge {
+                what: name.to_owned(),
+                needed: elements,
+                unit: "elements",
+                limit,
+            });
         }
         let bytes = match format {
             vk::Format::R32G32B32A32_SFLOAT | vk::Format::R32G32B32A32_UINT => 16,
@@ -112,9 +146,13 @@ impl Memory {
             _ => 4,
         };
         let buffer = self.buffer(name, elements.max(1) * bytes, usage, location)?;
-        let info = vk::BufferViewCreateInfo::default().buffer(buffer.raw).format(format).range(elements.max(1) * bytes);
+        let info = vk::BufferViewCreateInfo::default()
+            .buffer(buffer.raw)
+            .format(format)
+            .range(elements.max(1) * bytes);
         // SAFETY: the buffer is bound to memory and was created for texel access.
-        let view = unsafe { self.gpu.device.create_buffer_view(&info, None) }.map_err(VulkanError::of("vkCreateBufferView"))?;
+        let view = unsafe { self.gpu.device.create_buffer_view(&info, None) }
+            .map_err(VulkanError::of("vkCreateBufferView"))?;
         Ok(BufferView { buffer, view })
     }
 
@@ -122,15 +160,24 @@ impl Memory {
     ///
     /// # Errors
     /// As [`Memory::buffer`].
-    pub fn image(&self, name: &str, info: &vk::ImageCreateInfo<'_>, aspect: vk::ImageAspectFlags) -> Result<Image, VulkanError> {
+    pub fn image(
+        &self,
+        name: &str,
+        info: &vk::ImageCreateInfo<'_>,
+        aspect: vk::ImageAspectFlags,
+    ) -> Result<Image, VulkanError> {
         // SAFETY: `info` is valid for the device, whose limits callers have checked.
-        let raw = unsafe { self.gpu.device.create_image(info, None) }.map_err(VulkanError::of("vkCreateImage"))?;
+        let raw = unsafe { self.gpu.device.create_image(info, None) }
+            .map_err(VulkanError::of("vkCreateImage"))?;
         let mut image = Image {
             gpu: self.gpu.clone(),
             raw,
             view: vk::ImageView::null(),
             allocation: None,
-            extent: vk::Extent2D { width: info.extent.width, height: info.extent.height },
+            extent: vk::Extent2D {
+                width: info.extent.width,
+                height: info.extent.height,
+            },
             levels: info.mip_levels,
             aspect,
         };
@@ -138,8 +185,12 @@ impl Memory {
         let requirements = unsafe { self.gpu.device.get_image_memory_requirements(raw) };
         let allocation = self.allocate(name, requirements, MemoryUse::Device, false)?;
         // SAFETY: the memory is unused, of a type the image takes, and bound once.
-        unsafe { self.gpu.device.bind_image_memory(raw, allocation.memory(), allocation.offset()) }
-            .map_err(VulkanError::of("vkBindImageMemory"))?;
+        unsafe {
+            self.gpu
+                .device
+                .bind_image_memory(raw, allocation.memory(), allocation.offset())
+        }
+        .map_err(VulkanError::of("vkBindImageMemory"))?;
         image.allocation = Some(allocation);
         let view = vk::ImageViewCreateInfo::default()
             .image(raw)
@@ -147,7 +198,8 @@ impl Memory {
             .format(info.format)
             .subresource_range(image.range());
         // SAFETY: the image is bound and the format is its own.
-        image.view = unsafe { self.gpu.device.create_image_view(&view, None) }.map_err(VulkanError::of("vkCreateImageView"))?;
+        image.view = unsafe { self.gpu.device.create_image_view(&view, None) }
+            .map_err(VulkanError::of("vkCreateImageView"))?;
         Ok(image)
     }
 }
@@ -161,6 +213,12 @@ pub struct Buffer {
 }
 
 impl Buffer {
+    /// The handle.
+    #[must_use]
+    pub fn handle(&self) -> vk::Buffer {
+        self.raw
+    }
+
     /// Size in bytes.
     #[must_use]
     pub fn size(&self) -> u64 {
@@ -170,13 +228,21 @@ impl Buffer {
     /// The mapped bytes; empty for device memory that the host can't see.
     #[must_use]
     pub fn bytes(&self) -> &[u8] {
-        self.allocation.as_ref().and_then(Allocation::mapped_slice).and_then(|all| all.get(..self.size as usize)).unwrap_or(&[])
+        self.allocation
+            .as_ref()
+            .and_then(Allocation::mapped_slice)
+            .and_then(|all| all.get(..self.size as usize))
+            .unwrap_or(&[])
     }
 
     /// The mapped bytes, to be written before the device reads them.
     pub fn bytes_mut(&mut self) -> &mut [u8] {
         let size = self.size as usize;
-        self.allocation.as_mut().and_then(Allocation::mapped_slice_mut).and_then(|all| all.get_mut(..size)).unwrap_or(&mut [])
+        self.allocation
+            .as_mut()
+            .and_then(Allocation::mapped_slice_mut)
+            .and_then(|all| all.get_mut(..size))
+            .unwrap_or(&mut [])
     }
 }
 
@@ -185,7 +251,9 @@ impl Drop for Buffer {
         // SAFETY: owners drop a buffer only after the frames that use it are done.
         unsafe { self.gpu.device.destroy_buffer(self.raw, None) };
         if let Some(allocation) = self.allocation.take() {
-            let _ = self.gpu.with_allocator(|allocator| allocator.free(allocation));
+            let _ = self
+                .gpu
+                .with_allocator(|allocator| allocator.free(allocation));
         }
     }
 }
@@ -221,7 +289,13 @@ impl Image {
     /// All of the image.
     #[must_use]
     pub fn range(&self) -> vk::ImageSubresourceRange {
-        vk::ImageSubresourceRange { aspect_mask: self.aspect, base_mip_level: 0, level_count: self.levels, base_array_layer: 0, layer_count: 1 }
+        vk::ImageSubresourceRange {
+            aspect_mask: self.aspect,
+            base_mip_level: 0,
+            level_count: self.levels,
+            base_array_layer: 0,
+            layer_count: 1,
+        }
     }
 }
 
@@ -233,7 +307,9 @@ impl Drop for Image {
             self.gpu.device.destroy_image(self.raw, None);
         }
         if let Some(allocation) = self.allocation.take() {
-            let _ = self.gpu.with_allocator(|allocator| allocator.free(allocation));
+            let _ = self
+                .gpu
+                .with_allocator(|allocator| allocator.free(allocation));
         }
     }
 }

@@ -16,12 +16,20 @@ impl Shader {
     /// # Errors
     /// [`VulkanError::Call`] if the bytes are no SPIR-V or the driver refuses them.
     pub fn new(gpu: &Arc<Gpu>, spirv: &[u8]) -> Result<Self, VulkanError> {
-        let words = ash::util::read_spv(&mut std::io::Cursor::new(spirv))
-            .map_err(|_| VulkanError::Call { call: "reading SPIR-V", result: vk::Result::ERROR_INVALID_SHADER_NV })?;
+        let words = ash::util::read_spv(&mut std::io::Cursor::new(spirv)).map_err(|_| {
+            VulkanError::Call {
+                call: "reading SPIR-V",
+                result: vk::Result::ERROR_INVALID_SHADER_NV,
+            }
+        })?;
         let info = vk::ShaderModuleCreateInfo::default().code(&words);
         // SAFETY: the words are the crate's own SPIR-V for Vulkan 1.3.
-        let raw = unsafe { gpu.device.create_shader_module(&info, None) }.map_err(VulkanError::of("vkCreateShaderModule"))?;
-        Ok(Self { gpu: gpu.clone(), raw })
+        let raw = unsafe { gpu.device.create_shader_module(&info, None) }
+            .map_err(VulkanError::of("vkCreateShaderModule"))?;
+        Ok(Self {
+            gpu: gpu.clone(),
+            raw,
+        })
     }
 }
 
@@ -64,9 +72,17 @@ impl Constants {
             .entries
             .iter()
             .enumerate()
-            .map(|(i, (id, _))| vk::SpecializationMapEntry { constant_id: *id, offset: 4 * i as u32, size: 4 })
+            .map(|(i, (id, _))| vk::SpecializationMapEntry {
+                constant_id: *id,
+                offset: 4 * i as u32,
+                size: 4,
+            })
             .collect();
-        let data = self.entries.iter().flat_map(|(_, value)| value.to_ne_bytes()).collect();
+        let data = self
+            .entries
+            .iter()
+            .flat_map(|(_, value)| value.to_ne_bytes())
+            .collect();
         (map, data)
     }
 }
@@ -79,8 +95,16 @@ pub struct Pipeline {
 }
 
 impl Pipeline {
-    pub(crate) fn from_raw(gpu: &Arc<Gpu>, raw: vk::Pipeline, bind_point: vk::PipelineBindPoint) -> Self {
-        Self { gpu: gpu.clone(), raw, bind_point }
+    pub(crate) fn from_raw(
+        gpu: &Arc<Gpu>,
+        raw: vk::Pipeline,
+        bind_point: vk::PipelineBindPoint,
+    ) -> Self {
+        Self {
+            gpu: gpu.clone(),
+            raw,
+            bind_point,
+        }
     }
 }
 
@@ -104,8 +128,11 @@ pub fn compute_pipeline(
 ) -> Result<Pipeline, VulkanError> {
     let shader = Shader::new(gpu, spirv)?;
     let (map, data) = constants.packed();
-    let specialization = vk::SpecializationInfo::default().map_entries(&map).data(&data);
-    let mut size = vk::PipelineShaderStageRequiredSubgroupSizeCreateInfo::default().required_subgroup_size(subgroup.unwrap_or(0));
+    let specialization = vk::SpecializationInfo::default()
+        .map_entries(&map)
+        .data(&data);
+    let mut size = vk::PipelineShaderStageRequiredSubgroupSizeCreateInfo::default()
+        .required_subgroup_size(subgroup.unwrap_or(0));
     let mut stage = vk::PipelineShaderStageCreateInfo::default()
         .stage(vk::ShaderStageFlags::COMPUTE)
         .module(shader.raw)
@@ -114,10 +141,15 @@ pub fn compute_pipeline(
     if subgroup.is_some_and(|_| gpu.limits().can_require_subgroup_size) {
         stage = stage.push_next(&mut size);
     }
-    let info = vk::ComputePipelineCreateInfo::default().layout(layout).stage(stage);
+    let info = vk::ComputePipelineCreateInfo::default()
+        .layout(layout)
+        .stage(stage);
     // SAFETY: the layout covers what the crate's shader binds; all structures live until after the call.
-    let pipelines = unsafe { gpu.device.create_compute_pipelines(vk::PipelineCache::null(), &[info], None) }
-        .map_err(|(_, e)| VulkanError::of("vkCreateComputePipelines")(e))?;
+    let pipelines = unsafe {
+        gpu.device
+            .create_compute_pipelines(vk::PipelineCache::null(), &[info], None)
+    }
+    .map_err(|(_, e)| VulkanError::of("vkCreateComputePipelines")(e))?;
     let raw = pipelines.first().copied().unwrap_or_default();
     Ok(Pipeline::from_raw(gpu, raw, vk::PipelineBindPoint::COMPUTE))
 }

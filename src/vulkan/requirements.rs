@@ -3,8 +3,7 @@
 use ash::vk;
 
 /// What a user does about a missing driver.
-pub const MISSING_DRIVER_HELP: &str =
-    "Install a Vulkan 1.3 driver; without a GPU, Mesa's software driver serves (Debian: apt-get install libvulkan1 mesa-vulkan-drivers)";
+pub const MISSING_DRIVER_HELP: &str = "Install a Vulkan 1.3 driver; without a GPU, Mesa's software driver serves (Debian: apt-get install libvulkan1 mesa-vulkan-drivers)";
 
 /// Something that a device lacks.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -50,12 +49,42 @@ pub struct Requirements;
 
 /// Formats and what they must do in linear images or texel buffers.
 const BUFFER_FORMATS: [(vk::Format, &str, vk::FormatFeatureFlags, &str); 6] = [
-    (vk::Format::R32G32B32A32_SFLOAT, "R32G32B32A32_SFLOAT", vk::FormatFeatureFlags::STORAGE_TEXEL_BUFFER, "storage texel buffer"),
-    (vk::Format::R32G32B32A32_UINT, "R32G32B32A32_UINT", vk::FormatFeatureFlags::STORAGE_TEXEL_BUFFER, "storage texel buffer"),
-    (vk::Format::R32_UINT, "R32_UINT", vk::FormatFeatureFlags::STORAGE_TEXEL_BUFFER, "storage texel buffer"),
-    (vk::Format::R32G32B32A32_SFLOAT, "R32G32B32A32_SFLOAT", vk::FormatFeatureFlags::UNIFORM_TEXEL_BUFFER, "uniform texel buffer"),
-    (vk::Format::R32G32B32A32_UINT, "R32G32B32A32_UINT", vk::FormatFeatureFlags::UNIFORM_TEXEL_BUFFER, "uniform texel buffer"),
-    (vk::Format::R32G32_SFLOAT, "R32G32_SFLOAT", vk::FormatFeatureFlags::UNIFORM_TEXEL_BUFFER, "uniform texel buffer"),
+    (
+        vk::Format::R32G32B32A32_SFLOAT,
+        "R32G32B32A32_SFLOAT",
+        vk::FormatFeatureFlags::STORAGE_TEXEL_BUFFER,
+        "storage texel buffer",
+    ),
+    (
+        vk::Format::R32G32B32A32_UINT,
+        "R32G32B32A32_UINT",
+        vk::FormatFeatureFlags::STORAGE_TEXEL_BUFFER,
+        "storage texel buffer",
+    ),
+    (
+        vk::Format::R32_UINT,
+        "R32_UINT",
+        vk::FormatFeatureFlags::STORAGE_TEXEL_BUFFER,
+        "storage texel buffer",
+    ),
+    (
+        vk::Format::R32G32B32A32_SFLOAT,
+        "R32G32B32A32_SFLOAT",
+        vk::FormatFeatureFlags::UNIFORM_TEXEL_BUFFER,
+        "uniform texel buffer",
+    ),
+    (
+        vk::Format::R32G32B32A32_UINT,
+        "R32G32B32A32_UINT",
+        vk::FormatFeatureFlags::UNIFORM_TEXEL_BUFFER,
+        "uniform texel buffer",
+    ),
+    (
+        vk::Format::R32G32_SFLOAT,
+        "R32G32_SFLOAT",
+        vk::FormatFeatureFlags::UNIFORM_TEXEL_BUFFER,
+        "uniform texel buffer",
+    ),
 ];
 
 impl Requirements {
@@ -88,8 +117,9 @@ impl Requirements {
                 minor: vk::api_version_minor(version),
             }];
         }
-        let mut properties2 =
-            vk::PhysicalDeviceProperties2::default().push_next(&mut subgroup).push_next(&mut size_control);
+        let mut properties2 = vk::PhysicalDeviceProperties2::default()
+            .push_next(&mut subgroup)
+            .push_next(&mut size_control);
         // SAFETY: the device has Vulkan 1.3; the chained structures live until after the call.
         unsafe { instance.get_physical_device_properties2(device, &mut properties2) };
         let limits = properties2.properties.limits;
@@ -132,12 +162,28 @@ impl Requirements {
             }
         }
         for (name, needed, found) in [
-            ("maxTexelBufferElements", 1 << 24, u64::from(limits.max_texel_buffer_elements)),
-            ("maxPerStageDescriptorStorageBuffers", 16, u64::from(limits.max_per_stage_descriptor_storage_buffers)),
-            ("maxPerStageResources", 64, u64::from(limits.max_per_stage_resources)),
+            (
+                "maxTexelBufferElements",
+                1 << 24,
+                u64::from(limits.max_texel_buffer_elements),
+            ),
+            (
+                "maxPerStageDescriptorStorageBuffers",
+                16,
+                u64::from(limits.max_per_stage_descriptor_storage_buffers),
+            ),
+            (
+                "maxPerStageResources",
+                64,
+                u64::from(limits.max_per_stage_resources),
+            ),
         ] {
             if found < needed {
-                missing.push(Missing::Limit { name, needed, found });
+                missing.push(Missing::Limit {
+                    name,
+                    needed,
+                    found,
+                });
             }
         }
         missing
@@ -149,6 +195,9 @@ impl Requirements {
         // SAFETY: `device` belongs to `instance`.
         let families = unsafe { instance.get_physical_device_queue_family_properties(device) };
         let both = vk::QueueFlags::GRAPHICS | vk::QueueFlags::COMPUTE;
-        families.iter().position(|family| family.queue_flags.contains(both)).and_then(|i| u32::try_from(i).ok())
+        families
+            .iter()
+            .position(|family| family.queue_flags.contains(both))
+            .and_then(|i| u32::try_from(i).ok())
     }
 }
