@@ -49,18 +49,22 @@ fn every_file_ends_in_a_scene_or_an_error_with_its_name() {
     for path in &files {
         let name = path.display().to_string();
         let result = catch_unwind(|| exercise(path)).unwrap_or_else(|_| panic!("{name} panics"));
+        let shorten = |message: &str| message.replace(folder.to_str().unwrap(), "");
         match &result {
             Ok(warnings) => {
                 assert!(
                     warnings.iter().all(|w| w.starts_with(&name)),
                     "{name}: {warnings:?}"
                 );
+                for warning in warnings {
+                    eprintln!("warning {}", shorten(warning));
+                }
             }
             Err(error) => {
                 errors += 1;
                 let message = error.to_string();
                 assert!(message.starts_with(&name), "{message}");
-                eprintln!("{}", message.replace(folder.to_str().unwrap(), ""));
+                eprintln!("error {}", shorten(&message));
             }
         }
         if reported_errors(path) == Some(0) {

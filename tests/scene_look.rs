@@ -203,12 +203,14 @@ fn lights_are_placed_and_directed() {
         {"type": "spot", "spot": {"innerConeAngle": 0.2, "outerConeAngle": 0.4}, "range": 7},
         {"type": "laser"},
         {"type": "point"},
+        {"type": "spot", "spot": {"innerConeAngle": 0.5, "outerConeAngle": 0.5}},
     ]);
     for (light, translation) in [
         (0, [0, 0, 0]),
         (1, [1, 2, 3]),
         (2, [0, 0, 0]),
         (3, [4, 0, 0]),
+        (4, [0, 0, 0]),
     ] {
         let half = std::f64::consts::FRAC_1_SQRT_2;
         builder.push(
@@ -226,7 +228,7 @@ fn lights_are_placed_and_directed() {
         loaded.warnings
     );
     let lights = loaded.scene.pose(&Default::default()).unwrap().lights;
-    let [sun, spot, point] = lights[..] else {
+    let [sun, spot, point, hard] = lights[..] else {
         panic!("{lights:?}");
     };
     assert_eq!(
@@ -245,7 +247,12 @@ fn lights_are_placed_and_directed() {
         }
     );
     assert_eq!((point.kind, point.color), (LightKind::Point, [1.0; 3]));
-    assert_eq!(loaded.scene.info().lights, 3);
+    assert!(
+        matches!(hard.kind, LightKind::Spot { inner_angle, outer_angle }
+            if inner_angle < outer_angle && inner_angle > 0.49 && outer_angle == 0.5),
+        "{hard:?}"
+    );
+    assert_eq!(loaded.scene.info().lights, 4);
 }
 
 #[test]

@@ -165,6 +165,41 @@ fn check_bounds(entry: &Value, pose: &Pose, name: &str) {
     }
 }
 
+/// Where a file has tangents, those generated in their stead agree: the same sign of the bitangent,
+/// and nearly the same direction, nearly everywhere.
+#[test]
+fn generated_tangents_agree_with_those_of_files() {
+    let Some(folder) = shared("scenes") else {
+        return;
+    };
+    let folder = folder.join("FlightHelmet");
+    let text = std::fs::read_to_string(folder.join("FlightHelmet.gltf")).unwrap();
+    let tangents = |text: &str| {
+        let scene = Scene::from_slice(text.as_bytes(), "helmet", Some(&folder))
+            .unwrap()
+            .scene;
+        let geometry = scene.pose(&PoseRequest::default()).unwrap().geometry;
+        let corners = geometry.triangles.as_flattened().iter();
+        let tangents: Vec<[f32; 4]> = corners
+            .map(|&v| geometry.streams.tangents[v as usize])
+            .collect();
+        tangents
+    };
+    let given = tangents(&text);
+    let without = text.replace("\"TANGENT\"", "\"_TANGENT\"");
+    assert_ne!(without, text);
+    let generated = tangents(&without);
+    assert_eq!(given.len(), generated.len());
+    let agree = |(a, b): &(&[f32; 4], &[f32; 4])| {
+        let cosine: f32 = (0..3).map(|i| a[i] * b[i]).sum();
+        a[3] == b[3] && cosine > 0.95
+    };
+    let agreeing = given.iter().zip(&generated).filter(agree).count();
+    let share = agreeing as f64 / given.len() as f64;
+    eprintln!("{share} of the corners agree");
+    assert!(share > 0.97, "only {share} of the corners agree");
+}
+
 #[test]
 fn generated_suite_poses_but_for_two_incompatible_files() {
     let Some(folder) = shared("scenes/AssetGenerator") else {

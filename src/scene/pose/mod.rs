@@ -92,6 +92,13 @@ pub(super) fn pose(scene: &Scene, request: &PoseRequest) -> Result<Pose, SceneEr
         placements.extend(Placement::of_node(document, index, node, &state));
     }
     let geometry = assemble::assemble(scene, &placements, &mut warnings)?;
+    if geometry.triangles.is_empty() {
+        let place = match request.scene.or(document.default_scene) {
+            Some(index) => format!("/scenes/{index}"),
+            None => "/nodes".to_owned(),
+        };
+        warnings.push(&Fault::new(place, "there are no triangles to draw"));
+    }
     Ok(Pose {
         geometry,
         lights,

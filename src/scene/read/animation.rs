@@ -23,11 +23,13 @@ pub fn read_all(context: &mut Context<'_>, nodes: &[Node]) -> Result<Vec<Animati
         let parts = item
             .objects("samplers")
             .and_then(|samplers| Ok(Some((samplers, item.objects("channels")?))));
-        let (samplers, items) = context.tolerate(parts).unwrap_or_default();
+        let (samplers, items) = context
+            .tolerate(parts, "the animation does nothing")
+            .unwrap_or_default();
         let mut channels: Vec<Channel> = Vec::new();
         for channel in items {
             let read = read_channel(&channel, &samplers, context, nodes, &mut cache);
-            channels.extend(context.tolerate(read));
+            channels.extend(context.tolerate(read, "the channel is left out"));
         }
         animations.push(Animation {
             name: item.name(),
@@ -61,7 +63,7 @@ fn read_channel(
         && matches!(node.transform, Transform::Matrix(_))
     {
         return Err(target.fault(format!(
-            "nodes/{index} has a matrix, so that its {path:?} cannot be animated; left out"
+            "nodes/{index} has a matrix, so that its {path:?} cannot be animated"
         )));
     }
     let sampler = item

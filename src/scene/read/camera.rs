@@ -10,7 +10,7 @@ pub fn read_all(context: &mut Context<'_>) -> Result<Vec<Option<Camera>>, Fault>
     let items = context.root.objects("cameras")?;
     Ok(items
         .iter()
-        .map(|item| context.tolerate(read(item).map(Some)))
+        .map(|item| context.tolerate(read(item).map(Some), "the camera is left out"))
         .collect())
 }
 
@@ -38,7 +38,8 @@ fn read_perspective(item: &Item<'_>) -> Result<SceneProjection, Fault> {
     let far = item.get("zfar").map(|far| far.as_f64()).transpose()?;
     if near <= 0.0 || far.is_some_and(|far| far <= near) {
         return Err(item.fault(format!(
-            "the planes {near} and {far:?} are not positive and ascending"
+            "the planes {near} and {} are not positive and ascending",
+            far.unwrap_or(f64::INFINITY)
         )));
     }
     let aspect = item.get("aspectRatio").map(|a| a.as_f64()).transpose()?;

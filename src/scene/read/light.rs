@@ -5,6 +5,9 @@ use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 use super::{Context, json::Item};
 use crate::scene::{document::LightSource, error::Fault, light::LightKind};
 
+/// Largest inner angle of a spot light's cone, relative to the outer one.
+const HARDEST: f32 = 0.999;
+
 /// Reads all lights; `None` for those that cannot be used.
 pub fn read_all(context: &mut Context<'_>) -> Result<Vec<Option<LightSource>>, Fault> {
     let items = match context.root.extension("KHR_lights_punctual") {
@@ -15,7 +18,7 @@ pub fn read_all(context: &mut Context<'_>) -> Result<Vec<Option<LightSource>>, F
         .iter()
         .map(|item| {
             let light = read(item, context).map(Some);
-            context.tolerate(light)
+            context.tolerate(light, "the light is left out")
         })
         .collect())
 }
@@ -58,9 +61,17 @@ fn read_spot(item: &Item<'_>, context: &mut Context<'_>) -> Result<LightKind, Fa
     };
     let inner_angle = spot.f32_or("innerConeAngle", 0.0)?;
     let outer_angle = spot.f32_or("outerConeAngle", FRAC_PI_4)?;
-    if inner_angle < 0.0 || inner_angle >= outer_angle || outer_angle > FRAC_PI_2 {
-        return Err(spot.fault(format!(
-            "the angles {inner_angle} and {outer_angle} do not ascend from 0 to pi / 2"
+    if outer_angle <= 0.0 {
+        return Err(spot.fault(format!("an outer cone of {outer_angle} lets no light out")));
+    }
+    let (given_inner, given_outer) = (inner_angle, outer_angle);
+    let outer_angle = outer_angle.min(FRAC_PI_2);
+    // Exporters write equal angles for a hard edge.
+    let inner_angle = inner_angle.clamp(0.0, HARDEST * outer_angle);
+    if inner_angle != given_inner || outer_angle != given_outer {
+        context.warn(&spot.fault(format!(
+            "the angles {given_inner} and {given_outer} do not ascend from 0 to pi / 2; they are \
+             taken for {inner_angle} and {outer_angle}"
         )));
     }
     Ok(LightKind::Spot {

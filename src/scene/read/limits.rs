@@ -7,7 +7,7 @@ use crate::scene::error::Fault;
 /// Most triangles of a scene, and most vertices.
 pub const MAX_ELEMENTS: u64 = 1 << 27;
 /// Most instances of `EXT_mesh_gpu_instancing` in a file.
-const MAX_INSTANCES: u64 = 1 << 24;
+const MAX_INSTANCES: u64 = 1 << 22;
 
 /// What was read so far.
 #[derive(Debug, Default)]

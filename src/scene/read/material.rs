@@ -14,7 +14,11 @@ pub fn read_all(context: &mut Context<'_>) -> Result<Vec<Material>, Fault> {
     let mut materials = Vec::new();
     for item in context.root.objects("materials")? {
         let material = read(&item, context, textures).map(Some);
-        materials.push(context.tolerate(material).unwrap_or_default());
+        materials.push(
+            context
+                .tolerate(material, "the material takes the defaults")
+                .unwrap_or_default(),
+        );
     }
     materials.push(Material::default());
     Ok(materials)
@@ -29,7 +33,7 @@ fn read(item: &Item<'_>, context: &mut Context<'_>, textures: usize) -> Result<M
     };
     let mut texture = |item: Option<Item<'_>>| {
         let used = read_texture_use(&item?, textures);
-        context.tolerate(used.map(Some))
+        context.tolerate(used.map(Some), "the texture is left out")
     };
     if let Some(pbr) = item.get("pbrMetallicRoughness") {
         if let Some(color) = pbr.numbers::<4>("baseColorFactor")? {
@@ -77,7 +81,7 @@ fn read_texture_use(item: &Item<'_>, textures: usize) -> Result<TextureUse, Faul
     }
     if uv_set > 1 {
         return Err(item.fault(format!(
-            "uses TEXCOORD_{uv_set}; only the UV sets 0 and 1 are supported, the texture is left out"
+            "uses TEXCOORD_{uv_set}, but only the UV sets 0 and 1 are supported"
         )));
     }
     Ok(TextureUse {

@@ -30,7 +30,7 @@ pub fn read_all(
     for (index, item) in items.iter().enumerate().filter(|&(i, _)| used[i]) {
         primitives.extend(item.objects("primitives")?.into_iter().map(|p| (index, p)));
         if let Some(weights) = item.get("weights") {
-            let weights = context.tolerate(weights.as_numbers().map(Some));
+            let weights = context.tolerate(weights.as_numbers().map(Some), "the weights are 0");
             meshes[index].weights = weights.unwrap_or_default();
         }
     }

@@ -35,7 +35,7 @@ pub fn decode(extension: &Item<'_>, encoded: &[u8]) -> Result<Vec<u8>, Fault> {
     }
     let bytes = match ratio {
         ATTRIBUTE_RATIO => decode_attributes(encoded, count, stride),
-        TRIANGLE_RATIO if count % 3 != 0 => None,
+        TRIANGLE_RATIO if !count.is_multiple_of(3) => None,
         TRIANGLE_RATIO => match stride {
             2 => decode_index_buffer::<u16>(encoded, count)
                 .ok()
@@ -82,7 +82,7 @@ fn apply_filter(extension: &Item<'_>, bytes: Vec<u8>, stride: usize) -> Result<V
             Ok(to_bytes(values))
         }
         // Every component is decoded by itself, so the width of an element does not matter.
-        ("EXPONENTIAL", _) if stride % 4 == 0 => {
+        ("EXPONENTIAL", _) if stride.is_multiple_of(4) => {
             let mut values: Vec<[u32; 1]> = bytemuck::pod_collect_to_vec(&bytes);
             decode_filter_exp(&mut values);
             Ok(to_bytes(values))

@@ -62,10 +62,10 @@ impl Context<'_> {
         self.warnings.push(fault);
     }
 
-    /// Turns an error into a warning.
-    fn tolerate<T>(&mut self, result: Result<Option<T>, Fault>) -> Option<T> {
-        result.unwrap_or_else(|fault| {
-            self.warn(&fault);
+    /// Turns an error into a warning that says what follows from it.
+    fn tolerate<T>(&mut self, result: Result<Option<T>, Fault>, consequence: &str) -> Option<T> {
+        result.unwrap_or_else(|Fault { place, reason }| {
+            self.warn(&Fault::new(place, format!("{reason}; {consequence}")));
             None
         })
     }

@@ -75,18 +75,29 @@ fn read_node(item: &Item<'_>, context: &mut Context<'_>, counts: Counts) -> Resu
     let mesh = item.index("mesh", "meshes", counts.meshes)?;
     let skin = item.index("skin", "skins", counts.skins)?;
     let light = match item.extension("KHR_lights_punctual") {
-        Some(extension) => context.tolerate(extension.index("light", "lights", counts.lights)),
+        Some(extension) => context.tolerate(
+            extension.index("light", "lights", counts.lights),
+            "the node has no light",
+        ),
         None => None,
     };
-    let camera = context.tolerate(item.index("camera", "cameras", counts.cameras));
+    let camera = context.tolerate(
+        item.index("camera", "cameras", counts.cameras),
+        "the node has no camera",
+    );
     let weights = match item.get("weights") {
-        Some(weights) => context.tolerate(weights.as_numbers().map(Some)),
+        Some(weights) => {
+            context.tolerate(weights.as_numbers().map(Some), "the mesh's weights hold")
+        }
         None => None,
     };
     let instances = match item.extension("EXT_mesh_gpu_instancing") {
         Some(extension) if mesh.is_some() => Some(instance::read(&extension, context)?),
         _ => None,
     };
+    if skin.is_some() && instances.is_some() {
+        context.warn(&item.fault("a skin takes the place of the node's instances"));
+    }
     Ok(Node {
         name: item.name(),
         parent: None,
@@ -164,7 +175,10 @@ pub fn read_scenes(
         });
     }
     let root = context.root.clone();
-    let default = match context.tolerate(root.index("scene", "scenes", scenes.len())) {
+    let default = match context.tolerate(
+        root.index("scene", "scenes", scenes.len()),
+        "the first is the default",
+    ) {
         None if scenes.is_empty() => None,
         chosen => Some(chosen.unwrap_or(0)),
     };

@@ -81,17 +81,31 @@ impl Geometry for Surface<'_> {
 fn split(primitive: &mut Primitive, corners: &[Option<[f32; 4]>]) {
     let mut origins: Vec<u32> = Vec::new();
     let mut tangents: Vec<[f32; 4]> = Vec::new();
+    // Most vertices have one tangent: the newest of each is tried before the map of all.
+    let mut newest: Vec<Option<u32>> = vec![None; primitive.positions.len()];
     let mut places: HashMap<(u32, [u32; 4]), u32> = HashMap::new();
     let mut triangles = primitive.triangles.clone();
     for (corner, tangent) in triangles.as_flattened_mut().iter_mut().zip(corners) {
-        let tangent = tangent.unwrap_or_else(|| any_tangent(primitive, *corner as usize));
-        *corner = *places
-            .entry((*corner, tangent.map(f32::to_bits)))
-            .or_insert_with(|| {
-                origins.push(*corner);
-                tangents.push(tangent);
-                tangents.len() as u32 - 1
-            });
+        let origin = *corner;
+        let tangent = tangent.unwrap_or_else(|| any_tangent(primitive, origin as usize));
+        let newest = &mut newest[origin as usize];
+        if let Some(v) = *newest
+            && tangents[v as usize] == tangent
+        {
+            *corner = v;
+            continue;
+        }
+        let key = |tangent: [f32; 4]| (origin, tangent.map(f32::to_bits));
+        if let Some(v) = *newest {
+            places.insert(key(tangents[v as usize]), v);
+        }
+        let v = places.get(&key(tangent)).copied().unwrap_or_else(|| {
+            origins.push(origin);
+            tangents.push(tangent);
+            tangents.len() as u32 - 1
+        });
+        *newest = Some(v);
+        *corner = v;
     }
     primitive.tangents = tangents;
     primitive.triangles = triangles;

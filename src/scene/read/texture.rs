@@ -26,7 +26,10 @@ pub fn resolve(
         .filter_map(|index| {
             let item = items.get(index as usize)?;
             let wanted = read_texture(item, context, images.len());
-            Some((index, context.tolerate(wanted.map(Some))?))
+            Some((
+                index,
+                context.tolerate(wanted.map(Some), "the texture is left out")?,
+            ))
         })
         .collect();
 
@@ -86,7 +89,10 @@ fn read_texture(
     images: usize,
 ) -> Result<Wanted, Fault> {
     let webp = match item.extension("EXT_texture_webp") {
-        Some(extension) => context.tolerate(extension.index("source", "images", images)),
+        Some(extension) => context.tolerate(
+            extension.index("source", "images", images),
+            "the fallback is used",
+        ),
         None => None,
     };
     let fallback = item.index("source", "images", images)?;
@@ -100,7 +106,9 @@ fn read_texture(
     Ok(Wanted {
         webp,
         fallback,
-        sampler: context.tolerate(sampler).unwrap_or_default(),
+        sampler: context
+            .tolerate(sampler, "the sampler takes the defaults")
+            .unwrap_or_default(),
     })
 }
 
