@@ -44,9 +44,11 @@ Candidate load_candidate(uint first, uint index, vec2 center) {
     k.depth = s.depth; k.near = s.near; k.far = s.far; k.id = index + 1u;
 #else
     int o = int(first + index) * 4;
-    vec4 q0 = texelFetch(candidates, o), q1 = texelFetch(candidates, o + 1), q2 = texelFetch(candidates, o + 2), q3 = texelFetch(candidates, o + 3);
+    uvec4 last = texelFetch(candidates, o + 3);
+    vec4 q0 = uintBitsToFloat(texelFetch(candidates, o)), q1 = uintBitsToFloat(texelFetch(candidates, o + 1));
+    vec4 q2 = uintBitsToFloat(texelFetch(candidates, o + 2)), q3 = uintBitsToFloat(last);
     k.a = vec3(q0.x, q0.w, q1.z); k.b = vec3(q0.y, q1.x, q1.w); k.c = vec3(q0.z, q1.y, q2.x);
-    k.depth = q2.yzw; k.near = q3.x; k.far = q3.y; k.id = floatBitsToUint(q3.z);
+    k.depth = q2.yzw; k.near = q3.x; k.far = q3.y; k.id = last.z;
 #endif
     return k;
 }
@@ -83,6 +85,20 @@ bool covers(Candidate k, vec3 least, vec2 p, out float depth) {
 uint pack_location(vec2 offset) {
     ivec2 q = clamp(ivec2(round(offset * 65536.0)), ivec2(-32768), ivec2(32767));
     return uint(q.x & 0xffff) | uint(q.y) << 16;
+}
+
+// The record of triangle `wanted` in a block of samples: how many see it, and their centroid.
+uvec4 merged(uint id[ROWS], vec2 offset[ROWS], uint wanted, uint packed_pixel) {
+    float n = 0.0;
+    vec2 sum = vec2(0.0);
+    [[unroll]] for (int g = 0; g < ROWS; g++) {
+        bool same = id[g] == wanted;
+        n += same ? 1.0 : 0.0;
+        sum += same ? offset[g] : vec2(0.0);
+    }
+    n = subgroupAdd(n);
+    sum = vec2(subgroupAdd(sum.x), subgroupAdd(sum.y));
+    return uvec4(packed_pixel, wanted, pack_location(sum / n), uint(n));
 }
 
 void main() {
@@ -124,7 +140,6 @@ void main() {
             uint id[ROWS];
             [[unroll]] for (int g = 0; g < ROWS; g++) { depth[g] = 0.0; id[g] = 0u; }
             float hidden = 0.0;     // nothing farther than this shows in the cell
-            uint passed = 0u;
 
             uint chunk = 0u;
             do {
@@ -144,7 +159,6 @@ void main() {
                 touches = touches && !blend && min(middle + slope, k.near) >= hidden;
 
                 uint pending = subgroupBallot(touches && !mask_).x;
-                passed += uint(bitCount(pending));
                 do {
                     bool some = pending != 0u;
                     Candidate t = shuffle_candidate(k, some ? uint(findLSB(pending)) : 0u);
@@ -161,18 +175,17 @@ void main() {
 
                 if (HAS_MASK) {
                     pending = subgroupBallot(touches && mask_).x;
-                    passed += uint(bitCount(pending));
-                    do {
+                        do {
                         bool some = pending != 0u;
                         Candidate t = shuffle_candidate(k, some ? uint(findLSB(pending)) : 0u);
                         pending &= pending - 1u;
                         vec3 least = some ? thresholds(t) : vec3(3.4e38);
-                        float cutoff = alpha_cutoff(t.id - 1u);
+                        AlphaTest test = alpha_test(t.id - 1u, center, at);
                         [[unroll]] for (int g = 0; g < ROWS; g++) {
                             float d;
                             bool inside = covers(t, least, at + offset[g], d);
                             bool wins = inside && (d > depth[g] || (d == depth[g] && t.id < id[g]));
-                            wins = wins && alpha_at(t.id - 1u, center + at + offset[g]) >= cutoff;
+                            wins = wins && alpha_passes(test, at + offset[g]);
                             depth[g] = wins ? d : depth[g];
                             id[g] = wins ? t.id : id[g];
                         }
@@ -253,59 +266,52 @@ void main() {
             } while (more);
             if (subgroupElect() && lost != 0u) atomicAdd(counters[COUNTER_UNFINISHED], 1u);
 #else
-            // A sample sees at most one triangle, a triangle makes at most one record.
-            uint wanted = PER_SAMPLE ? block_samples : min(passed, block_samples);
-            uint base = 0u;
-            if (subgroupElect()) base = atomicAdd(counters[COUNTER_RECORDS], wanted);
-            base = subgroupBroadcastFirst(base);
-            bool fits = base + wanted <= frame.record_capacity;
-            if (subgroupElect() && !fits) atomicAdd(counters[COUNTER_UNFINISHED], 1u);
             [[unroll]] for (int g = 0; g < ROWS; g++)
                 id[g] = uint(g) * LANES + lane < block_samples ? id[g] : 0u;
             uint used = 0u;
+            uvec4 held = uvec4(0u);     // an invocation holds a record
+            if (PER_SAMPLE) {
+                used = block_samples;
+            } else {
+                uint seen = 0u;
+                bool some;
+                do {
+                    uint current = ~0u;
+                    [[unroll]] for (int g = 0; g < ROWS; g++) current = min(current, id[g] > seen ? id[g] : ~0u);
+                    current = subgroupMin(current);
+                    some = current != ~0u;
+                    uvec4 record = merged(id, offset, current, packed_pixel);
+                    held = some && used == lane ? record : held;
+                    used += some ? 1u : 0u;
+                    seen = current;
+                } while (some);
+            }
+            uint base = 0u;
+            if (subgroupElect() && used != 0u) base = atomicAdd(counters[COUNTER_RECORDS], used);
+            base = subgroupBroadcastFirst(base);
+            bool fits = base + used <= frame.record_capacity;
+            if (subgroupElect() && !fits) atomicAdd(counters[COUNTER_UNFINISHED], 1u);
             if (PER_SAMPLE) {
                 [[unroll]] for (int g = 0; g < ROWS; g++) {
                     uint s = uint(g) * LANES + lane;
                     if (fits && s < block_samples)
                         imageStore(records_out, int(base + s), uvec4(packed_pixel, id[g], pack_location(offset[g]), 1u));
                 }
-                used = fits ? block_samples : 0u;
             } else {
-                uint current = ~0u;
-                [[unroll]] for (int g = 0; g < ROWS; g++) current = min(current, id[g] - 1u);
-                current = subgroupMin(current);
-                uvec4 held = uvec4(0u);
-                do {
-                    bool some = current != ~0u;
-                    uint seen = current + 1u;
-                    float n = 0.0;
-                    vec2 sum = vec2(0.0);
-                    [[unroll]] for (int g = 0; g < ROWS; g++) {
-                        bool same = id[g] == seen;
-                        n += same ? 1.0 : 0.0;
-                        sum += same ? offset[g] : vec2(0.0);
-                    }
-                    n = subgroupAdd(n);
-                    sum = vec2(subgroupAdd(sum.x), subgroupAdd(sum.y));
-                    uvec4 record = uvec4(packed_pixel, seen, pack_location(sum / n), uint(n));
-                    held = some && used % LANES == lane ? record : held;
-                    used += some ? 1u : 0u;
-                    bool flush = some && used % LANES == 0u;
-                    if (flush && fits) imageStore(records_out, int(base + used - LANES + lane), held);
-                    current = ~0u;
-                    [[unroll]] for (int g = 0; g < ROWS; g++) current = min(current, id[g] > seen ? id[g] - 1u : ~0u);
-                    current = some ? subgroupMin(current) : ~0u;
-                } while (current != ~0u);
-                uint kept = used - used % LANES;
-                if (fits && lane < used - kept) imageStore(records_out, int(base + kept + lane), held);
-                // Slots reserved for candidates that show nowhere are empty.
-                uint empty = used + lane;
-                while (empty < wanted) {
-                    if (fits) imageStore(records_out, int(base + empty), uvec4(packed_pixel, 0u, 0u, 0u));
-                    empty += LANES;
+                if (fits && lane < used) imageStore(records_out, int(base + lane), held);
+                // More triangles than invocations to hold them: the others once more, each stored as it is found.
+                uint seen = subgroupMax(lane < used ? held.y : 0u), stored = min(used, LANES);
+                while (stored < used) {
+                    uint current = ~0u;
+                    [[unroll]] for (int g = 0; g < ROWS; g++) current = min(current, id[g] > seen ? id[g] : ~0u);
+                    current = subgroupMin(current);
+                    uvec4 record = merged(id, offset, current, packed_pixel);
+                    if (fits && subgroupElect() && stored < used) imageStore(records_out, int(base + stored), record);
+                    seen = current;
+                    stored++;
                 }
-                used = fits ? used : 0u;
             }
+            used = fits ? used : 0u;
             if (subgroupElect()) headers[min(header_index, frame.record_capacity - 1u)] = uvec2(base, used);
 #endif
         } while (++cell < cells);
