@@ -51,7 +51,7 @@ struct Light {
     vec4 offset;            // x = spot angular offset
 };
 layout(std430, set = 0, binding = 8) readonly buffer Lights { Light lights[]; };
-layout(std430, set = 0, binding = 9) readonly buffer AlphaAtlas { uint alpha_atlas[]; };
+layout(set = 0, binding = 9) uniform utextureBuffer alpha_atlas;    // see alpha.glsl
 
 layout(set = 0, binding = 10) uniform textureBuffer clip;
 layout(set = 0, binding = 11, rgba32f) uniform writeonly imageBuffer clip_out;
