@@ -30,7 +30,7 @@ layout(constant_id = 4) const uint LIST = 0u;           // which of the tile lis
 
 const uint BLOCK = ROWS * LANES;
 const float CELL_REACH = 0.5 + 1.0 / 64.0;              // half a cell, and some rounding
-const uint KEPT = 32u;                                  // room for candidates of a cell
+const uint KEPT = 96u;                                  // room for candidates of a cell
 const float OUTSIDE = 1.1754944e-38;                    // the least E of a sample off the owning side
 
 shared uint kept[32 * KEPT];                            // by invocation, then entry
