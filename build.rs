@@ -1,1 +1,217 @@
-fn main() {}
+//! SPIR-V for the crate: the checked-in `shaders/spirv`, verified to be made from the sources beside
+//! it, or, with the feature `compile-shaders`, compiled afresh.
+//!
+//! `GPC_SPIRV=write` (with the feature) replaces the checked-in files, `GPC_SPIRV=check` fails where they differ.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Name of the compiled shader, its source, its macro definitions.
+const VARIANTS: &[(&str, &str, &[(&str, &str)])] = &[
+    ("transform", "transform.comp", &[]),
+    ("raster_vertex", "raster.vert", &[]),
+    ("raster_opaque", "raster.frag", &[]),
+    ("raster_masked", "raster.frag", &[("MASKED", "")]),
+    ("raster_opaque_bytes", "raster.frag", &[("BYTES", "")]),
+    (
+        "raster_masked_bytes",
+        "raster.frag",
+        &[("MASKED", ""), ("BYTES", "")],
+    ),
+    ("detect", "detect.comp", &[]),
+    (
+        "detect_multisampled",
+        "detect.comp",
+        &[("MULTISAMPLED", "")],
+    ),
+    ("cull", "cull.comp", &[]),
+    ("bin", "bin.comp", &[]),
+    ("schedule", "schedule.comp", &[]),
+    ("arguments", "arguments.comp", &[]),
+    ("sample_1", "sample.comp", &[("ROWS", "1")]),
+    ("sample_2", "sample.comp", &[("ROWS", "2")]),
+    ("sample_8", "sample.comp", &[("ROWS", "8")]),
+    ("sample_32", "sample.comp", &[("ROWS", "32")]),
+    (
+        "sample_chained_1",
+        "sample.comp",
+        &[("ROWS", "1"), ("CHAINED", "")],
+    ),
+    (
+        "sample_chained_8",
+        "sample.comp",
+        &[("ROWS", "8"), ("CHAINED", "")],
+    ),
+    (
+        "sample_unlisted_1",
+        "sample.comp",
+        &[("ROWS", "1"), ("UNLISTED", "")],
+    ),
+    (
+        "sample_unlisted_8",
+        "sample.comp",
+        &[("ROWS", "8"), ("UNLISTED", "")],
+    ),
+    (
+        "sample_chained_unlisted_1",
+        "sample.comp",
+        &[("ROWS", "1"), ("CHAINED", ""), ("UNLISTED", "")],
+    ),
+    (
+        "sample_chained_unlisted_8",
+        "sample.comp",
+        &[("ROWS", "8"), ("CHAINED", ""), ("UNLISTED", "")],
+    ),
+    ("sort", "sort.comp", &[]),
+    ("shade", "shade.comp", &[]),
+    ("resolve", "resolve.comp", &[]),
+    ("box_filter", "box_filter.comp", &[]),
+    ("multisample", "multisample.comp", &[]),
+    ("attributes", "attributes.comp", &[]),
+    ("encode", "encode.comp", &[]),
+];
+
+fn main() {
+    println!("cargo:rerun-if-changed=shaders");
+    println!("cargo:rerun-if-changed=build.rs");
+    println!("cargo:rerun-if-env-changed=GPC_SPIRV");
+    let root =
+        PathBuf::from(std::env::var("CARGO_MANIFEST_DIR").expect("cargo sets CARGO_MANIFEST_DIR"));
+    let out = PathBuf::from(std::env::var("OUT_DIR").expect("cargo sets OUT_DIR"));
+    let sources = root.join("shaders");
+    let checked_in = sources.join("spirv");
+    let folder = spirv(&sources, &checked_in, &out);
+    let mut code = String::new();
+    for (name, source, _) in VARIANTS {
+        let path = folder.join(format!("{name}.spv"));
+        writeln!(
+            code,
+            "/// `shaders/{source}`\npub static {}: &[u8] = include_bytes!({:?});",
+            name.to_uppercase(),
+            path
+        )
+        .expect("writing to a string");
+    }
+    fs::write(out.join("spirv.rs"), code).expect("OUT_DIR is writable");
+}
+
+/// A fingerprint of every source file and of the list of variants (64-bit FNV-1a).
+fn fingerprint(sources: &Path) -> String {
+    let mut files: Vec<PathBuf> = [sources.to_path_buf(), sources.join("include")]
+        .iter()
+        .flat_map(|folder| {
+            fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()))
+        })
+        .map(|entry| entry.expect("a folder's entry").path())
+        .filter(|path| path.is_file())
+        .collect();
+    files.sort();
+    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+    let mut add = |bytes: &[u8]| {
+        for byte in bytes.iter().filter(|byte| **byte != b'\r') {
+            hash = (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    };
+    for file in &files {
+        add(file.file_name().expect("a file's name").as_encoded_bytes());
+        add(&fs::read(file).unwrap_or_else(|e| panic!("{}: {e}", file.display())));
+    }
+    add(format!("{VARIANTS:?}").as_bytes());
+    format!("{hash:016x}\n")
+}
+
+#[cfg(not(feature = "compile-shaders"))]
+fn spirv(sources: &Path, checked_in: &Path, _out: &Path) -> PathBuf {
+    let made_from = fs::read_to_string(checked_in.join("fingerprint")).unwrap_or_default();
+    assert!(
+        made_from.trim() == fingerprint(sources).trim(),
+        "\n\nshaders/spirv is not what shaders/ compiles to: run `make shaders` (needs cmake and a C++ compiler) and commit the result\n"
+    );
+    checked_in.to_path_buf()
+}
+
+#[cfg(feature = "compile-shaders")]
+fn spirv(sources: &Path, checked_in: &Path, out: &Path) -> PathBuf {
+    let compiled = compile(sources);
+    let mode = std::env::var("GPC_SPIRV").unwrap_or_default();
+    let folder = out.join("spirv");
+    fs::create_dir_all(&folder).expect("OUT_DIR is writable");
+    if mode == "write" {
+        let _ = fs::remove_dir_all(checked_in);
+        fs::create_dir_all(checked_in).expect("shaders/ is writable");
+        fs::write(checked_in.join("fingerprint"), fingerprint(sources))
+            .expect("shaders/spirv is writable");
+    }
+    if mode == "check" {
+        let made_from = fs::read_to_string(checked_in.join("fingerprint")).unwrap_or_default();
+        assert!(
+            made_from == fingerprint(sources),
+            "\n\nshaders/spirv/fingerprint is stale: run `make shaders`\n"
+        );
+    }
+    for (name, words) in compiled {
+        let file = format!("{name}.spv");
+        if mode == "write" {
+            fs::write(checked_in.join(&file), &words).expect("shaders/spirv is writable");
+        }
+        if mode == "check" {
+            let found = fs::read(checked_in.join(&file)).unwrap_or_default();
+            assert!(
+                found == words,
+                "\n\nshaders/spirv/{file} is not what its source compiles to: run `make shaders`\n"
+            );
+        }
+        fs::write(folder.join(&file), &words).expect("OUT_DIR is writable");
+    }
+    folder
+}
+
+#[cfg(feature = "compile-shaders")]
+fn compile(sources: &Path) -> Vec<(&'static str, Vec<u8>)> {
+    let compiler = shaderc::Compiler::new().expect("shaderc starts");
+    VARIANTS
+        .iter()
+        .map(|(name, source, definitions)| {
+            let mut options = shaderc::CompileOptions::new().expect("shaderc options");
+            options.set_target_env(
+                shaderc::TargetEnv::Vulkan,
+                shaderc::EnvVersion::Vulkan1_3 as u32,
+            );
+            options.set_optimization_level(shaderc::OptimizationLevel::Performance);
+            options.set_include_callback(|requested, _, from, _| {
+                let nested = Path::new(from)
+                    .parent()
+                    .map(|folder| sources.join(folder).join(requested));
+                let path = nested
+                    .filter(|path| path.is_file())
+                    .unwrap_or_else(|| sources.join(requested));
+                let content =
+                    fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+                let resolved_name = path
+                    .strip_prefix(sources)
+                    .unwrap_or(&path)
+                    .display()
+                    .to_string();
+                Ok(shaderc::ResolvedInclude {
+                    resolved_name,
+                    content,
+                })
+            });
+            for (key, value) in *definitions {
+                options.add_macro_definition(key, Some(value));
+            }
+            let kind = match Path::new(source).extension().and_then(|e| e.to_str()) {
+                Some("vert") => shaderc::ShaderKind::Vertex,
+                Some("frag") => shaderc::ShaderKind::Fragment,
+                _ => shaderc::ShaderKind::Compute,
+            };
+            let text = fs::read_to_string(sources.join(source))
+                .unwrap_or_else(|e| panic!("shaders/{source}: {e}"));
+            let artifact = compiler
+                .compile_into_spirv(&text, kind, source, "main", Some(&options))
+                .unwrap_or_else(|e| panic!("\n\nshaders/{source} as {name}:\n{e}\n"));
+            (*name, artifact.as_binary_u8().to_vec())
+        })
+        .collect()
+}

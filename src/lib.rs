@@ -2,4 +2,10 @@
 
 #![warn(missing_docs)]
 
+pub mod camera;
+pub mod passes;
+pub mod reference;
+pub mod render;
+pub mod sampling;
 pub mod scene;
+pub mod vulkan;

@@ -92,6 +92,32 @@ impl Default for Material {
     }
 }
 
+impl Material {
+    /// The textures that the material uses, in the order of its fields.
+    pub fn textures(&self) -> impl Iterator<Item = TextureUse> + use<> {
+        [
+            self.base_color_texture,
+            self.metallic_roughness_texture,
+            self.normal_texture,
+            self.occlusion_texture,
+            self.emissive_texture,
+        ]
+        .into_iter()
+        .flatten()
+    }
+
+    /// The same for change.
+    pub(super) fn texture_slots(&mut self) -> [&mut Option<TextureUse>; 5] {
+        [
+            &mut self.base_color_texture,
+            &mut self.metallic_roughness_texture,
+            &mut self.normal_texture,
+            &mut self.occlusion_texture,
+            &mut self.emissive_texture,
+        ]
+    }
+}
+
 /// Texel filter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Filter {

@@ -1,16 +1,104 @@
-//! The scene: what a glTF file holds, and its triangles in the pose of one moment.
+//! The scene: what a glTF 2.0 file holds, and its triangles in the pose of one moment.
 //!
-//! Nothing here knows of Vulkan. [`load`](fn@load::load) reads a file into a [`Scene`];
-//! [`Scene::pose`] flattens one of its scenes into world-space [`Geometry`] that a renderer uploads.
+//! Nothing here knows of Vulkan. [`Scene::load`] reads a file; [`Scene::pose`] flattens one of its
+//! scenes into world-space [`Geometry`] that a renderer uploads.
+//!
+//! ```no_run
+//! use gpc::scene::{PoseRequest, Scene};
+//!
+//! let loaded = Scene::load("ship.glb".as_ref())?;
+//! for warning in &loaded.warnings {
+//!     eprintln!("{warning}");
+//! }
+//! let pose = loaded.scene.pose(&PoseRequest::default())?;
+//! println!("{} triangles", pose.geometry.triangles.len());
+//! # Ok::<(), gpc::scene::SceneError>(())
+//! ```
+//!
+//! Supported extensions: `KHR_lights_punctual`, `KHR_materials_emissive_strength`,
+//! `KHR_materials_unlit`, `KHR_mesh_quantization`, `KHR_texture_transform`,
+//! `EXT_mesh_gpu_instancing`, `EXT_meshopt_compression`, `EXT_texture_webp`. A file that requires
+//! another one is refused.
 
+mod document;
+mod error;
 mod geometry;
+mod info;
 mod light;
 mod material;
+mod pose;
+mod read;
 mod view;
 
+use std::{path::Path, sync::Arc};
+
+pub use error::SceneError;
 pub use geometry::{Draw, DrawClass, Geometry, VertexStreams};
+pub use info::{AlphaModes, AnimationInfo, CameraInfo, ImageInfo, SceneInfo, SceneNames};
 pub use light::{Light, LightKind};
 pub use material::{
     AlphaMode, Filter, Image, Material, Sampler, Texture, TextureTransform, TextureUse, Wrap,
 };
+pub use pose::{Pose, PoseRequest};
 pub use view::{SceneCamera, SceneProjection};
+
+/// A file's content, checked and decoded.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// The file's materials in its order, glTF's default material appended for primitives without
+    /// one; never empty.
+    pub materials: Vec<Material>,
+    /// The textures that materials use.
+    pub textures: Vec<Texture>,
+    /// The images that textures use.
+    pub images: Vec<Image>,
+    document: document::Document,
+}
+
+/// A scene, and what is doubtful about it.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// The scene.
+    pub scene: Scene,
+    /// One sentence each: the file, the place in it, and what was left out or replaced why.
+    pub warnings: Vec<String>,
+}
+
+impl Scene {
+    /// Reads a `.glb` or `.gltf` file, told apart by content. Relative URIs start from its folder.
+    ///
+    /// # Errors
+    /// If the file cannot be read, is not glTF 2.0, requires an extension that is not supported, or
+    /// if anything that has to be drawn is broken: see [`SceneError`].
+    pub fn load(path: &Path) -> Result<Loaded, SceneError> {
+        let file = path.display().to_string();
+        let bytes = std::fs::read(path).map_err(|source| SceneError::Read {
+            file: file.clone(),
+            source: Arc::new(source),
+        })?;
+        Self::from_slice(&bytes, &file, path.parent())
+    }
+
+    /// Reads the bytes of a `.glb` or `.gltf` file. Messages call it `name`; relative URIs start
+    /// from the folder `base`, without which they are errors where they are needed.
+    ///
+    /// # Errors
+    /// As [`load`](Self::load).
+    pub fn from_slice(bytes: &[u8], name: &str, base: Option<&Path>) -> Result<Loaded, SceneError> {
+        read::read(bytes, name, base)
+    }
+
+    /// The triangles, lights and cameras of one scene at one moment.
+    ///
+    /// # Errors
+    /// If the file has no such scene or animation, or if repetition makes the scene too large.
+    pub fn pose(&self, request: &PoseRequest) -> Result<Pose, SceneError> {
+        pose::pose(self, request)
+    }
+
+    /// A summary of the file.
+    #[must_use]
+    pub fn info(&self) -> SceneInfo {
+        info::summarize(self)
+    }
+}

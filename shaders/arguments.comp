@@ -1,0 +1,34 @@
+// arguments: what was counted on the GPU becomes the size of the dispatches that follow; nothing is read back.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "include/frame.glsl"
+layout(local_size_x = 1) in;
+layout(constant_id = 0) const uint AFTER = 0u;
+const uint DETECT = 0u, CULL = 1u, SAMPLE = 2u, COUNT = 3u;
+
+uvec4 groups(uint n) {
+    return n == 0u ? uvec4(0u) : uvec4(min(n, 32768u), (n + 32767u) / 32768u, 1u, 0u);
+}
+
+void main() {
+    if (AFTER == DETECT) {
+        arguments[ARGUMENT_CULL] = counters[COUNTER_TILES] == 0u ? uvec4(0u) : groups((frame.triangle_count + 511u) / 512u);
+    } else if (AFTER == CULL) {
+        arguments[ARGUMENT_BIN_SMALL] = groups((counters[COUNTER_SURVIVORS] + 63u) / 64u);
+        arguments[ARGUMENT_BIN_LARGE] = groups(counters[COUNTER_LARGE]);
+    } else if (AFTER == SAMPLE) {
+        uint n = min(counters[COUNTER_RECORDS], frame.record_capacity);
+        counters[COUNTER_RECORDS_TOTAL] += n;
+        arguments[ARGUMENT_SORT] = groups((n + 63u) / 64u);
+    } else {
+        // Bins one after the other; the dispatch of each begins at its first record.
+        uint first = 0u;
+        for (uint b = 0u; b < frame.bin_count; b++) {
+            uint n = bins[b].x;
+            bins[b] = uvec4(n, first, first, 0u);
+            arguments[ARGUMENT_SHADE + b] = groups((n + 63u) / 64u);
+            first += n;
+        }
+        counters[COUNTER_SHADED_TOTAL] += first;
+    }
+}

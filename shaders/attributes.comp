@@ -1,0 +1,27 @@
+// attributes: what the centre of a pixel sees besides its colour, where the caller asked for it.
+// Reads: ids, clip, triangles, normals, masks. Writes: two vectors a pixel:
+// (distance along the view direction, ID's bits, sub-samples, superpixel 0 or 1), (world normal, 0).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "include/frame.glsl"
+#include "include/barycentric.glsl"
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 36, rgba32f) uniform writeonly imageBuffer attributes_out;
+
+void main() {
+    uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    if (i >= frame.size.x * frame.size.y) return;
+    uvec2 pixel = uvec2(i % frame.size.x, i / frame.size.x);
+    uint id = texelFetch(ids, ivec2(pixel), 0).x;
+    ivec3 v = ivec3(texelFetch(triangles, int(max(id, 1u) - 1u)).xyz);
+    Barycentric w = barycentric(texelFetch(clip, v.x), texelFetch(clip, v.y), texelFetch(clip, v.z), frame.origin + vec2(pixel));
+    mat3 world = mat3(texelFetch(positions, v.x).xyz, texelFetch(positions, v.y).xyz, texelFetch(positions, v.z).xyz);
+    float distance_ = dot(world * w.at - frame.eye.xyz, frame.view_direction.xyz);
+    vec3 n = mat3(texelFetch(normals, v.x).xyz, texelFetch(normals, v.y).xyz, texelFetch(normals, v.z).xyz) * w.at;
+    n *= inversesqrt(max(dot(n, n), 1e-30));
+    uint tile = pixel.y / 4u * frame.tiles.x + pixel.x / 8u;
+    bool super = (masks[tile] >> (pixel.y % 4u * 8u + pixel.x % 8u) & 1u) != 0u;
+    bool hit = id != 0u;
+    imageStore(attributes_out, int(2u * i), vec4(hit ? distance_ : 0.0, uintBitsToFloat(id), super ? float(frame.sample_count) : 1.0, super ? 1.0 : 0.0));
+    imageStore(attributes_out, int(2u * i + 1u), vec4(hit ? n : vec3(0.0), 0.0));
+}

@@ -1,0 +1,23 @@
+// box_filter: k x k supersampled pixels to one output pixel.
+// Reads: color of a region at k times the resolution (linear light, as in the output). Writes: filtered.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "include/frame.glsl"
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 35, rgba32f) uniform writeonly imageBuffer filtered;
+
+layout(push_constant) uniform Push { uint side; } push;
+
+void main() {
+    uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    uvec2 size = frame.size / push.side;
+    if (i >= size.x * size.y) return;
+    uvec2 low = uvec2(i % size.x, i / size.x) * push.side;
+    vec4 sum = vec4(0.0);
+    for (uint y = 0u; y < push.side; y++) {
+        vec4 row = vec4(0.0);
+        for (uint x = 0u; x < push.side; x++) row += imageLoad(color, int((low.y + y) * frame.size.x + low.x + x));
+        sum += row;
+    }
+    imageStore(filtered, int(i), sum / float(push.side * push.side));
+}

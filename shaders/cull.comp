@@ -1,0 +1,70 @@
+// cull: keeps the triangles that can touch a superpixel; counts the others by reason.
+// Reads: triangles, clip, masks. Writes: survivors (small from the front, large ones from the back), counters.
+// Small triangles go to one invocation each in `bin`, large ones to a workgroup each.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "include/frame.glsl"
+#include "include/tiles.glsl"
+layout(local_size_x = 64) in;
+
+const int SMALL_TILES = 16;
+const uint PER_INVOCATION = 8u;
+
+uint append(uint counter, bool wanted) {
+    uvec4 ballot = subgroupBallot(wanted);
+    uint base = 0u;
+    if (subgroupElect()) base = atomicAdd(counters[counter], subgroupBallotBitCount(ballot));
+    return subgroupBroadcastFirst(base) + subgroupBallotExclusiveBitCount(ballot);
+}
+
+void main() {
+    uint outside = 0u, backfacing = 0u, degenerate = 0u, untouching = 0u;
+    uint first = gl_WorkGroupID.x * 64u * PER_INVOCATION + gl_LocalInvocationID.x;
+    uint step_ = 0u;
+    do {
+        uint t = first + step_ * 64u;
+        bool exists = t < frame.triangle_count;
+        uvec4 indices = texelFetch(triangles, int(min(t, frame.triangle_count - 1u)));
+        vec4 v0 = texelFetch(clip, int(indices.x)), v1 = texelFetch(clip, int(indices.y)), v2 = texelFetch(clip, int(indices.z));
+        Footprint f = footprint_of(v0, v1, v2);
+        bool is_outside = exists && f.outside;
+        Setup s = setup_triangle(v0, v1, v2, frame.origin, false);
+        bool is_degenerate = exists && !is_outside && !s.valid;
+        bool culled = (indices.w >> 31) == 0u;
+        bool is_backfacing = exists && !is_outside && !is_degenerate && culled && !s.facing;
+        bool candidate = exists && !is_outside && !is_degenerate && !is_backfacing;
+
+        ivec2 low = f.low / ivec2(8, 4), high = f.high / ivec2(8, 4);
+        int count = (high.x - low.x + 1) * (high.y - low.y + 1);
+        bool large = candidate && count > SMALL_TILES;
+        ivec2 tile = low;
+        uint touched = 0u;
+        int left = candidate && !large ? count : 1;
+        do {
+            touched |= masks[tile.y * int(frame.tiles.x) + tile.x] & footprint_mask(f, tile);
+            bool wrap = tile.x == high.x;
+            tile = wrap ? ivec2(low.x, tile.y + 1) : tile + ivec2(1, 0);
+        } while (--left > 0);
+        bool small = candidate && !large && touched != 0u;
+
+        uint slot = append(COUNTER_SURVIVORS, small);
+        if (small) survivors[slot] = t;
+        slot = append(COUNTER_LARGE, large);
+        if (large) survivors[frame.triangle_count - 1u - slot] = t;
+        outside += uint(is_outside);
+        degenerate += uint(is_degenerate);
+        backfacing += uint(is_backfacing);
+        untouching += uint(candidate && !large && touched == 0u);
+    } while (++step_ < PER_INVOCATION);
+
+    outside = subgroupAdd(outside);
+    backfacing = subgroupAdd(backfacing);
+    degenerate = subgroupAdd(degenerate);
+    untouching = subgroupAdd(untouching);
+    if (subgroupElect()) {
+        atomicAdd(counters[COUNTER_OUTSIDE], outside);
+        atomicAdd(counters[COUNTER_BACKFACING], backfacing);
+        atomicAdd(counters[COUNTER_DEGENERATE], degenerate);
+        atomicAdd(counters[COUNTER_UNTOUCHING], untouching);
+    }
+}

@@ -1,0 +1,122 @@
+// detect: which pixels are superpixels, one bit a pixel in a word a tile of 8 x 4 pixels.
+// A pixel is one if any of its 8 neighbours shows another triangle (opaque or the nearest BLEND one) in a
+// contrasting colour, by display-encoded 8-bit codes. Twin: src/reference/detect.rs.
+// Reads: ids, blend_ids, display. Writes: masks, COUNTER_SUPERPIXELS, COUNTER_TILES.
+// An invocation takes a tile: it keeps rows in registers and compares every pair of neighbours once.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "include/frame.glsl"
+layout(local_size_x = 64) in;
+
+layout(constant_id = 0) const uint MODE = 0u;
+const uint CONTRAST = 0u, EXACT = 1u, COLOUR = 2u, BLENDED = 3u, EVERY = 4u;
+layout(constant_id = 1) const bool HAS_BLEND = false;
+
+// The nearest BLEND triangle at a pixel; multisampled, that of any of its samples.
+uint blend_at(ivec2 p) {
+#ifdef MULTISAMPLED
+    uint any_id = 0u;
+    for (int s = 0; s < int(frame.sample_count); s++) any_id |= packUnorm4x8(texelFetch(blend_ids_ms, p, s));
+    return any_id;
+#else
+    return texelFetch(blend_ids, p, 0).x;
+#endif
+}
+
+uint field_limit, field_mask;
+
+// Three 8-bit channels apart in 11-bit fields, so that one subtraction compares all of them: a field holds
+// 512 + contrast + a - b, whose bit 9 is set where a - b >= -contrast, and its complement where a - b <= contrast.
+uint spread(uint c) {
+    return (c & 0xffu) | (c & 0xff00u) << 3 | (c & 0xff0000u) << 6;
+}
+
+bool contrasting(uint a, uint b) {
+    uint u = a - b + field_limit;
+    return (u & (2u * field_limit - u) & field_mask) != field_mask;
+}
+
+bool differs(uint id_a, uint id_b, uint blend_a, uint blend_b, uint color_a, uint color_b) {
+    bool other = id_a != id_b || (HAS_BLEND && blend_a != blend_b);
+    if (MODE == EXACT) return other;
+    bool contrast = contrasting(color_a, color_b);
+    return MODE == COLOUR ? contrast : other && contrast;
+}
+
+void main() {
+    uint tile = gl_GlobalInvocationID.x;
+    uint tile_count = frame.tiles.x * frame.tiles.y;
+    bool inside = tile < tile_count;
+    tile = min(tile, tile_count - 1u);
+    ivec2 base = ivec2(tile % frame.tiles.x * 8u, tile / frame.tiles.x * 4u);
+    ivec2 last = ivec2(frame.size) - 1;
+    field_limit = (512u + frame.contrast) * 0x400801u;
+    field_mask = 512u * 0x400801u;
+
+    uint word = 0u, previous_row = 0u;
+    if (MODE == EVERY) {
+        word = ~0u;
+    } else if (MODE == BLENDED) {
+        for (int i = 0; i < 32; i++) {
+            ivec2 p = min(base + ivec2(i & 7, i >> 3), last);
+            word |= blend_at(p) != 0u ? 1u << i : 0u;
+        }
+    } else {
+        uint id[10], blend[10], code[10], above_id[10], above_blend[10], above_code[10];
+        for (int i = 0; i < 10; i++) {
+            above_id[i] = 0u; above_blend[i] = 0u; above_code[i] = 0u; blend[i] = 0u;
+        }
+        [[unroll]] for (int r = -1; r <= 4; r++) {
+            int y = clamp(base.y + r, 0, last.y);
+            [[unroll]] for (int i = 0; i < 10; i++) {
+                ivec2 p = ivec2(clamp(base.x - 1 + i, 0, last.x), y);
+                id[i] = texelFetch(ids, p, 0).x;
+                if (HAS_BLEND) blend[i] = blend_at(p);
+                code[i] = MODE == EXACT ? 0u : spread(texelFetch(display, p.y * int(frame.size.x) + p.x).x);
+            }
+            uint row = 0u, above = 0u;
+            if (r >= 0 && r < 4) {
+                [[unroll]] for (int i = 0; i < 9; i++)
+                    row |= differs(id[i], id[i + 1], blend[i], blend[i + 1], code[i], code[i + 1]) ? 3u << i : 0u;
+            }
+            if (r >= 0) {
+                [[unroll]] for (int i = 1; i < 9; i++) {
+                    uint bit = differs(id[i], above_id[i], blend[i], above_blend[i], code[i], above_code[i]) ? 1u << i : 0u;
+                    row |= bit;
+                    above |= bit;
+                }
+                [[unroll]] for (int i = 0; i < 9; i++) {
+                    bool falling = differs(above_id[i], id[i + 1], above_blend[i], blend[i + 1], above_code[i], code[i + 1]);
+                    row |= falling ? 2u << i : 0u;
+                    above |= falling ? 1u << i : 0u;
+                    bool rising = differs(above_id[i + 1], id[i], above_blend[i + 1], blend[i], above_code[i + 1], code[i]);
+                    row |= rising ? 1u << i : 0u;
+                    above |= rising ? 2u << i : 0u;
+                }
+            }
+            if (r >= 1) word |= ((previous_row | above) >> 1 & 255u) << (8 * (r - 1));
+            previous_row = row;
+            [[unroll]] for (int i = 0; i < 10; i++) {
+                above_id[i] = id[i];
+                above_blend[i] = blend[i];
+                above_code[i] = code[i];
+            }
+        }
+    }
+
+    // Pixels of the halo belong to another region; beyond the border there are none.
+    ivec2 low = clamp(ivec2(frame.interior_low) - base, ivec2(0), ivec2(8, 4));
+    ivec2 high = clamp(ivec2(frame.interior_high) - base, ivec2(0), ivec2(8, 4));
+    uint columns = ((1u << high.x) - 1u) & ~((1u << low.x) - 1u);
+    uint owned = columns * 0x01010101u;
+    owned &= (high.y >= 4 ? ~0u : (1u << (high.y * 8)) - 1u) & ~(low.y >= 4 ? ~0u : (1u << (low.y * 8)) - 1u);
+    word &= inside ? owned : 0u;
+
+    if (inside) masks[tile] = word;
+    uint pixels = subgroupAdd(uint(bitCount(word)));
+    uint busy = uint(bitCount(subgroupBallot(word != 0u).x)) + uint(bitCount(subgroupBallot(word != 0u).y));
+    if (subgroupElect() && pixels != 0u) {
+        atomicAdd(counters[COUNTER_SUPERPIXELS], pixels);
+        atomicAdd(counters[COUNTER_TILES], busy);
+    }
+}

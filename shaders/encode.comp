@@ -1,0 +1,22 @@
+// encode: the region's colours in the format of a host's image, ready to be copied into it.
+// Reads: color (linear light, premultiplied). Writes: encoded, rows packed.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "include/frame.glsl"
+#include "include/color.glsl"
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint FORMAT = 0u;
+const uint RGBA8_SRGB = 0u, RGBA16F = 1u;
+layout(std430, set = 0, binding = 37) writeonly buffer Encoded { uint encoded[]; };
+
+void main() {
+    uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    if (i >= frame.size.x * frame.size.y) return;
+    vec4 c = imageLoad(color, int(i));
+    if (FORMAT == RGBA8_SRGB) {
+        encoded[i] = packUnorm4x8(vec4(srgb_encode(c.rgb), c.a));
+    } else {
+        encoded[2u * i] = packHalf2x16(c.rg);
+        encoded[2u * i + 1u] = packHalf2x16(c.ba);
+    }
+}

@@ -1,0 +1,89 @@
+// What every pass of one frame reads and writes: one uniform block, one descriptor set.
+// The host's twin is `src/passes/frame.rs`; a test compares both sides.
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_EXT_control_flow_attributes : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_ballot : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+#extension GL_KHR_shader_subgroup_vote : require
+
+// Pixel positions are relative to the screen's centre, x right, y down. A region is the part of
+// the screen at hand; pixel (0, 0) is its upper left one.
+layout(set = 0, binding = 0) uniform Frame {
+    mat4 transform;         // position -> (pixel x * w, pixel y * w, z, w)
+    vec4 eye;               // xyz relative to the geometry's origin
+    vec4 view_direction;    // xyz unit; w = 1 for a parallel projection
+    vec4 background;        // premultiplied linear light
+    vec2 raster_scale;      // pixel position -> normalised device coordinates of the region
+    vec2 raster_offset;
+    vec2 origin;            // position of the centre of the region's pixel (0, 0)
+    uvec2 size;             // region in pixels
+    uvec2 tiles;            // region in tiles of 8 x 4 pixels, rounded up
+    uvec2 interior_low;     // pixels that the region owns, the rest being halo for detection
+    uvec2 interior_high;    // exclusive
+    uint vertex_count;
+    uint triangle_count;
+    uint first_mask;        // index of the first MASK triangle
+    uint first_blend;       // index of the first BLEND triangle
+    uint sample_count;      // sub-samples of a cell
+    uint list_capacity;     // candidates
+    uint record_capacity;   // visibility records
+    uint bin_count;         // material bins
+    uint light_count;
+    uint contrast;          // code values; more than this is a contrast
+    float exposure;         // factor on radiance
+    float footprint;        // output pixels a region pixel's side measures, inverted: k for k x k supersampling
+} frame;
+
+layout(set = 0, binding = 1) uniform textureBuffer positions;
+layout(set = 0, binding = 2) uniform utextureBuffer triangles;   // vertex indices; material | bin << 16
+layout(set = 0, binding = 3) uniform textureBuffer normals;
+layout(set = 0, binding = 4) uniform textureBuffer tangents;
+layout(set = 0, binding = 5) uniform textureBuffer uvs;
+layout(set = 0, binding = 6) uniform textureBuffer colors;
+
+struct Material {
+    vec4 base_color;
+    vec4 emissive_metallic;
+    vec4 roughness_normal_occlusion_cutoff;
+    uvec4 alpha;            // atlas: first word of level 0, width | height << 16, levels | nearest << 8, flags
+    vec4 uv_rows[10];       // two rows a texture: (m00, m01, m02, uv set), (m10, m11, m12, 0)
+};
+layout(std430, set = 0, binding = 7) readonly buffer Materials { Material materials[]; };
+struct Light {
+    vec4 position_range;    // xyz relative to the geometry's origin; w = 1 / range^2, 0 for none
+    vec4 direction_kind;    // xyz unit; w = 0 directional, 1 point, 2 spot
+    vec4 color_scale;       // rgb; w = spot angular scale
+    vec4 offset;            // x = spot angular offset
+};
+layout(std430, set = 0, binding = 8) readonly buffer Lights { Light lights[]; };
+layout(std430, set = 0, binding = 9) readonly buffer AlphaAtlas { uint alpha_atlas[]; };
+
+layout(set = 0, binding = 10) uniform textureBuffer clip;
+layout(set = 0, binding = 11, rgba32f) uniform writeonly imageBuffer clip_out;
+layout(set = 0, binding = 12) uniform utexture2D ids;
+layout(set = 0, binding = 13) uniform utexture2D blend_ids;
+layout(set = 0, binding = 14) uniform texture2DMS ids_ms;
+layout(set = 0, binding = 15) uniform texture2DMS blend_ids_ms;
+layout(set = 0, binding = 16) uniform utextureBuffer display;
+layout(set = 0, binding = 17, r32ui) uniform writeonly uimageBuffer display_out;
+layout(set = 0, binding = 18, rgba32f) uniform imageBuffer color;
+layout(std430, set = 0, binding = 19) buffer Counters { uint counters[]; };
+layout(std430, set = 0, binding = 20) buffer Masks { uint masks[]; };
+layout(std430, set = 0, binding = 21) buffer Tiles { uvec4 tiles[]; };   // candidates, first, first header, flags
+layout(std430, set = 0, binding = 22) buffer TileLists { uint tile_lists[]; };
+layout(std430, set = 0, binding = 23) buffer Survivors { uint survivors[]; };
+layout(set = 0, binding = 24) uniform textureBuffer candidates;
+layout(set = 0, binding = 25, rgba32f) uniform writeonly imageBuffer candidates_out;
+layout(std430, set = 0, binding = 26) buffer Headers { uvec2 headers[]; };  // first record, count
+layout(set = 0, binding = 27) uniform utextureBuffer records;
+layout(set = 0, binding = 28, rgba32ui) uniform writeonly uimageBuffer records_out;
+layout(set = 0, binding = 29) uniform textureBuffer shaded;
+layout(set = 0, binding = 30, rgba32f) uniform writeonly imageBuffer shaded_out;
+layout(std430, set = 0, binding = 31) buffer ShadeOrder { uint shade_order[]; };
+layout(set = 0, binding = 32) uniform textureBuffer locations;              // sub-sample offsets, pixels
+layout(std430, set = 0, binding = 33) buffer Bins { uvec4 bins[]; };        // count, first, cursor, 0
+layout(std430, set = 0, binding = 34) buffer Arguments { uvec4 arguments[]; }; // indirect dispatches
+
+#include "counters.glsl"

@@ -1,0 +1,96 @@
+// Triangle setup for exact sampling: from clip-space vertices to edge functions around a point.
+//
+// An edge function E(x, y) = A x + B y + C is positive inside. Its coefficients depend on the edge's two
+// end points alone and change nothing but sign when these are swapped, so two triangles that share
+// an edge agree on every sample: `precise` keeps the compiler from contracting a product on one side
+// only. A sample with E = 0 belongs to the side where A > 0 or A = 0 and B > 0.
+// Coefficients are relative to `center`, so that their rounding is that of small numbers.
+#ifndef SETUP_GLSL
+#define SETUP_GLSL
+
+struct Edge { float a, b, c; };
+
+// Beyond this distance from `center` a vertex keeps its homogeneous form.
+const float PROJECT_LIMIT = 16384.0;
+
+bool projectable(vec4 v) {
+    return v.w > 0.0 && max(abs(v.x), abs(v.y)) < PROJECT_LIMIT * v.w;
+}
+
+Edge edge_projected(vec2 p, vec2 q) {
+    precise float a = p.y - q.y;
+    precise float b = q.x - p.x;
+    precise float l = p.x * q.y;
+    precise float r = p.y * q.x;
+    precise float c = l - r;
+    return Edge(a, b, c);
+}
+
+// Olano and Greer, "Triangle Scan Conversion using 2D Homogeneous Coordinates" (1997): needs no clipping.
+Edge edge_homogeneous(vec3 p, vec3 q) {
+    precise float al = p.y * q.z; precise float ar = p.z * q.y; precise float a = al - ar;
+    precise float bl = p.z * q.x; precise float br = p.x * q.z; precise float b = bl - br;
+    precise float cl = p.x * q.y; precise float cr = p.y * q.x; precise float c = cl - cr;
+    return Edge(a, b, c);
+}
+
+struct Setup {
+    vec3 a, b, c;       // edge functions opposite to vertices 0, 1, 2; inside positive
+    vec3 depth;         // depth = x * depth.x + y * depth.y + depth.z, larger is nearer
+    float near, far;    // largest and smallest depth at the vertices
+    bool valid;         // has area and, if culled, faces the camera
+    bool facing;
+};
+
+// `center` is subtracted from the projected vertices.
+vec4 relative_to(vec4 v, vec2 center) {
+    precise float x = v.x - center.x * v.w;
+    precise float y = v.y - center.y * v.w;
+    return vec4(x, y, v.zw);
+}
+
+Setup setup_triangle(vec4 c0, vec4 c1, vec4 c2, vec2 center, bool cull) {
+    Setup s;
+    vec4 v0 = relative_to(c0, center), v1 = relative_to(c1, center), v2 = relative_to(c2, center);
+    bool p0 = projectable(v0), p1 = projectable(v1), p2 = projectable(v2);
+    vec2 q0 = v0.xy / v0.w, q1 = v1.xy / v1.w, q2 = v2.xy / v2.w;
+    Edge e0 = edge_projected(q1, q2), e1 = edge_projected(q2, q0), e2 = edge_projected(q0, q1);
+    bool all_projected = p0 && p1 && p2;
+    if (!all_projected) {
+        Edge h0 = edge_homogeneous(v1.xyw, v2.xyw), h1 = edge_homogeneous(v2.xyw, v0.xyw), h2 = edge_homogeneous(v0.xyw, v1.xyw);
+        if (!(p1 && p2)) e0 = h0;
+        if (!(p2 && p0)) e1 = h1;
+        if (!(p0 && p1)) e2 = h2;
+        float det = dot(vec3(h0.c, h1.c, h2.c), vec3(v0.w, v1.w, v2.w));
+        // det scales with w^3; where the unprojected sum cancels to 0 the triangle is seen edge-on.
+        s.facing = det < 0.0;
+        s.valid = det != 0.0 && !isnan(det) && !isinf(det);
+        float inverse = 1.0 / det;
+        s.depth = (vec3(h0.a, h0.b, h0.c) * v0.z + vec3(h1.a, h1.b, h1.c) * v1.z + vec3(h2.a, h2.b, h2.c) * v2.z) * inverse;
+        s.near = 3.4e38;
+        s.far = -3.4e38;
+    } else {
+        precise vec2 d1 = q1 - q0, d2 = q2 - q0;
+        precise float l = d1.x * d2.y, r = d1.y * d2.x;
+        precise float area = l - r;
+        s.facing = area < 0.0;
+        s.valid = area != 0.0;
+        float z0 = v0.z / v0.w, z1 = v1.z / v1.w, z2 = v2.z / v2.w;
+        // Differences from a vertex keep the depth of tiny triangles; the clamp to the vertices' range bounds that of slivers.
+        float inverse = 1.0 / area;
+        float gx = ((z1 - z0) * d2.y - (z2 - z0) * d1.y) * inverse;
+        float gy = ((z2 - z0) * d1.x - (z1 - z0) * d2.x) * inverse;
+        s.depth = vec3(gx, gy, z0 - gx * q0.x - gy * q0.y);
+        s.near = max(z0, max(z1, z2));
+        s.far = min(z0, min(z1, z2));
+    }
+    // y points down, so a front face, counter-clockwise to the eye, has a negative determinant.
+    float sign_ = s.facing ? -1.0 : 1.0;
+    s.a = vec3(e0.a, e1.a, e2.a) * sign_;
+    s.b = vec3(e0.b, e1.b, e2.b) * sign_;
+    s.c = vec3(e0.c, e1.c, e2.c) * sign_;
+    s.valid = s.valid && (s.facing || !cull);
+    return s;
+}
+
+#endif

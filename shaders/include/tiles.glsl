@@ -1,0 +1,59 @@
+// Which tiles of 8 x 4 pixels a triangle touches; `cull` and `bin` decide alike.
+#ifndef TILES_GLSL
+#define TILES_GLSL
+#include "setup.glsl"
+
+struct Footprint {
+    ivec2 low, high;    // touched pixels of the region, inclusive
+    bool outside;       // of the region
+    bool unprojected;   // has a vertex at or behind the eye, or very far off the region
+};
+
+const float HALF_PIXEL = 0.5;
+
+// Pixels whose square the triangle's bounding box touches; a sub-sample lies within half a pixel of a centre.
+Footprint footprint_of(vec4 c0, vec4 c1, vec4 c2) {
+    Footprint f;
+    vec4 v0 = relative_to(c0, frame.origin), v1 = relative_to(c1, frame.origin), v2 = relative_to(c2, frame.origin);
+    vec2 limit = vec2(frame.size) - 0.5;
+    f.unprojected = !(projectable(v0) && projectable(v1) && projectable(v2));
+    vec2 q0 = v0.xy / v0.w, q1 = v1.xy / v1.w, q2 = v2.xy / v2.w;
+    vec2 low = min(q0, min(q1, q2)), high = max(q0, max(q1, q2));
+    // Homogeneous half-space tests need no division: all vertices on the outer side of one border.
+    bvec2 before = bvec2(
+        v0.x < -HALF_PIXEL * v0.w && v1.x < -HALF_PIXEL * v1.w && v2.x < -HALF_PIXEL * v2.w,
+        v0.y < -HALF_PIXEL * v0.w && v1.y < -HALF_PIXEL * v1.w && v2.y < -HALF_PIXEL * v2.w);
+    bvec2 after = bvec2(
+        v0.x > limit.x * v0.w && v1.x > limit.x * v1.w && v2.x > limit.x * v2.w,
+        v0.y > limit.y * v0.w && v1.y > limit.y * v1.w && v2.y > limit.y * v2.w);
+    bool clipped = (v0.z > v0.w && v1.z > v1.w && v2.z > v2.w) || (v0.z < 0.0 && v1.z < 0.0 && v2.z < 0.0);
+    bool finite = !(isnan(v0.x + v0.y + v0.z + v0.w + v1.x + v1.y + v1.z + v1.w + v2.x + v2.y + v2.z + v2.w));
+    f.outside = any(before) || any(after) || clipped || !finite;
+    low = f.unprojected ? vec2(0.0) : low;
+    high = f.unprojected ? limit : high;
+    f.low = ivec2(clamp(floor(low + 0.5), vec2(0.0), vec2(frame.size) - 1.0));
+    f.high = ivec2(clamp(floor(high + 0.5), vec2(0.0), vec2(frame.size) - 1.0));
+    return f;
+}
+
+// The pixels of tile `tile` within the footprint, as bits of a mask word.
+uint footprint_mask(Footprint f, ivec2 tile) {
+    ivec2 low = clamp(f.low - tile * ivec2(8, 4), ivec2(0), ivec2(8, 4));
+    ivec2 high = clamp(f.high - tile * ivec2(8, 4) + 1, ivec2(0), ivec2(8, 4));
+    uint columns = ((1u << high.x) - 1u) & ~((1u << low.x) - 1u);
+    uint rows = (high.y >= 4 ? ~0u : (1u << (high.y * 8)) - 1u) & ~(low.y >= 4 ? ~0u : (1u << (low.y * 8)) - 1u);
+    return columns * 0x01010101u & rows;
+}
+
+// Position of a tile's centre.
+vec2 tile_center(ivec2 tile) {
+    return frame.origin + vec2(tile * ivec2(8, 4)) + vec2(3.5, 1.5);
+}
+
+// Flags in tiles[].w; the length of a placed list stands above them.
+#define TILE_HAS_MASK 1u
+#define TILE_HAS_BLEND 2u
+#define TILE_LISTED 4u
+#define TILE_COUNT_SHIFT 8
+
+#endif

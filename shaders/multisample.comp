@@ -1,0 +1,53 @@
+// multisample: what the device's own multisampling saw, as visibility records: one a triangle a pixel, at the
+// pixel's centre, weighted by its samples. From there on `shade` and `resolve` are those of superpixels.
+// Reads: ids_ms. Writes: records, headers, tiles, tile_lists, arguments; every tile is PLAIN and in this round.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "include/frame.glsl"
+#include "include/tiles.glsl"
+layout(local_size_x = 64) in;
+
+uint sample_id(ivec2 pixel, int s) {
+    return packUnorm4x8(texelFetch(ids_ms, pixel, s));
+}
+
+void main() {
+    uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    uint tile_count = frame.tiles.x * frame.tiles.y;
+    uint tile = i / 32u, bit = i % 32u;
+    bool exists = tile < tile_count;
+    tile = min(tile, tile_count - 1u);
+    uvec2 pixel = uvec2(tile % frame.tiles.x, tile / frame.tiles.x) * uvec2(8u, 4u) + uvec2(bit & 7u, bit >> 3);
+    bool inside = exists && all(lessThan(pixel, frame.size));
+    ivec2 at = ivec2(min(pixel, frame.size - 1u));
+    // Every pixel has as many slots as samples; tiles are whole, so that headers follow the mask's bits.
+    uint first = (tile * 32u + bit) * frame.sample_count;
+    uint used = 0u, previous = 0u;
+    bool more;
+    do {
+        uint next = ~0u, n = 0u;
+        for (uint s = 0u; s < frame.sample_count; s++) {
+            uint id = sample_id(at, int(s));
+            bool smaller = id > previous && id < next;
+            n = smaller ? 1u : n + uint(id == next);
+            next = smaller ? id : next;
+        }
+        more = next != ~0u;
+        if (more && inside) imageStore(records_out, int(first + used), uvec4(pixel.x | pixel.y << 16, next, 0u, n));
+        used += more ? 1u : 0u;
+        previous = next;
+    } while (more);
+    for (uint s = used; s < frame.sample_count; s++)
+        if (exists) imageStore(records_out, int(first + s), uvec4(0u));
+    if (exists) headers[tile * 32u + bit] = uvec2(first, inside ? used : 0u);
+    if (exists && bit == 0u) {
+        tile_lists[tile] = tile;
+        masks[tile] = ~0u;
+        tiles[tile] = uvec4(0u, 0u, tile * 32u, 0u);
+    }
+    if (i == 0u) {
+        counters[COUNTER_RECORDS] = tile_count * 32u * frame.sample_count;
+        counters[COUNTER_PLAIN_TILES] = tile_count;
+        arguments[ARGUMENT_SAMPLE_PLAIN] = uvec4(min(tile_count, 32768u), (tile_count + 32767u) / 32768u, 1u, 0u);
+    }
+}

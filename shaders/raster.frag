@@ -1,0 +1,27 @@
+// raster: one triangle ID a pixel, or a sample under MSAA; colours are made by `shade`.
+// MASKED discards where alpha is below the cutoff. BYTES splits the ID over four 8-bit channels, since a
+// multisampled attachment need not hold integers.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "include/frame.glsl"
+layout(location = 0) flat in uint triangle_id;
+#ifdef BYTES
+layout(location = 0) out vec4 id;
+#else
+layout(location = 0) out uint id;
+#endif
+#ifdef MASKED
+#include "include/alpha.glsl"
+#endif
+
+void main() {
+#ifdef MASKED
+    vec2 p = frame.origin + floor(gl_FragCoord.xy);
+    if (alpha_at(triangle_id - 1u, p) < alpha_cutoff(triangle_id - 1u)) discard;
+#endif
+#ifdef BYTES
+    id = unpackUnorm4x8(triangle_id);
+#else
+    id = triangle_id;
+#endif
+}

@@ -1,0 +1,91 @@
+// resolve: the colour of each superpixel, from its shaded records.
+// Sub-samples are tone-mapped one by one, then averaged in linear light; alpha is coverage.
+// Reads: tile_lists, tiles, masks, headers, records, shaded. Writes: color and, where asked, display.
+// CHAINED records are layers over an opaque surface, composited per sample from the farthest to the nearest.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "include/frame.glsl"
+#include "include/tiles.glsl"
+#include "include/color.glsl"
+layout(local_size_x_id = 0) in;
+layout(constant_id = 1) const uint LANES = 8u;
+layout(constant_id = 2) const uint BLOCK = 256u;
+layout(constant_id = 3) const bool CHAINED = false;
+layout(constant_id = 4) const uint LIST = 0u;
+layout(constant_id = 5) const bool DISPLAY_CODES = false;
+
+// One sample's layers, from its opaque surface on.
+vec4 composite(uint node) {
+    uvec4 record = texelFetch(records, int(node));
+    bool background = record.y == 0u;
+    vec4 c = background ? frame.background : texelFetch(shaded, int(node));
+    bool untouched = background && record.w == ~0u;
+    vec4 flat_background = c;
+    while (record.w != ~0u) {
+        node = record.w;
+        record = texelFetch(records, int(node));
+        vec4 layer = texelFetch(shaded, int(node));
+        c = vec4(layer.rgb * layer.a, layer.a) + c * (1.0 - layer.a);
+    }
+    return untouched ? flat_background : to_output(c);
+}
+
+void write(uvec2 pixel, vec4 c) {
+    uint at = pixel.y * frame.size.x + pixel.x;
+    imageStore(color, int(at), c);
+    if (DISPLAY_CODES) imageStore(display_out, int(at), uvec4(display_code(c)));
+}
+
+void main() {
+    uint tile_count = frame.tiles.x * frame.tiles.y;
+    uint entry = gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u;
+    if (entry >= counters[COUNTER_PLAIN_TILES + LIST]) return;
+    uint lane = gl_SubgroupInvocationID;
+    uint tile = tile_lists[LIST * tile_count + entry];
+    uint word = masks[tile];
+    uint first_header = tiles[tile].z;
+    uvec2 corner = uvec2(tile % frame.tiles.x, tile / frame.tiles.x) * uvec2(8u, 4u);
+    uint blocks = (frame.sample_count + BLOCK - 1u) / BLOCK;
+    float share = 1.0 / float(frame.sample_count);
+
+    if (CHAINED) {
+        // A cell at a time, an invocation a sample.
+        uint rest = word, cell = 0u;
+        while (rest != 0u) {
+            uint bit = uint(findLSB(rest));
+            rest &= rest - 1u;
+            vec4 sum = vec4(0.0);
+            for (uint block = 0u; block < blocks; block++) {
+                uvec2 h = headers[min(first_header + cell * blocks + block, frame.record_capacity - 1u)];
+                for (uint s = lane; s < h.y; s += LANES)
+                    if (h.x + s < frame.record_capacity) sum += composite(h.x + s);
+            }
+            sum = vec4(subgroupAdd(sum.x), subgroupAdd(sum.y), subgroupAdd(sum.z), subgroupAdd(sum.w)) * share;
+            if (subgroupElect()) write(corner + uvec2(bit & 7u, bit >> 3), sum);
+            cell++;
+        }
+    } else {
+        // An invocation a cell.
+        uint bit = lane;
+        do {
+            bool mine = (word >> bit & 1u) != 0u;
+            uint cell = uint(bitCount(word & ((1u << bit) - 1u)));
+            vec4 sum = vec4(0.0);
+            float covered = 0.0;
+            uint block = 0u;
+            do {
+                uvec2 h = mine ? headers[min(first_header + cell * blocks + block, frame.record_capacity - 1u)] : uvec2(0u);
+                for (uint r = 0u; r < h.y; r++) {
+                    float weight = float(texelFetch(records, int(h.x + r)).w);
+                    uint id = texelFetch(records, int(h.x + r)).y;
+                    weight = id == 0u ? 0.0 : weight;
+                    sum += id == 0u ? vec4(0.0) : weight * to_output(vec4(texelFetch(shaded, int(h.x + r)).rgb, 1.0));
+                    covered += weight;
+                }
+            } while (++block < blocks);
+            sum = (sum + frame.background * (float(frame.sample_count) - covered)) * share;
+            if (mine) write(corner + uvec2(bit & 7u, bit >> 3), sum);
+            bit += LANES;
+        } while (bit < 32u);
+    }
+}

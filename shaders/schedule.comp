@@ -1,0 +1,108 @@
+// schedule: places the candidate lists of as many tiles as fit, from where the last round ended, and sorts
+// these tiles by what their samples need: PLAIN, MASKED (alpha tests), BLENDED (chains of layers) or UNLISTED
+// (a list that outgrows the buffer: every triangle is a candidate).
+// Reads: tiles (counts from `bin`), masks. Writes: tiles, tile_lists, arguments of the round, counters.
+// One subgroup does it all, in tile order, so that a round's content is the same in every run.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "include/frame.glsl"
+#include "include/tiles.glsl"
+layout(local_size_x_id = 0) in;
+layout(constant_id = 1) const uint PLAIN_BLOCK = 256u;      // samples a pass of the kernel
+layout(constant_id = 2) const uint LAYERED_BLOCK = 64u;
+layout(constant_id = 3) const bool PER_SAMPLE = false;
+layout(constant_id = 4) const uint LAYERS = 4u;             // BLEND layers a sample that a tile is admitted with
+
+uvec4 groups(uint n) {
+    return n == 0u ? uvec4(0u) : uvec4(min(n, 32768u), (n + 32767u) / 32768u, 1u, 0u);
+}
+
+void main() {
+    uint lane = gl_SubgroupInvocationID, lanes = gl_SubgroupSize;
+    uint tile_count = frame.tiles.x * frame.tiles.y;
+    bool any_tile = counters[COUNTER_TILES] != 0u;
+    uint start = any_tile ? counters[COUNTER_NEXT_TILE] : tile_count;
+    uint previous = any_tile ? counters[COUNTER_ROUND_FIRST] : tile_count;
+    // Lists of the round before are spent.
+    uint p = previous + lane;
+    while (p < start) {
+        tiles[p].w = 0u;
+        p += lanes;
+    }
+
+    uint list_used = 0u, records_used = 0u, headers_used = 0u, unlisted_samples = 0u;
+    uint plain = 0u, masked = 0u, blended = 0u, unlisted = 0u;
+    uint next = start;
+    bool open_ = start < tile_count;
+    while (open_) {
+        uint tile = next + lane;
+        bool exists = tile < tile_count;
+        uint word = exists ? masks[tile] : 0u;
+        uvec4 t = exists ? tiles[tile] : uvec4(0u);
+        uint cells = bitCount(word);
+        bool busy = cells != 0u;
+        bool listed = busy && t.x <= frame.list_capacity;
+        bool blend = (t.w & TILE_HAS_BLEND) != 0u, mask_ = (t.w & TILE_HAS_MASK) != 0u;
+        uint block = blend || mask_ || !listed ? LAYERED_BLOCK : PLAIN_BLOCK;
+        uint blocks = (frame.sample_count + block - 1u) / block;
+        uint candidates_ = listed ? t.x : frame.triangle_count;
+        uint per_cell = blend || (!listed && frame.first_blend < frame.triangle_count)
+            ? frame.sample_count * (1u + min(candidates_, LAYERS))
+            : PER_SAMPLE ? frame.sample_count : min(blocks * min(candidates_, block), frame.sample_count);
+        uint list_need = listed ? t.x : 0u, record_need = cells * per_cell, header_need = cells * blocks;
+        uint list_first = list_used + subgroupExclusiveAdd(list_need);
+        uint record_end = records_used + subgroupInclusiveAdd(record_need);
+        uint header_first = headers_used + subgroupExclusiveAdd(header_need);
+        bool fits = list_first + list_need <= frame.list_capacity
+            && max(record_end, header_first + header_need) <= frame.record_capacity;
+        // The first tile of a round is always taken: what does not fit then is counted by `sample`.
+        fits = fits || (next == start && lane == 0u);
+        uvec4 refused = subgroupBallot(!fits);
+        uint taken = subgroupBallotBitCount(refused) == 0u ? lanes : subgroupBallotFindLSB(refused);
+        bool mine = busy && lane < taken;
+        if (mine) {
+            tiles[tile] = uvec4(t.x, list_first, header_first,
+                (t.w & (TILE_HAS_MASK | TILE_HAS_BLEND)) | (listed ? TILE_LISTED : 0u) | (listed ? t.x : 0u) << TILE_COUNT_SHIFT);
+        }
+        bool is_unlisted = mine && !listed, is_blended = mine && listed && blend;
+        bool is_masked = mine && listed && !blend && mask_, is_plain = mine && listed && !blend && !mask_;
+        uvec4 b = subgroupBallot(is_plain);
+        if (is_plain) tile_lists[plain + subgroupBallotExclusiveBitCount(b)] = tile;
+        plain += subgroupBallotBitCount(b);
+        b = subgroupBallot(is_masked);
+        if (is_masked) tile_lists[tile_count + masked + subgroupBallotExclusiveBitCount(b)] = tile;
+        masked += subgroupBallotBitCount(b);
+        b = subgroupBallot(is_blended);
+        if (is_blended) tile_lists[2u * tile_count + blended + subgroupBallotExclusiveBitCount(b)] = tile;
+        blended += subgroupBallotBitCount(b);
+        b = subgroupBallot(is_unlisted);
+        if (is_unlisted) tile_lists[3u * tile_count + unlisted + subgroupBallotExclusiveBitCount(b)] = tile;
+        unlisted += subgroupBallotBitCount(b);
+        list_used += subgroupAdd(mine ? list_need : 0u);
+        records_used += subgroupAdd(mine ? record_need : 0u);
+        headers_used += subgroupAdd(mine ? header_need : 0u);
+        next += taken;
+        open_ = taken == lanes && next < tile_count;
+    }
+    next = min(next, tile_count);
+
+    if (subgroupElect()) {
+        bool idle = plain + masked + blended + unlisted == 0u;
+        counters[COUNTER_ROUND_FIRST] = start;
+        counters[COUNTER_NEXT_TILE] = next;
+        counters[COUNTER_RECORDS] = 0u;
+        counters[COUNTER_PLAIN_TILES] = plain;
+        counters[COUNTER_MASKED_TILES] = masked;
+        counters[COUNTER_BLENDED_TILES] = blended;
+        counters[COUNTER_UNLISTED_TILES] = unlisted;
+        counters[COUNTER_ROUNDS] += idle ? 0u : 1u;
+        counters[COUNTER_CANDIDATES_TOTAL] += list_used;
+        counters[COUNTER_UNLISTED_TOTAL] += unlisted;
+        arguments[ARGUMENT_BIN_SMALL] = idle ? uvec4(0u) : groups((counters[COUNTER_SURVIVORS] + 63u) / 64u);
+        arguments[ARGUMENT_BIN_LARGE] = idle ? uvec4(0u) : groups(counters[COUNTER_LARGE]);
+        arguments[ARGUMENT_SAMPLE_PLAIN] = groups(plain);
+        arguments[ARGUMENT_SAMPLE_MASKED] = groups(masked);
+        arguments[ARGUMENT_SAMPLE_BLENDED] = groups(blended);
+        arguments[ARGUMENT_SAMPLE_UNLISTED] = groups(unlisted);
+    }
+}

@@ -1,0 +1,172 @@
+// shade: the radiance of what raster or the sub-samples see, one dispatch a material bin.
+// Sources: PIXELS (the centre of every pixel, by the IDs of raster) or visibility records at their location.
+// Reads: shade_order, ids or records, clip, the geometry, textures. Writes: color and display, or shaded.
+// Linear light throughout. Texture levels follow the footprint of an output pixel, whatever the sampling rate.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "include/frame.glsl"
+#include "include/color.glsl"
+#include "include/barycentric.glsl"
+#include "include/brdf.glsl"
+#include "include/studio.glsl"
+layout(local_size_x = 64) in;
+
+layout(constant_id = 0) const bool PIXELS = false;
+layout(constant_id = 1) const bool ORDERED = true;      // several bins: take the entries of mine
+layout(constant_id = 2) const bool DISPLAY_CODES = false;
+layout(constant_id = 3) const bool BASE_COLOR_TEXTURE = false;
+layout(constant_id = 4) const bool METALLIC_ROUGHNESS_TEXTURE = false;
+layout(constant_id = 5) const bool NORMAL_TEXTURE = false;
+layout(constant_id = 6) const bool OCCLUSION_TEXTURE = false;
+layout(constant_id = 7) const bool EMISSIVE_TEXTURE = false;
+layout(constant_id = 8) const bool VERTEX_COLORS = false;
+layout(constant_id = 9) const bool UNLIT = false;
+layout(constant_id = 10) const bool PUNCTUAL = false;   // the scene has lights
+layout(constant_id = 11) const bool LOCAL_LIGHTS = false; // point or spot lights among them
+layout(constant_id = 12) const bool BLENDED = false;    // opacity is used
+
+layout(set = 1, binding = 0) uniform sampler2D base_color_texture;
+layout(set = 1, binding = 1) uniform sampler2D metallic_roughness_texture;
+layout(set = 1, binding = 2) uniform sampler2D normal_texture;
+layout(set = 1, binding = 3) uniform sampler2D occlusion_texture;
+layout(set = 1, binding = 4) uniform sampler2D emissive_texture;
+
+layout(push_constant) uniform Push { uint bin; } push;
+
+// Light left of the studio in a scene with lights of its own, so that what faces away from them shows.
+const float STUDIO_AMBIENT = 0.06;
+
+struct Corners { vec4 a, b, c; };       // both UV sets of the three vertices
+
+vec4 read(sampler2D image, uint use, uint m, Corners corners, Barycentric w) {
+    vec4 row_u = materials[m].uv_rows[2u * use], row_v = materials[m].uv_rows[2u * use + 1u];
+    mat3x2 uv = row_u.w != 0.0 ? mat3x2(corners.a.zw, corners.b.zw, corners.c.zw) : mat3x2(corners.a.xy, corners.b.xy, corners.c.xy);
+    mat2 linear = mat2(row_u.x, row_v.x, row_u.y, row_v.y);
+    vec2 at = linear * (uv * w.at) + vec2(row_u.z, row_v.z);
+    return textureGrad(image, at, linear * (uv * w.dx) * frame.footprint, linear * (uv * w.dy) * frame.footprint);
+}
+
+vec3 safe_normalize(vec3 v, vec3 otherwise) {
+    float l = dot(v, v);
+    return l > 1e-30 ? v * inversesqrt(l) : otherwise;
+}
+
+void main() {
+    uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    uint source;
+    if (ORDERED) {
+        uvec4 bin = bins[push.bin];
+        if (i >= bin.x) return;
+        source = shade_order[bin.y + i];
+    } else {
+        uint count = PIXELS ? frame.size.x * frame.size.y : min(counters[COUNTER_RECORDS], frame.record_capacity);
+        if (i >= count) return;
+        source = i;
+    }
+
+    uint id;
+    vec2 p;
+    if (PIXELS) {
+        uvec2 pixel = uvec2(source % frame.size.x, source / frame.size.x);
+        id = texelFetch(ids, ivec2(pixel), 0).x;
+        p = frame.origin + vec2(pixel);
+    } else {
+        uvec4 record = texelFetch(records, int(source));
+        id = record.y;
+        vec2 location = vec2(ivec2(record.z << 16, record.z) >> 16) * (1.0 / 65536.0);
+        p = frame.origin + vec2(record.x & 0xffffu, record.x >> 16) + location;
+    }
+
+    uvec4 indices = texelFetch(triangles, int(max(id, 1u) - 1u));
+    ivec3 v = ivec3(indices.xyz);
+    uint m = indices.w & 0xffffu;
+    Barycentric w = barycentric(texelFetch(clip, v.x), texelFetch(clip, v.y), texelFetch(clip, v.z), p);
+
+    Corners corners;
+    if (BASE_COLOR_TEXTURE || METALLIC_ROUGHNESS_TEXTURE || NORMAL_TEXTURE || OCCLUSION_TEXTURE || EMISSIVE_TEXTURE)
+        corners = Corners(texelFetch(uvs, v.x), texelFetch(uvs, v.y), texelFetch(uvs, v.z));
+
+    vec4 base = materials[m].base_color;
+    if (VERTEX_COLORS) base *= mat3x4(texelFetch(colors, v.x), texelFetch(colors, v.y), texelFetch(colors, v.z)) * w.at;
+    if (BASE_COLOR_TEXTURE) base *= read(base_color_texture, 0u, m, corners, w);
+
+    vec3 radiance;
+    if (UNLIT) {
+        radiance = base.rgb;
+    } else {
+        mat3 world = mat3(texelFetch(positions, v.x).xyz, texelFetch(positions, v.y).xyz, texelFetch(positions, v.z).xyz);
+        vec3 position = world * w.at;
+        vec3 to_eye = frame.view_direction.w != 0.0 ? -frame.view_direction.xyz : safe_normalize(frame.eye.xyz - position, -frame.view_direction.xyz);
+
+        vec3 normal = mat3(texelFetch(normals, v.x).xyz, texelFetch(normals, v.y).xyz, texelFetch(normals, v.z).xyz) * w.at;
+        float side = w.facing ? 1.0 : -1.0;
+        normal = safe_normalize(normal, to_eye * side) * side;
+        if (NORMAL_TEXTURE) {
+            vec4 tangent = mat3x4(texelFetch(tangents, v.x), texelFetch(tangents, v.y), texelFetch(tangents, v.z)) * w.at;
+            vec3 t = safe_normalize(tangent.xyz, vec3(0.0)) * side;
+            vec3 b = cross(normal, t) * (tangent.w < 0.0 ? -1.0 : 1.0) * side;
+            vec3 n = read(normal_texture, 2u, m, corners, w).xyz * 2.0 - 1.0;
+            n.xy *= materials[m].roughness_normal_occlusion_cutoff.y;
+            normal = safe_normalize(t * n.x + b * n.y + normal * n.z, normal);
+        }
+        // An interpolated normal may face away at a silhouette.
+        float turned = dot(normal, to_eye);
+        normal = turned < 0.0 ? safe_normalize(normal - to_eye * turned, normal) : normal;
+
+        float metallic = materials[m].emissive_metallic.w, roughness = materials[m].roughness_normal_occlusion_cutoff.x;
+        if (METALLIC_ROUGHNESS_TEXTURE) {
+            vec4 mr = read(metallic_roughness_texture, 1u, m, corners, w);
+            roughness *= mr.g;
+            metallic *= mr.b;
+        }
+        roughness = clamp(roughness, 0.04, 1.0);
+
+        Surface s;
+        s.normal = normal;
+        s.diffuse = base.rgb * (1.0 - metallic);
+        s.f0 = mix(vec3(0.04), base.rgb, metallic);
+        s.alpha = roughness * roughness;
+        s.emissive = materials[m].emissive_metallic.rgb;
+        if (EMISSIVE_TEXTURE) s.emissive *= read(emissive_texture, 4u, m, corners, w).rgb;
+        s.occlusion = 1.0;
+        if (OCCLUSION_TEXTURE)
+            s.occlusion = 1.0 + materials[m].roughness_normal_occlusion_cutoff.z * (read(occlusion_texture, 3u, m, corners, w).r - 1.0);
+
+        float n_v = max(dot(normal, to_eye), 1e-4);
+        vec2 split = environment_brdf(roughness, n_v);
+        vec3 specular = s.f0 * split.x + split.y;
+        vec3 studio = s.diffuse * (1.0 - specular) * studio_irradiance(normal)
+            + specular * studio_reflection(reflect(-to_eye, normal), s.alpha);
+        radiance = studio * s.occlusion * (PUNCTUAL ? STUDIO_AMBIENT : 1.0) + s.emissive;
+
+        if (PUNCTUAL) {
+            for (uint l = 0u; l < frame.light_count; l++) {
+                Light light = lights[l];
+                vec3 to_light = -light.direction_kind.xyz;
+                vec3 e = light.color_scale.rgb;
+                if (LOCAL_LIGHTS && light.direction_kind.w != 0.0) {
+                    vec3 d = light.position_range.xyz - position;
+                    float square = max(dot(d, d), 1e-12);
+                    to_light = d * inversesqrt(square);
+                    float window = clamp(1.0 - square * square * light.position_range.w * light.position_range.w, 0.0, 1.0);
+                    e *= (light.position_range.w > 0.0 ? window : 1.0) / square;
+                    float cone = clamp(dot(-to_light, light.direction_kind.xyz) * light.color_scale.w + light.offset.x, 0.0, 1.0);
+                    e *= light.direction_kind.w == 2.0 ? cone * cone : 1.0;
+                }
+                radiance += reflect_light(s, to_eye, to_light, e);
+            }
+        }
+    }
+    radiance *= frame.exposure;
+    // What a hostile material makes of a pixel stays in that pixel's range.
+    radiance = mix(clamp(radiance, vec3(0.0), vec3(3e38)), vec3(0.0), isnan(radiance));
+
+    if (PIXELS) {
+        bool background = id == 0u;
+        vec4 c = background ? frame.background : to_output(vec4(radiance, 1.0));
+        imageStore(color, int(source), c);
+        if (DISPLAY_CODES) imageStore(display_out, int(source), uvec4(display_code(c)));
+    } else {
+        imageStore(shaded_out, int(source), vec4(radiance, BLENDED ? clamp(base.a, 0.0, 1.0) : 1.0));
+    }
+}

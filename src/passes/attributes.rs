@@ -1,0 +1,31 @@
+//! attributes: depth, ID, normal and sampling of every pixel, where asked for.
+
+use super::{FrameLayout, spirv};
+use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+
+/// Writes two vectors a pixel, see `shaders/attributes.comp`.
+pub struct Attributes {
+    pipeline: Pipeline,
+}
+
+impl Attributes {
+    /// Makes the pipeline.
+    ///
+    /// # Errors
+    /// If the driver refuses it.
+    pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
+        let pipeline = compute_pipeline(
+            &layout.gpu,
+            layout.pipeline,
+            spirv::ATTRIBUTES,
+            &Constants::new(),
+            None,
+        )?;
+        Ok(Self { pipeline })
+    }
+
+    /// Records it for a region of `pixels` pixels.
+    pub fn record(&self, recorder: &Recorder<'_>, pixels: u32) {
+        recorder.dispatch(&self.pipeline, u64::from(pixels.div_ceil(64)));
+    }
+}

@@ -1,0 +1,36 @@
+//! box_filter: k x k supersampled pixels to one.
+
+use super::{FrameLayout, spirv};
+use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+
+/// Averages squares of pixels.
+pub struct BoxFilter {
+    layout: ash::vk::PipelineLayout,
+    pipeline: Pipeline,
+}
+
+impl BoxFilter {
+    /// Makes the pipeline.
+    ///
+    /// # Errors
+    /// If the driver refuses it.
+    pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
+        let pipeline = compute_pipeline(
+            &layout.gpu,
+            layout.pipeline,
+            spirv::BOX_FILTER,
+            &Constants::new(),
+            None,
+        )?;
+        Ok(Self {
+            layout: layout.pipeline,
+            pipeline,
+        })
+    }
+
+    /// Records it for a region that becomes `pixels` pixels, each of `side` x `side`.
+    pub fn record(&self, recorder: &Recorder<'_>, pixels: u32, side: u32) {
+        recorder.push(self.layout, &[side]);
+        recorder.dispatch(&self.pipeline, u64::from(pixels.div_ceil(64)));
+    }
+}

@@ -1,0 +1,32 @@
+//! cull: the triangles that can touch a superpixel.
+
+use super::{Argument, FrameLayout, spirv};
+use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+
+/// Compacts triangles; runs over none where nothing was detected.
+pub struct Cull {
+    arguments: Pipeline,
+    pipeline: Pipeline,
+}
+
+impl Cull {
+    /// Makes the pipelines.
+    ///
+    /// # Errors
+    /// If the driver refuses one.
+    pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
+        let make = |code, constants| {
+            compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, None)
+        };
+        Ok(Self {
+            arguments: make(spirv::ARGUMENTS, Constants::new().with(0, 0))?,
+            pipeline: make(spirv::CULL, Constants::new())?,
+        })
+    }
+
+    /// Records it.
+    pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
+        recorder.dispatch(&self.arguments, 1);
+        recorder.dispatch_indirect(&self.pipeline, arguments, Argument::Cull as u32);
+    }
+}

@@ -1,0 +1,53 @@
+//! detect: which pixels are superpixels.
+
+use super::{FrameLayout, spirv};
+use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+
+/// What makes a pixel a superpixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DetectMode {
+    /// A neighbour with another triangle and a contrasting colour.
+    Contrast,
+    /// A neighbour with another triangle.
+    Exact,
+    /// A neighbour with a contrasting colour.
+    Colour,
+    /// A BLEND triangle at its centre.
+    Blended,
+    /// Every pixel is one.
+    Every,
+}
+
+/// Writes the mask of superpixels.
+pub struct Detect {
+    pipeline: Pipeline,
+}
+
+impl Detect {
+    /// Makes the pipeline; `has_blend` compares the nearest BLEND triangles too, `multisampled` reads those of
+    /// a multisampled raster (for [`DetectMode::Blended`]).
+    ///
+    /// # Errors
+    /// If the driver refuses it.
+    pub fn new(
+        layout: &FrameLayout,
+        mode: DetectMode,
+        has_blend: bool,
+        multisampled: bool,
+    ) -> Result<Self, VulkanError> {
+        let constants = Constants::new().with(0, mode as u32).flag(1, has_blend);
+        let code = if multisampled {
+            spirv::DETECT_MULTISAMPLED
+        } else {
+            spirv::DETECT
+        };
+        Ok(Self {
+            pipeline: compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, None)?,
+        })
+    }
+
+    /// Records it for a region of `tiles` tiles.
+    pub fn record(&self, recorder: &Recorder<'_>, tiles: u32) {
+        recorder.dispatch(&self.pipeline, u64::from(tiles.div_ceil(64)));
+    }
+}

@@ -1,0 +1,267 @@
+//! Materials, lights and the alpha atlas as the shaders read them.
+
+use crate::scene::{
+    AlphaMode, Filter, Image, Light, LightKind, Material, Sampler, Scene, TextureTransform,
+    TextureUse, Wrap,
+};
+use glam::DVec3;
+
+/// `Material` of `shaders/include/frame.glsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, bytemuck::Pod, bytemuck::Zeroable)]
+pub(super) struct GpuMaterial {
+    base_color: [f32; 4],
+    emissive_metallic: [f32; 4],
+    roughness_normal_occlusion_cutoff: [f32; 4],
+    alpha: [u32; 4],
+    uv_rows: [[f32; 4]; 10],
+}
+
+/// `Light` of `shaders/include/frame.glsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, bytemuck::Pod, bytemuck::Zeroable)]
+pub(super) struct GpuLight {
+    position_range: [f32; 4],
+    direction_kind: [f32; 4],
+    color_scale: [f32; 4],
+    offset: [f32; 4],
+}
+
+/// The five textures in the order of their bindings.
+pub(super) fn texture_uses(material: &Material) -> [Option<TextureUse>; 5] {
+    [
+        material.base_color_texture,
+        material.metallic_roughness_texture,
+        material.normal_texture,
+        material.occlusion_texture,
+        material.emissive_texture,
+    ]
+}
+
+impl GpuMaterial {
+    pub(super) fn new(material: &Material, alpha: [u32; 4]) -> Self {
+        let mut uv_rows = [[0.0; 4]; 10];
+        for (i, used) in texture_uses(material).into_iter().enumerate() {
+            let used = used.unwrap_or(TextureUse {
+                texture: 0,
+                uv_set: 0,
+                transform: TextureTransform::default(),
+            });
+            let [u, v] = used.transform.0;
+            uv_rows[2 * i] = [u[0], u[1], u[2], used.uv_set as f32];
+            uv_rows[2 * i + 1] = [v[0], v[1], v[2], 0.0];
+        }
+        let [r, g, b] = material.emissive;
+        let cutoff = if let AlphaMode::Mask { cutoff } = material.alpha_mode {
+            cutoff
+        } else {
+            0.0
+        };
+        Self {
+            base_color: material.base_color,
+            emissive_metallic: [r, g, b, material.metallic],
+            roughness_normal_occlusion_cutoff: [
+                material.roughness,
+                material.normal_scale,
+                material.occlusion_strength,
+                cutoff,
+            ],
+            alpha,
+            uv_rows,
+        }
+    }
+}
+
+impl GpuLight {
+    pub(super) fn new(light: &Light, origin: DVec3) -> Self {
+        let position = (light.position - origin).as_vec3();
+        let direction = light.direction.as_vec3();
+        // KHR_lights_punctual, "Inner and Outer Cone Angles".
+        let (kind, scale, offset) = match light.kind {
+            LightKind::Directional => (0.0, 0.0, 1.0),
+            LightKind::Point => (1.0, 0.0, 1.0),
+            LightKind::Spot {
+                inner_angle,
+                outer_angle,
+            } => {
+                let scale = 1.0 / (inner_angle.cos() - outer_angle.cos()).max(0.001);
+                (2.0, scale, -outer_angle.cos() * scale)
+            }
+        };
+        let range = light
+            .range
+            .filter(|range| *range > 0.0)
+            .map_or(0.0, |range| 1.0 / (range * range));
+        Self {
+            position_range: [position.x, position.y, position.z, range],
+            direction_kind: [direction.x, direction.y, direction.z, kind],
+            color_scale: [light.color[0], light.color[1], light.color[2], scale],
+            offset: [offset, 0.0, 0.0, 0.0],
+        }
+    }
+}
+
+/// Flags of `shaders/include/alpha.glsl`.
+const TEXTURED: u32 = 1;
+const NEAREST_MAG: u32 = 2;
+const NEAREST_MIN: u32 = 4;
+const NO_MIP: u32 = 8;
+const NEAREST_MIP: u32 = 16;
+
+/// The alpha channels of MASK materials' base colour textures, with their mipmaps.
+#[derive(Debug, Default)]
+pub(super) struct AlphaAtlas {
+    pub(super) words: Vec<u32>,
+    placed: Vec<(u32, u32, [u32; 4])>,
+}
+
+impl AlphaAtlas {
+    /// Places a material's alpha texture, once for each texture; what its `GpuMaterial::alpha` is.
+    pub(super) fn place(&mut self, scene: &Scene, material: &Material) -> [u32; 4] {
+        let none = [0, 0x1_0001, 1, NO_MIP];
+        let (AlphaMode::Mask { .. }, Some(used)) =
+            (material.alpha_mode, material.base_color_texture)
+        else {
+            return none;
+        };
+        let Some(texture) = scene.textures.get(used.texture as usize) else {
+            return none;
+        };
+        let Some(image) = scene.images.get(texture.image as usize) else {
+            return none;
+        };
+        let flags = flags(&texture.sampler);
+        if let Some((_, _, alpha)) = self
+            .placed
+            .iter()
+            .find(|(index, known, _)| *index == texture.image && *known == flags)
+        {
+            return *alpha;
+        }
+        let first = self.words.len() as u32;
+        let mut level = alpha_channel(image);
+        let mut size = [image.width, image.height];
+        let mut levels = 1;
+        self.push(&level, size, &texture.sampler);
+        while flags & NO_MIP == 0 && size != [1, 1] {
+            (level, size) = halve(&level, size);
+            self.push(&level, size, &texture.sampler);
+            levels += 1;
+        }
+        let alpha = [first, image.width | image.height << 16, levels, flags];
+        self.placed.push((texture.image, flags, alpha));
+        alpha
+    }
+
+    /// Appends a level as words of 2 x 2 texels, the first of them half outside of the image.
+    fn push(&mut self, level: &[u8], [width, height]: [u32; 2], sampler: &Sampler) {
+        let texel = |x: i64, y: i64| {
+            let (x, y) = (
+                wrap(x, width, sampler.wrap_u),
+                wrap(y, height, sampler.wrap_v),
+            );
+            u32::from(level[y * width as usize + x])
+        };
+        for y in -1..i64::from(height) {
+            for x in -1..i64::from(width) {
+                self.words.push(
+                    texel(x, y)
+                        | texel(x + 1, y) << 8
+                        | texel(x, y + 1) << 16
+                        | texel(x + 1, y + 1) << 24,
+                );
+            }
+        }
+    }
+}
+
+fn flags(sampler: &Sampler) -> u32 {
+    let mode = |wrap| match wrap {
+        Wrap::Repeat => 0,
+        Wrap::MirroredRepeat => 1,
+        Wrap::ClampToEdge => 2_u32,
+    };
+    TEXTURED
+        | if sampler.mag == Filter::Nearest {
+            NEAREST_MAG
+        } else {
+            0
+        }
+        | if sampler.min == Filter::Nearest {
+            NEAREST_MIN
+        } else {
+            0
+        }
+        | match sampler.mip {
+            None => NO_MIP,
+            Some(Filter::Nearest) => NEAREST_MIP,
+            Some(Filter::Linear) => 0,
+        }
+        | mode(sampler.wrap_u) << 8
+        | mode(sampler.wrap_v) << 10
+}
+
+/// The texel that a coordinate one outside of the image falls on.
+fn wrap(i: i64, size: u32, mode: Wrap) -> usize {
+    let size = i64::from(size);
+    let inside = match mode {
+        Wrap::Repeat => i.rem_euclid(size),
+        Wrap::MirroredRepeat | Wrap::ClampToEdge => i.clamp(0, size - 1),
+    };
+    inside as usize
+}
+
+fn alpha_channel(image: &Image) -> Vec<u8> {
+    image.pixels.chunks_exact(4).map(|texel| texel[3]).collect()
+}
+
+/// The next mipmap level: means of 2 x 2 texels, of 3 where a side is odd.
+fn halve(level: &[u8], [width, height]: [u32; 2]) -> (Vec<u8>, [u32; 2]) {
+    let half = [(width / 2).max(1), (height / 2).max(1)];
+    let span = |i: u32, from: u32, to: u32| (i * from / to)..((i + 1) * from).div_ceil(to);
+    let mut out = Vec::with_capacity((half[0] * half[1]) as usize);
+    for y in 0..half[1] {
+        for x in 0..half[0] {
+            let (mut sum, mut count) = (0, 0);
+            for v in span(y, height, half[1]) {
+                for u in span(x, width, half[0]) {
+                    sum += u32::from(level[(v * width + u) as usize]);
+                    count += 1;
+                }
+            }
+            out.push(((sum + count / 2) / count) as u8);
+        }
+    }
+    (out, half)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn halving_keeps_the_mean() {
+        let (level, size) = halve(&[0, 100, 200, 100, 50, 250], [3, 2]);
+        assert_eq!((level, size), (vec![117], [1, 1]));
+    }
+
+    #[test]
+    fn host_structs_are_the_shaders() {
+        let text = include_str!("../../shaders/include/frame.glsl");
+        let vectors = |name: &str| {
+            let body = text
+                .split(&format!("struct {name} {{"))
+                .nth(1)
+                .unwrap()
+                .split("};")
+                .next()
+                .unwrap();
+            body.lines()
+                .filter(|line| line.contains("vec4 "))
+                .map(|line| if line.contains("[10]") { 10 } else { 1 })
+                .sum::<usize>()
+        };
+        assert_eq!(vectors("Material") * 16, size_of::<GpuMaterial>());
+        assert_eq!(vectors("Light") * 16, size_of::<GpuLight>());
+    }
+}

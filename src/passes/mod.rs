@@ -1,0 +1,51 @@
+//! The passes of a frame, one file each, named like their shaders in `shaders/`.
+//!
+//! ```text
+//! transform ─▶ raster ─▶ sort ─▶ shade ─▶ detect ─▶ cull ─▶ bin ─▶ schedule ─▶ bin ─▶ sample ─▶ sort ─▶ shade ─▶ resolve
+//!                        └─ pixel centres ─┘                      └────── a round, as often as lists need it ──────┘
+//! ```
+//! Every pass records into a caller's command buffer and reads what the pass before left on the device.
+
+mod attributes;
+mod bin;
+mod box_filter;
+mod cull;
+mod detect;
+mod encode;
+mod frame;
+mod geometry;
+mod material;
+mod multisample;
+mod raster;
+mod resolve;
+mod resources;
+mod sample;
+mod schedule;
+mod shade;
+mod sort;
+mod texture;
+mod transform;
+
+/// The compiled shaders.
+#[allow(missing_docs)]
+mod spirv {
+    include!(concat!(env!("OUT_DIR"), "/spirv.rs"));
+}
+
+pub use attributes::Attributes;
+pub use bin::Bin;
+pub use box_filter::BoxFilter;
+pub use cull::Cull;
+pub use detect::{Detect, DetectMode};
+pub use encode::{Encode, Encoding};
+pub use frame::{Argument, Counter, FrameLayout, FrameUniform};
+pub use geometry::GpuScene;
+pub use multisample::Multisample;
+pub use raster::{Raster, RasterTargets};
+pub use resolve::Resolve;
+pub use resources::{ResourceSizes, Resources, SampleSet};
+pub use sample::{Sample, TileList};
+pub use schedule::Schedule;
+pub use shade::{Shade, ShadeSource};
+pub use sort::{Sort, SortSource};
+pub use transform::Transform;

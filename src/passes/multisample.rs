@@ -1,0 +1,31 @@
+//! multisample: what the device's own multisampling saw, as visibility records.
+
+use super::{FrameLayout, spirv};
+use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+
+/// Turns multisampled triangle IDs into records.
+pub struct Multisample {
+    pipeline: Pipeline,
+}
+
+impl Multisample {
+    /// Makes the pipeline.
+    ///
+    /// # Errors
+    /// If the driver refuses it.
+    pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
+        let pipeline = compute_pipeline(
+            &layout.gpu,
+            layout.pipeline,
+            spirv::MULTISAMPLE,
+            &Constants::new(),
+            None,
+        )?;
+        Ok(Self { pipeline })
+    }
+
+    /// Records it for a region of `tiles` tiles.
+    pub fn record(&self, recorder: &Recorder<'_>, tiles: u32) {
+        recorder.dispatch(&self.pipeline, u64::from((tiles * 32).div_ceil(64)));
+    }
+}

@@ -1,0 +1,323 @@
+//! raster: depth and triangle ID of every pixel, by the device's rasterizer.
+
+use super::{FrameLayout, GpuScene, spirv};
+use crate::scene::DrawClass;
+use crate::vulkan::{Gpu, Image, Memory, Pipeline, Recorder, Shader, VulkanError};
+use ash::vk;
+use std::sync::Arc;
+
+/// Format of the depth attachment: reversed, larger is nearer.
+const DEPTH: vk::Format = vk::Format::D32_SFLOAT;
+
+/// What `raster` draws into: IDs of the nearest opaque or MASK triangle and of the nearest BLEND triangle in front of it.
+pub struct RasterTargets {
+    pub(super) depth: Image,
+    pub(super) ids: Image,
+    pub(super) blend_ids: Option<Image>,
+    samples: vk::SampleCountFlags,
+}
+
+impl RasterTargets {
+    /// Images of `width` x `height` pixels.
+    ///
+    /// # Errors
+    /// If memory runs out.
+    pub fn new(
+        memory: &Memory,
+        width: u32,
+        height: u32,
+        samples: vk::SampleCountFlags,
+        has_blend: bool,
+    ) -> Result<Self, VulkanError> {
+        let image = |name, format, usage, aspect| {
+            let info = vk::ImageCreateInfo::default()
+                .image_type(vk::ImageType::TYPE_2D)
+                .format(format)
+                .extent(vk::Extent3D {
+                    width,
+                    height,
+                    depth: 1,
+                })
+                .mip_levels(1)
+                .array_layers(1)
+                .samples(samples)
+                .usage(usage);
+            memory.image(name, &info, aspect)
+        };
+        let color = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
+        let format = id_format(samples);
+        Ok(Self {
+            depth: image(
+                "depth",
+                DEPTH,
+                vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT,
+                vk::ImageAspectFlags::DEPTH,
+            )?,
+            ids: image("triangle IDs", format, color, vk::ImageAspectFlags::COLOR)?,
+            blend_ids: has_blend
+                .then(|| {
+                    image(
+                        "BLEND triangle IDs",
+                        format,
+                        color,
+                        vk::ImageAspectFlags::COLOR,
+                    )
+                })
+                .transpose()?,
+            samples,
+        })
+    }
+
+    /// Whether the images are multisampled.
+    #[must_use]
+    pub fn multisampled(&self) -> bool {
+        self.samples != vk::SampleCountFlags::TYPE_1
+    }
+}
+
+/// A multisampled attachment need not hold integers, but holds the four bytes of one.
+fn id_format(samples: vk::SampleCountFlags) -> vk::Format {
+    if samples == vk::SampleCountFlags::TYPE_1 {
+        vk::Format::R32_UINT
+    } else {
+        vk::Format::R8G8B8A8_UNORM
+    }
+}
+
+/// Draws a scene's triangles, class by class.
+pub struct Raster {
+    layout: Arc<FrameLayout>,
+    opaque: Pipeline,
+    masked: Option<Pipeline>,
+}
+
+impl Raster {
+    /// Makes the pipelines that the scene needs.
+    ///
+    /// # Errors
+    /// If the driver refuses one.
+    pub fn new(
+        layout: &Arc<FrameLayout>,
+        samples: vk::SampleCountFlags,
+        has_mask: bool,
+    ) -> Result<Self, VulkanError> {
+        let bytes = samples != vk::SampleCountFlags::TYPE_1;
+        let (opaque, masked) = if bytes {
+            (spirv::RASTER_OPAQUE_BYTES, spirv::RASTER_MASKED_BYTES)
+        } else {
+            (spirv::RASTER_OPAQUE, spirv::RASTER_MASKED)
+        };
+        let make = |code| pipeline(&layout.gpu, layout.pipeline, code, samples);
+        Ok(Self {
+            layout: layout.clone(),
+            opaque: make(opaque)?,
+            masked: has_mask.then(|| make(masked)).transpose()?,
+        })
+    }
+
+    /// Records it for the upper left `size` pixels; afterwards the IDs can be read by shaders.
+    pub fn record(
+        &self,
+        recorder: &Recorder<'_>,
+        set: vk::DescriptorSet,
+        scene: &GpuScene,
+        targets: &RasterTargets,
+        size: [u32; 2],
+    ) {
+        let extent = vk::Extent2D {
+            width: size[0],
+            height: size[1],
+        };
+        let read = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
+        let draw = vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
+        recorder.transition(
+            &targets.depth,
+            vk::ImageLayout::UNDEFINED,
+            vk::ImageLayout::DEPTH_ATTACHMENT_OPTIMAL,
+        );
+        recorder.transition(&targets.ids, vk::ImageLayout::UNDEFINED, draw);
+        self.draw(
+            recorder,
+            set,
+            scene,
+            targets,
+            &targets.ids,
+            extent,
+            vk::AttachmentLoadOp::CLEAR,
+            |class| class < DrawClass::Blend,
+        );
+        recorder.transition(&targets.ids, draw, read);
+        if let Some(blend_ids) = &targets.blend_ids {
+            recorder.barrier();
+            recorder.transition(blend_ids, vk::ImageLayout::UNDEFINED, draw);
+            self.draw(
+                recorder,
+                set,
+                scene,
+                targets,
+                blend_ids,
+                extent,
+                vk::AttachmentLoadOp::LOAD,
+                |class| class >= DrawClass::Blend,
+            );
+            recorder.transition(blend_ids, draw, read);
+        }
+    }
+
+    #[allow(clippy::too_many_arguments)]
+    fn draw(
+        &self,
+        recorder: &Recorder<'_>,
+        set: vk::DescriptorSet,
+        scene: &GpuScene,
+        targets: &RasterTargets,
+        ids: &Image,
+        extent: vk::Extent2D,
+        depth_load: vk::AttachmentLoadOp,
+        wanted: impl Fn(DrawClass) -> bool,
+    ) {
+        let (device, raw) = (recorder.device(), recorder.raw());
+        let area = vk::Rect2D {
+            offset: vk::Offset2D::default(),
+            extent,
+        };
+        let color = [vk::RenderingAttachmentInfo::default()
+            .image_view(ids.view)
+            .image_layout(vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL)
+            .load_op(vk::AttachmentLoadOp::CLEAR)
+            .store_op(vk::AttachmentStoreOp::STORE)];
+        let depth = vk::RenderingAttachmentInfo::default()
+            .image_view(targets.depth.view)
+            .image_layout(vk::ImageLayout::DEPTH_ATTACHMENT_OPTIMAL)
+            .load_op(depth_load)
+            .store_op(vk::AttachmentStoreOp::STORE);
+        let info = vk::RenderingInfo::default()
+            .render_area(area)
+            .layer_count(1)
+            .color_attachments(&color)
+            .depth_attachment(&depth);
+        let viewport = vk::Viewport {
+            x: 0.0,
+            y: 0.0,
+            width: area.extent.width as f32,
+            height: area.extent.height as f32,
+            min_depth: 0.0,
+            max_depth: 1.0,
+        };
+        // SAFETY: the recorder's contract; the images are in the layouts named, the sets match the pipelines' layout.
+        unsafe {
+            device.cmd_begin_rendering(raw, &info);
+            device.cmd_set_viewport(raw, 0, &[viewport]);
+            device.cmd_set_scissor(raw, 0, &[area]);
+            device.cmd_bind_descriptor_sets(
+                raw,
+                vk::PipelineBindPoint::GRAPHICS,
+                self.layout.pipeline,
+                0,
+                &[set],
+                &[],
+            );
+        }
+        for run in scene.runs().iter().filter(|run| wanted(run.class)) {
+            let masked = matches!(run.class, DrawClass::Mask | DrawClass::MaskDoubleSided);
+            recorder.bind(
+                self.masked
+                    .as_ref()
+                    .filter(|_| masked)
+                    .unwrap_or(&self.opaque),
+            );
+            let cull = if double_sided(run.class) {
+                vk::CullModeFlags::NONE
+            } else {
+                vk::CullModeFlags::BACK
+            };
+            // SAFETY: as above; the shader reads 3 vertices a triangle of the run.
+            unsafe {
+                device.cmd_set_cull_mode(raw, cull);
+                device.cmd_draw(raw, 3 * run.triangle_count, 1, 3 * run.first_triangle, 0);
+            }
+        }
+        // SAFETY: as above.
+        unsafe { device.cmd_end_rendering(raw) };
+    }
+}
+
+/// Whether a class shows back faces.
+pub(super) fn double_sided(class: DrawClass) -> bool {
+    matches!(
+        class,
+        DrawClass::OpaqueDoubleSided | DrawClass::MaskDoubleSided | DrawClass::BlendDoubleSided
+    )
+}
+
+fn pipeline(
+    gpu: &Arc<Gpu>,
+    layout: vk::PipelineLayout,
+    fragment: &[u8],
+    samples: vk::SampleCountFlags,
+) -> Result<Pipeline, VulkanError> {
+    let vertex = Shader::new(gpu, spirv::RASTER_VERTEX)?;
+    let fragment = Shader::new(gpu, fragment)?;
+    let stage = |stage, shader: &Shader| {
+        vk::PipelineShaderStageCreateInfo::default()
+            .stage(stage)
+            .module(shader.raw)
+            .name(c"main")
+    };
+    let stages = [
+        stage(vk::ShaderStageFlags::VERTEX, &vertex),
+        stage(vk::ShaderStageFlags::FRAGMENT, &fragment),
+    ];
+    let input = vk::PipelineVertexInputStateCreateInfo::default();
+    let assembly = vk::PipelineInputAssemblyStateCreateInfo::default()
+        .topology(vk::PrimitiveTopology::TRIANGLE_LIST);
+    let viewport = vk::PipelineViewportStateCreateInfo::default()
+        .viewport_count(1)
+        .scissor_count(1);
+    let rasterization = vk::PipelineRasterizationStateCreateInfo::default()
+        .polygon_mode(vk::PolygonMode::FILL)
+        .front_face(vk::FrontFace::COUNTER_CLOCKWISE)
+        .line_width(1.0);
+    let multisample =
+        vk::PipelineMultisampleStateCreateInfo::default().rasterization_samples(samples);
+    let depth = vk::PipelineDepthStencilStateCreateInfo::default()
+        .depth_test_enable(true)
+        .depth_write_enable(true)
+        .depth_compare_op(vk::CompareOp::GREATER);
+    let attachments = [vk::PipelineColorBlendAttachmentState::default()
+        .color_write_mask(vk::ColorComponentFlags::RGBA)];
+    let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments);
+    let dynamic = [
+        vk::DynamicState::VIEWPORT,
+        vk::DynamicState::SCISSOR,
+        vk::DynamicState::CULL_MODE,
+    ];
+    let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic);
+    let formats = [id_format(samples)];
+    let mut rendering = vk::PipelineRenderingCreateInfo::default()
+        .color_attachment_formats(&formats)
+        .depth_attachment_format(DEPTH);
+    let info = vk::GraphicsPipelineCreateInfo::default()
+        .stages(&stages)
+        .vertex_input_state(&input)
+        .input_assembly_state(&assembly)
+        .viewport_state(&viewport)
+        .rasterization_state(&rasterization)
+        .multisample_state(&multisample)
+        .depth_stencil_state(&depth)
+        .color_blend_state(&blend)
+        .dynamic_state(&dynamic)
+        .layout(layout)
+        .push_next(&mut rendering);
+    // SAFETY: all structures live until after the call; the layout covers what the crate's shaders bind.
+    let pipelines = unsafe {
+        gpu.device
+            .create_graphics_pipelines(vk::PipelineCache::null(), &[info], None)
+    }
+    .map_err(|(_, e)| VulkanError::of("vkCreateGraphicsPipelines")(e))?;
+    Ok(Pipeline::from_raw(
+        gpu,
+        pipelines.first().copied().unwrap_or_default(),
+        vk::PipelineBindPoint::GRAPHICS,
+    ))
+}

@@ -1,0 +1,387 @@
+//! The memory of one frame: sized when it is prepared, used again for every region and every frame.
+
+use super::frame::DescriptorPool;
+use super::{Argument, Counter, FrameLayout, FrameUniform, GpuScene, RasterTargets};
+use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, Recorder, VulkanError};
+use ash::vk;
+use std::sync::Arc;
+
+/// How much room a frame needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ResourceSizes {
+    /// Largest region, in pixels.
+    pub region: [u32; 2],
+    /// Candidates of all lists of a round.
+    pub list_capacity: u32,
+    /// Visibility records of a round; 0 where no cell is ever sampled.
+    pub record_capacity: u32,
+    /// Pixels of a region after the box filter; 0 without one.
+    pub filtered: u32,
+    /// Whether attributes are asked for.
+    pub attributes: bool,
+    /// Bytes of a region encoded for a host's image; 0 without one.
+    pub encoded: u64,
+}
+
+impl ResourceSizes {
+    /// Pixels of a region.
+    #[must_use]
+    pub fn pixels(&self) -> u32 {
+        self.region[0] * self.region[1]
+    }
+
+    /// Tiles of 8 x 4 pixels of a region.
+    #[must_use]
+    pub fn tiles(&self) -> u32 {
+        self.region[0].div_ceil(8) * self.region[1].div_ceil(4)
+    }
+
+    /// About how many bytes [`Resources`] of this size take, for a scene of `triangles` triangles.
+    #[must_use]
+    pub fn bytes(&self, triangles: u64) -> u64 {
+        let pixels = u64::from(self.pixels());
+        let tiles = u64::from(self.tiles());
+        let records = u64::from(self.record_capacity);
+        pixels * (16 + 4 + 4 + 4)
+            + tiles * 36
+            + u64::from(self.list_capacity) * 64
+            + records * 40
+            + records.max(pixels) * 4
+            + triangles * 4
+            + u64::from(self.filtered) * 16
+            + if self.attributes { pixels * 32 } else { 0 }
+            + self.encoded
+    }
+}
+
+/// Sub-sample locations and the descriptor set that reads them.
+pub struct SampleSet {
+    uniform: Buffer,
+    locations: BufferView,
+    upload: Option<Buffer>,
+    count: u32,
+    pub(super) set: vk::DescriptorSet,
+}
+
+impl SampleSet {
+    /// Number of locations.
+    #[must_use]
+    pub fn count(&self) -> u32 {
+        self.count
+    }
+
+    /// The descriptor set.
+    pub(crate) fn descriptor(&self) -> vk::DescriptorSet {
+        self.set
+    }
+}
+
+/// Buffers that passes hand to each other.
+pub struct Resources {
+    sizes: ResourceSizes,
+    display: BufferView,
+    pub(crate) color: BufferView,
+    pub(crate) counters: Buffer,
+    masks: Buffer,
+    tiles: Buffer,
+    tile_lists: Buffer,
+    survivors: Buffer,
+    candidates: BufferView,
+    headers: Buffer,
+    records: BufferView,
+    shaded: BufferView,
+    shade_order: Buffer,
+    pub(crate) bins: Buffer,
+    pub(crate) arguments: Buffer,
+    pub(crate) filtered: BufferView,
+    pub(crate) attributes: BufferView,
+    pub(crate) encoded: Buffer,
+    layout: Arc<FrameLayout>,
+    _pool: DescriptorPool,
+    sets: Vec<SampleSet>,
+}
+
+const STORAGE: vk::BufferUsageFlags = vk::BufferUsageFlags::from_raw(
+    vk::BufferUsageFlags::STORAGE_BUFFER.as_raw()
+        | vk::BufferUsageFlags::TRANSFER_DST.as_raw()
+        | vk::BufferUsageFlags::TRANSFER_SRC.as_raw(),
+);
+const TEXELS: vk::BufferUsageFlags = vk::BufferUsageFlags::from_raw(
+    vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER.as_raw()
+        | vk::BufferUsageFlags::STORAGE_TEXEL_BUFFER.as_raw()
+        | vk::BufferUsageFlags::TRANSFER_DST.as_raw()
+        | vk::BufferUsageFlags::TRANSFER_SRC.as_raw(),
+);
+
+impl Resources {
+    /// Allocates a frame's memory and one descriptor set for each list of sub-sample locations.
+    ///
+    /// # Errors
+    /// If memory runs out or a buffer passes the device's limits.
+    pub fn new(
+        layout: &Arc<FrameLayout>,
+        memory: &Memory,
+        scene: &GpuScene,
+        targets: &RasterTargets,
+        sizes: ResourceSizes,
+        location_lists: &[&[[f32; 2]]],
+    ) -> Result<Self, VulkanError> {
+        let pixels = u64::from(sizes.pixels());
+        let tiles = u64::from(sizes.tiles());
+        let records = u64::from(sizes.record_capacity);
+        let triangles = u64::from(scene.triangle_count());
+        let storage = |name: &str, bytes: u64| {
+            let limit = memory.gpu().limits().max_storage_bytes;
+            if bytes > limit {
+                return Err(VulkanError::TooLarge {
+                    what: name.to_owned(),
+                    needed: bytes,
+                    unit: "bytes",
+                    limit,
+                });
+            }
+            memory.buffer(name, bytes, STORAGE, MemoryUse::Device)
+        };
+        let texels = |name: &str, elements: u64, format| {
+            memory.texel_buffer(name, elements, format, TEXELS, MemoryUse::Device)
+        };
+        let float4 = vk::Format::R32G32B32A32_SFLOAT;
+        let pool = layout.pool(location_lists.len() as u32, 0)?;
+        let sets = location_lists
+            .iter()
+            .map(|locations| {
+                let bytes = bytemuck::cast_slice(locations);
+                let view = texels(
+                    "sub-sample locations",
+                    locations.len() as u64,
+                    vk::Format::R32G32_SFLOAT,
+                )?;
+                let mut upload = memory.buffer(
+                    "location upload",
+                    bytes.len() as u64,
+                    vk::BufferUsageFlags::TRANSFER_SRC,
+                    MemoryUse::Upload,
+                )?;
+                if let Some(mapped) = upload.bytes_mut().get_mut(..bytes.len()) {
+                    mapped.copy_from_slice(bytes);
+                }
+                Ok(SampleSet {
+                    uniform: memory.buffer(
+                        "frame uniform",
+                        size_of::<FrameUniform>() as u64,
+                        vk::BufferUsageFlags::UNIFORM_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
+                        MemoryUse::Device,
+                    )?,
+                    locations: view,
+                    upload: Some(upload),
+                    count: locations.len() as u32,
+                    set: pool.allocate(layout.frame_set)?,
+                })
+            })
+            .collect::<Result<Vec<_>, VulkanError>>()?;
+        let resources = Self {
+            sizes,
+            display: texels("display codes", pixels, vk::Format::R32_UINT)?,
+            color: texels("colour", pixels, float4)?,
+            counters: storage("counters", 4 * Counter::COUNT as u64)?,
+            masks: storage("superpixel mask", tiles * 4)?,
+            tiles: storage("tiles", tiles * 16)?,
+            tile_lists: storage("tile lists", tiles * 16)?,
+            survivors: storage("survivors", triangles * 4)?,
+            candidates: texels("candidates", u64::from(sizes.list_capacity) * 4, float4)?,
+            headers: storage("record headers", records * 8)?,
+            records: texels("visibility records", records, vk::Format::R32G32B32A32_UINT)?,
+            shaded: texels("shaded records", records, float4)?,
+            shade_order: storage("shading order", records.max(pixels) * 4)?,
+            bins: storage("material bins", u64::from(scene.bin_count()) * 16)?,
+            arguments: memory.buffer(
+                "indirect dispatches",
+                u64::from(Argument::Shade as u32 + scene.bin_count()) * 16,
+                STORAGE | vk::BufferUsageFlags::INDIRECT_BUFFER,
+                MemoryUse::Device,
+            )?,
+            filtered: texels("filtered colour", u64::from(sizes.filtered), float4)?,
+            attributes: texels(
+                "attributes",
+                if sizes.attributes { 2 * pixels } else { 1 },
+                float4,
+            )?,
+            encoded: storage("encoded colour", sizes.encoded)?,
+            layout: layout.clone(),
+            _pool: pool,
+            sets,
+        };
+        for set in &resources.sets {
+            resources.write(set, scene, targets);
+        }
+        Ok(resources)
+    }
+
+    /// What was asked for.
+    #[must_use]
+    pub fn sizes(&self) -> &ResourceSizes {
+        &self.sizes
+    }
+
+    /// The list of sub-sample locations at `index`.
+    pub(crate) fn set(&self, index: usize) -> Option<&SampleSet> {
+        self.sets.get(index)
+    }
+
+    /// Copies the locations to the device, once.
+    pub fn record_upload(&self, recorder: &Recorder<'_>) {
+        for set in &self.sets {
+            if let Some(upload) = &set.upload {
+                let region = [vk::BufferCopy::default().size(u64::from(set.count) * 8)];
+                // SAFETY: the recorder's contract; both buffers hold all locations.
+                unsafe {
+                    recorder.device().cmd_copy_buffer(
+                        recorder.raw(),
+                        upload.raw,
+                        set.locations.buffer.raw,
+                        &region,
+                    )
+                };
+            }
+        }
+        recorder.barrier();
+    }
+
+    /// Begins work on a region: its uniform block, cleared counters and tiles, bound sets.
+    pub(crate) fn record_begin(
+        &self,
+        recorder: &Recorder<'_>,
+        set: &SampleSet,
+        uniform: &FrameUniform,
+    ) {
+        recorder.barrier();
+        // SAFETY: the recorder's contract; the block is below the 65,536 bytes that an inline update can have.
+        unsafe {
+            recorder.device().cmd_update_buffer(
+                recorder.raw(),
+                set.uniform.raw,
+                0,
+                bytemuck::bytes_of(uniform),
+            )
+        };
+        recorder.clear(&self.counters);
+        recorder.clear(&self.tiles);
+        recorder.barrier();
+        // SAFETY: the recorder's contract; the set matches the layout of all pipelines.
+        unsafe {
+            recorder.device().cmd_bind_descriptor_sets(
+                recorder.raw(),
+                vk::PipelineBindPoint::COMPUTE,
+                self.layout.pipeline,
+                0,
+                &[set.set],
+                &[],
+            );
+        }
+    }
+
+    fn write(&self, set: &SampleSet, scene: &GpuScene, targets: &RasterTargets) {
+        let texel = |binding: u32, view: &BufferView, storage: bool| (binding, view.view, storage);
+        let texel_writes = [
+            texel(1, &scene.positions, false),
+            texel(2, &scene.triangles, false),
+            texel(3, &scene.normals, false),
+            texel(4, &scene.tangents, false),
+            texel(5, &scene.uvs, false),
+            texel(6, &scene.colors, false),
+            texel(10, &scene.clip, false),
+            texel(11, &scene.clip, true),
+            texel(16, &self.display, false),
+            texel(17, &self.display, true),
+            texel(18, &self.color, true),
+            texel(24, &self.candidates, false),
+            texel(25, &self.candidates, true),
+            texel(27, &self.records, false),
+            texel(28, &self.records, true),
+            texel(29, &self.shaded, false),
+            texel(30, &self.shaded, true),
+            texel(32, &set.locations, false),
+            texel(35, &self.filtered, true),
+            texel(36, &self.attributes, true),
+        ];
+        let views: Vec<[vk::BufferView; 1]> =
+            texel_writes.iter().map(|(_, view, _)| [*view]).collect();
+        let mut writes: Vec<vk::WriteDescriptorSet<'_>> = texel_writes
+            .iter()
+            .zip(&views)
+            .map(|((binding, _, storage), view)| {
+                let kind = if *storage {
+                    vk::DescriptorType::STORAGE_TEXEL_BUFFER
+                } else {
+                    vk::DescriptorType::UNIFORM_TEXEL_BUFFER
+                };
+                vk::WriteDescriptorSet::default()
+                    .dst_set(set.set)
+                    .dst_binding(*binding)
+                    .descriptor_type(kind)
+                    .texel_buffer_view(view)
+            })
+            .collect();
+        let buffer = |buffer: &Buffer| {
+            [vk::DescriptorBufferInfo::default()
+                .buffer(buffer.raw)
+                .range(vk::WHOLE_SIZE)]
+        };
+        let storage = [
+            (7, buffer(&scene.materials)),
+            (8, buffer(&scene.lights)),
+            (9, buffer(&scene.alpha_atlas)),
+            (19, buffer(&self.counters)),
+            (20, buffer(&self.masks)),
+            (21, buffer(&self.tiles)),
+            (22, buffer(&self.tile_lists)),
+            (23, buffer(&self.survivors)),
+            (26, buffer(&self.headers)),
+            (31, buffer(&self.shade_order)),
+            (33, buffer(&self.bins)),
+            (34, buffer(&self.arguments)),
+            (37, buffer(&self.encoded)),
+        ];
+        for (binding, info) in &storage {
+            writes.push(
+                vk::WriteDescriptorSet::default()
+                    .dst_set(set.set)
+                    .dst_binding(*binding)
+                    .descriptor_type(vk::DescriptorType::STORAGE_BUFFER)
+                    .buffer_info(info),
+            );
+        }
+        let uniform = buffer(&set.uniform);
+        writes.push(
+            vk::WriteDescriptorSet::default()
+                .dst_set(set.set)
+                .dst_binding(0)
+                .descriptor_type(vk::DescriptorType::UNIFORM_BUFFER)
+                .buffer_info(&uniform),
+        );
+        // A pipeline reads either the single-sampled or the multisampled bindings; the other ones stay unwritten.
+        // Without BLEND its binding shows the opaque IDs, which specialised shaders do not read.
+        let image = |view| {
+            [vk::DescriptorImageInfo::default()
+                .image_view(view)
+                .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)]
+        };
+        let blend_view = targets.blend_ids.as_ref().unwrap_or(&targets.ids).view;
+        let first = if targets.multisampled() { 14 } else { 12 };
+        let images = [
+            (first, image(targets.ids.view)),
+            (first + 1, image(blend_view)),
+        ];
+        for (binding, info) in &images {
+            writes.push(
+                vk::WriteDescriptorSet::default()
+                    .dst_set(set.set)
+                    .dst_binding(*binding)
+                    .descriptor_type(vk::DescriptorType::SAMPLED_IMAGE)
+                    .image_info(info),
+            );
+        }
+        // SAFETY: the set was just allocated and no frame uses it; every handle is alive and outlives the set.
+        unsafe { self.layout.gpu.device.update_descriptor_sets(&writes, &[]) };
+    }
+}

@@ -1,0 +1,44 @@
+//! schedule: which tiles' lists are placed in a round.
+
+use super::{FrameLayout, Sample, TileList, spirv};
+use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+
+/// Places as many lists as fit.
+pub struct Schedule {
+    pipeline: Pipeline,
+}
+
+impl Schedule {
+    /// Makes the pipeline for what `sample` writes; `layers` is the number of BLEND layers a sample that tiles
+    /// are admitted with.
+    ///
+    /// # Errors
+    /// If the driver refuses it.
+    pub fn new(
+        layout: &FrameLayout,
+        sample: &Sample,
+        per_sample: bool,
+        layers: u32,
+    ) -> Result<Self, VulkanError> {
+        let lanes = layout.gpu.limits().subgroup_size;
+        let constants = Constants::new()
+            .with(0, lanes)
+            .with(1, sample.block(TileList::Plain))
+            .with(2, sample.block(TileList::Masked))
+            .flag(3, per_sample)
+            .with(4, layers);
+        let pipeline = compute_pipeline(
+            &layout.gpu,
+            layout.pipeline,
+            spirv::SCHEDULE,
+            &constants,
+            Some(lanes),
+        )?;
+        Ok(Self { pipeline })
+    }
+
+    /// Records it.
+    pub fn record(&self, recorder: &Recorder<'_>) {
+        recorder.dispatch(&self.pipeline, 1);
+    }
+}

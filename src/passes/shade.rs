@@ -1,0 +1,145 @@
+//! shade: the radiance of what is seen, one dispatch a material bin.
+
+use super::geometry::ShadeFeatures;
+use super::{Argument, FrameLayout, GpuScene, spirv};
+use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+use ash::vk;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// What is shaded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ShadeSource {
+    /// The centre of every pixel of a region, into its colours.
+    Pixels {
+        /// Write display codes for detection.
+        display_codes: bool,
+    },
+    /// Visibility records.
+    Records,
+}
+
+/// Shades each bin with a pipeline that has only what its materials and the scene's lights need.
+pub struct Shade {
+    layout: Arc<FrameLayout>,
+    source: ShadeSource,
+    pipelines: Vec<Pipeline>,
+    /// Pipeline of each bin.
+    bins: Vec<usize>,
+}
+
+impl Shade {
+    /// Makes a pipeline for each set of features in the scene; `output` are the colour constants of
+    /// `shaders/include/color.glsl`.
+    ///
+    /// # Errors
+    /// If the driver refuses one.
+    pub fn new(
+        layout: &Arc<FrameLayout>,
+        scene: &GpuScene,
+        source: ShadeSource,
+        output: &Constants,
+    ) -> Result<Self, VulkanError> {
+        let lights = scene.light_features();
+        let pixels = source != ShadeSource::Records;
+        let common = output
+            .clone()
+            .flag(0, pixels)
+            .flag(1, scene.bins.len() > 1)
+            .flag(
+                2,
+                source
+                    == ShadeSource::Pixels {
+                        display_codes: true,
+                    },
+            )
+            .flag(10, lights.count > 0)
+            .flag(11, lights.local)
+            .flag(12, !pixels && scene.has_blend());
+        let mut known: HashMap<ShadeFeatures, usize> = HashMap::new();
+        let mut pipelines = Vec::new();
+        let mut bins = Vec::new();
+        for bin in &scene.bins {
+            let features = bin.features;
+            if let Some(index) = known.get(&features) {
+                bins.push(*index);
+                continue;
+            }
+            let constants = (3..)
+                .zip(features.textures)
+                .fold(common.clone(), |constants, (id, read)| {
+                    constants.flag(id, read)
+                })
+                .flag(8, features.vertex_colors)
+                .flag(9, features.unlit);
+            pipelines.push(compute_pipeline(
+                &layout.gpu,
+                layout.pipeline,
+                spirv::SHADE,
+                &constants,
+                None,
+            )?);
+            known.insert(features, pipelines.len() - 1);
+            bins.push(pipelines.len() - 1);
+        }
+        Ok(Self {
+            layout: layout.clone(),
+            source,
+            pipelines,
+            bins,
+        })
+    }
+
+    /// Whether entries must be sorted by bin first.
+    #[must_use]
+    pub fn needs_order(&self) -> bool {
+        self.bins.len() > 1
+    }
+
+    /// Number of pipelines, for the statistics.
+    #[must_use]
+    pub fn pipeline_count(&self) -> usize {
+        self.pipelines.len()
+    }
+
+    /// Records it, over `pixels` pixels or the records of the round.
+    pub fn record(
+        &self,
+        recorder: &Recorder<'_>,
+        scene: &GpuScene,
+        arguments: &Buffer,
+        pixels: u32,
+    ) {
+        for (bin, (material_bin, pipeline)) in scene.bins.iter().zip(&self.bins).enumerate() {
+            let Some(pipeline) = self.pipelines.get(*pipeline) else {
+                continue;
+            };
+            // SAFETY: the recorder's contract; the set matches the pipelines' layout.
+            unsafe {
+                recorder.device().cmd_bind_descriptor_sets(
+                    recorder.raw(),
+                    vk::PipelineBindPoint::COMPUTE,
+                    self.layout.pipeline,
+                    1,
+                    &[material_bin.textures],
+                    &[],
+                );
+            }
+            recorder.push(self.layout.pipeline, &[bin as u32]);
+            match (self.needs_order(), self.source) {
+                (true, _) => recorder.dispatch_indirect_unordered(
+                    pipeline,
+                    arguments,
+                    Argument::Shade as u32 + bin as u32,
+                ),
+                (false, ShadeSource::Pixels { .. }) => {
+                    recorder.dispatch(pipeline, u64::from(pixels.div_ceil(64)))
+                }
+                (false, ShadeSource::Records) => {
+                    recorder.dispatch_indirect(pipeline, arguments, Argument::Sort as u32)
+                }
+            }
+        }
+        recorder.barrier();
+    }
+}

@@ -1,0 +1,170 @@
+//! Images and samplers on the device.
+
+use crate::scene::{Filter, Image as SceneImage, Sampler, Wrap};
+use crate::vulkan::{Buffer, Gpu, Image, Memory, MemoryUse, Recorder, VulkanError};
+use ash::vk;
+use std::sync::Arc;
+
+/// An image with its mipmaps, and the bytes to fill it with until the first frame.
+pub(super) struct Texture {
+    pub(super) image: Image,
+    upload: Option<Buffer>,
+}
+
+impl Texture {
+    /// `srgb` for colours, otherwise values are taken as they are.
+    pub(super) fn new(
+        memory: &Memory,
+        source: &SceneImage,
+        srgb: bool,
+    ) -> Result<Self, VulkanError> {
+        let limit = u64::from(memory.gpu().limits().max_image_side);
+        let side = u64::from(source.width.max(source.height));
+        if side > limit {
+            return Err(VulkanError::TooLarge {
+                what: "a texture's side".to_owned(),
+                needed: side,
+                unit: "texels",
+                limit,
+            });
+        }
+        let info = vk::ImageCreateInfo::default()
+            .image_type(vk::ImageType::TYPE_2D)
+            .format(if srgb {
+                vk::Format::R8G8B8A8_SRGB
+            } else {
+                vk::Format::R8G8B8A8_UNORM
+            })
+            .extent(vk::Extent3D {
+                width: source.width,
+                height: source.height,
+                depth: 1,
+            })
+            .mip_levels(side.ilog2() + 1)
+            .array_layers(1)
+            .samples(vk::SampleCountFlags::TYPE_1)
+            .usage(
+                vk::ImageUsageFlags::SAMPLED
+                    | vk::ImageUsageFlags::TRANSFER_DST
+                    | vk::ImageUsageFlags::TRANSFER_SRC,
+            );
+        let image = memory.image("texture", &info, vk::ImageAspectFlags::COLOR)?;
+        let bytes = &source.pixels;
+        let mut upload = memory.buffer(
+            "texture upload",
+            bytes.len() as u64,
+            vk::BufferUsageFlags::TRANSFER_SRC,
+            MemoryUse::Upload,
+        )?;
+        if let Some(mapped) = upload.bytes_mut().get_mut(..bytes.len()) {
+            mapped.copy_from_slice(bytes);
+        }
+        Ok(Self {
+            image,
+            upload: Some(upload),
+        })
+    }
+
+    /// Copies the first level and makes each further one from the one before, by the device's linear blit.
+    pub(super) fn record_upload(&self, recorder: &Recorder<'_>) {
+        let Some(upload) = &self.upload else { return };
+        let (device, raw, image) = (recorder.device(), recorder.raw(), &self.image);
+        let general = vk::ImageLayout::GENERAL;
+        recorder.transition(image, vk::ImageLayout::UNDEFINED, general);
+        let layer = |level| vk::ImageSubresourceLayers {
+            aspect_mask: vk::ImageAspectFlags::COLOR,
+            mip_level: level,
+            base_array_layer: 0,
+            layer_count: 1,
+        };
+        let extent = vk::Extent3D {
+            width: image.extent.width,
+            height: image.extent.height,
+            depth: 1,
+        };
+        let copy = [vk::BufferImageCopy::default()
+            .image_subresource(layer(0))
+            .image_extent(extent)];
+        // SAFETY: the recorder's contract; the buffer holds the whole level, which is in the layout named.
+        unsafe { device.cmd_copy_buffer_to_image(raw, upload.raw, image.raw, general, &copy) };
+        let corner = |level: u32| vk::Offset3D {
+            x: (image.extent.width >> level).max(1) as i32,
+            y: (image.extent.height >> level).max(1) as i32,
+            z: 1,
+        };
+        for level in 1..image.levels {
+            recorder.barrier();
+            let blit = [vk::ImageBlit::default()
+                .src_subresource(layer(level - 1))
+                .src_offsets([vk::Offset3D::default(), corner(level - 1)])
+                .dst_subresource(layer(level))
+                .dst_offsets([vk::Offset3D::default(), corner(level)])];
+            // SAFETY: as above; source and destination are different levels.
+            unsafe {
+                device.cmd_blit_image(
+                    raw,
+                    image.raw,
+                    general,
+                    image.raw,
+                    general,
+                    &blit,
+                    vk::Filter::LINEAR,
+                )
+            };
+        }
+        recorder.transition(image, general, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
+    }
+
+    /// Frees the bytes that filled the image.
+    pub(super) fn discard_upload(&mut self) {
+        self.upload = None;
+    }
+}
+
+/// A sampler that goes with its owner.
+pub(super) struct DeviceSampler {
+    gpu: Arc<Gpu>,
+    pub(super) raw: vk::Sampler,
+}
+
+impl DeviceSampler {
+    pub(super) fn new(gpu: &Arc<Gpu>, sampler: &Sampler) -> Result<Self, VulkanError> {
+        let filter = |filter| match filter {
+            Filter::Nearest => vk::Filter::NEAREST,
+            Filter::Linear => vk::Filter::LINEAR,
+        };
+        let wrap = |wrap| match wrap {
+            Wrap::Repeat => vk::SamplerAddressMode::REPEAT,
+            Wrap::MirroredRepeat => vk::SamplerAddressMode::MIRRORED_REPEAT,
+            Wrap::ClampToEdge => vk::SamplerAddressMode::CLAMP_TO_EDGE,
+        };
+        let info = vk::SamplerCreateInfo::default()
+            .mag_filter(filter(sampler.mag))
+            .min_filter(filter(sampler.min))
+            .mipmap_mode(match sampler.mip {
+                Some(Filter::Linear) => vk::SamplerMipmapMode::LINEAR,
+                _ => vk::SamplerMipmapMode::NEAREST,
+            })
+            .address_mode_u(wrap(sampler.wrap_u))
+            .address_mode_v(wrap(sampler.wrap_v))
+            .max_lod(if sampler.mip.is_some() {
+                vk::LOD_CLAMP_NONE
+            } else {
+                0.25
+            });
+        // SAFETY: plain creation on a live device.
+        let raw = unsafe { gpu.device.create_sampler(&info, None) }
+            .map_err(VulkanError::of("vkCreateSampler"))?;
+        Ok(Self {
+            gpu: gpu.clone(),
+            raw,
+        })
+    }
+}
+
+impl Drop for DeviceSampler {
+    fn drop(&mut self) {
+        // SAFETY: owners drop samplers after the frames that use them.
+        unsafe { self.gpu.device.destroy_sampler(self.raw, None) };
+    }
+}

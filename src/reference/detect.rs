@@ -1,0 +1,133 @@
+//! Which pixels alias: the superpixels.
+//!
+//! A pixel is a superpixel if any of its 8 neighbours inside the image shows another surface and differs in colour. Two
+//! pixels show different surfaces if the IDs of their nearest opaque triangles differ or those of their nearest
+//! blended triangles do. Colours are compared as they will be displayed, channel by channel, alpha included, since
+//! alpha alone tells a black object from a transparent background.
+
+use thiserror::Error;
+
+/// Width of a tile of the mask in pixels.
+pub const TILE_WIDTH: u32 = 8;
+
+/// Height of a tile of the mask in pixels.
+pub const TILE_HEIGHT: u32 = 4;
+
+/// What makes two neighbours contrast. Thresholds are in 8-bit code values of the displayed colour: a channel must
+/// differ by more.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// Another surface and another colour.
+    Contrast(u8),
+    /// Another surface, whatever the colours.
+    Exact,
+    /// Another colour, whatever the surfaces.
+    Colour(u8),
+}
+
+/// An image as detection reads it, row by row from the top left.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame<'a> {
+    width: u32,
+    height: u32,
+    ids: &'a [u32],
+    blend_ids: &'a [u32],
+    colours: &'a [u32],
+}
+
+/// A plane of an image that does not have one value for each pixel.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("the {plane} of a {width} x {height} image are {found} values; give one for each pixel")]
+pub struct PlaneError {
+    /// Which values.
+    pub plane: &'static str,
+    /// Width of the image in pixels.
+    pub width: u32,
+    /// Height of the image in pixels.
+    pub height: u32,
+    /// How many values there are.
+    pub found: usize,
+}
+
+impl<'a> Frame<'a> {
+    /// An image of `width` x `height` pixels: the ID of the nearest opaque or masked triangle of each, that of the
+    /// nearest blended triangle (0 where there is none), and the displayed colour as RGBA, 8 bits each, red in the
+    /// lowest.
+    ///
+    /// # Errors
+    /// One of the slices is not as long as the image has pixels.
+    pub fn new(
+        width: u32,
+        height: u32,
+        ids: &'a [u32],
+        blend_ids: &'a [u32],
+        colours: &'a [u32],
+    ) -> Result<Self, PlaneError> {
+        for (plane, values) in [
+            ("triangle IDs", ids),
+            ("blend IDs", blend_ids),
+            ("colours", colours),
+        ] {
+            if values.len() as u64 != u64::from(width) * u64::from(height) {
+                return Err(PlaneError {
+                    plane,
+                    width,
+                    height,
+                    found: values.len(),
+                });
+            }
+        }
+        Ok(Self {
+            width,
+            height,
+            ids,
+            blend_ids,
+            colours,
+        })
+    }
+
+    /// Whether two pixels, given by their places in the planes, contrast.
+    fn contrast(&self, a: usize, b: usize, mode: Mode) -> bool {
+        let surface = || self.ids[a] != self.ids[b] || self.blend_ids[a] != self.blend_ids[b];
+        let colour = |threshold: u8| {
+            let channels = self.colours[a]
+                .to_le_bytes()
+                .into_iter()
+                .zip(self.colours[b].to_le_bytes());
+            channels.into_iter().any(|(a, b)| a.abs_diff(b) > threshold)
+        };
+        match mode {
+            Mode::Contrast(threshold) => surface() && colour(threshold),
+            Mode::Exact => surface(),
+            Mode::Colour(threshold) => colour(threshold),
+        }
+    }
+}
+
+/// The superpixels of an image: one word per tile of [`TILE_WIDTH`] x [`TILE_HEIGHT`] pixels, tiles row by row,
+/// ceil(width / 8) of them in a row; pixel (x, y) is bit 8 (y mod 4) + x mod 8 of its tile's word. Bits outside the
+/// image are 0.
+pub fn superpixels(frame: &Frame<'_>, mode: Mode) -> Vec<u32> {
+    let tiles_x = frame.width.div_ceil(TILE_WIDTH);
+    let tiles_y = frame.height.div_ceil(TILE_HEIGHT);
+    let mut mask = vec![0; tiles_x as usize * tiles_y as usize];
+    let place = |x: u32, y: u32| y as usize * frame.width as usize + x as usize;
+    let mut mark = |x: u32, y: u32| {
+        let tile = (y / TILE_HEIGHT) as usize * tiles_x as usize + (x / TILE_WIDTH) as usize;
+        mask[tile] |= 1 << (y % TILE_HEIGHT * TILE_WIDTH + x % TILE_WIDTH);
+    };
+    // Each pair of neighbours is tested once, from the pixel that comes first.
+    for (y, x) in (0..frame.height).flat_map(|y| (0..frame.width).map(move |x| (y, x))) {
+        for (dx, dy) in [(1, 0), (-1, 1), (0, 1), (1, 1)] {
+            let Some(nx) = x.checked_add_signed(dx).filter(|&nx| nx < frame.width) else {
+                continue;
+            };
+            let ny = y + dy;
+            if ny < frame.height && frame.contrast(place(x, y), place(nx, ny), mode) {
+                mark(x, y);
+                mark(nx, ny);
+            }
+        }
+    }
+    mask
+}

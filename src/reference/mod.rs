@@ -1,0 +1,14 @@
+//! Scalar twins, in exact or 64-bit arithmetic, of the decisions that the GPU makes.
+//!
+//! They are slow and plain, and share no code with the shaders; tests hold the shaders against them. All positions are
+//! in pixels, x to the right and y down.
+
+#![forbid(unsafe_code)]
+
+pub mod coverage;
+pub mod detect;
+pub mod edge;
+mod exact;
+pub mod srgb;
+pub mod tonemap;
+pub mod visibility;

@@ -1,0 +1,79 @@
+//! What can go wrong with a frame.
+
+use crate::sampling::PatternError;
+use crate::vulkan::VulkanError;
+
+/// An error of the renderer.
+#[derive(Debug, thiserror::Error)]
+pub enum RenderError {
+    /// The device refuses.
+    #[error(transparent)]
+    Vulkan(#[from] VulkanError),
+    /// The pattern can't have that many sub-samples.
+    #[error(transparent)]
+    Pattern(#[from] PatternError),
+    /// The method can't have that many samples.
+    #[error("{method} can't have {asked} samples a pixel; it can have {possible}")]
+    Samples {
+        /// The method's name.
+        method: &'static str,
+        /// What was asked for.
+        asked: u32,
+        /// What can be had.
+        possible: String,
+    },
+    /// The image has no pixels or too many.
+    #[error("an image of {width} x {height} pixels: each side must be from 1 to {limit}")]
+    Size {
+        /// Asked width.
+        width: u32,
+        /// Asked height.
+        height: u32,
+        /// Largest side.
+        limit: u32,
+    },
+    /// Not even the smallest part of the image fits.
+    #[error(
+        "{needed} bytes of device memory are needed at the least, and --max-memory allows {allowed}"
+    )]
+    Memory {
+        /// The least that will do.
+        needed: u64,
+        /// What is allowed.
+        allowed: u64,
+    },
+    /// Lists of records outgrew their memory in every round.
+    #[error(
+        "the records of {cells} superpixels do not fit in memory, even in parts; give more with --max-memory or ask for fewer samples"
+    )]
+    Unfinished {
+        /// How many superpixels or tiles are left.
+        cells: u64,
+    },
+    /// The format of a host's image is not one of those that can be written.
+    #[error(
+        "a target of format {0:?}: it can be R8G8B8A8_UNORM, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT"
+    )]
+    TargetFormat(ash::vk::Format),
+}
+
+impl RenderError {
+    /// Whether what was asked for can't be had from this method at all.
+    #[must_use]
+    pub fn is_usage(&self) -> bool {
+        matches!(
+            self,
+            Self::Pattern(_) | Self::Samples { .. } | Self::Size { .. }
+        )
+    }
+
+    /// Whether the device is lost or out of memory.
+    #[must_use]
+    pub fn is_device_failure(&self) -> bool {
+        match self {
+            Self::Vulkan(error) => error.is_device_failure(),
+            Self::Memory { .. } | Self::Unfinished { .. } => true,
+            _ => false,
+        }
+    }
+}

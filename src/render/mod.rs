@@ -1,0 +1,19 @@
+//! Rendering: a scene and a camera in, an image out.
+//!
+//! [`Renderer`] works in a host's device and command buffers; [`Headless`] owns a device and is built on it.
+
+mod engine;
+mod error;
+mod frame;
+mod headless;
+mod plan;
+mod renderer;
+mod settings;
+mod statistics;
+
+pub use error::RenderError;
+pub use frame::{Frame, ImageState, Target};
+pub use headless::{Headless, HeadlessOptions, Rendered};
+pub use renderer::{PreparedScene, Renderer};
+pub use settings::{Detection, Method, Reference, Settings, Shading};
+pub use statistics::{PassTime, Statistics, TriangleCounts};

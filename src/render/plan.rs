@@ -1,0 +1,211 @@
+//! How an image is worked through in parts: each region fits the device's limits and the memory allowed.
+
+use super::{Method, RenderError, Settings, Shading};
+use crate::passes::{Encoding, GpuScene, ResourceSizes};
+use crate::vulkan::Limits;
+
+/// A part of the image, in output pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Region {
+    /// Upper left pixel that the region owns.
+    pub low: [u32; 2],
+    /// Lower right pixel, exclusive.
+    pub high: [u32; 2],
+    /// Pixels around it that detection compares with: left, top, right, bottom, 0 or 1 each.
+    pub halo: [u32; 4],
+}
+
+impl Region {
+    /// Pixels that it owns.
+    pub fn size(&self) -> [u32; 2] {
+        [self.high[0] - self.low[0], self.high[1] - self.low[1]]
+    }
+
+    /// Pixels with the halo.
+    pub fn outer(&self) -> [u32; 2] {
+        let [width, height] = self.size();
+        [
+            width + self.halo[0] + self.halo[2],
+            height + self.halo[1] + self.halo[3],
+        ]
+    }
+}
+
+/// The regions of an image and the memory that the largest of them needs.
+#[derive(Clone, Debug)]
+pub(super) struct Plan {
+    pub regions: Vec<Region>,
+    pub sizes: ResourceSizes,
+    /// Rounds of lists and records recorded for each region.
+    pub rounds: u32,
+    /// BLEND layers a sample that tiles are admitted with.
+    pub layers: u32,
+}
+
+/// What a frame was found to need more of than first planned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Effort {
+    pub rounds: u32,
+    pub layers: u32,
+}
+
+impl Default for Effort {
+    fn default() -> Self {
+        Self {
+            rounds: 3,
+            layers: 4,
+        }
+    }
+}
+
+/// Largest region in virtual pixels; larger images are rendered in parts.
+const REGION_PIXELS: u64 = 16 << 20;
+/// The same for supersampling, where a part is reused for the next.
+const SUPERSAMPLED_PIXELS: u64 = 4 << 20;
+/// Most visibility records and candidates of a round.
+const MOST_RECORDS: u64 = 6 << 20;
+const MOST_CANDIDATES: u64 = 2 << 20;
+
+impl Plan {
+    /// Plans an image.
+    ///
+    /// # Errors
+    /// [`RenderError::Memory`] if not even a region of 64 x 64 pixels fits.
+    pub fn new(
+        settings: &Settings,
+        scene: &GpuScene,
+        limits: &Limits,
+        encoding: Option<Encoding>,
+        effort: Effort,
+        taken: u64,
+    ) -> Result<Self, RenderError> {
+        let side = settings.side();
+        let [width, height] = settings.size;
+        let most = if side > 1 {
+            SUPERSAMPLED_PIXELS
+        } else {
+            REGION_PIXELS
+        };
+        // A storage buffer holds 4 bytes a pixel of a region.
+        let most = most.min(limits.max_storage_bytes / 4);
+        let longest = limits.max_image_side.min(65_535) / side - 2;
+        let mut region = [width.min(longest), height.min(longest)];
+        let allowed = settings.max_memory.map(|limit| limit.saturating_sub(taken));
+        loop {
+            let mut plan = Self::with_region(settings, scene, limits, encoding, effort, region);
+            let pixels = u64::from(plan.sizes.pixels());
+            let mut needed = plan.bytes(scene, settings);
+            if let Some(allowed) = allowed {
+                // Fewer records mean more rounds, which cost less than more regions.
+                while needed > allowed && plan.sizes.record_capacity > 1 << 16 {
+                    plan.sizes.record_capacity /= 2;
+                    plan.sizes.list_capacity = (plan.sizes.list_capacity / 2).max(1 << 12);
+                    plan.rounds *= 2;
+                    needed = plan.bytes(scene, settings);
+                }
+            }
+            if pixels <= most && allowed.is_none_or(|allowed| needed <= allowed) {
+                return Ok(plan);
+            }
+            let longer = usize::from(region[1] > region[0]);
+            if region[longer] <= 64 {
+                return Err(RenderError::Memory {
+                    needed: needed + taken,
+                    allowed: settings.max_memory.unwrap_or(0),
+                });
+            }
+            // Whole tiles, so that a region's tiles are those of the image.
+            region[longer] = region[longer].div_ceil(2).next_multiple_of(8);
+        }
+    }
+
+    fn with_region(
+        settings: &Settings,
+        scene: &GpuScene,
+        limits: &Limits,
+        encoding: Option<Encoding>,
+        effort: Effort,
+        region: [u32; 2],
+    ) -> Self {
+        let [width, height] = settings.size;
+        let side = settings.side();
+        let detects = settings.method == Method::Superpixel;
+        let mut regions = Vec::new();
+        for y in (0..height).step_by(region[1] as usize) {
+            for x in (0..width).step_by(region[0] as usize) {
+                let high = [(x + region[0]).min(width), (y + region[1]).min(height)];
+                let halo = |inside: bool| u32::from(detects && inside);
+                regions.push(Region {
+                    low: [x, y],
+                    high,
+                    halo: [
+                        halo(x > 0),
+                        halo(y > 0),
+                        halo(high[0] < width),
+                        halo(high[1] < height),
+                    ],
+                });
+            }
+        }
+        let outer = regions.iter().fold([0, 0], |most, r| {
+            let [w, h] = r.outer();
+            [most[0].max(w * side), most[1].max(h * side)]
+        });
+        let pixels = u64::from(outer[0]) * u64::from(outer[1]);
+        let tiles = u64::from(outer[0].div_ceil(8)) * u64::from(outer[1].div_ceil(4));
+        let samples = u64::from(settings.samples);
+        let lanes = u64::from(limits.subgroup_size);
+        let records = match settings.method {
+            Method::Superpixel => {
+                let blocks = samples.div_ceil(32 * lanes);
+                let usual = if settings.shading == Shading::Sample || scene.has_blend() {
+                    samples.min(64)
+                } else {
+                    6 * blocks
+                };
+                (pixels * usual.min(samples).max(2)).clamp(1 << 16, MOST_RECORDS)
+            }
+            Method::Msaa => tiles * 32 * samples * if scene.has_blend() { 2 } else { 1 },
+            Method::None | Method::Ssaa if scene.has_blend() => pixels * 3,
+            Method::None | Method::Ssaa => 0,
+        };
+        let samples_cells = detects || scene.has_blend();
+        let candidates = if samples_cells {
+            (u64::from(scene.triangle_count()) * 3 + tiles * 8).clamp(1 << 14, MOST_CANDIDATES)
+        } else {
+            0
+        };
+        let filtered = if side > 1 {
+            pixels / u64::from(side * side)
+        } else {
+            0
+        };
+        let sizes = ResourceSizes {
+            region: outer,
+            list_capacity: candidates as u32,
+            record_capacity: records as u32,
+            filtered: filtered as u32,
+            attributes: settings.attributes,
+            encoded: encoding
+                .filter(|e| *e != Encoding::Rgba32Float)
+                .map_or(0, |e| e.bytes() * pixels),
+        };
+        Self {
+            regions,
+            sizes,
+            rounds: effort.rounds,
+            layers: effort.layers,
+        }
+    }
+
+    fn bytes(&self, scene: &GpuScene, settings: &Settings) -> u64 {
+        let samples = if settings.method == Method::Msaa {
+            u64::from(settings.samples)
+        } else {
+            1
+        };
+        let images =
+            u64::from(self.sizes.pixels()) * samples * if scene.has_blend() { 12 } else { 8 };
+        self.sizes.bytes(u64::from(scene.triangle_count())) + images
+    }
+}

@@ -1,0 +1,179 @@
+//! What to render and how.
+
+use super::RenderError;
+use crate::sampling::Pattern;
+use crate::vulkan::Limits;
+use ash::vk;
+
+/// How edges are antialiased.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// One sample a pixel.
+    None,
+    /// Many samples in the pixels that alias, one in the others.
+    Superpixel,
+    /// Every pixel rendered at k x k times the resolution and box-filtered: brute force.
+    Ssaa,
+    /// The device's own multisampling.
+    Msaa,
+}
+
+/// What makes a pixel a superpixel: see [`crate::passes::DetectMode`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Detection {
+    /// Another triangle in a contrasting colour beside it.
+    Contrast,
+    /// Another triangle beside it.
+    Exact,
+    /// A contrasting colour beside it.
+    Colour,
+    /// Every pixel is one; to measure with.
+    Every,
+}
+
+/// How often the inside of a superpixel is shaded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shading {
+    /// Once a visible triangle and block of samples, at the centroid of what is seen of it.
+    Triangle,
+    /// Once a sub-sample.
+    Sample,
+}
+
+/// What the numbers in the image refer to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reference {
+    /// Tone-mapped (Khronos PBR Neutral) linear light in 0 to 1, for a display.
+    Display,
+    /// Linear radiance times exposure, unbounded.
+    Scene,
+}
+
+/// All that decides an image beside scene and camera.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// How edges are antialiased.
+    pub method: Method,
+    /// Samples a pixel: 1 to 1,024; squares for supersampling, what the device has for multisampling.
+    pub samples: u32,
+    /// Where sub-samples lie in a superpixel.
+    pub pattern: Pattern,
+    /// How often they are shaded.
+    pub shading: Shading,
+    /// What makes a superpixel.
+    pub detection: Detection,
+    /// Differences above this, in 8-bit sRGB code values of any channel, are a contrast.
+    pub contrast: u8,
+    /// Linear light behind the scene; `None` leaves it transparent.
+    pub background: Option<[f32; 3]>,
+    /// Exposure in stops.
+    pub exposure: f32,
+    /// What the numbers in the image refer to.
+    pub reference: Reference,
+    /// Whether detection compares tone-mapped colours although the image holds scene-referred ones.
+    pub tonemapped_detection: bool,
+    /// Whether depth, ID, normal and sampling of every pixel are wanted too.
+    pub attributes: bool,
+    /// Bound on device memory in bytes, uploads and read-back included.
+    pub max_memory: Option<u64>,
+}
+
+impl Settings {
+    /// Default contrast threshold in code values.
+    pub const DEFAULT_CONTRAST: u8 = 12;
+    /// Default number of sub-samples.
+    pub const DEFAULT_SAMPLES: u32 = 64;
+
+    /// Superpixel antialiasing with the defaults, at a size.
+    #[must_use]
+    pub fn new(width: u32, height: u32) -> Self {
+        Self {
+            size: [width, height],
+            method: Method::Superpixel,
+            samples: Self::DEFAULT_SAMPLES,
+            pattern: Pattern::Sobol,
+            shading: Shading::Triangle,
+            detection: Detection::Contrast,
+            contrast: Self::DEFAULT_CONTRAST,
+            background: None,
+            exposure: 0.0,
+            reference: Reference::Display,
+            tonemapped_detection: true,
+            attributes: false,
+            max_memory: None,
+        }
+    }
+
+    /// Side of a pixel's grid under supersampling, otherwise 1.
+    #[must_use]
+    pub(crate) fn side(&self) -> u32 {
+        if self.method == Method::Ssaa {
+            self.samples.isqrt()
+        } else {
+            1
+        }
+    }
+
+    /// Locations of the sub-samples, relative to the pixel's centre.
+    pub(crate) fn locations(&self) -> Result<Vec<[f32; 2]>, RenderError> {
+        match self.method {
+            Method::None | Method::Ssaa => Ok(vec![[0.0, 0.0]]),
+            Method::Superpixel => Ok(self.pattern.offsets(self.samples)?),
+            Method::Msaa => Ok(Pattern::Rotated.offsets(self.samples)?),
+        }
+    }
+
+    /// Checks what does not depend on the scene.
+    pub(crate) fn check(&self, limits: &Limits) -> Result<(), RenderError> {
+        const LARGEST_SIDE: u32 = 65_535;
+        let [width, height] = self.size;
+        if !(1..=LARGEST_SIDE).contains(&width) || !(1..=LARGEST_SIDE).contains(&height) {
+            return Err(RenderError::Size {
+                width,
+                height,
+                limit: LARGEST_SIDE,
+            });
+        }
+        let refuse = |method, possible| {
+            Err(RenderError::Samples {
+                method,
+                asked: self.samples,
+                possible,
+            })
+        };
+        match self.method {
+            Method::None => Ok(()),
+            Method::Superpixel if !(1..=1024).contains(&self.samples) => {
+                refuse("superpixel", "1 to 1024".to_owned())
+            }
+            Method::Superpixel => self.locations().map(|_| ()),
+            Method::Ssaa => {
+                let side = self.samples.isqrt();
+                if side == 0 || side > 32 || side * side != self.samples {
+                    return refuse(
+                        "ssaa",
+                        "the squares of 1 to 32: 1, 4, 9, 16, ..., 1024".to_owned(),
+                    );
+                }
+                Ok(())
+            }
+            Method::Msaa => {
+                let possible: Vec<u32> = [2, 4, 8, 16]
+                    .into_iter()
+                    .filter(|n| {
+                        limits
+                            .sample_counts
+                            .contains(vk::SampleCountFlags::from_raw(*n))
+                    })
+                    .collect();
+                if !possible.contains(&self.samples) {
+                    let names: Vec<String> = possible.iter().map(ToString::to_string).collect();
+                    return refuse("msaa on this device", names.join(", "));
+                }
+                Ok(())
+            }
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! What a frame did, and what it left undone because the scene did not need it.
+
+use crate::passes::Counter;
+use serde::Serialize;
+
+/// GPU time of one pass.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PassTime {
+    /// The pass.
+    pub pass: &'static str,
+    /// Milliseconds.
+    pub ms: f64,
+}
+
+/// Triangles of the scene, and why some were not sampled.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct TriangleCounts {
+    /// Triangles in the scene.
+    pub total: u64,
+    /// Triangles that were candidates for sub-samples.
+    pub drawn: u64,
+    /// Outside of the view.
+    pub outside: u64,
+    /// Facing away.
+    pub backfacing: u64,
+    /// Without area.
+    pub degenerate: u64,
+    /// Touching no superpixel.
+    pub untouching: u64,
+}
+
+/// Figures of one frame; sums over its regions.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Statistics {
+    /// Superpixels.
+    pub superpixels: u64,
+    /// Tiles of 8 x 4 pixels.
+    pub tiles: u64,
+    /// Tiles that hold superpixels.
+    pub busy_tiles: u64,
+    /// Triangles of the antialiasing passes; counted once for each region.
+    pub triangles: TriangleCounts,
+    /// Triangles in the lists of tiles.
+    pub candidates: u64,
+    /// Visibility records.
+    pub records: u64,
+    /// Tiles whose list outgrew its buffer, for which every triangle was a candidate.
+    pub unlisted_tiles: u64,
+    /// Rounds that had work.
+    pub rounds: u64,
+    /// Regions that the image was rendered in.
+    pub regions: u64,
+    /// Passes that the scene or the image did not need.
+    pub skipped_passes: Vec<&'static str>,
+    /// GPU time by pass, in order.
+    pub passes: Vec<PassTime>,
+    /// Device memory of scene and frame in bytes.
+    pub memory_bytes: u64,
+}
+
+impl Statistics {
+    /// GPU time of the whole frame in milliseconds.
+    #[must_use]
+    pub fn gpu_ms(&self) -> f64 {
+        self.passes.iter().map(|pass| pass.ms).sum()
+    }
+
+    /// Adds the counters of one region's superpixels.
+    pub(super) fn add(&mut self, counters: &[u32]) {
+        let get = |counter: Counter| counters.get(counter as usize).copied().map_or(0, u64::from);
+        self.superpixels += get(Counter::Superpixels);
+        self.busy_tiles += get(Counter::Tiles);
+        self.triangles.drawn += get(Counter::Survivors) + get(Counter::Large);
+        self.triangles.outside += get(Counter::Outside);
+        self.triangles.backfacing += get(Counter::Backfacing);
+        self.triangles.degenerate += get(Counter::Degenerate);
+        self.triangles.untouching += get(Counter::Untouching);
+        self.candidates += get(Counter::CandidatesTotal);
+        self.records += get(Counter::RecordsTotal);
+        self.unlisted_tiles += get(Counter::UnlistedTotal);
+        self.rounds += get(Counter::Rounds);
+    }
+}
+
+/// Tiles and superpixels that a run of the sampling passes could not finish.
+pub(super) fn unfinished(counters: &[u32], tiles: u32) -> u64 {
+    let get = |counter: Counter| counters.get(counter as usize).copied().unwrap_or(0);
+    let waiting = if get(Counter::Tiles) == 0 {
+        0
+    } else {
+        tiles.saturating_sub(get(Counter::NextTile))
+    };
+    u64::from(waiting) + u64::from(get(Counter::Unfinished))
+}

@@ -1,0 +1,162 @@
+//! A summary of a file, for people and for scripts.
+
+use serde::Serialize;
+
+use super::{AlphaMode, Scene, pose, view::SceneProjection};
+
+/// What a file holds.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SceneInfo {
+    /// glTF version that the file declares.
+    pub version: String,
+    /// Program that wrote the file.
+    pub generator: Option<String>,
+    /// The scenes.
+    pub scenes: SceneNames,
+    /// Cameras of the default scene, in the order in which [`Pose::cameras`](super::Pose::cameras)
+    /// has them.
+    pub cameras: Vec<CameraInfo>,
+    /// Animations.
+    pub animations: Vec<AnimationInfo>,
+    /// Number of nodes.
+    pub nodes: usize,
+    /// Number of meshes.
+    pub meshes: usize,
+    /// Number of primitives that are drawn in the default scene, each use counted.
+    pub primitives: usize,
+    /// Number of triangles that are drawn in the default scene, instances counted.
+    pub triangles: u64,
+    /// Materials by alpha mode.
+    pub materials: AlphaModes,
+    /// Number of textures that materials use.
+    pub textures: usize,
+    /// Images that textures use.
+    pub images: Vec<ImageInfo>,
+    /// Number of lights in the default scene.
+    pub lights: usize,
+    /// Number of skins.
+    pub skins: usize,
+    /// Extensions that the file uses.
+    pub extensions_used: Vec<String>,
+    /// Extensions without which the file cannot be read.
+    pub extensions_required: Vec<String>,
+}
+
+/// The scenes of a file.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct SceneNames {
+    /// Their names in order, where they have one.
+    pub names: Vec<Option<String>>,
+    /// Index of the scene that is drawn unless another is asked for; `None` where the file has no
+    /// scenes, and all its root nodes are drawn.
+    pub default: Option<usize>,
+}
+
+/// A camera.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct CameraInfo {
+    /// Its or else its node's name.
+    pub name: Option<String>,
+    /// `perspective` or `orthographic`.
+    pub kind: &'static str,
+}
+
+/// An animation.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AnimationInfo {
+    /// Its name.
+    pub name: Option<String>,
+    /// Time of its last keyframe in seconds.
+    pub duration: f64,
+}
+
+/// Number of materials of each alpha mode.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct AlphaModes {
+    /// Alpha ignored.
+    pub opaque: usize,
+    /// Alpha tested.
+    pub mask: usize,
+    /// Composited.
+    pub blend: usize,
+}
+
+/// An image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct ImageInfo {
+    /// Width in texels.
+    pub width: u32,
+    /// Height in texels.
+    pub height: u32,
+}
+
+pub(super) fn summarize(scene: &Scene) -> SceneInfo {
+    let document = &scene.document;
+    let drawn = pose::drawn_nodes(document, document.default_scene);
+    let nodes = || drawn.iter().filter_map(|&i| document.nodes.get(i));
+
+    let mut cameras = Vec::new();
+    let (mut primitives, mut triangles) = (0, 0);
+    for node in nodes() {
+        if let Some((name, camera)) = pose::camera_of(document, node) {
+            cameras.push(CameraInfo {
+                name,
+                kind: match camera.projection {
+                    SceneProjection::Perspective { .. } => "perspective",
+                    SceneProjection::Orthographic { .. } => "orthographic",
+                },
+            });
+        }
+        let copies = pose::copies(node) as u64;
+        for primitive in pose::primitives_of(document, node) {
+            primitives += 1;
+            triangles += copies * primitive.triangles.len() as u64;
+        }
+    }
+    let mut materials = AlphaModes::default();
+    // The last one is not the file's.
+    for material in scene.materials.iter().rev().skip(1) {
+        *match material.alpha_mode {
+            AlphaMode::Opaque => &mut materials.opaque,
+            AlphaMode::Mask { .. } => &mut materials.mask,
+            AlphaMode::Blend => &mut materials.blend,
+        } += 1;
+    }
+    SceneInfo {
+        version: document.asset.version.clone(),
+        generator: document.asset.generator.clone(),
+        scenes: SceneNames {
+            names: document.scenes.iter().map(|s| s.name.clone()).collect(),
+            default: document.default_scene,
+        },
+        cameras,
+        animations: document
+            .animations
+            .iter()
+            .map(|animation| AnimationInfo {
+                name: animation.name.clone(),
+                duration: animation.duration(),
+            })
+            .collect(),
+        nodes: document.nodes.len(),
+        meshes: document.meshes.len(),
+        primitives,
+        triangles,
+        materials,
+        textures: scene.textures.len(),
+        images: scene
+            .images
+            .iter()
+            .map(|image| ImageInfo {
+                width: image.width,
+                height: image.height,
+            })
+            .collect(),
+        lights: nodes()
+            .filter_map(|node| pose::light_of(document, node))
+            .count(),
+        skins: document.skins.len(),
+        extensions_used: document.asset.extensions_used.clone(),
+        extensions_required: document.asset.extensions_required.clone(),
+    }
+}

@@ -1,0 +1,310 @@
+//! Puts all placements' triangles into one geometry.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::placement::Placement;
+use crate::scene::{
+    AlphaMode, Draw, DrawClass, Geometry, Material, Scene, SceneError, VertexStreams,
+    error::{Fault, Warnings},
+    read::MAX_ELEMENTS,
+};
+
+/// Vertices that one task works on; a multiple of 3, so that flat triangles stay whole.
+const CHUNK: usize = 24_576;
+/// Farthest that a vertex may be from the world's origin; far enough from the largest float that
+/// differences and products of coordinates stay finite in double precision, and relative ones in
+/// single.
+const FARTHEST: f64 = 1e30;
+
+/// A placement and where its elements go.
+struct Job<'p, 'd> {
+    placement: &'p Placement<'d>,
+    class: DrawClass,
+    first_vertex: u32,
+}
+
+/// Flattens `placements` into one geometry, sorted by class, then by their order.
+pub fn assemble(
+    scene: &Scene,
+    placements: &[Placement<'_>],
+    warnings: &mut Warnings,
+) -> Result<Geometry, SceneError> {
+    let total = |count: fn(&Placement<'_>) -> usize, what| {
+        let count = placements.iter().map(|p| count(p) as u64).sum();
+        if count > MAX_ELEMENTS {
+            return Err(SceneError::TooLarge {
+                file: scene.document.file.clone(),
+                what,
+                count,
+                limit: MAX_ELEMENTS,
+            });
+        }
+        Ok(())
+    };
+    total(|p| p.primitive.positions.len(), "vertices")?;
+    total(|p| p.primitive.triangles.len(), "triangles")?;
+
+    let (jobs, origin) = plan(scene, placements, warnings);
+    let count = |count: fn(&Placement<'_>) -> usize| -> usize {
+        jobs.iter().map(|job| count(job.placement)).sum()
+    };
+    let vertices = count(|p| p.primitive.positions.len());
+    let needed = Needed::by(scene, &jobs);
+    let mut geometry = Geometry {
+        origin,
+        positions: vec![[0.0; 3]; vertices],
+        streams: VertexStreams {
+            normals: vec![[0.0; 3]; vertices],
+            tangents: stream(needed.tangents, vertices, [1.0, 0.0, 0.0, 1.0]),
+            uvs: stream(needed.uvs, vertices, [0.0; 4]),
+            colors: stream(needed.colors, vertices, [1.0; 4]),
+        },
+        triangles: vec![[0; 3]; count(|p| p.primitive.triangles.len())],
+        draws: draws(&jobs),
+    };
+    fill(&jobs, &mut geometry);
+    Ok(geometry)
+}
+
+fn stream<T: Clone>(needed: bool, count: usize, default: T) -> Vec<T> {
+    vec![default; if needed { count } else { 0 }]
+}
+
+/// Which optional streams some job has something for.
+struct Needed {
+    tangents: bool,
+    uvs: bool,
+    colors: bool,
+}
+
+impl Needed {
+    fn by(scene: &Scene, jobs: &[Job<'_, '_>]) -> Self {
+        let any = |has: &dyn Fn(&Placement<'_>) -> bool| jobs.iter().any(|job| has(job.placement));
+        let material = |p: &Placement<'_>, has: fn(&Material) -> bool| {
+            scene.materials.get(p.primitive.material).is_some_and(has)
+        };
+        Self {
+            tangents: any(&|p| material(p, |m| m.normal_texture.is_some())),
+            uvs: any(&|p| material(p, |m| m.textures().next().is_some())),
+            colors: any(&|p| !p.primitive.colors.is_empty()),
+        }
+    }
+}
+
+/// The jobs in the order of their triangles, and the centre of the scene.
+fn plan<'p, 'd>(
+    scene: &Scene,
+    placements: &'p [Placement<'d>],
+    warnings: &mut Warnings,
+) -> (Vec<Job<'p, 'd>>, DVec3) {
+    let boxes: Vec<(DVec3, DVec3)> = placements.par_iter().map(bounds).collect();
+    let mut jobs = Vec::new();
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for (placement, corners) in placements.iter().zip(boxes) {
+        // Written so that an undefined corner is refused too.
+        let near = |corner: DVec3| corner.abs().cmple(DVec3::splat(FARTHEST)).all();
+        if !(near(corners.0) && near(corners.1)) {
+            warnings.push(&Fault::new(
+                format!("/nodes/{}", placement.node),
+                format!("its mesh reaches farther than {FARTHEST} and is left out"),
+            ));
+            continue;
+        }
+        (low, high) = (low.min(corners.0), high.max(corners.1));
+        jobs.push(Job {
+            placement,
+            class: class(scene.materials.get(placement.primitive.material)),
+            first_vertex: 0,
+        });
+    }
+    jobs.sort_by_key(|job| job.class);
+    let mut next = 0;
+    for job in &mut jobs {
+        job.first_vertex = next;
+        // Within u32: the total was checked.
+        next += job.placement.primitive.positions.len() as u32;
+    }
+    let origin = if jobs.is_empty() {
+        DVec3::ZERO
+    } else {
+        (low + high) / 2.0
+    };
+    (jobs, origin)
+}
+
+/// Corners of the box around a placement; undefined where a position is.
+fn bounds(placement: &Placement<'_>) -> (DVec3, DVec3) {
+    (0..placement.primitive.positions.len())
+        .into_par_iter()
+        .with_min_len(CHUNK)
+        .fold(empty_box, |(low, high), v| {
+            let position = placement.position(v);
+            // Minima and maxima would drop a NaN.
+            if position.is_finite() {
+                (low.min(position), high.max(position))
+            } else {
+                (DVec3::NEG_INFINITY, DVec3::INFINITY)
+            }
+        })
+        .reduce(empty_box, |a, b| (a.0.min(b.0), a.1.max(b.1)))
+}
+
+fn empty_box() -> (DVec3, DVec3) {
+    (DVec3::INFINITY, DVec3::NEG_INFINITY)
+}
+
+fn class(material: Option<&Material>) -> DrawClass {
+    let (mode, double_sided) = material.map_or((AlphaMode::Opaque, false), |material| {
+        (material.alpha_mode, material.double_sided)
+    });
+    match (mode, double_sided) {
+        (AlphaMode::Opaque, false) => DrawClass::Opaque,
+        (AlphaMode::Opaque, true) => DrawClass::OpaqueDoubleSided,
+        (AlphaMode::Mask { .. }, false) => DrawClass::Mask,
+        (AlphaMode::Mask { .. }, true) => DrawClass::MaskDoubleSided,
+        (AlphaMode::Blend, false) => DrawClass::Blend,
+        (AlphaMode::Blend, true) => DrawClass::BlendDoubleSided,
+    }
+}
+
+/// Runs of triangles with one material and class.
+fn draws(jobs: &[Job<'_, '_>]) -> Vec<Draw> {
+    let mut draws: Vec<Draw> = Vec::new();
+    let mut first_triangle = 0;
+    for job in jobs {
+        let primitive = job.placement.primitive;
+        let (material, class) = (primitive.material as u32, job.class);
+        // Within u32: the total was checked.
+        let triangle_count = primitive.triangles.len() as u32;
+        match draws.last_mut() {
+            Some(last) if last.material == material && last.class == class => {
+                last.triangle_count += triangle_count;
+            }
+            _ => draws.push(Draw {
+                first_triangle,
+                triangle_count,
+                material,
+                class,
+            }),
+        }
+        first_triangle += triangle_count;
+    }
+    draws
+}
+
+/// The parts of all streams that one job fills; a stream that the geometry lacks is empty.
+struct Parts<'g> {
+    positions: &'g mut [[f32; 3]],
+    normals: &'g mut [[f32; 3]],
+    tangents: &'g mut [[f32; 4]],
+    uvs: &'g mut [[f32; 4]],
+    colors: &'g mut [[f32; 4]],
+    triangles: &'g mut [[u32; 3]],
+}
+
+fn fill(jobs: &[Job<'_, '_>], geometry: &mut Geometry) {
+    let origin = geometry.origin;
+    let streams = &mut geometry.streams;
+    let mut rest = Parts {
+        positions: &mut geometry.positions,
+        normals: &mut streams.normals,
+        tangents: &mut streams.tangents,
+        uvs: &mut streams.uvs,
+        colors: &mut streams.colors,
+        triangles: &mut geometry.triangles,
+    };
+    let mut work = Vec::new();
+    for job in jobs {
+        let vertices = job.placement.primitive.positions.len();
+        work.push((
+            job,
+            Parts {
+                positions: take(&mut rest.positions, vertices),
+                normals: take(&mut rest.normals, vertices),
+                tangents: take(&mut rest.tangents, vertices),
+                uvs: take(&mut rest.uvs, vertices),
+                colors: take(&mut rest.colors, vertices),
+                triangles: take(&mut rest.triangles, job.placement.primitive.triangles.len()),
+            },
+        ));
+    }
+    work.into_par_iter()
+        .for_each(|(job, parts)| job.fill(origin, parts));
+}
+
+/// Cuts the first `count` elements off, or nothing where the stream is empty.
+fn take<'g, T>(rest: &mut &'g mut [T], count: usize) -> &'g mut [T] {
+    let all = std::mem::take(rest);
+    let (part, remaining) = all.split_at_mut(count.min(all.len()));
+    *rest = remaining;
+    part
+}
+
+impl Job<'_, '_> {
+    fn fill(&self, origin: DVec3, parts: Parts<'_>) {
+        let placement = self.placement;
+        let primitive = placement.primitive;
+        copy(parts.uvs, &primitive.uvs);
+        copy(parts.colors, &primitive.colors);
+        for (to, &[a, b, c]) in parts.triangles.iter_mut().zip(&primitive.triangles) {
+            let triangle = if placement.mirrored {
+                [a, c, b]
+            } else {
+                [a, b, c]
+            };
+            *to = triangle.map(|v| v + self.first_vertex);
+        }
+        parts
+            .positions
+            .par_chunks_mut(CHUNK)
+            .enumerate()
+            .for_each(|(chunk, positions)| {
+                for (v, to) in (chunk * CHUNK..).zip(positions) {
+                    *to = (placement.position(v) - origin).as_vec3().to_array();
+                }
+            });
+        parts
+            .normals
+            .par_chunks_mut(CHUNK)
+            .enumerate()
+            .for_each(|(chunk, normals)| {
+                if primitive.is_flat() {
+                    self.flat_normals(chunk * CHUNK, normals);
+                    return;
+                }
+                for (v, to) in (chunk * CHUNK..).zip(normals) {
+                    *to = placement.normal(v, &placement.frame(v));
+                }
+            });
+        if !primitive.tangents.is_empty() {
+            parts
+                .tangents
+                .par_chunks_mut(CHUNK)
+                .enumerate()
+                .for_each(|(chunk, tangents)| {
+                    for (v, to) in (chunk * CHUNK..).zip(tangents) {
+                        *to = placement.tangent(v, &placement.frame(v));
+                    }
+                });
+        }
+    }
+
+    /// Normals of triangles that have three vertices each for themselves, from vertex `first` on.
+    fn flat_normals(&self, first: usize, normals: &mut [[f32; 3]]) {
+        for (triangle, normals) in normals.chunks_mut(3).enumerate() {
+            let v = first + 3 * triangle;
+            let [a, b, c] = [v, v + 1, v + 2].map(|v| self.placement.position(v));
+            let face = (b - a).cross(c - a).normalize_or(DVec3::Z);
+            let outward = if self.placement.mirrored { -face } else { face };
+            normals.fill(outward.as_vec3().to_array());
+        }
+    }
+}
+
+/// Copies a stream that the primitive has; another one keeps its defaults.
+fn copy(to: &mut [[f32; 4]], from: &[[f32; 4]]) {
+    if to.len() == from.len() {
+        to.copy_from_slice(from);
+    }
+}

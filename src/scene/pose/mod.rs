@@ -1,0 +1,175 @@
+//! From a document to the triangles, lights and cameras of one scene at one moment.
+
+mod assemble;
+mod hierarchy;
+mod keyframes;
+mod placement;
+
+use glam::{DAffine3, DMat3, DVec3};
+
+use super::{
+    Scene, SceneError,
+    document::{Camera, Document, LightSource, Node, Primitive},
+    error::{Fault, Warnings},
+    geometry::Geometry,
+    light::Light,
+    view::SceneCamera,
+};
+use placement::Placement;
+
+/// Which scene, and which moment of which animation.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PoseRequest {
+    /// Index of the scene; `None` is the file's default, or else its first.
+    pub scene: Option<usize>,
+    /// Name of the animation, or else its index; `None` is the first one, and only with a
+    /// [`time`](Self::time) above 0.
+    pub animation: Option<String>,
+    /// Seconds from the animation's start; before its first and after its last keyframe these hold.
+    pub time: f64,
+}
+
+/// A scene at one moment, in world space.
+#[derive(Clone, Debug)]
+pub struct Pose {
+    /// All triangles.
+    pub geometry: Geometry,
+    /// The lights, in the order of a depth-first walk; empty where the file has none.
+    pub lights: Vec<Light>,
+    /// The cameras, in the order of a depth-first walk.
+    pub cameras: Vec<SceneCamera>,
+    /// What could not be posed, and why.
+    pub warnings: Vec<String>,
+}
+
+pub(super) fn pose(scene: &Scene, request: &PoseRequest) -> Result<Pose, SceneError> {
+    let document = &scene.document;
+    let file = &document.file;
+    if let Some(asked) = request.scene
+        && asked >= document.scenes.len()
+    {
+        return Err(SceneError::NoSuchScene {
+            file: file.clone(),
+            asked,
+            count: document.scenes.len(),
+        });
+    }
+    let animation = keyframes::choose(document, request)?;
+    let state = hierarchy::State::new(document, animation, request.time);
+    let drawn = drawn_nodes(document, request.scene.or(document.default_scene));
+
+    let mut warnings = Warnings::new(file);
+    let mut placements = Vec::new();
+    let (mut lights, mut cameras) = (Vec::new(), Vec::new());
+    for index in drawn {
+        let (Some(node), Some(world)) = (document.nodes.get(index), state.world.get(index)) else {
+            continue;
+        };
+        if !world.is_finite() {
+            warnings.push(&Fault::new(
+                format!("/nodes/{index}"),
+                "its transform is not finite; what it holds is left out",
+            ));
+            continue;
+        }
+        if let Some(light) = light_of(document, node) {
+            lights.push(place_light(light, world));
+        }
+        if let Some((name, camera)) = camera_of(document, node) {
+            match axes(world) {
+                Some(axes) => cameras.push(SceneCamera {
+                    name,
+                    eye: world.translation,
+                    axes,
+                    projection: camera.projection,
+                }),
+                None => warnings.push(&Fault::new(
+                    format!("/nodes/{index}"),
+                    "its transform gives the camera no direction; the camera is left out",
+                )),
+            }
+        }
+        placements.extend(Placement::of_node(document, index, node, &state));
+    }
+    let geometry = assemble::assemble(scene, &placements, &mut warnings)?;
+    if geometry.triangles.is_empty() {
+        let place = match request.scene.or(document.default_scene) {
+            Some(index) => format!("/scenes/{index}"),
+            None => "/nodes".to_owned(),
+        };
+        warnings.push(&Fault::new(place, "there are no triangles to draw"));
+    }
+    Ok(Pose {
+        geometry,
+        lights,
+        cameras,
+        warnings: warnings.into_vec(),
+    })
+}
+
+/// The nodes of a scene depth first, each once; of all root nodes for `None`.
+pub(super) fn drawn_nodes(document: &Document, scene: Option<usize>) -> Vec<usize> {
+    let mut open: Vec<usize> = match scene.and_then(|index| document.scenes.get(index)) {
+        Some(scene) => scene.roots.clone(),
+        None => (0..document.nodes.len())
+            .filter(|&i| document.nodes[i].parent.is_none())
+            .collect(),
+    };
+    open.reverse();
+    let mut seen = vec![false; document.nodes.len()];
+    let mut drawn = Vec::new();
+    while let Some(index) = open.pop() {
+        if std::mem::replace(&mut seen[index], true) {
+            continue;
+        }
+        drawn.push(index);
+        open.extend(document.nodes[index].children.iter().rev());
+    }
+    drawn
+}
+
+/// The camera of a node, and what it is called.
+pub(super) fn camera_of<'d>(
+    document: &'d Document,
+    node: &Node,
+) -> Option<(Option<String>, &'d Camera)> {
+    let camera = document.cameras.get(node.camera?)?.as_ref()?;
+    Some((camera.name.clone().or_else(|| node.name.clone()), camera))
+}
+
+/// The light of a node.
+pub(super) fn light_of<'d>(document: &'d Document, node: &Node) -> Option<&'d LightSource> {
+    document.lights.get(node.light?)?.as_ref()
+}
+
+/// The primitives of a node's mesh.
+pub(super) fn primitives_of<'d>(document: &'d Document, node: &Node) -> &'d [Primitive] {
+    let mesh = node.mesh.and_then(|mesh| document.meshes.get(mesh));
+    mesh.map_or(&[], |mesh| &mesh.primitives)
+}
+
+/// How often a node's mesh is drawn. A skin gives its mesh a place by itself, so that instances of
+/// it would coincide.
+pub(super) fn copies(node: &Node) -> usize {
+    match &node.instances {
+        Some(instances) if node.skin.is_none() => instances.len(),
+        _ => 1,
+    }
+}
+
+fn place_light(light: &LightSource, world: &DAffine3) -> Light {
+    Light {
+        kind: light.kind,
+        position: world.translation,
+        direction: -world.matrix3.z_axis.normalize_or(DVec3::Z),
+        color: light.color,
+        range: light.range,
+    }
+}
+
+/// Right, up and backward of a node that has any, without its scale.
+fn axes(world: &DAffine3) -> Option<DMat3> {
+    let backward = world.matrix3.z_axis.try_normalize()?;
+    let right = world.matrix3.y_axis.cross(backward).try_normalize()?;
+    Some(DMat3::from_cols(right, backward.cross(right), backward))
+}

@@ -1,0 +1,172 @@
+//! Images (glTF 2.0, section 3.8.2), decoded in parallel.
+
+use std::{
+    borrow::Cow,
+    collections::{BTreeMap, BTreeSet},
+    io::Cursor,
+};
+
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
+use rayon::prelude::*;
+
+use super::{Context, buffer::Buffers, json::Item, uri};
+use crate::scene::{error::Fault, material::Image};
+
+/// Largest width and height.
+const MAX_SIDE: u32 = 16_384;
+/// Most texels of all images together: 4 GiB.
+const MAX_TEXELS: u64 = 1 << 30;
+/// An image of more texels than this has to have a byte for every [`TEXELS_PER_BYTE`] of them, for a
+/// header can claim any size.
+const FREE_TEXELS: u64 = 1 << 24;
+const TEXELS_PER_BYTE: u64 = 1024;
+/// Most bytes of an image file.
+const MAX_FILE: u64 = 1 << 30;
+
+/// The document's images, of which those asked for are decoded.
+pub struct Images<'a> {
+    items: Vec<Item<'a>>,
+    /// Index into `decoded` of every image that was tried.
+    places: BTreeMap<usize, Option<u32>>,
+    decoded: Vec<Image>,
+    texels: u64,
+}
+
+impl<'a> Images<'a> {
+    pub fn new(root: &Item<'a>) -> Result<Self, Fault> {
+        Ok(Self {
+            items: root.objects("images")?,
+            places: BTreeMap::new(),
+            decoded: Vec::new(),
+            texels: 0,
+        })
+    }
+
+    /// Number of images in the document.
+    pub fn len(&self) -> usize {
+        self.items.len()
+    }
+
+    /// Decodes the images `wanted` that were not tried yet; failures become warnings.
+    pub fn decode(&mut self, context: &mut Context<'_>, wanted: impl IntoIterator<Item = usize>) {
+        let wanted: BTreeSet<usize> = wanted
+            .into_iter()
+            .filter(|index| !self.places.contains_key(index))
+            .collect();
+        let mut accepted = Vec::new();
+        let mut faults = Vec::new();
+        for index in wanted {
+            self.places.insert(index, None);
+            let Some(item) = self.items.get(index).cloned() else {
+                continue;
+            };
+            let encoded = fetch(&item, &context.buffers).and_then(|bytes| self.admit(&item, bytes));
+            match encoded {
+                Ok(encoded) => accepted.push((index, item, encoded)),
+                Err(fault) => faults.push(fault),
+            }
+        }
+        let decoded: Vec<_> = accepted
+            .into_par_iter()
+            .map(|(index, item, encoded)| {
+                (index, encoded.decode().map_err(|reason| item.fault(reason)))
+            })
+            .collect();
+        for (index, result) in decoded {
+            match result {
+                Ok(image) => {
+                    self.places.insert(index, Some(self.decoded.len() as u32));
+                    self.decoded.push(image);
+                }
+                Err(fault) => faults.push(fault),
+            }
+        }
+        context.warnings.extend(faults);
+    }
+
+    /// Checks an image's header against the limits.
+    fn admit<'b>(&mut self, item: &Item<'_>, bytes: Cow<'b, [u8]>) -> Result<Encoded<'b>, Fault> {
+        let format = sniff(&bytes).map_err(|reason| item.fault(reason))?;
+        let (width, height) = ImageReader::with_format(Cursor::new(&bytes), format)
+            .into_dimensions()
+            .map_err(|error| item.fault(format!("cannot be decoded: {error}")))?;
+        let texels = u64::from(width) * u64::from(height);
+        let size = format!("{width} x {height} texels");
+        if texels == 0 || width > MAX_SIDE || height > MAX_SIDE {
+            return Err(item.fault(format!("{size} are not within 1 to {MAX_SIDE} a side")));
+        }
+        if texels > FREE_TEXELS + TEXELS_PER_BYTE * bytes.len() as u64 {
+            return Err(item.fault(format!("claims {size}, but has {} bytes", bytes.len())));
+        }
+        if self.texels + texels > MAX_TEXELS {
+            return Err(item.fault(format!(
+                "{size} exceed the limit of {MAX_TEXELS} texels for all images together"
+            )));
+        }
+        self.texels += texels;
+        Ok(Encoded { bytes, format })
+    }
+
+    /// Where image `index` is among the decoded ones.
+    pub fn place(&self, index: usize) -> Option<u32> {
+        self.places.get(&index).copied().flatten()
+    }
+
+    pub fn into_decoded(self) -> Vec<Image> {
+        self.decoded
+    }
+}
+
+/// The encoded bytes of the image `item`.
+fn fetch<'b>(item: &Item<'_>, buffers: &'b Buffers<'_>) -> Result<Cow<'b, [u8]>, Fault> {
+    if let Some(uri) = item.get("uri") {
+        return uri::fetch(uri.as_str()?, buffers.base(), MAX_FILE)
+            .map(Cow::Owned)
+            .map_err(|reason| uri.fault(reason));
+    }
+    match buffers.view(item, "bufferView")? {
+        Some(view) => Ok(Cow::Borrowed(view.bytes)),
+        None => Err(item.fault("has neither a URI nor a buffer view")),
+    }
+}
+
+/// The format by content; the declared type and the file's extension are often wrong.
+fn sniff(bytes: &[u8]) -> Result<ImageFormat, String> {
+    match image::guess_format(bytes) {
+        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP)) => Ok(format),
+        _ if bytes.starts_with(b"\xABKTX 20\xBB") => {
+            Err("KTX2 images are not supported; convert them to PNG, JPEG or WebP".to_owned())
+        }
+        _ => Err("is neither PNG, JPEG nor WebP".to_owned()),
+    }
+}
+
+/// An image whose header was found acceptable.
+struct Encoded<'b> {
+    bytes: Cow<'b, [u8]>,
+    format: ImageFormat,
+}
+
+impl Encoded<'_> {
+    fn decode(&self) -> Result<Image, String> {
+        let failed = |error: image::ImageError| format!("cannot be decoded: {error}");
+        let mut reader = ImageReader::with_format(Cursor::new(&self.bytes), self.format);
+        let mut limits = Limits::default();
+        limits.max_image_width = Some(MAX_SIDE);
+        limits.max_image_height = Some(MAX_SIDE);
+        // 16 bits a channel, and as much again for the decoder itself.
+        limits.max_alloc = Some(16 * u64::from(MAX_SIDE) * u64::from(MAX_SIDE));
+        reader.limits(limits);
+        let decoder = reader.into_decoder().map_err(failed)?;
+        let (width, height) = decoder.dimensions();
+        let pixels = DynamicImage::from_decoder(decoder)
+            .map_err(failed)?
+            .into_rgba8()
+            .into_raw();
+        Ok(Image {
+            width,
+            height,
+            pixels,
+        })
+    }
+}

@@ -1,0 +1,126 @@
+//! Buffer views compressed with `EXT_meshopt_compression`.
+
+use meshopt::{
+    decode_filter_exp, decode_filter_oct, decode_filter_quat, decode_index_buffer,
+    decode_index_sequence, decode_vertex_buffer,
+};
+
+use super::json::Item;
+use crate::scene::error::Fault;
+
+/// Most bytes that one encoded byte can stand for. Attributes: a block of up to 256 elements has at
+/// least a control byte for every 4 bytes of an element. Triangles: a byte for 3 indices of 4 bytes.
+/// Indices: a byte for each index of 4 bytes.
+const ATTRIBUTE_RATIO: usize = 1024;
+const TRIANGLE_RATIO: usize = 12;
+const INDEX_RATIO: usize = 4;
+
+/// Decodes `encoded` as the extension object `extension` describes it.
+pub fn decode(extension: &Item<'_>, encoded: &[u8]) -> Result<Vec<u8>, Fault> {
+    let stride = extension.require("byteStride")?.as_usize()?;
+    let count = extension.require("count")?.as_usize()?;
+    let mode = extension.require("mode")?;
+    let ratio = match mode.as_str()? {
+        "ATTRIBUTES" => ATTRIBUTE_RATIO,
+        "TRIANGLES" => TRIANGLE_RATIO,
+        "INDICES" => INDEX_RATIO,
+        other => return Err(mode.fault(format!("unknown compression mode \"{other}\""))),
+    };
+    let justified = encoded.len().saturating_mul(ratio);
+    if count == 0 || count.checked_mul(stride).is_none_or(|n| n > justified) {
+        return Err(extension.fault(format!(
+            "{} bytes cannot hold {count} elements of {stride} bytes",
+            encoded.len()
+        )));
+    }
+    let bytes = match ratio {
+        ATTRIBUTE_RATIO => decode_attributes(encoded, count, stride),
+        TRIANGLE_RATIO if !count.is_multiple_of(3) => None,
+        TRIANGLE_RATIO => match stride {
+            2 => decode_index_buffer::<u16>(encoded, count)
+                .ok()
+                .map(to_bytes),
+            4 => decode_index_buffer::<u32>(encoded, count)
+                .ok()
+                .map(to_bytes),
+            _ => None,
+        },
+        _ => match stride {
+            2 => decode_index_sequence::<u16>(encoded, count)
+                .ok()
+                .map(to_bytes),
+            4 => decode_index_sequence::<u32>(encoded, count)
+                .ok()
+                .map(to_bytes),
+            _ => None,
+        },
+    };
+    let bytes = bytes.ok_or_else(|| extension.fault("the compressed data are broken"))?;
+    apply_filter(extension, bytes, stride)
+}
+
+fn to_bytes<T: bytemuck::NoUninit>(values: Vec<T>) -> Vec<u8> {
+    bytemuck::cast_slice(&values).to_vec()
+}
+
+fn apply_filter(extension: &Item<'_>, bytes: Vec<u8>, stride: usize) -> Result<Vec<u8>, Fault> {
+    match (extension.text("filter")?.unwrap_or("NONE"), stride) {
+        ("NONE", _) => Ok(bytes),
+        ("OCTAHEDRAL", 4) => {
+            let mut values: Vec<[i8; 4]> = bytemuck::pod_collect_to_vec(&bytes);
+            decode_filter_oct(&mut values);
+            Ok(to_bytes(values))
+        }
+        ("OCTAHEDRAL", 8) => {
+            let mut values: Vec<[i16; 4]> = bytemuck::pod_collect_to_vec(&bytes);
+            decode_filter_oct(&mut values);
+            Ok(to_bytes(values))
+        }
+        ("QUATERNION", 8) => {
+            let mut values: Vec<[i16; 4]> = bytemuck::pod_collect_to_vec(&bytes);
+            decode_filter_quat(&mut values);
+            Ok(to_bytes(values))
+        }
+        // Every component is decoded by itself, so the width of an element does not matter.
+        ("EXPONENTIAL", _) if stride.is_multiple_of(4) => {
+            let mut values: Vec<[u32; 1]> = bytemuck::pod_collect_to_vec(&bytes);
+            decode_filter_exp(&mut values);
+            Ok(to_bytes(values))
+        }
+        (filter, _) => Err(extension.fault(format!(
+            "no filter \"{filter}\" for elements of {stride} bytes"
+        ))),
+    }
+}
+
+/// An element of `N` bytes; arrays beyond 32 have no default of their own.
+#[derive(Clone)]
+struct Element<const N: usize>([u8; N]);
+
+impl<const N: usize> Default for Element<N> {
+    fn default() -> Self {
+        Self([0; N])
+    }
+}
+
+fn decode_elements<const N: usize>(encoded: &[u8], count: usize) -> Option<Vec<u8>> {
+    let elements = decode_vertex_buffer::<Element<N>>(encoded, count).ok()?;
+    Some(elements.iter().flat_map(|element| element.0).collect())
+}
+
+fn decode_attributes(encoded: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
+    macro_rules! by_stride {
+        ($($stride:literal)*) => {
+            match stride {
+                $($stride => decode_elements::<$stride>(encoded, count),)*
+                _ => None,
+            }
+        };
+    }
+    // The format's strides: multiples of 4 up to 256.
+    by_stride!(
+        4 8 12 16 20 24 28 32 36 40 44 48 52 56 60 64 68 72 76 80 84 88 92 96 100 104 108 112 116
+        120 124 128 132 136 140 144 148 152 156 160 164 168 172 176 180 184 188 192 196 200 204 208
+        212 216 220 224 228 232 236 240 244 248 252 256
+    )
+}

@@ -1,0 +1,237 @@
+//! Mesh primitives (glTF 2.0, section 3.7.2), reduced to triangles and the vertices they use.
+
+use rayon::prelude::*;
+
+use super::{
+    Context,
+    accessor::{Accessor, Component},
+    json::Item,
+    surface, tangent,
+    triangles::{self, Topology},
+    vertex,
+};
+use crate::scene::{document::Primitive, error::Fault, material::Material};
+
+/// What became of a primitive.
+pub enum Outcome {
+    /// It is drawn.
+    Drawn(Box<Primitive>),
+    /// Points, which are not.
+    Points,
+    /// Lines, which are not.
+    Lines,
+    /// It has nothing that could be drawn; why is among the notes.
+    Nothing,
+}
+
+/// Reads the primitive `item`. What can be mended or left out is noted; what cannot is the error.
+pub fn read(
+    item: &Item<'_>,
+    context: &Context<'_>,
+    materials: &[Material],
+    notes: &mut Vec<Fault>,
+) -> Result<Outcome, Fault> {
+    let mode = item.usize_or("mode", TRIANGLES)?;
+    let Some(topology) = topology(mode) else {
+        return match mode {
+            0 => Ok(Outcome::Points),
+            1..=3 => Ok(Outcome::Lines),
+            _ => Err(item.fault(format!("{mode} is no primitive mode"))),
+        };
+    };
+    let attributes = item.require("attributes")?;
+    let Some(positions) = attributes.get("POSITION") else {
+        notes.push(attributes.fault("there is no POSITION; the primitive is left out"));
+        return Ok(Outcome::Nothing);
+    };
+    let positions = context.accessor(&positions)?.expect_components(&[3])?;
+    if positions.is_void() && item.extension("KHR_draco_mesh_compression").is_some() {
+        return Err(item.fault(
+            "is compressed with KHR_draco_mesh_compression, which is not supported; decode it with \
+             `gltf-transform copy IN OUT`",
+        ));
+    }
+    // The last material is glTF's default, which no index of the file refers to.
+    let default_material = materials.len().saturating_sub(1);
+    let index = item.index("material", "materials", default_material);
+    let material_index = index
+        .unwrap_or_else(|fault| {
+            notes.push(fault);
+            None
+        })
+        .unwrap_or(default_material);
+    let material = materials.get(material_index).cloned().unwrap_or_default();
+
+    let Some((mut triangles, mut sources)) =
+        read_triangles(item, context, topology, &positions, notes)?
+    else {
+        return Ok(Outcome::Nothing);
+    };
+    let targets = item.objects("targets")?;
+    // Without normals, which is known only later, no two triangles share a vertex.
+    let most = sources.len().max(triangles.len() * 3) as u64;
+    context
+        .budget
+        .add_vertices(most * (1 + targets.len() as u64), item.place())?;
+
+    let reader = vertex::Reader {
+        attributes: &attributes,
+        context,
+        count: positions.count,
+    };
+    let normals = reader.attribute("NORMAL", &[3], &vertex::SIGNED, notes);
+    let mut normals: Vec<[f32; 3]> =
+        normals.map_or_else(Vec::new, |accessor| gather(&accessor, &sources));
+    let shape = gather(&positions, &sources);
+    match surface::mend_normals(&triangles, &shape, &mut normals) {
+        0 => {}
+        mended => notes.push(attributes.fault(format!(
+            "{mended} of the normals are unusable and replaced by those of the faces"
+        ))),
+    }
+    let shape = if normals.is_empty() {
+        sources = triangles
+            .as_flattened()
+            .iter()
+            .filter_map(|&v| sources.get(v as usize).copied())
+            .collect();
+        triangles = (0..triangles.len() as u32)
+            .map(|t| [3 * t, 3 * t + 1, 3 * t + 2])
+            .collect();
+        gather(&positions, &sources)
+    } else {
+        shape
+    };
+
+    let mut primitive = Primitive {
+        material: material_index,
+        triangles,
+        positions: shape,
+        normals,
+        tangents: Vec::new(),
+        uvs: reader.uvs(&material, &sources, notes),
+        colors: reader.colors(&sources, notes),
+        targets: reader.targets(&targets, &sources, notes),
+        influences: reader.influences(&sources, notes),
+    };
+    if let Some(used) = material.normal_texture {
+        let given = reader.tangents(&primitive.normals, &sources, notes);
+        match given {
+            Some(tangents) => primitive.tangents = tangents,
+            None => tangent::generate(&mut primitive, used.uv_set),
+        }
+    }
+    Ok(Outcome::Drawn(Box::new(primitive)))
+}
+
+/// The default mode.
+const TRIANGLES: usize = 4;
+
+fn topology(mode: usize) -> Option<Topology> {
+    match mode {
+        TRIANGLES => Some(Topology::List),
+        5 => Some(Topology::Strip),
+        6 => Some(Topology::Fan),
+        _ => None,
+    }
+}
+
+/// How many triangles `item` will be read to at most, found without reading them; 0 where that will
+/// fail.
+pub fn claimed_triangles(item: &Item<'_>, context: &Context<'_>) -> u64 {
+    let defining = item
+        .get("indices")
+        .or_else(|| item.get("attributes")?.get("POSITION"));
+    let mode = item.usize_or("mode", TRIANGLES).ok();
+    let number = |topology| {
+        let accessor = context.accessor(&defining?).ok()?;
+        accessor.check_justified().ok()?;
+        Some(triangles::number(topology, accessor.count) as u64)
+    };
+    mode.and_then(topology).and_then(number).unwrap_or(0)
+}
+
+/// The elements of `accessor` at `sources`.
+pub fn gather<const N: usize>(accessor: &Accessor<'_>, sources: &[u32]) -> Vec<[f32; N]> {
+    sources
+        .par_iter()
+        .with_min_len(16_384)
+        .map(|&source| accessor.floats(source as usize))
+        .collect()
+}
+
+type Triangles = Vec<[u32; 3]>;
+
+/// Triangles that can be drawn, and the vertices of the file that they refer to.
+fn read_triangles(
+    item: &Item<'_>,
+    context: &Context<'_>,
+    topology: Topology,
+    positions: &Accessor<'_>,
+    notes: &mut Vec<Fault>,
+) -> Result<Option<(Triangles, Vec<u32>)>, Fault> {
+    let indices = match item.get("indices") {
+        Some(indices) => Some(
+            context
+                .accessor(&indices)?
+                .expect_components(&[1])?
+                .expect_type(&[Component::U8, Component::U16, Component::U32])?,
+        ),
+        None => None,
+    };
+    let defining = indices.as_ref().unwrap_or(positions);
+    defining.check_justified()?;
+    let count = defining.count;
+    let (mut triangles, left_over) = match &indices {
+        Some(indices) => triangles::assemble(topology, count, |i| {
+            let [index] = indices.integers(i);
+            index
+        }),
+        None => triangles::assemble(topology, count, |i| i as u32),
+    };
+    if left_over > 0 {
+        notes.push(item.fault(format!(
+            "{left_over} of {count} indices make no triangle and are left out"
+        )));
+    }
+
+    let all = triangles.len();
+    let bound = positions.count as u32;
+    triangles.retain(|triangle| triangle.iter().all(|&v| v < bound));
+    if triangles.len() < all {
+        let beyond = all - triangles.len();
+        let place = item.get("indices").unwrap_or_else(|| item.clone());
+        let reason =
+            format!("{beyond} of {all} triangles refer to vertices beyond the {bound} of POSITION");
+        if triangles.is_empty() {
+            return Err(place.fault(reason));
+        }
+        notes.push(place.fault(reason + " and are left out"));
+    }
+    let mut sources = triangles::compact(&mut triangles, positions.count);
+
+    let usable: Vec<bool> = sources
+        .par_iter()
+        .with_min_len(16_384)
+        .map(|&v| {
+            positions
+                .floats::<3>(v as usize)
+                .iter()
+                .all(|x| x.is_finite())
+        })
+        .collect();
+    if usable.contains(&false) {
+        let all = triangles.len();
+        triangles.retain(|t| t.iter().all(|&v| usable.get(v as usize) == Some(&true)));
+        notes.push(positions.fault(format!(
+            "{} of {all} triangles have infinite or undefined positions and are left out",
+            all - triangles.len()
+        )));
+        let kept = triangles::compact(&mut triangles, sources.len());
+        sources = kept
+            .iter()
+            .filter_map(|&v| sources.get(v as usize).copied())
+            .collect();
+    }
+    Ok((!triangles.is_empty()).then_some((triangles, sources)))
+}

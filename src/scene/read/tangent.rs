@@ -1,0 +1,191 @@
+//! Tangents by MikkTSpace, as glTF 2.0, section 3.7.2.1, prescribes where a file has none.
+
+use std::collections::HashMap;
+
+use bevy_mikktspace::{Geometry, TangentSpace, generate_tangents};
+use glam::Vec3;
+
+use crate::scene::document::{Influences, Primitive, Target};
+
+/// Gives `primitive` tangents for a normal texture on UV set `uv_set`. A vertex whose triangles
+/// disagree is split.
+pub fn generate(primitive: &mut Primitive, uv_set: u32) {
+    let mut corners = vec![None; 3 * primitive.triangles.len()];
+    let flat = primitive.is_flat();
+    let mut surface = Surface {
+        primitive,
+        flat,
+        first_uv: if uv_set == 0 { 0 } else { 2 },
+        corners: &mut corners,
+    };
+    let generated = generate_tangents(&mut surface);
+    if generated.is_err() {
+        corners.fill(None);
+    }
+    split(primitive, &corners);
+}
+
+/// The primitive as MikkTSpace asks for it.
+struct Surface<'p> {
+    primitive: &'p Primitive,
+    flat: bool,
+    first_uv: usize,
+    corners: &'p mut [Option<[f32; 4]>],
+}
+
+impl Surface<'_> {
+    fn vertex(&self, face: usize, corner: usize) -> usize {
+        self.primitive.triangles[face][corner] as usize
+    }
+}
+
+impl Geometry for Surface<'_> {
+    fn num_faces(&self) -> usize {
+        self.primitive.triangles.len()
+    }
+
+    fn num_vertices_of_face(&self, _face: usize) -> usize {
+        3
+    }
+
+    fn position(&self, face: usize, corner: usize) -> [f32; 3] {
+        self.primitive.positions[self.vertex(face, corner)]
+    }
+
+    fn normal(&self, face: usize, corner: usize) -> [f32; 3] {
+        if self.flat {
+            let [a, b, c] = [0, 1, 2].map(|i| Vec3::from_array(self.position(face, i)));
+            return (b - a).cross(c - a).normalize_or(Vec3::Z).to_array();
+        }
+        let normal = Vec3::from_array(self.primitive.normals[self.vertex(face, corner)]);
+        normal.normalize_or(Vec3::Z).to_array()
+    }
+
+    fn tex_coord(&self, face: usize, corner: usize) -> [f32; 2] {
+        let uvs = self.primitive.uvs[self.vertex(face, corner)];
+        [uvs[self.first_uv], uvs[self.first_uv + 1]]
+    }
+
+    fn set_tangent(&mut self, tangent: Option<TangentSpace>, face: usize, corner: usize) {
+        let tangent = tangent.map(|tangent| {
+            let [x, y, z, sign] = tangent.tangent_encoded();
+            // MikkTSpace's v grows upwards, glTF's downwards: the bitangent turns around.
+            [x, y, z, -sign]
+        });
+        // Coordinates near the largest float overflow on the way.
+        self.corners[3 * face + corner] = tangent.filter(|t| t.iter().all(|x| x.is_finite()));
+    }
+}
+
+/// Distributes the corners' tangents over the vertices.
+fn split(primitive: &mut Primitive, corners: &[Option<[f32; 4]>]) {
+    let mut origins: Vec<u32> = Vec::new();
+    let mut tangents: Vec<[f32; 4]> = Vec::new();
+    // Most vertices have one tangent: the newest of each is tried before the map of all.
+    let mut newest: Vec<Option<u32>> = vec![None; primitive.positions.len()];
+    let mut places: HashMap<(u32, [u32; 4]), u32> = HashMap::new();
+    let mut triangles = primitive.triangles.clone();
+    for (corner, tangent) in triangles.as_flattened_mut().iter_mut().zip(corners) {
+        let origin = *corner;
+        let tangent = tangent.unwrap_or_else(|| any_tangent(primitive, origin as usize));
+        let newest = &mut newest[origin as usize];
+        if let Some(v) = *newest
+            && tangents[v as usize] == tangent
+        {
+            *corner = v;
+            continue;
+        }
+        let key = |tangent: [f32; 4]| (origin, tangent.map(f32::to_bits));
+        if let Some(v) = *newest {
+            places.insert(key(tangents[v as usize]), v);
+        }
+        let v = places.get(&key(tangent)).copied().unwrap_or_else(|| {
+            origins.push(origin);
+            tangents.push(tangent);
+            tangents.len() as u32 - 1
+        });
+        *newest = Some(v);
+        *corner = v;
+    }
+    primitive.tangents = tangents;
+    primitive.triangles = triangles;
+    select(&mut primitive.positions, &origins);
+    select(&mut primitive.normals, &origins);
+    select(&mut primitive.uvs, &origins);
+    select(&mut primitive.colors, &origins);
+    for Target {
+        positions,
+        normals,
+        tangents,
+    } in &mut primitive.targets
+    {
+        select(positions, &origins);
+        select(normals, &origins);
+        select(tangents, &origins);
+    }
+    for Influences { joints, weights } in &mut primitive.influences {
+        select(joints, &origins);
+        select(weights, &origins);
+    }
+}
+
+fn select<T: Copy>(stream: &mut Vec<T>, origins: &[u32]) {
+    if !stream.is_empty() {
+        *stream = origins.iter().map(|&v| stream[v as usize]).collect();
+    }
+}
+
+/// A tangent where the texture coordinates give none: anything across the normal.
+fn any_tangent(primitive: &Primitive, vertex: usize) -> [f32; 4] {
+    let normal = primitive
+        .normals
+        .get(vertex)
+        .map_or(Vec3::Z, |&n| Vec3::from_array(n).normalize_or(Vec3::Z));
+    let [x, y, z] = normal.any_orthonormal_vector().to_array();
+    [x, y, z, 1.0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A square that faces +Z, u to the right, v down, as an image lies: two triangles that share
+    /// two vertices.
+    fn square(uvs: [[f32; 2]; 4]) -> Primitive {
+        Primitive {
+            triangles: vec![[0, 1, 2], [0, 2, 3]],
+            positions: vec![[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]],
+            normals: vec![[0., 0., 1.]; 4],
+            uvs: uvs.map(|[u, v]| [0., 0., u, v]).to_vec(),
+            ..Primitive::default()
+        }
+    }
+
+    #[test]
+    fn bitangent_points_up_the_image() {
+        let mut primitive = square([[0., 1.], [1., 1.], [1., 0.], [0., 0.]]);
+        generate(&mut primitive, 1);
+        assert_eq!(primitive.positions.len(), 4);
+        for tangent in primitive.tangents {
+            // Across the normal +Z: bitangent = w * (Z x X) = +Y.
+            assert_eq!(tangent, [1., 0., 0., 1.]);
+        }
+    }
+
+    #[test]
+    fn mirrored_texture_turns_the_sign() {
+        let mut primitive = square([[1., 1.], [0., 1.], [0., 0.], [1., 0.]]);
+        generate(&mut primitive, 1);
+        assert!(primitive.tangents.iter().all(|t| *t == [-1., 0., 0., -1.]));
+    }
+
+    #[test]
+    fn no_texture_coordinates_no_direction() {
+        let mut primitive = square([[0.; 2]; 4]);
+        generate(&mut primitive, 1);
+        for t in primitive.tangents {
+            assert_eq!(t[2], 0.0);
+            assert!((Vec3::new(t[0], t[1], t[2]).length() - 1.0).abs() < 1e-6);
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! Triangles of a primitive, whatever its topology (glTF 2.0, section 3.7.2.1).
+
+use rayon::prelude::*;
+
+/// Topologies that have triangles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Topology {
+    /// Every three indices are a triangle.
+    List,
+    /// Every index makes a triangle with the two before it.
+    Strip,
+    /// Every index makes a triangle with the one before it and the first.
+    Fan,
+}
+
+/// Number of triangles that `count` indices make.
+pub fn number(topology: Topology, count: usize) -> usize {
+    match topology {
+        Topology::List => count / 3,
+        Topology::Strip | Topology::Fan => count.saturating_sub(2),
+    }
+}
+
+/// The triangles of `count` indices, and how many indices are left over.
+pub fn assemble(
+    topology: Topology,
+    count: usize,
+    index: impl Fn(usize) -> u32 + Sync,
+) -> (Vec<[u32; 3]>, usize) {
+    let triangle = |t: usize| match topology {
+        Topology::List => [index(3 * t), index(3 * t + 1), index(3 * t + 2)],
+        // Every other triangle is turned, so that all wind alike.
+        Topology::Strip => [index(t), index(t + 1 + t % 2), index(t + 2 - t % 2)],
+        Topology::Fan => [index(t + 1), index(t + 2), index(0)],
+    };
+    let left_over = match topology {
+        Topology::List => count % 3,
+        Topology::Strip | Topology::Fan if count < 3 => count,
+        Topology::Strip | Topology::Fan => 0,
+    };
+    let triangles = (0..number(topology, count))
+        .into_par_iter()
+        .with_min_len(16_384)
+        .map(triangle)
+        .collect();
+    (triangles, left_over)
+}
+
+/// Which of `vertex_count` vertices the triangles use, ascending; the triangles then refer to that
+/// list. The cost does not depend on `vertex_count` where few vertices are used, for many primitives
+/// may share one large buffer.
+pub fn compact(triangles: &mut [[u32; 3]], vertex_count: usize) -> Vec<u32> {
+    const FEW: usize = 32;
+    let corners = triangles.as_flattened_mut();
+    if corners.len().saturating_mul(FEW) < vertex_count {
+        let mut used = corners.to_vec();
+        used.sort_unstable();
+        used.dedup();
+        for corner in corners {
+            *corner = used.partition_point(|v| v < corner) as u32;
+        }
+        return used;
+    }
+    let mut place = vec![0_u32; vertex_count];
+    for &corner in corners.iter() {
+        place[corner as usize] = 1;
+    }
+    let mut used = Vec::new();
+    for (vertex, place) in place.iter_mut().enumerate() {
+        if *place != 0 {
+            *place = used.len() as u32;
+            used.push(vertex as u32);
+        }
+    }
+    for corner in corners {
+        *corner = place[*corner as usize];
+    }
+    used
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn topologies_keep_the_winding() {
+        let assemble = |topology, count| assemble(topology, count, |i| i as u32);
+        assert_eq!(assemble(Topology::List, 7), (vec![[0, 1, 2], [3, 4, 5]], 1));
+        assert_eq!(
+            assemble(Topology::Strip, 5),
+            (vec![[0, 1, 2], [1, 3, 2], [2, 3, 4]], 0)
+        );
+        assert_eq!(assemble(Topology::Fan, 4), (vec![[1, 2, 0], [2, 3, 0]], 0));
+        assert_eq!(assemble(Topology::Fan, 2), (vec![], 2));
+    }
+
+    #[test]
+    fn compaction_is_the_same_with_few_and_many_vertices() {
+        let original = [[5, 9, 7], [7, 9, 100]];
+        for vertex_count in [101, 1_000_000] {
+            let mut triangles = original;
+            assert_eq!(compact(&mut triangles, vertex_count), [5, 7, 9, 100]);
+            assert_eq!(triangles, [[0, 2, 1], [1, 2, 3]]);
+        }
+    }
+}

@@ -1,0 +1,251 @@
+//! Vertex attributes beside the position. None is worth failing for: what cannot be read is noted
+//! and left out.
+
+use rayon::prelude::*;
+
+use super::{
+    Context,
+    accessor::{Accessor, Component},
+    json::Item,
+    primitive::gather,
+};
+use crate::scene::{
+    document::{Influences, Target},
+    error::Fault,
+    material::Material,
+};
+
+/// Types of normals, tangents and displacements, `KHR_mesh_quantization` included.
+pub const SIGNED: [Component; 3] = [Component::F32, Component::I8, Component::I16];
+/// Types of texture coordinates, `KHR_mesh_quantization` included.
+const ANY: [Component; 5] = [
+    Component::F32,
+    Component::I8,
+    Component::U8,
+    Component::I16,
+    Component::U16,
+];
+/// Types of colours and weights.
+const FRACTION: [Component; 3] = [Component::F32, Component::U8, Component::U16];
+
+/// Reads the attributes of one primitive.
+pub struct Reader<'r, 'i, 'a> {
+    /// The primitive's attributes.
+    pub attributes: &'r Item<'i>,
+    /// The document.
+    pub context: &'r Context<'a>,
+    /// Number of positions, which the others have to match.
+    pub count: usize,
+}
+
+impl<'r> Reader<'r, '_, '_> {
+    fn read(
+        &self,
+        item: &Item<'_>,
+        components: &[usize],
+        types: &[Component],
+        notes: &mut Vec<Fault>,
+    ) -> Option<Accessor<'r>> {
+        self.context
+            .accessor(item)
+            .and_then(|accessor| {
+                accessor
+                    .expect_components(components)?
+                    .expect_type(types)?
+                    .expect_count(self.count)
+            })
+            .map_err(|fault| {
+                notes.push(item.fault(format!("is left out, for {fault}")));
+            })
+            .ok()
+    }
+
+    /// The attribute `name`, if the primitive has it.
+    pub fn attribute(
+        &self,
+        name: &str,
+        components: &[usize],
+        types: &[Component],
+        notes: &mut Vec<Fault>,
+    ) -> Option<Accessor<'r>> {
+        self.read(&self.attributes.get(name)?, components, types, notes)
+    }
+
+    /// Both UV sets, if `material` has textures.
+    pub fn uvs(
+        &self,
+        material: &Material,
+        sources: &[u32],
+        notes: &mut Vec<Fault>,
+    ) -> Vec<[f32; 4]> {
+        let mut used = [false; 2];
+        for texture in material.textures() {
+            if let Some(used) = used.get_mut(texture.uv_set as usize) {
+                *used = true;
+            }
+        }
+        if used == [false; 2] {
+            return Vec::new();
+        }
+        let mut set = |name: &str, used: bool| {
+            if !used {
+                return None;
+            }
+            let accessor = self.attribute(name, &[2], &ANY, notes);
+            if accessor.is_none() {
+                notes.push(
+                    self.attributes
+                        .fault(format!("the material uses {name}, which is not there")),
+                );
+            }
+            accessor
+        };
+        let first = set("TEXCOORD_0", used[0]);
+        let second = set("TEXCOORD_1", used[1]);
+        let read = |accessor: &Option<Accessor<'_>>, source: u32| {
+            let uv = accessor
+                .as_ref()
+                .map_or([0.0; 2], |a| a.floats(source as usize));
+            uv.map(|x| if x.is_finite() { x } else { 0.0 })
+        };
+        sources
+            .par_iter()
+            .with_min_len(16_384)
+            .map(|&source| {
+                let ([u0, v0], [u1, v1]) = (read(&first, source), read(&second, source));
+                [u0, v0, u1, v1]
+            })
+            .collect()
+    }
+
+    /// Vertex colours, opaque where they have no alpha; empty where there are none.
+    pub fn colors(&self, sources: &[u32], notes: &mut Vec<Fault>) -> Vec<[f32; 4]> {
+        let Some(accessor) = self.attribute("COLOR_0", &[3, 4], &FRACTION, notes) else {
+            return Vec::new();
+        };
+        let accessor = accessor.normalized();
+        let opaque = accessor.components == 3;
+        let mut colors: Vec<[f32; 4]> = gather(&accessor, sources);
+        for color in &mut colors {
+            if opaque {
+                color[3] = 1.0;
+            }
+            for channel in color {
+                if !channel.is_finite() {
+                    *channel = 1.0;
+                }
+            }
+        }
+        colors
+    }
+
+    /// The tangents that the file gives; `None` where they have to be generated. Without normals
+    /// they are ignored, as the specification asks.
+    pub fn tangents(
+        &self,
+        normals: &[[f32; 3]],
+        sources: &[u32],
+        notes: &mut Vec<Fault>,
+    ) -> Option<Vec<[f32; 4]>> {
+        if normals.is_empty() {
+            return None;
+        }
+        let accessor = self.attribute("TANGENT", &[4], &SIGNED, notes)?;
+        let mut tangents: Vec<[f32; 4]> = gather(&accessor, sources);
+        let usable =
+            |t: &[f32; 4]| t.iter().all(|x| x.is_finite()) && t[..3].iter().any(|&x| x != 0.0);
+        if !tangents.iter().all(usable) {
+            notes.push(accessor.fault("has unusable tangents; all are generated instead"));
+            return None;
+        }
+        for tangent in &mut tangents {
+            tangent[3] = 1.0_f32.copysign(tangent[3]);
+        }
+        Some(tangents)
+    }
+
+    /// Displacements of the morph targets `items`.
+    pub fn targets(
+        &self,
+        items: &[Item<'_>],
+        sources: &[u32],
+        notes: &mut Vec<Fault>,
+    ) -> Vec<Target> {
+        items
+            .iter()
+            .map(|item| {
+                let mut stream = |name: &str, types: &[Component]| {
+                    let accessor = self.read(&item.get(name)?, &[3], types, notes)?;
+                    let mut displacements: Vec<[f32; 3]> = gather(&accessor, sources);
+                    for x in displacements.as_flattened_mut() {
+                        if !x.is_finite() {
+                            *x = 0.0;
+                        }
+                    }
+                    Some(displacements)
+                };
+                Target {
+                    positions: stream("POSITION", &ANY).unwrap_or_default(),
+                    normals: stream("NORMAL", &SIGNED).unwrap_or_default(),
+                    tangents: stream("TANGENT", &SIGNED).unwrap_or_default(),
+                }
+            })
+            .collect()
+    }
+
+    /// All sets of joints and weights. A vertex without weight follows its first joint.
+    pub fn influences(&self, sources: &[u32], notes: &mut Vec<Fault>) -> Vec<Influences> {
+        let mut sets = Vec::new();
+        loop {
+            let n = sets.len();
+            let joints = self.attribute(
+                &format!("JOINTS_{n}"),
+                &[4],
+                &[Component::U8, Component::U16],
+                notes,
+            );
+            let weights = self.attribute(&format!("WEIGHTS_{n}"), &[4], &FRACTION, notes);
+            let (Some(joints), Some(weights)) = (joints, weights) else {
+                break;
+            };
+            let weights = weights.normalized();
+            sets.push(Influences {
+                joints: sources
+                    .iter()
+                    .map(|&v| joints.integers(v as usize).map(|j| j as u16))
+                    .collect(),
+                weights: gather(&weights, sources),
+            });
+        }
+        normalize_weights(&mut sets, sources.len());
+        sets
+    }
+}
+
+/// Scales the weights of every vertex to a sum of 1.
+fn normalize_weights(sets: &mut [Influences], count: usize) {
+    for v in 0..count {
+        let mut sum = 0.0;
+        for weight in sets.iter_mut().flat_map(|set| &mut set.weights[v]) {
+            if !(weight.is_finite() && *weight > 0.0) {
+                *weight = 0.0;
+            }
+            sum += *weight;
+        }
+        if sum > 0.0 && sum.is_finite() {
+            for weight in sets.iter_mut().flat_map(|set| &mut set.weights[v]) {
+                *weight /= sum;
+            }
+        } else if let Some(first) = sets.first_mut() {
+            first.weights[v] = [1.0, 0.0, 0.0, 0.0];
+        }
+        // A joint without weight need not exist.
+        for set in sets.iter_mut() {
+            for (joint, weight) in set.joints[v].iter_mut().zip(set.weights[v]) {
+                if weight == 0.0 {
+                    *joint = 0;
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,237 @@
+//! Recording into a command buffer, and the time that each pass takes.
+
+use super::{Buffer, Gpu, Image, Pipeline, VulkanError};
+use ash::vk;
+use std::sync::Arc;
+
+/// Writes commands of one frame into a caller's command buffer.
+pub struct Recorder<'a> {
+    gpu: &'a Gpu,
+    raw: vk::CommandBuffer,
+    timings: Option<&'a mut Timings>,
+}
+
+impl<'a> Recorder<'a> {
+    /// # Safety
+    /// - `raw` was allocated from `gpu`'s device, for its queue family, and is in the recording state.
+    /// - What is recorded is submitted only while everything it refers to is alive.
+    #[must_use]
+    pub unsafe fn new(
+        gpu: &'a Gpu,
+        raw: vk::CommandBuffer,
+        timings: Option<&'a mut Timings>,
+    ) -> Self {
+        Self { gpu, raw, timings }
+    }
+
+    pub(crate) fn raw(&self) -> vk::CommandBuffer {
+        self.raw
+    }
+
+    pub(crate) fn device(&self) -> &ash::Device {
+        &self.gpu.device
+    }
+
+    /// Everything before is visible to everything after.
+    pub fn barrier(&self) {
+        let all = vk::PipelineStageFlags2::ALL_COMMANDS;
+        let barriers = [vk::MemoryBarrier2::default()
+            .src_stage_mask(all)
+            .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
+            .dst_stage_mask(all)
+            .dst_access_mask(vk::AccessFlags2::MEMORY_READ | vk::AccessFlags2::MEMORY_WRITE)];
+        let info = vk::DependencyInfo::default().memory_barriers(&barriers);
+        // SAFETY: `new`'s contract; synchronization2 is enabled.
+        unsafe { self.gpu.device.cmd_pipeline_barrier2(self.raw, &info) };
+    }
+
+    /// Moves an image to another layout, after all before and ahead of all after.
+    pub fn transition(&self, image: &Image, from: vk::ImageLayout, to: vk::ImageLayout) {
+        let all = vk::PipelineStageFlags2::ALL_COMMANDS;
+        let barriers = [vk::ImageMemoryBarrier2::default()
+            .src_stage_mask(all)
+            .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
+            .dst_stage_mask(all)
+            .dst_access_mask(vk::AccessFlags2::MEMORY_READ | vk::AccessFlags2::MEMORY_WRITE)
+            .old_layout(from)
+            .new_layout(to)
+            .image(image.raw)
+            .subresource_range(image.range())];
+        let info = vk::DependencyInfo::default().image_memory_barriers(&barriers);
+        // SAFETY: `new`'s contract; synchronization2 is enabled.
+        unsafe { self.gpu.device.cmd_pipeline_barrier2(self.raw, &info) };
+    }
+
+    /// Binds a pipeline.
+    pub fn bind(&self, pipeline: &Pipeline) {
+        // SAFETY: `new`'s contract.
+        unsafe {
+            self.gpu
+                .device
+                .cmd_bind_pipeline(self.raw, pipeline.bind_point, pipeline.raw)
+        };
+    }
+
+    /// Runs a pipeline over `groups` workgroups, folded into rows of 32,768.
+    pub fn dispatch(&self, pipeline: &Pipeline, groups: u64) {
+        self.bind(pipeline);
+        let rows = groups.div_ceil(32768) as u32;
+        // SAFETY: `new`'s contract; 32,768 is below every device's limit of 65,535.
+        unsafe {
+            self.gpu
+                .device
+                .cmd_dispatch(self.raw, groups.min(32768) as u32, rows, 1)
+        };
+        self.barrier();
+    }
+
+    /// Runs a pipeline over the workgroups that vector `index` of `arguments` names.
+    pub fn dispatch_indirect(&self, pipeline: &Pipeline, arguments: &Buffer, index: u32) {
+        self.dispatch_indirect_unordered(pipeline, arguments, index);
+        self.barrier();
+    }
+
+    /// The same without a barrier after it, for dispatches that write different places.
+    pub fn dispatch_indirect_unordered(&self, pipeline: &Pipeline, arguments: &Buffer, index: u32) {
+        self.bind(pipeline);
+        // SAFETY: `new`'s contract; the buffer is larger than the index and was created for indirect use.
+        unsafe {
+            self.gpu
+                .device
+                .cmd_dispatch_indirect(self.raw, arguments.raw, u64::from(index) * 16)
+        };
+    }
+
+    /// Sets the push constants of `layout`.
+    pub fn push(&self, layout: vk::PipelineLayout, words: &[u32]) {
+        let bytes = bytemuck::cast_slice(words);
+        // SAFETY: `new`'s contract; layouts reserve 16 bytes for compute.
+        unsafe {
+            self.gpu.device.cmd_push_constants(
+                self.raw,
+                layout,
+                vk::ShaderStageFlags::COMPUTE,
+                0,
+                bytes,
+            )
+        };
+    }
+
+    /// Fills a buffer with zeros.
+    pub fn clear(&self, buffer: &Buffer) {
+        // SAFETY: `new`'s contract; the buffer was created as a transfer destination.
+        unsafe {
+            self.gpu
+                .device
+                .cmd_fill_buffer(self.raw, buffer.raw, 0, vk::WHOLE_SIZE, 0)
+        };
+    }
+
+    /// Ends a named stretch of the frame: the time since the mark before is booked under `name`.
+    pub fn mark(&mut self, name: &'static str) {
+        if let Some(timings) = self.timings.as_deref_mut() {
+            timings.mark(self.gpu, self.raw, Some(name));
+        }
+    }
+
+    /// Begins timing.
+    pub fn begin(&mut self) {
+        if let Some(timings) = self.timings.as_deref_mut() {
+            timings.begin(self.gpu, self.raw);
+        }
+    }
+}
+
+/// Timestamps of one frame; names may repeat and are added up.
+pub struct Timings {
+    gpu: Arc<Gpu>,
+    pool: vk::QueryPool,
+    capacity: u32,
+    names: Vec<Option<&'static str>>,
+}
+
+impl Timings {
+    /// Room for `capacity` marks; later ones are not taken.
+    ///
+    /// # Errors
+    /// [`VulkanError::Call`] if the pool can't be made.
+    pub fn new(gpu: &Arc<Gpu>, capacity: u32) -> Result<Self, VulkanError> {
+        let info = vk::QueryPoolCreateInfo::default()
+            .query_type(vk::QueryType::TIMESTAMP)
+            .query_count(capacity);
+        // SAFETY: plain creation on a live device.
+        let pool = unsafe { gpu.device.create_query_pool(&info, None) }
+            .map_err(VulkanError::of("vkCreateQueryPool"))?;
+        Ok(Self {
+            gpu: gpu.clone(),
+            pool,
+            capacity,
+            names: Vec::new(),
+        })
+    }
+
+    fn begin(&mut self, gpu: &Gpu, raw: vk::CommandBuffer) {
+        self.names.clear();
+        // SAFETY: the recorder's contract; the pool is not in use, as the frame before is done.
+        unsafe {
+            gpu.device
+                .cmd_reset_query_pool(raw, self.pool, 0, self.capacity)
+        };
+        self.mark(gpu, raw, None);
+    }
+
+    fn mark(&mut self, gpu: &Gpu, raw: vk::CommandBuffer, name: Option<&'static str>) {
+        let index = self.names.len() as u32;
+        if gpu.limits().timestamp_period == 0.0 || index >= self.capacity {
+            return;
+        }
+        // SAFETY: the recorder's contract; the query was reset at the frame's begin.
+        unsafe {
+            gpu.device.cmd_write_timestamp2(
+                raw,
+                vk::PipelineStageFlags2::ALL_COMMANDS,
+                self.pool,
+                index,
+            )
+        };
+        self.names.push(name);
+    }
+
+    /// Milliseconds by name, in order of first appearance. Call it when the frame is done.
+    ///
+    /// # Errors
+    /// [`VulkanError::Call`] if results can't be had.
+    pub fn read(&self) -> Result<Vec<(&'static str, f64)>, VulkanError> {
+        let mut stamps = vec![0_u64; self.names.len()];
+        if !stamps.is_empty() {
+            let flags = vk::QueryResultFlags::TYPE_64 | vk::QueryResultFlags::WAIT;
+            // SAFETY: the queries were written by a finished frame.
+            unsafe {
+                self.gpu
+                    .device
+                    .get_query_pool_results(self.pool, 0, &mut stamps, flags)
+            }
+            .map_err(VulkanError::of("vkGetQueryPoolResults"))?;
+        }
+        let period = f64::from(self.gpu.limits().timestamp_period) * 1e-6;
+        let mut times: Vec<(&'static str, f64)> = Vec::new();
+        for (pair, name) in stamps.windows(2).zip(self.names.iter().skip(1)) {
+            let (Some(name), &[before, after]) = (name, pair) else {
+                continue;
+            };
+            let ms = after.saturating_sub(before) as f64 * period;
+            match times.iter_mut().find(|(known, _)| known == name) {
+                Some((_, sum)) => *sum += ms,
+                None => times.push((name, ms)),
+            }
+        }
+        Ok(times)
+    }
+}
+
+impl Drop for Timings {
+    fn drop(&mut self) {
+        // SAFETY: owners drop timings only after the frames that use them are done.
+        unsafe { self.gpu.device.destroy_query_pool(self.pool, None) };
+    }
+}

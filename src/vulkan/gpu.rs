@@ -1,0 +1,204 @@
+//! A device in use: its functions, limits and memory.
+
+use super::instance::Instance;
+use super::{Missing, Requirements, VulkanError};
+use ash::vk;
+use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
+use std::sync::{Arc, Mutex};
+
+/// An allocator that several parts of a program share.
+pub type SharedAllocator = Arc<Mutex<Allocator>>;
+
+/// A host's Vulkan objects, in which the renderer works.
+pub struct Host {
+    /// The instance, created for Vulkan 1.3 or later.
+    pub instance: ash::Instance,
+    /// The physical device; see [`Requirements::missing`].
+    pub physical_device: vk::PhysicalDevice,
+    /// The device, with the features of [`Requirements::features13`] enabled.
+    pub device: ash::Device,
+    /// The family, with graphics and compute, of the queue that commands will be submitted to.
+    pub queue_family: u32,
+    /// The host's allocator to share, or `None` for one of our own.
+    pub allocator: Option<SharedAllocator>,
+}
+
+/// Properties of the device that decide how work is laid out.
+#[derive(Clone, Debug)]
+pub struct Limits {
+    /// The device's name.
+    pub device_name: String,
+    /// Name and version of the driver.
+    pub driver: String,
+    /// Invocations in a subgroup, as every subgroup kernel is run: 4 to 32.
+    pub subgroup_size: u32,
+    /// Whether a compute pipeline can be told its subgroup size.
+    pub can_require_subgroup_size: bool,
+    /// Largest width or height of an image.
+    pub max_image_side: u32,
+    /// Most elements of a texel buffer.
+    pub max_texel_elements: u64,
+    /// Most bytes of a storage buffer binding.
+    pub max_storage_bytes: u64,
+    /// Nanoseconds a timestamp step, 0 if the queue has no timestamps.
+    pub timestamp_period: f32,
+    /// Sample counts of multisampled 8-bit colour and float depth.
+    pub sample_counts: vk::SampleCountFlags,
+    /// Whether the device is a CPU.
+    pub is_cpu: bool,
+}
+
+/// A device in use.
+pub struct Gpu {
+    pub(crate) device: ash::Device,
+    pub(crate) queue_family: u32,
+    /// `None` only while dropping.
+    allocator: Option<SharedAllocator>,
+    limits: Limits,
+    /// Set where we created the device: it is destroyed with the Gpu, before the instance.
+    owner: Option<Arc<Instance>>,
+}
+
+impl Gpu {
+    /// Works in a host's device.
+    ///
+    /// # Errors
+    /// [`VulkanError::Missing`] names all that the device lacks.
+    ///
+    /// # Safety
+    /// - All handles are alive, belong together and outlive the returned value and all made with it.
+    /// - The device was created with the features of [`Requirements::features13`].
+    pub unsafe fn new(host: Host) -> Result<Arc<Self>, VulkanError> {
+        // SAFETY: passed on to the caller.
+        unsafe { Self::owning(host, None) }
+    }
+
+    /// # Safety
+    /// As [`Gpu::new`]; with an `owner`, the device is ours to destroy.
+    pub(super) unsafe fn owning(
+        host: Host,
+        owner: Option<Arc<Instance>>,
+    ) -> Result<Arc<Self>, VulkanError> {
+        let Host {
+            instance,
+            physical_device,
+            device,
+            queue_family,
+            allocator,
+        } = host;
+        let limits = limits(&instance, physical_device, queue_family);
+        let missing: Vec<Missing> = Requirements::missing(&instance, physical_device);
+        if !missing.is_empty() {
+            return Err(VulkanError::Missing {
+                device: limits.device_name,
+                missing,
+            });
+        }
+        let allocator = match allocator {
+            Some(shared) => shared,
+            None => Arc::new(Mutex::new(
+                Allocator::new(&AllocatorCreateDesc {
+                    instance: instance.clone(),
+                    device: device.clone(),
+                    physical_device,
+                    debug_settings: gpu_allocator::AllocatorDebugSettings::default(),
+                    buffer_device_address: false,
+                    allocation_sizes: gpu_allocator::AllocationSizes::default(),
+                })
+                .map_err(|_| VulkanError::Call {
+                    call: "the allocator",
+                    result: vk::Result::ERROR_INITIALIZATION_FAILED,
+                })?,
+            )),
+        };
+        Ok(Arc::new(Self {
+            device,
+            queue_family,
+            allocator: Some(allocator),
+            limits,
+            owner,
+        }))
+    }
+
+    /// Properties of the device.
+    #[must_use]
+    pub fn limits(&self) -> &Limits {
+        &self.limits
+    }
+
+    /// The instance, where it is our own.
+    #[must_use]
+    pub fn instance(&self) -> Option<&Arc<Instance>> {
+        self.owner.as_ref()
+    }
+
+    /// The allocator; a poisoned lock is taken over, as an allocation that panicked left nothing half made.
+    pub(super) fn with_allocator<R>(&self, f: impl FnOnce(&mut Allocator) -> R) -> Option<R> {
+        let allocator = self.allocator.as_ref()?;
+        let mut guard = allocator
+            .lock()
+            .unwrap_or_else(std::sync::PoisonError::into_inner);
+        Some(f(&mut guard))
+    }
+}
+
+impl Drop for Gpu {
+    fn drop(&mut self) {
+        // The allocator frees its blocks while the device is still alive.
+        self.allocator = None;
+        if self.owner.is_some() {
+            // SAFETY: the device is ours, everything made from it holds an `Arc` of this and is gone.
+            unsafe { self.device.destroy_device(None) };
+        }
+    }
+}
+
+fn limits(instance: &ash::Instance, device: vk::PhysicalDevice, queue_family: u32) -> Limits {
+    let mut driver = vk::PhysicalDeviceDriverProperties::default();
+    let mut subgroup = vk::PhysicalDeviceSubgroupProperties::default();
+    let mut control = vk::PhysicalDeviceSubgroupSizeControlProperties::default();
+    let mut properties = vk::PhysicalDeviceProperties2::default()
+        .push_next(&mut driver)
+        .push_next(&mut subgroup)
+        .push_next(&mut control);
+    // SAFETY: the device belongs to the instance.
+    let families = unsafe {
+        instance.get_physical_device_properties2(device, &mut properties);
+        instance.get_physical_device_queue_family_properties(device)
+    };
+    let basic = properties.properties;
+    let timestamps = families
+        .get(queue_family as usize)
+        .is_some_and(|family| family.timestamp_valid_bits > 0);
+    let text = |name: Result<&std::ffi::CStr, _>| {
+        name.map(|n: &std::ffi::CStr| n.to_string_lossy().into_owned())
+            .unwrap_or_default()
+    };
+    Limits {
+        device_name: text(basic.device_name_as_c_str()),
+        driver: format!(
+            "{} {}",
+            text(driver.driver_name_as_c_str()),
+            text(driver.driver_info_as_c_str())
+        ),
+        subgroup_size: subgroup
+            .subgroup_size
+            .min(32)
+            .clamp(control.min_subgroup_size, control.max_subgroup_size),
+        can_require_subgroup_size: control
+            .required_subgroup_size_stages
+            .contains(vk::ShaderStageFlags::COMPUTE),
+        max_image_side: basic.limits.max_image_dimension2_d,
+        max_texel_elements: u64::from(basic.limits.max_texel_buffer_elements),
+        max_storage_bytes: u64::from(basic.limits.max_storage_buffer_range),
+        timestamp_period: if timestamps {
+            basic.limits.timestamp_period
+        } else {
+            0.0
+        },
+        sample_counts: basic.limits.framebuffer_color_sample_counts
+            & basic.limits.framebuffer_depth_sample_counts
+            & basic.limits.sampled_image_color_sample_counts,
+        is_cpu: basic.device_type == vk::PhysicalDeviceType::CPU,
+    }
+}

@@ -1,0 +1,315 @@
+//! Buffers, texel views and images that free themselves.
+
+use super::{Gpu, VulkanError};
+use ash::vk;
+use gpu_allocator::MemoryLocation;
+use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Where memory lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MemoryUse {
+    /// On the device.
+    Device,
+    /// Written by the host, read by the device.
+    Upload,
+    /// Written by the device, read by the host.
+    Readback,
+}
+
+/// Counts the bytes of what is made through it and refuses to pass a bound.
+pub struct Memory {
+    gpu: Arc<Gpu>,
+    used: AtomicU64,
+    limit: u64,
+}
+
+impl Memory {
+    /// An account of at most `limit` bytes.
+    #[must_use]
+    pub fn new(gpu: Arc<Gpu>, limit: Option<u64>) -> Self {
+        Self {
+            gpu,
+            used: AtomicU64::new(0),
+            limit: limit.unwrap_or(u64::MAX),
+        }
+    }
+
+    /// The device.
+    #[must_use]
+    pub fn gpu(&self) -> &Arc<Gpu> {
+        &self.gpu
+    }
+
+    /// Bytes allocated through this account and not yet freed by dropping it.
+    #[must_use]
+    pub fn used(&self) -> u64 {
+        self.used.load(Ordering::Relaxed)
+    }
+
+    fn allocate(
+        &self,
+        name: &str,
+        requirements: vk::MemoryRequirements,
+        location: MemoryUse,
+        linear: bool,
+    ) -> Result<Allocation, VulkanError> {
+        let refuse = || VulkanError::OutOfMemory {
+            what: name.to_owned(),
+            bytes: requirements.size,
+        };
+        if self.used() + requirements.size > self.limit {
+            return Err(refuse());
+        }
+        let allocation = self
+            .gpu
+            .with_allocator(|allocator| {
+                allocator.allocate(&AllocationCreateDesc {
+                    name,
+                    requirements,
+                    location: match location {
+                        MemoryUse::Device => MemoryLocation::GpuOnly,
+                        MemoryUse::Upload => MemoryLocation::CpuToGpu,
+                        MemoryUse::Readback => MemoryLocation::GpuToCpu,
+                    },
+                    linear,
+                    allocation_scheme: AllocationScheme::GpuAllocatorManaged,
+                })
+            })
+            .ok_or_else(refuse)?
+            .map_err(|_| refuse())?;
+        self.used.fetch_add(requirements.size, Ordering::Relaxed);
+        Ok(allocation)
+    }
+
+    /// A buffer of at least `size` bytes (4 if 0 is asked for).
+    ///
+    /// # Errors
+    /// [`VulkanError::OutOfMemory`] past the account's bound or the device's memory.
+    pub fn buffer(
+        &self,
+        name: &str,
+        size: u64,
+        usage: vk::BufferUsageFlags,
+        location: MemoryUse,
+    ) -> Result<Buffer, VulkanError> {
+        let size = size.max(16);
+        let info = vk::BufferCreateInfo::default().size(size).usage(usage);
+        // SAFETY: the device is alive as long as the Gpu; on failure below nothing but the handle is leaked to `Drop`.
+        let raw = unsafe { self.gpu.device.create_buffer(&info, None) }
+            .map_err(VulkanError::of("vkCreateBuffer"))?;
+        let mut buffer = Buffer {
+            gpu: self.gpu.clone(),
+            raw,
+            allocation: None,
+            size,
+        };
+        // SAFETY: the buffer was just made from this device.
+        let requirements = unsafe { self.gpu.device.get_buffer_memory_requirements(raw) };
+        let allocation = self.allocate(name, requirements, location, true)?;
+        // SAFETY: the memory is unused, of a type the buffer takes, and bound once.
+        unsafe {
+            self.gpu
+                .device
+                .bind_buffer_memory(raw, allocation.memory(), allocation.offset())
+        }
+        .map_err(VulkanError::of("vkBindBufferMemory"))?;
+        buffer.allocation = Some(allocation);
+        Ok(buffer)
+    }
+
+    /// A buffer of `elements` texels of `format` and its view.
+    ///
+    /// # Errors
+    /// [`VulkanError::TooLarge`] past the device's `maxTexelBufferElements`, else as [`Memory::buffer`].
+    pub fn texel_buffer(
+        &self,
+        name: &str,
+        elements: u64,
+        format: vk::Format,
+        usage: vk::BufferUsageFlags,
+        location: MemoryUse,
+    ) -> Result<BufferView, VulkanError> {
+        let limit = self.gpu.limits().max_texel_elements;
+        if elements > limit {
+            return Err(VulkanError::TooLarge {
+                what: name.to_owned(),
+                needed: elements,
+                unit: "elements",
+                limit,
+            });
+        }
+        let bytes = match format {
+            vk::Format::R32G32B32A32_SFLOAT | vk::Format::R32G32B32A32_UINT => 16,
+            vk::Format::R32G32_SFLOAT => 8,
+            _ => 4,
+        };
+        let buffer = self.buffer(name, elements.max(1) * bytes, usage, location)?;
+        let info = vk::BufferViewCreateInfo::default()
+            .buffer(buffer.raw)
+            .format(format)
+            .range(elements.max(1) * bytes);
+        // SAFETY: the buffer is bound to memory and was created for texel access.
+        let view = unsafe { self.gpu.device.create_buffer_view(&info, None) }
+            .map_err(VulkanError::of("vkCreateBufferView"))?;
+        Ok(BufferView { buffer, view })
+    }
+
+    /// An image with one view of all its levels.
+    ///
+    /// # Errors
+    /// As [`Memory::buffer`].
+    pub fn image(
+        &self,
+        name: &str,
+        info: &vk::ImageCreateInfo<'_>,
+        aspect: vk::ImageAspectFlags,
+    ) -> Result<Image, VulkanError> {
+        // SAFETY: `info` is valid for the device, whose limits callers have checked.
+        let raw = unsafe { self.gpu.device.create_image(info, None) }
+            .map_err(VulkanError::of("vkCreateImage"))?;
+        let mut image = Image {
+            gpu: self.gpu.clone(),
+            raw,
+            view: vk::ImageView::null(),
+            allocation: None,
+            extent: vk::Extent2D {
+                width: info.extent.width,
+                height: info.extent.height,
+            },
+            levels: info.mip_levels,
+            aspect,
+        };
+        // SAFETY: the image was just made from this device.
+        let requirements = unsafe { self.gpu.device.get_image_memory_requirements(raw) };
+        let allocation = self.allocate(name, requirements, MemoryUse::Device, false)?;
+        // SAFETY: the memory is unused, of a type the image takes, and bound once.
+        unsafe {
+            self.gpu
+                .device
+                .bind_image_memory(raw, allocation.memory(), allocation.offset())
+        }
+        .map_err(VulkanError::of("vkBindImageMemory"))?;
+        image.allocation = Some(allocation);
+        let view = vk::ImageViewCreateInfo::default()
+            .image(raw)
+            .view_type(vk::ImageViewType::TYPE_2D)
+            .format(info.format)
+            .subresource_range(image.range());
+        // SAFETY: the image is bound and the format is its own.
+        image.view = unsafe { self.gpu.device.create_image_view(&view, None) }
+            .map_err(VulkanError::of("vkCreateImageView"))?;
+        Ok(image)
+    }
+}
+
+/// A buffer and its memory.
+pub struct Buffer {
+    gpu: Arc<Gpu>,
+    pub(crate) raw: vk::Buffer,
+    allocation: Option<Allocation>,
+    size: u64,
+}
+
+impl Buffer {
+    /// The handle.
+    #[must_use]
+    pub fn handle(&self) -> vk::Buffer {
+        self.raw
+    }
+
+    /// Size in bytes.
+    #[must_use]
+    pub fn size(&self) -> u64 {
+        self.size
+    }
+
+    /// The mapped bytes; empty for device memory that the host can't see.
+    #[must_use]
+    pub fn bytes(&self) -> &[u8] {
+        self.allocation
+            .as_ref()
+            .and_then(Allocation::mapped_slice)
+            .and_then(|all| all.get(..self.size as usize))
+            .unwrap_or(&[])
+    }
+
+    /// The mapped bytes, to be written before the device reads them.
+    pub fn bytes_mut(&mut self) -> &mut [u8] {
+        let size = self.size as usize;
+        self.allocation
+            .as_mut()
+            .and_then(Allocation::mapped_slice_mut)
+            .and_then(|all| all.get_mut(..size))
+            .unwrap_or(&mut [])
+    }
+}
+
+impl Drop for Buffer {
+    fn drop(&mut self) {
+        // SAFETY: owners drop a buffer only after the frames that use it are done.
+        unsafe { self.gpu.device.destroy_buffer(self.raw, None) };
+        if let Some(allocation) = self.allocation.take() {
+            let _ = self
+                .gpu
+                .with_allocator(|allocator| allocator.free(allocation));
+        }
+    }
+}
+
+/// A buffer seen as texels.
+pub struct BufferView {
+    /// The buffer.
+    pub buffer: Buffer,
+    pub(crate) view: vk::BufferView,
+}
+
+impl Drop for BufferView {
+    fn drop(&mut self) {
+        // SAFETY: as for the buffer, which outlives its view here.
+        unsafe { self.buffer.gpu.device.destroy_buffer_view(self.view, None) };
+    }
+}
+
+/// An image, its view and its memory.
+pub struct Image {
+    gpu: Arc<Gpu>,
+    pub(crate) raw: vk::Image,
+    pub(crate) view: vk::ImageView,
+    allocation: Option<Allocation>,
+    /// Width and height of level 0.
+    pub extent: vk::Extent2D,
+    /// Number of mipmap levels.
+    pub levels: u32,
+    aspect: vk::ImageAspectFlags,
+}
+
+impl Image {
+    /// All of the image.
+    #[must_use]
+    pub fn range(&self) -> vk::ImageSubresourceRange {
+        vk::ImageSubresourceRange {
+            aspect_mask: self.aspect,
+            base_mip_level: 0,
+            level_count: self.levels,
+            base_array_layer: 0,
+            layer_count: 1,
+        }
+    }
+}
+
+impl Drop for Image {
+    fn drop(&mut self) {
+        // SAFETY: owners drop an image only after the frames that use it are done.
+        unsafe {
+            self.gpu.device.destroy_image_view(self.view, None);
+            self.gpu.device.destroy_image(self.raw, None);
+        }
+        if let Some(allocation) = self.allocation.take() {
+            let _ = self
+                .gpu
+                .with_allocator(|allocator| allocator.free(allocation));
+        }
+    }
+}

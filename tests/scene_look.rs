@@ -1,0 +1,364 @@
+//! Materials, textures, lights, cameras and what is said about them.
+
+mod scene_builder;
+
+use glam::{DMat3, DVec3};
+use gpc::scene::{
+    AlphaMode, Filter, LightKind, Material, Sampler, Scene, SceneError, SceneProjection, Wrap,
+};
+use scene_builder::{Builder, png};
+use serde_json::json;
+
+#[test]
+fn materials_read_all_their_fields() {
+    let mut builder = Builder::new();
+    let texture = builder.texture([10, 20, 30]);
+    builder.push(
+        "samplers",
+        json!({"magFilter": 9728, "minFilter": 9985, "wrapS": 33071}),
+    );
+    builder.json["textures"][texture]["sampler"] = 0.into();
+    builder.push(
+        "materials",
+        json!({
+            "name": "all",
+            "pbrMetallicRoughness": {
+                "baseColorFactor": [0.1, 0.2, 0.3, 0.4],
+                "metallicFactor": 0.5,
+                "roughnessFactor": 0.6,
+                "baseColorTexture": {"index": texture, "extensions": {"KHR_texture_transform": {
+                    "offset": [0.25, 0.5], "scale": [2, 3], "rotation": std::f64::consts::FRAC_PI_2,
+                    "texCoord": 1,
+                }}},
+            },
+            "normalTexture": {"index": texture, "scale": 0.7},
+            "occlusionTexture": {"index": texture, "strength": 0.8},
+            "emissiveFactor": [0.5, 0, 1],
+            "alphaMode": "MASK",
+            "alphaCutoff": 0.3,
+            "doubleSided": true,
+            "extensions": {
+                "KHR_materials_emissive_strength": {"emissiveStrength": 4},
+                "KHR_materials_unlit": {},
+            },
+        }),
+    );
+    let scene = builder.load().unwrap().scene;
+    assert_eq!(scene.materials.len(), 2);
+    assert_eq!(scene.materials[1], Material::default());
+    let material = &scene.materials[0];
+    assert_eq!(material.name.as_deref(), Some("all"));
+    assert_eq!(material.base_color, [0.1, 0.2, 0.3, 0.4]);
+    assert_eq!((material.metallic, material.roughness), (0.5, 0.6));
+    assert_eq!(
+        (material.normal_scale, material.occlusion_strength),
+        (0.7, 0.8)
+    );
+    assert_eq!(material.emissive, [2.0, 0.0, 4.0]);
+    assert_eq!(material.alpha_mode, AlphaMode::Mask { cutoff: 0.3 });
+    assert!(material.double_sided && material.unlit);
+    assert!(material.metallic_roughness_texture.is_none());
+
+    let used = material.base_color_texture.unwrap();
+    assert_eq!(used.uv_set, 1);
+    // Scaled, then turned by a quarter against the clock where v points down, then moved.
+    let [row_u, row_v] = used.transform.0;
+    let transformed = |u: f32, v: f32| [row_u, row_v].map(|row| row[0] * u + row[1] * v + row[2]);
+    for (uv, expected) in [([1.0, 0.0], [0.25, -1.5]), ([0.0, 1.0], [3.25, 0.5])] {
+        let found = transformed(uv[0], uv[1]);
+        for (found, expected) in found.iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-6, "{uv:?}: {found:?}");
+        }
+    }
+    assert_eq!(
+        scene.textures[used.texture as usize].sampler,
+        Sampler {
+            mag: Filter::Nearest,
+            min: Filter::Linear,
+            mip: Some(Filter::Nearest),
+            wrap_u: Wrap::ClampToEdge,
+            wrap_v: Wrap::Repeat,
+        }
+    );
+    assert_eq!(scene.images.len(), 1);
+    assert_eq!(scene.images[0].pixels, [10, 20, 30, 255]);
+}
+
+#[test]
+fn broken_looks_are_warnings() {
+    let mut builder = Builder::new();
+    let good = builder.texture([1, 2, 3]);
+    let view = builder.view(b"not an image", json!({}));
+    builder.push("images", json!({"bufferView": view}));
+    let bad = builder.push("textures", json!({"source": 1}));
+    builder.push(
+        "materials",
+        json!({
+            "pbrMetallicRoughness": {"baseColorTexture": {"index": bad}, "metallicFactor": 0},
+            "normalTexture": {"index": 99},
+            "occlusionTexture": {"index": good, "texCoord": 2},
+            "emissiveTexture": {"index": good},
+        }),
+    );
+    builder.push(
+        "materials",
+        json!({"alphaMode": "GLASS", "doubleSided": true}),
+    );
+    builder.triangle(json!({}));
+    builder.json["meshes"][0]["primitives"][0]["material"] = 77.into();
+    let loaded = builder.load().unwrap();
+    let [first, second, default] = &loaded.scene.materials[..] else {
+        panic!("{:?}", loaded.scene.materials);
+    };
+    assert_eq!(first.metallic, 0.0);
+    assert!(first.base_color_texture.is_none() && first.normal_texture.is_none());
+    assert!(first.occlusion_texture.is_none());
+    assert_eq!(first.emissive_texture.unwrap().texture, 0);
+    assert_eq!(
+        (second, default),
+        (&Material::default(), &Material::default())
+    );
+    let pose = loaded.scene.pose(&Default::default()).unwrap();
+    assert_eq!(pose.geometry.draws[0].material, 2);
+    for place in [
+        "/materials/0/normalTexture/index",
+        "/materials/0/occlusionTexture",
+        "/materials/1",
+        "/images/1",
+        "/textures/1",
+        "/meshes/0/primitives/0/material",
+    ] {
+        let expected = format!("test.glb: {place}: ");
+        assert!(
+            loaded.warnings.iter().any(|w| w.starts_with(&expected)),
+            "{place}: {:?}",
+            loaded.warnings
+        );
+    }
+}
+
+/// Bytes of a 1 x 1 WebP.
+fn webp(rgb: [u8; 3]) -> Vec<u8> {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    image::RgbImage::from_pixel(1, 1, image::Rgb(rgb))
+        .write_to(&mut bytes, image::ImageFormat::WebP)
+        .unwrap();
+    bytes.into_inner()
+}
+
+#[test]
+fn webp_is_preferred_and_has_a_fallback() {
+    for (bytes, expected) in [(webp([9, 9, 9]), 9), (b"RIFF\0\0\0\0WEBPVP8 ".to_vec(), 5)] {
+        let mut builder = Builder::new();
+        let fallback = builder.view(&png([5, 5, 5]), json!({}));
+        let preferred = builder.view(&bytes, json!({}));
+        builder.push("images", json!({"bufferView": fallback}));
+        builder.push("images", json!({"bufferView": preferred}));
+        builder.push(
+            "textures",
+            json!({"source": 0, "extensions": {"EXT_texture_webp": {"source": 1}}}),
+        );
+        builder.push("materials", json!({"emissiveTexture": {"index": 0}}));
+        let scene = builder.load().unwrap().scene;
+        let used = scene.materials[0].emissive_texture.unwrap();
+        let image = scene.textures[used.texture as usize].image;
+        assert_eq!(scene.images[image as usize].pixels[0], expected);
+    }
+}
+
+#[test]
+fn images_that_claim_too_much_are_left_out() {
+    let mut builder = Builder::new();
+    // A PNG's header may claim any size.
+    let mut bytes = png([0; 3]);
+    bytes[16..24].copy_from_slice(&[0, 0, 0x40, 0, 0, 0, 0x40, 0]);
+    let checksum = crc32(&bytes[12..29]);
+    bytes[29..33].copy_from_slice(&checksum.to_be_bytes());
+    let view = builder.view(&bytes, json!({}));
+    builder.push("images", json!({"bufferView": view}));
+    builder.push("textures", json!({"source": 0}));
+    builder.push("materials", json!({"emissiveTexture": {"index": 0}}));
+    let warnings = builder.load().unwrap().warnings.join("\n");
+    assert!(
+        warnings.contains("claims 16384 x 16384 texels, but has"),
+        "{warnings}"
+    );
+}
+
+fn crc32(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(!0, |mut crc, &byte| {
+        crc ^= u32::from(byte);
+        for _ in 0..8 {
+            crc = (crc >> 1) ^ (0xEDB8_8320 & (crc & 1).wrapping_neg());
+        }
+        crc
+    })
+}
+
+#[test]
+fn lights_are_placed_and_directed() {
+    let mut builder = Builder::new();
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = json!([
+        {"type": "directional", "color": [1, 0.5, 0], "intensity": 4, "range": 3},
+        {"type": "spot", "spot": {"innerConeAngle": 0.2, "outerConeAngle": 0.4}, "range": 7},
+        {"type": "laser"},
+        {"type": "point"},
+        {"type": "spot", "spot": {"innerConeAngle": 0.5, "outerConeAngle": 0.5}},
+    ]);
+    for (light, translation) in [
+        (0, [0, 0, 0]),
+        (1, [1, 2, 3]),
+        (2, [0, 0, 0]),
+        (3, [4, 0, 0]),
+        (4, [0, 0, 0]),
+    ] {
+        let half = std::f64::consts::FRAC_1_SQRT_2;
+        builder.push(
+            "nodes",
+            json!({
+                "translation": translation, "rotation": [half, 0, 0, half], "scale": [3, 3, 3],
+                "extensions": {"KHR_lights_punctual": {"light": light}},
+            }),
+        );
+    }
+    let loaded = builder.load().unwrap();
+    assert!(
+        loaded.warnings.iter().any(|w| w.contains("\"laser\"")),
+        "{:?}",
+        loaded.warnings
+    );
+    let lights = loaded.scene.pose(&Default::default()).unwrap().lights;
+    let [sun, spot, point, hard] = lights[..] else {
+        panic!("{lights:?}");
+    };
+    assert_eq!(
+        (sun.kind, sun.color, sun.range),
+        (LightKind::Directional, [4., 2., 0.], None)
+    );
+    // A quarter turn around x takes -z to +y.
+    assert!((sun.direction - DVec3::Y).length() < 1e-9, "{sun:?}");
+    assert_eq!(spot.position, DVec3::new(1., 2., 3.));
+    assert_eq!(spot.range, Some(7.0));
+    assert_eq!(
+        spot.kind,
+        LightKind::Spot {
+            inner_angle: 0.2,
+            outer_angle: 0.4
+        }
+    );
+    assert_eq!((point.kind, point.color), (LightKind::Point, [1.0; 3]));
+    assert!(
+        matches!(hard.kind, LightKind::Spot { inner_angle, outer_angle }
+            if inner_angle < outer_angle && inner_angle > 0.49 && outer_angle == 0.5),
+        "{hard:?}"
+    );
+    assert_eq!(loaded.scene.info().lights, 4);
+}
+
+#[test]
+fn cameras_are_placed_without_scale() {
+    let mut builder = Builder::new();
+    builder.push(
+        "cameras",
+        json!({"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1, "aspectRatio": 2}}),
+    );
+    builder.push(
+        "cameras",
+        json!({"name": "plan", "type": "orthographic",
+               "orthographic": {"xmag": 2, "ymag": 3, "znear": 0, "zfar": 9}}),
+    );
+    builder.push(
+        "cameras",
+        json!({"type": "perspective", "perspective": {"yfov": 4, "znear": 1}}),
+    );
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    builder.push(
+        "nodes",
+        json!({"camera": 0, "name": "eye", "translation": [1, 2, 3],
+               "rotation": [0, half, 0, half], "scale": [2, 5, -3]}),
+    );
+    builder.push("nodes", json!({"camera": 1}));
+    builder.push("nodes", json!({"camera": 2}));
+    let loaded = builder.load().unwrap();
+    assert!(
+        loaded.warnings.iter().any(|w| w.contains("/cameras/2/")),
+        "{:?}",
+        loaded.warnings
+    );
+    let cameras = loaded.scene.pose(&Default::default()).unwrap().cameras;
+    let [eye, plan] = &cameras[..] else {
+        panic!("{cameras:?}");
+    };
+    assert_eq!(eye.name.as_deref(), Some("eye"));
+    assert_eq!(eye.eye, DVec3::new(1., 2., 3.));
+    // A quarter turn around y takes z to x; the scale mirrors it, and right follows.
+    let expected = DMat3::from_cols(DVec3::Z, DVec3::Y, DVec3::NEG_X);
+    assert!(eye.axes.abs_diff_eq(expected, 1e-9), "{:?}", eye.axes);
+    assert_eq!(
+        eye.projection,
+        SceneProjection::Perspective {
+            yfov: 1.0,
+            aspect: Some(2.0),
+            near: 0.1,
+            far: None
+        }
+    );
+    assert_eq!(plan.name.as_deref(), Some("plan"));
+    let info = loaded.scene.info();
+    let kinds: Vec<_> = info.cameras.iter().map(|c| c.kind).collect();
+    assert_eq!(kinds, ["perspective", "orthographic"]);
+}
+
+#[test]
+fn required_extensions_are_refused_by_name_and_optional_ones_mentioned() {
+    let mut builder = Builder::new();
+    builder.json["extensionsRequired"] =
+        json!(["KHR_mesh_quantization", "KHR_draco_mesh_compression"]);
+    let error = builder.load().unwrap_err();
+    assert!(matches!(&error, SceneError::Extension { name, .. } if name.contains("draco")));
+    assert!(error.to_string().contains("gltf-transform copy"), "{error}");
+
+    let mut builder = Builder::new();
+    builder.json["extensionsUsed"] = json!(["KHR_materials_sheen", "KHR_xmp_json_ld"]);
+    let warnings = builder.load().unwrap().warnings;
+    assert_eq!(warnings.len(), 1);
+    assert!(
+        warnings[0].ends_with("drawn without KHR_materials_sheen"),
+        "{warnings:?}"
+    );
+}
+
+#[test]
+fn info_serialises() {
+    let mut builder = Builder::new();
+    builder.json["asset"]["generator"] = "test".into();
+    builder.push("materials", json!({"alphaMode": "BLEND"}));
+    builder.triangle(json!({}));
+    let scene = builder.load().unwrap().scene;
+    let info = serde_json::to_value(scene.info()).unwrap();
+    assert_eq!(info["version"], "2.0");
+    assert_eq!(info["generator"], "test");
+    assert_eq!(info["triangles"], 1);
+    assert_eq!(
+        info["materials"],
+        json!({"opaque": 0, "mask": 0, "blend": 1})
+    );
+    assert_eq!(info["scenes"], json!({"names": [], "default": null}));
+}
+
+#[test]
+fn relative_files_need_a_folder() {
+    let text = br#"{"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "type": "VEC3", "componentType": 5126, "count": 3}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "buffers": [{"byteLength": 36, "uri": "data%20file.bin"}]}"#;
+    let error = Scene::from_slice(text, "-", None).unwrap_err().to_string();
+    assert!(error.starts_with("-: /buffers/0/uri: "), "{error}");
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("data file.bin"), [0; 40]).unwrap();
+    let scene = Scene::from_slice(text, "-", Some(folder.path()))
+        .unwrap()
+        .scene;
+    assert_eq!(scene.info().triangles, 1);
+}

@@ -1,0 +1,345 @@
+//! Animation, morph targets, skins and instances.
+
+mod scene_builder;
+
+use gpc::scene::{Pose, PoseRequest, SceneError};
+use scene_builder::{Builder, TRIANGLE, assert_near, corners};
+use serde_json::{Value, json};
+
+/// The triangle at time `time` of the animation `name`, or of the first.
+fn at(builder: &Builder, name: Option<&str>, time: f64) -> Pose {
+    builder.pose_at(&PoseRequest {
+        animation: name.map(str::to_owned),
+        time,
+        ..PoseRequest::default()
+    })
+}
+
+/// One node's triangle, one of whose properties is animated.
+fn animated<const N: usize>(
+    node: Value,
+    path: &str,
+    interpolation: &str,
+    times: &[f32],
+    values: &[[f32; N]],
+) -> Builder {
+    let mut builder = Builder::new();
+    builder.triangle(node);
+    let times: Vec<[f32; 1]> = times.iter().map(|&t| [t]).collect();
+    let (input, output) = (builder.floats(&times), builder.floats(values));
+    builder.push(
+        "animations",
+        json!({
+            "name": "move",
+            "channels": [{"sampler": 0, "target": {"node": 0, "path": path}}],
+            "samplers": [{"input": input, "output": output, "interpolation": interpolation}],
+        }),
+    );
+    builder
+}
+
+fn x_of_first_corner(builder: &Builder, time: f64) -> f64 {
+    corners(&at(builder, Some("move"), time).geometry, 0)[0][0]
+}
+
+#[test]
+fn linear_step_and_clamping() {
+    let values = [[1., 0., 0.], [3., 0., 0.], [5., 0., 0.]];
+    for (mode, samples) in [
+        (
+            "LINEAR",
+            [
+                (0.0, 1.0),
+                (1.0, 1.0),
+                (1.5, 2.0),
+                (2.0, 3.0),
+                (3.0, 4.0),
+                (9.0, 5.0),
+            ],
+        ),
+        (
+            "STEP",
+            [
+                (0.0, 1.0),
+                (1.0, 1.0),
+                (1.9, 1.0),
+                (2.0, 3.0),
+                (3.9, 3.0),
+                (4.0, 5.0),
+            ],
+        ),
+    ] {
+        let builder = animated(json!({}), "translation", mode, &[1., 2., 4.], &values);
+        for (time, expected) in samples {
+            let found = x_of_first_corner(&builder, time);
+            assert!((found - expected).abs() < 1e-6, "{mode} at {time}: {found}");
+        }
+    }
+}
+
+#[test]
+fn cubic_spline_scales_tangents_by_the_interval() {
+    // In-tangent, value, out-tangent. From 0 to 4 within 2 s, starting at 3 per second, ending at rest.
+    let values = [
+        [9., 0., 0.],
+        [0., 0., 0.],
+        [3., 0., 0.],
+        [0., 0., 0.],
+        [4., 0., 0.],
+        [9., 0., 0.],
+    ];
+    let builder = animated(json!({}), "translation", "CUBICSPLINE", &[1., 3.], &values);
+    // Half way: 4 * 1/2 + 2 s * 3/s * (1/8 - 1/2 + 1/2) = 2.75.
+    for (time, expected) in [(0.0, 0.0), (2.0, 2.75), (3.0, 4.0), (7.0, 4.0)] {
+        let found = x_of_first_corner(&builder, time);
+        assert!((found - expected).abs() < 1e-6, "at {time}: {found}");
+    }
+}
+
+#[test]
+fn rotations_take_the_short_way_at_constant_speed() {
+    let half = std::f32::consts::FRAC_1_SQRT_2;
+    // A quarter turn around z; the second quaternion has the other sign.
+    let values = [[0., 0., 0., 1.], [0., 0., -half, -half]];
+    let builder = animated(json!({}), "rotation", "LINEAR", &[0., 3.], &values);
+    let geometry = at(&builder, None, 1.0).geometry;
+    let (sin, cos) = 30_f64.to_radians().sin_cos();
+    assert_near(
+        corners(&geometry, 0),
+        [[0.; 3], [cos, sin, 0.], [-sin, cos, 0.]],
+    );
+}
+
+#[test]
+fn rotations_may_be_normalised_integers() {
+    let mut builder = animated(json!({}), "rotation", "LINEAR", &[0., 1.], &[[0.; 4]; 2]);
+    let output = builder.accessor(
+        "VEC4",
+        5120,
+        &[0, 0, 0, 127, 0, 0, 127, 0],
+        json!({"normalized": true}),
+    );
+    builder.json["animations"][0]["samplers"][0]["output"] = output.into();
+    let geometry = at(&builder, None, 1.0).geometry;
+    assert_near(
+        corners(&geometry, 0),
+        [[0.; 3], [-1., 0., 0.], [0., -1., 0.]],
+    );
+}
+
+#[test]
+fn animations_are_chosen_by_name_or_index() {
+    let values = [[1., 0., 0.], [3., 0., 0.]];
+    let builder = animated(json!({}), "translation", "LINEAR", &[0., 1.], &values);
+    let x = |name, time| corners(&at(&builder, name, time).geometry, 0)[0][0];
+    assert_eq!(x(None, 0.0), 0.0);
+    assert_eq!(x(None, 0.5), 2.0);
+    assert_eq!(x(Some("move"), 0.0), 1.0);
+    assert_eq!(x(Some("0"), 1.0), 3.0);
+    let request = PoseRequest {
+        animation: Some("stand".into()),
+        ..PoseRequest::default()
+    };
+    let error = builder.load().unwrap().scene.pose(&request).unwrap_err();
+    assert!(matches!(error, SceneError::NoSuchAnimation { .. }));
+    assert!(
+        error.to_string().ends_with("the file has 0 \"move\""),
+        "{error}"
+    );
+}
+
+#[test]
+fn broken_channels_leave_the_rest_in_motion() {
+    let values = [[1., 0., 0.], [3., 0., 0.]];
+    let mut builder = animated(json!({}), "translation", "LINEAR", &[0., 1.], &values);
+    let channels = builder.json["animations"][0]["channels"]
+        .as_array_mut()
+        .unwrap();
+    channels.push(json!({"sampler": 7, "target": {"node": 0, "path": "scale"}}));
+    channels.push(json!({"sampler": 0, "target": {"node": 0, "path": "rotation"}}));
+    channels.push(json!({"sampler": 0, "target": {"path": "scale"}}));
+    let warnings = builder.load().unwrap().warnings;
+    assert_eq!(warnings.len(), 3, "{warnings:?}");
+    assert!(
+        warnings[1].contains("/animations/0/channels/1/sampler"),
+        "{warnings:?}"
+    );
+    assert_eq!(x_of_first_corner(&builder, 1.0), 3.0);
+}
+
+/// A triangle with normals and two targets: one moves it along z, the other turns the normals.
+fn morphed(mesh_weights: Value, node: Value) -> Builder {
+    let mut builder = Builder::new();
+    let positions = builder.floats(&TRIANGLE);
+    let normals = builder.floats(&[[0., 0., 1.]; 3]);
+    let lift = builder.floats(&[[0., 0., 2.]; 3]);
+    let turn = builder.floats(&[[1., 0., -1.]; 3]);
+    builder.node_with(
+        json!({
+            "attributes": {"POSITION": positions, "NORMAL": normals},
+            "targets": [{"POSITION": lift}, {"NORMAL": turn}],
+        }),
+        node,
+    );
+    builder.json["meshes"][0]["weights"] = mesh_weights;
+    builder
+}
+
+#[test]
+fn morph_weights_of_mesh_node_and_animation() {
+    let state = |pose: Pose| {
+        let normal = pose.geometry.streams.normals[0];
+        (corners(&pose.geometry, 0)[0][2], normal)
+    };
+    let mesh = morphed(json!([0.5, 0]), json!({}));
+    assert_eq!(state(mesh.pose()), (1.0, [0., 0., 1.]));
+    let node = morphed(json!([0.5, 0]), json!({"weights": [0.25, 1]}));
+    assert_eq!(state(node.pose()), (0.5, [1., 0., 0.]));
+
+    let mut moving = node;
+    let input = moving.floats(&[[0.], [1.]]);
+    let output = moving.floats(&[[0.], [0.], [1.], [1.]]);
+    moving.push(
+        "animations",
+        json!({
+            "channels": [{"sampler": 0, "target": {"node": 0, "path": "weights"}}],
+            "samplers": [{"input": input, "output": output}],
+        }),
+    );
+    assert_eq!(state(at(&moving, None, 1.0)), (2.0, [1., 0., 0.]));
+    let (z, [x, _, _]) = state(at(&moving, Some("0"), 0.5));
+    assert_eq!(z, 1.0);
+    assert!((x - std::f32::consts::FRAC_1_SQRT_2).abs() < 1e-6);
+}
+
+#[test]
+fn flat_normals_follow_the_morphed_shape() {
+    let mut builder = Builder::new();
+    let positions = builder.floats(&TRIANGLE);
+    let fold = builder.floats(&[[0.; 3], [0.; 3], [0., -1., 1.]]);
+    builder.node_with(
+        json!({"attributes": {"POSITION": positions}, "targets": [{"POSITION": fold}]}),
+        json!({"weights": [1]}),
+    );
+    assert_eq!(builder.pose().geometry.streams.normals, [[0., -1., 0.]; 3]);
+}
+
+/// A triangle whose third vertex hangs at a joint one up, half of it for `weight` 0.5.
+fn skinned(weight: f32, mesh_node: Value) -> Builder {
+    let mut builder = Builder::new();
+    let positions = builder.floats(&TRIANGLE);
+    let normals = builder.floats(&[[0., 0., 1.]; 3]);
+    let joints = builder.accessor(
+        "VEC4",
+        5121,
+        &[0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0],
+        json!({}),
+    );
+    // The sum is 2 throughout: weights are scaled to 1.
+    let weights = builder.floats(&[
+        [2., 0., 0., 0.],
+        [2., 0., 0., 0.],
+        [2. - 2. * weight, 2. * weight, 0., 0.],
+    ]);
+    builder.node_with(
+        json!({"attributes": {
+            "POSITION": positions, "NORMAL": normals, "JOINTS_0": joints, "WEIGHTS_0": weights,
+        }}),
+        mesh_node,
+    );
+    let identity = glam::Mat4::IDENTITY.to_cols_array();
+    let down = glam::Mat4::from_translation(-glam::Vec3::Y).to_cols_array();
+    let bind = builder.floats(&[identity, down]);
+    builder.push("nodes", json!({"children": [2]}));
+    builder.push("nodes", json!({"translation": [0, 1, 0]}));
+    builder.push(
+        "skins",
+        json!({"joints": [1, 2], "inverseBindMatrices": bind}),
+    );
+    builder.json["nodes"][0]["skin"] = 0.into();
+    builder
+}
+
+#[test]
+fn skins_bend_and_ignore_the_node() {
+    let mut builder = skinned(
+        1.0,
+        json!({"translation": [50, 60, 70], "scale": [-1, 1, 1]}),
+    );
+    assert_near(
+        corners(&builder.pose().geometry, 0),
+        [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]],
+    );
+    builder.json["nodes"][2]["translation"] = json!([0, 1, 3]);
+    builder.json["nodes"][1]["translation"] = json!([10, 0, 0]);
+    assert_near(
+        corners(&builder.pose().geometry, 0),
+        [[10., 0., 0.], [11., 0., 0.], [10., 1., 3.]],
+    );
+    assert_eq!(builder.pose().geometry.streams.normals, [[0., 0., 1.]; 3]);
+}
+
+#[test]
+fn skin_weights_blend_matrices() {
+    let mut builder = skinned(0.5, json!({}));
+    builder.json["nodes"][2]["translation"] = json!([0, 1, 3]);
+    assert_near(
+        corners(&builder.pose().geometry, 0),
+        [[0., 0., 0.], [1., 0., 0.], [0., 1., 1.5]],
+    );
+}
+
+#[test]
+fn mirrored_skeletons_keep_their_fronts() {
+    let mut builder = skinned(1.0, json!({}));
+    builder.json["nodes"][1]["scale"] = json!([-1, 1, 1]);
+    let geometry = builder.pose().geometry;
+    assert_near(
+        corners(&geometry, 0),
+        [[0., 0., 0.], [0., 1., 0.], [-1., 0., 0.]],
+    );
+    assert_eq!(geometry.streams.normals, [[0., 0., 1.]; 3]);
+}
+
+#[test]
+fn joints_that_a_skin_lacks_are_an_error() {
+    let mut builder = skinned(1.0, json!({}));
+    builder.json["skins"][0] = json!({"joints": [1]});
+    let error = builder.load().unwrap_err().to_string();
+    assert!(
+        error.contains("/nodes/0/skin: the mesh's vertices refer to joint 1, but the skin has 1"),
+        "{error}"
+    );
+}
+
+#[test]
+fn instances_multiply_a_mesh() {
+    let mut builder = Builder::new();
+    let node = builder.triangle(json!({"translation": [0, 0, 5], "scale": [2, 2, 2]}));
+    let translations = builder.floats(&[[0., 0., 0.], [10., 0., 0.]]);
+    let rotations = builder.accessor(
+        "VEC4",
+        5122,
+        &[[0_i16, 0, 0, 32_767], [0, 0, 32_767, 0]]
+            .as_flattened()
+            .iter()
+            .flat_map(|x| x.to_le_bytes())
+            .collect::<Vec<u8>>(),
+        json!({"normalized": true}),
+    );
+    let scales = builder.floats(&[[1., 1., 1.], [1., -1., 1.]]);
+    builder.json["nodes"][node]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] =
+        json!({"TRANSLATION": translations, "ROTATION": rotations, "SCALE": scales, "_ID": 99});
+    let geometry = builder.pose().geometry;
+    assert_eq!(builder.load().unwrap().scene.info().triangles, 2);
+    assert_near(
+        corners(&geometry, 0),
+        [[0., 0., 5.], [2., 0., 5.], [0., 2., 5.]],
+    );
+    // Mirrored, then turned by half: the winding is mended.
+    assert_near(
+        corners(&geometry, 1),
+        [[20., 0., 5.], [20., 2., 5.], [18., 0., 5.]],
+    );
+    assert!(geometry.streams.normals.iter().all(|n| *n == [0., 0., 1.]));
+}
