@@ -27,6 +27,8 @@ const VARIANTS: &[(&str, &str, &[(&str, &str)])] = &[
     ),
     ("cull", "cull.comp", &[]),
     ("bin", "bin.comp", &[]),
+    ("setup", "setup.comp", &[]),
+    ("spans", "spans.comp", &[]),
     ("schedule", "schedule.comp", &[]),
     ("arguments", "arguments.comp", &[]),
     ("sample_1", "sample.comp", &[("ROWS", "1")]),

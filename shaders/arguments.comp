@@ -4,7 +4,7 @@
 #include "include/frame.glsl"
 layout(local_size_x = 1) in;
 layout(constant_id = 0) const uint AFTER = 0u;
-const uint DETECT = 0u, CULL = 1u, SAMPLE = 2u, COUNT = 3u;
+const uint DETECT = 0u, CULL = 1u, SAMPLE = 2u, RECORDS = 3u, SPANS = 4u;
 
 uvec4 groups(uint n) {
     return n == 0u ? uvec4(0u) : uvec4(min(n, 32768u), (n + 32767u) / 32768u, 1u, 0u);
@@ -21,14 +21,14 @@ void main() {
         counters[COUNTER_RECORDS_TOTAL] += n;
         arguments[ARGUMENT_SORT] = groups((n + 63u) / 64u);
     } else {
-        // Bins one after the other; the dispatch of each begins at its first record.
+        // An invocation a record, or 8 a span. Bins one after the other; the dispatch of each begins at its first record.
         uint first = 0u;
         for (uint b = 0u; b < frame.bin_count; b++) {
             uint n = bins[b].x;
             bins[b] = uvec4(n, first, first, 0u);
-            arguments[ARGUMENT_SHADE + b] = groups((n + 63u) / 64u);
+            arguments[ARGUMENT_SHADE + b] = groups(AFTER == SPANS ? (n + 7u) / 8u : (n + 63u) / 64u);
             first += n;
         }
-        counters[COUNTER_SHADED_TOTAL] += first;
+        if (AFTER == RECORDS) counters[COUNTER_SHADED_TOTAL] += first;
     }
 }

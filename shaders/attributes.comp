@@ -1,12 +1,12 @@
 // attributes: what the centre of a pixel sees besides its colour, where the caller asked for it.
-// Reads: ids, clip, triangles, normals, masks. Writes: two vectors a pixel:
-// (distance along the view direction, ID's bits, sub-samples, superpixel 0 or 1), (world normal, 0).
+// Reads: ids, clip, triangles, normals, masks. Writes: two vectors a pixel, floats as bits:
+// (distance along the view direction, ID, sub-samples, superpixel 0 or 1), (world normal, 0).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/barycentric.glsl"
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 36, rgba32f) uniform writeonly imageBuffer attributes_out;
+layout(set = 0, binding = 36, rgba32ui) uniform writeonly uimageBuffer attributes_out;
 
 void main() {
     uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
@@ -22,6 +22,6 @@ void main() {
     uint tile = pixel.y / 4u * frame.tiles.x + pixel.x / 8u;
     bool super = (masks[tile] >> (pixel.y % 4u * 8u + pixel.x % 8u) & 1u) != 0u;
     bool hit = id != 0u;
-    imageStore(attributes_out, int(2u * i), vec4(hit ? distance_ : 0.0, uintBitsToFloat(id), super ? float(frame.sample_count) : 1.0, super ? 1.0 : 0.0));
-    imageStore(attributes_out, int(2u * i + 1u), vec4(hit ? n : vec3(0.0), 0.0));
+    imageStore(attributes_out, int(2u * i), uvec4(floatBitsToUint(hit ? distance_ : 0.0), id, super ? frame.sample_count : 1u, uint(super)));
+    imageStore(attributes_out, int(2u * i + 1u), uvec4(floatBitsToUint(hit ? n : vec3(0.0)), 0u));
 }

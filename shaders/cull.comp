@@ -1,4 +1,5 @@
-// cull: keeps the triangles that can touch a superpixel; counts the others by reason.
+// cull: keeps the triangles that can touch a superpixel; counts the others by reason. It errs towards keeping:
+// `setup` has the last word on what has area and faces the camera.
 // Reads: triangles, clip, masks. Writes: survivors (small from the front, large ones from the back), counters.
 // Small triangles go to one invocation each in `bin`, large ones to a workgroup each.
 #version 460
@@ -28,10 +29,9 @@ void main() {
         vec4 v0 = texelFetch(clip, int(indices.x)), v1 = texelFetch(clip, int(indices.y)), v2 = texelFetch(clip, int(indices.z));
         Footprint f = footprint_of(v0, v1, v2);
         bool is_outside = exists && f.outside;
-        Setup s = setup_triangle(v0, v1, v2, frame.origin, false);
-        bool is_degenerate = exists && !is_outside && !s.valid;
-        bool culled = (indices.w >> 31) == 0u;
-        bool is_backfacing = exists && !is_outside && !is_degenerate && culled && !s.facing;
+        bool is_degenerate = exists && !is_outside && (v0 == v1 || v1 == v2 || v2 == v0);
+        bool is_backfacing = exists && !is_outside && !is_degenerate && (indices.w >> 31) == 0u
+            && surely_backfacing(v0, v1, v2, frame.origin);
         bool candidate = exists && !is_outside && !is_degenerate && !is_backfacing;
 
         ivec2 low = f.low / ivec2(8, 4), high = f.high / ivec2(8, 4);

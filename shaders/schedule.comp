@@ -41,7 +41,7 @@ void main() {
         uvec4 t = exists ? tiles[tile] : uvec4(0u);
         uint cells = bitCount(word);
         bool busy = cells != 0u;
-        bool listed = busy && t.x <= frame.list_capacity;
+        bool listed = busy && (t.w & TILE_OVERFLOW) == 0u;
         bool blend = (t.w & TILE_HAS_BLEND) != 0u, mask_ = (t.w & TILE_HAS_MASK) != 0u;
         uint block = blend || mask_ || !listed ? LAYERED_BLOCK : PLAIN_BLOCK;
         uint blocks = (frame.sample_count + block - 1u) / block;
@@ -98,8 +98,7 @@ void main() {
         counters[COUNTER_ROUNDS] += idle ? 0u : 1u;
         counters[COUNTER_CANDIDATES_TOTAL] += list_used;
         counters[COUNTER_UNLISTED_TOTAL] += unlisted;
-        arguments[ARGUMENT_BIN_SMALL] = idle ? uvec4(0u) : groups((counters[COUNTER_SURVIVORS] + 63u) / 64u);
-        arguments[ARGUMENT_BIN_LARGE] = idle ? uvec4(0u) : groups(counters[COUNTER_LARGE]);
+        arguments[ARGUMENT_SETUP] = idle ? uvec4(0u) : groups((min(counters[COUNTER_PAIRS], frame.list_capacity) + 63u) / 64u);
         arguments[ARGUMENT_SAMPLE_PLAIN] = groups(plain);
         arguments[ARGUMENT_SAMPLE_MASKED] = groups(masked);
         arguments[ARGUMENT_SAMPLE_BLENDED] = groups(blended);

@@ -1,5 +1,5 @@
 // shade: the radiance of what raster or the sub-samples see, one dispatch a material bin.
-// Sources: PIXELS (the centre of every pixel, by the IDs of raster) or visibility records at their location.
+// Sources: PIXELS (the centres of the pixels of a span, by the IDs of raster) or visibility records at their location.
 // Reads: shade_order, ids or records, clip, the geometry, textures. Writes: color and display, or shaded.
 // Linear light throughout. Texture levels follow the footprint of an output pixel, whatever the sampling rate.
 #version 460
@@ -8,11 +8,12 @@
 #include "include/color.glsl"
 #include "include/barycentric.glsl"
 #include "include/brdf.glsl"
+#include "include/material.glsl"
 #include "include/studio.glsl"
 layout(local_size_x = 64) in;
 
 layout(constant_id = 0) const bool PIXELS = false;
-layout(constant_id = 1) const bool ORDERED = true;      // several bins: take the entries of mine
+layout(constant_id = 1) const bool ONE_BIN = false;
 layout(constant_id = 2) const bool DISPLAY_CODES = false;
 layout(constant_id = 3) const bool BASE_COLOR_TEXTURE = false;
 layout(constant_id = 4) const bool METALLIC_ROUGHNESS_TEXTURE = false;
@@ -39,7 +40,7 @@ const float STUDIO_AMBIENT = 0.06;
 struct Corners { vec4 a, b, c; };       // both UV sets of the three vertices
 
 vec4 read(sampler2D image, uint use, uint m, Corners corners, Barycentric w) {
-    vec4 row_u = materials[m].uv_rows[2u * use], row_v = materials[m].uv_rows[2u * use + 1u];
+    vec4 row_u = material_vector(m, MATERIAL_UV_ROWS + 2u * use), row_v = material_vector(m, MATERIAL_UV_ROWS + 2u * use + 1u);
     mat3x2 uv = row_u.w != 0.0 ? mat3x2(corners.a.zw, corners.b.zw, corners.c.zw) : mat3x2(corners.a.xy, corners.b.xy, corners.c.xy);
     mat2 linear = mat2(row_u.x, row_v.x, row_u.y, row_v.y);
     vec2 at = linear * (uv * w.at) + vec2(row_u.z, row_v.z);
@@ -53,23 +54,27 @@ vec3 safe_normalize(vec3 v, vec3 otherwise) {
 
 void main() {
     uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    uint entry = PIXELS ? i / 8u : i;
     uint source;
-    if (ORDERED) {
-        uvec4 bin = bins[push.bin];
-        if (i >= bin.x) return;
-        source = shade_order[bin.y + i];
-    } else {
-        uint count = PIXELS ? frame.size.x * frame.size.y : min(counters[COUNTER_RECORDS], frame.record_capacity);
-        if (i >= count) return;
+    if (ONE_BIN && !PIXELS) {
+        if (i >= min(counters[COUNTER_RECORDS], frame.record_capacity)) return;
         source = i;
+    } else {
+        uvec4 bin = bins[push.bin];
+        if (entry >= bin.x) return;
+        source = shade_order[bin.y + entry];
     }
 
     uint id;
     vec2 p;
+    bool mine = true;
     if (PIXELS) {
-        uvec2 pixel = uvec2(source % frame.size.x, source / frame.size.x);
-        id = texelFetch(ids, ivec2(pixel), 0).x;
+        uint columns = (frame.size.x + 7u) / 8u;
+        uvec2 pixel = uvec2(source % columns * 8u + i % 8u, source / columns);
+        mine = pixel.x < frame.size.x;
+        id = texelFetch(ids, ivec2(min(pixel, frame.size - 1u)), 0).x;
         p = frame.origin + vec2(pixel);
+        source = pixel.y * frame.size.x + pixel.x;
     } else {
         uvec4 record = texelFetch(records, int(source));
         id = record.y;
@@ -80,13 +85,14 @@ void main() {
     uvec4 indices = texelFetch(triangles, int(max(id, 1u) - 1u));
     ivec3 v = ivec3(indices.xyz);
     uint m = indices.w & 0xffffu;
+    mine = mine && id != 0u && (ONE_BIN || (indices.w >> 16 & 0x7fffu) == push.bin);
     Barycentric w = barycentric(texelFetch(clip, v.x), texelFetch(clip, v.y), texelFetch(clip, v.z), p);
 
     Corners corners;
     if (BASE_COLOR_TEXTURE || METALLIC_ROUGHNESS_TEXTURE || NORMAL_TEXTURE || OCCLUSION_TEXTURE || EMISSIVE_TEXTURE)
         corners = Corners(texelFetch(uvs, v.x), texelFetch(uvs, v.y), texelFetch(uvs, v.z));
 
-    vec4 base = materials[m].base_color;
+    vec4 base = material_vector(m, MATERIAL_BASE_COLOR);
     if (VERTEX_COLORS) base *= mat3x4(texelFetch(colors, v.x), texelFetch(colors, v.y), texelFetch(colors, v.z)) * w.at;
     if (BASE_COLOR_TEXTURE) base *= read(base_color_texture, 0u, m, corners, w);
 
@@ -106,14 +112,15 @@ void main() {
             vec3 t = safe_normalize(tangent.xyz, vec3(0.0)) * side;
             vec3 b = cross(normal, t) * (tangent.w < 0.0 ? -1.0 : 1.0) * side;
             vec3 n = read(normal_texture, 2u, m, corners, w).xyz * 2.0 - 1.0;
-            n.xy *= materials[m].roughness_normal_occlusion_cutoff.y;
+            n.xy *= material_vector(m, MATERIAL_FACTORS).y;
             normal = safe_normalize(t * n.x + b * n.y + normal * n.z, normal);
         }
         // An interpolated normal may face away at a silhouette.
         float turned = dot(normal, to_eye);
         normal = turned < 0.0 ? safe_normalize(normal - to_eye * turned, normal) : normal;
 
-        float metallic = materials[m].emissive_metallic.w, roughness = materials[m].roughness_normal_occlusion_cutoff.x;
+        vec4 emissive_metallic = material_vector(m, MATERIAL_EMISSIVE_METALLIC), factors = material_vector(m, MATERIAL_FACTORS);
+        float metallic = emissive_metallic.w, roughness = factors.x;
         if (METALLIC_ROUGHNESS_TEXTURE) {
             vec4 mr = read(metallic_roughness_texture, 1u, m, corners, w);
             roughness *= mr.g;
@@ -126,11 +133,11 @@ void main() {
         s.diffuse = base.rgb * (1.0 - metallic);
         s.f0 = mix(vec3(0.04), base.rgb, metallic);
         s.alpha = roughness * roughness;
-        s.emissive = materials[m].emissive_metallic.rgb;
+        s.emissive = emissive_metallic.rgb;
         if (EMISSIVE_TEXTURE) s.emissive *= read(emissive_texture, 4u, m, corners, w).rgb;
         s.occlusion = 1.0;
         if (OCCLUSION_TEXTURE)
-            s.occlusion = 1.0 + materials[m].roughness_normal_occlusion_cutoff.z * (read(occlusion_texture, 3u, m, corners, w).r - 1.0);
+            s.occlusion = 1.0 + factors.z * (read(occlusion_texture, 3u, m, corners, w).r - 1.0);
 
         float n_v = max(dot(normal, to_eye), 1e-4);
         vec2 split = environment_brdf(roughness, n_v);
@@ -162,10 +169,9 @@ void main() {
     radiance = mix(clamp(radiance, vec3(0.0), vec3(3e38)), vec3(0.0), isnan(radiance));
 
     if (PIXELS) {
-        bool background = id == 0u;
-        vec4 c = background ? frame.background : to_output(vec4(radiance, 1.0));
-        imageStore(color, int(source), c);
-        if (DISPLAY_CODES) imageStore(display_out, int(source), uvec4(display_code(c)));
+        vec4 c = to_output(vec4(radiance, 1.0));
+        if (mine) imageStore(color, int(source), c);
+        if (DISPLAY_CODES && mine) imageStore(display_out, int(source), uvec4(display_code(c)));
     } else {
         imageStore(shaded_out, int(source), vec4(radiance, BLENDED ? clamp(base.a, 0.0, 1.0) : 1.0));
     }

@@ -6,7 +6,7 @@
 // higher than the image, as lookups start half a texel outside of it. Levels follow each other.
 #ifndef ALPHA_GLSL
 #define ALPHA_GLSL
-#include "barycentric.glsl"
+#include "material.glsl"
 
 #define ALPHA_TEXTURED 1u
 #define ALPHA_NEAREST_MAG 2u
@@ -14,13 +14,78 @@
 #define ALPHA_NO_MIP 8u
 #define ALPHA_NEAREST_MIP 16u
 
+// A triangle's alpha over positions relative to some centre. The planes are to be divided by `weight`, which is
+// linear in the position as they are.
+struct AlphaTest {
+    vec3 weight, u, v, opacity;
+    uvec2 first;            // word of the coarser and finer level used
+    uvec2 size_low, size_high;
+    float level_blend;
+    bool nearest;
+    uint flags;
+    float cutoff;
+};
+
+// The test of triangle `t` around `center`; its mipmap level is that of an output pixel at `at`, relative to it.
+AlphaTest alpha_test(uint t, vec2 center, vec2 at) {
+    uvec4 indices = texelFetch(triangles, int(t));
+    ivec3 v = ivec3(indices.xyz);
+    uint m = indices.w & 0xffffu;
+    vec4 c0 = texelFetch(clip, v.x), c1 = texelFetch(clip, v.y), c2 = texelFetch(clip, v.z);
+    vec3 p0 = vec3(c0.xy - center * c0.w, c0.w), p1 = vec3(c1.xy - center * c1.w, c1.w), p2 = vec3(c2.xy - center * c2.w, c2.w);
+    mat3 edges = mat3(cross(p1, p2), cross(p2, p0), cross(p0, p1));
+
+    vec4 row_u = material_vector(m, MATERIAL_UV_ROWS), row_v = material_vector(m, MATERIAL_UV_ROWS + 1u);
+    vec4 t0 = texelFetch(uvs, v.x), t1 = texelFetch(uvs, v.y), t2 = texelFetch(uvs, v.z);
+    bool second = row_u.w != 0.0;
+    vec3 us = second ? vec3(t0.z, t1.z, t2.z) : vec3(t0.x, t1.x, t2.x);
+    vec3 vs = second ? vec3(t0.w, t1.w, t2.w) : vec3(t0.y, t1.y, t2.y);
+
+    AlphaTest r;
+    r.weight = edges * vec3(1.0);
+    r.u = edges * (row_u.x * us + row_u.y * vs + row_u.z);
+    r.v = edges * (row_v.x * us + row_v.y * vs + row_v.z);
+    r.opacity = edges * vec3(texelFetch(colors, v.x).w, texelFetch(colors, v.y).w, texelFetch(colors, v.z).w) * material_vector(m, MATERIAL_BASE_COLOR).w;
+    r.cutoff = material_vector(m, MATERIAL_FACTORS).w;
+
+    uvec4 atlas = material_words(m, MATERIAL_ALPHA);
+    uvec2 size = uvec2(atlas.y & 0xffffu, atlas.y >> 16);
+    uint levels = atlas.z;
+    r.flags = atlas.w;
+    float w = 1.0 / dot(r.weight, vec3(at, 1.0));
+    vec2 uv = vec2(dot(r.u, vec3(at, 1.0)), dot(r.v, vec3(at, 1.0))) * w;
+    float scale = w * frame.footprint;
+    vec2 dx = (vec2(r.u.x, r.v.x) - uv * r.weight.x) * scale * vec2(size);
+    vec2 dy = (vec2(r.u.y, r.v.y) - uv * r.weight.y) * scale * vec2(size);
+    float level = 0.5 * log2(clamp(max(dot(dx, dx), dot(dy, dy)), 1e-30, 1e30));
+    r.nearest = (r.flags & (level <= 0.0 ? ALPHA_NEAREST_MAG : ALPHA_NEAREST_MIN)) != 0u;
+    level = (r.flags & ALPHA_NO_MIP) != 0u ? 0.0 : clamp(level, 0.0, float(levels - 1u));
+    level = (r.flags & ALPHA_NEAREST_MIP) != 0u ? ceil(level + 0.5) - 1.0 : level;
+    uint low = uint(level), high = min(low + 1u, levels - 1u);
+    r.level_blend = level - float(low);
+    uint first = atlas.x;
+    r.first = uvec2(first);
+    r.size_low = size;
+    r.size_high = size;
+    uint l = 0u;
+    do {
+        r.first.x = l == low ? first : r.first.x;
+        r.size_low = l == low ? size : r.size_low;
+        r.first.y = l == high ? first : r.first.y;
+        r.size_high = l == high ? size : r.size_high;
+        first += (size.x + 1u) * (size.y + 1u);
+        size = max(size >> 1u, uvec2(1u));
+    } while (++l <= high);
+    return r;
+}
+
 float alpha_bilinear(uint first, uvec2 size, vec2 uv, bool nearest) {
     vec2 t = uv * vec2(size);
     t = nearest ? floor(t) + 0.5 : t;
     t = clamp(t - 0.5, vec2(-0.5), vec2(size) - 0.5);
     vec2 base = floor(t), f = t - base;
     uvec2 cell = uvec2(ivec2(base) + 1);
-    vec4 texels = unpackUnorm4x8(alpha_atlas[first + cell.y * (size.x + 1u) + cell.x]);
+    vec4 texels = unpackUnorm4x8(texelFetch(alpha_atlas, int(first + cell.y * (size.x + 1u) + cell.x)).x);
     vec2 row = mix(texels.xz, texels.yw, f.x);
     return mix(row.x, row.y, f.y);
 }
@@ -30,65 +95,23 @@ float alpha_wrap(float u, uint mode) {
     float repeated = u - floor(u);
     float period = u * 0.5 - floor(u * 0.5);
     float mirrored = 1.0 - abs(period * 2.0 - 1.0);
-    return mode == 0u ? repeated : mode == 1u ? mirrored : clamp(u, 0.0, 1.0);
+    float folded = mode == 0u ? repeated : mode == 1u ? mirrored : u;
+    return clamp(folded, 0.0, 1.0);
 }
 
-float alpha_texture(uvec4 atlas, vec2 uv, vec2 dx, vec2 dy) {
-    uvec2 size = uvec2(atlas.y & 0xffffu, atlas.y >> 16);
-    vec2 gx = dx * vec2(size), gy = dy * vec2(size);
-    float rho = sqrt(max(dot(gx, gx), dot(gy, gy)));
-    float level = log2(max(rho, 1e-30));
-    uint flags = atlas.w, levels = atlas.z;
-    bool nearest = (flags & (level <= 0.0 ? ALPHA_NEAREST_MAG : ALPHA_NEAREST_MIN)) != 0u;
-    level = (flags & ALPHA_NO_MIP) != 0u ? 0.0 : clamp(level, 0.0, float(levels - 1u));
-    level = (flags & ALPHA_NEAREST_MIP) != 0u ? ceil(level + 0.5) - 1.0 : level;
-    uv = vec2(alpha_wrap(uv.x, flags >> 8 & 3u), alpha_wrap(uv.y, flags >> 10 & 3u));
-    uint low = uint(level), high = min(low + 1u, levels - 1u);
-    uint first = atlas.x;
-    uvec2 s = size;
-    uint first_low = first, first_high = first;
-    uvec2 size_low = s, size_high = s;
-    for (uint l = 0u; l < levels; l++) {
-        first_low = l == low ? first : first_low;
-        size_low = l == low ? s : size_low;
-        first_high = l == high ? first : first_high;
-        size_high = l == high ? s : size_high;
-        first += (s.x + 1u) * (s.y + 1u);
-        s = max(s >> 1u, uvec2(1u));
-    }
-    float a = alpha_bilinear(first_low, size_low, uv, nearest);
-    float b = alpha_bilinear(first_high, size_high, uv, nearest);
-    return mix(a, b, level - float(low));
-}
-
-uint material_of(uint t) {
-    return texelFetch(triangles, int(t)).w & 0xffffu;
-}
-
-float alpha_cutoff(uint t) {
-    return materials[material_of(t)].roughness_normal_occlusion_cutoff.w;
-}
-
-// Alpha of triangle t at pixel position p: factor, vertex colour and texture.
-float alpha_at(uint t, vec2 p) {
-    uvec4 indices = texelFetch(triangles, int(t));
-    ivec3 v = ivec3(indices.xyz);
-    uint m = indices.w & 0xffffu;
-    Barycentric b = barycentric(texelFetch(clip, v.x), texelFetch(clip, v.y), texelFetch(clip, v.z), p);
-    float alpha = materials[m].base_color.w
-        * dot(b.at, vec3(texelFetch(colors, v.x).w, texelFetch(colors, v.y).w, texelFetch(colors, v.z).w));
-    uvec4 atlas = materials[m].alpha;
-    vec4 row_u = materials[m].uv_rows[0], row_v = materials[m].uv_rows[1];
-    vec4 t0 = texelFetch(uvs, v.x), t1 = texelFetch(uvs, v.y), t2 = texelFetch(uvs, v.z);
-    bool second = row_u.w != 0.0;
-    vec2 u0 = second ? t0.zw : t0.xy, u1 = second ? t1.zw : t1.xy, u2 = second ? t2.zw : t2.xy;
-    mat3x2 corners = mat3x2(u0, u1, u2);
-    vec2 uv = corners * b.at, dx = corners * b.dx * frame.footprint, dy = corners * b.dy * frame.footprint;
-    mat2 linear = mat2(row_u.x, row_v.x, row_u.y, row_v.y);
-    uv = linear * uv + vec2(row_u.z, row_v.z);
-    bool textured = (atlas.w & ALPHA_TEXTURED) != 0u;
-    float texel = alpha_texture(textured ? atlas : uvec4(0u, 0x10001u, 1u, ALPHA_NO_MIP), uv, linear * dx, linear * dy);
-    return textured ? alpha * texel : alpha;
+// Whether the triangle covers position `p` by its alpha: factor, vertex colour and texture against the cutoff.
+bool alpha_passes(AlphaTest test, vec2 p) {
+    vec3 at = vec3(p, 1.0);
+    float w = 1.0 / dot(test.weight, at);
+    float alpha = dot(test.opacity, at) * w;
+    vec2 uv = vec2(dot(test.u, at), dot(test.v, at)) * w;
+    uv = vec2(alpha_wrap(uv.x, test.flags >> 8 & 3u), alpha_wrap(uv.y, test.flags >> 10 & 3u));
+    uv = mix(uv, vec2(0.0), isnan(uv));
+    float low = alpha_bilinear(test.first.x, test.size_low, uv, test.nearest);
+    float high = alpha_bilinear(test.first.y, test.size_high, uv, test.nearest);
+    float texel = mix(low, high, test.level_blend);
+    alpha *= (test.flags & ALPHA_TEXTURED) != 0u ? texel : 1.0;
+    return alpha >= test.cutoff;
 }
 
 #endif

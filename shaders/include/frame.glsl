@@ -43,14 +43,7 @@ layout(set = 0, binding = 4) uniform textureBuffer tangents;
 layout(set = 0, binding = 5) uniform textureBuffer uvs;
 layout(set = 0, binding = 6) uniform textureBuffer colors;
 
-struct Material {
-    vec4 base_color;
-    vec4 emissive_metallic;
-    vec4 roughness_normal_occlusion_cutoff;
-    uvec4 alpha;            // atlas: first word of level 0, width | height << 16, levels | nearest << 8, flags
-    vec4 uv_rows[10];       // two rows a texture: (m00, m01, m02, uv set), (m10, m11, m12, 0)
-};
-layout(std430, set = 0, binding = 7) readonly buffer Materials { Material materials[]; };
+layout(set = 0, binding = 7) uniform utextureBuffer materials;      // see material.glsl
 struct Light {
     vec4 position_range;    // xyz relative to the geometry's origin; w = 1 / range^2, 0 for none
     vec4 direction_kind;    // xyz unit; w = 0 directional, 1 point, 2 spot
@@ -58,7 +51,7 @@ struct Light {
     vec4 offset;            // x = spot angular offset
 };
 layout(std430, set = 0, binding = 8) readonly buffer Lights { Light lights[]; };
-layout(std430, set = 0, binding = 9) readonly buffer AlphaAtlas { uint alpha_atlas[]; };
+layout(set = 0, binding = 9) uniform utextureBuffer alpha_atlas;    // see alpha.glsl
 
 layout(set = 0, binding = 10) uniform textureBuffer clip;
 layout(set = 0, binding = 11, rgba32f) uniform writeonly imageBuffer clip_out;
@@ -74,8 +67,8 @@ layout(std430, set = 0, binding = 20) buffer Masks { uint masks[]; };
 layout(std430, set = 0, binding = 21) buffer Tiles { uvec4 tiles[]; };   // candidates, first, first header, flags
 layout(std430, set = 0, binding = 22) buffer TileLists { uint tile_lists[]; };
 layout(std430, set = 0, binding = 23) buffer Survivors { uint survivors[]; };
-layout(set = 0, binding = 24) uniform textureBuffer candidates;
-layout(set = 0, binding = 25, rgba32f) uniform writeonly imageBuffer candidates_out;
+layout(set = 0, binding = 24) uniform utextureBuffer candidates;  // 4 vectors each, floats as bits
+layout(set = 0, binding = 25, rgba32ui) uniform writeonly uimageBuffer candidates_out;
 layout(std430, set = 0, binding = 26) buffer Headers { uvec2 headers[]; };  // first record, count
 layout(set = 0, binding = 27) uniform utextureBuffer records;
 layout(set = 0, binding = 28, rgba32ui) uniform writeonly uimageBuffer records_out;
@@ -85,5 +78,8 @@ layout(std430, set = 0, binding = 31) buffer ShadeOrder { uint shade_order[]; };
 layout(set = 0, binding = 32) uniform textureBuffer locations;              // sub-sample offsets, pixels
 layout(std430, set = 0, binding = 33) buffer Bins { uvec4 bins[]; };        // count, first, cursor, 0
 layout(std430, set = 0, binding = 34) buffer Arguments { uvec4 arguments[]; }; // indirect dispatches
+
+layout(set = 0, binding = 38) uniform utextureBuffer pairs;       // triangle, tile, rank in its list, 0
+layout(set = 0, binding = 39, rgba32ui) uniform writeonly uimageBuffer pairs_out;
 
 #include "counters.glsl"

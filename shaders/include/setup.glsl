@@ -93,4 +93,14 @@ Setup setup_triangle(vec4 c0, vec4 c1, vec4 c2, vec2 center, bool cull) {
     return s;
 }
 
+// Whether a triangle surely shows its back, from positions rounded relative to a region: slivers that rounding
+// could turn over are left to their setup.
+bool surely_backfacing(vec4 c0, vec4 c1, vec4 c2, vec2 center) {
+    vec4 v0 = relative_to(c0, center), v1 = relative_to(c1, center), v2 = relative_to(c2, center);
+    vec2 d1 = v1.xy / v1.w - v0.xy / v0.w, d2 = v2.xy / v2.w - v0.xy / v0.w;
+    float l = d1.x * d2.y, r = d1.y * d2.x;
+    float slack = 1e-3 * (abs(d1.x) + abs(d1.y) + abs(d2.x) + abs(d2.y)) + 1e-4 * (abs(l) + abs(r));
+    return projectable(v0) && projectable(v1) && projectable(v2) && l - r > slack;
+}
+
 #endif

@@ -9,20 +9,22 @@ struct Footprint {
     bool unprojected;   // has a vertex at or behind the eye, or very far off the region
 };
 
-const float HALF_PIXEL = 0.5;
+// A sub-sample lies within half a pixel of a centre; the rest covers the rounding of positions relative to the
+// region instead of the tile.
+const float REACH = 0.5 + 1.0 / 64.0;
 
-// Pixels whose square the triangle's bounding box touches; a sub-sample lies within half a pixel of a centre.
+// Pixels whose square the triangle's bounding box touches.
 Footprint footprint_of(vec4 c0, vec4 c1, vec4 c2) {
     Footprint f;
     vec4 v0 = relative_to(c0, frame.origin), v1 = relative_to(c1, frame.origin), v2 = relative_to(c2, frame.origin);
-    vec2 limit = vec2(frame.size) - 0.5;
+    vec2 limit = vec2(frame.size) - 1.0 + REACH;
     f.unprojected = !(projectable(v0) && projectable(v1) && projectable(v2));
     vec2 q0 = v0.xy / v0.w, q1 = v1.xy / v1.w, q2 = v2.xy / v2.w;
     vec2 low = min(q0, min(q1, q2)), high = max(q0, max(q1, q2));
     // Homogeneous half-space tests need no division: all vertices on the outer side of one border.
     bvec2 before = bvec2(
-        v0.x < -HALF_PIXEL * v0.w && v1.x < -HALF_PIXEL * v1.w && v2.x < -HALF_PIXEL * v2.w,
-        v0.y < -HALF_PIXEL * v0.w && v1.y < -HALF_PIXEL * v1.w && v2.y < -HALF_PIXEL * v2.w);
+        v0.x < -REACH * v0.w && v1.x < -REACH * v1.w && v2.x < -REACH * v2.w,
+        v0.y < -REACH * v0.w && v1.y < -REACH * v1.w && v2.y < -REACH * v2.w);
     bvec2 after = bvec2(
         v0.x > limit.x * v0.w && v1.x > limit.x * v1.w && v2.x > limit.x * v2.w,
         v0.y > limit.y * v0.w && v1.y > limit.y * v1.w && v2.y > limit.y * v2.w);
@@ -31,8 +33,8 @@ Footprint footprint_of(vec4 c0, vec4 c1, vec4 c2) {
     f.outside = any(before) || any(after) || clipped || !finite;
     low = f.unprojected ? vec2(0.0) : low;
     high = f.unprojected ? limit : high;
-    f.low = ivec2(clamp(floor(low + 0.5), vec2(0.0), vec2(frame.size) - 1.0));
-    f.high = ivec2(clamp(floor(high + 0.5), vec2(0.0), vec2(frame.size) - 1.0));
+    f.low = ivec2(clamp(ceil(low - REACH), vec2(0.0), vec2(frame.size) - 1.0));
+    f.high = ivec2(clamp(floor(high + REACH), vec2(0.0), vec2(frame.size) - 1.0));
     return f;
 }
 
@@ -54,6 +56,7 @@ vec2 tile_center(ivec2 tile) {
 #define TILE_HAS_MASK 1u
 #define TILE_HAS_BLEND 2u
 #define TILE_LISTED 4u
+#define TILE_OVERFLOW 8u    // a pair of the tile was not kept
 #define TILE_COUNT_SHIFT 8
 
 #endif

@@ -1,13 +1,13 @@
-//! bin: triangles into lists per tile.
+//! bin: triangles into pairs with the tiles they touch.
 
 use super::{Argument, FrameLayout, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
 
-/// Counts, then scatters.
+/// Lists the pairs and counts each tile's.
 pub struct Bin {
     arguments: Pipeline,
-    count: [Pipeline; 2],
-    scatter: [Pipeline; 2],
+    small: Pipeline,
+    large: Pipeline,
 }
 
 impl Bin {
@@ -16,31 +16,19 @@ impl Bin {
     /// # Errors
     /// If the driver refuses one.
     pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
-        let make = |code, constants| {
-            compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, None)
-        };
-        let bin =
-            |scatter, large| make(spirv::BIN, Constants::new().flag(0, scatter).flag(1, large));
+        let make =
+            |code, constants| compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, None);
         Ok(Self {
             arguments: make(spirv::ARGUMENTS, Constants::new().with(0, 1))?,
-            count: [bin(false, false)?, bin(false, true)?],
-            scatter: [bin(true, false)?, bin(true, true)?],
+            small: make(spirv::BIN, Constants::new().flag(0, false))?,
+            large: make(spirv::BIN, Constants::new().flag(0, true))?,
         })
     }
 
-    /// Records the count of every tile's list.
-    pub fn record_count(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
+    /// Records it.
+    pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
         recorder.dispatch(&self.arguments, 1);
-        Self::run(&self.count, recorder, arguments);
-    }
-
-    /// Records the writing of the lists that `schedule` has placed.
-    pub fn record_scatter(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
-        Self::run(&self.scatter, recorder, arguments);
-    }
-
-    fn run(pipelines: &[Pipeline; 2], recorder: &Recorder<'_>, arguments: &Buffer) {
-        recorder.dispatch_indirect(&pipelines[0], arguments, Argument::BinSmall as u32);
-        recorder.dispatch_indirect(&pipelines[1], arguments, Argument::BinLarge as u32);
+        recorder.dispatch_indirect_unordered(&self.small, arguments, Argument::BinSmall as u32);
+        recorder.dispatch_indirect(&self.large, arguments, Argument::BinLarge as u32);
     }
 }

@@ -61,6 +61,7 @@ pub enum Counter {
     RecordsTotal,
     ShadedTotal,
     UnlistedTotal,
+    Pairs,
 }
 
 impl Counter {
@@ -76,20 +77,18 @@ pub enum Argument {
     Cull,
     BinSmall,
     BinLarge,
+    Setup,
     SamplePlain,
     SampleMasked,
     SampleBlended,
     SampleUnlisted,
-    ResolveMerged,
-    ResolveChained,
-    ResolveUnlisted,
     Sort,
     /// The first material bin's; the others follow.
     Shade,
 }
 
 /// How a binding of set 0 is used.
-const BINDINGS: [(u32, vk::DescriptorType); 38] = {
+const BINDINGS: [(u32, vk::DescriptorType); 40] = {
     use vk::DescriptorType as T;
     [
         (0, T::UNIFORM_BUFFER),
@@ -99,9 +98,9 @@ const BINDINGS: [(u32, vk::DescriptorType); 38] = {
         (4, T::UNIFORM_TEXEL_BUFFER),
         (5, T::UNIFORM_TEXEL_BUFFER),
         (6, T::UNIFORM_TEXEL_BUFFER),
-        (7, T::STORAGE_BUFFER),
+        (7, T::UNIFORM_TEXEL_BUFFER),
         (8, T::STORAGE_BUFFER),
-        (9, T::STORAGE_BUFFER),
+        (9, T::UNIFORM_TEXEL_BUFFER),
         (10, T::UNIFORM_TEXEL_BUFFER),
         (11, T::STORAGE_TEXEL_BUFFER),
         (12, T::SAMPLED_IMAGE),
@@ -130,6 +129,8 @@ const BINDINGS: [(u32, vk::DescriptorType); 38] = {
         (35, T::STORAGE_TEXEL_BUFFER),
         (36, T::STORAGE_TEXEL_BUFFER),
         (37, T::STORAGE_BUFFER),
+        (38, T::UNIFORM_TEXEL_BUFFER),
+        (39, T::STORAGE_TEXEL_BUFFER),
     ]
 };
 
@@ -330,6 +331,7 @@ mod tests {
             C::RecordsTotal,
             C::ShadedTotal,
             C::UnlistedTotal,
+            C::Pairs,
         ] {
             let name = format!("COUNTER_{}", shouted(&format!("{counter:?}")));
             assert_eq!(shader_constant(&name), Some(counter as usize), "{name}");
@@ -340,13 +342,11 @@ mod tests {
             A::Cull,
             A::BinSmall,
             A::BinLarge,
+            A::Setup,
             A::SamplePlain,
             A::SampleMasked,
             A::SampleBlended,
             A::SampleUnlisted,
-            A::ResolveMerged,
-            A::ResolveChained,
-            A::ResolveUnlisted,
             A::Sort,
             A::Shade,
         ] {

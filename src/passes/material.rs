@@ -6,7 +6,7 @@ use crate::scene::{
 };
 use glam::DVec3;
 
-/// `Material` of `shaders/include/frame.glsl`.
+/// The vectors of `shaders/include/material.glsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, bytemuck::Pod, bytemuck::Zeroable)]
 pub(super) struct GpuMaterial {
@@ -247,21 +247,26 @@ mod tests {
 
     #[test]
     fn host_structs_are_the_shaders() {
-        let text = include_str!("../../shaders/include/frame.glsl");
-        let vectors = |name: &str| {
-            let body = text
-                .split(&format!("struct {name} {{"))
-                .nth(1)
-                .unwrap()
-                .split("};")
-                .next()
-                .unwrap();
-            body.lines()
-                .filter(|line| line.contains("vec4 "))
-                .map(|line| if line.contains("[10]") { 10 } else { 1 })
-                .sum::<usize>()
+        let text = include_str!("../../shaders/include/material.glsl");
+        let vector = |name: &str| -> usize {
+            let line = text.lines().find(|line| line.starts_with(&format!("#define {name} "))).unwrap();
+            line.split_whitespace().nth(2).unwrap().trim_end_matches('u').parse().unwrap()
         };
-        assert_eq!(vectors("Material") * 16, size_of::<GpuMaterial>());
-        assert_eq!(vectors("Light") * 16, size_of::<GpuLight>());
+        macro_rules! check {
+            ($($name:literal = $field:ident),*) => {
+                $(assert_eq!(vector($name) * 16, std::mem::offset_of!(GpuMaterial, $field), $name);)*
+            };
+        }
+        check!(
+            "MATERIAL_BASE_COLOR" = base_color,
+            "MATERIAL_EMISSIVE_METALLIC" = emissive_metallic,
+            "MATERIAL_FACTORS" = roughness_normal_occlusion_cutoff,
+            "MATERIAL_ALPHA" = alpha,
+            "MATERIAL_UV_ROWS" = uv_rows
+        );
+        assert_eq!(vector("MATERIAL_VECTORS") * 16, size_of::<GpuMaterial>());
+        let text = include_str!("../../shaders/include/frame.glsl");
+        let light = text.split("struct Light {").nth(1).unwrap().split("};").next().unwrap();
+        assert_eq!(light.matches("vec4 ").count() * 16, size_of::<GpuLight>());
     }
 }

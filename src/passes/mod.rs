@@ -1,8 +1,8 @@
 //! The passes of a frame, one file each, named like their shaders in `shaders/`.
 //!
 //! ```text
-//! transform ─▶ raster ─▶ sort ─▶ shade ─▶ detect ─▶ cull ─▶ bin ─▶ schedule ─▶ bin ─▶ sample ─▶ sort ─▶ shade ─▶ resolve
-//!                        └─ pixel centres ─┘                      └────── a round, as often as lists need it ──────┘
+//! transform ─▶ raster ─▶ spans ─▶ shade ─▶ detect ─▶ cull ─▶ bin ─▶ schedule ─▶ setup ─▶ sample ─▶ sort ─▶ shade ─▶ resolve
+//!                        └─ pixel centres ─┘                        └─────── a round, as often as memory needs it ───────┘
 //! ```
 //! Every pass records into a caller's command buffer and reads what the pass before left on the device.
 
@@ -21,8 +21,10 @@ mod resolve;
 mod resources;
 mod sample;
 mod schedule;
+mod setup;
 mod shade;
 mod sort;
+mod spans;
 mod texture;
 mod transform;
 
@@ -47,5 +49,7 @@ pub use resources::{ResourceSizes, Resources, SampleSet};
 pub use sample::{Sample, TileList};
 pub use schedule::Schedule;
 pub use shade::{Shade, ShadeSource};
-pub use sort::{Sort, SortSource};
+pub use setup::Setup;
+pub use sort::Sort;
+pub use spans::Spans;
 pub use transform::Transform;

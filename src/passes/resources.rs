@@ -44,7 +44,7 @@ impl ResourceSizes {
         let records = u64::from(self.record_capacity);
         pixels * (16 + 4 + 4 + 4)
             + tiles * 36
-            + u64::from(self.list_capacity) * 64
+            + u64::from(self.list_capacity) * 80
             + records * 40
             + records.max(pixels) * 4
             + triangles * 4
@@ -86,6 +86,7 @@ pub struct Resources {
     tiles: Buffer,
     tile_lists: Buffer,
     survivors: Buffer,
+    pairs: BufferView,
     candidates: BufferView,
     headers: Buffer,
     records: BufferView,
@@ -146,6 +147,7 @@ impl Resources {
             memory.texel_buffer(name, elements, format, TEXELS, MemoryUse::Device)
         };
         let float4 = vk::Format::R32G32B32A32_SFLOAT;
+        let uint4 = vk::Format::R32G32B32A32_UINT;
         let pool = layout.pool(location_lists.len() as u32, 0)?;
         let sets = location_lists
             .iter()
@@ -188,7 +190,8 @@ impl Resources {
             tiles: storage("tiles", tiles * 16)?,
             tile_lists: storage("tile lists", tiles * 16)?,
             survivors: storage("survivors", triangles * 4)?,
-            candidates: texels("candidates", u64::from(sizes.list_capacity) * 4, float4)?,
+            pairs: texels("pairs", u64::from(sizes.list_capacity), uint4)?,
+            candidates: texels("candidates", u64::from(sizes.list_capacity) * 4, uint4)?,
             headers: storage("record headers", records * 8)?,
             records: texels("visibility records", records, vk::Format::R32G32B32A32_UINT)?,
             shaded: texels("shaded records", records, float4)?,
@@ -204,7 +207,7 @@ impl Resources {
             attributes: texels(
                 "attributes",
                 if sizes.attributes { 2 * pixels } else { 1 },
-                float4,
+                uint4,
             )?,
             encoded: storage("encoded colour", sizes.encoded)?,
             layout: layout.clone(),
@@ -289,6 +292,8 @@ impl Resources {
             texel(4, &scene.tangents, false),
             texel(5, &scene.uvs, false),
             texel(6, &scene.colors, false),
+            texel(7, &scene.materials, false),
+            texel(9, &scene.alpha_atlas, false),
             texel(10, &scene.clip, false),
             texel(11, &scene.clip, true),
             texel(16, &self.display, false),
@@ -303,6 +308,8 @@ impl Resources {
             texel(32, &set.locations, false),
             texel(35, &self.filtered, true),
             texel(36, &self.attributes, true),
+            texel(38, &self.pairs, false),
+            texel(39, &self.pairs, true),
         ];
         let views: Vec<[vk::BufferView; 1]> =
             texel_writes.iter().map(|(_, view, _)| [*view]).collect();
@@ -328,9 +335,7 @@ impl Resources {
                 .range(vk::WHOLE_SIZE)]
         };
         let storage = [
-            (7, buffer(&scene.materials)),
             (8, buffer(&scene.lights)),
-            (9, buffer(&scene.alpha_atlas)),
             (19, buffer(&self.counters)),
             (20, buffer(&self.masks)),
             (21, buffer(&self.tiles)),

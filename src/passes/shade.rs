@@ -45,7 +45,7 @@ impl Shade {
         let common = output
             .clone()
             .flag(0, pixels)
-            .flag(1, scene.bins.len() > 1)
+            .flag(1, scene.bins.len() <= 1)
             .flag(
                 2,
                 source
@@ -90,26 +90,8 @@ impl Shade {
         })
     }
 
-    /// Whether entries must be sorted by bin first.
-    #[must_use]
-    pub fn needs_order(&self) -> bool {
-        self.bins.len() > 1
-    }
-
-    /// Number of pipelines, for the statistics.
-    #[must_use]
-    pub fn pipeline_count(&self) -> usize {
-        self.pipelines.len()
-    }
-
-    /// Records it, over `pixels` pixels or the records of the round.
-    pub fn record(
-        &self,
-        recorder: &Recorder<'_>,
-        scene: &GpuScene,
-        arguments: &Buffer,
-        pixels: u32,
-    ) {
+    /// Records it, over the spans of a region or the records of the round.
+    pub fn record(&self, recorder: &Recorder<'_>, scene: &GpuScene, arguments: &Buffer) {
         for (bin, (material_bin, pipeline)) in scene.bins.iter().zip(&self.bins).enumerate() {
             let Some(pipeline) = self.pipelines.get(*pipeline) else {
                 continue;
@@ -126,19 +108,14 @@ impl Shade {
                 );
             }
             recorder.push(self.layout.pipeline, &[bin as u32]);
-            match (self.needs_order(), self.source) {
-                (true, _) => recorder.dispatch_indirect_unordered(
-                    pipeline,
-                    arguments,
-                    Argument::Shade as u32 + bin as u32,
-                ),
-                (false, ShadeSource::Pixels { .. }) => {
-                    recorder.dispatch(pipeline, u64::from(pixels.div_ceil(64)))
-                }
-                (false, ShadeSource::Records) => {
-                    recorder.dispatch_indirect(pipeline, arguments, Argument::Sort as u32)
-                }
-            }
+            let every_record = self.source == ShadeSource::Records && self.bins.len() == 1;
+            let argument = if every_record {
+                Argument::Sort as u32
+            } else {
+                Argument::Shade as u32 + bin as u32
+            };
+            // Bins write different places.
+            recorder.dispatch_indirect_unordered(pipeline, arguments, argument);
         }
         recorder.barrier();
     }

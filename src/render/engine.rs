@@ -4,7 +4,7 @@ use super::plan::Plan;
 use super::{RenderError, Settings, Shading};
 use crate::passes::{
     Bin, Cull, Detect, DetectMode, FrameLayout, GpuScene, Resolve, Resources, Sample, Schedule,
-    Shade, ShadeSource, Sort, SortSource,
+    Setup, Shade, ShadeSource, Sort,
 };
 use crate::vulkan::{Constants, Recorder};
 use std::sync::Arc;
@@ -15,6 +15,7 @@ pub(super) struct Engine {
     cull: Cull,
     bin: Bin,
     schedule: Schedule,
+    setup: Setup,
     sample: Sample,
     sort: Sort,
     shade: Arc<Shade>,
@@ -56,7 +57,8 @@ impl Engine {
             cull: Cull::new(layout)?,
             bin: Bin::new(layout)?,
             schedule: Schedule::new(layout, &sample, per_sample, plan.layers)?,
-            sort: Sort::new(layout, SortSource::Records, output)?,
+            setup: Setup::new(layout)?,
+            sort: Sort::new(layout, scene.bin_count() == 1)?,
             shade: shade.clone(),
             resolve: Resolve::new(
                 layout,
@@ -97,13 +99,13 @@ impl Engine {
         recorder.mark("detect");
         self.cull.record(recorder, arguments);
         recorder.mark("cull");
-        self.bin.record_count(recorder, arguments);
+        self.bin.record(recorder, arguments);
         recorder.mark("bin");
         for _ in 0..rounds {
             self.schedule.record(recorder);
             recorder.mark("schedule");
-            self.bin.record_scatter(recorder, arguments);
-            recorder.mark("bin");
+            self.setup.record(recorder, arguments);
+            recorder.mark("setup");
             self.sample.record(recorder, arguments);
             recorder.mark("sample");
             record_shading(recorder, scene, resources, &self.sort, &self.shade);
@@ -122,12 +124,8 @@ pub(super) fn record_shading(
     shade: &Shade,
 ) {
     let arguments = &resources.arguments;
-    if shade.needs_order() {
-        sort.record(recorder, &resources.bins, arguments, 0);
-    } else {
-        sort.record_sizes(recorder);
-    }
+    sort.record(recorder, &resources.bins, arguments);
     recorder.mark("sort");
-    shade.record(recorder, scene, arguments, 0);
+    shade.record(recorder, scene, arguments);
     recorder.mark("shade");
 }

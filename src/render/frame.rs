@@ -9,7 +9,7 @@ use crate::camera::Camera;
 use crate::passes::{
     Attributes, BoxFilter, Counter, DetectMode, Encode, Encoding, FrameLayout, FrameUniform,
     GpuScene, Multisample, Raster, RasterTargets, Resolve, Resources, Shade, ShadeSource, Sort,
-    SortSource, Transform,
+    Spans, Transform,
 };
 use crate::vulkan::{Buffer, Constants, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;
@@ -49,7 +49,7 @@ pub enum Target {
 
 /// What shades the centres of pixels.
 struct PixelShading {
-    sort: Sort,
+    spans: Spans,
     shade: Shade,
 }
 
@@ -137,7 +137,7 @@ impl Frame {
         } else {
             let display_codes = detects;
             Some(PixelShading {
-                sort: Sort::new(layout, SortSource::Pixels { display_codes }, &output)?,
+                spans: Spans::new(layout, scene.bin_count() == 1, display_codes, &output)?,
                 shade: Shade::new(
                     layout,
                     scene,
@@ -186,7 +186,7 @@ impl Frame {
         let multisampling = match &shading {
             Some(shade) if multisampled => Some(Multisampling {
                 multisample: Multisample::new(layout)?,
-                sort: Sort::new(layout, SortSource::Records, &output)?,
+                sort: Sort::new(layout, scene.bin_count() == 1)?,
                 shade: shade.clone(),
                 resolve: Resolve::for_multisample(layout, settings.samples, false, &output)?,
             }),
@@ -439,12 +439,10 @@ impl Passes<'_> {
             [width, height],
         );
         recorder.mark("raster");
-        if let Some(PixelShading { sort, shade }) = self.pixels {
-            if shade.needs_order() {
-                sort.record(recorder, &resources.bins, &resources.arguments, pixels);
-                recorder.mark("sort");
-            }
-            shade.record(recorder, scene, &resources.arguments, pixels);
+        if let Some(PixelShading { spans, shade }) = self.pixels {
+            spans.record(recorder, &resources.bins, [width, height]);
+            recorder.mark("spans");
+            shade.record(recorder, scene, &resources.arguments);
             recorder.mark("shade");
         }
         if let Some(Multisampling {

@@ -25,8 +25,8 @@ pub struct Rendered {
     pub size: [u32; 2],
     /// Rows from the top: linear light, premultiplied alpha.
     pub colors: Vec<[f32; 4]>,
-    /// Where asked for, two vectors a pixel: (view depth, bits of the triangle ID, samples, superpixel), (normal, 0).
-    pub attributes: Vec<[[f32; 4]; 2]>,
+    /// Where asked for, what the centre of each pixel sees.
+    pub attributes: Vec<PixelAttributes>,
     /// Figures of the frame.
     pub statistics: Statistics,
 }
@@ -40,6 +40,24 @@ pub struct Headless {
     commands: vk::CommandBuffer,
     fence: vk::Fence,
     output: Option<(Buffer, Option<Buffer>)>,
+}
+
+/// What the centre of a pixel sees besides its colour; the layout is that of `shaders/attributes.comp`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct PixelAttributes {
+    /// Distance from the eye along the view direction in world units; 0 for background.
+    pub depth: f32,
+    /// ID of the nearest opaque or MASK triangle; 0 is background.
+    pub id: u32,
+    /// Samples that the pixel's colour is the mean of.
+    pub samples: u32,
+    /// 1 for superpixels, otherwise 0.
+    pub superpixel: u32,
+    /// Unit normal in world space; 0 for background.
+    pub normal: [f32; 3],
+    /// Unused.
+    pub padding: u32,
 }
 
 /// Effort is doubled this often before a frame is given up.
@@ -220,7 +238,7 @@ impl Headless {
             let statistics = frame.statistics(scene)?;
             let count = pixels as usize;
             let floats: &[[f32; 4]] = bytemuck::try_cast_slice(colors.bytes()).unwrap_or(&[]);
-            let pairs: &[[[f32; 4]; 2]] = attributes
+            let seen: &[PixelAttributes] = attributes
                 .as_ref()
                 .filter(|_| wants_attributes)
                 .and_then(|a| bytemuck::try_cast_slice(a.bytes()).ok())
@@ -228,7 +246,7 @@ impl Headless {
             Ok(Rendered {
                 size,
                 colors: floats.get(..count).unwrap_or(&[]).to_vec(),
-                attributes: pairs.get(..count).unwrap_or(&[]).to_vec(),
+                attributes: seen.get(..count).unwrap_or(&[]).to_vec(),
                 statistics,
             })
         });

@@ -1,0 +1,27 @@
+// setup: the triangle of each pair as edge functions and a depth plane around its tile's centre, in the tile's list.
+// Reads: pairs, triangles, clip, tiles. Writes: candidates, 4 vectors each:
+// (a0, b0, c0, a1), (b1, c1, a2, b2), (c2, depth x, depth y, depth at centre), (nearest, farthest depth, ID, 0).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "include/frame.glsl"
+#include "include/tiles.glsl"
+layout(local_size_x = 64) in;
+
+void main() {
+    uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    if (i >= min(counters[COUNTER_PAIRS], frame.list_capacity)) return;
+    uvec4 pair = texelFetch(pairs, int(i));
+    uvec4 tile = tiles[pair.y];
+    if ((tile.w & TILE_LISTED) == 0u) return;
+    uvec4 indices = texelFetch(triangles, int(pair.x));
+    vec4 v0 = texelFetch(clip, int(indices.x)), v1 = texelFetch(clip, int(indices.y)), v2 = texelFetch(clip, int(indices.z));
+    vec2 center = tile_center(ivec2(pair.y % frame.tiles.x, pair.y / frame.tiles.x));
+    Setup s = setup_triangle(v0, v1, v2, center, (indices.w >> 31) == 0u);
+    // A triangle that does not show keeps its place and touches nothing.
+    s.c = s.valid ? s.c : vec3(-3.4e38);
+    int o = int(tile.y + pair.z) * 4;
+    imageStore(candidates_out, o, floatBitsToUint(vec4(s.a.x, s.b.x, s.c.x, s.a.y)));
+    imageStore(candidates_out, o + 1, floatBitsToUint(vec4(s.b.y, s.c.y, s.a.z, s.b.z)));
+    imageStore(candidates_out, o + 2, floatBitsToUint(vec4(s.c.z, s.depth)));
+    imageStore(candidates_out, o + 3, uvec4(floatBitsToUint(s.near), floatBitsToUint(s.far), pair.x + 1u, 0u));
+}
