@@ -20,6 +20,7 @@ const VARIANTS: &[(&str, &str, &[(&str, &str)])] = &[
         &[("MASKED", ""), ("BYTES", "")],
     ),
     ("detect", "detect.comp", &[]),
+    ("thin", "thin.comp", &[]),
     (
         "detect_multisampled",
         "detect.comp",
