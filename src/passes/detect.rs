@@ -37,7 +37,9 @@ impl Detect {
         thin: bool,
         multisampled: bool,
     ) -> Result<Self, VulkanError> {
-        let constants = Constants::new().with(0, mode as u32).flag(1, has_blend)
+        let constants = Constants::new()
+            .with(0, mode as u32)
+            .flag(1, has_blend)
             .flag(2, thin);
         let code = if multisampled {
             spirv::DETECT_MULTISAMPLED

@@ -16,9 +16,15 @@ impl Thin {
     /// # Errors
     /// If the driver refuses one.
     pub fn new(layout: &FrameLayout, has_blend: bool) -> Result<Self, VulkanError> {
-        let make =
-            |code, constants| compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, None);
-        let thin = |select| make(spirv::THIN, Constants::new().flag(0, select).flag(1, has_blend));
+        let make = |code, constants| {
+            compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, None)
+        };
+        let thin = |select| {
+            make(
+                spirv::THIN,
+                Constants::new().flag(0, select).flag(1, has_blend),
+            )
+        };
         Ok(Self {
             select: thin(true)?,
             arguments: make(spirv::ARGUMENTS, Constants::new().with(0, 5))?,

@@ -60,7 +60,13 @@ impl Engine {
                 .thin
                 .then(|| Thin::new(layout, scene.has_blend()))
                 .transpose()?,
-            detect: Detect::new(layout, kind.mode, scene.has_blend(), kind.thin, kind.multisampled)?,
+            detect: Detect::new(
+                layout,
+                kind.mode,
+                scene.has_blend(),
+                kind.thin,
+                kind.multisampled,
+            )?,
             cull: Cull::new(layout)?,
             bin: Bin::new(layout)?,
             schedule: Schedule::new(layout, &sample, per_sample, plan.layers)?,
@@ -103,7 +109,12 @@ impl Engine {
     ) {
         let arguments = &resources.arguments;
         if let Some(thin) = &self.thin {
-            thin.record(recorder, &resources.marks, arguments, scene.triangle_count());
+            thin.record(
+                recorder,
+                &resources.marks,
+                arguments,
+                scene.triangle_count(),
+            );
             recorder.mark("thin");
         }
         self.detect.record(recorder, tiles);

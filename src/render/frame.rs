@@ -658,9 +658,14 @@ fn gap(camera: &Camera, image_height: f64) -> [f32; 2] {
         Projection::Perspective { fov, .. } => {
             [(2.0 * (0.5 * fov).tan() / image_height) as f32, 0.0]
         }
-        Projection::Orthographic { half_height, near, far } => {
-            [0.0, (2.0 * half_height / image_height / (far - near)) as f32]
-        }
+        Projection::Orthographic {
+            half_height,
+            near,
+            far,
+        } => [
+            0.0,
+            (2.0 * half_height / image_height / (far - near)) as f32,
+        ],
     }
 }
 
