@@ -44,7 +44,7 @@ void main() {
     uint tile = tile_lists[LIST * tile_count + entry];
     uint word = masks[tile];
     uint first_header = tiles[tile].z;
-    uvec2 corner = uvec2(tile % frame.tiles.x, tile / frame.tiles.x) * uvec2(8u, 4u);
+    uvec2 corner = split(tile, frame.tiles.x) * uvec2(8u, 4u);
     uint blocks = (frame.sample_count + BLOCK - 1u) / BLOCK;
     float share = 1.0 / float(frame.sample_count);
 

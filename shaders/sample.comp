@@ -140,7 +140,7 @@ void main() {
     uint lane = gl_SubgroupInvocationID;
     uint tile = tile_lists[LIST * tile_count + entry];
     uvec4 header = tiles[tile];
-    ivec2 tile_at = ivec2(tile % frame.tiles.x, tile / frame.tiles.x);
+    ivec2 tile_at = ivec2(split(tile, frame.tiles.x));
     vec2 center = tile_center(tile_at);
     uint word = masks[tile];
 #ifdef UNLISTED

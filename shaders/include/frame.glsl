@@ -82,4 +82,13 @@ layout(std430, set = 0, binding = 34) buffer Arguments { uvec4 arguments[]; }; /
 layout(set = 0, binding = 38) uniform utextureBuffer pairs;       // triangle, tile, rank in its list, 0
 layout(set = 0, binding = 39, rgba32ui) uniform writeonly uimageBuffer pairs_out;
 
+// (n % width, n / width). Integer division is a loop on CPU devices; a float quotient errs by one at the most for
+// quotients below 2^22, and is mended.
+uvec2 split(uint n, uint width) {
+    uint q = uint(float(n) * (1.0 / float(width)));
+    int r = int(n - q * width);
+    q = r < 0 ? q - 1u : r >= int(width) ? q + 1u : q;
+    return uvec2(n - q * width, q);
+}
+
 #include "counters.glsl"

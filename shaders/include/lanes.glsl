@@ -8,14 +8,12 @@ float lanes_add(float v) {
     if (!BY_SHUFFLE) return subgroupAdd(v);
     v += subgroupShuffleXor(v, 1u);
     v += subgroupShuffleXor(v, 2u);
-    if (LANES == 8u) v += subgroupShuffleXor(v, 4u);
-    return v;
+    return v + subgroupShuffleXor(v, 4u);
 }
 
 uint lanes_min(uint v) {
     if (!BY_SHUFFLE) return subgroupMin(v);
     v = min(v, subgroupShuffleXor(v, 1u));
     v = min(v, subgroupShuffleXor(v, 2u));
-    if (LANES == 8u) v = min(v, subgroupShuffleXor(v, 4u));
-    return v;
+    return min(v, subgroupShuffleXor(v, 4u));
 }
