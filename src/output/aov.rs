@@ -1,6 +1,7 @@
 //! Arbitrary output variables: what a pixel holds besides its colour.
 
 use super::UnknownAov;
+use crate::render::PixelAttributes;
 use std::fmt;
 use std::str::FromStr;
 
@@ -75,32 +76,26 @@ pub enum Aov {
 impl Aov {
     /// Takes one variable out of [`Rendered::attributes`](crate::render::Rendered::attributes).
     #[must_use]
-    pub fn from_attributes(kind: AovKind, attributes: &[[[f32; 4]; 2]]) -> Self {
+    pub fn from_attributes(kind: AovKind, attributes: &[PixelAttributes]) -> Self {
         let pixels = attributes.iter();
         match kind {
             AovKind::Depth => Self::Depth(
                 pixels
-                    .map(|[[depth, id, ..], _]| {
-                        if id.to_bits() == 0 {
+                    .map(|pixel| {
+                        if pixel.id == 0 {
                             f32::INFINITY
                         } else {
-                            *depth
+                            pixel.depth
                         }
                     })
                     .collect(),
             ),
-            AovKind::Id => Self::Id(pixels.map(|[[_, id, ..], _]| id.to_bits()).collect()),
-            AovKind::Normal => Self::Normal(pixels.map(|[_, [x, y, z, _]]| [*x, *y, *z]).collect()),
-            AovKind::Superpixels => Self::Superpixels(
-                pixels
-                    .map(|[[.., superpixel], _]| *superpixel > 0.5)
-                    .collect(),
-            ),
-            AovKind::Samples => Self::Samples(
-                pixels
-                    .map(|[[_, _, samples, _], _]| *samples as u32)
-                    .collect(),
-            ),
+            AovKind::Id => Self::Id(pixels.map(|pixel| pixel.id).collect()),
+            AovKind::Normal => Self::Normal(pixels.map(|pixel| pixel.normal).collect()),
+            AovKind::Superpixels => {
+                Self::Superpixels(pixels.map(|pixel| pixel.superpixel != 0).collect())
+            }
+            AovKind::Samples => Self::Samples(pixels.map(|pixel| pixel.samples).collect()),
         }
     }
 
