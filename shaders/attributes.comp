@@ -11,7 +11,7 @@ layout(set = 0, binding = 36, rgba32ui) uniform writeonly uimageBuffer attribute
 void main() {
     uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
     if (i >= frame.size.x * frame.size.y) return;
-    uvec2 pixel = uvec2(i % frame.size.x, i / frame.size.x);
+    uvec2 pixel = split(i, frame.size.x);
     uint id = texelFetch(ids, ivec2(pixel), 0).x;
     ivec3 v = ivec3(texelFetch(triangles, int(max(id, 1u) - 1u)).xyz);
     Barycentric w = barycentric(texelFetch(clip, v.x), texelFetch(clip, v.y), texelFetch(clip, v.z), frame.origin + vec2(pixel));

@@ -12,7 +12,7 @@ void main() {
     uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
     uvec2 size = frame.size / push.side;
     if (i >= size.x * size.y) return;
-    uvec2 low = uvec2(i % size.x, i / size.x) * push.side;
+    uvec2 low = split(i, size.x) * push.side;
     vec4 sum = vec4(0.0);
     for (uint y = 0u; y < push.side; y++) {
         vec4 row = vec4(0.0);

@@ -48,7 +48,7 @@ void main() {
     uint tile_count = frame.tiles.x * frame.tiles.y;
     bool inside = tile < tile_count;
     tile = min(tile, tile_count - 1u);
-    ivec2 base = ivec2(tile % frame.tiles.x * 8u, tile / frame.tiles.x * 4u);
+    ivec2 base = ivec2(split(tile, frame.tiles.x)) * ivec2(8, 4);
     ivec2 last = ivec2(frame.size) - 1;
     field_limit = (512u + frame.contrast) * 0x400801u;
     field_mask = 512u * 0x400801u;

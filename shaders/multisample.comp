@@ -17,7 +17,7 @@ void main() {
     uint tile = i / 32u, bit = i % 32u;
     bool exists = tile < tile_count;
     tile = min(tile, tile_count - 1u);
-    uvec2 pixel = uvec2(tile % frame.tiles.x, tile / frame.tiles.x) * uvec2(8u, 4u) + uvec2(bit & 7u, bit >> 3);
+    uvec2 pixel = split(tile, frame.tiles.x) * uvec2(8u, 4u) + uvec2(bit & 7u, bit >> 3);
     bool inside = exists && all(lessThan(pixel, frame.size));
     ivec2 at = ivec2(min(pixel, frame.size - 1u));
     // Every pixel has as many slots as samples; tiles are whole, so that headers follow the mask's bits.

@@ -7,8 +7,8 @@
 #include "include/frame.glsl"
 #include "include/tiles.glsl"
 #include "include/color.glsl"
+#include "include/lanes.glsl"
 layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const uint LANES = 8u;
 layout(constant_id = 2) const uint BLOCK = 256u;
 layout(constant_id = 3) const bool CHAINED = false;
 layout(constant_id = 4) const uint LIST = 0u;
@@ -44,7 +44,7 @@ void main() {
     uint tile = tile_lists[LIST * tile_count + entry];
     uint word = masks[tile];
     uint first_header = tiles[tile].z;
-    uvec2 corner = uvec2(tile % frame.tiles.x, tile / frame.tiles.x) * uvec2(8u, 4u);
+    uvec2 corner = split(tile, frame.tiles.x) * uvec2(8u, 4u);
     uint blocks = (frame.sample_count + BLOCK - 1u) / BLOCK;
     float share = 1.0 / float(frame.sample_count);
 
@@ -60,7 +60,7 @@ void main() {
                 for (uint s = lane; s < h.y; s += LANES)
                     if (h.x + s < frame.record_capacity) sum += composite(h.x + s);
             }
-            sum = vec4(subgroupAdd(sum.x), subgroupAdd(sum.y), subgroupAdd(sum.z), subgroupAdd(sum.w)) * share;
+            sum = vec4(lanes_add(sum.x), lanes_add(sum.y), lanes_add(sum.z), lanes_add(sum.w)) * share;
             if (subgroupElect()) write(corner + uvec2(bit & 7u, bit >> 3), sum);
             cell++;
         }

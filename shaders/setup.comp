@@ -15,7 +15,7 @@ void main() {
     if ((tile.w & TILE_LISTED) == 0u) return;
     uvec4 indices = texelFetch(triangles, int(pair.x));
     vec4 v0 = texelFetch(clip, int(indices.x)), v1 = texelFetch(clip, int(indices.y)), v2 = texelFetch(clip, int(indices.z));
-    vec2 center = tile_center(ivec2(pair.y % frame.tiles.x, pair.y / frame.tiles.x));
+    vec2 center = tile_center(ivec2(split(pair.y, frame.tiles.x)));
     Setup s = setup_triangle(v0, v1, v2, center, (indices.w >> 31) == 0u);
     // A triangle that does not show keeps its place and touches nothing.
     s.c = s.valid ? s.c : vec3(-3.4e38);

@@ -70,7 +70,7 @@ void main() {
     bool mine = true;
     if (PIXELS) {
         uint columns = (frame.size.x + 7u) / 8u;
-        uvec2 pixel = uvec2(source % columns * 8u + i % 8u, source / columns);
+        uvec2 pixel = split(source, columns) * uvec2(8u, 1u) + uvec2(i % 8u, 0u);
         mine = pixel.x < frame.size.x;
         id = texelFetch(ids, ivec2(min(pixel, frame.size - 1u)), 0).x;
         p = frame.origin + vec2(pixel);

@@ -1,50 +1,73 @@
 // spans: rows of 8 pixels, listed by material bin, for `shade`. A span stands in the list of every bin it shows.
-// Runs twice: COUNT, then SCATTER into `shade_order`.
-// Reads: ids, triangles. Writes: bins, shade_order; COUNT gives background pixels their colour and display code.
+// Runs twice: COUNT, then SCATTER into `shade_order`; for a single bin SCATTER alone, which then counts too.
+// Reads: ids, triangles. Writes: bins, shade_order; the first run gives background pixels their colour and display code.
+//
+// Neighbouring invocations take neighbouring pixels, 8 times; then each takes one of the spans so seen.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/color.glsl"
+#include "include/lanes.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool SCATTER = false;
-layout(constant_id = 1) const bool DISPLAY_CODES = false;
-layout(constant_id = 2) const bool ONE_BIN = false;
+layout(constant_id = 2) const bool DISPLAY_CODES = false;
+layout(constant_id = 3) const bool ONE_BIN = false;
+
+const uint NONE = ~0u;
+const bool FIRST_RUN = ONE_BIN || !SCATTER;
+
+// The least value of 8 neighbouring invocations.
+uint octet_min(uint v) {
+    v = min(v, subgroupShuffleXor(v, 1u));
+    v = min(v, subgroupShuffleXor(v, 2u));
+    return min(v, subgroupShuffleXor(v, 4u));
+}
 
 void main() {
-    uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    uint lane = gl_SubgroupInvocationID;
     uint columns = (frame.size.x + 7u) / 8u;
-    bool exists = i < columns * frame.size.y;
-    ivec2 first = exists ? ivec2(i % columns * 8u, i / columns) : ivec2(0);
-    uint background_code = DISPLAY_CODES && !SCATTER ? display_code(frame.background) : 0u;
+    uint span_count = columns * frame.size.y;
+    uint first_span = (gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u) * 64u + gl_SubgroupID * LANES;
+    uint background_code = DISPLAY_CODES && FIRST_RUN ? display_code(frame.background) : 0u;
+
     uint bin[8];
-    [[unroll]] for (int k = 0; k < 8; k++) {
-        ivec2 p = ivec2(first.x + k, first.y);
-        bool inside = exists && p.x < int(frame.size.x);
-        uint id = inside ? texelFetch(ids, p, 0).x : 0u;
-        bin[k] = id == 0u ? ~0u : ONE_BIN ? 0u : texelFetch(triangles, int(id - 1u)).w >> 16 & 0x7fffu;
-        if (!SCATTER && inside && id == 0u) {
-            int at = p.y * int(frame.size.x) + p.x;
+    [[unroll]] for (uint s = 0u; s < 8u; s++) {
+        uint span = first_span + (s * LANES + lane) / 8u;
+        uvec2 pixel = split(span, columns) * uvec2(8u, 1u) + uvec2(lane % 8u, 0u);
+        bool inside = span < span_count && pixel.x < frame.size.x;
+        uint id = texelFetch(ids, ivec2(inside ? pixel : uvec2(0u)), 0).x;
+        id = inside ? id : 0u;
+        bin[s] = id == 0u ? NONE : ONE_BIN ? 0u : texelFetch(triangles, int(id - 1u)).w >> 16 & 0x7fffu;
+        if (FIRST_RUN && inside && id == 0u) {
+            int at = int(pixel.y * frame.size.x + pixel.x);
             imageStore(color, at, frame.background);
             if (DISPLAY_CODES) imageStore(display_out, at, uvec4(background_code));
         }
     }
-    uint current = ~0u;
-    [[unroll]] for (int k = 0; k < 8; k++) current = min(current, bin[k]);
-    current = subgroupMin(current);
+
+    // This invocation's span was seen in step `my_step` by the invocations from `my_source` on.
+    const uint SPANS_A_STEP = LANES / 8u;
+    uint my_step = lane / SPANS_A_STEP, my_source = lane % SPANS_A_STEP * 8u;
+    uint done = NONE;       // bins up to this one are listed; none at first
+    bool more;
     do {
-        bool some = current != ~0u;
-        bool mine = false;
-        uint following = ~0u;
-        [[unroll]] for (int k = 0; k < 8; k++) {
-            mine = mine || bin[k] == current;
-            following = min(following, bin[k] > current ? bin[k] : ~0u);
+        uint mine = NONE;
+        [[unroll]] for (uint s = 0u; s < 8u; s++) {
+            uint next = octet_min(done == NONE || bin[s] > done ? bin[s] : NONE);
+            mine = my_step == s ? subgroupShuffle(next, my_source) : mine;
         }
-        mine = mine && some;
-        uvec4 together = subgroupBallot(mine);
+        // The least bin of all spans goes first, so that each bin costs one atomic a subgroup.
+        uint current = lanes_min(mine);
+        more = current != NONE;
+        uvec4 together = subgroupBallot(more && mine == current);
         uint n = subgroupBallotBitCount(together), base = 0u;
-        if (subgroupElect() && some) base = SCATTER ? atomicAdd(bins[current].z, n) : atomicAdd(bins[current].x, n);
+        if (subgroupElect() && more) {
+            if (FIRST_RUN) base = atomicAdd(bins[current].x, n);
+            else base = atomicAdd(bins[current].z, n);
+        }
         base = subgroupBroadcastFirst(base);
-        if (SCATTER && mine) shade_order[base + subgroupBallotExclusiveBitCount(together)] = i;
-        current = some ? subgroupMin(following) : ~0u;
-    } while (current != ~0u);
+        if (SCATTER && more && mine == current)
+            shade_order[base + subgroupBallotExclusiveBitCount(together)] = first_span + lane;
+        done = current;
+    } while (more);
 }

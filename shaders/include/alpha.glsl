@@ -85,7 +85,7 @@ float alpha_bilinear(uint first, uvec2 size, vec2 uv, bool nearest) {
     t = clamp(t - 0.5, vec2(-0.5), vec2(size) - 0.5);
     vec2 base = floor(t), f = t - base;
     uvec2 cell = uvec2(ivec2(base) + 1);
-    vec4 texels = unpackUnorm4x8(alpha_atlas[first + cell.y * (size.x + 1u) + cell.x]);
+    vec4 texels = unpackUnorm4x8(texelFetch(alpha_atlas, int(first + cell.y * (size.x + 1u) + cell.x)).x);
     vec2 row = mix(texels.xz, texels.yw, f.x);
     return mix(row.x, row.y, f.y);
 }

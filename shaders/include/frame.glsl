@@ -51,7 +51,7 @@ struct Light {
     vec4 offset;            // x = spot angular offset
 };
 layout(std430, set = 0, binding = 8) readonly buffer Lights { Light lights[]; };
-layout(std430, set = 0, binding = 9) readonly buffer AlphaAtlas { uint alpha_atlas[]; };
+layout(set = 0, binding = 9) uniform utextureBuffer alpha_atlas;    // see alpha.glsl
 
 layout(set = 0, binding = 10) uniform textureBuffer clip;
 layout(set = 0, binding = 11, rgba32f) uniform writeonly imageBuffer clip_out;
@@ -81,5 +81,14 @@ layout(std430, set = 0, binding = 34) buffer Arguments { uvec4 arguments[]; }; /
 
 layout(set = 0, binding = 38) uniform utextureBuffer pairs;       // triangle, tile, rank in its list, 0
 layout(set = 0, binding = 39, rgba32ui) uniform writeonly uimageBuffer pairs_out;
+
+// (n % width, n / width). Integer division is a loop on CPU devices; a float quotient errs by one at the most for
+// quotients below 2^22, and is mended.
+uvec2 split(uint n, uint width) {
+    uint q = uint(float(n) * (1.0 / float(width)));
+    int r = int(n - q * width);
+    q = r < 0 ? q - 1u : r >= int(width) ? q + 1u : q;
+    return uvec2(n - q * width, q);
+}
 
 #include "counters.glsl"

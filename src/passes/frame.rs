@@ -100,7 +100,7 @@ const BINDINGS: [(u32, vk::DescriptorType); 40] = {
         (6, T::UNIFORM_TEXEL_BUFFER),
         (7, T::UNIFORM_TEXEL_BUFFER),
         (8, T::STORAGE_BUFFER),
-        (9, T::STORAGE_BUFFER),
+        (9, T::UNIFORM_TEXEL_BUFFER),
         (10, T::UNIFORM_TEXEL_BUFFER),
         (11, T::STORAGE_TEXEL_BUFFER),
         (12, T::SAMPLED_IMAGE),

@@ -58,7 +58,7 @@ pub struct GpuScene {
     pub(super) clip: BufferView,
     pub(super) materials: BufferView,
     pub(super) lights: Buffer,
-    pub(super) alpha_atlas: Buffer,
+    pub(super) alpha_atlas: BufferView,
     pub(super) bins: Vec<MaterialBin>,
     runs: Vec<Run>,
     vertex_count: u32,
@@ -114,6 +114,15 @@ impl Uploader<'_> {
         let mut view =
             self.memory
                 .texel_buffer(name, data.len() as u64, format, usage, MemoryUse::Device)?;
+        self.fill(name, &mut view.buffer, bytemuck::cast_slice(data))?;
+        Ok(view)
+    }
+
+    fn words(&mut self, name: &str, data: &[u32]) -> Result<BufferView, VulkanError> {
+        let usage = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
+        let format = vk::Format::R32_UINT;
+        let mut view =
+            self.memory.texel_buffer(name, data.len() as u64, format, usage, MemoryUse::Device)?;
         self.fill(name, &mut view.buffer, bytemuck::cast_slice(data))?;
         Ok(view)
     }
@@ -292,7 +301,7 @@ impl GpuScene {
             )?,
             materials: uploader.texels("materials", vk::Format::R32G32B32A32_UINT, bytemuck::cast_slice(&materials))?,
             lights: uploader.storage("lights", bytemuck::cast_slice(&lights))?,
-            alpha_atlas: uploader.storage("alpha atlas", bytemuck::cast_slice(&atlas.words))?,
+            alpha_atlas: uploader.words("alpha atlas", &atlas.words)?,
             bins,
             vertex_count: geometry.positions.len() as u32,
             triangle_count,

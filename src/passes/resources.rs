@@ -293,6 +293,7 @@ impl Resources {
             texel(5, &scene.uvs, false),
             texel(6, &scene.colors, false),
             texel(7, &scene.materials, false),
+            texel(9, &scene.alpha_atlas, false),
             texel(10, &scene.clip, false),
             texel(11, &scene.clip, true),
             texel(16, &self.display, false),
@@ -335,7 +336,6 @@ impl Resources {
         };
         let storage = [
             (8, buffer(&scene.lights)),
-            (9, buffer(&scene.alpha_atlas)),
             (19, buffer(&self.counters)),
             (20, buffer(&self.masks)),
             (21, buffer(&self.tiles)),

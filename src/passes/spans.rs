@@ -5,9 +5,10 @@ use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError, compute_
 
 /// Lists what of a region is to be shaded; background pixels get their colour.
 pub struct Spans {
-    count: Pipeline,
-    arguments: Pipeline,
+    /// Not needed for a single bin.
+    count: Option<Pipeline>,
     scatter: Pipeline,
+    arguments: Pipeline,
 }
 
 impl Spans {
@@ -21,16 +22,28 @@ impl Spans {
         display_codes: bool,
         output: &Constants,
     ) -> Result<Self, VulkanError> {
-        let make =
-            |code, constants| compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, None);
+        let lanes = layout.gpu.limits().subgroup_size;
         let spans = |scatter| {
-            let constants = output.clone().flag(0, scatter).flag(1, display_codes).flag(2, one_bin);
-            make(spirv::SPANS, constants)
+            let constants = output
+                .clone()
+                .flag(0, scatter)
+                .with(1, lanes)
+                .flag(2, display_codes)
+                .flag(3, one_bin);
+            let code = spirv::SPANS;
+            compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, Some(lanes))
         };
+        let arguments = Constants::new().with(0, 4);
         Ok(Self {
-            count: spans(false)?,
-            arguments: make(spirv::ARGUMENTS, Constants::new().with(0, 4))?,
+            count: if one_bin { None } else { Some(spans(false)?) },
             scatter: spans(true)?,
+            arguments: compute_pipeline(
+                &layout.gpu,
+                layout.pipeline,
+                spirv::ARGUMENTS,
+                &arguments,
+                None,
+            )?,
         })
     }
 
@@ -39,8 +52,11 @@ impl Spans {
         let groups = (u64::from(width.div_ceil(8)) * u64::from(height)).div_ceil(64);
         recorder.clear(bins);
         recorder.barrier();
-        recorder.dispatch(&self.count, groups);
+        let first = self.count.as_ref().unwrap_or(&self.scatter);
+        recorder.dispatch(first, groups);
         recorder.dispatch(&self.arguments, 1);
-        recorder.dispatch(&self.scatter, groups);
+        if self.count.is_some() {
+            recorder.dispatch(&self.scatter, groups);
+        }
     }
 }

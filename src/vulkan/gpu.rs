@@ -30,7 +30,7 @@ pub struct Limits {
     pub device_name: String,
     /// Name and version of the driver.
     pub driver: String,
-    /// Invocations in a subgroup, as every subgroup kernel is run: 4 to 32.
+    /// Invocations in a subgroup, as every subgroup kernel is run: 8, 16 or 32.
     pub subgroup_size: u32,
     /// Whether a compute pipeline can be told its subgroup size.
     pub can_require_subgroup_size: bool,
@@ -183,7 +183,7 @@ fn limits(instance: &ash::Instance, device: vk::PhysicalDevice, queue_family: u3
         ),
         subgroup_size: subgroup
             .subgroup_size
-            .min(32)
+            .clamp(8, 32)
             .clamp(control.min_subgroup_size, control.max_subgroup_size),
         can_require_subgroup_size: control
             .required_subgroup_size_stages

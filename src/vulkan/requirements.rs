@@ -26,7 +26,7 @@ pub enum Missing {
     #[error("subgroup {0} operations in compute shaders")]
     Subgroup(&'static str),
     /// Subgroups are too small or too large.
-    #[error("subgroups of 4 to 32 invocations (it has {0})")]
+    #[error("subgroups of 8 to 32 invocations (it has {0})")]
     SubgroupSize(u32),
     /// A format can't be used as needed.
     #[error("the format {0} as {1}")]
@@ -151,7 +151,7 @@ impl Requirements {
                 missing.push(Missing::Subgroup(name));
             }
         }
-        if size_control.min_subgroup_size > 32 || size_control.max_subgroup_size < 4 {
+        if size_control.min_subgroup_size > 32 || size_control.max_subgroup_size < 8 {
             missing.push(Missing::SubgroupSize(subgroup.subgroup_size));
         }
         for (format, name, flag, what) in BUFFER_FORMATS {

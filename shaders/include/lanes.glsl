@@ -1,0 +1,19 @@
+// Reductions over a subgroup of LANES invocations. Small subgroups are those of CPU devices, where a shuffle is
+// almost free and a built-in reduction is a loop; large ones have it in hardware.
+
+layout(constant_id = 1) const uint LANES = 8u;          // subgroup size
+const bool BY_SHUFFLE = LANES <= 8u;
+
+float lanes_add(float v) {
+    if (!BY_SHUFFLE) return subgroupAdd(v);
+    v += subgroupShuffleXor(v, 1u);
+    v += subgroupShuffleXor(v, 2u);
+    return v + subgroupShuffleXor(v, 4u);
+}
+
+uint lanes_min(uint v) {
+    if (!BY_SHUFFLE) return subgroupMin(v);
+    v = min(v, subgroupShuffleXor(v, 1u));
+    v = min(v, subgroupShuffleXor(v, 2u));
+    return min(v, subgroupShuffleXor(v, 4u));
+}
