@@ -90,7 +90,7 @@ fn panes_are_composited_from_the_farthest_to_the_nearest() {
         let grey = [0.25, 0.5, 0.125, 1.0];
         for (settings, back) in [
             (everywhere(SIZE, Pattern::Sobol, 16), clear),
-            (everywhere(SIZE, Pattern::Sobol, 100), grey),
+            (everywhere(SIZE, Pattern::Sobol, 37), grey),
             (none.clone(), clear),
             (none, grey),
         ] {

@@ -5,7 +5,7 @@ use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Material};
 
 use crate::meshes::{Depths, Random, delaunay, fan};
-use crate::stage::{Stage, camera, everywhere, flat, ids, on_gpu, seen_at};
+use crate::stage::{Stage, camera, everywhere, flat, on_gpu, seen_at};
 
 /// A stage of `count` random triangles in sixteen colours whose sums over samples are exact, so that the order of
 /// summation, which is that of IDs, does not show. `blend` of them let others through.
@@ -80,14 +80,14 @@ fn runs_give_the_same_bytes() {
 #[test]
 fn the_order_of_triangles_does_not_matter() {
     on_gpu(|gpu| {
-        let size = [64, 64];
-        for (blend, samples) in [(0, 1), (0, 64), (30, 16)] {
-            let stage = soup(2, size, 400, blend);
+        let size = [48, 48];
+        for (blend, samples) in [(0, 1), (0, 64), (30, 4)] {
+            let stage = soup(2, size, 200, blend);
             let settings = everywhere(size, Pattern::Sobol, samples);
             let first = stage.render(gpu, &settings);
-            for seed in 0..3 {
+            for seed in 0..2 {
                 let mut shuffled = stage.clone();
-                let (opaque, blended) = shuffled.triangles.split_at_mut(400 - blend);
+                let (opaque, blended) = shuffled.triangles.split_at_mut(200 - blend);
                 shuffle(opaque, seed);
                 shuffle(blended, seed);
                 let second = shuffled.render(gpu, &settings);
@@ -116,7 +116,7 @@ fn the_order_of_vertices_does_not_matter() {
                 for (index, triangle) in stage.triangles.iter_mut().enumerate() {
                     triangle.material = index % 16;
                 }
-                stage.render(gpu, &everywhere(size, Pattern::Sobol, 64))
+                stage.render(gpu, &everywhere(size, Pattern::Sobol, 32))
             });
             for image in &images[1..] {
                 assert_same(&images[0], image, &mesh.name);
@@ -142,13 +142,11 @@ fn with_less(gpu: &mut Headless, stage: &Stage, settings: &Settings) -> Vec<Rend
         match rendered {
             Ok(image) => {
                 let used = image.statistics.memory_bytes;
-                eprintln!("{limit:?} used {used} {} regions {} rounds", image.statistics.regions, image.statistics.rounds);
                 assert!(limit.is_none_or(|limit| used <= limit), "{used} of {limit:?}");
                 limit = Some(used * 3 / 4);
                 images.push(image);
             }
             Err(error) => {
-                eprintln!("{limit:?} {error}");
                 assert!(error.is_device_failure(), "{error}");
                 return images;
             }
@@ -156,40 +154,46 @@ fn with_less(gpu: &mut Headless, stage: &Stage, settings: &Settings) -> Vec<Rend
     }
 }
 
-/// Less memory means more rounds, and then more regions.
+/// Less memory means more rounds, and then more regions. Neither shows in a superpixel. Regions may show in the IDs of
+/// `raster`: the device rounds a vertex to 2^-8 pixel after it has been moved into the region.
 #[test]
-fn memory_does_not_matter_inside_superpixels() {
+fn memory_does_not_matter() {
     on_gpu(|gpu| {
         let size = [256, 192];
-        let stage = soup(4, size, 600, 0);
-        let settings = Settings {
-            shading: Shading::Sample,
-            ..everywhere(size, Pattern::Sobol, 64)
-        };
-        let images = with_less(gpu, &stage, &settings);
-        for image in &images[1..] {
-            let d = images[0].colors.iter().zip(&image.colors).filter(|(a, b)| a != b).count();
-            eprintln!("{d} differ, {} regions", image.statistics.regions);
-        }
-    });
-}
-
-#[test]
-fn memory_does_not_matter_to_what_is_detected() {
-    on_gpu(|gpu| {
-        let size = [256, 192];
-        let stage = soup(4, size, 600, 0);
-        let settings = Settings {
-            detection: Detection::Contrast,
-            attributes: true,
-            ..everywhere(size, Pattern::Sobol, 64)
-        };
-        let images = with_less(gpu, &stage, &settings);
-        for image in &images[1..] {
-            let d = images[0].colors.iter().zip(&image.colors).filter(|(a, b)| a != b).count();
-            let a = ids(&images[0]).iter().zip(ids(image)).filter(|(a, b)| **a != *b).count();
-            let s = images[0].attributes.iter().zip(&image.attributes).filter(|(a, b)| a.superpixel != b.superpixel).count();
-            eprintln!("{d} differ, {a} ids, {s} super, {} regions", image.statistics.regions);
+        let stage = soup(4, size, 500, 0);
+        for (detection, shading) in [
+            (Detection::Every, Shading::Sample),
+            (Detection::Contrast, Shading::Triangle),
+        ] {
+            let settings = Settings {
+                detection,
+                shading,
+                attributes: true,
+                ..everywhere(size, Pattern::Sobol, 64)
+            };
+            let images = with_less(gpu, &stage, &settings);
+            let [first, .., last] = &images[..] else {
+                panic!("{} images", images.len());
+            };
+            let [most, least] = [first, last].map(|image| &image.statistics);
+            assert!(least.memory_bytes * 3 < most.memory_bytes, "{least:?}");
+            assert!(least.regions > 1 && least.rounds > most.rounds, "{least:?}");
+            for image in &images[1..] {
+                let regions = image.statistics.regions;
+                if detection == Detection::Every || regions == 1 {
+                    assert_same(first, image, "less memory");
+                }
+                let mut others = 0;
+                for pixel in 0..first.colors.len() {
+                    let [a, b] = [first, image].map(|image| &image.attributes[pixel]);
+                    if a.id != b.id || a.superpixel != b.superpixel {
+                        others += 1;
+                    } else {
+                        assert_eq!(first.colors[pixel], image.colors[pixel], "pixel {pixel}");
+                    }
+                }
+                assert!(others == 0 || regions > 1 && others <= 8, "{others} pixels, {regions} regions");
+            }
         }
     });
 }

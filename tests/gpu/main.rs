@@ -5,12 +5,15 @@ mod coverage;
 mod detect;
 mod extremes;
 mod golden;
+#[path = "../common/golden.rs"]
+mod goldens;
 mod invariance;
 mod mask;
 #[path = "../common/meshes.rs"]
 mod meshes;
 mod methods;
 mod partition;
+mod scenes;
 mod stage;
 mod ties;
 mod twin;

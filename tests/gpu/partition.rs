@@ -8,14 +8,14 @@ use crate::stage::{Stage, everywhere, flat, on_gpu};
 
 /// Counts of samples, and the side of the image that they are taken in.
 const COUNTS: [(u32, u32); 8] = [
-    (1, 128),
+    (1, 64),
     (2, 64),
     (4, 64),
-    (16, 64),
-    (64, 64),
+    (16, 48),
+    (64, 32),
     (100, 32),
-    (256, 32),
-    (1024, 16),
+    (256, 16),
+    (1024, 8),
 ];
 
 /// Renders white tilings of one material over nothing; `check` gets each pixel.

@@ -222,7 +222,7 @@ impl Stage {
             origin: DVec3::ZERO,
             positions: self.triangles.iter().flat_map(|t| t.corners).collect(),
             streams: VertexStreams {
-                normals: vec![[0.0, 0.0, 1.0]; 3 * self.triangles.len()],
+                normals: self.triangles.iter().flat_map(|t| [normal(t); 3]).collect(),
                 tangents: Vec::new(),
                 uvs: match self.texture {
                     Some(_) => each(&|t, corner| [t.uvs[corner][0], t.uvs[corner][1], 0.0, 0.0]),
@@ -256,6 +256,12 @@ impl Stage {
         let mut frame = gpu.prepare(&prepared, settings).unwrap();
         gpu.render(&prepared, &mut frame, &camera()).unwrap()
     }
+}
+
+/// The unit normal of a triangle's front face; towards the camera where it has no area.
+fn normal(triangle: &Triangle) -> [f32; 3] {
+    let [a, b, c] = triangle.corners.map(Vec3::from_array);
+    (b - a).cross(c - a).normalize_or(Vec3::Z).to_array()
 }
 
 /// Three whole numbers from 1 to 4,095 that tell a triangle from others, as an unlit colour does: sums of them over up to
