@@ -1,20 +1,17 @@
 // spans: rows of 8 pixels, listed by material bin, for `shade`. A span stands in the list of every bin it shows.
 // Runs twice: COUNT, then SCATTER into `shade_order`; for a single bin SCATTER alone, which then counts too.
-// Reads: ids, triangles. Writes: bins, shade_order; the first run gives background pixels their colour and display code.
+// Reads: ids, triangles. Writes: bins, shade_order. Background stands in no list: its colour is filled in beforehand.
 //
 // Neighbouring invocations take neighbouring pixels, 8 times; then each takes one of the spans so seen.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
-#include "include/color.glsl"
 #include "include/lanes.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool SCATTER = false;
-layout(constant_id = 2) const bool DISPLAY_CODES = false;
-layout(constant_id = 3) const bool ONE_BIN = false;
+layout(constant_id = 2) const bool ONE_BIN = false;
 
 const uint NONE = ~0u;
-const bool FIRST_RUN = ONE_BIN || !SCATTER;
 
 // The least value of 8 neighbouring invocations.
 uint octet_min(uint v) {
@@ -28,7 +25,6 @@ void main() {
     uint columns = (frame.size.x + 7u) / 8u;
     uint span_count = columns * frame.size.y;
     uint first_span = (gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u) * 64u + gl_SubgroupID * LANES;
-    uint background_code = DISPLAY_CODES && FIRST_RUN ? display_code(frame.background) : 0u;
 
     uint bin[8];
     [[unroll]] for (uint s = 0u; s < 8u; s++) {
@@ -38,11 +34,6 @@ void main() {
         uint id = texelFetch(ids, ivec2(inside ? pixel : uvec2(0u)), 0).x;
         id = inside ? id : 0u;
         bin[s] = id == 0u ? NONE : ONE_BIN ? 0u : texelFetch(triangles, int(id - 1u)).w >> 16 & 0x7fffu;
-        if (FIRST_RUN && inside && id == 0u) {
-            int at = int(pixel.y * frame.size.x + pixel.x);
-            imageStore(color, at, frame.background);
-            if (DISPLAY_CODES) imageStore(display_out, at, uvec4(background_code));
-        }
     }
 
     // This invocation's span was seen in step `my_step` by the invocations from `my_source` on.
@@ -62,7 +53,7 @@ void main() {
         uvec4 together = subgroupBallot(more && mine == current);
         uint n = subgroupBallotBitCount(together), base = 0u;
         if (subgroupElect() && more) {
-            if (FIRST_RUN) base = atomicAdd(bins[current].x, n);
+            if (ONE_BIN || !SCATTER) base = atomicAdd(bins[current].x, n);
             else base = atomicAdd(bins[current].z, n);
         }
         base = subgroupBroadcastFirst(base);

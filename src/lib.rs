@@ -3,6 +3,8 @@
 #![warn(missing_docs)]
 
 pub mod camera;
+pub mod compare;
+pub mod output;
 pub mod passes;
 pub mod reference;
 pub mod render;

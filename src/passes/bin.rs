@@ -16,8 +16,9 @@ impl Bin {
     /// # Errors
     /// If the driver refuses one.
     pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
-        let make =
-            |code, constants| compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, None);
+        let make = |code, constants| {
+            compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, None)
+        };
         Ok(Self {
             arguments: make(spirv::ARGUMENTS, Constants::new().with(0, 1))?,
             small: make(spirv::BIN, Constants::new().flag(0, false))?,

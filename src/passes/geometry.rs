@@ -122,7 +122,8 @@ impl Uploader<'_> {
         let usage = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
         let format = vk::Format::R32_UINT;
         let mut view =
-            self.memory.texel_buffer(name, data.len() as u64, format, usage, MemoryUse::Device)?;
+            self.memory
+                .texel_buffer(name, data.len() as u64, format, usage, MemoryUse::Device)?;
         self.fill(name, &mut view.buffer, bytemuck::cast_slice(data))?;
         Ok(view)
     }
@@ -299,7 +300,11 @@ impl GpuScene {
                 clip_usage,
                 MemoryUse::Device,
             )?,
-            materials: uploader.texels("materials", vk::Format::R32G32B32A32_UINT, bytemuck::cast_slice(&materials))?,
+            materials: uploader.texels(
+                "materials",
+                vk::Format::R32G32B32A32_UINT,
+                bytemuck::cast_slice(&materials),
+            )?,
             lights: uploader.storage("lights", bytemuck::cast_slice(&lights))?,
             alpha_atlas: uploader.words("alpha atlas", &atlas.words)?,
             bins,

@@ -249,8 +249,16 @@ mod tests {
     fn host_structs_are_the_shaders() {
         let text = include_str!("../../shaders/include/material.glsl");
         let vector = |name: &str| -> usize {
-            let line = text.lines().find(|line| line.starts_with(&format!("#define {name} "))).unwrap();
-            line.split_whitespace().nth(2).unwrap().trim_end_matches('u').parse().unwrap()
+            let line = text
+                .lines()
+                .find(|line| line.starts_with(&format!("#define {name} ")))
+                .unwrap();
+            line.split_whitespace()
+                .nth(2)
+                .unwrap()
+                .trim_end_matches('u')
+                .parse()
+                .unwrap()
         };
         macro_rules! check {
             ($($name:literal = $field:ident),*) => {
@@ -266,7 +274,13 @@ mod tests {
         );
         assert_eq!(vector("MATERIAL_VECTORS") * 16, size_of::<GpuMaterial>());
         let text = include_str!("../../shaders/include/frame.glsl");
-        let light = text.split("struct Light {").nth(1).unwrap().split("};").next().unwrap();
+        let light = text
+            .split("struct Light {")
+            .nth(1)
+            .unwrap()
+            .split("};")
+            .next()
+            .unwrap();
         assert_eq!(light.matches("vec4 ").count() * 16, size_of::<GpuLight>());
     }
 }

@@ -283,6 +283,41 @@ impl Resources {
         }
     }
 
+    /// Fills the first `pixels` pixels with the background, premultiplied as in the output, and its display code.
+    pub(crate) fn record_background(
+        &self,
+        recorder: &Recorder<'_>,
+        pixels: u32,
+        background: [f32; 4],
+        code: u32,
+    ) {
+        /// Pixels written inline; the rest is copied from what is there, twice as much each time.
+        const SEED: u64 = 4096;
+        let (device, raw) = (recorder.device(), recorder.raw());
+        let (color, display) = (self.color.buffer.raw, self.display.buffer.raw);
+        let total = u64::from(pixels);
+        // SAFETY: the recorder's contract; the seed has the 65,536 bytes that an inline update can have, sizes are
+        // multiples of 4, and each copy reads what the copies before it wrote and writes past it.
+        unsafe {
+            device.cmd_fill_buffer(raw, display, 0, vk::WHOLE_SIZE, code);
+            if background == [0.0; 4] {
+                device.cmd_fill_buffer(raw, color, 0, vk::WHOLE_SIZE, 0);
+            } else {
+                let mut filled = SEED.min(total);
+                let seed = vec![background; filled as usize];
+                device.cmd_update_buffer(raw, color, 0, bytemuck::cast_slice(&seed));
+                while filled < total {
+                    recorder.barrier();
+                    let size = filled.min(total - filled) * 16;
+                    let part = [vk::BufferCopy::default().dst_offset(filled * 16).size(size)];
+                    device.cmd_copy_buffer(raw, color, color, &part);
+                    filled = (2 * filled).min(total);
+                }
+            }
+        }
+        recorder.barrier();
+    }
+
     fn write(&self, set: &SampleSet, scene: &GpuScene, targets: &RasterTargets) {
         let texel = |binding: u32, view: &BufferView, storage: bool| (binding, view.view, storage);
         let texel_writes = [

@@ -14,8 +14,13 @@ impl Setup {
     /// # Errors
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
-        let pipeline =
-            compute_pipeline(&layout.gpu, layout.pipeline, spirv::SETUP, &Constants::new(), None)?;
+        let pipeline = compute_pipeline(
+            &layout.gpu,
+            layout.pipeline,
+            spirv::SETUP,
+            &Constants::new(),
+            None,
+        )?;
         Ok(Self { pipeline })
     }
 

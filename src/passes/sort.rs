@@ -16,8 +16,9 @@ impl Sort {
     /// # Errors
     /// If the driver refuses one.
     pub fn new(layout: &FrameLayout, one_bin: bool) -> Result<Self, VulkanError> {
-        let make =
-            |code, constants| compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, None);
+        let make = |code, constants| {
+            compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, None)
+        };
         let before = make(spirv::ARGUMENTS, Constants::new().with(0, 2))?;
         let passes = if one_bin {
             None

@@ -3,7 +3,7 @@
 use super::{FrameLayout, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
 
-/// Lists what of a region is to be shaded; background pixels get their colour.
+/// Lists what of a region is to be shaded.
 pub struct Spans {
     /// Not needed for a single bin.
     count: Option<Pipeline>,
@@ -12,24 +12,17 @@ pub struct Spans {
 }
 
 impl Spans {
-    /// Makes the pipelines; `output` are the colour constants of `shaders/include/color.glsl`.
+    /// Makes the pipelines.
     ///
     /// # Errors
     /// If the driver refuses one.
-    pub fn new(
-        layout: &FrameLayout,
-        one_bin: bool,
-        display_codes: bool,
-        output: &Constants,
-    ) -> Result<Self, VulkanError> {
+    pub fn new(layout: &FrameLayout, one_bin: bool) -> Result<Self, VulkanError> {
         let lanes = layout.gpu.limits().subgroup_size;
         let spans = |scatter| {
-            let constants = output
-                .clone()
+            let constants = Constants::new()
                 .flag(0, scatter)
                 .with(1, lanes)
-                .flag(2, display_codes)
-                .flag(3, one_bin);
+                .flag(2, one_bin);
             let code = spirv::SPANS;
             compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, Some(lanes))
         };

@@ -137,7 +137,7 @@ impl Frame {
         } else {
             let display_codes = detects;
             Some(PixelShading {
-                spans: Spans::new(layout, scene.bin_count() == 1, display_codes, &output)?,
+                spans: Spans::new(layout, scene.bin_count() == 1)?,
                 shade: Shade::new(
                     layout,
                     scene,
@@ -440,6 +440,9 @@ impl Passes<'_> {
         );
         recorder.mark("raster");
         if let Some(PixelShading { spans, shade }) = self.pixels {
+            let background = whole.background;
+            resources.record_background(recorder, pixels, background, display_code(background));
+            recorder.mark("background");
             spans.record(recorder, &resources.bins, [width, height]);
             recorder.mark("spans");
             shade.record(recorder, scene, &resources.arguments);
@@ -644,6 +647,18 @@ impl Passes<'_> {
             padding: [0; 2],
         }
     }
+}
+
+/// The 8-bit sRGB codes of a premultiplied colour, as `display_code` of `shaders/include/color.glsl` packs them.
+fn display_code(color: [f32; 4]) -> u32 {
+    let [r, g, b, a] = color.map(f64::from);
+    let rgb = [r, g, b].map(crate::reference::srgb::encode_u8);
+    u32::from_le_bytes([
+        rgb[0],
+        rgb[1],
+        rgb[2],
+        (a.clamp(0.0, 1.0) * 255.0).round() as u8,
+    ])
 }
 
 /// Copies (from, to, bytes) between buffers.

@@ -1,0 +1,27 @@
+//! Writes the small scenes of `assets/`.
+//!
+//! ```text
+//! cargo run --release --example generate_assets [FOLDER]
+//! ```
+//!
+//! Each scene holds something that aliases at one sample a pixel. The generator has no
+//! randomness of its own: the same sources write the same bytes, which `tests/assets.rs` checks.
+
+mod scenes;
+
+use std::path::PathBuf;
+
+fn main() -> std::io::Result<()> {
+    let folder = std::env::args_os().nth(1).map_or_else(
+        || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("assets"),
+        PathBuf::from,
+    );
+    std::fs::create_dir_all(&folder)?;
+    for (name, build) in scenes::ALL {
+        let bytes = build();
+        let path = folder.join(name);
+        std::fs::write(&path, &bytes)?;
+        println!("{} {} bytes", path.display(), bytes.len());
+    }
+    Ok(())
+}

@@ -1,0 +1,313 @@
+//! Writes binary glTF (glTF 2.0, section 4).
+
+use super::mesh::Mesh;
+use glam::{DMat3, DQuat, DVec3};
+use serde_json::{Map, Value, json};
+
+const ARRAY_BUFFER: u32 = 34962;
+const ELEMENT_ARRAY_BUFFER: u32 = 34963;
+const UNSIGNED_SHORT: u32 = 5123;
+const UNSIGNED_INT: u32 = 5125;
+const FLOAT: u32 = 5126;
+
+/// The accessors of one mesh's triangles, to be used with any material.
+#[derive(Clone, Copy)]
+pub struct Surface {
+    positions: usize,
+    normals: usize,
+    uvs: Option<usize>,
+    indices: usize,
+}
+
+/// Where a node stands.
+#[derive(Clone, Copy)]
+pub struct Placement {
+    pub translation: DVec3,
+    pub rotation: DQuat,
+    pub scale: DVec3,
+}
+
+impl Placement {
+    /// At a point, neither turned nor scaled.
+    pub fn at(translation: DVec3) -> Self {
+        Self {
+            translation,
+            rotation: DQuat::IDENTITY,
+            scale: DVec3::ONE,
+        }
+    }
+}
+
+/// A glTF file under construction; every method that adds something returns its index.
+#[derive(Default)]
+pub struct Builder {
+    lists: Map<String, Value>,
+    lights: Vec<Value>,
+    binary: Vec<u8>,
+}
+
+impl Builder {
+    fn push(&mut self, list: &str, value: Value) -> usize {
+        let entry = self.lists.entry(list).or_insert_with(|| json!([]));
+        let items = entry.as_array_mut().expect("every list is an array");
+        items.push(value);
+        items.len() - 1
+    }
+
+    fn view(&mut self, bytes: &[u8], target: Option<u32>) -> usize {
+        let offset = self.binary.len();
+        self.binary.extend_from_slice(bytes);
+        self.binary.resize(self.binary.len().next_multiple_of(4), 0);
+        let mut view = json!({ "buffer": 0, "byteOffset": offset, "byteLength": bytes.len() });
+        if let Some(target) = target {
+            view["target"] = json!(target);
+        }
+        self.push("bufferViews", view)
+    }
+
+    fn floats<const N: usize>(&mut self, values: &[[f32; N]], bounds: bool) -> usize {
+        let bytes: Vec<_> = values
+            .iter()
+            .flatten()
+            .flat_map(|v| v.to_le_bytes())
+            .collect();
+        let view = self.view(&bytes, Some(ARRAY_BUFFER));
+        let mut accessor = json!({
+            "bufferView": view, "componentType": FLOAT, "count": values.len(), "type": format!("VEC{N}"),
+        });
+        if bounds {
+            let fold = |pick: fn(f32, f32) -> f32| {
+                let mut all = values[0];
+                for value in values {
+                    all = std::array::from_fn(|i| pick(all[i], value[i]));
+                }
+                all.to_vec()
+            };
+            accessor["min"] = json!(fold(f32::min));
+            accessor["max"] = json!(fold(f32::max));
+        }
+        self.push("accessors", accessor)
+    }
+
+    fn indices(&mut self, indices: &[u32]) -> usize {
+        // 65,535 itself is the primitive restart value.
+        let narrow = indices.iter().all(|&i| i < u32::from(u16::MAX));
+        let (bytes, kind): (Vec<_>, _) = if narrow {
+            let bytes = indices.iter().flat_map(|&i| (i as u16).to_le_bytes());
+            (bytes.collect(), UNSIGNED_SHORT)
+        } else {
+            let bytes = indices.iter().flat_map(|i| i.to_le_bytes());
+            (bytes.collect(), UNSIGNED_INT)
+        };
+        let view = self.view(&bytes, Some(ELEMENT_ARRAY_BUFFER));
+        let count = indices.len();
+        self.push(
+            "accessors",
+            json!({ "bufferView": view, "componentType": kind, "count": count, "type": "SCALAR" }),
+        )
+    }
+
+    /// Stores the vertices and indices of a mesh.
+    pub fn surface(&mut self, mesh: &Mesh) -> Surface {
+        let narrow = |v: &DVec3| v.as_vec3().to_array();
+        let positions: Vec<_> = mesh.positions.iter().map(narrow).collect();
+        let normals: Vec<_> = mesh.normals.iter().map(narrow).collect();
+        let uvs: Vec<_> = mesh.uvs.iter().map(|v| v.as_vec2().to_array()).collect();
+        Surface {
+            positions: self.floats(&positions, true),
+            normals: self.floats(&normals, false),
+            uvs: (!uvs.is_empty()).then(|| self.floats(&uvs, false)),
+            indices: self.indices(&mesh.indices),
+        }
+    }
+
+    /// A mesh of surfaces, each with its material.
+    pub fn mesh(&mut self, parts: &[(Surface, usize)]) -> usize {
+        let primitives: Vec<_> = parts
+            .iter()
+            .map(|(surface, material)| {
+                let mut attributes =
+                    json!({ "POSITION": surface.positions, "NORMAL": surface.normals });
+                if let Some(uvs) = surface.uvs {
+                    attributes["TEXCOORD_0"] = json!(uvs);
+                }
+                json!({ "attributes": attributes, "indices": surface.indices, "material": material })
+            })
+            .collect();
+        self.push("meshes", json!({ "primitives": primitives }))
+    }
+
+    /// A material as glTF writes it.
+    pub fn material(&mut self, material: Value) -> usize {
+        self.push("materials", material)
+    }
+
+    /// An opaque dielectric without textures; `color` is sRGB.
+    pub fn paint(&mut self, name: &str, color: [u8; 3], roughness: f64) -> usize {
+        let [r, g, b] = color.map(linear);
+        self.material(json!({
+            "name": name,
+            "pbrMetallicRoughness": {
+                "baseColorFactor": [r, g, b, 1.0], "metallicFactor": 0.0, "roughnessFactor": roughness,
+            },
+        }))
+    }
+
+    /// A texture from an encoded PNG; trilinear, repeating where `repeat` is set, else clamped.
+    pub fn texture(&mut self, png: &[u8], repeat: bool) -> usize {
+        let view = self.view(png, None);
+        let image = self.push(
+            "images",
+            json!({ "bufferView": view, "mimeType": "image/png" }),
+        );
+        let wrap = if repeat { 10497 } else { 33071 };
+        let sampler = self.push(
+            "samplers",
+            json!({ "magFilter": 9729, "minFilter": 9987, "wrapS": wrap, "wrapT": wrap }),
+        );
+        self.push("textures", json!({ "source": image, "sampler": sampler }))
+    }
+
+    /// Places a mesh in the scene.
+    pub fn place(&mut self, mesh: usize, placement: Placement) {
+        let mut node = json!({ "mesh": mesh });
+        if placement.translation != DVec3::ZERO {
+            node["translation"] = narrow(&placement.translation.to_array());
+        }
+        if placement.rotation != DQuat::IDENTITY {
+            node["rotation"] = narrow(&placement.rotation.to_array());
+        }
+        if placement.scale != DVec3::ONE {
+            node["scale"] = narrow(&placement.scale.to_array());
+        }
+        self.push("nodes", node);
+    }
+
+    fn camera(&mut self, name: &str, eye: DVec3, target: DVec3, camera: Value) {
+        let camera = self.push("cameras", camera);
+        self.push("nodes", json!({
+            "name": name, "camera": camera,
+            "translation": narrow(&eye.to_array()), "rotation": narrow(&look(target - eye).to_array()),
+        }));
+    }
+
+    /// A perspective camera with an infinite far plane; `fov` is vertical, in degrees.
+    pub fn perspective(&mut self, name: &str, eye: DVec3, target: DVec3, fov: f64) {
+        let yfov = narrow(&[fov.to_radians()])[0].clone();
+        self.camera(
+            name,
+            eye,
+            target,
+            json!({ "type": "perspective", "perspective": { "yfov": yfov, "znear": 0.05 } }),
+        );
+    }
+
+    /// An orthographic camera that shows `height` at 16:9.
+    pub fn orthographic(&mut self, name: &str, eye: DVec3, target: DVec3, height: f64) {
+        let ymag = height / 2.0;
+        self.camera(
+            name,
+            eye,
+            target,
+            json!({ "type": "orthographic", "orthographic": {
+                "xmag": ymag * 16.0 / 9.0, "ymag": ymag, "znear": 0.05, "zfar": 100.0,
+            } }),
+        );
+    }
+
+    /// A directional light that travels along `direction`; intensity in lux.
+    pub fn sun(&mut self, name: &str, direction: DVec3, color: [f64; 3], intensity: f64) {
+        self.lights.push(json!({
+            "name": name, "type": "directional", "color": narrow(&color), "intensity": intensity,
+        }));
+        let light = self.lights.len() - 1;
+        self.push(
+            "nodes",
+            json!({
+                "name": name, "rotation": narrow(&look(direction).to_array()),
+                "extensions": { "KHR_lights_punctual": { "light": light } },
+            }),
+        );
+    }
+
+    /// Late-morning light: a warm sun over the right shoulder, and cool light from the sky and the ground.
+    pub fn daylight(&mut self) {
+        self.sun(
+            "sun",
+            DVec3::new(-0.55, -0.75, -0.5),
+            [1.0, 0.94, 0.84],
+            2.6,
+        );
+        self.sun("sky", DVec3::new(0.5, -0.8, 0.3), [0.72, 0.84, 1.0], 0.9);
+        self.sun("bounce", DVec3::new(0.3, 0.5, -0.8), [1.0, 0.96, 0.9], 0.45);
+    }
+
+    /// The file's bytes.
+    pub fn finish(mut self, title: &str) -> Vec<u8> {
+        let nodes = self.lists.get("nodes").and_then(Value::as_array);
+        let roots: Vec<_> = (0..nodes.map_or(0, Vec::len)).collect();
+        let document = &mut self.lists;
+        document.insert(
+            "asset".into(),
+            json!({ "version": "2.0", "generator": "gpc generate_assets", "extras": { "title": title } }),
+        );
+        document.insert("scene".into(), json!(0));
+        document.insert("scenes".into(), json!([{ "name": title, "nodes": roots }]));
+        document.insert(
+            "buffers".into(),
+            json!([{ "byteLength": self.binary.len() }]),
+        );
+        if !self.lights.is_empty() {
+            document.insert("extensionsUsed".into(), json!(["KHR_lights_punctual"]));
+            document.insert(
+                "extensions".into(),
+                json!({ "KHR_lights_punctual": { "lights": self.lights } }),
+            );
+        }
+        let mut text = Value::Object(self.lists).to_string().into_bytes();
+        text.resize(text.len().next_multiple_of(4), b' ');
+        let mut file = Vec::with_capacity(28 + text.len() + self.binary.len());
+        let word = |file: &mut Vec<u8>, value: usize| {
+            file.extend((value as u32).to_le_bytes());
+        };
+        file.extend(b"glTF");
+        word(&mut file, 2);
+        word(&mut file, 28 + text.len() + self.binary.len());
+        word(&mut file, text.len());
+        file.extend(b"JSON");
+        file.extend(text);
+        word(&mut file, self.binary.len());
+        file.extend(b"BIN\0");
+        file.extend(self.binary);
+        file
+    }
+}
+
+/// Numbers in seven decimals, about what a reader's f32 keeps of them.
+fn narrow(values: &[f64]) -> Value {
+    let round = |v: &f64| (v * 1e7).round() / 1e7 + 0.0;
+    json!(values.iter().map(round).collect::<Vec<_>>())
+}
+
+/// The rotation that turns a node's -z axis to `direction`, its y axis upward.
+fn look(direction: DVec3) -> DQuat {
+    let back = -direction.normalize();
+    let helper = if back.y.abs() > 0.999 {
+        DVec3::X
+    } else {
+        DVec3::Y
+    };
+    let right = helper.cross(back).normalize();
+    DQuat::from_mat3(&DMat3::from_cols(right, back.cross(right), back))
+}
+
+/// sRGB to linear (IEC 61966-2-1), in three digits, which is finer than a byte needs.
+pub fn linear(value: u8) -> f64 {
+    let v = f64::from(value) / 255.0;
+    let linear = if v <= 0.040_45 {
+        v / 12.92
+    } else {
+        ((v + 0.055) / 1.055).powf(2.4)
+    };
+    (linear * 1000.0).round() / 1000.0
+}

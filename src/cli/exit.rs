@@ -1,0 +1,80 @@
+//! Exit codes.
+
+use gpc::render::RenderError;
+use gpc::scene::SceneError;
+use gpc::vulkan::VulkanError;
+
+const FAILURE: u8 = 1;
+const USAGE: u8 = 2;
+const DEVICE_FAILURE: u8 = 4;
+
+/// No device is suitable.
+pub const NO_DEVICE: u8 = 3;
+/// A comparison is over its bound.
+pub const OVER_BOUND: u8 = 5;
+
+/// The command was asked for what it can't do.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct Usage(pub String);
+
+/// Stops with a usage error.
+macro_rules! usage {
+    ($($text:tt)*) => {
+        return Err($crate::cli::exit::Usage(format!($($text)*)).into())
+    };
+}
+pub(crate) use usage;
+
+/// The exit code for an error.
+pub fn code(error: &anyhow::Error) -> u8 {
+    error
+        .chain()
+        .find_map(|cause| {
+            if cause.is::<Usage>() {
+                Some(USAGE)
+            } else if let Some(error) = cause.downcast_ref::<RenderError>() {
+                Some(of_render(error))
+            } else if let Some(error) = cause.downcast_ref::<VulkanError>() {
+                Some(of_vulkan(error))
+            } else {
+                cause.downcast_ref::<SceneError>().map(of_scene)
+            }
+        })
+        .unwrap_or(FAILURE)
+}
+
+fn of_render(error: &RenderError) -> u8 {
+    match error {
+        RenderError::Vulkan(error) => of_vulkan(error),
+        error if error.is_usage() => USAGE,
+        error if error.is_device_failure() => DEVICE_FAILURE,
+        _ => FAILURE,
+    }
+}
+
+fn of_vulkan(error: &VulkanError) -> u8 {
+    match error {
+        VulkanError::NoLoader(_) | VulkanError::NoDevice { .. } | VulkanError::Missing { .. } => {
+            NO_DEVICE
+        }
+        error if error.is_device_failure() => DEVICE_FAILURE,
+        _ => FAILURE,
+    }
+}
+
+fn of_scene(error: &SceneError) -> u8 {
+    match error {
+        SceneError::NoSuchScene { .. } | SceneError::NoSuchAnimation { .. } => USAGE,
+        _ => FAILURE,
+    }
+}
+
+/// Whether whoever read our standard output has had enough, as `head` does.
+pub fn is_closed_pipe(error: &anyhow::Error) -> bool {
+    error.chain().any(|cause| {
+        cause
+            .downcast_ref::<std::io::Error>()
+            .is_some_and(|error| error.kind() == std::io::ErrorKind::BrokenPipe)
+    })
+}

@@ -1,0 +1,105 @@
+//! `gpc info`.
+
+use super::{input, print};
+use clap::Args;
+use gpc::scene::SceneInfo;
+use serde::Serialize;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Says what a scene holds.
+#[derive(Args)]
+pub struct InfoArgs {
+    /// A .glb or .gltf file, or - for standard input
+    scene: PathBuf,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Serialize)]
+struct Report<'a> {
+    #[serde(flatten)]
+    info: &'a SceneInfo,
+    warnings: &'a [String],
+}
+
+pub fn run(args: &InfoArgs) -> anyhow::Result<ExitCode> {
+    let loaded = input::load(&args.scene)?;
+    for warning in &loaded.warnings {
+        log::warn!("{warning}");
+    }
+    let info = loaded.scene.info();
+    if args.json {
+        print::json(&Report {
+            info: &info,
+            warnings: &loaded.warnings,
+        })?;
+    } else {
+        print::line(&text(&info))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn text(info: &SceneInfo) -> String {
+    let name = |name: &Option<String>| name.clone().unwrap_or_else(|| "(unnamed)".to_owned());
+    let list = |items: Vec<String>| {
+        if items.is_empty() {
+            "none".to_owned()
+        } else {
+            items.join(", ")
+        }
+    };
+    let numbered = |items: Vec<String>| {
+        let items = items.iter().enumerate();
+        list(items.map(|(i, item)| format!("{i} {item}")).collect())
+    };
+    let generator = info.generator.as_deref().unwrap_or("an unnamed program");
+    let cameras = info.cameras.iter();
+    let animations = info.animations.iter();
+    let images = info.images.iter();
+    [
+        format!("glTF {} by {generator}", info.version),
+        format!(
+            "scenes      {}",
+            numbered(info.scenes.names.iter().map(name).collect())
+        ),
+        format!(
+            "geometry    {} triangles in {} primitives, {} meshes, {} nodes",
+            info.triangles, info.primitives, info.meshes, info.nodes
+        ),
+        format!(
+            "materials   {} opaque, {} mask, {} blend",
+            info.materials.opaque, info.materials.mask, info.materials.blend
+        ),
+        format!(
+            "images      {}",
+            list(
+                images
+                    .map(|image| format!("{}x{}", image.width, image.height))
+                    .collect()
+            )
+        ),
+        format!(
+            "cameras     {}",
+            numbered(
+                cameras
+                    .map(|camera| format!("{} ({})", name(&camera.name), camera.kind))
+                    .collect()
+            )
+        ),
+        format!(
+            "animations  {}",
+            numbered(
+                animations
+                    .map(|a| format!("{} ({:.3} s)", name(&a.name), a.duration))
+                    .collect()
+            )
+        ),
+        format!("lights      {}", info.lights),
+        format!("skins       {}", info.skins),
+        format!("extensions  {}", list(info.extensions_used.clone())),
+        format!("required    {}", list(info.extensions_required.clone())),
+    ]
+    .join("\n")
+}

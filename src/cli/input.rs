@@ -1,0 +1,39 @@
+//! Scenes from files and from standard input.
+
+use anyhow::Context;
+use gpc::scene::{Loaded, Scene};
+use std::io::Read;
+use std::path::Path;
+
+/// Whether a path stands for standard input or output.
+pub fn is_standard(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// Loads a scene; `-` is standard input, whose relative URIs start from the working folder.
+pub fn load(path: &Path) -> anyhow::Result<Loaded> {
+    if !is_standard(path) {
+        return Ok(Scene::load(path)?);
+    }
+    let mut bytes = Vec::new();
+    std::io::stdin()
+        .lock()
+        .read_to_end(&mut bytes)
+        .context("standard input can't be read")?;
+    Ok(Scene::from_slice(
+        &bytes,
+        "standard input",
+        Some(Path::new(".")),
+    )?)
+}
+
+/// The scene's name for file names: its file's without the extension.
+pub fn stem(path: &Path) -> String {
+    if is_standard(path) {
+        return "stdin".to_owned();
+    }
+    path.file_stem().map_or_else(
+        || "scene".to_owned(),
+        |stem| stem.to_string_lossy().into_owned(),
+    )
+}

@@ -1,0 +1,83 @@
+//! The command line: one module for each subcommand.
+
+mod compare;
+mod devices;
+mod exit;
+mod info;
+mod input;
+mod print;
+mod render;
+mod values;
+
+use clap::{Parser, Subcommand};
+use std::io::Write;
+use std::process::ExitCode;
+
+/// Renders glTF scenes and antialiases only where an image aliases, with up to 1,024 samples in a pixel.
+#[derive(Parser)]
+#[command(name = "gpc", version, arg_required_else_help = true, after_help = AFTER_HELP)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const AFTER_HELP: &str = "\
+Exit codes:
+  0  done
+  1  scene, render or file error
+  2  usage
+  3  no suitable device
+  4  device lost or out of memory
+  5  comparison over its bound
+
+Environment:
+  RUST_LOG=debug    say more on standard error
+  GPC_VALIDATION=1  render under the Vulkan validation layer; any message of it is an error";
+
+#[derive(Subcommand)]
+enum Command {
+    /// Render a scene to image files
+    Render(Box<render::RenderArgs>),
+    /// Compare two images
+    Compare(compare::CompareArgs),
+    /// Say what a scene holds
+    Info(info::InfoArgs),
+    /// List the Vulkan devices, and what they lack
+    Devices(devices::DevicesArgs),
+}
+
+/// Runs the command that the process was started with.
+pub fn run() -> ExitCode {
+    // Wrong usage ends here with exit code 2.
+    let command = Cli::parse().command;
+    let quiet = matches!(&command, Command::Render(args) if args.quiet);
+    start_log(quiet);
+    let done = match command {
+        Command::Render(args) => render::run(&args),
+        Command::Compare(args) => compare::run(&args),
+        Command::Info(args) => info::run(&args),
+        Command::Devices(args) => devices::run(&args),
+    };
+    match done {
+        Ok(code) => code,
+        Err(error) if exit::is_closed_pipe(&error) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::from(exit::code(&error))
+        }
+    }
+}
+
+fn start_log(quiet: bool) {
+    let level = if quiet { "error" } else { "info" };
+    env_logger::Builder::from_env(env_logger::Env::default().default_filter_or(level))
+        .format(|out, record| {
+            let text = record.args();
+            match record.level() {
+                log::Level::Info => writeln!(out, "{text}"),
+                log::Level::Warn => writeln!(out, "warning: {text}"),
+                level => writeln!(out, "{}: {text}", level.as_str().to_lowercase()),
+            }
+        })
+        .init();
+}

@@ -1,0 +1,224 @@
+//! The options of `gpc render`.
+
+use crate::cli::values::{self, Background};
+use clap::{Args, ValueEnum};
+use glam::DVec3;
+use gpc::output::AovKind;
+use gpc::render::{Detection, Method, Settings, Shading};
+use gpc::sampling::Pattern;
+use std::ops::RangeInclusive;
+use std::path::PathBuf;
+
+/// Renders a scene to image files.
+///
+/// OUT's ending decides the format: .png (8 bits a channel), .16.png (16 bits), .jpg or .jpeg (over black where
+/// there is no background, quality 95) and .exr (scene-linear, premultiplied, not tone-mapped, 32-bit floats). It may
+/// hold {stem} (the scene's name), {camera} (the camera's name, or its index) and {frame} (four digits or more).
+/// Files are written under a temporary name and renamed.
+#[derive(Args)]
+pub struct RenderArgs {
+    /// A .glb or .gltf file, or - for standard input
+    pub scene: PathBuf,
+    /// Image to write, or - for a PNG on standard output
+    #[arg(short, long, value_name = "OUT")]
+    pub output: PathBuf,
+
+    /// Width and height in pixels
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = values::size)]
+    pub size: [u32; 2],
+    /// Linear factor on the light, in stops
+    #[arg(long, value_name = "EV", default_value_t = 0.0, allow_negative_numbers = true, value_parser = values::finite)]
+    pub exposure: f64,
+    /// How radiance becomes display colour: Khronos PBR Neutral, or clamped [default: neutral; none for .exr]
+    #[arg(long)]
+    pub tonemap: Option<Tonemap>,
+    /// Colour behind the scene: none (transparent), sRGB R,G,B of 0 to 1, or #rrggbb
+    #[arg(long, value_name = "COLOUR", default_value = "none", value_parser = values::background)]
+    pub background: Background,
+    /// More of each pixel: depth, id, normal, superpixels, samples. Layers of an EXR; otherwise PNG files beside OUT,
+    /// named like it with .depth and so on before .png
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub aov: Vec<AovKind>,
+
+    #[command(flatten)]
+    pub sampling: SamplingArgs,
+    #[command(flatten)]
+    pub camera: CameraArgs,
+    #[command(flatten)]
+    pub sequence: SequenceArgs,
+
+    /// Part of the device's name, in upper or lower case [default: the best device]
+    #[arg(long, value_name = "NAME", help_heading = "Device")]
+    pub device: Option<String>,
+    /// Bound on device memory, such as 512M or 2G
+    #[arg(long, value_name = "BYTES", value_parser = values::bytes, help_heading = "Device")]
+    pub max_memory: Option<u64>,
+
+    /// Render once to warm up and then R times, and report medians
+    #[arg(long, value_name = "R", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Report")]
+    pub repeat: Option<u32>,
+    /// Print one JSON object: figures of the image, or `images`, a list of them, for a sequence
+    #[arg(long, help_heading = "Report")]
+    pub json: bool,
+    /// Say nothing but errors
+    #[arg(long, help_heading = "Report")]
+    pub quiet: bool,
+}
+
+/// How edges are antialiased.
+#[derive(Args)]
+#[command(next_help_heading = "Antialiasing")]
+pub struct SamplingArgs {
+    /// Method
+    #[arg(long, default_value = "superpixel")]
+    pub aa: Antialiasing,
+    /// Samples a pixel: 1 to 1024 for superpixel, a square for ssaa, what the device has for msaa
+    /// [default: 64; 4 for msaa]
+    #[arg(long, value_name = "N")]
+    samples: Option<u32>,
+    /// Differences of neighbours above this are a contrast, in 8-bit sRGB code values
+    #[arg(long, value_name = "T", default_value_t = Settings::DEFAULT_CONTRAST)]
+    pub contrast: u8,
+    /// What makes a pixel a superpixel: a neighbour of another triangle and contrasting colour, of another triangle,
+    /// or of contrasting colour
+    #[arg(long, default_value = "contrast")]
+    pub detect: Detect,
+    /// Where a superpixel's samples lie: sobol, lattice, korobov, grid or rotated
+    #[arg(long, value_name = "P", default_value = "sobol")]
+    pub pattern: Pattern,
+    /// Shade a superpixel once for each visible triangle, or once a sample
+    #[arg(long, default_value = "triangle")]
+    pub shading: ShadingRate,
+}
+
+impl SamplingArgs {
+    /// The number of samples asked for, or the method's default.
+    pub fn samples(&self) -> u32 {
+        self.samples.unwrap_or(match self.aa {
+            Antialiasing::None => 1,
+            Antialiasing::Msaa => 4,
+            Antialiasing::Superpixel | Antialiasing::Ssaa => Settings::DEFAULT_SAMPLES,
+        })
+    }
+}
+
+/// Where the scene is seen from, and when.
+#[derive(Args)]
+#[command(next_help_heading = "View")]
+pub struct CameraArgs {
+    /// A camera of the scene by index or name, or all [default: the first, or else one that shows everything]
+    #[arg(long, value_name = "INDEX|NAME", conflicts_with_all = ["eye", "azimuth", "elevation", "zoom"])]
+    pub camera: Option<String>,
+    /// Stand here
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector,
+        conflicts_with_all = ["azimuth", "elevation", "zoom"])]
+    pub eye: Option<DVec3>,
+    /// Look there [default: the scene's centre]
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector, requires = "eye")]
+    pub target: Option<DVec3>,
+    /// This direction is up [default: 0,1,0]
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector, requires = "eye")]
+    pub up: Option<DVec3>,
+    /// Vertical field of view in degrees [default: the camera's, or else 40]
+    #[arg(long, value_name = "DEG", value_parser = values::field_of_view)]
+    pub fov: Option<f64>,
+    /// See the whole scene from this angle around it; 0 looks along -z, 90 along -x [default: 35]
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = values::finite)]
+    pub azimuth: Option<f64>,
+    /// See the whole scene from this angle above the horizon [default: 20]
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = values::finite)]
+    pub elevation: Option<f64>,
+    /// See the whole scene this much larger than fits [default: 1]
+    #[arg(long, value_name = "F", value_parser = values::positive)]
+    pub zoom: Option<f64>,
+    /// Scene of the file by index [default: the file's own]
+    #[arg(long, value_name = "N")]
+    pub scene: Option<usize>,
+    /// Moment of the animation in seconds
+    #[arg(long, value_name = "S", default_value_t = 0.0, value_parser = values::not_negative)]
+    pub time: f64,
+    /// Animation by name or index [default: the first, where a time is given]
+    #[arg(long, value_name = "NAME")]
+    pub animation: Option<String>,
+}
+
+/// Several images in one go.
+#[derive(Args)]
+#[command(next_help_heading = "Sequences")]
+pub struct SequenceArgs {
+    /// Frames of the animation, both ends included
+    #[arg(long, value_name = "A..B", value_parser = values::frames, conflicts_with_all = ["turntable", "time"])]
+    pub frames: Option<RangeInclusive<u32>>,
+    /// Frames a second
+    #[arg(long, value_name = "F", default_value_t = 24.0, value_parser = values::positive, requires = "frames")]
+    pub fps: f64,
+    /// N images from all around, turning about the vertical axis through what the camera looks at
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub turntable: Option<u32>,
+}
+
+/// Values of `--aa`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Antialiasing {
+    /// One sample a pixel
+    None,
+    /// Many samples where the image aliases, one elsewhere
+    Superpixel,
+    /// Brute force: everything at k x k times the resolution
+    Ssaa,
+    /// The device's own multisampling
+    Msaa,
+}
+
+impl Antialiasing {
+    pub fn method(self) -> Method {
+        match self {
+            Self::None => Method::None,
+            Self::Superpixel => Method::Superpixel,
+            Self::Ssaa => Method::Ssaa,
+            Self::Msaa => Method::Msaa,
+        }
+    }
+}
+
+/// Values of `--detect`.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum Detect {
+    Contrast,
+    Exact,
+    #[value(alias = "color")]
+    Colour,
+}
+
+impl Detect {
+    pub fn detection(self) -> Detection {
+        match self {
+            Self::Contrast => Detection::Contrast,
+            Self::Exact => Detection::Exact,
+            Self::Colour => Detection::Colour,
+        }
+    }
+}
+
+/// Values of `--shading`.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum ShadingRate {
+    Triangle,
+    Sample,
+}
+
+impl ShadingRate {
+    pub fn shading(self) -> Shading {
+        match self {
+            Self::Triangle => Shading::Triangle,
+            Self::Sample => Shading::Sample,
+        }
+    }
+}
+
+/// Values of `--tonemap`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Tonemap {
+    Neutral,
+    None,
+}

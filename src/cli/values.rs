@@ -1,0 +1,176 @@
+//! Values of options, from text.
+
+use glam::DVec3;
+use std::ops::RangeInclusive;
+
+/// A number that is neither infinite nor NaN.
+pub fn finite(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() => Ok(number),
+        _ => Err("expected a number, such as 1.5".to_owned()),
+    }
+}
+
+/// A number of 0 or more.
+pub fn not_negative(text: &str) -> Result<f64, String> {
+    match finite(text) {
+        Ok(number) if number >= 0.0 => Ok(number),
+        _ => Err("expected a number of 0 or more".to_owned()),
+    }
+}
+
+/// A number above 0.
+pub fn positive(text: &str) -> Result<f64, String> {
+    match finite(text) {
+        Ok(number) if number > 0.0 => Ok(number),
+        _ => Err("expected a number above 0".to_owned()),
+    }
+}
+
+/// A field of view in degrees.
+pub fn field_of_view(text: &str) -> Result<f64, String> {
+    match finite(text) {
+        Ok(number) if number > 0.0 && number < 180.0 => Ok(number),
+        _ => Err("expected degrees above 0 and below 180".to_owned()),
+    }
+}
+
+/// Width and height in pixels: `1280x720`.
+pub fn size(text: &str) -> Result<[u32; 2], String> {
+    let side = |text: &str| text.parse().ok().filter(|side| (1..=65_535).contains(side));
+    text.split_once(['x', 'X'])
+        .and_then(|(width, height)| Some([side(width)?, side(height)?]))
+        .ok_or_else(|| {
+            "expected width x height in pixels, each 1 to 65535, such as 1280x720".to_owned()
+        })
+}
+
+/// A point or direction: `X,Y,Z`.
+pub fn vector(text: &str) -> Result<DVec3, String> {
+    three(text)
+        .map(DVec3::from_array)
+        .ok_or_else(|| "expected three numbers X,Y,Z, such as 0,1.5,-4".to_owned())
+}
+
+fn three(text: &str) -> Option<[f64; 3]> {
+    let numbers: Option<Vec<_>> = text.split(',').map(|t| finite(t.trim()).ok()).collect();
+    numbers?.try_into().ok()
+}
+
+/// What lies behind the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Background {
+    /// Nothing: the image is transparent there.
+    Transparent,
+    /// An sRGB-encoded colour, each component 0 to 1.
+    Color([f64; 3]),
+}
+
+/// `none`, `R,G,B` with sRGB components of 0 to 1, or `#rrggbb`.
+pub fn background(text: &str) -> Result<Background, String> {
+    if text == "none" {
+        return Ok(Background::Transparent);
+    }
+    let color = match text.strip_prefix('#') {
+        Some(digits) => hexadecimal(digits),
+        None => three(text).filter(|color| color.iter().all(|v| (0.0..=1.0).contains(v))),
+    };
+    color.map(Background::Color).ok_or_else(|| {
+        "expected none, an sRGB colour R,G,B of 0 to 1, such as 0.8,0.9,1, or #rrggbb".to_owned()
+    })
+}
+
+fn hexadecimal(digits: &str) -> Option<[f64; 3]> {
+    if digits.len() != 6 || !digits.bytes().all(|digit| digit.is_ascii_hexdigit()) {
+        return None;
+    }
+    let code = u32::from_str_radix(digits, 16).ok()?;
+    Some([16, 8, 0].map(|shift| f64::from(code >> shift & 0xff) / 255.0))
+}
+
+/// A number of bytes, with K, M, G or T for powers of 1,024.
+pub fn bytes(text: &str) -> Result<u64, String> {
+    let upper = text.to_ascii_uppercase();
+    let upper = upper.strip_suffix("IB").unwrap_or(&upper);
+    let (digits, shift) = [('K', 10), ('M', 20), ('G', 30), ('T', 40)]
+        .into_iter()
+        .find_map(|(unit, shift)| Some((upper.strip_suffix(unit)?, shift)))
+        .unwrap_or((upper, 0));
+    digits
+        .parse::<u64>()
+        .ok()
+        .and_then(|number| number.checked_mul(1 << shift))
+        .filter(|bytes| *bytes > 0)
+        .ok_or_else(|| "expected a number of bytes, such as 512M or 2G".to_owned())
+}
+
+/// Frame numbers, both ends included: `0..47`.
+pub fn frames(text: &str) -> Result<RangeInclusive<u32>, String> {
+    text.split_once("..")
+        .and_then(|(first, last)| Some(first.parse().ok()?..=last.parse().ok()?))
+        .filter(|range: &RangeInclusive<u32>| !range.is_empty())
+        .ok_or_else(|| "expected the first and last frame, such as 0..47".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes() {
+        assert_eq!(size("1280x720"), Ok([1280, 720]));
+        for wrong in ["1280", "0x5", "5x", "-1x5", "70000x1", "1x2x3", "1.5x2"] {
+            assert!(size(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn vectors() {
+        assert_eq!(vector("-1,2.5,3e1"), Ok(DVec3::new(-1.0, 2.5, 30.0)));
+        for wrong in ["1,2", "1,2,3,4", "a,b,c", "nan,0,0", "1,,2", ""] {
+            assert!(vector(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn backgrounds() {
+        assert_eq!(background("none"), Ok(Background::Transparent));
+        assert_eq!(
+            background("0,0.5,1"),
+            Ok(Background::Color([0.0, 0.5, 1.0]))
+        );
+        assert_eq!(
+            background("#ff0033"),
+            Ok(Background::Color([1.0, 0.0, 0.2]))
+        );
+        for wrong in ["", "#ff", "#+f0033", "1,2,3", "red", "#ff003é"] {
+            assert!(background(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn byte_counts() {
+        assert_eq!(bytes("1000"), Ok(1000));
+        assert_eq!(bytes("512M"), Ok(512 << 20));
+        assert_eq!(bytes("2gib"), Ok(2 << 30));
+        for wrong in ["", "M", "-1", "1.5G", "0", "99999999T"] {
+            assert!(bytes(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn frame_ranges() {
+        assert_eq!(frames("3..5"), Ok(3..=5));
+        assert_eq!(frames("3..3"), Ok(3..=3));
+        for wrong in ["5..3", "3", "..", "a..b", "0..4294967296"] {
+            assert!(frames(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn numbers() {
+        assert!(finite("inf").is_err() && finite("1e999").is_err());
+        assert!(positive("0").is_err() && not_negative("-0.1").is_err());
+        assert!(field_of_view("180").is_err() && field_of_view("90").is_ok());
+    }
+}

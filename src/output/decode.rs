@@ -1,0 +1,90 @@
+//! Reads images back, to compare them.
+
+use super::{OutputError, exr};
+use crate::reference::srgb;
+use image::ImageReader;
+use rayon::prelude::*;
+use std::io::Cursor;
+use std::path::Path;
+
+/// An image as a display shows it: sRGB-encoded colour of 0 to 1 over black, and alpha.
+///
+/// A PNG's translucent colours are multiplied by alpha in linear light and encoded again, so that colour which
+/// no one sees does not count. An EXR's values are brought into 0 to 1 and encoded; they are not tone-mapped.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DecodedImage {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// RGBA, rows from the top.
+    pub pixels: Vec<[f32; 4]>,
+}
+
+const EXR_MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
+
+/// Reads a PNG, JPEG or EXR file, told apart by content.
+///
+/// # Errors
+/// [`OutputError::Read`] if there is no such file, otherwise as [`decode`].
+pub fn read(path: &Path) -> Result<DecodedImage, OutputError> {
+    let bytes = std::fs::read(path).map_err(|source| OutputError::Read {
+        path: path.to_path_buf(),
+        source,
+    })?;
+    decode(&bytes, &path.display().to_string())
+}
+
+/// Decodes a PNG, JPEG or EXR image, told apart by content; messages call it `name`.
+///
+/// # Errors
+/// [`OutputError::Decode`] if it is none of these or broken, [`OutputError::NotANumber`] for an EXR with NaN.
+pub fn decode(bytes: &[u8], name: &str) -> Result<DecodedImage, OutputError> {
+    let decoded = if bytes.starts_with(&EXR_MAGIC) {
+        exr::decode(bytes).map(|(size, pixels)| (size, pixels, true))
+    } else {
+        display_referred(bytes).map(|(size, pixels)| (size, pixels, false))
+    };
+    let (size, pixels, linear) = decoded.map_err(|reason| OutputError::Decode {
+        file: name.to_owned(),
+        reason,
+    })?;
+    if let Some(index) = pixels.iter().position(|p| p.iter().any(|v| v.is_nan())) {
+        let width = size[0] as usize;
+        return Err(OutputError::NotANumber {
+            file: name.to_owned(),
+            x: index % width,
+            y: index / width,
+        });
+    }
+    let show = if linear { show_linear } else { show_straight };
+    Ok(DecodedImage {
+        size,
+        pixels: pixels.into_par_iter().map(show).collect(),
+    })
+}
+
+/// Size and straight sRGB-encoded pixels.
+fn display_referred(bytes: &[u8]) -> Result<([u32; 2], Vec<[f32; 4]>), String> {
+    // The reader's default limits bound what a header may claim.
+    let image = ImageReader::new(Cursor::new(bytes))
+        .with_guessed_format()
+        .map_err(|error| error.to_string())?
+        .decode()
+        .map_err(|error| error.to_string())?;
+    let size = [image.width(), image.height()];
+    let pixels = image.into_rgba32f().pixels().map(|p| p.0).collect();
+    Ok((size, pixels))
+}
+
+fn show_linear([r, g, b, a]: [f32; 4]) -> [f32; 4] {
+    let encode = |v: f32| srgb::encode(f64::from(v)) as f32;
+    [encode(r), encode(g), encode(b), a.clamp(0.0, 1.0)]
+}
+
+fn show_straight([r, g, b, a]: [f32; 4]) -> [f32; 4] {
+    // Encoding and decoding again would cost the last bit of every opaque colour.
+    if a >= 1.0 {
+        return [r, g, b, 1.0];
+    }
+    let over_black = |v: f32| srgb::encode(srgb::decode(f64::from(v)) * f64::from(a)) as f32;
+    [over_black(r), over_black(g), over_black(b), a]
+}

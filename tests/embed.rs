@@ -1,0 +1,90 @@
+//! The embedding example, run as a program of its own: a host's image holds what a headless render gives.
+
+use gpc::camera::Camera;
+use gpc::reference::srgb;
+use gpc::render::{Headless, HeadlessOptions, Settings};
+use gpc::scene::{PoseRequest, Scene};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/fence.glb");
+
+/// The built example; `cargo test` builds examples beside its tests.
+fn example() -> PathBuf {
+    let test = std::env::current_exe().unwrap();
+    let profile = test.parent().and_then(Path::parent).unwrap();
+    let example = profile
+        .join("examples")
+        .join(format!("embed{}", std::env::consts::EXE_SUFFIX));
+    assert!(
+        example.is_file(),
+        "{} is missing: `cargo test` builds it, `cargo test --test embed` alone does not",
+        example.display()
+    );
+    example
+}
+
+/// sRGB codes of a headless render with the example's settings, under the validation layer.
+fn headless(width: u32, height: u32) -> Vec<[u8; 4]> {
+    let mut headless = Headless::new(&HeadlessOptions {
+        validation: true,
+        ..HeadlessOptions::default()
+    })
+    .unwrap();
+    let scene = Scene::load(Path::new(SCENE)).unwrap().scene;
+    let pose = scene.pose(&PoseRequest::default()).unwrap();
+    let camera = Camera::from_scene(pose.cameras.first().unwrap());
+    let prepared = headless.upload(&scene, &pose, None).unwrap();
+    let settings = Settings {
+        background: Some([0.2, 0.3, 0.5]),
+        ..Settings::new(width, height)
+    };
+    let mut frame = headless.prepare(&prepared, &settings).unwrap();
+    let rendered = headless.render(&prepared, &mut frame, &camera).unwrap();
+    assert!(rendered.statistics.superpixels > 0);
+    assert_eq!(headless.validation_messages(), Vec::<String>::new());
+    let code = |linear: f32| srgb::encode_u8(f64::from(linear));
+    let alpha = |alpha: f32| (alpha.clamp(0.0, 1.0) * 255.0).round() as u8;
+    rendered
+        .colors
+        .iter()
+        .map(|[r, g, b, a]| [code(*r), code(*g), code(*b), alpha(*a)])
+        .collect()
+}
+
+#[test]
+fn a_hosts_image_holds_what_a_headless_render_gives() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("embed.png");
+    // The loader slips the validation layer under the host; without a messenger it writes to standard output.
+    let run = Command::new(example())
+        .args([Path::new(SCENE), &out])
+        .env("VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation")
+        .env(
+            "VK_LAYER_ENABLES",
+            "VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT",
+        )
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&run.stdout).into_owned();
+    let complained = String::from_utf8_lossy(&run.stderr).into_owned();
+    assert!(run.status.success(), "{said}{complained}");
+    assert!(
+        !said.contains("Validation") && !complained.contains("Validation"),
+        "{said}{complained}"
+    );
+
+    let image = image::open(&out).unwrap().into_rgba8();
+    let expected = headless(image.width(), image.height());
+    assert_eq!(image.pixels().len(), expected.len());
+    let farthest = image
+        .pixels()
+        .zip(&expected)
+        .flat_map(|(found, expected)| found.0.into_iter().zip(*expected))
+        .map(|(found, expected)| found.abs_diff(expected))
+        .max();
+    assert!(
+        farthest.is_some_and(|codes| codes <= 1),
+        "differs by {farthest:?} codes"
+    );
+}

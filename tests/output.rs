@@ -1,0 +1,236 @@
+//! Image files: what is written is what a reader finds.
+
+use exr::prelude::{FlatSamples, ReadChannels, ReadLayers, read as read_exr};
+use gpc::output::{
+    Aov, AovKind, Format, OutputError, Picture, decode, encode, encode_aov, read, write_atomically,
+};
+use gpc::reference::srgb;
+use std::io::Cursor;
+
+/// A picture of 16 x 16 pixels whose colours are the 8-bit code values.
+fn ramp(alpha: f32) -> Vec<[f32; 4]> {
+    (0..=255)
+        .map(|code| {
+            let v = srgb::decode_u8(code) as f32;
+            [v * alpha, 0.5 * v * alpha, alpha * (1.0 - v), alpha]
+        })
+        .collect()
+}
+
+fn encoded(format: Format, pixels: &[[f32; 4]], size: [u32; 2]) -> Vec<u8> {
+    encode(format, &Picture::new(size, pixels).unwrap(), &[]).unwrap()
+}
+
+#[test]
+fn png_keeps_every_code_value() {
+    let bytes = encoded(Format::Png8, &ramp(1.0), [16, 16]);
+    let image = image::load_from_memory(&bytes).unwrap();
+    assert_eq!(image.color(), image::ColorType::Rgb8);
+    for (code, pixel) in image.to_rgb8().pixels().enumerate() {
+        assert_eq!(usize::from(pixel[0]), code);
+    }
+}
+
+#[test]
+fn png_of_16_bits_is_within_half_a_step() {
+    let pixels = ramp(1.0);
+    let bytes = encoded(Format::Png16, &pixels, [16, 16]);
+    let image = image::load_from_memory(&bytes).unwrap();
+    assert_eq!(image.color(), image::ColorType::Rgb16);
+    for (pixel, expected) in image.to_rgb16().pixels().zip(&pixels) {
+        for i in 0..3 {
+            let exact = srgb::encode(f64::from(expected[i])) * 65_535.0;
+            assert!((f64::from(pixel[i]) - exact).abs() <= 0.5);
+        }
+    }
+}
+
+#[test]
+fn png_holds_straight_alpha() {
+    let bytes = encoded(Format::Png8, &ramp(0.5), [16, 16]);
+    let image = image::load_from_memory(&bytes).unwrap();
+    assert_eq!(image.color(), image::ColorType::Rgba8);
+    for (code, pixel) in image.to_rgba8().pixels().enumerate() {
+        assert_eq!((usize::from(pixel[0]), pixel[3]), (code, 128));
+    }
+}
+
+#[test]
+fn colour_without_coverage_is_not_written() {
+    let bytes = encoded(Format::Png8, &[[0.3, 0.2, 0.1, 0.0]], [1, 1]);
+    let image = image::load_from_memory(&bytes).unwrap().to_rgba8();
+    assert_eq!(image.as_raw(), &[0, 0, 0, 0]);
+}
+
+#[test]
+fn numbers_that_no_file_can_hold_are_bounded() {
+    let pixels = [[f32::NAN, f32::INFINITY, -1.0, 1.0], [9.0, 0.0, 0.0, 2.0]];
+    let bytes = encoded(Format::Png8, &pixels, [2, 1]);
+    let image = image::load_from_memory(&bytes).unwrap().to_rgb8();
+    assert_eq!(image.as_raw(), &[0, 255, 0, 255, 0, 0]);
+}
+
+#[test]
+fn jpeg_shows_colour_over_black() {
+    let pixels = vec![[0.25, 0.25, 0.25, 0.25]; 64];
+    let bytes = encoded(Format::Jpeg, &pixels, [8, 8]);
+    let image = image::load_from_memory(&bytes).unwrap().to_rgb8();
+    let expected = i32::from(srgb::encode_u8(0.25));
+    assert!((i32::from(image.get_pixel(3, 3)[0]) - expected).abs() <= 2);
+}
+
+fn all_aovs(pixels: usize) -> Vec<Aov> {
+    let attribute = |i: usize| {
+        let id = f32::from_bits(i as u32);
+        let normal = [0.0, if i == 0 { 0.0 } else { 1.0 }, 0.0, 0.0];
+        [
+            [i as f32 * 0.5, id, (i % 3 * 512) as f32, (i % 2) as f32],
+            normal,
+        ]
+    };
+    let attributes: Vec<_> = (0..pixels).map(attribute).collect();
+    AovKind::ALL
+        .map(|kind| Aov::from_attributes(kind, &attributes))
+        .into()
+}
+
+#[test]
+fn exr_holds_the_very_floats_and_ids() {
+    let pixels = [[0.1, 7.5, -0.25, 0.5], [1e-6, 1e6, 0.0, 1.0], [0.0; 4]];
+    let picture = Picture::new([3, 1], &pixels).unwrap();
+    let bytes = encode(Format::Exr, &picture, &all_aovs(3)).unwrap();
+    let image = read_exr()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .first_valid_layer()
+        .all_attributes()
+        .from_buffered(Cursor::new(bytes))
+        .unwrap();
+    let channels = &image.layer_data.channel_data.list;
+    let find = |name: &str| {
+        let found = channels.iter().find(|channel| channel.name.eq(name));
+        &found
+            .unwrap_or_else(|| panic!("no channel {name}"))
+            .sample_data
+    };
+    for (i, name) in ["R", "G", "B", "A"].into_iter().enumerate() {
+        let expected: Vec<_> = pixels.iter().map(|p| p[i]).collect();
+        assert_eq!(*find(name), FlatSamples::F32(expected));
+    }
+    assert_eq!(*find("id.Y"), FlatSamples::U32(vec![0, 1, 2]));
+    assert_eq!(*find("samples.Y"), FlatSamples::U32(vec![0, 512, 1024]));
+    assert_eq!(*find("superpixels.Y"), FlatSamples::U32(vec![0, 1, 0]));
+    assert_eq!(
+        *find("depth.Z"),
+        FlatSamples::F32(vec![f32::INFINITY, 0.5, 1.0])
+    );
+    assert_eq!(*find("normal.Y"), FlatSamples::F32(vec![0.0, 1.0, 1.0]));
+    assert_eq!(channels.len(), 11);
+}
+
+#[test]
+fn aovs_can_be_looked_at() {
+    let grey = |aov: &Aov| {
+        let bytes = encode_aov([3, 1], aov).unwrap();
+        image::load_from_memory(&bytes)
+            .unwrap()
+            .into_luma16()
+            .into_raw()
+    };
+    let [depth, id, normal, superpixels, samples] = all_aovs(3).try_into().unwrap();
+    assert_eq!(grey(&depth), [0, 65_535, 1]);
+    assert_eq!(grey(&samples), [0, 32_768, 65_535]);
+    assert_eq!(grey(&superpixels), [0, 65_535, 0]);
+    let rgb = |aov: &Aov| {
+        let bytes = encode_aov([3, 1], aov).unwrap();
+        image::load_from_memory(&bytes).unwrap().into_rgb8()
+    };
+    let colors: Vec<_> = rgb(&id).pixels().map(|p| p.0).collect();
+    assert_eq!(colors[0], [0; 3]);
+    assert_ne!(colors[1], [0; 3]);
+    assert_ne!(colors[1], colors[2]);
+    let normals = rgb(&normal);
+    assert_eq!(normals.get_pixel(0, 0).0, [0; 3]);
+    assert_eq!(normals.get_pixel(1, 0).0, [128, 255, 128]);
+}
+
+#[test]
+fn every_format_reads_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let pixels = ramp(0.5);
+    for name in ["a.png", "a.16.png", "a.jpg", "a.exr"] {
+        let path = folder.path().join(name);
+        let format = Format::of(&path).unwrap();
+        write_atomically(&path, &encoded(format, &pixels, [16, 16])).unwrap();
+        let image = read(&path).unwrap();
+        assert_eq!(image.size, [16, 16]);
+        for (found, expected) in image.pixels.iter().zip(&pixels) {
+            let shown = srgb::encode(f64::from(expected[0]));
+            let tolerance = if name == "a.jpg" { 0.03 } else { 0.005 };
+            assert!((f64::from(found[0]) - shown).abs() < tolerance, "{name}");
+        }
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 4);
+}
+
+#[test]
+fn a_count_of_pixels_that_does_not_fit_is_refused() {
+    let wrong = |size| {
+        matches!(
+            Picture::new(size, &[[0.0; 4]; 6]),
+            Err(OutputError::PixelCount { .. })
+        )
+    };
+    assert!(wrong([2, 2]) && wrong([0, 0]) && !wrong([3, 2]));
+    let pixels = [[0.0; 4]; 6];
+    let picture = Picture::new([3, 2], &pixels).unwrap();
+    assert!(encode(Format::Exr, &picture, &all_aovs(5)).is_err());
+    assert!(encode_aov([3, 2], &all_aovs(5)[0]).is_err());
+}
+
+#[test]
+fn what_is_no_image_is_refused() {
+    let png = encoded(Format::Png8, &ramp(1.0), [16, 16]);
+    let exr = encoded(Format::Exr, &ramp(1.0), [16, 16]);
+    let cases: [&[u8]; 5] = [b"", b"glTF", &png[..40], &exr[..100], &exr[..4]];
+    for bytes in cases {
+        let error = decode(bytes, "file").unwrap_err();
+        assert!(matches!(error, OutputError::Decode { .. }), "{error}");
+    }
+}
+
+#[test]
+fn an_exr_that_is_not_a_number_names_the_pixel() {
+    let mut pixels = ramp(1.0);
+    pixels[16 + 3][2] = f32::NAN;
+    let bytes = encoded(Format::Exr, &pixels, [16, 16]);
+    let error = decode(&bytes, "a.exr").unwrap_err();
+    assert!(
+        matches!(error, OutputError::NotANumber { x: 3, y: 1, .. }),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_failed_write_leaves_what_was_there() {
+    let folder = tempfile::tempdir().unwrap();
+    let missing = folder.path().join("no such folder").join("a.png");
+    assert!(write_atomically(&missing, b"new").is_err());
+    let occupied = folder.path().join("occupied");
+    std::fs::create_dir(&occupied).unwrap();
+    assert!(write_atomically(&occupied, b"new").is_err());
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_is_kept_and_its_target_replaced() {
+    let folder = tempfile::tempdir().unwrap();
+    let [target, link] = ["target.png", "link.png"].map(|name| folder.path().join(name));
+    std::fs::write(&target, b"old").unwrap();
+    std::os::unix::fs::symlink(&target, &link).unwrap();
+    write_atomically(&link, b"new").unwrap();
+    assert!(link.is_symlink());
+    assert_eq!(std::fs::read(&target).unwrap(), b"new");
+}
