@@ -1,0 +1,54 @@
+//! Comparison with images that are kept in `tests/goldens`, under one tolerance.
+//!
+//! They were made on lavapipe. With `GPC_BLESS` set in the environment a test writes its image instead, and fails, so
+//! that no run both makes and passes a golden.
+
+use std::path::{Path, PathBuf};
+
+use image::RgbaImage;
+
+/// Largest difference of a channel, in code values, that does not count.
+const TOLERANCE: u8 = 3;
+/// How many pixels may differ by more.
+const OUTLIERS: usize = 10;
+
+/// Where the goldens are.
+pub fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/goldens")
+}
+
+/// Compares an image with the golden `name`.png in a folder.
+///
+/// # Errors
+/// What differs, or that there is nothing to compare with.
+pub fn compare(folder: &Path, name: &str, found: &RgbaImage) -> Result<(), String> {
+    let path = folder.join(format!("{name}.png"));
+    if std::env::var_os("GPC_BLESS").is_some() {
+        found.save(&path).map_err(|error| error.to_string())?;
+        return Err(format!("{} written; look at it, then unset GPC_BLESS", path.display()));
+    }
+    let golden = image::open(&path)
+        .map_err(|error| format!("{}: {error}; GPC_BLESS=1 makes it", path.display()))?
+        .to_rgba8();
+    if golden.dimensions() != found.dimensions() {
+        return Err(format!(
+            "{name} has {:?} pixels and the golden {:?}",
+            found.dimensions(),
+            golden.dimensions()
+        ));
+    }
+    let differs = |(a, b): (&image::Rgba<u8>, &image::Rgba<u8>)| {
+        a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > TOLERANCE)
+    };
+    let outliers = golden
+        .pixels()
+        .zip(found.pixels())
+        .filter(|&pair| differs(pair))
+        .count();
+    if outliers > OUTLIERS {
+        return Err(format!(
+            "{name}: {outliers} pixels differ by more than {TOLERANCE} code values; {OUTLIERS} may"
+        ));
+    }
+    Ok(())
+}

@@ -1,0 +1,132 @@
+//! BLEND surfaces, composited per sample in exact order of depth, against a sum over the twin's surfaces.
+
+use gpc::render::{Method, Settings};
+use gpc::sampling::Pattern;
+use gpc::scene::AlphaMode;
+
+use crate::meshes::Random;
+use crate::stage::{Stage, centre, everywhere, flat, on_gpu, once, seen_at};
+use crate::twin::Twin;
+
+const SIZE: [u32; 2] = [48, 40];
+
+/// Panes that cross each other, through and before an opaque wall with a hole in it.
+fn panes() -> Stage {
+    let mut stage = Stage::new(vec![
+        flat([0.125, 0.5, 0.25, 1.0], AlphaMode::Opaque),
+        flat([1.0, 0.0, 0.0, 0.5], AlphaMode::Blend),
+        flat([0.0, 0.75, 0.0, 0.25], AlphaMode::Blend),
+        flat([0.0, 0.5, 2.0, 0.75], AlphaMode::Blend),
+    ]);
+    let mut quad = |material, corners: [([f64; 2], f64); 4]| {
+        stage.add_quad(material, corners.map(|(at, far)| seen_at(at, far, SIZE[1])));
+    };
+    let upright = |near, far, left, right| {
+        [
+            ([left, -18.0], near),
+            ([left, 17.0], near),
+            ([right, 17.0], far),
+            ([right, -18.0], far),
+        ]
+    };
+    quad(0, upright(4.0, 4.0, -22.0, -3.3));
+    // Two panes that cross, one of them through the wall.
+    quad(1, upright(2.0, 6.0, -20.3, 19.1));
+    quad(2, upright(6.5, 1.5, -19.7, 21.4));
+    // Three in a stack, of which two coincide.
+    quad(3, upright(3.0, 3.0, -9.2, 8.8));
+    quad(3, upright(3.0, 3.0, -9.2, 8.8));
+    quad(1, upright(3.5, 3.5, -11.9, 6.1));
+    let mut random = Random::new(8);
+    for _ in 0..10 {
+        let mut corner = || {
+            let place = [0; 2].map(|_| random.range(-22.0, 22.0));
+            seen_at(place, random.range(1.0, 8.0), SIZE[1])
+        };
+        let corners = [corner(), corner(), corner()];
+        stage.add(2, corners);
+    }
+    stage
+}
+
+/// What one sample sees over a background, premultiplied, and whether rounding may change it. BLEND surfaces come
+/// first in the search, from the nearest on.
+fn composite(stage: &Stage, twin: &Twin, pixel: usize, sample: [f64; 2], back: [f64; 4]) -> ([f64; 4], bool) {
+    let mut layers = Vec::new();
+    let mut hidden = Vec::new();
+    let mut contested = false;
+    let mut color = back;
+    loop {
+        let seen = twin.without(pixel, sample, &hidden);
+        // The two coincident panes tie to the bit, which is no contest.
+        let tie = seen.second == seen.nearest.map(|hit| hit.depth);
+        contested |= seen.contested() && !tie || seen.edge_margin < 1.0 / 1024.0;
+        let Some(hit) = seen.nearest else { break };
+        let material = &stage.materials[stage.triangles[hit.id as usize - 1].material];
+        let [r, g, b, a] = material.base_color.map(f64::from);
+        if material.alpha_mode == AlphaMode::Opaque {
+            color = [r, g, b, 1.0];
+            break;
+        }
+        layers.push([r * a, g * a, b * a, a]);
+        hidden.push(hit.id);
+    }
+    for layer in layers.into_iter().rev() {
+        color = [0, 1, 2, 3].map(|i| layer[i] + color[i] * (1.0 - layer[3]));
+    }
+    (color, contested)
+}
+
+#[test]
+fn panes_are_composited_from_the_farthest_to_the_nearest() {
+    on_gpu(|gpu| {
+        let stage = panes();
+        let twin = Twin::new(&stage, SIZE);
+        let none = Settings {
+            method: Method::None,
+            ..once(SIZE)
+        };
+        let clear = [0.0; 4];
+        let grey = [0.25, 0.5, 0.125, 1.0];
+        for (settings, back) in [
+            (everywhere(SIZE, Pattern::Sobol, 16), clear),
+            (everywhere(SIZE, Pattern::Sobol, 37), grey),
+            (none.clone(), clear),
+            (none, grey),
+        ] {
+            let settings = Settings {
+                background: (back[3] > 0.0).then_some([back[0] as f32, back[1] as f32, back[2] as f32]),
+                ..settings
+            };
+            let rendered = stage.render(gpu, &settings);
+            let offsets = match settings.method {
+                Method::None => vec![[0.0, 0.0]],
+                _ => settings.pattern.offsets(settings.samples).unwrap(),
+            };
+            let (mut checked, mut layered) = (0, 0);
+            for (pixel, found) in rendered.colors.iter().enumerate() {
+                let middle = centre(pixel, SIZE);
+                let mut sum = [0.0; 4];
+                let mut contested = 0.0;
+                for offset in &offsets {
+                    let sample = [0, 1].map(|axis| middle[axis] + f64::from(offset[axis]));
+                    let (color, doubtful) = composite(&stage, &twin, pixel, sample, back);
+                    sum = [0, 1, 2, 3].map(|i| sum[i] + color[i] / offsets.len() as f64);
+                    contested += f64::from(u8::from(doubtful)) / offsets.len() as f64;
+                }
+                for channel in 0..4 {
+                    let difference = (f64::from(found[channel]) - sum[channel]).abs();
+                    assert!(
+                        difference < 1e-5 + 2.0 * contested,
+                        "{:?}, at {middle:?}: {found:?} instead of {sum:?}, {contested} contested",
+                        settings.method
+                    );
+                }
+                checked += u32::from(contested == 0.0);
+                layered += u32::from(sum[3] > 0.0);
+            }
+            let pixels = SIZE[0] * SIZE[1];
+            assert!(checked * 10 > pixels * 8 && layered * 2 > pixels, "{checked}, {layered}");
+        }
+    });
+}

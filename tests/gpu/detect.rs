@@ -1,0 +1,206 @@
+//! Detection on the device against the CPU's, pixel by pixel.
+
+use gpc::reference::detect::{Frame, Mode, superpixels};
+use gpc::reference::srgb::{decode_u8, encode};
+use gpc::render::{Detection, Headless, Method, Reference, Rendered, Settings};
+use gpc::scene::AlphaMode;
+
+use crate::meshes::{Depths, Random, delaunay};
+use crate::stage::{Stage, flat, ids, on_gpu, once, seen_at};
+
+const SIZES: [[u32; 2]; 3] = [[64, 64], [37, 23], [8, 4]];
+const CONTRAST: u8 = 12;
+
+/// A tiling with holes whose colours have code values that differ by about the threshold.
+fn mosaic(seed: u64, size: [u32; 2]) -> Stage {
+    let mut random = Random::new(seed);
+    let mesh = delaunay(seed, f64::from(size[0]) / 2.0, 20, Depths::Random);
+    let mut stage = Stage::new(vec![flat([1.0; 4], AlphaMode::Opaque)]);
+    stage.add_mesh(0, &mesh, size[1], |triangle| triangle);
+    stage.triangles.retain(|_| random.below(12) != 0);
+    for triangle in &mut stage.triangles {
+        let mut channel = || {
+            let code = [100, 100, 111, 112, 113, 124][random.below(6) as usize];
+            decode_u8(code) as f32
+        };
+        triangle.color = [channel(), channel(), channel(), 1.0];
+    }
+    stage
+}
+
+/// The superpixels that the device finds.
+fn found(gpu: &mut Headless, stage: &Stage, settings: &Settings, detection: Detection) -> Vec<bool> {
+    let settings = Settings {
+        method: Method::Superpixel,
+        samples: 4,
+        contrast: CONTRAST,
+        detection,
+        ..settings.clone()
+    };
+    let rendered = stage.render(gpu, &settings);
+    let marked: Vec<bool> = rendered.attributes.iter().map(|p| p.superpixel == 1).collect();
+    let count = marked.iter().filter(|&&m| m).count() as u64;
+    assert_eq!(rendered.statistics.superpixels, count);
+    for (pixel, &marked) in rendered.attributes.iter().zip(&marked) {
+        assert_eq!(pixel.samples, if marked { 4 } else { 1 });
+    }
+    marked
+}
+
+/// The code values of a linear image, red in the lowest byte, and which pixels are too near to a step between two codes
+/// to tell.
+fn codes(rendered: &Rendered) -> (Vec<u32>, Vec<bool>) {
+    let each = rendered.colors.iter().map(|&[r, g, b, a]| {
+        let exact = [r, g, b].map(|v| 255.0 * encode(f64::from(v)));
+        let exact = [exact[0], exact[1], exact[2], 255.0 * f64::from(a)];
+        let doubtful = exact.iter().any(|v| (v - v.floor() - 0.5).abs() < 0.01);
+        (u32::from_le_bytes(exact.map(|v| v.round() as u8)), doubtful)
+    });
+    each.unzip()
+}
+
+/// The superpixels of the CPU.
+fn expected(size: [u32; 2], ids: &[u32], blend: &[u32], codes: &[u32], mode: Mode) -> Vec<bool> {
+    let [width, height] = size;
+    let mask = superpixels(&Frame::new(width, height, ids, blend, codes).unwrap(), mode);
+    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    pixels
+        .map(|(x, y)| {
+            let word = mask[(y / 4 * width.div_ceil(8) + x / 8) as usize];
+            word >> (y % 4 * 8 + x % 8) & 1 == 1
+        })
+        .collect()
+}
+
+/// Whether a pixel or one of its neighbours is marked.
+fn near(marks: &[bool], size: [u32; 2], pixel: usize) -> bool {
+    let [width, height] = size.map(|side| side as usize);
+    let (x, y) = (pixel % width, pixel / width);
+    (y.saturating_sub(1)..(y + 2).min(height))
+        .any(|y| (x.saturating_sub(1)..(x + 2).min(width)).any(|x| marks[y * width + x]))
+}
+
+const MODES: [(Detection, Mode); 3] = [
+    (Detection::Contrast, Mode::Contrast(CONTRAST)),
+    (Detection::Exact, Mode::Exact),
+    (Detection::Colour, Mode::Colour(CONTRAST)),
+];
+
+/// Every colour is a code value, so that there is nothing to round: the masks are the same.
+#[test]
+fn masks_of_whole_codes_are_the_twins() {
+    on_gpu(|gpu| {
+        for (seed, size) in SIZES.into_iter().enumerate() {
+            let stage = mosaic(seed as u64, size);
+            let base = stage.render(gpu, &once(size));
+            let (codes, doubtful) = codes(&base);
+            assert!(!doubtful.contains(&true));
+            let ids = ids(&base);
+            let blend = vec![0; ids.len()];
+            let mut sums = Vec::new();
+            for (detection, mode) in MODES {
+                let found = found(gpu, &stage, &once(size), detection);
+                let expected = expected(size, &ids, &blend, &codes, mode);
+                assert!(found == expected, "{detection:?}, {size:?}");
+                sums.push(found.iter().filter(|&&marked| marked).count());
+            }
+            if size == SIZES[0] {
+                let all = base.colors.len();
+                assert!(0 < sums[0] && sums[0] < sums[1] && sums[1] < all, "{sums:?}");
+            }
+        }
+    });
+}
+
+/// With tone mapping, panes of BLEND triangles in front and colours between two codes. Pixels beside one that rounding
+/// may change are excused, and are few.
+#[test]
+fn masks_of_blended_scenes_are_the_twins() {
+    on_gpu(|gpu| {
+        let size = [64, 64];
+        let mut random = Random::new(5);
+        let mut stage = mosaic(9, size);
+        stage.materials.push(flat([0.9, 0.5, 0.4, 0.25], AlphaMode::Blend));
+        let opaque = stage.triangles.len() as u32;
+        for _ in 0..12 {
+            let mut corner = || {
+                let place = [0; 2].map(|_| random.range(-32.0, 32.0));
+                seen_at(place, random.range(0.05, 0.3), size[1])
+            };
+            let corners = [corner(), corner(), corner()];
+            stage.add(1, corners);
+        }
+        let settings = Settings {
+            reference: Reference::Display,
+            tonemapped_detection: true,
+            ..once(size)
+        };
+        let base = stage.render(gpu, &settings);
+        let (mut codes, doubtful) = codes(&base);
+        codes.iter_mut().for_each(|c| *c &= 0xffffff);
+        // With BLEND made opaque, the device shows which of its triangles is the nearest.
+        let mut solid = stage.clone();
+        solid.materials[1].alpha_mode = AlphaMode::Opaque;
+        let nearest = ids(&solid.render(gpu, &settings)).into_iter();
+        let blend: Vec<u32> = nearest.map(|id| if id > opaque { id } else { 0 }).collect();
+        assert!(blend.iter().filter(|&&id| id != 0).count() > 500);
+        for (detection, mode) in MODES {
+            let found = found(gpu, &stage, &settings, detection);
+            let expected = expected(size, &ids(&base), &blend, &codes, mode);
+            let mut excused = 0;
+            for pixel in 0..found.len() {
+                let excuse = detection != Detection::Exact && near(&doubtful, size, pixel);
+                assert!(
+                    found[pixel] == expected[pixel] || excuse,
+                    "{detection:?}, pixel {pixel}: {}",
+                    found[pixel]
+                );
+                excused += u32::from(found[pixel] != expected[pixel]);
+            }
+            assert!(excused <= 4, "{detection:?}: {excused} pixels differ");
+        }
+    });
+}
+
+/// Alpha alone tells a black surface from a transparent background.
+#[test]
+fn black_contrasts_with_a_transparent_background() {
+    on_gpu(|gpu| {
+        let size = [32, 32];
+        let mut stage = Stage::new(vec![flat([0.0, 0.0, 0.0, 1.0], AlphaMode::Opaque)]);
+        let corners = [[-9.0, -7.0], [-8.0, 11.0], [12.0, 3.0]];
+        stage.add(0, corners.map(|place| seen_at(place, 1.0, size[1])));
+        let exact = found(gpu, &stage, &once(size), Detection::Exact);
+        assert!(exact.contains(&true));
+        for detection in [Detection::Contrast, Detection::Colour] {
+            assert!(
+                found(gpu, &stage, &once(size), detection) == exact,
+                "{detection:?}"
+            );
+        }
+    });
+}
+
+/// Where nothing contrasts, nothing is sampled, and the passes after detection are reported as skipped.
+#[test]
+fn an_image_without_edges_has_no_superpixels() {
+    on_gpu(|gpu| {
+        let size = [64, 64];
+        let mut stage = mosaic(1, size);
+        stage.materials.push(flat([0.2, 0.2, 0.2, 1.0], AlphaMode::Opaque));
+        // One triangle before everything.
+        let wall = [[0.0, -200.0], [-200.0, 200.0], [200.0, 200.0]];
+        stage.add(1, wall.map(|place| seen_at(place, 0.05, size[1])));
+        for (detection, _) in MODES {
+            let marked = found(gpu, &stage, &once(size), detection);
+            assert!(!marked.contains(&true), "{detection:?}");
+        }
+        let settings = Settings {
+            method: Method::Superpixel,
+            ..once(size)
+        };
+        let statistics = stage.render(gpu, &settings).statistics;
+        assert!(statistics.skipped_passes.contains(&"sample"), "{statistics:?}");
+        assert_eq!((statistics.busy_tiles, statistics.records), (0, 0));
+    });
+}

@@ -1,0 +1,141 @@
+//! Scenes and images at the ends of what there can be.
+
+use gpc::render::{Headless, HeadlessOptions, Method, Rendered, Settings};
+use gpc::sampling::Pattern;
+use gpc::scene::AlphaMode;
+
+use crate::meshes::{Depths, delaunay};
+use crate::stage::{Stage, camera, everywhere, flat, ids, on_gpu, once, seen_at};
+
+/// Every method, with attributes where it has them.
+fn all_methods(size: [u32; 2]) -> [Settings; 5] {
+    let method = |method, samples| Settings {
+        method,
+        samples,
+        // Multisampling has no IDs of pixel centres.
+        attributes: method != Method::Msaa,
+        ..once(size)
+    };
+    let sampled = Settings {
+        attributes: true,
+        ..everywhere(size, Pattern::Sobol, 16)
+    };
+    [
+        method(Method::None, 1),
+        method(Method::Superpixel, 64),
+        sampled,
+        method(Method::Ssaa, 9),
+        method(Method::Msaa, 4),
+    ]
+}
+
+fn assert_empty(gpu: &mut Headless, stage: &Stage, what: &str) {
+    for settings in all_methods([20, 11]) {
+        for background in [None, Some([0.25, 0.5, 1.0])] {
+            let settings = Settings {
+                background,
+                ..settings.clone()
+            };
+            let rendered = stage.render(gpu, &settings);
+            let expected = background.map_or([0.0; 4], |[r, g, b]| [r, g, b, 1.0]);
+            assert_eq!(rendered.colors, [expected; 220], "{what}, {:?}", settings.method);
+            assert!(rendered.attributes.iter().all(|p| p.id == 0 && p.depth == 0.0));
+        }
+    }
+}
+
+#[test]
+fn a_scene_without_triangles_is_background() {
+    on_gpu(|gpu| assert_empty(gpu, &Stage::default(), "no triangles"));
+}
+
+#[test]
+fn what_is_out_of_view_is_background() {
+    on_gpu(|gpu| {
+        let mut stage = Stage::new(vec![flat([1.0; 4], AlphaMode::Opaque)]);
+        // Behind the eye, before the near plane, left, right, above and below.
+        stage.add(0, [[-1.0, -1.0, 3.0], [1.0, -1.0, 3.0], [0.0, 1.0, 3.0]]);
+        stage.add(0, [[-0.1, -0.1, -0.001], [0.1, -0.1, -0.001], [0.0, 0.1, -0.001]]);
+        for [x, y] in [[-500.0, 0.0], [500.0, 0.0], [0.0, -500.0], [0.0, 500.0]] {
+            let corners = [[0.0, -20.0], [-20.0, 20.0], [20.0, 20.0]];
+            stage.add(0, corners.map(|[u, v]| seen_at([x + u, y + v], 2.0, 11)));
+        }
+        assert_empty(gpu, &stage, "out of view");
+    });
+}
+
+/// No area, edge-on, or thinner than any sample's distance from the next.
+#[test]
+fn degenerate_triangles_cover_nothing() {
+    on_gpu(|gpu| {
+        let mut stage = Stage::new(vec![flat([1.0; 4], AlphaMode::Opaque)]);
+        stage.add(0, [[0.0, 0.0, -2.0]; 3]);
+        stage.add(0, [[-1.0, 0.1, -2.0], [1.0, 0.1, -2.0], [0.0, 0.1, -2.0]]);
+        stage.add(0, [[0.25, -1.0, -1.0], [0.25, 0.0, -1.0], [0.25, 1.0, -1.0]]);
+        // In a plane through the eye.
+        stage.add(0, [[0.0, 1.0, -1.0], [0.0, -1.0, -1.0], [0.0, 0.0, -9.0]]);
+        stage.add(0, [[1e-40, 0.0, -1.0], [0.0, 1e-40, -1.0], [0.0, 0.0, -1.0]]);
+        stage.add(0, [[1e30, 0.0, -1.0], [-1e30, 0.0, -1.0], [0.0, 0.0, 1e30]]);
+        assert_empty(gpu, &stage, "degenerate");
+    });
+}
+
+#[test]
+fn images_of_any_size_are_covered_to_their_borders() {
+    on_gpu(|gpu| {
+        for size in [[1, 1], [37, 23], [1, 70], [70, 1], [8, 4], [9, 5], [7, 3]] {
+            let half = f64::from(size[0].max(size[1])) / 2.0 + 1.0;
+            let mesh = delaunay(2, half, 9, Depths::Random);
+            let mut stage = Stage::new(vec![flat([0.5, 0.25, 0.125, 1.0], AlphaMode::Opaque)]);
+            stage.add_mesh(0, &mesh, size[1], |triangle| triangle);
+            for settings in all_methods(size) {
+                let rendered = stage.render(gpu, &settings);
+                assert_eq!(rendered.size, size);
+                assert_eq!(rendered.colors.len(), (size[0] * size[1]) as usize);
+                let near = |color: &[f32; 4]| {
+                    let expected = [0.5, 0.25, 0.125, 1.0];
+                    color.iter().zip(expected).all(|(v, e): (&f32, f32)| (v - e).abs() < 1e-6)
+                };
+                let covered = rendered.colors.iter().all(near);
+                assert!(covered, "{size:?}, {:?}", settings.method);
+                assert!(!ids(&rendered).contains(&0), "{size:?}, {:?}", settings.method);
+            }
+        }
+    });
+}
+
+/// Depth is the distance along the view, over five powers of ten.
+#[test]
+fn attributes_are_those_of_the_surface() {
+    on_gpu(|gpu| {
+        let size = [24, 24];
+        for distance in [0.02, 1.0, 300.0, 2e4] {
+            let mut stage = Stage::new(vec![flat([1.0; 4], AlphaMode::Opaque)]);
+            let corners = [[0.0, -40.0], [-40.0, 40.0], [40.0, 40.0]];
+            stage.add(0, corners.map(|place| seen_at(place, distance, size[1])));
+            for pixel in stage.render(gpu, &once(size)).attributes {
+                assert!((f64::from(pixel.depth) / distance - 1.0).abs() < 1e-5, "{pixel:?}");
+                assert_eq!((pixel.id, pixel.samples, pixel.superpixel), (1, 1, 0));
+                assert!((pixel.normal[2] - 1.0).abs() < 1e-6, "{pixel:?}");
+            }
+        }
+    });
+}
+
+/// A device of its own, made, used and taken down without a word of the validation layer.
+#[test]
+fn a_whole_life_is_valid() {
+    let options = HeadlessOptions {
+        device: None,
+        validation: true,
+    };
+    let mut gpu = Headless::new(&options).unwrap();
+    let instance = gpu.gpu().instance().unwrap().clone();
+    let (scene, pose) = crate::scenes::ball_over_checker().build();
+    let prepared = gpu.upload(&scene, &pose, None).unwrap();
+    let mut frame = gpu.prepare(&prepared, &Settings::new(40, 30)).unwrap();
+    let rendered: Rendered = gpu.render(&prepared, &mut frame, &camera()).unwrap();
+    assert!(rendered.statistics.superpixels > 0 && rendered.statistics.gpu_ms() > 0.0);
+    drop((frame, prepared, gpu));
+    assert_eq!(instance.validation_messages(), Vec::<String>::new());
+}

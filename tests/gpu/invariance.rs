@@ -1,0 +1,199 @@
+//! What must not change an image: runs, the order of triangles and vertices, memory.
+
+use gpc::render::{Detection, Headless, Rendered, Settings, Shading};
+use gpc::sampling::Pattern;
+use gpc::scene::{AlphaMode, Material};
+
+use crate::meshes::{Depths, Random, delaunay, fan};
+use crate::stage::{Stage, camera, everywhere, flat, on_gpu, seen_at};
+
+/// A stage of `count` random triangles in sixteen colours whose sums over samples are exact, so that the order of
+/// summation, which is that of IDs, does not show. `blend` of them let others through.
+fn soup(seed: u64, size: [u32; 2], count: usize, blend: usize) -> Stage {
+    let mut random = Random::new(seed);
+    let mut channel = || random.below(65) as f32 / 64.0;
+    let mut materials: Vec<Material> = (0..16)
+        .map(|_| flat([channel(), channel(), channel(), 1.0], AlphaMode::Opaque))
+        .collect();
+    materials.push(flat([0.25, 0.5, 0.75, 0.5], AlphaMode::Blend));
+    let mut stage = Stage::new(materials);
+    let mut random = Random::new(!seed);
+    for index in 0..count {
+        let middle = size.map(|side| random.range(-0.5, 0.5) * f64::from(side));
+        let corners = [0; 3].map(|_| {
+            let place = middle.map(|middle| middle + random.range(-20.0, 20.0));
+            seen_at(place, random.range(1.0, 9.0), size[1])
+        });
+        let material = if index + blend < count { index % 16 } else { 16 };
+        stage.add(material, corners);
+    }
+    stage
+}
+
+fn shuffle<T>(items: &mut [T], seed: u64) {
+    let mut random = Random::new(seed);
+    for last in (1..items.len()).rev() {
+        items.swap(last, random.below(last as u64 + 1) as usize);
+    }
+}
+
+/// Asserts that two images are the same to the bit.
+fn assert_same(first: &Rendered, second: &Rendered, what: &str) {
+    let bits = |r: &Rendered| -> Vec<_> { r.colors.iter().map(|c| c.map(f32::to_bits)).collect() };
+    let pairs = bits(first).into_iter().zip(bits(second));
+    let different = pairs.filter(|(a, b)| a != b).count();
+    assert_eq!(different, 0, "{what}: pixels that differ");
+    assert_eq!(first.colors.len(), second.colors.len(), "{what}");
+}
+
+/// With lit surfaces, their shading shared or not, and compositing.
+#[test]
+fn runs_give_the_same_bytes() {
+    on_gpu(|gpu| {
+        let size = [96, 64];
+        for (blend, shading) in [(0, Shading::Triangle), (0, Shading::Sample), (40, Shading::Triangle)] {
+            let mut stage = soup(1, size, 300, blend);
+            for material in &mut stage.materials {
+                material.unlit = false;
+                material.roughness = 0.4;
+            }
+            let settings = Settings {
+                shading,
+                attributes: true,
+                ..Settings::new(size[0], size[1])
+            };
+            let (scene, pose) = stage.build();
+            let prepared = gpu.upload(&scene, &pose, None).unwrap();
+            let mut frame = gpu.prepare(&prepared, &settings).unwrap();
+            let first = gpu.render(&prepared, &mut frame, &camera()).unwrap();
+            assert!(first.statistics.superpixels > 500);
+            let again = gpu.render(&prepared, &mut frame, &camera()).unwrap();
+            let anew = stage.render(gpu, &settings);
+            for other in [again, anew] {
+                assert_same(&first, &other, "another run");
+                assert_eq!(first.attributes, other.attributes);
+            }
+        }
+    });
+}
+
+#[test]
+fn the_order_of_triangles_does_not_matter() {
+    on_gpu(|gpu| {
+        let size = [48, 48];
+        for (blend, samples) in [(0, 1), (0, 64), (30, 4)] {
+            let stage = soup(2, size, 200, blend);
+            let settings = everywhere(size, Pattern::Sobol, samples);
+            let first = stage.render(gpu, &settings);
+            for seed in 0..2 {
+                let mut shuffled = stage.clone();
+                let (opaque, blended) = shuffled.triangles.split_at_mut(200 - blend);
+                shuffle(opaque, seed);
+                shuffle(blended, seed);
+                let second = shuffled.render(gpu, &settings);
+                assert_same(&first, &second, &format!("shuffled, {samples} samples, {blend} BLEND"));
+            }
+            let mut sorted = stage.clone();
+            sorted.triangles.sort_by_key(|triangle| triangle.material);
+            assert_same(&first, &sorted.render(gpu, &settings), "sorted by material");
+        }
+    });
+}
+
+#[test]
+fn the_order_of_vertices_does_not_matter() {
+    on_gpu(|gpu| {
+        let size = [64, 64];
+        let materials = soup(3, size, 1, 0).materials;
+        for mesh in [
+            fan(7, 32.0, 48, Depths::Random),
+            delaunay(7, 32.0, 12, Depths::Random),
+            delaunay(7, 32.0, 12, Depths::Snapped),
+        ] {
+            let images = [0, 1, 2, 3, 4, 5].map(|permutation| {
+                let mut stage = Stage::new(materials.clone());
+                stage.add_mesh(0, &mesh, size[1], |_| permutation);
+                for (index, triangle) in stage.triangles.iter_mut().enumerate() {
+                    triangle.material = index % 16;
+                }
+                stage.render(gpu, &everywhere(size, Pattern::Sobol, 32))
+            });
+            for image in &images[1..] {
+                assert_same(&images[0], image, &mesh.name);
+            }
+        }
+    });
+}
+
+/// Renders with ever less memory, until there is too little.
+fn with_less(gpu: &mut Headless, stage: &Stage, settings: &Settings) -> Vec<Rendered> {
+    let (scene, pose) = stage.build();
+    let mut images: Vec<Rendered> = Vec::new();
+    let mut limit = None;
+    loop {
+        let settings = Settings {
+            max_memory: limit,
+            ..settings.clone()
+        };
+        let rendered = gpu.upload(&scene, &pose, limit).and_then(|prepared| {
+            let mut frame = gpu.prepare(&prepared, &settings)?;
+            gpu.render(&prepared, &mut frame, &camera())
+        });
+        match rendered {
+            Ok(image) => {
+                let used = image.statistics.memory_bytes;
+                assert!(limit.is_none_or(|limit| used <= limit), "{used} of {limit:?}");
+                limit = Some(used * 3 / 4);
+                images.push(image);
+            }
+            Err(error) => {
+                assert!(error.is_device_failure(), "{error}");
+                return images;
+            }
+        }
+    }
+}
+
+/// Less memory means more rounds, and then more regions. Neither shows in a superpixel. Regions may show in the IDs of
+/// `raster`: the device rounds a vertex to 2^-8 pixel after it has been moved into the region.
+#[test]
+fn memory_does_not_matter() {
+    on_gpu(|gpu| {
+        let size = [256, 192];
+        let stage = soup(4, size, 500, 0);
+        for (detection, shading) in [
+            (Detection::Every, Shading::Sample),
+            (Detection::Contrast, Shading::Triangle),
+        ] {
+            let settings = Settings {
+                detection,
+                shading,
+                attributes: true,
+                ..everywhere(size, Pattern::Sobol, 64)
+            };
+            let images = with_less(gpu, &stage, &settings);
+            let [first, .., last] = &images[..] else {
+                panic!("{} images", images.len());
+            };
+            let [most, least] = [first, last].map(|image| &image.statistics);
+            assert!(least.memory_bytes * 3 < most.memory_bytes, "{least:?}");
+            assert!(least.regions > 1 && least.rounds > most.rounds, "{least:?}");
+            for image in &images[1..] {
+                let regions = image.statistics.regions;
+                if detection == Detection::Every || regions == 1 {
+                    assert_same(first, image, "less memory");
+                }
+                let mut others = 0;
+                for pixel in 0..first.colors.len() {
+                    let [a, b] = [first, image].map(|image| &image.attributes[pixel]);
+                    if a.id != b.id || a.superpixel != b.superpixel {
+                        others += 1;
+                    } else {
+                        assert_eq!(first.colors[pixel], image.colors[pixel], "pixel {pixel}");
+                    }
+                }
+                assert!(others == 0 || regions > 1 && others <= 8, "{others} pixels, {regions} regions");
+            }
+        }
+    });
+}

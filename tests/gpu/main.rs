@@ -1,0 +1,20 @@
+//! The renderer on a device, under the validation layer, against the exact twins of `gpc::reference`.
+
+mod blend;
+mod coverage;
+mod detect;
+mod extremes;
+mod golden;
+#[path = "../common/golden.rs"]
+mod goldens;
+mod invariance;
+mod mask;
+#[path = "../common/meshes.rs"]
+mod meshes;
+mod methods;
+mod partition;
+mod scenes;
+mod stage;
+mod ties;
+mod twin;
+mod visibility;

@@ -1,0 +1,100 @@
+//! Partition of unity: each sample of a tiling is hit, and hit once.
+
+use gpc::sampling::Pattern;
+use gpc::scene::AlphaMode;
+
+use crate::meshes::{Depths, delaunay, tilings};
+use crate::stage::{Stage, everywhere, flat, on_gpu};
+
+/// Counts of samples, and the side of the image that they are taken in.
+const COUNTS: [(u32, u32); 8] = [
+    (1, 64),
+    (2, 64),
+    (4, 64),
+    (16, 48),
+    (64, 32),
+    (100, 32),
+    (256, 16),
+    (1024, 8),
+];
+
+/// Renders white tilings of one material over nothing; `check` gets each pixel.
+fn each_pixel(alpha_mode: AlphaMode, opacity: f32, check: impl Fn([f32; 4], &str)) {
+    on_gpu(|gpu| {
+        for (round, (samples, side)) in COUNTS.into_iter().enumerate() {
+            let half = f64::from(side) / 2.0;
+            for (index, mesh) in tilings(round as u64, half).into_iter().enumerate() {
+                // Half of the meshes for each count, others the next time.
+                if (index + index / 4 + round) % 2 == 0 {
+                    continue;
+                }
+                // Crowded tiles have a test of their own.
+                if samples > 64 && mesh.triangles.len() > 1000 {
+                    continue;
+                }
+                let mut stage = Stage::new(vec![flat([1.0, 1.0, 1.0, opacity], alpha_mode)]);
+                stage.add_mesh(0, &mesh, side, |triangle| triangle);
+                let pattern = if index % 4 < 2 {
+                    Pattern::Sobol
+                } else {
+                    Pattern::Lattice
+                };
+                let settings = everywhere([side, side], pattern.clone(), samples);
+                let rendered = stage.render(gpu, &settings);
+                assert_eq!(rendered.colors.len(), (side * side) as usize);
+                let name = format!("{}, {samples} samples, {pattern}", mesh.name);
+                for (pixel, color) in rendered.colors.into_iter().enumerate() {
+                    check(color, &format!("{name}, pixel {pixel}"));
+                }
+            }
+        }
+    });
+}
+
+/// Powers of two divide without rounding; the other count leaves the mean a bit or two from its value, far less than
+/// one sample weighs.
+fn assert_equal(color: [f32; 4], expected: f32, place: &str) {
+    let tolerance = if place.contains("100 samples") { 1e-6 } else { 0.0 };
+    assert!(
+        color.iter().all(|v| (v - expected).abs() <= tolerance),
+        "{place}: {color:?} instead of {expected}"
+    );
+}
+
+#[test]
+fn opaque_tilings_have_no_holes() {
+    each_pixel(AlphaMode::Opaque, 1.0, |color, place| {
+        assert_equal(color, 1.0, place);
+    });
+}
+
+/// A sample that two triangles own would be composited twice.
+#[test]
+fn blended_tilings_have_no_holes_and_no_double_hits() {
+    each_pixel(AlphaMode::Blend, 0.5, |color, place| {
+        assert_equal(color, 0.5, place);
+    });
+}
+
+/// Tiles that hold thousands of triangles, each sampled as often as can be.
+#[test]
+fn crowded_tiles_have_no_holes() {
+    on_gpu(|gpu| {
+        let side = 16;
+        for (cells, mode, samples) in [
+            (100, AlphaMode::Opaque, 1024),
+            (200, AlphaMode::Opaque, 64),
+            (40, AlphaMode::Blend, 1024),
+        ] {
+            let mesh = delaunay(8, f64::from(side) / 2.0, cells, Depths::Random);
+            let mut stage = Stage::new(vec![flat([0.5; 4], mode)]);
+            stage.add_mesh(0, &mesh, side, |triangle| triangle);
+            let settings = everywhere([side, side], Pattern::Sobol, samples);
+            let expected = if mode == AlphaMode::Blend { 0.25 } else { 0.5 };
+            let rendered = stage.render(gpu, &settings);
+            let holes = rendered.colors.iter().filter(|c| c[0] != expected);
+            let holes = holes.count();
+            assert_eq!(holes, 0, "pixels with holes: {cells} cells, {mode:?}, {samples} samples");
+        }
+    });
+}

@@ -1,0 +1,63 @@
+//! What a stage's samples see, by the exact twin.
+
+use gpc::reference::visibility::{Surface, Visibility, nearest};
+
+use crate::stage::{Stage, centre, clip};
+
+/// Surfaces, and which of them come near each pixel.
+pub struct Twin {
+    surfaces: Vec<Surface>,
+    near: Vec<Vec<u32>>,
+}
+
+impl Twin {
+    /// The surfaces of a stage in an image of `size` pixels.
+    pub fn new(stage: &Stage, size: [u32; 2]) -> Self {
+        let mut twin = Self {
+            surfaces: Vec::new(),
+            near: vec![Vec::new(); size[0] as usize * size[1] as usize],
+        };
+        for (index, triangle) in stage.triangles.iter().enumerate() {
+            let vertices = triangle.corners.map(|corner| clip(corner, size));
+            let double_sided = stage.materials[triangle.material].double_sided;
+            let Some(surface) = Surface::new(index as u32 + 1, vertices, double_sided) else {
+                continue;
+            };
+            let [columns, rows] = [0, 1].map(|axis| reach(vertices, axis, size[axis]));
+            for row in rows {
+                for pixel in columns.clone().map(|column| row * size[0] as usize + column) {
+                    // No sample is farther than 0.71 pixels from its pixel's centre.
+                    if surface.edges().margin(centre(pixel, size)) > -0.75 {
+                        twin.near[pixel].push(twin.surfaces.len() as u32);
+                    }
+                }
+            }
+            twin.surfaces.push(surface);
+        }
+        twin
+    }
+
+    /// What a sample in a pixel's square sees.
+    pub fn nearest(&self, pixel: usize, sample: [f64; 2]) -> Visibility {
+        self.without(pixel, sample, &[])
+    }
+
+    /// The same where the surfaces with these IDs are not there.
+    pub fn without(&self, pixel: usize, sample: [f64; 2], hidden: &[u32]) -> Visibility {
+        let surfaces = self.near[pixel].iter().map(|&i| &self.surfaces[i as usize]);
+        nearest(surfaces.filter(|s| !hidden.contains(&s.id())), sample)
+    }
+}
+
+/// The columns or rows of pixels that a triangle comes within a pixel of; all of them where a vertex is not in front of
+/// the eye.
+fn reach(vertices: [[f32; 4]; 3], axis: usize, pixels: u32) -> std::ops::Range<usize> {
+    if vertices.iter().any(|v| v[3] <= 0.0) {
+        return 0..pixels as usize;
+    }
+    let places = vertices.map(|v| f64::from(v[axis]) / f64::from(v[3]) + f64::from(pixels) / 2.0);
+    let low = places.into_iter().fold(f64::INFINITY, f64::min) - 1.0;
+    let high = places.into_iter().fold(f64::NEG_INFINITY, f64::max) + 2.0;
+    let bound = |place: f64| place.clamp(0.0, f64::from(pixels)) as usize;
+    bound(low)..bound(high)
+}
