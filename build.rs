@@ -8,7 +8,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Name of the compiled shader, its source, its macro definitions.
-const VARIANTS: &[(&str, &str, &[(&str, &str)])] = &[
+type Variant = (
+    &'static str,
+    &'static str,
+    &'static [(&'static str, &'static str)],
+);
+
+const VARIANTS: &[Variant] = &[
     ("transform", "transform.comp", &[]),
     ("raster_vertex", "raster.vert", &[]),
     ("raster_opaque", "raster.frag", &[]),
@@ -20,6 +26,7 @@ const VARIANTS: &[(&str, &str, &[(&str, &str)])] = &[
         &[("MASKED", ""), ("BYTES", "")],
     ),
     ("detect", "detect.comp", &[]),
+    ("thin", "thin.comp", &[]),
     (
         "detect_multisampled",
         "detect.comp",

@@ -4,7 +4,7 @@
 #include "include/frame.glsl"
 layout(local_size_x = 1) in;
 layout(constant_id = 0) const uint AFTER = 0u;
-const uint DETECT = 0u, CULL = 1u, SAMPLE = 2u, RECORDS = 3u, SPANS = 4u;
+const uint DETECT = 0u, CULL = 1u, SAMPLE = 2u, RECORDS = 3u, SPANS = 4u, THIN = 5u;
 
 uvec4 groups(uint n) {
     return n == 0u ? uvec4(0u) : uvec4(min(n, 32768u), (n + 32767u) / 32768u, 1u, 0u);
@@ -20,6 +20,8 @@ void main() {
         uint n = min(counters[COUNTER_RECORDS], frame.record_capacity);
         counters[COUNTER_RECORDS_TOTAL] += n;
         arguments[ARGUMENT_SORT] = groups((n + 63u) / 64u);
+    } else if (AFTER == THIN) {
+        arguments[ARGUMENT_THIN] = groups((counters[COUNTER_THIN] + 63u) / 64u);
     } else {
         // An invocation a record, or 8 a span. Bins one after the other; the dispatch of each begins at its first record.
         uint first = 0u;

@@ -1,7 +1,7 @@
 // detect: which pixels are superpixels, one bit a pixel in a word a tile of 8 x 4 pixels.
 // A pixel is one if any of its 8 neighbours shows another triangle (opaque or the nearest BLEND one) in a
 // contrasting colour, by display-encoded 8-bit codes. Twin: src/reference/detect.rs.
-// Reads: ids, blend_ids, display. Writes: masks, COUNTER_SUPERPIXELS, COUNTER_TILES.
+// Reads: ids, blend_ids, display, marks. Writes: masks, COUNTER_SUPERPIXELS, COUNTER_TILES.
 // An invocation takes a tile: it keeps rows in registers and compares every pair of neighbours once.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -11,6 +11,7 @@ layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint MODE = 0u;
 const uint CONTRAST = 0u, EXACT = 1u, COLOUR = 2u, BLENDED = 3u, EVERY = 4u;
 layout(constant_id = 1) const bool HAS_BLEND = false;
+layout(constant_id = 2) const bool THIN = false;    // pixels that `thin` marked are superpixels too
 
 // The nearest BLEND triangle at a pixel; multisampled, that of any of its samples.
 uint blend_at(ivec2 p) {
@@ -103,6 +104,8 @@ void main() {
             }
         }
     }
+
+    if (THIN && inside) word |= marks[tile];
 
     // Pixels of the halo belong to another region; beyond the border there are none.
     ivec2 low = clamp(ivec2(frame.interior_low) - base, ivec2(0), ivec2(8, 4));

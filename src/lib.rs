@@ -11,3 +11,8 @@ pub mod render;
 pub mod sampling;
 pub mod scene;
 pub mod vulkan;
+
+/// Compiles the library's example in the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -5,6 +5,7 @@ use gpc::output::{
     Aov, AovKind, Format, OutputError, Picture, decode, encode, encode_aov, read, write_atomically,
 };
 use gpc::reference::srgb;
+use gpc::render::PixelAttributes;
 use std::io::Cursor;
 
 /// A picture of 16 x 16 pixels whose colours are the 8-bit code values.
@@ -80,13 +81,13 @@ fn jpeg_shows_colour_over_black() {
 }
 
 fn all_aovs(pixels: usize) -> Vec<Aov> {
-    let attribute = |i: usize| {
-        let id = f32::from_bits(i as u32);
-        let normal = [0.0, if i == 0 { 0.0 } else { 1.0 }, 0.0, 0.0];
-        [
-            [i as f32 * 0.5, id, (i % 3 * 512) as f32, (i % 2) as f32],
-            normal,
-        ]
+    let attribute = |i: usize| PixelAttributes {
+        depth: i as f32 * 0.5,
+        id: i as u32,
+        samples: (i % 3 * 512) as u32,
+        superpixel: (i % 2) as u32,
+        normal: [0.0, if i == 0 { 0.0 } else { 1.0 }, 0.0],
+        padding: 0,
     };
     let attributes: Vec<_> = (0..pixels).map(attribute).collect();
     AovKind::ALL

@@ -21,8 +21,8 @@ number() { # JSON KEY [KEY]
 render() { # OUT OPTION...
     local image="$1"
     shift
-    # Three frames: a driver compiles shaders during the first, the median is of a warm one.
-    gpc render "$scene" -o "$image" --size 1280x720 --repeat 3 --json --quiet "$@"
+    # Warmed up, since drivers compile shaders during a first frame.
+    gpc render "$scene" -o "$image" --size 1280x720 --background '#87b5e0' --repeat 3 --json --quiet "$@"
 }
 
 line() { # IMAGE JSON NOTE

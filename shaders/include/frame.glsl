@@ -22,6 +22,7 @@ layout(set = 0, binding = 0) uniform Frame {
     uvec2 tiles;            // region in tiles of 8 x 4 pixels, rounded up
     uvec2 interior_low;     // pixels that the region owns, the rest being halo for detection
     uvec2 interior_high;    // exclusive
+    vec2 gap;               // depth in front of a surface that counts as apart from it: factor on the depth, and constant
     uint vertex_count;
     uint triangle_count;
     uint first_mask;        // index of the first MASK triangle
@@ -81,6 +82,7 @@ layout(std430, set = 0, binding = 34) buffer Arguments { uvec4 arguments[]; }; /
 
 layout(set = 0, binding = 38) uniform utextureBuffer pairs;       // triangle, tile, rank in its list, 0
 layout(set = 0, binding = 39, rgba32ui) uniform writeonly uimageBuffer pairs_out;
+layout(std430, set = 0, binding = 41) buffer Marks { uint marks[]; };       // pixels that `thin` marks, like masks
 
 // (n % width, n / width). Integer division is a loop on CPU devices; a float quotient errs by one at the most for
 // quotients below 2^22, and is mended.

@@ -70,6 +70,17 @@ fn of_scene(error: &SceneError) -> u8 {
     }
 }
 
+/// An error and its causes, but for those that the error quotes itself.
+pub fn message(error: &anyhow::Error) -> String {
+    let mut message = error.to_string();
+    for cause in error.chain().skip(1).map(ToString::to_string) {
+        if !message.contains(&cause) {
+            message = format!("{message}: {cause}");
+        }
+    }
+    message
+}
+
 /// Whether whoever read our standard output has had enough, as `head` does.
 pub fn is_closed_pipe(error: &anyhow::Error) -> bool {
     error.chain().any(|cause| {

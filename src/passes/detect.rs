@@ -24,8 +24,9 @@ pub struct Detect {
 }
 
 impl Detect {
-    /// Makes the pipeline; `has_blend` compares the nearest BLEND triangles too, `multisampled` reads those of
-    /// a multisampled raster (for [`DetectMode::Blended`]).
+    /// Makes the pipeline; `has_blend` compares the nearest BLEND triangles too, `thin` adds what
+    /// [`Thin`](super::Thin) marked, `multisampled` reads the IDs of a multisampled raster (for
+    /// [`DetectMode::Blended`]).
     ///
     /// # Errors
     /// If the driver refuses it.
@@ -33,9 +34,13 @@ impl Detect {
         layout: &FrameLayout,
         mode: DetectMode,
         has_blend: bool,
+        thin: bool,
         multisampled: bool,
     ) -> Result<Self, VulkanError> {
-        let constants = Constants::new().with(0, mode as u32).flag(1, has_blend);
+        let constants = Constants::new()
+            .with(0, mode as u32)
+            .flag(1, has_blend)
+            .flag(2, thin);
         let code = if multisampled {
             spirv::DETECT_MULTISAMPLED
         } else {

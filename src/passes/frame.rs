@@ -20,6 +20,7 @@ pub struct FrameUniform {
     pub tiles: [u32; 2],
     pub interior_low: [u32; 2],
     pub interior_high: [u32; 2],
+    pub gap: [f32; 2],
     pub vertex_count: u32,
     pub triangle_count: u32,
     pub first_mask: u32,
@@ -32,7 +33,6 @@ pub struct FrameUniform {
     pub contrast: u32,
     pub exposure: f32,
     pub footprint: f32,
-    pub padding: [u32; 2],
 }
 
 /// Indices into the buffer of counters, as in `shaders/include/counters.glsl`.
@@ -62,6 +62,7 @@ pub enum Counter {
     ShadedTotal,
     UnlistedTotal,
     Pairs,
+    Thin,
 }
 
 impl Counter {
@@ -83,12 +84,13 @@ pub enum Argument {
     SampleBlended,
     SampleUnlisted,
     Sort,
+    Thin,
     /// The first material bin's; the others follow.
     Shade,
 }
 
 /// How a binding of set 0 is used.
-const BINDINGS: [(u32, vk::DescriptorType); 40] = {
+const BINDINGS: [(u32, vk::DescriptorType); 42] = {
     use vk::DescriptorType as T;
     [
         (0, T::UNIFORM_BUFFER),
@@ -131,6 +133,8 @@ const BINDINGS: [(u32, vk::DescriptorType); 40] = {
         (37, T::STORAGE_BUFFER),
         (38, T::UNIFORM_TEXEL_BUFFER),
         (39, T::STORAGE_TEXEL_BUFFER),
+        (40, T::SAMPLED_IMAGE),
+        (41, T::STORAGE_BUFFER),
     ]
 };
 
@@ -332,6 +336,7 @@ mod tests {
             C::ShadedTotal,
             C::UnlistedTotal,
             C::Pairs,
+            C::Thin,
         ] {
             let name = format!("COUNTER_{}", shouted(&format!("{counter:?}")));
             assert_eq!(shader_constant(&name), Some(counter as usize), "{name}");
@@ -348,6 +353,7 @@ mod tests {
             A::SampleBlended,
             A::SampleUnlisted,
             A::Sort,
+            A::Thin,
             A::Shade,
         ] {
             let name = format!("ARGUMENT_{}", shouted(&format!("{argument:?}")));
@@ -402,6 +408,7 @@ mod tests {
             tiles,
             interior_low,
             interior_high,
+            gap,
             vertex_count,
             triangle_count,
             first_mask,

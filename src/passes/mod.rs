@@ -1,7 +1,7 @@
 //! The passes of a frame, one file each, named like their shaders in `shaders/`.
 //!
 //! ```text
-//! transform ─▶ raster ─▶ spans ─▶ shade ─▶ detect ─▶ cull ─▶ bin ─▶ schedule ─▶ setup ─▶ sample ─▶ sort ─▶ shade ─▶ resolve
+//! transform ─▶ raster ─▶ spans ─▶ shade ─▶ thin ─▶ detect ─▶ cull ─▶ bin ─▶ schedule ─▶ setup ─▶ sample ─▶ sort ─▶ shade ─▶ resolve
 //!                        └─ pixel centres ─┘                        └─────── a round, as often as memory needs it ───────┘
 //! ```
 //! Every pass records into a caller's command buffer and reads what the pass before left on the device.
@@ -26,6 +26,7 @@ mod shade;
 mod sort;
 mod spans;
 mod texture;
+mod thin;
 mod transform;
 
 /// The compiled shaders.
@@ -52,4 +53,5 @@ pub use setup::Setup;
 pub use shade::{Shade, ShadeSource};
 pub use sort::Sort;
 pub use spans::Spans;
+pub use thin::Thin;
 pub use transform::Transform;

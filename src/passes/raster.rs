@@ -50,7 +50,7 @@ impl RasterTargets {
             depth: image(
                 "depth",
                 DEPTH,
-                vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT,
+                vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT | vk::ImageUsageFlags::SAMPLED,
                 vk::ImageAspectFlags::DEPTH,
             )?,
             ids: image("triangle IDs", format, color, vk::ImageAspectFlags::COLOR)?,
@@ -162,6 +162,11 @@ impl Raster {
             );
             recorder.transition(blend_ids, draw, read);
         }
+        recorder.transition(
+            &targets.depth,
+            vk::ImageLayout::DEPTH_ATTACHMENT_OPTIMAL,
+            read,
+        );
     }
 
     #[allow(clippy::too_many_arguments)]

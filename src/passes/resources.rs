@@ -43,7 +43,7 @@ impl ResourceSizes {
         let tiles = u64::from(self.tiles());
         let records = u64::from(self.record_capacity);
         pixels * (16 + 4 + 4 + 4)
-            + tiles * 36
+            + tiles * 40
             + u64::from(self.list_capacity) * 80
             + records * 40
             + records.max(pixels) * 4
@@ -83,6 +83,7 @@ pub struct Resources {
     pub(crate) color: BufferView,
     pub(crate) counters: Buffer,
     masks: Buffer,
+    pub(crate) marks: Buffer,
     tiles: Buffer,
     tile_lists: Buffer,
     survivors: Buffer,
@@ -187,6 +188,7 @@ impl Resources {
             color: texels("colour", pixels, float4)?,
             counters: storage("counters", 4 * Counter::COUNT as u64)?,
             masks: storage("superpixel mask", tiles * 4)?,
+            marks: storage("marks of thin triangles", tiles * 4)?,
             tiles: storage("tiles", tiles * 16)?,
             tile_lists: storage("tile lists", tiles * 16)?,
             survivors: storage("survivors", triangles * 4)?,
@@ -381,6 +383,7 @@ impl Resources {
             (33, buffer(&self.bins)),
             (34, buffer(&self.arguments)),
             (37, buffer(&self.encoded)),
+            (41, buffer(&self.marks)),
         ];
         for (binding, info) in &storage {
             writes.push(
@@ -412,6 +415,16 @@ impl Resources {
             (first, image(targets.ids.view)),
             (first + 1, image(blend_view)),
         ];
+        let depth = image(targets.depth.view);
+        if !targets.multisampled() {
+            writes.push(
+                vk::WriteDescriptorSet::default()
+                    .dst_set(set.set)
+                    .dst_binding(40)
+                    .descriptor_type(vk::DescriptorType::SAMPLED_IMAGE)
+                    .image_info(&depth),
+            );
+        }
         for (binding, info) in &images {
             writes.push(
                 vk::WriteDescriptorSet::default()

@@ -4,13 +4,14 @@ use super::plan::Plan;
 use super::{RenderError, Settings, Shading};
 use crate::passes::{
     Bin, Cull, Detect, DetectMode, FrameLayout, GpuScene, Resolve, Resources, Sample, Schedule,
-    Setup, Shade, ShadeSource, Sort,
+    Setup, Shade, ShadeSource, Sort, Thin,
 };
 use crate::vulkan::{Constants, Recorder};
 use std::sync::Arc;
 
 /// Detects cells and samples them; one for BLEND pixels, one for superpixels.
 pub(super) struct Engine {
+    thin: Option<Thin>,
     detect: Detect,
     cull: Cull,
     bin: Bin,
@@ -26,6 +27,8 @@ pub(super) struct Engine {
 pub(super) struct EngineKind {
     /// Which pixels are cells.
     pub mode: DetectMode,
+    /// Whether thin triangles that no pixel centre saw make cells too.
+    pub thin: bool,
     /// Whether the triangle IDs are multisampled.
     pub multisampled: bool,
     /// Sub-samples of a cell.
@@ -53,7 +56,17 @@ impl Engine {
             scene.has_blend(),
         )?;
         Ok(Self {
-            detect: Detect::new(layout, kind.mode, scene.has_blend(), kind.multisampled)?,
+            thin: kind
+                .thin
+                .then(|| Thin::new(layout, scene.has_blend()))
+                .transpose()?,
+            detect: Detect::new(
+                layout,
+                kind.mode,
+                scene.has_blend(),
+                kind.thin,
+                kind.multisampled,
+            )?,
             cull: Cull::new(layout)?,
             bin: Bin::new(layout)?,
             schedule: Schedule::new(layout, &sample, per_sample, plan.layers)?,
@@ -95,6 +108,15 @@ impl Engine {
         rounds: u32,
     ) {
         let arguments = &resources.arguments;
+        if let Some(thin) = &self.thin {
+            thin.record(
+                recorder,
+                &resources.marks,
+                arguments,
+                scene.triangle_count(),
+            );
+            recorder.mark("thin");
+        }
         self.detect.record(recorder, tiles);
         recorder.mark("detect");
         self.cull.record(recorder, arguments);

@@ -5,7 +5,7 @@ use super::plan::{Effort, Plan, Region};
 use super::renderer::PreparedScene;
 use super::statistics::unfinished;
 use super::{Detection, Method, PassTime, Reference, RenderError, Settings, Statistics};
-use crate::camera::Camera;
+use crate::camera::{Camera, Projection};
 use crate::passes::{
     Attributes, BoxFilter, Counter, DetectMode, Encode, Encoding, FrameLayout, FrameUniform,
     GpuScene, Multisample, Raster, RasterTargets, Resolve, Resources, Shade, ShadeSource, Sort,
@@ -160,6 +160,7 @@ impl Frame {
             let samples = if multisampled { settings.samples } else { 1 };
             engine(EngineKind {
                 mode: DetectMode::Blended,
+                thin: false,
                 multisampled,
                 samples,
                 display_codes: detects,
@@ -176,6 +177,7 @@ impl Frame {
             };
             engine(EngineKind {
                 mode,
+                thin: settings.thin && settings.detection != Detection::Every,
                 multisampled: false,
                 samples: settings.samples,
                 display_codes: false,
@@ -632,6 +634,7 @@ impl Passes<'_> {
             tiles: [width.div_ceil(8), height.div_ceil(4)],
             interior_low,
             interior_high,
+            gap: gap(camera, image_height),
             vertex_count: scene.vertex_count(),
             triangle_count: scene.triangle_count(),
             first_mask: scene.first_mask(),
@@ -644,8 +647,25 @@ impl Passes<'_> {
             contrast: u32::from(self.settings.contrast),
             exposure: self.settings.exposure.exp2(),
             footprint: side as f32,
-            padding: [0; 2],
         }
+    }
+}
+
+/// Factor on a depth, and constant, by which a surface nearer by a pixel's width has a larger depth.
+fn gap(camera: &Camera, image_height: f64) -> [f32; 2] {
+    match camera.projection {
+        // Depth is near / distance, so that a relative difference is one of distances.
+        Projection::Perspective { fov, .. } => {
+            [(2.0 * (0.5 * fov).tan() / image_height) as f32, 0.0]
+        }
+        Projection::Orthographic {
+            half_height,
+            near,
+            far,
+        } => [
+            0.0,
+            (2.0 * half_height / image_height / (far - near)) as f32,
+        ],
     }
 }
 

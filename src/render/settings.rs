@@ -66,6 +66,8 @@ pub struct Settings {
     pub detection: Detection,
     /// Differences above this, in 8-bit sRGB code values of any channel, are a contrast.
     pub contrast: u8,
+    /// Whether triangles too thin for a pixel's centre to see make superpixels too.
+    pub thin: bool,
     /// Linear light behind the scene; `None` leaves it transparent.
     pub background: Option<[f32; 3]>,
     /// Exposure in stops.
@@ -97,6 +99,7 @@ impl Settings {
             shading: Shading::Triangle,
             detection: Detection::Contrast,
             contrast: Self::DEFAULT_CONTRAST,
+            thin: true,
             background: None,
             exposure: 0.0,
             reference: Reference::Display,

@@ -122,8 +122,14 @@ impl Instance {
             info = info.push_next(&mut features);
         }
         // SAFETY: `info` and all it points to live until after the call.
-        let raw = unsafe { entry.create_instance(&info, None) }
-            .map_err(VulkanError::of("vkCreateInstance"))?;
+        let raw = unsafe { entry.create_instance(&info, None) }.map_err(|e| match e {
+            // The loader says so when it finds no driver at all.
+            vk::Result::ERROR_INCOMPATIBLE_DRIVER => VulkanError::NoDevice {
+                asked: None,
+                found: "no driver was found".to_owned(),
+            },
+            e => VulkanError::of("vkCreateInstance")(e),
+        })?;
         let debug = if options.validation {
             let loader = ash::ext::debug_utils::Instance::new(&entry, &raw);
             let info = vk::DebugUtilsMessengerCreateInfoEXT::default()

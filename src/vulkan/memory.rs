@@ -287,7 +287,6 @@ pub struct Image {
 
 impl Image {
     /// All of the image.
-    #[must_use]
     pub fn range(&self) -> vk::ImageSubresourceRange {
         vk::ImageSubresourceRange {
             aspect_mask: self.aspect,

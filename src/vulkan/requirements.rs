@@ -93,7 +93,6 @@ impl Requirements {
 
     /// Features to enable at device creation, as they stand in Vulkan 1.3's structures:
     /// `dynamicRendering`, `synchronization2`, `maintenance4` and `subgroupSizeControl`.
-    #[must_use]
     pub fn features13() -> vk::PhysicalDeviceVulkan13Features<'static> {
         vk::PhysicalDeviceVulkan13Features::default()
             .dynamic_rendering(true)

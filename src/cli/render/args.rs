@@ -18,6 +18,7 @@ use std::path::PathBuf;
 #[derive(Args)]
 pub struct RenderArgs {
     /// A .glb or .gltf file, or - for standard input
+    #[arg(id = "file", value_name = "SCENE")]
     pub scene: PathBuf,
     /// Image to write, or - for a PNG on standard output
     #[arg(short, long, value_name = "OUT")]

@@ -1,0 +1,49 @@
+//! thin: pixels that a thin triangle crosses unseen.
+
+use super::{Argument, FrameLayout, spirv};
+use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+
+/// Marks pixels for `detect`.
+pub struct Thin {
+    select: Pipeline,
+    arguments: Pipeline,
+    walk: Pipeline,
+}
+
+impl Thin {
+    /// Makes the pipelines.
+    ///
+    /// # Errors
+    /// If the driver refuses one.
+    pub fn new(layout: &FrameLayout, has_blend: bool) -> Result<Self, VulkanError> {
+        let make = |code, constants| {
+            compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, None)
+        };
+        let thin = |select| {
+            make(
+                spirv::THIN,
+                Constants::new().flag(0, select).flag(1, has_blend),
+            )
+        };
+        Ok(Self {
+            select: thin(true)?,
+            arguments: make(spirv::ARGUMENTS, Constants::new().with(0, 5))?,
+            walk: thin(false)?,
+        })
+    }
+
+    /// Records it for a scene of `triangles` triangles; `marks` is cleared first.
+    pub fn record(
+        &self,
+        recorder: &Recorder<'_>,
+        marks: &Buffer,
+        arguments: &Buffer,
+        triangles: u32,
+    ) {
+        recorder.clear(marks);
+        recorder.barrier();
+        recorder.dispatch(&self.select, u64::from(triangles.div_ceil(512)));
+        recorder.dispatch(&self.arguments, 1);
+        recorder.dispatch_indirect(&self.walk, arguments, Argument::Thin as u32);
+    }
+}
