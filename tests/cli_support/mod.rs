@@ -44,13 +44,14 @@ impl Run {
     }
 }
 
-/// The command with arguments, in a folder.
+/// The command with arguments, in a folder, under the validation layer: any message of it is an error.
 pub fn command(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_gpc"));
     command
         .args(arguments)
         .current_dir(folder)
         .env_remove("RUST_LOG")
+        .env("GPC_VALIDATION", "1")
         .stdin(Stdio::null());
     command
 }
