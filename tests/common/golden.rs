@@ -25,7 +25,10 @@ pub fn compare(folder: &Path, name: &str, found: &RgbaImage) -> Result<(), Strin
     let path = folder.join(format!("{name}.png"));
     if std::env::var_os("GPC_BLESS").is_some() {
         found.save(&path).map_err(|error| error.to_string())?;
-        return Err(format!("{} written; look at it, then unset GPC_BLESS", path.display()));
+        return Err(format!(
+            "{} written; look at it, then unset GPC_BLESS",
+            path.display()
+        ));
     }
     let golden = image::open(&path)
         .map_err(|error| format!("{}: {error}; GPC_BLESS=1 makes it", path.display()))?

@@ -51,7 +51,13 @@ fn panes() -> Stage {
 
 /// What one sample sees over a background, premultiplied, and whether rounding may change it. BLEND surfaces come
 /// first in the search, from the nearest on.
-fn composite(stage: &Stage, twin: &Twin, pixel: usize, sample: [f64; 2], back: [f64; 4]) -> ([f64; 4], bool) {
+fn composite(
+    stage: &Stage,
+    twin: &Twin,
+    pixel: usize,
+    sample: [f64; 2],
+    back: [f64; 4],
+) -> ([f64; 4], bool) {
     let mut layers = Vec::new();
     let mut hidden = Vec::new();
     let mut contested = false;
@@ -95,7 +101,11 @@ fn panes_are_composited_from_the_farthest_to_the_nearest() {
             (none, grey),
         ] {
             let settings = Settings {
-                background: (back[3] > 0.0).then_some([back[0] as f32, back[1] as f32, back[2] as f32]),
+                background: (back[3] > 0.0).then_some([
+                    back[0] as f32,
+                    back[1] as f32,
+                    back[2] as f32,
+                ]),
                 ..settings
             };
             let rendered = stage.render(gpu, &settings);
@@ -126,7 +136,10 @@ fn panes_are_composited_from_the_farthest_to_the_nearest() {
                 layered += u32::from(sum[3] > 0.0);
             }
             let pixels = SIZE[0] * SIZE[1];
-            assert!(checked * 10 > pixels * 8 && layered * 2 > pixels, "{checked}, {layered}");
+            assert!(
+                checked * 10 > pixels * 8 && layered * 2 > pixels,
+                "{checked}, {layered}"
+            );
         }
     });
 }

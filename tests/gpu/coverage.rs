@@ -23,7 +23,11 @@ fn squares() -> Vec<[[f64; 2]; 4]> {
             (f64::from(at[axis]) + 0.5) * PITCH - f64::from(SIZE[axis]) / 2.0 + jitter
         });
         let half = 0.125 * 20.0_f64.powf(fraction(0.371));
-        (middle, half, fraction(0.618_034) * std::f64::consts::FRAC_PI_2)
+        (
+            middle,
+            half,
+            fraction(0.618_034) * std::f64::consts::FRAC_PI_2,
+        )
     });
     places
         .map(|(middle, half, angle)| {
@@ -60,7 +64,10 @@ fn error(gpu: &mut Headless, stage: &Stage, areas: &[f64], pattern: Pattern, sam
         exact += area;
     }
     assert!(count > 1000.0);
-    assert!((measured / exact - 1.0).abs() < 0.02, "{measured} of {exact} pixels");
+    assert!(
+        (measured / exact - 1.0).abs() < 0.02,
+        "{measured} of {exact} pixels"
+    );
     f64::sqrt(squares / count)
 }
 
@@ -82,12 +89,14 @@ fn coverage_converges_to_the_area() {
         let mut slopes = Vec::new();
         for pattern in [Pattern::Sobol, Pattern::Lattice] {
             let counts = [4, 16, 64, 256, 1024];
-            let errors =
-                counts.map(|samples| error(gpu, &stage, &areas, pattern.clone(), samples));
+            let errors = counts.map(|samples| error(gpu, &stage, &areas, pattern.clone(), samples));
             // A third above what straight edges give, since corners lie in many of these pixels.
             for (samples, error) in counts.into_iter().zip(errors) {
                 let bound = 0.4 * f64::from(samples).powf(-0.75);
-                assert!(error < bound, "{pattern}, {samples}: {error}, bound {bound}");
+                assert!(
+                    error < bound,
+                    "{pattern}, {samples}: {error}, bound {bound}"
+                );
             }
             slopes.push((errors[4] / errors[0]).ln() / 256.0_f64.ln());
         }

@@ -29,7 +29,12 @@ fn mosaic(seed: u64, size: [u32; 2]) -> Stage {
 }
 
 /// The superpixels that the device finds.
-fn found(gpu: &mut Headless, stage: &Stage, settings: &Settings, detection: Detection) -> Vec<bool> {
+fn found(
+    gpu: &mut Headless,
+    stage: &Stage,
+    settings: &Settings,
+    detection: Detection,
+) -> Vec<bool> {
     let settings = Settings {
         method: Method::Superpixel,
         samples: 4,
@@ -38,7 +43,11 @@ fn found(gpu: &mut Headless, stage: &Stage, settings: &Settings, detection: Dete
         ..settings.clone()
     };
     let rendered = stage.render(gpu, &settings);
-    let marked: Vec<bool> = rendered.attributes.iter().map(|p| p.superpixel == 1).collect();
+    let marked: Vec<bool> = rendered
+        .attributes
+        .iter()
+        .map(|p| p.superpixel == 1)
+        .collect();
     let count = marked.iter().filter(|&&m| m).count() as u64;
     assert_eq!(rendered.statistics.superpixels, count);
     for (pixel, &marked) in rendered.attributes.iter().zip(&marked) {
@@ -106,7 +115,10 @@ fn masks_of_whole_codes_are_the_twins() {
             }
             if size == SIZES[0] {
                 let all = base.colors.len();
-                assert!(0 < sums[0] && sums[0] < sums[1] && sums[1] < all, "{sums:?}");
+                assert!(
+                    0 < sums[0] && sums[0] < sums[1] && sums[1] < all,
+                    "{sums:?}"
+                );
             }
         }
     });
@@ -120,7 +132,9 @@ fn masks_of_blended_scenes_are_the_twins() {
         let size = [64, 64];
         let mut random = Random::new(5);
         let mut stage = mosaic(9, size);
-        stage.materials.push(flat([0.9, 0.5, 0.4, 0.25], AlphaMode::Blend));
+        stage
+            .materials
+            .push(flat([0.9, 0.5, 0.4, 0.25], AlphaMode::Blend));
         let opaque = stage.triangles.len() as u32;
         for _ in 0..12 {
             let mut corner = || {
@@ -187,7 +201,9 @@ fn an_image_without_edges_has_no_superpixels() {
     on_gpu(|gpu| {
         let size = [64, 64];
         let mut stage = mosaic(1, size);
-        stage.materials.push(flat([0.2, 0.2, 0.2, 1.0], AlphaMode::Opaque));
+        stage
+            .materials
+            .push(flat([0.2, 0.2, 0.2, 1.0], AlphaMode::Opaque));
         // One triangle before everything.
         let wall = [[0.0, -200.0], [-200.0, 200.0], [200.0, 200.0]];
         stage.add(1, wall.map(|place| seen_at(place, 0.05, size[1])));
@@ -200,7 +216,10 @@ fn an_image_without_edges_has_no_superpixels() {
             ..once(size)
         };
         let statistics = stage.render(gpu, &settings).statistics;
-        assert!(statistics.skipped_passes.contains(&"sample"), "{statistics:?}");
+        assert!(
+            statistics.skipped_passes.contains(&"sample"),
+            "{statistics:?}"
+        );
         assert_eq!((statistics.busy_tiles, statistics.records), (0, 0));
     });
 }

@@ -40,7 +40,9 @@ fn images_are_the_goldens() {
 
 #[test]
 fn the_comparison_can_fail() {
-    let golden = image::open(folder().join("superpixels.png")).unwrap().to_rgba8();
+    let golden = image::open(folder().join("superpixels.png"))
+        .unwrap()
+        .to_rgba8();
     let check = |image: &RgbaImage| compare(&folder(), "superpixels", image);
     check(&golden).unwrap();
 

@@ -24,7 +24,11 @@ fn soup(seed: u64, size: [u32; 2], count: usize, blend: usize) -> Stage {
             let place = middle.map(|middle| middle + random.range(-20.0, 20.0));
             seen_at(place, random.range(1.0, 9.0), size[1])
         });
-        let material = if index + blend < count { index % 16 } else { 16 };
+        let material = if index + blend < count {
+            index % 16
+        } else {
+            16
+        };
         stage.add(material, corners);
     }
     stage
@@ -51,7 +55,11 @@ fn assert_same(first: &Rendered, second: &Rendered, what: &str) {
 fn runs_give_the_same_bytes() {
     on_gpu(|gpu| {
         let size = [96, 64];
-        for (blend, shading) in [(0, Shading::Triangle), (0, Shading::Sample), (40, Shading::Triangle)] {
+        for (blend, shading) in [
+            (0, Shading::Triangle),
+            (0, Shading::Sample),
+            (40, Shading::Triangle),
+        ] {
             let mut stage = soup(1, size, 300, blend);
             for material in &mut stage.materials {
                 material.unlit = false;
@@ -91,7 +99,11 @@ fn the_order_of_triangles_does_not_matter() {
                 shuffle(opaque, seed);
                 shuffle(blended, seed);
                 let second = shuffled.render(gpu, &settings);
-                assert_same(&first, &second, &format!("shuffled, {samples} samples, {blend} BLEND"));
+                assert_same(
+                    &first,
+                    &second,
+                    &format!("shuffled, {samples} samples, {blend} BLEND"),
+                );
             }
             let mut sorted = stage.clone();
             sorted.triangles.sort_by_key(|triangle| triangle.material);
@@ -142,7 +154,10 @@ fn with_less(gpu: &mut Headless, stage: &Stage, settings: &Settings) -> Vec<Rend
         match rendered {
             Ok(image) => {
                 let used = image.statistics.memory_bytes;
-                assert!(limit.is_none_or(|limit| used <= limit), "{used} of {limit:?}");
+                assert!(
+                    limit.is_none_or(|limit| used <= limit),
+                    "{used} of {limit:?}"
+                );
                 limit = Some(used * 3 / 4);
                 images.push(image);
             }
@@ -192,7 +207,10 @@ fn memory_does_not_matter() {
                         assert_eq!(first.colors[pixel], image.colors[pixel], "pixel {pixel}");
                     }
                 }
-                assert!(others == 0 || regions > 1 && others <= 8, "{others} pixels, {regions} regions");
+                assert!(
+                    others == 0 || regions > 1 && others <= 8,
+                    "{others} pixels, {regions} regions"
+                );
             }
         }
     });

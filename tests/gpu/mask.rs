@@ -15,7 +15,10 @@ const REPEATS: f64 = 5.0;
 /// A 2 x 2 checker of opaque and transparent texels, tilted by one vertex colour, before a blue wall.
 fn checker() -> Stage {
     let mask = AlphaMode::Mask { cutoff: 0.5 };
-    let mut stage = Stage::new(vec![flat([0.0, 0.0, 1.0, 1.0], AlphaMode::Opaque), textured(mask)]);
+    let mut stage = Stage::new(vec![
+        flat([0.0, 0.0, 1.0, 1.0], AlphaMode::Opaque),
+        textured(mask),
+    ]);
     let texel = |alpha: u8| [255, 255, 255, alpha];
     stage.texture = Some((
         Image {
@@ -36,9 +39,8 @@ fn checker() -> Stage {
     };
     stage.add_quad(0, quad([50.0, 50.0], 2.0));
     stage.add_quad(1, quad(HALF, 1.0));
-    let uvs = [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]].map(|[u, v]: [f32; 2]| {
-        [u * REPEATS as f32, v * REPEATS as f32]
-    });
+    let uvs = [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]]
+        .map(|[u, v]: [f32; 2]| [u * REPEATS as f32, v * REPEATS as f32]);
     stage.triangles[2].uvs = [uvs[0], uvs[1], uvs[2]];
     stage.triangles[3].uvs = [uvs[0], uvs[2], uvs[3]];
     stage
@@ -50,7 +52,10 @@ fn shows(place: [f64; 2]) -> (bool, bool) {
     let doubtful = at.iter().any(|t| (t - t.round()).abs() < 1e-3);
     let inside = at.iter().all(|t| (0.0..2.0 * REPEATS).contains(t));
     let texel = at.map(|t| t.floor() as i64 & 1);
-    (inside && [255, 0, 100, 140][(texel[0] + 2 * texel[1]) as usize] >= 128, doubtful)
+    (
+        inside && [255, 0, 100, 140][(texel[0] + 2 * texel[1]) as usize] >= 128,
+        doubtful,
+    )
 }
 
 #[test]
@@ -61,7 +66,11 @@ fn alpha_is_tested_for_each_sample() {
             method: Method::None,
             ..once(SIZE)
         };
-        for settings in [everywhere(SIZE, Pattern::Sobol, 64), everywhere(SIZE, Pattern::Korobov, 300), none] {
+        for settings in [
+            everywhere(SIZE, Pattern::Sobol, 64),
+            everywhere(SIZE, Pattern::Korobov, 300),
+            none,
+        ] {
             let rendered = stage.render(gpu, &settings);
             let offsets = match settings.method {
                 Method::None => vec![[0.0, 0.0]],
@@ -73,7 +82,8 @@ fn alpha_is_tested_for_each_sample() {
                 let middle = centre(pixel, SIZE);
                 let (mut covered, mut doubtful) = (0.0, 0.0);
                 for offset in &offsets {
-                    let (shown, near_border) = shows([0, 1].map(|axis| middle[axis] + f64::from(offset[axis])));
+                    let (shown, near_border) =
+                        shows([0, 1].map(|axis| middle[axis] + f64::from(offset[axis])));
                     covered += f64::from(u8::from(shown)) * share;
                     doubtful += f64::from(u8::from(near_border)) * share;
                 }
@@ -91,7 +101,10 @@ fn alpha_is_tested_for_each_sample() {
             }
             let pixels = f64::from(SIZE[0] * SIZE[1]);
             assert!(doubts < 0.01 * pixels, "{doubts}");
-            assert!(settings.method == Method::None || partial > 400, "{partial}");
+            assert!(
+                settings.method == Method::None || partial > 400,
+                "{partial}"
+            );
         }
     });
 }

@@ -63,7 +63,8 @@ fn one_sample_is_none() {
         assert_eq!(none.colors, brute.colors);
         // A vertex that the device rounds takes an edge over the centre of few pixels.
         let sampled = stage.render(gpu, &on_the_grid(1));
-        let near = |(a, b): &(&[f32; 4], &[f32; 4])| a.iter().zip(*b).all(|(a, b)| (a - b).abs() < 1e-4);
+        let near =
+            |(a, b): &(&[f32; 4], &[f32; 4])| a.iter().zip(*b).all(|(a, b)| (a - b).abs() < 1e-4);
         let pairs = none.colors.iter().zip(&sampled.colors);
         let different = pairs.filter(|pair| !near(pair)).count();
         assert!(different <= 6, "{different} pixels differ");
@@ -78,9 +79,15 @@ fn superpixels_approach_brute_force_where_it_matters() {
         let none = psnr(&stage.render(gpu, &settings(Method::None, 1)), &brute);
         let sampled = stage.render(gpu, &settings(Method::Superpixel, 64));
         let statistics = &sampled.statistics;
-        assert!(statistics.superpixels * 2 < u64::from(SIZE[0] * SIZE[1]), "{statistics:?}");
+        assert!(
+            statistics.superpixels * 2 < u64::from(SIZE[0] * SIZE[1]),
+            "{statistics:?}"
+        );
         let ratio = psnr(&sampled, &brute);
-        assert!(ratio > none + 8.0, "{ratio} dB, without antialiasing {none}");
+        assert!(
+            ratio > none + 8.0,
+            "{ratio} dB, without antialiasing {none}"
+        );
     });
 }
 
@@ -113,8 +120,14 @@ fn impossible_counts_are_usage_errors() {
             (Method::Ssaa, 10, "1, 4, 9, 16"),
             (Method::Msaa, 3, "4"),
         ] {
-            let error = gpu.prepare(&prepared, &settings(method, samples)).err().unwrap();
-            assert!(error.is_usage() && error.to_string().contains(named), "{error}");
+            let error = gpu
+                .prepare(&prepared, &settings(method, samples))
+                .err()
+                .unwrap();
+            assert!(
+                error.is_usage() && error.to_string().contains(named),
+                "{error}"
+            );
         }
         let error = gpu.prepare(&prepared, &Settings::new(0, 5)).err().unwrap();
         assert!(error.is_usage(), "{error}");

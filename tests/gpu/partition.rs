@@ -54,7 +54,11 @@ fn each_pixel(alpha_mode: AlphaMode, opacity: f32, check: impl Fn([f32; 4], &str
 /// Powers of two divide without rounding; the other count leaves the mean a bit or two from its value, far less than
 /// one sample weighs.
 fn assert_equal(color: [f32; 4], expected: f32, place: &str) {
-    let tolerance = if place.contains("100 samples") { 1e-6 } else { 0.0 };
+    let tolerance = if place.contains("100 samples") {
+        1e-6
+    } else {
+        0.0
+    };
     assert!(
         color.iter().all(|v| (v - expected).abs() <= tolerance),
         "{place}: {color:?} instead of {expected}"
@@ -94,7 +98,10 @@ fn crowded_tiles_have_no_holes() {
             let rendered = stage.render(gpu, &settings);
             let holes = rendered.colors.iter().filter(|c| c[0] != expected);
             let holes = holes.count();
-            assert_eq!(holes, 0, "pixels with holes: {cells} cells, {mode:?}, {samples} samples");
+            assert_eq!(
+                holes, 0,
+                "pixels with holes: {cells} cells, {mode:?}, {samples} samples"
+            );
         }
     });
 }

@@ -38,9 +38,20 @@ pub fn ball_over_checker() -> Stage {
     for wire in 0..9 {
         let angle = f64::from(wire) * 0.19 + 0.07;
         let at = |angle: f64, far: f64| {
-            [(1.1 - far * angle.cos()) as f32, (far * angle.sin() - 0.9) as f32, -3.5]
+            [
+                (1.1 - far * angle.cos()) as f32,
+                (far * angle.sin() - 0.9) as f32,
+                -3.5,
+            ]
         };
-        stage.add(3, [[1.1, -0.9, -3.5], at(angle + 0.006, 3.0), at(angle - 0.006, 3.0)]);
+        stage.add(
+            3,
+            [
+                [1.1, -0.9, -3.5],
+                at(angle + 0.006, 3.0),
+                at(angle - 0.006, 3.0),
+            ],
+        );
     }
     stage
 }
@@ -54,10 +65,15 @@ fn ball(stage: &mut Stage, middle: [f64; 3], radius: f64) {
             PI * f64::from(ring) / f64::from(RINGS),
             TAU * f64::from(sector) / f64::from(SECTORS),
         );
-        let direction = [polar.sin() * azimuth.sin(), polar.cos(), polar.sin() * azimuth.cos()];
+        let direction = [
+            polar.sin() * azimuth.sin(),
+            polar.cos(),
+            polar.sin() * azimuth.cos(),
+        ];
         [0, 1, 2].map(|axis| (middle[axis] + radius * direction[axis]) as f32)
     };
-    for (ring, sector) in (0..RINGS).flat_map(|ring| (0..SECTORS).map(move |sector| (ring, sector))) {
+    for (ring, sector) in (0..RINGS).flat_map(|ring| (0..SECTORS).map(move |sector| (ring, sector)))
+    {
         let [a, b] = [at(ring, sector), at(ring + 1, sector)];
         let [c, d] = [at(ring + 1, sector + 1), at(ring, sector + 1)];
         stage.add_quad(0, [a, b, c, d]);

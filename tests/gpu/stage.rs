@@ -6,7 +6,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use glam::{DMat3, DVec3, Vec3};
+use glam::{DMat3, DVec2, DVec3, Vec3};
 use gpc::camera::{Camera, Projection};
 use gpc::render::{Detection, Headless, HeadlessOptions, Method, Reference, Rendered, Settings};
 use gpc::sampling::Pattern;
@@ -54,15 +54,14 @@ pub fn camera() -> Camera {
             near: NEAR,
             far: None,
         },
+        shift: DVec2::ZERO,
     }
 }
 
 /// A position in clip space, as the GPU computes it: (pixel x * w, pixel y * w, z, w).
 pub fn clip(position: [f32; 3], size: [u32; 2]) -> [f32; 4] {
     let [width, height] = size.map(f64::from);
-    let matrix = camera()
-        .pixel_matrix(DVec3::ZERO, width, height)
-        .as_mat4();
+    let matrix = camera().pixel_matrix(DVec3::ZERO, width, height).as_mat4();
     (matrix * Vec3::from_array(position).extend(1.0)).to_array()
 }
 
@@ -157,7 +156,10 @@ impl Stage {
         let half = height as f32 / 2.0;
         for triangle in 0..mesh.triangles.len() {
             let corners = mesh.corners(triangle, permutation(triangle));
-            self.add(material, corners.map(|[x, y, _, w]| [x / half, -y / half, -w]));
+            self.add(
+                material,
+                corners.map(|[x, y, _, w]| [x / half, -y / half, -w]),
+            );
         }
     }
 
@@ -211,7 +213,10 @@ impl Stage {
                 }),
             }
         }
-        assert!(draws.is_sorted_by_key(|draw| draw.class), "order of classes");
+        assert!(
+            draws.is_sorted_by_key(|draw| draw.class),
+            "order of classes"
+        );
         let each = |value: &dyn Fn(&Triangle, usize) -> [f32; 4]| -> Vec<[f32; 4]> {
             let corners = |t| (0..3).map(move |corner| (t, corner));
             let all = self.triangles.iter().flat_map(corners);

@@ -25,7 +25,10 @@ impl Twin {
             };
             let [columns, rows] = [0, 1].map(|axis| reach(vertices, axis, size[axis]));
             for row in rows {
-                for pixel in columns.clone().map(|column| row * size[0] as usize + column) {
+                for pixel in columns
+                    .clone()
+                    .map(|column| row * size[0] as usize + column)
+                {
                     // No sample is farther than 0.71 pixels from its pixel's centre.
                     if surface.edges().margin(centre(pixel, size)) > -0.75 {
                         twin.near[pixel].push(twin.surfaces.len() as u32);
