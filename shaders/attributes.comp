@@ -6,12 +6,16 @@
 #include "include/frame.glsl"
 #include "include/barycentric.glsl"
 layout(local_size_x = 64) in;
+layout(constant_id = 0) const bool SUPERPIXELS = false;
 layout(set = 0, binding = 36, rgba32ui) uniform writeonly uimageBuffer attributes_out;
 
 void main() {
     uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
-    if (i >= frame.size.x * frame.size.y) return;
-    uvec2 pixel = split(i, frame.size.x);
+    // Under supersampling, what the grid's middle sees of an output pixel.
+    uint side = uint(frame.footprint);
+    uvec2 size = frame.size / side;
+    if (i >= size.x * size.y) return;
+    uvec2 pixel = split(i, size.x) * side + side / 2u;
     uint id = texelFetch(ids, ivec2(pixel), 0).x;
     ivec3 v = ivec3(texelFetch(triangles, int(max(id, 1u) - 1u)).xyz);
     Barycentric w = barycentric(texelFetch(clip, v.x), texelFetch(clip, v.y), texelFetch(clip, v.z), frame.origin + vec2(pixel));
@@ -20,8 +24,8 @@ void main() {
     vec3 n = mat3(texelFetch(normals, v.x).xyz, texelFetch(normals, v.y).xyz, texelFetch(normals, v.z).xyz) * w.at;
     n *= inversesqrt(max(dot(n, n), 1e-30));
     uint tile = pixel.y / 4u * frame.tiles.x + pixel.x / 8u;
-    bool super = (masks[tile] >> (pixel.y % 4u * 8u + pixel.x % 8u) & 1u) != 0u;
+    bool super = SUPERPIXELS && (masks[tile] >> (pixel.y % 4u * 8u + pixel.x % 8u) & 1u) != 0u;
     bool hit = id != 0u;
-    imageStore(attributes_out, int(2u * i), uvec4(floatBitsToUint(hit ? distance_ : 0.0), id, super ? frame.sample_count : 1u, uint(super)));
+    imageStore(attributes_out, int(2u * i), uvec4(floatBitsToUint(hit ? distance_ : 0.0), id, super ? frame.sample_count : side * side, uint(super)));
     imageStore(attributes_out, int(2u * i + 1u), uvec4(floatBitsToUint(hit ? n : vec3(0.0)), 0u));
 }

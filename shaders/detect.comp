@@ -12,6 +12,7 @@ layout(constant_id = 0) const uint MODE = 0u;
 const uint CONTRAST = 0u, EXACT = 1u, COLOUR = 2u, BLENDED = 3u, EVERY = 4u;
 layout(constant_id = 1) const bool HAS_BLEND = false;
 layout(constant_id = 2) const bool THIN = false;    // pixels that `thin` marked are superpixels too
+layout(constant_id = 3) const bool TRANSPARENT = false;  // colours differ in alpha too
 
 // The nearest BLEND triangle at a pixel; multisampled, that of any of its samples.
 uint blend_at(ivec2 p) {
@@ -37,10 +38,10 @@ bool contrasting(uint a, uint b) {
     return (u & (2u * field_limit - u) & field_mask) != field_mask;
 }
 
-bool differs(uint id_a, uint id_b, uint blend_a, uint blend_b, uint color_a, uint color_b) {
+bool differs(uint id_a, uint id_b, uint blend_a, uint blend_b, uint color_a, uint color_b, int alpha_a, int alpha_b) {
     bool other = id_a != id_b || (HAS_BLEND && blend_a != blend_b);
     if (MODE == EXACT) return other;
-    bool contrast = contrasting(color_a, color_b);
+    bool contrast = contrasting(color_a, color_b) || (TRANSPARENT && abs(alpha_a - alpha_b) > int(frame.contrast));
     return MODE == COLOUR ? contrast : other && contrast;
 }
 
@@ -64,8 +65,9 @@ void main() {
         }
     } else {
         uint id[10], blend[10], code[10], above_id[10], above_blend[10], above_code[10];
+        int alpha[10], above_alpha[10];
         for (int i = 0; i < 10; i++) {
-            above_id[i] = 0u; above_blend[i] = 0u; above_code[i] = 0u; blend[i] = 0u;
+            above_id[i] = 0u; above_blend[i] = 0u; above_code[i] = 0u; blend[i] = 0u; above_alpha[i] = 0;
         }
         [[unroll]] for (int r = -1; r <= 4; r++) {
             int y = clamp(base.y + r, 0, last.y);
@@ -73,24 +75,26 @@ void main() {
                 ivec2 p = ivec2(clamp(base.x - 1 + i, 0, last.x), y);
                 id[i] = texelFetch(ids, p, 0).x;
                 if (HAS_BLEND) blend[i] = blend_at(p);
-                code[i] = MODE == EXACT ? 0u : spread(texelFetch(display, p.y * int(frame.size.x) + p.x).x);
+                uint color_code = MODE == EXACT ? 0u : texelFetch(display, p.y * int(frame.size.x) + p.x).x;
+                code[i] = spread(color_code);
+                alpha[i] = int(color_code >> 24);
             }
             uint row = 0u, above = 0u;
             if (r >= 0 && r < 4) {
                 [[unroll]] for (int i = 0; i < 9; i++)
-                    row |= differs(id[i], id[i + 1], blend[i], blend[i + 1], code[i], code[i + 1]) ? 3u << i : 0u;
+                    row |= differs(id[i], id[i + 1], blend[i], blend[i + 1], code[i], code[i + 1], alpha[i], alpha[i + 1]) ? 3u << i : 0u;
             }
             if (r >= 0) {
                 [[unroll]] for (int i = 1; i < 9; i++) {
-                    uint bit = differs(id[i], above_id[i], blend[i], above_blend[i], code[i], above_code[i]) ? 1u << i : 0u;
+                    uint bit = differs(id[i], above_id[i], blend[i], above_blend[i], code[i], above_code[i], alpha[i], above_alpha[i]) ? 1u << i : 0u;
                     row |= bit;
                     above |= bit;
                 }
                 [[unroll]] for (int i = 0; i < 9; i++) {
-                    bool falling = differs(above_id[i], id[i + 1], above_blend[i], blend[i + 1], above_code[i], code[i + 1]);
+                    bool falling = differs(above_id[i], id[i + 1], above_blend[i], blend[i + 1], above_code[i], code[i + 1], above_alpha[i], alpha[i + 1]);
                     row |= falling ? 2u << i : 0u;
                     above |= falling ? 1u << i : 0u;
-                    bool rising = differs(above_id[i + 1], id[i], above_blend[i + 1], blend[i], above_code[i + 1], code[i]);
+                    bool rising = differs(above_id[i + 1], id[i], above_blend[i + 1], blend[i], above_code[i + 1], code[i], above_alpha[i + 1], alpha[i]);
                     row |= rising ? 1u << i : 0u;
                     above |= rising ? 2u << i : 0u;
                 }
@@ -101,6 +105,7 @@ void main() {
                 above_id[i] = id[i];
                 above_blend[i] = blend[i];
                 above_code[i] = code[i];
+                above_alpha[i] = alpha[i];
             }
         }
     }

@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/tiles.glsl"
+#include "include/lanes.glsl"
 layout(local_size_x = 64) in;
 
 uint sample_id(ivec2 pixel, int s) {
@@ -48,6 +49,8 @@ void main() {
     if (i == 0u) {
         counters[COUNTER_RECORDS] = tile_count * 32u * frame.sample_count;
         counters[COUNTER_PLAIN_TILES] = tile_count;
-        arguments[ARGUMENT_SAMPLE_PLAIN] = uvec4(min(tile_count, 32768u), (tile_count + 32767u) / 32768u, 1u, 0u);
+        // `resolve` takes a subgroup's number of pixels at a time.
+        uint n = tile_count * (32u / LANES);
+        arguments[ARGUMENT_SAMPLE_PLAIN] = uvec4(min(n, 32768u), (n + 32767u) / 32768u, 1u, 0u);
     }
 }

@@ -31,6 +31,8 @@ vec4 composite(uint node) {
 }
 
 void write(uvec2 pixel, vec4 c) {
+    // Whole tiles are cells where the device multisamples: some reach over the border.
+    if (any(greaterThanEqual(pixel, frame.size))) return;
     uint at = pixel.y * frame.size.x + pixel.x;
     imageStore(color, int(at), c);
     if (DISPLAY_CODES) imageStore(display_out, int(at), uvec4(display_code(c)));
@@ -39,9 +41,10 @@ void write(uvec2 pixel, vec4 c) {
 void main() {
     uint tile_count = frame.tiles.x * frame.tiles.y;
     uint entry = gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u;
-    if (entry >= counters[COUNTER_PLAIN_TILES + LIST]) return;
+    const uint GROUPS = 32u / LANES;
+    if (entry / GROUPS >= counters[COUNTER_PLAIN_TILES + LIST]) return;
     uint lane = gl_SubgroupInvocationID;
-    uint tile = tile_lists[LIST * tile_count + entry];
+    uint tile = tile_lists[LIST * tile_count + entry / GROUPS];
     uint word = masks[tile];
     uint first_header = tiles[tile].z;
     uvec2 corner = split(tile, frame.tiles.x) * uvec2(8u, 4u);
@@ -50,42 +53,40 @@ void main() {
 
     if (CHAINED) {
         // A cell at a time, an invocation a sample.
-        uint rest = word, cell = 0u;
-        while (rest != 0u) {
+        uint cells = bitCount(word), cell = 0u, last = min(entry % GROUPS * LANES + LANES, cells);
+        uint rest = word;
+        while (cell < last) {
             uint bit = uint(findLSB(rest));
             rest &= rest - 1u;
+            if (cell++ < entry % GROUPS * LANES) continue;
             vec4 sum = vec4(0.0);
             for (uint block = 0u; block < blocks; block++) {
-                uvec2 h = headers[min(first_header + cell * blocks + block, frame.record_capacity - 1u)];
+                uvec2 h = headers[min(first_header + (cell - 1u) * blocks + block, frame.record_capacity - 1u)];
                 for (uint s = lane; s < h.y; s += LANES)
                     if (h.x + s < frame.record_capacity) sum += composite(h.x + s);
             }
             sum = vec4(lanes_add(sum.x), lanes_add(sum.y), lanes_add(sum.z), lanes_add(sum.w)) * share;
             if (subgroupElect()) write(corner + uvec2(bit & 7u, bit >> 3), sum);
-            cell++;
         }
     } else {
-        // An invocation a cell.
-        uint bit = lane;
+        // An invocation a pixel.
+        uint bit = entry % GROUPS * LANES + lane;
+        bool mine = (word >> bit & 1u) != 0u;
+        uint cell = uint(bitCount(word & ((1u << bit) - 1u)));
+        vec4 sum = vec4(0.0);
+        float covered = 0.0;
+        uint block = 0u;
         do {
-            bool mine = (word >> bit & 1u) != 0u;
-            uint cell = uint(bitCount(word & ((1u << bit) - 1u)));
-            vec4 sum = vec4(0.0);
-            float covered = 0.0;
-            uint block = 0u;
-            do {
-                uvec2 h = mine ? headers[min(first_header + cell * blocks + block, frame.record_capacity - 1u)] : uvec2(0u);
-                for (uint r = 0u; r < h.y; r++) {
-                    float weight = float(texelFetch(records, int(h.x + r)).w);
-                    uint id = texelFetch(records, int(h.x + r)).y;
-                    weight = id == 0u ? 0.0 : weight;
-                    sum += id == 0u ? vec4(0.0) : weight * to_output(vec4(texelFetch(shaded, int(h.x + r)).rgb, 1.0));
-                    covered += weight;
-                }
-            } while (++block < blocks);
-            sum = (sum + frame.background * (float(frame.sample_count) - covered)) * share;
-            if (mine) write(corner + uvec2(bit & 7u, bit >> 3), sum);
-            bit += LANES;
-        } while (bit < 32u);
+            uvec2 h = mine ? headers[min(first_header + cell * blocks + block, frame.record_capacity - 1u)] : uvec2(0u);
+            for (uint r = 0u; r < h.y; r++) {
+                float weight = float(texelFetch(records, int(h.x + r)).w);
+                uint id = texelFetch(records, int(h.x + r)).y;
+                weight = id == 0u ? 0.0 : weight;
+                sum += id == 0u ? vec4(0.0) : weight * to_output(vec4(texelFetch(shaded, int(h.x + r)).rgb, 1.0));
+                covered += weight;
+            }
+        } while (++block < blocks);
+        sum = (sum + frame.background * (float(frame.sample_count) - covered)) * share;
+        if (mine) write(corner + uvec2(bit & 7u, bit >> 3), sum);
     }
 }

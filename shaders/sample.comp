@@ -2,7 +2,7 @@
 // Reads: tiles, masks, tile_lists, candidates (or, UNLISTED, every triangle), locations.
 // Writes: records, headers. No colour is known here.
 //
-// A subgroup takes a tile, LANES cells at a time. First an invocation holds a cell and the tile's candidates pass by:
+// A subgroup takes LANES cells of a tile. First an invocation holds a cell and the tile's candidates pass by:
 // a conservative test against the cell's square keeps a short list, and the nearest triangle that covers the whole
 // square hides what lies behind it. Then, cell by cell, an invocation holds ROWS samples, with their depth and ID in
 // registers, and the short list passes by. A list that outgrows its room is replaced by all candidates of the tile.
@@ -31,6 +31,8 @@ layout(constant_id = 4) const uint LIST = 0u;           // which of the tile lis
 const uint BLOCK = ROWS * LANES;
 const float CELL_REACH = 0.5 + 1.0 / 64.0;              // half a cell, and some rounding
 const uint KEPT = 96u;                                  // room for candidates of a cell
+// Mesa's CPU driver ends all loops of an invocation after 65,535 trips in all; a longer list is reported instead.
+const uint LONGEST_LIST = 40000u;
 const float OUTSIDE = 1.1754944e-38;                    // the least E of a sample off the owning side
 
 shared uint kept[32 * KEPT];                            // by invocation, then entry
@@ -134,11 +136,11 @@ uvec4 merged(uint id[ROWS], vec2 offset[ROWS], uint wanted, uint packed_pixel) {
 
 void main() {
     uint tile_count = frame.tiles.x * frame.tiles.y;
+    const uint GROUPS = 32u / LANES;
     uint entry = gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u;
-    uint entries = counters[COUNTER_PLAIN_TILES + LIST];
-    if (entry >= entries) return;
+    if (entry / GROUPS >= counters[COUNTER_PLAIN_TILES + LIST]) return;
     uint lane = gl_SubgroupInvocationID;
-    uint tile = tile_lists[LIST * tile_count + entry];
+    uint tile = tile_lists[LIST * tile_count + entry / GROUPS];
     uvec4 header = tiles[tile];
     ivec2 tile_at = ivec2(split(tile, frame.tiles.x));
     vec2 center = tile_center(tile_at);
@@ -152,67 +154,138 @@ void main() {
     uint cells = bitCount(word);
     uint blocks = (frame.sample_count + BLOCK - 1u) / BLOCK;
 
-    uint rest = word, first_cell = 0u;
+    uint first_cell = entry % GROUPS * LANES;
+    if (first_cell >= cells) return;
+    uint group = min(cells - first_cell, LANES);
+    bool manageable = count <= LONGEST_LIST;
+    if (!manageable && subgroupElect()) atomicAdd(counters[COUNTER_UNFINISHED], group);
+    chunks = manageable ? chunks : 1u;
+    count = manageable ? count : 0u;
+
+    // The cell of each invocation, and what it keeps of the tile's candidates.
+    uint rest = word, my_bit = 0u, bit_ = 0u;
     do {
-        uint group = min(cells - first_cell, LANES);
-        // The cell of each invocation, and what it keeps of the tile's candidates.
-        uint my_bit = 0u, g_ = 0u;
+        my_bit = bit_ == first_cell + lane ? uint(findLSB(rest)) : my_bit;
+        rest &= rest - 1u;
+    } while (++bit_ < first_cell + group);
+    vec2 my_at = vec2(my_bit & 7u, my_bit >> 3) - vec2(3.5, 1.5);
+    float my_hidden = 0.0;      // nothing farther than this shows in the cell
+    uint my_count = 0u;
+    uint chunk = 0u;
+    do {
+        Candidate k = load_candidate(first, min(chunk * LANES + lane, max(count, 1u) - 1u), center);
+        uint chunk_count = min(count - min(count, chunk * LANES), LANES);
+        uint j = 0u;
         do {
-            my_bit = g_ == lane ? uint(findLSB(rest)) : my_bit;
-            rest &= rest - 1u;
-        } while (++g_ < group);
-        vec2 my_at = vec2(my_bit & 7u, my_bit >> 3) - vec2(3.5, 1.5);
-        float my_hidden = 0.0;      // nothing farther than this shows in the cell
-        uint my_count = 0u;
-        uint chunk = 0u;
-        do {
-            Candidate k = load_candidate(first, min(chunk * LANES + lane, max(count, 1u) - 1u), center);
-            uint chunk_count = min(count - chunk * LANES, LANES);
-            uint j = 0u;
-            do {
-                CellTest test = test_cell(shuffle_candidate(k, j), my_at);
-                my_hidden = max(my_hidden, test.hides);
-                if (test.touches && test.near >= my_hidden && j < chunk_count) {
-                    kept[lane * KEPT + min(my_count, KEPT - 1u)] = chunk * LANES + j;
+            [[unroll]] for (uint u = 0u; u < 4u; u++) {
+                CellTest test = test_cell(shuffle_candidate(k, j + u), my_at);
+                bool exists = j + u < chunk_count;
+                my_hidden = max(my_hidden, exists ? test.hides : 0.0);
+                if (test.touches && test.near >= my_hidden && exists) {
+                    kept[lane * KEPT + min(my_count, KEPT - 1u)] = chunk * LANES + j + u;
                     my_count++;
                 }
-            } while (++j < chunk_count);
-        } while (++chunk < chunks);
-        subgroupBarrier();
+            }
+            j += 4u;
+        } while (j < chunk_count);
+    } while (++chunk < chunks);
+    subgroupBarrier();
 
-        uint block = 0u;
+    uint block = 0u;
+    do {
+        vec2 offset[ROWS];
+        [[unroll]] for (int g = 0; g < ROWS; g++)
+            offset[g] = texelFetch(locations, int(min(block * BLOCK + uint(g) * LANES + lane, frame.sample_count - 1u))).xy;
+        uint block_samples = min(frame.sample_count - block * BLOCK, BLOCK);
+
+        uint member = 0u;
         do {
-            vec2 offset[ROWS];
-            [[unroll]] for (int g = 0; g < ROWS; g++)
-                offset[g] = texelFetch(locations, int(min(block * BLOCK + uint(g) * LANES + lane, frame.sample_count - 1u))).xy;
-            uint block_samples = min(frame.sample_count - block * BLOCK, BLOCK);
+            uint cell = first_cell + member;
+            uint bit = subgroupShuffle(my_bit, member);
+            vec2 in_tile = vec2(bit & 7u, bit >> 3);
+            vec2 at = in_tile - vec2(3.5, 1.5);
+            uvec2 pixel = uvec2(tile_at) * uvec2(8u, 4u) + uvec2(in_tile);
+            float hidden = subgroupShuffle(my_hidden, member);
+            uint listed = subgroupShuffle(my_count, member);
+            bool complete = listed <= KEPT;
+            uint entries_ = complete ? listed : count;
+            uint batches = max((entries_ + LANES - 1u) / LANES, 1u);
 
-            uint member = 0u;
+            float depth[ROWS];
+            uint id[ROWS];
+            [[unroll]] for (int g = 0; g < ROWS; g++) { depth[g] = 0.0; id[g] = 0u; }
+
+            uint batch = 0u;
             do {
-                uint cell = first_cell + member;
-                uint bit = subgroupShuffle(my_bit, member);
-                vec2 in_tile = vec2(bit & 7u, bit >> 3);
-                vec2 at = in_tile - vec2(3.5, 1.5);
-                uvec2 pixel = uvec2(tile_at) * uvec2(8u, 4u) + uvec2(in_tile);
-                float hidden = subgroupShuffle(my_hidden, member);
-                uint listed = subgroupShuffle(my_count, member);
-                bool complete = listed <= KEPT;
-                uint entries_ = complete ? listed : count;
-                uint batches = max((entries_ + LANES - 1u) / LANES, 1u);
+                Candidate k = load_candidate(first, kept_or_all(complete, member, batch * LANES + lane, entries_), center);
+                CellTest test = test_cell(k, at);
+                bool blend = k.id > frame.first_blend;
+                bool mask_ = HAS_MASK && k.id > frame.first_mask && !blend;
+                bool touches = batch * LANES + lane < entries_ && test.touches && !blend && test.near >= hidden;
 
-                float depth[ROWS];
-                uint id[ROWS];
-                [[unroll]] for (int g = 0; g < ROWS; g++) { depth[g] = 0.0; id[g] = 0u; }
+                uint pending = subgroupBallot(touches && !mask_).x;
+                do {
+                    bool some = pending != 0u;
+                    Candidate t = shuffle_candidate(k, some ? uint(findLSB(pending)) : 0u);
+                    pending &= pending - 1u;
+                    vec3 least = some ? thresholds(t) : vec3(3.4e38);
+                    [[unroll]] for (int g = 0; g < ROWS; g++) {
+                        float d;
+                        bool inside = covers(t, least, at + offset[g], d);
+                        bool wins = inside && (d > depth[g] || (d == depth[g] && t.id < id[g]));
+                        depth[g] = wins ? d : depth[g];
+                        id[g] = wins ? t.id : id[g];
+                    }
+                } while (pending != 0u);
 
-                uint batch = 0u;
+                if (HAS_MASK) {
+                    pending = subgroupBallot(touches && mask_).x;
+                    do {
+                        bool some = pending != 0u;
+                        Candidate t = shuffle_candidate(k, some ? uint(findLSB(pending)) : 0u);
+                        pending &= pending - 1u;
+                        vec3 least = some ? thresholds(t) : vec3(3.4e38);
+                        AlphaTest alpha = alpha_test(t.id - 1u, center, at);
+                        [[unroll]] for (int g = 0; g < ROWS; g++) {
+                            float d;
+                            bool inside = covers(t, least, at + offset[g], d);
+                            bool wins = inside && (d > depth[g] || (d == depth[g] && t.id < id[g]));
+                            wins = wins && alpha_passes(alpha, at + offset[g]);
+                            depth[g] = wins ? d : depth[g];
+                            id[g] = wins ? t.id : id[g];
+                        }
+                    } while (pending != 0u);
+                }
+            } while (++batch < batches);
+
+            uint header_index = header.z + cell * blocks + block;
+            uint packed_pixel = pixel.x | pixel.y << 16;
+
+#ifdef CHAINED
+            uint base = 0u;
+            if (subgroupElect()) base = atomicAdd(counters[COUNTER_RECORDS], block_samples);
+            base = subgroupBroadcastFirst(base);
+            if (subgroupElect()) headers[min(header_index, frame.record_capacity - 1u)] = uvec2(base, block_samples);
+            uint lost = base + block_samples > frame.record_capacity ? 1u : 0u;
+            uint node[ROWS];
+            bool live[ROWS];
+            [[unroll]] for (int g = 0; g < ROWS; g++) {
+                uint s = uint(g) * LANES + lane;
+                live[g] = s < block_samples;
+                node[g] = base + s;
+            }
+            // Layers from the farthest to the nearest: each round finds the next one in front.
+            bool more;
+            do {
+                float next_depth[ROWS];
+                uint next_id[ROWS];
+                [[unroll]] for (int g = 0; g < ROWS; g++) { next_depth[g] = 3.4e38; next_id[g] = 0u; }
+                batch = 0u;
                 do {
                     Candidate k = load_candidate(first, kept_or_all(complete, member, batch * LANES + lane, entries_), center);
                     CellTest test = test_cell(k, at);
-                    bool blend = k.id > frame.first_blend;
-                    bool mask_ = HAS_MASK && k.id > frame.first_mask && !blend;
-                    bool touches = batch * LANES + lane < entries_ && test.touches && !blend && test.near >= hidden;
-
-                    uint pending = subgroupBallot(touches && !mask_).x;
+                    bool touches = batch * LANES + lane < entries_ && test.touches && k.id > frame.first_blend && test.near >= hidden;
+                    uint pending = subgroupBallot(touches).x;
                     do {
                         bool some = pending != 0u;
                         Candidate t = shuffle_candidate(k, some ? uint(findLSB(pending)) : 0u);
@@ -220,154 +293,89 @@ void main() {
                         vec3 least = some ? thresholds(t) : vec3(3.4e38);
                         [[unroll]] for (int g = 0; g < ROWS; g++) {
                             float d;
-                            bool inside = covers(t, least, at + offset[g], d);
-                            bool wins = inside && (d > depth[g] || (d == depth[g] && t.id < id[g]));
-                            depth[g] = wins ? d : depth[g];
-                            id[g] = wins ? t.id : id[g];
+                            bool inside = covers(t, least, at + offset[g], d) && d > 0.0;
+                            bool in_front = id[g] == 0u ? d > depth[g] : d > depth[g] || (d == depth[g] && t.id < id[g]);
+                            bool nearest = d < next_depth[g] || (d == next_depth[g] && t.id > next_id[g]);
+                            bool wins = inside && in_front && nearest;
+                            next_depth[g] = wins ? d : next_depth[g];
+                            next_id[g] = wins ? t.id : next_id[g];
                         }
                     } while (pending != 0u);
-
-                    if (HAS_MASK) {
-                        pending = subgroupBallot(touches && mask_).x;
-                        do {
-                            bool some = pending != 0u;
-                            Candidate t = shuffle_candidate(k, some ? uint(findLSB(pending)) : 0u);
-                            pending &= pending - 1u;
-                            vec3 least = some ? thresholds(t) : vec3(3.4e38);
-                            AlphaTest alpha = alpha_test(t.id - 1u, center, at);
-                            [[unroll]] for (int g = 0; g < ROWS; g++) {
-                                float d;
-                                bool inside = covers(t, least, at + offset[g], d);
-                                bool wins = inside && (d > depth[g] || (d == depth[g] && t.id < id[g]));
-                                wins = wins && alpha_passes(alpha, at + offset[g]);
-                                depth[g] = wins ? d : depth[g];
-                                id[g] = wins ? t.id : id[g];
-                            }
-                        } while (pending != 0u);
-                    }
                 } while (++batch < batches);
 
-                uint header_index = header.z + cell * blocks + block;
-                uint packed_pixel = pixel.x | pixel.y << 16;
-
-#ifdef CHAINED
-                uint base = 0u;
-                if (subgroupElect()) base = atomicAdd(counters[COUNTER_RECORDS], block_samples);
-                base = subgroupBroadcastFirst(base);
-                if (subgroupElect()) headers[min(header_index, frame.record_capacity - 1u)] = uvec2(base, block_samples);
-                uint lost = base + block_samples > frame.record_capacity ? 1u : 0u;
-                uint node[ROWS];
-                bool live[ROWS];
+                uint found = 0u;
+                [[unroll]] for (int g = 0; g < ROWS; g++) found += live[g] && next_id[g] != 0u ? 1u : 0u;
+                uint before = subgroupExclusiveAdd(found), total = subgroupAdd(found);
+                uint layer = 0u;
+                if (subgroupElect() && total != 0u) layer = atomicAdd(counters[COUNTER_RECORDS], total);
+                layer = subgroupBroadcastFirst(layer);
+                bool full = layer + total > frame.record_capacity;
+                lost += full && total != 0u ? 1u : 0u;
+                uint slot = layer + before;
+                more = false;
+                [[unroll]] for (int g = 0; g < ROWS; g++) {
+                    bool extends = live[g] && next_id[g] != 0u && !full;
+                    if (live[g] && node[g] < frame.record_capacity)
+                        imageStore(records_out, int(node[g]), uvec4(packed_pixel, id[g], pack_location(offset[g]), extends ? slot : ~0u));
+                    node[g] = extends ? slot : node[g];
+                    slot += extends ? 1u : 0u;
+                    depth[g] = extends ? next_depth[g] : depth[g];
+                    id[g] = extends ? next_id[g] : id[g];
+                    live[g] = extends;
+                    more = more || extends;
+                }
+                more = subgroupAny(more);
+            } while (more);
+            if (subgroupElect() && lost != 0u) atomicAdd(counters[COUNTER_UNFINISHED], 1u);
+#else
+            [[unroll]] for (int g = 0; g < ROWS; g++)
+                id[g] = uint(g) * LANES + lane < block_samples ? id[g] : 0u;
+            uint used = 0u;
+            uvec4 held = uvec4(0u);     // an invocation holds a record
+            if (PER_SAMPLE) {
+                used = block_samples;
+            } else {
+                uint seen = 0u;
+                bool some;
+                do {
+                    uint current = ~0u;
+                    [[unroll]] for (int g = 0; g < ROWS; g++) current = min(current, id[g] > seen ? id[g] : ~0u);
+                    current = lanes_min(current);
+                    some = current != ~0u;
+                    uvec4 record = merged(id, offset, current, packed_pixel);
+                    held = some && used == lane ? record : held;
+                    used += some ? 1u : 0u;
+                    seen = current;
+                } while (some);
+            }
+            uint base = 0u;
+            if (subgroupElect() && used != 0u) base = atomicAdd(counters[COUNTER_RECORDS], used);
+            base = subgroupBroadcastFirst(base);
+            bool fits = base + used <= frame.record_capacity;
+            if (subgroupElect() && !fits) atomicAdd(counters[COUNTER_UNFINISHED], 1u);
+            if (PER_SAMPLE) {
                 [[unroll]] for (int g = 0; g < ROWS; g++) {
                     uint s = uint(g) * LANES + lane;
-                    live[g] = s < block_samples;
-                    node[g] = base + s;
+                    if (fits && s < block_samples)
+                        imageStore(records_out, int(base + s), uvec4(packed_pixel, id[g], pack_location(offset[g]), 1u));
                 }
-                // Layers from the farthest to the nearest: each round finds the next one in front.
-                bool more;
-                do {
-                    float next_depth[ROWS];
-                    uint next_id[ROWS];
-                    [[unroll]] for (int g = 0; g < ROWS; g++) { next_depth[g] = 3.4e38; next_id[g] = 0u; }
-                    batch = 0u;
-                    do {
-                        Candidate k = load_candidate(first, kept_or_all(complete, member, batch * LANES + lane, entries_), center);
-                        CellTest test = test_cell(k, at);
-                        bool touches = batch * LANES + lane < entries_ && test.touches && k.id > frame.first_blend && test.near >= hidden;
-                        uint pending = subgroupBallot(touches).x;
-                        do {
-                            bool some = pending != 0u;
-                            Candidate t = shuffle_candidate(k, some ? uint(findLSB(pending)) : 0u);
-                            pending &= pending - 1u;
-                            vec3 least = some ? thresholds(t) : vec3(3.4e38);
-                            [[unroll]] for (int g = 0; g < ROWS; g++) {
-                                float d;
-                                bool inside = covers(t, least, at + offset[g], d) && d > 0.0;
-                                bool in_front = id[g] == 0u ? d > depth[g] : d > depth[g] || (d == depth[g] && t.id < id[g]);
-                                bool nearest = d < next_depth[g] || (d == next_depth[g] && t.id > next_id[g]);
-                                bool wins = inside && in_front && nearest;
-                                next_depth[g] = wins ? d : next_depth[g];
-                                next_id[g] = wins ? t.id : next_id[g];
-                            }
-                        } while (pending != 0u);
-                    } while (++batch < batches);
-
-                    uint found = 0u;
-                    [[unroll]] for (int g = 0; g < ROWS; g++) found += live[g] && next_id[g] != 0u ? 1u : 0u;
-                    uint before = subgroupExclusiveAdd(found), total = subgroupAdd(found);
-                    uint layer = 0u;
-                    if (subgroupElect() && total != 0u) layer = atomicAdd(counters[COUNTER_RECORDS], total);
-                    layer = subgroupBroadcastFirst(layer);
-                    bool full = layer + total > frame.record_capacity;
-                    lost += full && total != 0u ? 1u : 0u;
-                    uint slot = layer + before;
-                    more = false;
-                    [[unroll]] for (int g = 0; g < ROWS; g++) {
-                        bool extends = live[g] && next_id[g] != 0u && !full;
-                        if (live[g] && node[g] < frame.record_capacity)
-                            imageStore(records_out, int(node[g]), uvec4(packed_pixel, id[g], pack_location(offset[g]), extends ? slot : ~0u));
-                        node[g] = extends ? slot : node[g];
-                        slot += extends ? 1u : 0u;
-                        depth[g] = extends ? next_depth[g] : depth[g];
-                        id[g] = extends ? next_id[g] : id[g];
-                        live[g] = extends;
-                        more = more || extends;
-                    }
-                    more = subgroupAny(more);
-                } while (more);
-                if (subgroupElect() && lost != 0u) atomicAdd(counters[COUNTER_UNFINISHED], 1u);
-#else
-                [[unroll]] for (int g = 0; g < ROWS; g++)
-                    id[g] = uint(g) * LANES + lane < block_samples ? id[g] : 0u;
-                uint used = 0u;
-                uvec4 held = uvec4(0u);     // an invocation holds a record
-                if (PER_SAMPLE) {
-                    used = block_samples;
-                } else {
-                    uint seen = 0u;
-                    bool some;
-                    do {
-                        uint current = ~0u;
-                        [[unroll]] for (int g = 0; g < ROWS; g++) current = min(current, id[g] > seen ? id[g] : ~0u);
-                        current = lanes_min(current);
-                        some = current != ~0u;
-                        uvec4 record = merged(id, offset, current, packed_pixel);
-                        held = some && used == lane ? record : held;
-                        used += some ? 1u : 0u;
-                        seen = current;
-                    } while (some);
+            } else {
+                if (fits && lane < used) imageStore(records_out, int(base + lane), held);
+                // More triangles than invocations to hold them: the others once more, each stored as it is found.
+                uint seen = subgroupMax(lane < used ? held.y : 0u), stored = min(used, LANES);
+                while (stored < used) {
+                    uint current = ~0u;
+                    [[unroll]] for (int g = 0; g < ROWS; g++) current = min(current, id[g] > seen ? id[g] : ~0u);
+                    current = lanes_min(current);
+                    uvec4 record = merged(id, offset, current, packed_pixel);
+                    if (fits && subgroupElect() && stored < used) imageStore(records_out, int(base + stored), record);
+                    seen = current;
+                    stored++;
                 }
-                uint base = 0u;
-                if (subgroupElect() && used != 0u) base = atomicAdd(counters[COUNTER_RECORDS], used);
-                base = subgroupBroadcastFirst(base);
-                bool fits = base + used <= frame.record_capacity;
-                if (subgroupElect() && !fits) atomicAdd(counters[COUNTER_UNFINISHED], 1u);
-                if (PER_SAMPLE) {
-                    [[unroll]] for (int g = 0; g < ROWS; g++) {
-                        uint s = uint(g) * LANES + lane;
-                        if (fits && s < block_samples)
-                            imageStore(records_out, int(base + s), uvec4(packed_pixel, id[g], pack_location(offset[g]), 1u));
-                    }
-                } else {
-                    if (fits && lane < used) imageStore(records_out, int(base + lane), held);
-                    // More triangles than invocations to hold them: the others once more, each stored as it is found.
-                    uint seen = subgroupMax(lane < used ? held.y : 0u), stored = min(used, LANES);
-                    while (stored < used) {
-                        uint current = ~0u;
-                        [[unroll]] for (int g = 0; g < ROWS; g++) current = min(current, id[g] > seen ? id[g] : ~0u);
-                        current = lanes_min(current);
-                        uvec4 record = merged(id, offset, current, packed_pixel);
-                        if (fits && subgroupElect() && stored < used) imageStore(records_out, int(base + stored), record);
-                        seen = current;
-                        stored++;
-                    }
-                }
-                used = fits ? used : 0u;
-                if (subgroupElect()) headers[min(header_index, frame.record_capacity - 1u)] = uvec2(base, used);
+            }
+            used = fits ? used : 0u;
+            if (subgroupElect()) headers[min(header_index, frame.record_capacity - 1u)] = uvec2(base, used);
 #endif
-            } while (++member < group);
-        } while (++block < blocks);
-        first_cell += group;
-        subgroupBarrier();
-    } while (first_cell < cells);
+        } while (++member < group);
+    } while (++block < blocks);
 }

@@ -99,9 +99,11 @@ void main() {
         counters[COUNTER_CANDIDATES_TOTAL] += list_used;
         counters[COUNTER_UNLISTED_TOTAL] += unlisted;
         arguments[ARGUMENT_SETUP] = idle ? uvec4(0u) : groups((min(counters[COUNTER_PAIRS], frame.list_capacity) + 63u) / 64u);
-        arguments[ARGUMENT_SAMPLE_PLAIN] = groups(plain);
-        arguments[ARGUMENT_SAMPLE_MASKED] = groups(masked);
-        arguments[ARGUMENT_SAMPLE_BLENDED] = groups(blended);
-        arguments[ARGUMENT_SAMPLE_UNLISTED] = groups(unlisted);
+        // A subgroup for as many of a tile's cells as it has invocations.
+        uint parts = 32u / lanes;
+        arguments[ARGUMENT_SAMPLE_PLAIN] = groups(plain * parts);
+        arguments[ARGUMENT_SAMPLE_MASKED] = groups(masked * parts);
+        arguments[ARGUMENT_SAMPLE_BLENDED] = groups(blended * parts);
+        arguments[ARGUMENT_SAMPLE_UNLISTED] = groups(unlisted * parts);
     }
 }

@@ -9,16 +9,16 @@ pub struct Attributes {
 }
 
 impl Attributes {
-    /// Makes the pipeline.
+    /// Makes the pipeline; `superpixels` tells them from other pixels.
     ///
     /// # Errors
     /// If the driver refuses it.
-    pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
+    pub fn new(layout: &FrameLayout, superpixels: bool) -> Result<Self, VulkanError> {
         let pipeline = compute_pipeline(
             &layout.gpu,
             layout.pipeline,
             spirv::ATTRIBUTES,
-            &Constants::new(),
+            &Constants::new().flag(0, superpixels),
             None,
         )?;
         Ok(Self { pipeline })

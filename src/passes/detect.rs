@@ -25,7 +25,7 @@ pub struct Detect {
 
 impl Detect {
     /// Makes the pipeline; `has_blend` compares the nearest BLEND triangles too, `thin` adds what
-    /// [`Thin`](super::Thin) marked, `multisampled` reads the IDs of a multisampled raster (for
+    /// [`Thin`](super::Thin) marked, `transparent` compares alpha too, `multisampled` reads the IDs of a multisampled raster (for
     /// [`DetectMode::Blended`]).
     ///
     /// # Errors
@@ -35,12 +35,14 @@ impl Detect {
         mode: DetectMode,
         has_blend: bool,
         thin: bool,
+        transparent: bool,
         multisampled: bool,
     ) -> Result<Self, VulkanError> {
         let constants = Constants::new()
             .with(0, mode as u32)
             .flag(1, has_blend)
-            .flag(2, thin);
+            .flag(2, thin)
+            .flag(3, transparent);
         let code = if multisampled {
             spirv::DETECT_MULTISAMPLED
         } else {

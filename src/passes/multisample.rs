@@ -18,7 +18,7 @@ impl Multisample {
             &layout.gpu,
             layout.pipeline,
             spirv::MULTISAMPLE,
-            &Constants::new(),
+            &Constants::new().with(1, layout.gpu.limits().subgroup_size),
             None,
         )?;
         Ok(Self { pipeline })

@@ -14,6 +14,8 @@ pub struct RasterTargets {
     pub(super) depth: Image,
     pub(super) ids: Image,
     pub(super) blend_ids: Option<Image>,
+    /// Stands for the single-sampled IDs where these are multisampled.
+    pub(super) placeholder: Option<Image>,
     samples: vk::SampleCountFlags,
 }
 
@@ -29,13 +31,13 @@ impl RasterTargets {
         samples: vk::SampleCountFlags,
         has_blend: bool,
     ) -> Result<Self, VulkanError> {
-        let image = |name, format, usage, aspect| {
+        let make = |name, extent: [u32; 2], samples, format, usage, aspect| {
             let info = vk::ImageCreateInfo::default()
                 .image_type(vk::ImageType::TYPE_2D)
                 .format(format)
                 .extent(vk::Extent3D {
-                    width,
-                    height,
+                    width: extent[0],
+                    height: extent[1],
                     depth: 1,
                 })
                 .mip_levels(1)
@@ -44,8 +46,12 @@ impl RasterTargets {
                 .usage(usage);
             memory.image(name, &info, aspect)
         };
+        let image = |name, format, usage, aspect| {
+            make(name, [width, height], samples, format, usage, aspect)
+        };
         let color = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
         let format = id_format(samples);
+        let single = vk::SampleCountFlags::TYPE_1;
         Ok(Self {
             depth: image(
                 "depth",
@@ -62,6 +68,13 @@ impl RasterTargets {
                         color,
                         vk::ImageAspectFlags::COLOR,
                     )
+                })
+                .transpose()?,
+            placeholder: (samples != single)
+                .then(|| {
+                    let format = id_format(single);
+                    let aspect = vk::ImageAspectFlags::COLOR;
+                    make("placeholder", [1, 1], single, format, color, aspect)
                 })
                 .transpose()?,
             samples,
@@ -135,6 +148,9 @@ impl Raster {
             vk::ImageLayout::UNDEFINED,
             vk::ImageLayout::DEPTH_ATTACHMENT_OPTIMAL,
         );
+        if let Some(placeholder) = &targets.placeholder {
+            recorder.transition(placeholder, vk::ImageLayout::UNDEFINED, read);
+        }
         recorder.transition(&targets.ids, vk::ImageLayout::UNDEFINED, draw);
         self.draw(
             recorder,

@@ -402,8 +402,8 @@ impl Resources {
                 .descriptor_type(vk::DescriptorType::UNIFORM_BUFFER)
                 .buffer_info(&uniform),
         );
-        // A pipeline reads either the single-sampled or the multisampled bindings; the other ones stay unwritten.
-        // Without BLEND its binding shows the opaque IDs, which specialised shaders do not read.
+        // A set shows either single-sampled or multisampled IDs; pipelines that could read the former but are
+        // specialised not to see a placeholder. Without BLEND its binding shows the opaque IDs, which is not read either.
         let image = |view| {
             [vk::DescriptorImageInfo::default()
                 .image_view(view)
@@ -415,6 +415,18 @@ impl Resources {
             (first, image(targets.ids.view)),
             (first + 1, image(blend_view)),
         ];
+        let stand_in = targets.placeholder.as_ref().map(|p| image(p.view));
+        if let Some(info) = &stand_in {
+            for binding in [12, 13] {
+                writes.push(
+                    vk::WriteDescriptorSet::default()
+                        .dst_set(set.set)
+                        .dst_binding(binding)
+                        .descriptor_type(vk::DescriptorType::SAMPLED_IMAGE)
+                        .image_info(info),
+                );
+            }
+        }
         let depth = image(targets.depth.view);
         if !targets.multisampled() {
             writes.push(

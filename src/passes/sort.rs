@@ -35,6 +35,7 @@ impl Sort {
     /// Records it.
     pub fn record(&self, recorder: &Recorder<'_>, bins: &Buffer, arguments: &Buffer) {
         recorder.clear(bins);
+        recorder.barrier();
         recorder.dispatch(&self.before, 1);
         if let Some([count, sizes, scatter]) = &self.passes {
             recorder.dispatch_indirect(count, arguments, Argument::Sort as u32);

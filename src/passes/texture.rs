@@ -69,8 +69,11 @@ impl Texture {
     pub(super) fn record_upload(&self, recorder: &Recorder<'_>) {
         let Some(upload) = &self.upload else { return };
         let (device, raw, image) = (recorder.device(), recorder.raw(), &self.image);
-        let general = vk::ImageLayout::GENERAL;
-        recorder.transition(image, vk::ImageLayout::UNDEFINED, general);
+        let (read, write) = (
+            vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
+            vk::ImageLayout::TRANSFER_DST_OPTIMAL,
+        );
+        recorder.transition(image, vk::ImageLayout::UNDEFINED, write);
         let layer = |level| vk::ImageSubresourceLayers {
             aspect_mask: vk::ImageAspectFlags::COLOR,
             mip_level: level,
@@ -86,14 +89,14 @@ impl Texture {
             .image_subresource(layer(0))
             .image_extent(extent)];
         // SAFETY: the recorder's contract; the buffer holds the whole level, which is in the layout named.
-        unsafe { device.cmd_copy_buffer_to_image(raw, upload.raw, image.raw, general, &copy) };
+        unsafe { device.cmd_copy_buffer_to_image(raw, upload.raw, image.raw, write, &copy) };
         let corner = |level: u32| vk::Offset3D {
             x: (image.extent.width >> level).max(1) as i32,
             y: (image.extent.height >> level).max(1) as i32,
             z: 1,
         };
         for level in 1..image.levels {
-            recorder.barrier();
+            recorder.transition_level(image, level - 1, write, read);
             let blit = [vk::ImageBlit::default()
                 .src_subresource(layer(level - 1))
                 .src_offsets([vk::Offset3D::default(), corner(level - 1)])
@@ -104,15 +107,20 @@ impl Texture {
                 device.cmd_blit_image(
                     raw,
                     image.raw,
-                    general,
+                    read,
                     image.raw,
-                    general,
+                    write,
                     &blit,
                     vk::Filter::LINEAR,
                 )
             };
         }
-        recorder.transition(image, general, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
+        let last = image.levels - 1;
+        let shown = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
+        for level in 0..last {
+            recorder.transition_level(image, level, read, shown);
+        }
+        recorder.transition_level(image, last, write, shown);
     }
 
     /// Frees the bytes that filled the image.

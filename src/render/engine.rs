@@ -65,6 +65,7 @@ impl Engine {
                 kind.mode,
                 scene.has_blend(),
                 kind.thin,
+                settings.background.is_none(),
                 kind.multisampled,
             )?,
             cull: Cull::new(layout)?,

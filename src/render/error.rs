@@ -22,6 +22,9 @@ pub enum RenderError {
         /// What can be had.
         possible: String,
     },
+    /// Multisampling has several IDs a pixel.
+    #[error("msaa has no one depth, ID or normal a pixel; ask another method for them")]
+    Attributes,
     /// The image has no pixels or too many.
     #[error("an image of {width} x {height} pixels: each side must be from 1 to {limit}")]
     Size {
@@ -63,7 +66,7 @@ impl RenderError {
     pub fn is_usage(&self) -> bool {
         matches!(
             self,
-            Self::Pattern(_) | Self::Samples { .. } | Self::Size { .. }
+            Self::Pattern(_) | Self::Samples { .. } | Self::Attributes | Self::Size { .. }
         )
     }
 

@@ -210,7 +210,7 @@ impl Frame {
                 .transpose()?,
             attributes: settings
                 .attributes
-                .then(|| Attributes::new(layout))
+                .then(|| Attributes::new(layout, settings.method == Method::Superpixel))
                 .transpose()?,
             encode: encoding
                 .filter(|e| *e != Encoding::Rgba32Float)
@@ -478,7 +478,7 @@ impl Passes<'_> {
             self.keep_counters(recorder, 2 * index as u64 + 1);
         }
         if let Some(attributes) = self.attributes {
-            attributes.record(recorder, pixels);
+            attributes.record(recorder, pixels / (side * side));
             recorder.mark("attributes");
         }
         if let Some(filter) = self.box_filter {

@@ -170,11 +170,8 @@ impl Headless {
         for _ in 0..RETRIES {
             match self.render_once(scene, frame, camera) {
                 Err(RenderError::Unfinished { cells }) => {
-                    log::debug!("{cells} cells did not fit; doubling rounds and layers");
-                    effort = Effort {
-                        rounds: effort.rounds * 2,
-                        layers: effort.layers * 2,
-                    };
+                    log::debug!("{cells} cells did not fit; doubling rounds, layers and lists");
+                    effort = effort.doubled();
                     *frame = self.renderer.prepare_with(
                         scene,
                         &frame.settings().clone(),

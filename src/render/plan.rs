@@ -47,6 +47,19 @@ pub(super) struct Plan {
 pub(super) struct Effort {
     pub rounds: u32,
     pub layers: u32,
+    /// Factor on the room for candidates.
+    pub lists: u32,
+}
+
+impl Effort {
+    /// Twice as much of everything.
+    pub fn doubled(self) -> Self {
+        Self {
+            rounds: self.rounds * 2,
+            layers: self.layers * 2,
+            lists: self.lists * 2,
+        }
+    }
 }
 
 impl Default for Effort {
@@ -54,14 +67,14 @@ impl Default for Effort {
         Self {
             rounds: 3,
             layers: 4,
+            lists: 1,
         }
     }
 }
 
 /// Largest region in virtual pixels; larger images are rendered in parts.
-const REGION_PIXELS: u64 = 16 << 20;
-/// The same for supersampling, where a part is reused for the next.
-const SUPERSAMPLED_PIXELS: u64 = 4 << 20;
+/// `schedule` takes 8 tiles a trip on CPU devices, which end loops after 65,535 trips.
+const REGION_PIXELS: u64 = 4 << 20;
 /// Most visibility records and candidates of a round.
 const MOST_RECORDS: u64 = 6 << 20;
 const MOST_CANDIDATES: u64 = 2 << 20;
@@ -81,13 +94,8 @@ impl Plan {
     ) -> Result<Self, RenderError> {
         let side = settings.side();
         let [width, height] = settings.size;
-        let most = if side > 1 {
-            SUPERSAMPLED_PIXELS
-        } else {
-            REGION_PIXELS
-        };
         // A storage buffer holds 4 bytes a pixel of a region.
-        let most = most.min(limits.max_storage_bytes / 4);
+        let most = REGION_PIXELS.min(limits.max_storage_bytes / 4);
         let longest = limits.max_image_side.min(65_535) / side - 2;
         let mut region = [width.min(longest), height.min(longest)];
         let allowed = settings.max_memory.map(|limit| limit.saturating_sub(taken));
@@ -172,6 +180,7 @@ impl Plan {
         let samples_cells = detects || scene.has_blend();
         let candidates = if samples_cells {
             (u64::from(scene.triangle_count()) * 3 + tiles * 8).clamp(1 << 14, MOST_CANDIDATES)
+                * u64::from(effort.lists)
         } else {
             0
         };

@@ -162,6 +162,7 @@ impl Settings {
                 }
                 Ok(())
             }
+            Method::Msaa if self.attributes => Err(RenderError::Attributes),
             Method::Msaa => {
                 let possible: Vec<u32> = [2, 4, 8, 16]
                     .into_iter()

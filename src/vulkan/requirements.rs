@@ -92,13 +92,15 @@ impl Requirements {
     pub const API_VERSION: u32 = vk::API_VERSION_1_3;
 
     /// Features to enable at device creation, as they stand in Vulkan 1.3's structures:
-    /// `dynamicRendering`, `synchronization2`, `maintenance4` and `subgroupSizeControl`.
+    /// `dynamicRendering`, `synchronization2`, `maintenance4`, `subgroupSizeControl` and
+    /// `shaderDemoteToHelperInvocation` (the compiler's form of `discard`).
     pub fn features13() -> vk::PhysicalDeviceVulkan13Features<'static> {
         vk::PhysicalDeviceVulkan13Features::default()
             .dynamic_rendering(true)
             .synchronization2(true)
             .maintenance4(true)
             .subgroup_size_control(true)
+            .shader_demote_to_helper_invocation(true)
     }
 
     /// Everything that the physical device lacks; empty if it will do.
@@ -132,6 +134,10 @@ impl Requirements {
             (found13.synchronization2, "synchronization2"),
             (found13.maintenance4, "maintenance4"),
             (found13.subgroup_size_control, "subgroupSizeControl"),
+            (
+                found13.shader_demote_to_helper_invocation,
+                "shaderDemoteToHelperInvocation",
+            ),
         ] {
             if present == vk::FALSE {
                 missing.push(Missing::Feature(name));

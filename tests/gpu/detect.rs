@@ -150,8 +150,7 @@ fn masks_of_blended_scenes_are_the_twins() {
             ..once(size)
         };
         let base = stage.render(gpu, &settings);
-        let (mut codes, doubtful) = codes(&base);
-        codes.iter_mut().for_each(|c| *c &= 0xffffff);
+        let (codes, doubtful) = codes(&base);
         // With BLEND made opaque, the device shows which of its triangles is the nearest.
         let mut solid = stage.clone();
         solid.materials[1].alpha_mode = AlphaMode::Opaque;
@@ -192,6 +191,47 @@ fn black_contrasts_with_a_transparent_background() {
                 "{detection:?}"
             );
         }
+    });
+}
+
+/// Wires a tenth of a pixel wide, which few pixel centres see, keep their energy only if they make superpixels unseen.
+#[test]
+fn unseen_wires_make_superpixels() {
+    on_gpu(|gpu| {
+        let size = [96, 64];
+        let mut stage = Stage::new(vec![
+            flat([1.0; 4], AlphaMode::Opaque),
+            flat([0.0, 0.0, 0.0, 1.0], AlphaMode::Opaque),
+        ]);
+        let wall = [[-90.0, -90.0], [-90.0, 90.0], [90.0, 90.0], [90.0, -90.0]];
+        stage.add_quad(1, wall.map(|place| seen_at(place, 5.0, size[1])));
+        for wire in 0..12 {
+            let y = f64::from(wire) * 5.0 - 28.0;
+            let [rise, left, right] = [f64::from(wire) * 0.61 - 3.0, -43.7, 41.9];
+            let corners = [
+                [left, y],
+                [left, y + 0.1],
+                [right, y + rise + 0.1],
+                [right, y + rise],
+            ];
+            stage.add_quad(0, corners.map(|place| seen_at(place, 2.0, size[1])));
+        }
+        let mut energy = |detection, thin| {
+            let settings = Settings {
+                method: Method::Superpixel,
+                thin,
+                detection,
+                ..once(size)
+            };
+            let rendered = stage.render(gpu, &settings);
+            rendered.colors.iter().map(|c| f64::from(c[0])).sum::<f64>()
+        };
+        let all = energy(Detection::Every, false);
+        assert!(all > 90.0, "{all}");
+        let found = energy(Detection::Contrast, true);
+        assert!((found / all - 1.0).abs() < 0.02, "{found} of {all}");
+        let seen = energy(Detection::Contrast, false);
+        assert!((seen / all - 1.0).abs() > 0.05, "{seen} of {all}");
     });
 }
 

@@ -12,7 +12,7 @@ const HALF: [f64; 2] = [27.3, 19.6];
 /// How often the texture repeats over it.
 const REPEATS: f64 = 5.0;
 
-/// A 2 x 2 checker of opaque and transparent texels, tilted by one vertex colour, before a blue wall.
+/// A 2 x 2 checker of texels on either side of the cutoff, repeated, before a blue wall.
 fn checker() -> Stage {
     let mask = AlphaMode::Mask { cutoff: 0.5 };
     let mut stage = Stage::new(vec![

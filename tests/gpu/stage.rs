@@ -293,6 +293,7 @@ pub fn everywhere(size: [u32; 2], pattern: Pattern, samples: u32) -> Settings {
 pub fn once(size: [u32; 2]) -> Settings {
     Settings {
         method: Method::None,
+        thin: false,
         reference: Reference::Scene,
         tonemapped_detection: false,
         attributes: true,
