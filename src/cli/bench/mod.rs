@@ -60,10 +60,7 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
 
 fn write(folder: &Path, results: &Results, galleries: &[gallery::Gallery]) -> anyhow::Result<()> {
     let files = [
-        (
-            "results.json",
-            serde_json::to_string_pretty(results)? + "\n",
-        ),
+        ("results.json", serde_json::to_string(results)? + "\n"),
         ("results.csv", table::csv(&results.scenes)),
         ("report.html", html::page(results, galleries)),
     ];

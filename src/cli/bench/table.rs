@@ -54,12 +54,12 @@ pub fn print_summary(summary: &[AtSamples]) -> anyhow::Result<()> {
     }
     print::line("\nsuperpixel, medians over the scenes:")?;
     print::line(
-        "     N  scenes  ssaa/superpixel  superpixel/none  RMSE of ssaa's  worst  removed",
+        "     N  scenes  ssaa/superpixel  superpixel/none  RMSE over ssaa's  worst  removed",
     )?;
     for at in summary {
         let worst = at.worst_rmse_ratio.as_ref().map(|(_, ratio)| *ratio);
         print::line(&format!(
-            "  {:>4}  {:>6}  {:>15}  {:>15}  {:>14}  {:>5}  {:>7}",
+            "  {:>4}  {:>6}  {:>15}  {:>15}  {:>16}  {:>5}  {:>7}",
             at.samples,
             at.scenes,
             times(at.speedup),

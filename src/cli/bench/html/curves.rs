@@ -5,8 +5,8 @@ use crate::cli::bench::results::{Row, SceneResults};
 use crate::cli::render::Antialiasing;
 use std::fmt::Write;
 
-const WIDTH: f64 = 620.0;
-const HEIGHT: f64 = 420.0;
+const WIDTH: f64 = 660.0;
+const HEIGHT: f64 = 640.0;
 const LEFT: f64 = 62.0;
 const RIGHT: f64 = 18.0;
 const TOP: f64 = 34.0;

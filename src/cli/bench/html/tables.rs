@@ -22,8 +22,8 @@ pub fn summary(summary: &[AtSamples]) -> String {
         )
     };
     table(
-        "<th>samples</th><th>faster than supersampling</th><th>time of one sample</th>\
-         <th>RMSE of supersampling's</th><th>at worst</th><th>error removed</th>",
+        "<th>samples</th><th>faster than supersampling</th><th>time over one sample's</th>\
+         <th>RMSE over supersampling's</th><th>at worst</th><th>error removed</th>",
         summary.iter().map(row),
         "Superpixels at equal numbers of samples; medians over the scenes.",
     )
@@ -37,8 +37,8 @@ pub fn by_scene(scenes: &[SceneResults]) -> String {
         .collect();
     let head: String = [
         "faster than supersampling",
-        "time of one sample",
-        "RMSE of supersampling's",
+        "time over one sample's",
+        "RMSE over supersampling's",
     ]
     .iter()
     .map(|what| {
