@@ -6,11 +6,16 @@ CARGO ?= cargo
 # VK_ICD_FILENAMES or VK_DRIVER_FILES comes first. Looked up by the shell, after it has been installed.
 LAVAPIPE = ls /usr/share/vulkan/icd.d/lvp_icd*.json /etc/vulkan/icd.d/lvp_icd*.json 2>/dev/null | paste -sd :
 
-.PHONY: help demo test lint shaders check-shaders assets
+# Options of `gpc bench`. These take less than half an hour on two cores without a GPU; its own defaults (BENCH=) take
+# hours there.
+BENCH ?= --size 960x540 --samples 4,16,64,256 --reference 1024 --budget 8
+
+.PHONY: help demo test bench lint shaders check-shaders assets
 
 help:
 	@echo "make demo           build, render a scene without and with antialiasing into out/"
 	@echo "make test           run all tests, without a GPU"
+	@echo "make bench          measure cost and accuracy of all methods into out/bench; BENCH='...' are its options"
 	@echo "make lint           check formatting, clippy's advice and the documentation"
 	@echo "make shaders        compile shaders/ into shaders/spirv (builds shaderc: some 10 minutes once)"
 	@echo "make check-shaders  check that shaders/spirv is what shaders/ compiles to"
@@ -24,6 +29,11 @@ demo:
 test:
 	@tools/setup.sh build lavapipe validation
 	VK_ICD_FILENAMES="$${VK_ICD_FILENAMES:-$$($(LAVAPIPE))}" $(CARGO) test --release
+
+bench:
+	@tools/setup.sh build vulkan
+	$(CARGO) build --release --bin gpc
+	@tools/bench.sh out/bench $(BENCH)
 
 lint:
 	@tools/setup.sh build

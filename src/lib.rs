@@ -2,6 +2,7 @@
 
 #![warn(missing_docs)]
 
+pub mod bench;
 pub mod camera;
 pub mod compare;
 pub mod output;

@@ -9,7 +9,7 @@ mod framing;
 pub use framing::Orbit;
 
 use crate::scene::{SceneCamera, SceneProjection};
-use glam::{DMat3, DMat4, DVec3, DVec4};
+use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 
 /// How a camera projects.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,6 +43,10 @@ pub struct Camera {
     pub axes: DMat3,
     /// Its projection.
     pub projection: Projection,
+    /// How far the film is moved against the lens, to the right and down, in widths and heights of the image; what is
+    /// seen moves the other way. Zero centres the image on the view direction. A fraction of a pixel samples the same
+    /// picture at other places.
+    pub shift: DVec2,
 }
 
 /// A camera that can't be.
@@ -91,6 +95,7 @@ impl Camera {
                 near,
                 far: None,
             },
+            shift: DVec2::ZERO,
         })
     }
 
@@ -117,6 +122,7 @@ impl Camera {
             eye: camera.eye,
             axes: camera.axes,
             projection,
+            shift: DVec2::ZERO,
         }
     }
 
@@ -154,7 +160,7 @@ impl Camera {
     /// View space to clip space for an image of `aspect` = width / height.
     #[must_use]
     pub fn projection_matrix(&self, aspect: f64) -> DMat4 {
-        match self.projection {
+        let centred = match self.projection {
             Projection::Perspective { fov, near, far } => {
                 let f = 1.0 / (0.5 * fov).tan();
                 // depth * w = near (far plane at infinity), or the line through near -> 1 and far -> 0.
@@ -181,7 +187,10 @@ impl Camera {
                     DVec4::new(0.0, 0.0, far * depth, 1.0),
                 )
             }
-        }
+        };
+        // Clip space is 2 high and y up.
+        let moved = DVec3::new(-2.0 * self.shift.x, 2.0 * self.shift.y, 0.0);
+        DMat4::from_translation(moved) * centred
     }
 
     /// Positions relative to `origin` to (pixel x * w, pixel y * w, depth * w, w), where pixel positions are relative
@@ -243,6 +252,34 @@ mod tests {
         assert!((project(&camera, DVec3::new(0.0, 0.0, -0.5)).z - 1.0).abs() < 1e-12);
         assert!(project(&camera, DVec3::new(0.0, 1.0, -10.0)).z.abs() < 1e-12);
         assert!((project(&camera, DVec3::new(0.0, 1.0, -10.0)).y + 25.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_shift_moves_every_distance_alike() {
+        let eye = DVec3::new(0.0, 0.0, 5.0);
+        let centred = Camera::look_at(eye, DVec3::ZERO, DVec3::Y, 50.0, 0.5).unwrap();
+        let orthographic = Camera {
+            projection: Projection::Orthographic {
+                half_height: 2.0,
+                near: 0.5,
+                far: 10.0,
+            },
+            ..centred
+        };
+        for camera in [centred, orthographic] {
+            // A quarter of a pixel to the right and half a pixel down, of 200 x 100.
+            let shifted = Camera {
+                shift: DVec2::new(0.25 / 200.0, 0.5 / 100.0),
+                ..camera
+            };
+            for point in [DVec3::ONE, DVec3::new(-3.0, 0.2, -40.0)] {
+                let moved = project(&shifted, point) - project(&camera, point);
+                assert!(
+                    (moved - DVec3::new(-0.25, -0.5, 0.0)).length() < 1e-12,
+                    "{moved}"
+                );
+            }
+        }
     }
 
     #[test]

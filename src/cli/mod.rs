@@ -1,5 +1,6 @@
 //! The command line: one module for each subcommand.
 
+mod bench;
 mod compare;
 mod devices;
 mod exit;
@@ -42,6 +43,8 @@ enum Command {
     Compare(compare::CompareArgs),
     /// Say what a scene holds
     Info(info::InfoArgs),
+    /// Measure what methods cost, and how exact they are
+    Bench(bench::BenchArgs),
     /// List the Vulkan devices, and what they lack
     Devices(devices::DevicesArgs),
 }
@@ -56,6 +59,7 @@ pub fn run() -> ExitCode {
         Command::Render(args) => render::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Info(args) => info::run(&args),
+        Command::Bench(args) => bench::run(&args),
         Command::Devices(args) => devices::run(&args),
     };
     match done {

@@ -1,6 +1,6 @@
 //! Reads images back, to compare them.
 
-use super::{OutputError, exr};
+use super::{OutputError, Picture, exr};
 use crate::reference::srgb;
 use image::ImageReader;
 use rayon::prelude::*;
@@ -17,6 +17,21 @@ pub struct DecodedImage {
     pub size: [u32; 2],
     /// RGBA, rows from the top.
     pub pixels: Vec<[f32; 4]>,
+}
+
+impl From<&Picture<'_>> for DecodedImage {
+    /// A rendered image as a display shows it, without the rounding of a file.
+    fn from(picture: &Picture<'_>) -> Self {
+        Self {
+            size: picture.size(),
+            pixels: picture
+                .pixels()
+                .par_iter()
+                .copied()
+                .map(show_linear)
+                .collect(),
+        }
+    }
 }
 
 const EXR_MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
@@ -59,6 +74,18 @@ pub fn decode(bytes: &[u8], name: &str) -> Result<DecodedImage, OutputError> {
     Ok(DecodedImage {
         size,
         pixels: pixels.into_par_iter().map(show).collect(),
+    })
+}
+
+/// Decodes an EXR image's size and pixels as they are: linear light, premultiplied alpha, rows from the top; messages
+/// call it `name`.
+///
+/// # Errors
+/// [`OutputError::Decode`] if it is no EXR image or broken.
+pub fn decode_linear(bytes: &[u8], name: &str) -> Result<([u32; 2], Vec<[f32; 4]>), OutputError> {
+    exr::decode(bytes).map_err(|reason| OutputError::Decode {
+        file: name.to_owned(),
+        reason,
     })
 }
 

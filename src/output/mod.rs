@@ -22,7 +22,7 @@ mod format;
 mod write;
 
 pub use aov::{Aov, AovKind};
-pub use decode::{DecodedImage, decode, read};
+pub use decode::{DecodedImage, decode, decode_linear, read};
 pub use encode::{encode, encode_aov, encode_rgb};
 pub use error::{OutputError, UnknownAov, UnknownFormat};
 pub use format::Format;

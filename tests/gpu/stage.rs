@@ -6,7 +6,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use glam::{DMat3, DVec3, Vec3};
+use glam::{DMat3, DVec2, DVec3, Vec3};
 use gpc::camera::{Camera, Projection};
 use gpc::render::{Detection, Headless, HeadlessOptions, Method, Reference, Rendered, Settings};
 use gpc::sampling::Pattern;
@@ -54,6 +54,7 @@ pub fn camera() -> Camera {
             near: NEAR,
             far: None,
         },
+        shift: DVec2::ZERO,
     }
 }
 

@@ -6,6 +6,8 @@ use glam::DVec3;
 use gpc::output::AovKind;
 use gpc::render::{Detection, Method, Settings, Shading};
 use gpc::sampling::Pattern;
+use serde::Serialize;
+use std::fmt;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
@@ -104,7 +106,7 @@ impl SamplingArgs {
 }
 
 /// Where the scene is seen from, and when.
-#[derive(Args)]
+#[derive(Args, Default)]
 #[command(next_help_heading = "View")]
 pub struct CameraArgs {
     /// A camera of the scene by index or name, or all [default: the first, or else one that shows everything]
@@ -159,7 +161,8 @@ pub struct SequenceArgs {
 }
 
 /// Values of `--aa`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ValueEnum)]
+#[serde(rename_all = "lowercase")]
 pub enum Antialiasing {
     /// One sample a pixel
     None,
@@ -172,6 +175,9 @@ pub enum Antialiasing {
 }
 
 impl Antialiasing {
+    /// Every method.
+    pub const ALL: [Self; 4] = [Self::None, Self::Msaa, Self::Ssaa, Self::Superpixel];
+
     pub fn method(self) -> Method {
         match self {
             Self::None => Method::None,
@@ -179,6 +185,17 @@ impl Antialiasing {
             Self::Ssaa => Method::Ssaa,
             Self::Msaa => Method::Msaa,
         }
+    }
+}
+
+impl fmt::Display for Antialiasing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::None => "none",
+            Self::Superpixel => "superpixel",
+            Self::Ssaa => "ssaa",
+            Self::Msaa => "msaa",
+        })
     }
 }
 

@@ -8,12 +8,13 @@ mod session;
 mod template;
 mod view;
 
-pub use args::RenderArgs;
+pub use args::{Antialiasing, CameraArgs, RenderArgs};
+pub use view::choose as choose_views;
 
 use super::exit::{Usage, usage};
 use super::values::Background;
 use super::{input, print};
-use args::{Antialiasing, Tonemap};
+use args::Tonemap;
 use gpc::output::{AovKind, Format};
 use gpc::reference::srgb;
 use gpc::render::{Reference, Settings};

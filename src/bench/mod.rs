@@ -1,0 +1,17 @@
+//! Measuring: what a method costs, and how far its image is from brute force at thousands of samples.
+//!
+//! [`brute_force`] renders the reference, which a [`Cache`] keeps on disk; [`Yardstick`] holds images against it;
+//! [`take_turns`] times several [`Contender`]s in one run, each in its turn, so that a machine that slows down slows all
+//! of them down.
+
+mod accuracy;
+mod cache;
+mod reference;
+mod spread;
+mod timing;
+
+pub use accuracy::{Accuracy, Yardstick};
+pub use cache::{Cache, Fingerprint};
+pub use reference::{GRID_SAMPLES, MAX_REFERENCE_SAMPLES, brute_force};
+pub use spread::Spread;
+pub use timing::{Contender, Cost, PassCost, take_turns};

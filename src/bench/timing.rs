@@ -1,0 +1,144 @@
+//! What methods cost, measured side by side.
+
+use super::Spread;
+use crate::camera::Camera;
+use crate::render::{Frame, Headless, PassTime, PreparedScene, RenderError, Rendered, Settings};
+use serde::Serialize;
+use std::time::{Duration, Instant};
+
+/// A method with its pipelines and memory, warmed up, and how long its frames took.
+pub struct Contender {
+    frame: Frame,
+    frames: Vec<Timed>,
+    spent: Duration,
+}
+
+struct Timed {
+    wall_ms: f64,
+    passes: Vec<PassTime>,
+}
+
+/// What a frame costs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Cost {
+    /// Milliseconds on the device.
+    pub gpu_ms: Spread,
+    /// Milliseconds by the clock, from recording to the image in host memory.
+    pub wall_ms: Spread,
+    /// Milliseconds on the device by pass, in order.
+    pub passes: Vec<PassCost>,
+}
+
+/// What a pass costs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PassCost {
+    /// The pass.
+    pub pass: &'static str,
+    /// Milliseconds on the device.
+    #[serde(flatten)]
+    pub ms: Spread,
+}
+
+impl Contender {
+    /// Prepares a method and renders a frame that is not timed, for the driver compiles shaders during it.
+    ///
+    /// # Errors
+    /// If the settings are impossible, memory runs out or the device is lost.
+    pub fn warm_up(
+        headless: &mut Headless,
+        scene: &PreparedScene,
+        camera: &Camera,
+        settings: &Settings,
+    ) -> Result<(Self, Rendered), RenderError> {
+        let mut frame = headless.prepare(scene, settings)?;
+        let rendered = headless.render(scene, &mut frame, camera)?;
+        let contender = Self {
+            frame,
+            frames: Vec::new(),
+            spent: Duration::ZERO,
+        };
+        Ok((contender, rendered))
+    }
+
+    /// The settings that it was prepared with.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        self.frame.settings()
+    }
+
+    fn time_a_frame(
+        &mut self,
+        headless: &mut Headless,
+        scene: &PreparedScene,
+        camera: &Camera,
+    ) -> Result<(), RenderError> {
+        let start = Instant::now();
+        let rendered = headless.render(scene, &mut self.frame, camera)?;
+        let wall = start.elapsed();
+        self.spent += wall;
+        self.frames.push(Timed {
+            wall_ms: 1e3 * wall.as_secs_f64(),
+            passes: rendered.statistics.passes,
+        });
+        Ok(())
+    }
+
+    /// Whether another frame is wanted and fits into the time allowed; the first always is.
+    fn goes_on(&self, repeat: u32, budget: Duration) -> bool {
+        let Some(last) = self.frames.last() else {
+            return true;
+        };
+        let expected = self.spent.as_secs_f64() + 1e-3 * last.wall_ms;
+        self.frames.len() < repeat as usize && expected <= budget.as_secs_f64()
+    }
+
+    /// What its frames cost.
+    #[must_use]
+    pub fn cost(&self) -> Cost {
+        let of_pass = |pass: &str| {
+            Spread::of(self.frames.iter().map(|frame| {
+                let times = frame.passes.iter().filter(|time| time.pass == pass);
+                times.map(|time| time.ms).sum()
+            }))
+        };
+        let total = |frame: &Timed| frame.passes.iter().map(|time| time.ms).sum();
+        let passes = self.frames.first().map_or(&[][..], |frame| &frame.passes);
+        Cost {
+            gpu_ms: Spread::of(self.frames.iter().map(total)),
+            wall_ms: Spread::of(self.frames.iter().map(|frame| frame.wall_ms)),
+            passes: passes
+                .iter()
+                .map(|time| PassCost {
+                    pass: time.pass,
+                    ms: of_pass(time.pass),
+                })
+                .collect(),
+        }
+    }
+}
+
+/// Times every contender `repeat` times, in rounds of one frame each. Whoever would need more than `budget` for that
+/// drops out of later rounds, after at least one frame. `progress` is called before each frame.
+///
+/// # Errors
+/// As [`Headless::render`].
+pub fn take_turns<'a>(
+    headless: &mut Headless,
+    scene: &PreparedScene,
+    camera: &Camera,
+    contenders: impl IntoIterator<Item = &'a mut Contender>,
+    repeat: u32,
+    budget: Duration,
+    mut progress: impl FnMut(&Contender),
+) -> Result<(), RenderError> {
+    let mut contenders: Vec<_> = contenders.into_iter().collect();
+    for _ in 0..repeat.max(1) {
+        for contender in &mut contenders {
+            if contender.goes_on(repeat, budget) {
+                progress(contender);
+                contender.time_a_frame(headless, scene, camera)?;
+            }
+        }
+    }
+    Ok(())
+}

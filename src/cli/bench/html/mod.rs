@@ -1,0 +1,118 @@
+//! `report.html`: one file that needs no other.
+
+mod bars;
+mod curves;
+mod scene;
+mod tables;
+
+use super::gallery::Gallery;
+use super::pictures::BRIGHTEST;
+use super::results::Results;
+
+const STYLE: &str = include_str!("style.css");
+
+/// The whole page; `galleries` are in the order of the scenes.
+pub fn page(results: &Results, galleries: &[Gallery]) -> String {
+    let [width, height] = results.size;
+    let machine = &results.machine;
+    let sections: String = results
+        .scenes
+        .iter()
+        .zip(galleries)
+        .map(|(scene, gallery)| scene::section(scene, gallery))
+        .collect();
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <title>gpc bench, {device}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<header>\n\
+         <h1>Error against time</h1>\n\
+         <p class=\"lead\">What antialiasing costs and what it removes: superpixels beside one sample a pixel, the \
+         device's own multisampling and full supersampling, measured in one run of <code>gpc bench</code>.</p>\n\
+         <dl class=\"facts\"><div><dt>Device</dt><dd>{device}<br><small>{driver}</small></dd></div>\
+         <div><dt>Machine</dt><dd>{cpu}<br><small>{threads} threads, {os}</small></dd></div>\
+         <div><dt>Image</dt><dd>{width} × {height}<br><small>reference: {reference} samples a pixel</small></dd></div>\
+         <div><dt>Run</dt><dd>{date}<br><small>gpc {version}, medians of up to {repeat} frames</small></dd></div></dl>\n\
+         </header>\n<main>\n<section>\n<h2>All scenes</h2>\n{summary}{matrix}</section>\n{sections}{method}</main>\n\
+         </body>\n</html>\n",
+        device = escape(&results.device),
+        driver = escape(&results.driver),
+        cpu = escape(&machine.cpu),
+        threads = machine.threads,
+        os = escape(&machine.os),
+        reference = results.reference_samples,
+        date = results.date,
+        version = results.version,
+        repeat = results.repeat,
+        summary = tables::summary(&results.summary),
+        matrix = tables::by_scene(&results.scenes),
+        method = method(results),
+    )
+}
+
+/// How the numbers came about.
+fn method(results: &Results) -> String {
+    format!(
+        "<section class=\"method\">\n<h2>How this was measured</h2>\n<ul>\n\
+         <li><b>Time</b> is the device's own, from timestamps around the passes; <i>wall</i> is by the clock, from \
+         recording to the image in host memory. Every method renders one frame that does not count, since drivers \
+         compile shaders during it; then the methods take turns, a frame each, so that a machine that slows down slows \
+         all of them down. A method stops when its frames have taken {budget} s, but not before one was timed: the \
+         column <i>frames</i> has their number, <i>±</i> the distance from the fastest to the slowest.</li>\n\
+         <li><b>The reference</b> is brute force at {reference} samples a pixel: 16 × 16 supersampling, again and again \
+         with the grid moved to another point of an Owen-scrambled Sobol set within its own cell. Texture levels are \
+         chosen for the footprint of an output pixel in it as in every method.</li>\n\
+         <li><b>RMSE, PSNR, max</b> and <b>removed</b> are of sRGB-encoded values of 0 to 1, as a display shows them; \
+         <i>linear</i> of linear light. <i>Removed</i> is the share of the squared error of one sample a pixel that is \
+         gone. <i>Needless</i> is the share of pixels that were right with one sample, within 1/255, and are further \
+         off than that now. <b>FLIP</b> is the mean of the error map of Andersson et al. (2020).</li>\n\
+         <li><b>Error maps</b> run from black (no error) to light yellow (an error of {brightest} and above), as the \
+         square root of the error.</li>\n</ul>\n</section>\n",
+        budget = results.budget_seconds,
+        reference = results.reference_samples,
+        brightest = BRIGHTEST,
+    )
+}
+
+/// Text for HTML.
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
+}
+
+/// A number of three digits that count.
+fn short(value: f64) -> String {
+    match value {
+        v if v >= 99.95 => format!("{v:.0}"),
+        v if v >= 9.995 => format!("{v:.1}"),
+        v => format!("{v:.2}"),
+    }
+}
+
+/// A ratio, or a dash.
+fn times(ratio: Option<f64>) -> String {
+    ratio.map_or_else(|| "–".to_owned(), |ratio| format!("{}×", short(ratio)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_cannot_become_markup() {
+        assert_eq!(
+            escape("<a href=\"x\">&"),
+            "&lt;a href=&quot;x&quot;&gt;&amp;"
+        );
+    }
+
+    #[test]
+    fn numbers_keep_three_digits() {
+        let shown: Vec<_> = [0.1234, 9.999, 12.34, 1234.5]
+            .into_iter()
+            .map(short)
+            .collect();
+        assert_eq!(shown, ["0.12", "10.0", "12.3", "1234"]);
+    }
+}

@@ -1,0 +1,71 @@
+//! `gpc bench`.
+
+mod args;
+mod gallery;
+mod html;
+mod machine;
+mod pictures;
+mod progress;
+mod results;
+mod subject;
+mod summary;
+mod table;
+
+pub use args::BenchArgs;
+
+use super::{exit, input};
+use anyhow::Context;
+use gpc::bench::Cache;
+use gpc::output;
+use gpc::render::{Headless, HeadlessOptions};
+use progress::Progress;
+use results::Results;
+use std::path::Path;
+use std::process::ExitCode;
+use subject::Bench;
+
+pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
+    if args.scenes.iter().any(|path| input::is_standard(path)) {
+        exit::usage!("a benchmark reads its scenes from files, not from standard input");
+    }
+    let Some(cache) = args.cache.clone().or_else(Cache::default_folder) else {
+        exit::usage!("there is no home folder to keep references in; name a folder with --cache");
+    };
+    std::fs::create_dir_all(&args.out)
+        .with_context(|| format!("{}: the folder can't be made", args.out.display()))?;
+    let mut bench = Bench {
+        headless: Headless::new(&HeadlessOptions {
+            device: args.device.clone(),
+            validation: false,
+        })?,
+        cache: Cache::new(&cache),
+        args,
+        progress: Progress::new(args.scenes.len()),
+    };
+    let mut results = Results::new(args, bench.headless.gpu().limits());
+    let mut galleries = Vec::new();
+    for path in &args.scenes {
+        let (scene, gallery) = bench.measure(path)?;
+        bench.progress.suspend(|| table::print(&scene))?;
+        results.scenes.push(scene);
+        galleries.push(gallery);
+        // Again after each scene, so that what was measured survives a failure.
+        results.summary = summary::summarize(&results.scenes);
+        write(&args.out, &results, &galleries)?;
+    }
+    bench.progress.finish();
+    table::print_summary(&results.summary)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn write(folder: &Path, results: &Results, galleries: &[gallery::Gallery]) -> anyhow::Result<()> {
+    let files = [
+        ("results.json", serde_json::to_string(results)? + "\n"),
+        ("results.csv", table::csv(&results.scenes)),
+        ("report.html", html::page(results, galleries)),
+    ];
+    for (name, text) in files {
+        output::write_atomically(&folder.join(name), text.as_bytes())?;
+    }
+    Ok(())
+}

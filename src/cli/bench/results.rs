@@ -1,0 +1,82 @@
+//! What `results.json` holds.
+
+use super::BenchArgs;
+use super::machine::{self, Machine};
+use super::summary::AtSamples;
+use crate::cli::render::Antialiasing;
+use gpc::bench::{Accuracy, Cost};
+use gpc::vulkan::Limits;
+use serde::Serialize;
+
+/// Everything that one run measured.
+#[derive(Serialize)]
+pub struct Results {
+    pub version: &'static str,
+    /// When the run began: `YYYY-MM-DD`, universal time.
+    pub date: String,
+    pub machine: Machine,
+    pub device: String,
+    pub driver: String,
+    pub size: [u32; 2],
+    /// Samples a pixel of the reference.
+    pub reference_samples: u32,
+    pub repeat: u32,
+    pub budget_seconds: f64,
+    pub summary: Vec<AtSamples>,
+    pub scenes: Vec<SceneResults>,
+}
+
+/// What was measured of one scene.
+#[derive(Serialize)]
+pub struct SceneResults {
+    pub name: String,
+    pub file: String,
+    pub triangles: u64,
+    /// Seconds that the reference took to render; `None` if it came from the cache.
+    pub reference_seconds: Option<f64>,
+    /// What was left out, and why.
+    pub notes: Vec<String>,
+    pub rows: Vec<Row>,
+}
+
+/// One method at one number of samples.
+#[derive(Serialize)]
+pub struct Row {
+    pub method: Antialiasing,
+    pub samples: u32,
+    #[serde(flatten)]
+    pub cost: Cost,
+    /// Device memory of scene and frame.
+    pub memory_bytes: u64,
+    /// Share of the pixels that are superpixels.
+    pub superpixel_fraction: f64,
+    /// Triangles in the lists of tiles.
+    pub candidates: u64,
+    pub accuracy: Accuracy,
+}
+
+impl Results {
+    pub fn new(args: &BenchArgs, limits: &Limits) -> Self {
+        Self {
+            version: env!("CARGO_PKG_VERSION"),
+            date: machine::today(),
+            machine: Machine::this(),
+            device: limits.device_name.clone(),
+            driver: limits.driver.clone(),
+            size: args.size,
+            reference_samples: args.reference,
+            repeat: args.repeat,
+            budget_seconds: args.budget,
+            summary: Vec::new(),
+            scenes: Vec::new(),
+        }
+    }
+}
+
+impl SceneResults {
+    /// The row of a method at a number of samples.
+    pub fn row(&self, method: Antialiasing, samples: u32) -> Option<&Row> {
+        let wanted = |row: &&Row| row.method == method && row.samples == samples;
+        self.rows.iter().find(wanted)
+    }
+}

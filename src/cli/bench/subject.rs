@@ -1,0 +1,258 @@
+//! One scene, measured.
+
+use super::BenchArgs;
+use super::gallery::Gallery;
+use super::progress::Progress;
+use super::results::{Row, SceneResults};
+use crate::cli::input;
+use crate::cli::render::{Antialiasing, CameraArgs, choose_views};
+use gpc::bench::{self, Cache, Contender, Fingerprint, Yardstick};
+use gpc::camera::Camera;
+use gpc::output::{DecodedImage, Picture};
+use gpc::reference::srgb;
+use gpc::render::{Headless, PreparedScene, RenderError, Rendered, Settings};
+use gpc::scene::{Geometry, PoseRequest};
+use std::path::Path;
+use std::time::Instant;
+
+/// sRGB values of the background: opaque, so that colours tell everything.
+const BACKGROUND: [f64; 3] = [0.87, 0.89, 0.91];
+
+/// What measures scene after scene.
+pub struct Bench<'a> {
+    pub headless: Headless,
+    pub cache: Cache,
+    pub args: &'a BenchArgs,
+    pub progress: Progress,
+}
+
+/// A scene on the device.
+struct Subject {
+    prepared: PreparedScene,
+    geometry: Geometry,
+    camera: Camera,
+}
+
+/// A method that takes part, with what is known of it before it is timed.
+struct Entry {
+    contender: Contender,
+    row: Row,
+}
+
+impl Bench<'_> {
+    /// Measures the scene of a file.
+    pub fn measure(&mut self, path: &Path) -> anyhow::Result<(SceneResults, Gallery)> {
+        let name = name(path);
+        self.progress.begin(&name);
+        let subject = self.upload(path)?;
+        let settings = self.settings(Antialiasing::None, 1);
+        let (reference, reference_seconds) = self.reference(&subject, &settings)?;
+        let (_, one_sample) = self.warm_up(&subject, &settings)?;
+        let yardstick = Yardstick::new(
+            &Picture::new(settings.size, &reference)?,
+            &Picture::new(settings.size, &one_sample.colors)?,
+        )?;
+        drop(reference);
+
+        let shown = self.shown_samples();
+        let mut notes = Notes::default();
+        let mut entries = Vec::new();
+        let mut superpixels = None;
+        for (method, samples) in self.args.cells() {
+            self.progress
+                .say(&format!("{method} {samples}, warming up"));
+            let (contender, rendered) =
+                match self.warm_up(&subject, &self.settings(method, samples)) {
+                    Err(RenderError::Samples { possible, .. }) => {
+                        notes.leave_out(method, samples, possible);
+                        continue;
+                    }
+                    done => done?,
+                };
+            let picture = Picture::new(rendered.size, &rendered.colors)?;
+            if (method, Some(samples)) == (Antialiasing::Superpixel, shown) {
+                superpixels = Some((samples, DecodedImage::from(&picture)));
+            }
+            let statistics = &rendered.statistics;
+            entries.push(Entry {
+                row: Row {
+                    method,
+                    samples,
+                    cost: contender.cost(),
+                    memory_bytes: statistics.memory_bytes,
+                    superpixel_fraction: statistics.superpixels as f64
+                        / rendered.colors.len() as f64,
+                    candidates: statistics.candidates,
+                    accuracy: yardstick.measure(&picture)?,
+                },
+                contender,
+            });
+        }
+        let scene = SceneResults {
+            name,
+            file: path.display().to_string(),
+            triangles: one_sample.statistics.triangles.total,
+            reference_seconds,
+            notes: notes.lines(),
+            rows: self.time(&subject, entries)?,
+        };
+        let gallery = Gallery::new(&yardstick, superpixels.as_ref())?;
+        Ok((scene, gallery))
+    }
+
+    fn upload(&mut self, path: &Path) -> anyhow::Result<Subject> {
+        let loaded = input::load(path)?;
+        let pose = loaded.scene.pose(&PoseRequest::default())?;
+        let [width, height] = self.args.size.map(f64::from);
+        let views = choose_views(&CameraArgs::default(), &pose, width / height)?;
+        let Some(view) = views.first() else {
+            anyhow::bail!("{}: there is no camera to see it with", path.display());
+        };
+        Ok(Subject {
+            prepared: self.headless.upload(&loaded.scene, &pose, None)?,
+            geometry: pose.geometry,
+            camera: view.camera,
+        })
+    }
+
+    fn settings(&self, method: Antialiasing, samples: u32) -> Settings {
+        let [width, height] = self.args.size;
+        Settings {
+            method: method.method(),
+            samples,
+            background: Some(BACKGROUND.map(|value| srgb::decode(value) as f32)),
+            ..Settings::new(width, height)
+        }
+    }
+
+    /// Samples of the superpixels that the report shows: the default number, or else the most there are.
+    fn shown_samples(&self) -> Option<u32> {
+        let cells = self.args.cells();
+        let counts = cells
+            .iter()
+            .filter(|(method, _)| *method == Antialiasing::Superpixel)
+            .map(|(_, samples)| *samples);
+        counts.max_by_key(|samples| (*samples == Settings::DEFAULT_SAMPLES, *samples))
+    }
+
+    /// The reference, and how many seconds it took unless it was there already.
+    fn reference(
+        &mut self,
+        subject: &Subject,
+        settings: &Settings,
+    ) -> anyhow::Result<(Vec<[f32; 4]>, Option<f64>)> {
+        let samples = self.args.reference;
+        self.progress.say("looking for its reference");
+        let fingerprint = Fingerprint::new(
+            &mut self.headless,
+            &subject.prepared,
+            &subject.geometry,
+            &subject.camera,
+            settings,
+            samples,
+        )?;
+        if let Some(known) = self.cache.get(fingerprint, settings.size) {
+            return Ok((known, None));
+        }
+        let start = Instant::now();
+        let parts = samples / bench::GRID_SAMPLES;
+        let mut done = 0;
+        let progress = &self.progress;
+        let mut count = || {
+            progress.say(&format!("reference, {done} of {parts} renderings"));
+            done += 1;
+        };
+        count();
+        let reference = bench::brute_force(
+            &mut self.headless,
+            &subject.prepared,
+            &subject.camera,
+            settings,
+            samples,
+            count,
+        )?;
+        let seconds = start.elapsed().as_secs_f64();
+        let picture = Picture::new(settings.size, &reference)?;
+        self.cache.put(fingerprint, &picture)?;
+        Ok((reference, Some(seconds)))
+    }
+
+    fn warm_up(
+        &mut self,
+        subject: &Subject,
+        settings: &Settings,
+    ) -> Result<(Contender, Rendered), RenderError> {
+        Contender::warm_up(
+            &mut self.headless,
+            &subject.prepared,
+            &subject.camera,
+            settings,
+        )
+    }
+
+    fn time(
+        &mut self,
+        subject: &Subject,
+        mut entries: Vec<Entry>,
+    ) -> Result<Vec<Row>, RenderError> {
+        let progress = &self.progress;
+        bench::take_turns(
+            &mut self.headless,
+            &subject.prepared,
+            &subject.camera,
+            entries.iter_mut().map(|entry| &mut entry.contender),
+            self.args.repeat,
+            self.args.budget(),
+            |contender| {
+                let settings = contender.settings();
+                progress.say(&format!("{:?} {}", settings.method, settings.samples));
+            },
+        )?;
+        Ok(entries
+            .into_iter()
+            .map(|Entry { contender, row }| Row {
+                cost: contender.cost(),
+                ..row
+            })
+            .collect())
+    }
+}
+
+/// What is left out: a line for each method and reason.
+#[derive(Default)]
+struct Notes(Vec<(Antialiasing, String, Vec<u32>)>);
+
+impl Notes {
+    fn leave_out(&mut self, method: Antialiasing, samples: u32, possible: String) {
+        match self
+            .0
+            .iter_mut()
+            .find(|(known, reason, _)| *known == method && *reason == possible)
+        {
+            Some((_, _, counts)) => counts.push(samples),
+            None => self.0.push((method, possible, vec![samples])),
+        }
+    }
+
+    fn lines(&self) -> Vec<String> {
+        let line = |(method, possible, counts): &(Antialiasing, String, Vec<u32>)| {
+            let counts: Vec<_> = counts.iter().map(ToString::to_string).collect();
+            format!(
+                "{method} left out at {} samples: it can have {possible}",
+                counts.join(", ")
+            )
+        };
+        self.0.iter().map(line).collect()
+    }
+}
+
+/// A file's name without its ending, or its folder's where files of all scenes are called `scene`, as Sketchfab's are.
+fn name(path: &Path) -> String {
+    let stem = input::stem(path);
+    let folder = || Some(path.parent()?.file_name()?.to_string_lossy().into_owned());
+    if stem == "scene" {
+        folder().unwrap_or(stem)
+    } else {
+        stem
+    }
+}

@@ -1,0 +1,125 @@
+//! Results as text: for the terminal and as CSV.
+
+use super::results::{Row, SceneResults};
+use super::summary::AtSamples;
+use crate::cli::print;
+use std::fmt::Write;
+
+/// Prints what was measured of a scene.
+pub fn print(scene: &SceneResults) -> anyhow::Result<()> {
+    let reference = scene
+        .reference_seconds
+        .map_or_else(String::new, |s| format!(", reference rendered in {s:.0} s"));
+    print::line(&format!(
+        "\n{}: {} triangles{reference}",
+        scene.name, scene.triangles
+    ))?;
+    for note in &scene.notes {
+        print::line(&format!("  {note}"))?;
+    }
+    print::line(
+        "  method       N    GPU ms  spread  frames   wall ms     MiB  superpx     RMSE    PSNR     max    FLIP  removed  needless",
+    )?;
+    for row in &scene.rows {
+        print::line(&format!("  {}", line(row)))?;
+    }
+    Ok(())
+}
+
+fn line(row: &Row) -> String {
+    let Row { cost, accuracy, .. } = row;
+    format!(
+        "{:<10} {:>4} {:>9.1} {:>7.1} {:>7} {:>9.1} {:>7.0} {:>6.1} % {:>8.5} {:>7} {:>7.4} {:>7.4} {:>6.1} % {:>7.3} %",
+        row.method.to_string(),
+        row.samples,
+        cost.gpu_ms.median,
+        cost.gpu_ms.spread,
+        cost.gpu_ms.count,
+        cost.wall_ms.median,
+        row.memory_bytes as f64 / f64::from(1 << 20),
+        100.0 * row.superpixel_fraction,
+        accuracy.rmse,
+        decibels(accuracy.psnr),
+        accuracy.max,
+        accuracy.flip,
+        100.0 * accuracy.removed,
+        100.0 * accuracy.needless,
+    )
+}
+
+/// Prints the ratios over all scenes.
+pub fn print_summary(summary: &[AtSamples]) -> anyhow::Result<()> {
+    if summary.is_empty() {
+        return Ok(());
+    }
+    print::line("\nsuperpixel, medians over the scenes:")?;
+    print::line(
+        "     N  scenes  ssaa/superpixel  superpixel/none  RMSE over ssaa's  worst  removed",
+    )?;
+    for at in summary {
+        let worst = at.worst_rmse_ratio.as_ref().map(|(_, ratio)| *ratio);
+        print::line(&format!(
+            "  {:>4}  {:>6}  {:>15}  {:>15}  {:>16}  {:>5}  {:>7}",
+            at.samples,
+            at.scenes,
+            times(at.speedup),
+            times(at.over_none),
+            times(at.rmse_ratio),
+            times(worst),
+            at.removed
+                .map_or_else(|| "-".to_owned(), |share| format!("{:.1} %", 100.0 * share)),
+        ))?;
+    }
+    Ok(())
+}
+
+fn times(ratio: Option<f64>) -> String {
+    ratio.map_or_else(|| "-".to_owned(), |ratio| format!("{ratio:.2}"))
+}
+
+/// Decibels, or that there is no noise.
+pub fn decibels(psnr: Option<f64>) -> String {
+    psnr.map_or_else(|| "inf".to_owned(), |psnr| format!("{psnr:.2}"))
+}
+
+const COLUMNS: &str = "scene,triangles,method,samples,frames,gpu_ms_median,gpu_ms_min,gpu_ms_spread,wall_ms_median,\
+    wall_ms_min,wall_ms_spread,memory_bytes,superpixel_fraction,candidates,rmse_linear,psnr_linear,rmse,psnr,max,flip,\
+    removed,needless";
+
+/// All rows of all scenes, without the times of passes (RFC 4180, but with bare line feeds).
+pub fn csv(scenes: &[SceneResults]) -> String {
+    let mut text = format!("{COLUMNS}\n");
+    for scene in scenes {
+        for row in &scene.rows {
+            let Row { cost, accuracy, .. } = row;
+            // Writing to a string can't fail.
+            let _ = writeln!(
+                text,
+                "\"{}\",{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
+                scene.name.replace('"', "\"\""),
+                scene.triangles,
+                row.method,
+                row.samples,
+                cost.gpu_ms.count,
+                cost.gpu_ms.median,
+                cost.gpu_ms.min,
+                cost.gpu_ms.spread,
+                cost.wall_ms.median,
+                cost.wall_ms.min,
+                cost.wall_ms.spread,
+                row.memory_bytes,
+                row.superpixel_fraction,
+                row.candidates,
+                accuracy.rmse_linear,
+                decibels(accuracy.psnr_linear),
+                accuracy.rmse,
+                decibels(accuracy.psnr),
+                accuracy.max,
+                accuracy.flip,
+                accuracy.removed,
+                accuracy.needless,
+            );
+        }
+    }
+    text
+}

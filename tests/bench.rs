@@ -1,0 +1,251 @@
+//! `gpc bench` and what it measures with, on a tiny image.
+
+#[allow(dead_code)]
+mod cli_support;
+
+use cli_support::{asset, files, gpc};
+use glam::DVec2;
+use gpc::bench::brute_force;
+use gpc::camera::{Camera, Orbit};
+use gpc::render::{Headless, HeadlessOptions, Method, PreparedScene, RenderError, Settings};
+use gpc::scene::{PoseRequest, Scene};
+use serde_json::Value;
+use std::path::Path;
+
+const SIZE: u32 = 64;
+
+fn stage(name: &str) -> (Headless, PreparedScene, Camera) {
+    let scene = Scene::load(asset(name).as_ref()).unwrap().scene;
+    let pose = scene.pose(&PoseRequest::default()).unwrap();
+    let (low, high) = pose.geometry.bounds().unwrap();
+    let camera = Orbit::default().frame(low, high, 1.0).unwrap();
+    let mut headless = Headless::new(&HeadlessOptions::default()).unwrap();
+    let prepared = headless.upload(&scene, &pose, None).unwrap();
+    (headless, prepared, camera)
+}
+
+fn settings(method: Method, samples: u32) -> Settings {
+    Settings {
+        method,
+        samples,
+        background: Some([0.8; 3]),
+        ..Settings::new(SIZE, SIZE)
+    }
+}
+
+fn rmse(a: &[[f32; 4]], b: &[[f32; 4]]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    let squares = a.as_flattened().iter().zip(b.as_flattened());
+    let sum: f64 = squares.map(|(a, b)| f64::from(a - b).powi(2)).sum();
+    (sum / (4 * a.len()) as f64).sqrt()
+}
+
+/// The film moved by whole pixels sees the same picture elsewhere.
+#[test]
+fn a_shift_of_the_film_moves_the_picture_the_other_way() {
+    let (mut headless, scene, camera) = stage("letters.glb");
+    let mut frame = headless
+        .prepare(&scene, &settings(Method::None, 1))
+        .unwrap();
+    let mut render = |shift| {
+        let camera = Camera { shift, ..camera };
+        headless.render(&scene, &mut frame, &camera).unwrap().colors
+    };
+    let still = render(DVec2::ZERO);
+    let moved = render(DVec2::new(2.0, 3.0) / f64::from(SIZE));
+    let side = SIZE as usize;
+    let mut pairs = Vec::new();
+    for y in 0..side - 3 {
+        for x in 0..side - 2 {
+            pairs.push((still[(y + 3) * side + x + 2], moved[y * side + x]));
+        }
+    }
+    let same = |(a, b): &&([f32; 4], [f32; 4])| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-3);
+    let equal = pairs.iter().filter(same).count();
+    assert!(
+        equal * 100 >= pairs.len() * 99,
+        "{equal} of {}",
+        pairs.len()
+    );
+    let unmoved = still.iter().zip(&moved).filter(|(a, b)| a == b).count();
+    assert!(
+        unmoved * 100 < still.len() * 95,
+        "the picture is too plain to tell"
+    );
+}
+
+/// The reference differs from each of its parts by less than these differ from images of fewer samples.
+#[test]
+fn the_reference_lies_beyond_supersampling() {
+    let (mut headless, scene, camera) = stage("letters.glb");
+    let mut calls = 0;
+    let reference = brute_force(
+        &mut headless,
+        &scene,
+        &camera,
+        &settings(Method::None, 1),
+        1024,
+        || calls += 1,
+    )
+    .unwrap();
+    assert_eq!(calls, 4);
+    let errors = [1, 16, 256].map(|samples| {
+        let settings = settings(Method::Ssaa, samples);
+        let mut frame = headless.prepare(&scene, &settings).unwrap();
+        let image = headless.render(&scene, &mut frame, &camera).unwrap();
+        rmse(&image.colors, &reference)
+    });
+    assert!(
+        errors[0] > 3.0 * errors[1] && errors[1] > 2.0 * errors[2],
+        "{errors:?}"
+    );
+    assert!(errors[2] > 0.0, "the grid was not moved");
+}
+
+#[test]
+fn a_reference_is_made_of_whole_renderings() {
+    let (mut headless, scene, camera) = stage("letters.glb");
+    for samples in [0, 100, 257] {
+        let settings = settings(Method::None, 1);
+        let asked = brute_force(&mut headless, &scene, &camera, &settings, samples, || {});
+        assert!(
+            matches!(asked, Err(RenderError::Samples { .. })),
+            "{samples}"
+        );
+    }
+}
+
+fn bench(folder: &Path) -> Value {
+    let scene = asset("letters.glb");
+    let arguments = [
+        "bench",
+        &scene,
+        "--size",
+        "64x64",
+        "--samples",
+        "16,4,16",
+        "--reference",
+        "512",
+        "--repeat",
+        "2",
+        "--cache",
+        "cache",
+        "--out",
+        "results/letters",
+    ];
+    gpc(folder, &arguments).ok();
+    let bytes = std::fs::read(folder.join("results/letters/results.json")).unwrap();
+    serde_json::from_slice(&bytes).unwrap()
+}
+
+/// The number at a path in a value.
+fn number(value: &Value, path: &str) -> f64 {
+    value
+        .pointer(path)
+        .and_then(Value::as_f64)
+        .unwrap_or_else(|| panic!("no {path} in {value}"))
+}
+
+#[test]
+fn measures_every_method_that_there_is_and_keeps_the_reference() {
+    let folder = tempfile::tempdir().unwrap();
+    let first = bench(folder.path());
+    let scene = &first["scenes"][0];
+    let rows = scene["rows"].as_array().unwrap();
+    let row = |method: &str, samples: u32| {
+        rows.iter()
+            .find(|row| row["method"] == method && row["samples"] == samples)
+            .unwrap_or_else(|| panic!("no {method} {samples} in {scene}"))
+    };
+    let expected = ["none", "msaa", "ssaa", "ssaa", "superpixel", "superpixel"];
+    let found: Vec<_> = rows
+        .iter()
+        .map(|row| row["method"].as_str().unwrap())
+        .collect();
+    assert_eq!(found, expected, "msaa is 4x on the software driver");
+    let notes = scene["notes"].to_string();
+    assert!(notes.contains("msaa") && notes.contains("16"), "{notes}");
+
+    for row in rows {
+        assert_eq!(row["gpu_ms"]["count"], 2);
+        let [median, least] = ["median", "min"].map(|of| number(row, &format!("/gpu_ms/{of}")));
+        assert!(0.0 < least && least <= median, "{row}");
+        assert!(number(row, "/wall_ms/min") > 0.0 && number(row, "/memory_bytes") > 0.0);
+        let passes = row["passes"].as_array().unwrap();
+        let sum: f64 = passes.iter().map(|pass| number(pass, "/min")).sum();
+        assert!(sum <= number(row, "/gpu_ms/median") + 1e-6, "{row}");
+    }
+    assert_eq!(number(row("none", 1), "/accuracy/removed"), 0.0);
+    assert_eq!(number(row("none", 1), "/accuracy/needless"), 0.0);
+    assert_eq!(number(row("none", 1), "/superpixel_fraction"), 0.0);
+    assert!(number(row("superpixel", 16), "/superpixel_fraction") > 0.0);
+    for method in ["ssaa", "superpixel"] {
+        let [few, many] = [4, 16].map(|samples| number(row(method, samples), "/accuracy/removed"));
+        assert!(
+            0.5 < few && few < many && many < 1.0,
+            "{method}: {few} {many}"
+        );
+    }
+    assert!(scene["reference_seconds"].is_number());
+
+    let again = bench(folder.path());
+    let scene = &again["scenes"][0];
+    assert!(
+        scene["reference_seconds"].is_null(),
+        "it was rendered again"
+    );
+    for (row, before) in scene["rows"].as_array().unwrap().iter().zip(rows) {
+        assert_eq!(row["accuracy"], before["accuracy"]);
+    }
+}
+
+#[test]
+fn writes_a_report_that_needs_no_other_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = bench(folder.path());
+    let out = folder.path().join("results/letters");
+    assert_eq!(files(&out), ["report.html", "results.csv", "results.json"]);
+    let page = std::fs::read_to_string(out.join("report.html")).unwrap();
+    for part in [
+        "<svg",
+        "data:image/png;base64,",
+        "data:image/jpeg;base64,",
+        "letters",
+        "superpixel 16",
+    ] {
+        assert!(page.contains(part), "{part}");
+    }
+    let sources = page.matches("src=").count();
+    assert_eq!(page.matches("src=\"data:").count(), sources);
+    for outside in [
+        "http:", "https:", "<link", "<script", "url(", "NaN", "inf\"",
+    ] {
+        assert!(!page.contains(outside), "{outside}");
+    }
+    let csv = std::fs::read_to_string(out.join("results.csv")).unwrap();
+    let columns: Vec<_> = csv.lines().map(|line| line.split(',').count()).collect();
+    let rows = results["scenes"][0]["rows"].as_array().unwrap().len();
+    assert_eq!(columns, vec![22; rows + 1]);
+}
+
+#[test]
+fn wrong_use_is_told_before_anything_is_measured() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = asset("letters.glb");
+    let with = |arguments: &[&str]| {
+        let all: Vec<_> = ["bench", &scene, "--out", "out"]
+            .iter()
+            .chain(arguments)
+            .copied()
+            .collect();
+        gpc(folder.path(), &all).exits(2)
+    };
+    with(&["--reference", "1000"]).says(&["multiple of 256"]);
+    with(&["--samples", "2000"]).says(&["1024"]);
+    with(&["--methods", "taa"]).says(&["superpixel"]);
+    gpc(folder.path(), &["bench", "--out", "out"]).exits(2);
+    gpc(folder.path(), &["bench", "-", "--out", "out"])
+        .exits(2)
+        .says(&["standard input"]);
+    assert!(files(folder.path()).is_empty());
+}
