@@ -38,13 +38,13 @@ impl Axis {
         self.from + share * (self.to - self.from)
     }
 
-    /// 1, 2 and 5 times powers of ten; powers alone where there are many.
+    /// Powers of ten, and steps between them where there are few.
     fn ticks(&self) -> Vec<f64> {
         let decades = (self.high / self.low).log10();
-        let steps: &[f64] = if decades > 2.5 {
-            &[1.0]
-        } else {
-            &[1.0, 2.0, 5.0]
+        let steps: &[f64] = match decades {
+            d if d > 4.0 => &[1.0],
+            d if d > 1.8 => &[1.0, 3.0],
+            _ => &[1.0, 2.0, 5.0],
         };
         let first = self.low.log10().floor() as i32;
         let last = self.high.log10().ceil() as i32;
@@ -109,10 +109,10 @@ pub fn chart(scene: &SceneResults) -> String {
         );
         at += 34.0 + 7.2 * method.to_string().len() as f64;
     }
-    let _ = write!(
+    let _ = writeln!(
         svg,
         "<line class=\"front\" x1=\"{:.1}\" x2=\"{:.1}\" y1=\"16\" y2=\"16\"/>\
-         <text x=\"{:.1}\" y=\"20\">Pareto front</text></svg>\n",
+         <text x=\"{:.1}\" y=\"20\">Pareto front</text></svg>",
         at,
         at + 26.0,
         at + 36.0
@@ -229,7 +229,10 @@ mod tests {
     fn ticks_are_few_and_within() {
         let axis = Axis::around([0.01, 0.09].into_iter(), 0.0, 1.0);
         assert_eq!(axis.ticks(), [0.01, 0.02, 0.05, 0.1]);
-        let wide = Axis::around([1.0, 10_000.0].into_iter(), 0.0, 1.0);
-        assert_eq!(wide.ticks(), [1.0, 10.0, 100.0, 1_000.0, 10_000.0]);
+        let wide = Axis::around([1.0, 100_000.0].into_iter(), 0.0, 1.0);
+        assert_eq!(
+            wide.ticks(),
+            [1.0, 10.0, 100.0, 1_000.0, 10_000.0, 100_000.0]
+        );
     }
 }
