@@ -3,7 +3,8 @@
 //
 // A word holds the 2 x 2 texels that a bilinear lookup at its place needs, wrapping applied:
 // (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1) from the low byte up. The grid of words is one wider and
-// higher than the image, as lookups start half a texel outside of it. Levels follow each other.
+// higher than the image, as lookups start half a texel outside of it. A table of the first word of each level comes
+// before the levels.
 #ifndef ALPHA_GLSL
 #define ALPHA_GLSL
 #include "material.glsl"
@@ -18,7 +19,7 @@
 // linear in the position as they are.
 struct AlphaTest {
     vec3 weight, u, v, opacity;
-    uvec2 first;            // word of the coarser and finer level used
+    uvec2 first;            // first words of the finer and coarser level used
     uvec2 size_low, size_high;
     float level_blend;
     bool nearest;
@@ -63,19 +64,9 @@ AlphaTest alpha_test(uint t, vec2 center, vec2 at) {
     level = (r.flags & ALPHA_NEAREST_MIP) != 0u ? ceil(level + 0.5) - 1.0 : level;
     uint low = uint(level), high = min(low + 1u, levels - 1u);
     r.level_blend = level - float(low);
-    uint first = atlas.x;
-    r.first = uvec2(first);
-    r.size_low = size;
-    r.size_high = size;
-    uint l = 0u;
-    do {
-        r.first.x = l == low ? first : r.first.x;
-        r.size_low = l == low ? size : r.size_low;
-        r.first.y = l == high ? first : r.first.y;
-        r.size_high = l == high ? size : r.size_high;
-        first += (size.x + 1u) * (size.y + 1u);
-        size = max(size >> 1u, uvec2(1u));
-    } while (++l <= high);
+    r.first = uvec2(texelFetch(alpha_atlas, int(atlas.x + low)).x, texelFetch(alpha_atlas, int(atlas.x + high)).x);
+    r.size_low = max(size >> low, uvec2(1u));
+    r.size_high = max(size >> high, uvec2(1u));
     return r;
 }
 

@@ -1,11 +1,12 @@
 //! attributes: depth, ID, normal and sampling of every pixel, where asked for.
 
 use super::{FrameLayout, spirv};
-use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
+use std::sync::Arc;
 
 /// Writes two vectors a pixel, see `shaders/attributes.comp`.
 pub struct Attributes {
-    pipeline: Pipeline,
+    pipeline: Arc<Pipeline>,
 }
 
 impl Attributes {
@@ -14,9 +15,7 @@ impl Attributes {
     /// # Errors
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout, superpixels: bool) -> Result<Self, VulkanError> {
-        let pipeline = compute_pipeline(
-            &layout.gpu,
-            layout.pipeline,
+        let pipeline = layout.compute(
             spirv::ATTRIBUTES,
             &Constants::new().flag(0, superpixels),
             None,

@@ -1,13 +1,14 @@
 //! bin: triangles into pairs with the tiles they touch.
 
 use super::{Argument, FrameLayout, spirv};
-use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use std::sync::Arc;
 
 /// Lists the pairs and counts each tile's.
 pub struct Bin {
-    arguments: Pipeline,
-    small: Pipeline,
-    large: Pipeline,
+    arguments: Arc<Pipeline>,
+    small: Arc<Pipeline>,
+    large: Arc<Pipeline>,
 }
 
 impl Bin {
@@ -16,9 +17,7 @@ impl Bin {
     /// # Errors
     /// If the driver refuses one.
     pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
-        let make = |code, constants| {
-            compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, None)
-        };
+        let make = |code, constants| layout.compute(code, &constants, None);
         Ok(Self {
             arguments: make(spirv::ARGUMENTS, Constants::new().with(0, 1))?,
             small: make(spirv::BIN, Constants::new().flag(0, false))?,

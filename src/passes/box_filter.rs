@@ -1,12 +1,13 @@
 //! box_filter: k x k supersampled pixels to one.
 
 use super::{FrameLayout, spirv};
-use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
+use std::sync::Arc;
 
 /// Averages squares of pixels.
 pub struct BoxFilter {
     layout: ash::vk::PipelineLayout,
-    pipeline: Pipeline,
+    pipeline: Arc<Pipeline>,
 }
 
 impl BoxFilter {
@@ -15,13 +16,7 @@ impl BoxFilter {
     /// # Errors
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
-        let pipeline = compute_pipeline(
-            &layout.gpu,
-            layout.pipeline,
-            spirv::BOX_FILTER,
-            &Constants::new(),
-            None,
-        )?;
+        let pipeline = layout.compute(spirv::BOX_FILTER, &Constants::new(), None)?;
         Ok(Self {
             layout: layout.pipeline,
             pipeline,

@@ -1,12 +1,13 @@
 //! cull: the triangles that can touch a superpixel.
 
 use super::{Argument, FrameLayout, spirv};
-use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use std::sync::Arc;
 
 /// Compacts triangles; runs over none where nothing was detected.
 pub struct Cull {
-    arguments: Pipeline,
-    pipeline: Pipeline,
+    arguments: Arc<Pipeline>,
+    pipeline: Arc<Pipeline>,
 }
 
 impl Cull {
@@ -15,9 +16,7 @@ impl Cull {
     /// # Errors
     /// If the driver refuses one.
     pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
-        let make = |code, constants| {
-            compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, None)
-        };
+        let make = |code, constants| layout.compute(code, &constants, None);
         Ok(Self {
             arguments: make(spirv::ARGUMENTS, Constants::new().with(0, 0))?,
             pipeline: make(spirv::CULL, Constants::new())?,

@@ -1,7 +1,8 @@
 //! detect: which pixels are superpixels.
 
 use super::{FrameLayout, spirv};
-use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
+use std::sync::Arc;
 
 /// What makes a pixel a superpixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,7 +21,7 @@ pub enum DetectMode {
 
 /// Writes the mask of superpixels.
 pub struct Detect {
-    pipeline: Pipeline,
+    pipeline: Arc<Pipeline>,
 }
 
 impl Detect {
@@ -49,7 +50,7 @@ impl Detect {
             spirv::DETECT
         };
         Ok(Self {
-            pipeline: compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, None)?,
+            pipeline: layout.compute(code, &constants, None)?,
         })
     }
 

@@ -1,8 +1,9 @@
 //! encode: colours in the format of a host's image.
 
 use super::{FrameLayout, spirv};
-use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
 use ash::vk;
+use std::sync::Arc;
 
 /// Formats that a host's image may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,7 +41,7 @@ impl Encoding {
 
 /// Converts a region's colours.
 pub struct Encode {
-    pipeline: Pipeline,
+    pipeline: Arc<Pipeline>,
 }
 
 impl Encode {
@@ -50,13 +51,7 @@ impl Encode {
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout, encoding: Encoding) -> Result<Self, VulkanError> {
         let constants = Constants::new().with(0, u32::from(encoding == Encoding::Rgba16Float));
-        let pipeline = compute_pipeline(
-            &layout.gpu,
-            layout.pipeline,
-            spirv::ENCODE,
-            &constants,
-            None,
-        )?;
+        let pipeline = layout.compute(spirv::ENCODE, &constants, None)?;
         Ok(Self { pipeline })
     }
 

@@ -1,8 +1,9 @@
 //! What all passes share: the uniform block, the counters and the descriptor layout of `shaders/include/frame.glsl`.
 
-use crate::vulkan::{Gpu, VulkanError};
+use crate::vulkan::{Constants, Gpu, Pipeline, VulkanError, compute_pipeline};
 use ash::vk;
-use std::sync::Arc;
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// The uniform block `Frame`; the shader's comments say what the fields are.
 #[repr(C)]
@@ -141,12 +142,17 @@ const BINDINGS: [(u32, vk::DescriptorType); 42] = {
 /// Textures of a material bin, set 1.
 const TEXTURES: u32 = 5;
 
-/// The layout of both descriptor sets and of every pipeline.
+/// What tells one pipeline from another: its shader, its constants, and a variant of its fixed state.
+type PipelineKey = (usize, Constants, u32);
+
+/// The layout of both descriptor sets and of every pipeline, and the pipelines made so far: frames of other sizes,
+/// poses and scenes use them again.
 pub struct FrameLayout {
     pub(crate) gpu: Arc<Gpu>,
     pub(crate) frame_set: vk::DescriptorSetLayout,
     pub(crate) texture_set: vk::DescriptorSetLayout,
     pub(crate) pipeline: vk::PipelineLayout,
+    pipelines: Mutex<HashMap<PipelineKey, Arc<Pipeline>>>,
 }
 
 impl FrameLayout {
@@ -179,6 +185,7 @@ impl FrameLayout {
             frame_set: vk::DescriptorSetLayout::null(),
             texture_set: vk::DescriptorSetLayout::null(),
             pipeline: vk::PipelineLayout::null(),
+            pipelines: Mutex::default(),
         };
         // SAFETY: plain creations on a live device; handles made before a failure are destroyed by `Drop`.
         unsafe {
@@ -205,6 +212,39 @@ impl FrameLayout {
                 .map_err(VulkanError::of("vkCreatePipelineLayout"))?;
         }
         Ok(Arc::new(layout))
+    }
+
+    /// A compute pipeline of one of the crate's shaders; `subgroup` fixes the size of its subgroups.
+    pub(crate) fn compute(
+        &self,
+        code: &'static [u8],
+        constants: &Constants,
+        subgroup: Option<u32>,
+    ) -> Result<Arc<Pipeline>, VulkanError> {
+        self.cached(code, constants, subgroup.unwrap_or(0), || {
+            compute_pipeline(&self.gpu, self.pipeline, code, constants, subgroup)
+        })
+    }
+
+    /// The pipeline of a shader, constants and variant, made where it is not known yet.
+    pub(crate) fn cached(
+        &self,
+        code: &'static [u8],
+        constants: &Constants,
+        variant: u32,
+        make: impl FnOnce() -> Result<Pipeline, VulkanError>,
+    ) -> Result<Arc<Pipeline>, VulkanError> {
+        let key = (code.as_ptr() as usize, constants.clone(), variant);
+        let mut known = self
+            .pipelines
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
+        if let Some(pipeline) = known.get(&key) {
+            return Ok(pipeline.clone());
+        }
+        let pipeline = Arc::new(make()?);
+        known.insert(key, pipeline.clone());
+        Ok(pipeline)
     }
 
     /// A pool for `frames` sets 0 and `bins` sets 1.

@@ -237,7 +237,7 @@ impl GpuScene {
                 .map_or(triangle_count, |run| run.first_triangle)
         };
 
-        let mut atlas = AlphaAtlas::default();
+        let mut atlas = AlphaAtlas::new();
         let materials: Vec<GpuMaterial> = scene
             .materials
             .iter()

@@ -109,13 +109,21 @@ const NO_MIP: u32 = 8;
 const NEAREST_MIP: u32 = 16;
 
 /// The alpha channels of MASK materials' base colour textures, with their mipmaps.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct AlphaAtlas {
     pub(super) words: Vec<u32>,
     placed: Vec<(u32, u32, [u32; 4])>,
 }
 
 impl AlphaAtlas {
+    /// An atlas of one untextured entry, for materials without a texture.
+    pub(super) fn new() -> Self {
+        Self {
+            words: vec![0; 8],
+            placed: Vec::new(),
+        }
+    }
+
     /// Places a material's alpha texture, once for each texture; what its `GpuMaterial::alpha` is.
     pub(super) fn place(&mut self, scene: &Scene, material: &Material) -> [u32; 4] {
         let none = [0, 0x1_0001, 1, NO_MIP];
@@ -138,17 +146,28 @@ impl AlphaAtlas {
         {
             return *alpha;
         }
-        let first = self.words.len() as u32;
+        let table = self.words.len();
+        let levels = if flags & NO_MIP == 0 {
+            image.width.max(image.height).ilog2() + 1
+        } else {
+            1
+        };
+        self.words.resize(table + levels as usize, 0);
         let mut level = alpha_channel(image);
         let mut size = [image.width, image.height];
-        let mut levels = 1;
-        self.push(&level, size, &texture.sampler);
-        while flags & NO_MIP == 0 && size != [1, 1] {
-            (level, size) = halve(&level, size);
+        for i in 0..levels as usize {
+            if i > 0 {
+                (level, size) = halve(&level, size);
+            }
+            self.words[table + i] = self.words.len() as u32;
             self.push(&level, size, &texture.sampler);
-            levels += 1;
         }
-        let alpha = [first, image.width | image.height << 16, levels, flags];
+        let alpha = [
+            table as u32,
+            image.width | image.height << 16,
+            levels,
+            flags,
+        ];
         self.placed.push((texture.image, flags, alpha));
         alpha
     }

@@ -1,11 +1,12 @@
 //! multisample: what the device's own multisampling saw, as visibility records.
 
 use super::{FrameLayout, spirv};
-use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
+use std::sync::Arc;
 
 /// Turns multisampled triangle IDs into records.
 pub struct Multisample {
-    pipeline: Pipeline,
+    pipeline: Arc<Pipeline>,
 }
 
 impl Multisample {
@@ -14,9 +15,7 @@ impl Multisample {
     /// # Errors
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
-        let pipeline = compute_pipeline(
-            &layout.gpu,
-            layout.pipeline,
+        let pipeline = layout.compute(
             spirv::MULTISAMPLE,
             &Constants::new().with(1, layout.gpu.limits().subgroup_size),
             None,

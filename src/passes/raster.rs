@@ -2,7 +2,7 @@
 
 use super::{FrameLayout, GpuScene, spirv};
 use crate::scene::DrawClass;
-use crate::vulkan::{Gpu, Image, Memory, Pipeline, Recorder, Shader, VulkanError};
+use crate::vulkan::{Constants, Gpu, Image, Memory, Pipeline, Recorder, Shader, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -100,8 +100,8 @@ fn id_format(samples: vk::SampleCountFlags) -> vk::Format {
 /// Draws a scene's triangles, class by class.
 pub struct Raster {
     layout: Arc<FrameLayout>,
-    opaque: Pipeline,
-    masked: Option<Pipeline>,
+    opaque: Arc<Pipeline>,
+    masked: Option<Arc<Pipeline>>,
 }
 
 impl Raster {
@@ -120,7 +120,11 @@ impl Raster {
         } else {
             (spirv::RASTER_OPAQUE, spirv::RASTER_MASKED)
         };
-        let make = |code| pipeline(&layout.gpu, layout.pipeline, code, samples);
+        let make = |code| {
+            layout.cached(code, &Constants::new(), samples.as_raw(), || {
+                pipeline(&layout.gpu, layout.pipeline, code, samples)
+            })
+        };
         Ok(Self {
             layout: layout.clone(),
             opaque: make(opaque)?,

@@ -1,11 +1,12 @@
 //! resolve: the colour of each superpixel.
 
 use super::{FrameLayout, Sample, TileList, spirv};
-use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use std::sync::Arc;
 
 /// Averages what the sub-samples of a cell see.
 pub struct Resolve {
-    kernels: Vec<(TileList, Pipeline)>,
+    kernels: Vec<(TileList, Arc<Pipeline>)>,
 }
 
 impl Resolve {
@@ -70,7 +71,7 @@ impl Resolve {
         chained: bool,
         display_codes: bool,
         output: &Constants,
-    ) -> Result<Pipeline, VulkanError> {
+    ) -> Result<Arc<Pipeline>, VulkanError> {
         let lanes = layout.gpu.limits().subgroup_size;
         let constants = output
             .clone()
@@ -80,13 +81,7 @@ impl Resolve {
             .flag(3, chained)
             .with(4, list as u32)
             .flag(5, display_codes);
-        compute_pipeline(
-            &layout.gpu,
-            layout.pipeline,
-            spirv::RESOLVE,
-            &constants,
-            Some(lanes),
-        )
+        layout.compute(spirv::RESOLVE, &constants, Some(lanes))
     }
 
     /// Records it over the tiles of the round.

@@ -1,7 +1,8 @@
 //! sample: the nearest triangle of every sub-sample.
 
 use super::{Argument, FrameLayout, spirv};
-use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use std::sync::Arc;
 
 /// The lists that `schedule` sorts tiles into, in the order of `shaders/schedule.comp`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,7 +27,7 @@ impl TileList {
 
 /// The kernels, one a kind of tile that the scene can have.
 pub struct Sample {
-    kernels: Vec<(TileList, Pipeline)>,
+    kernels: Vec<(TileList, Arc<Pipeline>)>,
     plain_block: u32,
     layered_block: u32,
 }
@@ -78,19 +79,17 @@ impl Sample {
         let (plain_rows, plain) = kernel(&PLAIN, rows_needed);
         let layered_rows = if rows_needed <= 1 { 1 } else { 8 };
         let mut kernels = Vec::new();
-        let mut add = |list: TileList, code: &[u8], mask: bool| -> Result<(), VulkanError> {
-            let constants = Constants::new()
-                .with(0, lanes)
-                .with(1, lanes)
-                .flag(2, per_sample)
-                .flag(3, mask)
-                .with(4, list as u32);
-            kernels.push((
-                list,
-                compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, Some(lanes))?,
-            ));
-            Ok(())
-        };
+        let mut add =
+            |list: TileList, code: &'static [u8], mask: bool| -> Result<(), VulkanError> {
+                let constants = Constants::new()
+                    .with(0, lanes)
+                    .with(1, lanes)
+                    .flag(2, per_sample)
+                    .flag(3, mask)
+                    .with(4, list as u32);
+                kernels.push((list, layout.compute(code, &constants, Some(lanes))?));
+                Ok(())
+            };
         add(TileList::Plain, plain, false)?;
         if has_mask {
             add(TileList::Masked, kernel(&MASKED, layered_rows).1, true)?;

@@ -1,11 +1,12 @@
 //! schedule: which tiles' lists are placed in a round.
 
 use super::{FrameLayout, Sample, TileList, spirv};
-use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
+use std::sync::Arc;
 
 /// Places as many lists as fit.
 pub struct Schedule {
-    pipeline: Pipeline,
+    pipeline: Arc<Pipeline>,
 }
 
 impl Schedule {
@@ -27,13 +28,7 @@ impl Schedule {
             .with(2, sample.block(TileList::Masked))
             .flag(3, per_sample)
             .with(4, layers);
-        let pipeline = compute_pipeline(
-            &layout.gpu,
-            layout.pipeline,
-            spirv::SCHEDULE,
-            &constants,
-            Some(lanes),
-        )?;
+        let pipeline = layout.compute(spirv::SCHEDULE, &constants, Some(lanes))?;
         Ok(Self { pipeline })
     }
 

@@ -1,11 +1,12 @@
 //! setup: triangles as edge functions around the tiles they touch.
 
 use super::{Argument, FrameLayout, spirv};
-use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use std::sync::Arc;
 
 /// Fills the lists that `schedule` has placed.
 pub struct Setup {
-    pipeline: Pipeline,
+    pipeline: Arc<Pipeline>,
 }
 
 impl Setup {
@@ -14,13 +15,7 @@ impl Setup {
     /// # Errors
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
-        let pipeline = compute_pipeline(
-            &layout.gpu,
-            layout.pipeline,
-            spirv::SETUP,
-            &Constants::new(),
-            None,
-        )?;
+        let pipeline = layout.compute(spirv::SETUP, &Constants::new(), None)?;
         Ok(Self { pipeline })
     }
 

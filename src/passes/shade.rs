@@ -2,7 +2,7 @@
 
 use super::geometry::ShadeFeatures;
 use super::{Argument, FrameLayout, GpuScene, spirv};
-use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -23,7 +23,7 @@ pub enum ShadeSource {
 pub struct Shade {
     layout: Arc<FrameLayout>,
     source: ShadeSource,
-    pipelines: Vec<Pipeline>,
+    pipelines: Vec<Arc<Pipeline>>,
     /// Pipeline of each bin.
     bins: Vec<usize>,
 }
@@ -72,13 +72,7 @@ impl Shade {
                 })
                 .flag(8, features.vertex_colors)
                 .flag(9, features.unlit);
-            pipelines.push(compute_pipeline(
-                &layout.gpu,
-                layout.pipeline,
-                spirv::SHADE,
-                &constants,
-                None,
-            )?);
+            pipelines.push(layout.compute(spirv::SHADE, &constants, None)?);
             known.insert(features, pipelines.len() - 1);
             bins.push(pipelines.len() - 1);
         }

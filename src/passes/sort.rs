@@ -1,13 +1,14 @@
 //! sort: visibility records ordered by material bin.
 
 use super::{Argument, FrameLayout, spirv};
-use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use std::sync::Arc;
 
 /// A counting sort over the records of a round.
 pub struct Sort {
-    before: Pipeline,
+    before: Arc<Pipeline>,
     /// Count, sizes of dispatches, scatter; not needed for a single bin.
-    passes: Option<[Pipeline; 3]>,
+    passes: Option<[Arc<Pipeline>; 3]>,
 }
 
 impl Sort {
@@ -16,9 +17,7 @@ impl Sort {
     /// # Errors
     /// If the driver refuses one.
     pub fn new(layout: &FrameLayout, one_bin: bool) -> Result<Self, VulkanError> {
-        let make = |code, constants| {
-            compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, None)
-        };
+        let make = |code, constants| layout.compute(code, &constants, None);
         let before = make(spirv::ARGUMENTS, Constants::new().with(0, 2))?;
         let passes = if one_bin {
             None

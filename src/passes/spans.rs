@@ -1,14 +1,15 @@
 //! spans: rows of 8 pixels, listed by material bin.
 
 use super::{FrameLayout, spirv};
-use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use std::sync::Arc;
 
 /// Lists what of a region is to be shaded.
 pub struct Spans {
     /// Not needed for a single bin.
-    count: Option<Pipeline>,
-    scatter: Pipeline,
-    arguments: Pipeline,
+    count: Option<Arc<Pipeline>>,
+    scatter: Arc<Pipeline>,
+    arguments: Arc<Pipeline>,
 }
 
 impl Spans {
@@ -24,19 +25,13 @@ impl Spans {
                 .with(1, lanes)
                 .flag(2, one_bin);
             let code = spirv::SPANS;
-            compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, Some(lanes))
+            layout.compute(code, &constants, Some(lanes))
         };
         let arguments = Constants::new().with(0, 4);
         Ok(Self {
             count: if one_bin { None } else { Some(spans(false)?) },
             scatter: spans(true)?,
-            arguments: compute_pipeline(
-                &layout.gpu,
-                layout.pipeline,
-                spirv::ARGUMENTS,
-                &arguments,
-                None,
-            )?,
+            arguments: layout.compute(spirv::ARGUMENTS, &arguments, None)?,
         })
     }
 

@@ -1,13 +1,14 @@
 //! thin: pixels that a thin triangle crosses unseen.
 
 use super::{Argument, FrameLayout, spirv};
-use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use std::sync::Arc;
 
 /// Marks pixels for `detect`.
 pub struct Thin {
-    select: Pipeline,
-    arguments: Pipeline,
-    walk: Pipeline,
+    select: Arc<Pipeline>,
+    arguments: Arc<Pipeline>,
+    walk: Arc<Pipeline>,
 }
 
 impl Thin {
@@ -16,9 +17,7 @@ impl Thin {
     /// # Errors
     /// If the driver refuses one.
     pub fn new(layout: &FrameLayout, has_blend: bool) -> Result<Self, VulkanError> {
-        let make = |code, constants| {
-            compute_pipeline(&layout.gpu, layout.pipeline, code, &constants, None)
-        };
+        let make = |code, constants| layout.compute(code, &constants, None);
         let thin = |select| {
             make(
                 spirv::THIN,

@@ -1,11 +1,12 @@
 //! transform: every vertex to pixel-scaled clip space.
 
 use super::{FrameLayout, spirv};
-use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
+use std::sync::Arc;
 
 /// Projects vertices once, for `raster` and `sample` alike.
 pub struct Transform {
-    pipeline: Pipeline,
+    pipeline: Arc<Pipeline>,
 }
 
 impl Transform {
@@ -14,13 +15,7 @@ impl Transform {
     /// # Errors
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
-        let pipeline = compute_pipeline(
-            &layout.gpu,
-            layout.pipeline,
-            spirv::TRANSFORM,
-            &Constants::new(),
-            None,
-        )?;
+        let pipeline = layout.compute(spirv::TRANSFORM, &Constants::new(), None)?;
         Ok(Self { pipeline })
     }
 
