@@ -44,7 +44,7 @@ void main() {
             bool kept = slot < frame.list_capacity;
             uint flags = flag | (kept ? 0u : TILE_OVERFLOW);
             if ((tiles[index].w & flags) != flags) atomicOr(tiles[index].w, flags);
-            if (kept) imageStore(pairs_out, int(slot), uvec4(t, index, rank, 0u));
+            if (kept) pairs_out[slot] = uvec4(t, index, rank, 0u);
         }
         k += LARGE ? 64u : 1u;
     } while (k < count);

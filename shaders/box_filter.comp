@@ -16,7 +16,7 @@ void main() {
     vec4 sum = vec4(0.0);
     for (uint y = 0u; y < push.side; y++) {
         vec4 row = vec4(0.0);
-        for (uint x = 0u; x < push.side; x++) row += imageLoad(color, int((low.y + y) * frame.size.x + low.x + x));
+        for (uint x = 0u; x < push.side; x++) row += color[(low.y + y) * frame.size.x + low.x + x];
         sum += row;
     }
     imageStore(filtered, int(i), sum / float(push.side * push.side));

@@ -12,7 +12,7 @@ layout(std430, set = 0, binding = 37) writeonly buffer Encoded { uint encoded[];
 void main() {
     uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
     if (i >= frame.size.x * frame.size.y) return;
-    vec4 c = imageLoad(color, int(i));
+    vec4 c = color[i];
     if (FORMAT == RGBA8_SRGB) {
         encoded[i] = packUnorm4x8(vec4(srgb_encode(c.rgb), c.a));
     } else {

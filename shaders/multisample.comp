@@ -34,12 +34,12 @@ void main() {
             next = smaller ? id : next;
         }
         more = next != ~0u;
-        if (more && inside) imageStore(records_out, int(first + used), uvec4(pixel.x | pixel.y << 16, next, 0u, n));
+        if (more && inside) records_out[first + used] = uvec4(pixel.x | pixel.y << 16, next, 0u, n);
         used += more ? 1u : 0u;
         previous = next;
     } while (more);
     for (uint s = used; s < frame.sample_count; s++)
-        if (exists) imageStore(records_out, int(first + s), uvec4(0u));
+        if (exists) records_out[first + s] = uvec4(0u);
     if (exists) headers[tile * 32u + bit] = uvec2(first, inside ? used : 0u);
     if (exists && bit == 0u) {
         tile_lists[tile] = tile;

@@ -34,8 +34,8 @@ void write(uvec2 pixel, vec4 c) {
     // Whole tiles are cells where the device multisamples: some reach over the border.
     if (any(greaterThanEqual(pixel, frame.size))) return;
     uint at = pixel.y * frame.size.x + pixel.x;
-    imageStore(color, int(at), c);
-    if (DISPLAY_CODES) imageStore(display_out, int(at), uvec4(display_code(c)));
+    color[at] = c;
+    if (DISPLAY_CODES) display_out[at] = display_code(c);
 }
 
 void main() {

@@ -316,7 +316,7 @@ void main() {
                 [[unroll]] for (int g = 0; g < ROWS; g++) {
                     bool extends = live[g] && next_id[g] != 0u && !full;
                     if (live[g] && node[g] < frame.record_capacity)
-                        imageStore(records_out, int(node[g]), uvec4(packed_pixel, id[g], pack_location(offset[g]), extends ? slot : ~0u));
+                        records_out[node[g]] = uvec4(packed_pixel, id[g], pack_location(offset[g]), extends ? slot : ~0u);
                     node[g] = extends ? slot : node[g];
                     slot += extends ? 1u : 0u;
                     depth[g] = extends ? next_depth[g] : depth[g];
@@ -357,10 +357,10 @@ void main() {
                 [[unroll]] for (int g = 0; g < ROWS; g++) {
                     uint s = uint(g) * LANES + lane;
                     if (fits && s < block_samples)
-                        imageStore(records_out, int(base + s), uvec4(packed_pixel, id[g], pack_location(offset[g]), 1u));
+                        records_out[base + s] = uvec4(packed_pixel, id[g], pack_location(offset[g]), 1u);
                 }
             } else {
-                if (fits && lane < used) imageStore(records_out, int(base + lane), held);
+                if (fits && lane < used) records_out[base + lane] = held;
                 // More triangles than invocations to hold them: the others once more, each stored as it is found.
                 uint seen = subgroupMax(lane < used ? held.y : 0u), stored = min(used, LANES);
                 while (stored < used) {
@@ -368,7 +368,7 @@ void main() {
                     [[unroll]] for (int g = 0; g < ROWS; g++) current = min(current, id[g] > seen ? id[g] : ~0u);
                     current = lanes_min(current);
                     uvec4 record = merged(id, offset, current, packed_pixel);
-                    if (fits && subgroupElect() && stored < used) imageStore(records_out, int(base + stored), record);
+                    if (fits && subgroupElect() && stored < used) records_out[base + stored] = record;
                     seen = current;
                     stored++;
                 }

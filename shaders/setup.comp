@@ -20,8 +20,8 @@ void main() {
     // A triangle that does not show keeps its place and touches nothing.
     s.c = s.valid ? s.c : vec3(-3.4e38);
     int o = int(tile.y + pair.z) * 4;
-    imageStore(candidates_out, o, floatBitsToUint(vec4(s.a.x, s.b.x, s.c.x, s.a.y)));
-    imageStore(candidates_out, o + 1, floatBitsToUint(vec4(s.b.y, s.c.y, s.a.z, s.b.z)));
-    imageStore(candidates_out, o + 2, floatBitsToUint(vec4(s.c.z, s.depth)));
-    imageStore(candidates_out, o + 3, uvec4(floatBitsToUint(s.near), floatBitsToUint(s.far), pair.x + 1u, 0u));
+    candidates_out[o] = floatBitsToUint(vec4(s.a.x, s.b.x, s.c.x, s.a.y));
+    candidates_out[o + 1] = floatBitsToUint(vec4(s.b.y, s.c.y, s.a.z, s.b.z));
+    candidates_out[o + 2] = floatBitsToUint(vec4(s.c.z, s.depth));
+    candidates_out[o + 3] = uvec4(floatBitsToUint(s.near), floatBitsToUint(s.far), pair.x + 1u, 0u);
 }

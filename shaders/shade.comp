@@ -170,9 +170,9 @@ void main() {
 
     if (PIXELS) {
         vec4 c = to_output(vec4(radiance, 1.0));
-        if (mine) imageStore(color, int(source), c);
-        if (DISPLAY_CODES && mine) imageStore(display_out, int(source), uvec4(display_code(c)));
+        if (mine) color[source] = c;
+        if (DISPLAY_CODES && mine) display_out[source] = display_code(c);
     } else {
-        imageStore(shaded_out, int(source), vec4(radiance, BLENDED ? clamp(base.a, 0.0, 1.0) : 1.0));
+        shaded_out[source] = vec4(radiance, BLENDED ? clamp(base.a, 0.0, 1.0) : 1.0);
     }
 }

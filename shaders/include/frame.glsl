@@ -37,6 +37,8 @@ layout(set = 0, binding = 0) uniform Frame {
     float footprint;        // output pixels a region pixel's side measures, inverted: k for k x k supersampling
 } frame;
 
+// On CPU devices a texel buffer is the quicker one to read and a storage buffer the quicker one to write, so that what
+// passes hand on is bound as both.
 layout(set = 0, binding = 1) uniform textureBuffer positions;
 layout(set = 0, binding = 2) uniform utextureBuffer triangles;   // vertex indices; material | bin << 16
 layout(set = 0, binding = 3) uniform textureBuffer normals;
@@ -61,27 +63,27 @@ layout(set = 0, binding = 13) uniform utexture2D blend_ids;
 layout(set = 0, binding = 14) uniform texture2DMS ids_ms;
 layout(set = 0, binding = 15) uniform texture2DMS blend_ids_ms;
 layout(set = 0, binding = 16) uniform utextureBuffer display;
-layout(set = 0, binding = 17, r32ui) uniform writeonly uimageBuffer display_out;
-layout(set = 0, binding = 18, rgba32f) uniform imageBuffer color;
+layout(std430, set = 0, binding = 17) writeonly buffer DisplayOut { uint display_out[]; };
+layout(std430, set = 0, binding = 18) buffer Color { vec4 color[]; };
 layout(std430, set = 0, binding = 19) buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 20) buffer Masks { uint masks[]; };
 layout(std430, set = 0, binding = 21) buffer Tiles { uvec4 tiles[]; };   // candidates, first, first header, flags
 layout(std430, set = 0, binding = 22) buffer TileLists { uint tile_lists[]; };
 layout(std430, set = 0, binding = 23) buffer Survivors { uint survivors[]; };
 layout(set = 0, binding = 24) uniform utextureBuffer candidates;  // 4 vectors each, floats as bits
-layout(set = 0, binding = 25, rgba32ui) uniform writeonly uimageBuffer candidates_out;
+layout(std430, set = 0, binding = 25) writeonly buffer CandidatesOut { uvec4 candidates_out[]; };
 layout(std430, set = 0, binding = 26) buffer Headers { uvec2 headers[]; };  // first record, count
 layout(set = 0, binding = 27) uniform utextureBuffer records;
-layout(set = 0, binding = 28, rgba32ui) uniform writeonly uimageBuffer records_out;
+layout(std430, set = 0, binding = 28) writeonly buffer RecordsOut { uvec4 records_out[]; };
 layout(set = 0, binding = 29) uniform textureBuffer shaded;
-layout(set = 0, binding = 30, rgba32f) uniform writeonly imageBuffer shaded_out;
+layout(std430, set = 0, binding = 30) writeonly buffer ShadedOut { vec4 shaded_out[]; };
 layout(std430, set = 0, binding = 31) buffer ShadeOrder { uint shade_order[]; };
 layout(set = 0, binding = 32) uniform textureBuffer locations;              // sub-sample offsets, pixels
 layout(std430, set = 0, binding = 33) buffer Bins { uvec4 bins[]; };        // count, first, cursor, 0
 layout(std430, set = 0, binding = 34) buffer Arguments { uvec4 arguments[]; }; // indirect dispatches
 
 layout(set = 0, binding = 38) uniform utextureBuffer pairs;       // triangle, tile, rank in its list, 0
-layout(set = 0, binding = 39, rgba32ui) uniform writeonly uimageBuffer pairs_out;
+layout(std430, set = 0, binding = 39) writeonly buffer PairsOut { uvec4 pairs_out[]; };
 layout(std430, set = 0, binding = 41) buffer Marks { uint marks[]; };       // pixels that `thin` marks, like masks
 
 // (n % width, n / width). Integer division is a loop on CPU devices; a float quotient errs by one at the most for

@@ -24,6 +24,18 @@ pub struct ResourceSizes {
 }
 
 impl ResourceSizes {
+    /// Bytes of a candidate.
+    pub const CANDIDATE_BYTES: u64 = 64;
+
+    /// Bytes of the largest storage buffer.
+    #[must_use]
+    pub fn largest_storage(&self) -> u64 {
+        let colors = u64::from(self.pixels()) * 16;
+        let records = u64::from(self.record_capacity) * 16;
+        let candidates = u64::from(self.list_capacity) * Self::CANDIDATE_BYTES;
+        colors.max(records).max(candidates)
+    }
+
     /// Pixels of a region.
     #[must_use]
     pub fn pixels(&self) -> u32 {
@@ -111,6 +123,7 @@ const STORAGE: vk::BufferUsageFlags = vk::BufferUsageFlags::from_raw(
 const TEXELS: vk::BufferUsageFlags = vk::BufferUsageFlags::from_raw(
     vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER.as_raw()
         | vk::BufferUsageFlags::STORAGE_TEXEL_BUFFER.as_raw()
+        | vk::BufferUsageFlags::STORAGE_BUFFER.as_raw()
         | vk::BufferUsageFlags::TRANSFER_DST.as_raw()
         | vk::BufferUsageFlags::TRANSFER_SRC.as_raw(),
 );
@@ -334,19 +347,13 @@ impl Resources {
             texel(10, &scene.clip, false),
             texel(11, &scene.clip, true),
             texel(16, &self.display, false),
-            texel(17, &self.display, true),
-            texel(18, &self.color, true),
             texel(24, &self.candidates, false),
-            texel(25, &self.candidates, true),
             texel(27, &self.records, false),
-            texel(28, &self.records, true),
             texel(29, &self.shaded, false),
-            texel(30, &self.shaded, true),
             texel(32, &set.locations, false),
             texel(35, &self.filtered, true),
             texel(36, &self.attributes, true),
             texel(38, &self.pairs, false),
-            texel(39, &self.pairs, true),
         ];
         let views: Vec<[vk::BufferView; 1]> =
             texel_writes.iter().map(|(_, view, _)| [*view]).collect();
@@ -373,6 +380,12 @@ impl Resources {
         };
         let storage = [
             (8, buffer(&scene.lights)),
+            (17, buffer(&self.display.buffer)),
+            (18, buffer(&self.color.buffer)),
+            (25, buffer(&self.candidates.buffer)),
+            (28, buffer(&self.records.buffer)),
+            (30, buffer(&self.shaded.buffer)),
+            (39, buffer(&self.pairs.buffer)),
             (19, buffer(&self.counters)),
             (20, buffer(&self.masks)),
             (21, buffer(&self.tiles)),

@@ -94,8 +94,7 @@ impl Plan {
     ) -> Result<Self, RenderError> {
         let side = settings.side();
         let [width, height] = settings.size;
-        // A storage buffer holds 4 bytes a pixel of a region.
-        let most = REGION_PIXELS.min(limits.max_storage_bytes / 4);
+        let most = REGION_PIXELS;
         let longest = limits.max_image_side.min(65_535) / side - 2;
         let mut region = [width.min(longest), height.min(longest)];
         let allowed = settings.max_memory.map(|limit| limit.saturating_sub(taken));
@@ -112,7 +111,10 @@ impl Plan {
                     needed = plan.bytes(scene, settings);
                 }
             }
-            if pixels <= most && allowed.is_none_or(|allowed| needed <= allowed) {
+            // Colours, records and candidates are storage buffers.
+            let largest = plan.sizes.largest_storage();
+            let fits = pixels <= most && largest <= limits.max_storage_bytes;
+            if fits && allowed.is_none_or(|allowed| needed <= allowed) {
                 return Ok(plan);
             }
             let longer = usize::from(region[1] > region[0]);
@@ -191,7 +193,8 @@ impl Plan {
         };
         let sizes = ResourceSizes {
             region: outer,
-            list_capacity: candidates as u32,
+            list_capacity: candidates.min(limits.max_storage_bytes / ResourceSizes::CANDIDATE_BYTES)
+                as u32,
             record_capacity: records as u32,
             filtered: filtered as u32,
             attributes: settings.attributes,

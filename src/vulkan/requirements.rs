@@ -174,7 +174,7 @@ impl Requirements {
             ),
             (
                 "maxPerStageDescriptorStorageBuffers",
-                16,
+                20,
                 u64::from(limits.max_per_stage_descriptor_storage_buffers),
             ),
             (
