@@ -6,10 +6,6 @@ layout(local_size_x = 1) in;
 layout(constant_id = 0) const uint AFTER = 0u;
 const uint DETECT = 0u, CULL = 1u, SAMPLE = 2u, RECORDS = 3u, SPANS = 4u, THIN = 5u;
 
-uvec4 groups(uint n) {
-    return n == 0u ? uvec4(0u) : uvec4(min(n, 32768u), (n + 32767u) / 32768u, 1u, 0u);
-}
-
 void main() {
     if (AFTER == DETECT) {
         arguments[ARGUMENT_CULL] = counters[COUNTER_TILES] == 0u ? uvec4(0u) : groups((frame.triangle_count + 511u) / 512u);

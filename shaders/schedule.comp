@@ -13,10 +13,6 @@ layout(constant_id = 2) const uint LAYERED_BLOCK = 64u;
 layout(constant_id = 3) const bool PER_SAMPLE = false;
 layout(constant_id = 4) const uint LAYERS = 4u;             // BLEND layers a sample that a tile is admitted with
 
-uvec4 groups(uint n) {
-    return n == 0u ? uvec4(0u) : uvec4(min(n, 32768u), (n + 32767u) / 32768u, 1u, 0u);
-}
-
 void main() {
     uint lane = gl_SubgroupInvocationID, lanes = gl_SubgroupSize;
     uint tile_count = frame.tiles.x * frame.tiles.y;

@@ -90,17 +90,8 @@ impl Uploader<'_> {
             mapped.copy_from_slice(bytes);
             return Ok(());
         }
-        let size = bytes.len() as u64;
-        let mut upload = self.memory.buffer(
-            &format!("{name} upload"),
-            size,
-            vk::BufferUsageFlags::TRANSFER_SRC,
-            MemoryUse::Upload,
-        )?;
-        if let Some(mapped) = upload.bytes_mut().get_mut(..bytes.len()) {
-            mapped.copy_from_slice(bytes);
-        }
-        self.uploads.push((upload, buffer.raw, size));
+        let upload = self.memory.upload(&format!("{name} upload"), bytes)?;
+        self.uploads.push((upload, buffer.raw, bytes.len() as u64));
         Ok(())
     }
 

@@ -166,21 +166,12 @@ impl Resources {
         let sets = location_lists
             .iter()
             .map(|locations| {
-                let bytes = bytemuck::cast_slice(locations);
                 let view = texels(
                     "sub-sample locations",
                     locations.len() as u64,
                     vk::Format::R32G32_SFLOAT,
                 )?;
-                let mut upload = memory.buffer(
-                    "location upload",
-                    bytes.len() as u64,
-                    vk::BufferUsageFlags::TRANSFER_SRC,
-                    MemoryUse::Upload,
-                )?;
-                if let Some(mapped) = upload.bytes_mut().get_mut(..bytes.len()) {
-                    mapped.copy_from_slice(bytes);
-                }
+                let upload = memory.upload("location upload", bytemuck::cast_slice(locations))?;
                 Ok(SampleSet {
                     uniform: memory.buffer(
                         "frame uniform",

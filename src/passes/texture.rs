@@ -1,7 +1,7 @@
 //! Images and samplers on the device.
 
 use crate::scene::{Filter, Image as SceneImage, Sampler, Wrap};
-use crate::vulkan::{Buffer, Gpu, Image, Memory, MemoryUse, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Gpu, Image, Memory, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -49,16 +49,7 @@ impl Texture {
                     | vk::ImageUsageFlags::TRANSFER_SRC,
             );
         let image = memory.image("texture", &info, vk::ImageAspectFlags::COLOR)?;
-        let bytes = &source.pixels;
-        let mut upload = memory.buffer(
-            "texture upload",
-            bytes.len() as u64,
-            vk::BufferUsageFlags::TRANSFER_SRC,
-            MemoryUse::Upload,
-        )?;
-        if let Some(mapped) = upload.bytes_mut().get_mut(..bytes.len()) {
-            mapped.copy_from_slice(bytes);
-        }
+        let upload = memory.upload("texture upload", &source.pixels)?;
         Ok(Self {
             image,
             upload: Some(upload),

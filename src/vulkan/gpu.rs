@@ -44,8 +44,6 @@ pub struct Limits {
     pub timestamp_period: f32,
     /// Sample counts of multisampled 8-bit colour and float depth.
     pub sample_counts: vk::SampleCountFlags,
-    /// Whether the device is a CPU.
-    pub is_cpu: bool,
 }
 
 /// A device in use.
@@ -199,6 +197,5 @@ fn limits(instance: &ash::Instance, device: vk::PhysicalDevice, queue_family: u3
         sample_counts: basic.limits.framebuffer_color_sample_counts
             & basic.limits.framebuffer_depth_sample_counts
             & basic.limits.sampled_image_color_sample_counts,
-        is_cpu: basic.device_type == vk::PhysicalDeviceType::CPU,
     }
 }

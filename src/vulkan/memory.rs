@@ -119,6 +119,23 @@ impl Memory {
         Ok(buffer)
     }
 
+    /// A buffer that holds `bytes`, to be copied from by the device.
+    ///
+    /// # Errors
+    /// As [`Memory::buffer`]; also if the driver does not map the buffer.
+    pub fn upload(&self, name: &str, bytes: &[u8]) -> Result<Buffer, VulkanError> {
+        let size = bytes.len() as u64;
+        let usage = vk::BufferUsageFlags::TRANSFER_SRC;
+        let mut buffer = self.buffer(name, size, usage, MemoryUse::Upload)?;
+        let unmapped = VulkanError::Call {
+            call: "mapping an upload",
+            result: vk::Result::ERROR_MEMORY_MAP_FAILED,
+        };
+        let mapped = buffer.bytes_mut().get_mut(..bytes.len()).ok_or(unmapped)?;
+        mapped.copy_from_slice(bytes);
+        Ok(buffer)
+    }
+
     /// A buffer of `elements` texels of `format` and its view.
     ///
     /// # Errors
