@@ -57,6 +57,7 @@ impl Engine {
                     Shading::Sample => RecordRate::Sample,
                 },
                 exact_areas: settings.coverage == Coverage::Area && kind.samples > 1,
+                apart: plan.effort.apart,
                 has_mask: scene.has_mask(),
                 has_blend: scene.has_blend(),
             },
