@@ -5,8 +5,12 @@
 //! at any distance. Pixel positions are x right, y down, with the image's upper left corner at (0, 0).
 
 mod framing;
+mod pinhole;
+mod site;
 
 pub use framing::Orbit;
+pub use pinhole::{Pinhole, PinholeError, Ray};
+pub use site::Site;
 
 use crate::scene::{SceneCamera, SceneProjection};
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};

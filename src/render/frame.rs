@@ -647,6 +647,8 @@ impl Passes<'_> {
             contrast: u32::from(self.settings.contrast),
             exposure: self.settings.exposure.exp2(),
             footprint: side as f32,
+            reach: 0.5,
+            group_count: 0,
         }
     }
 }

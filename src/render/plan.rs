@@ -193,6 +193,7 @@ impl Plan {
         };
         let sizes = ResourceSizes {
             region: outer,
+            sites: None,
             list_capacity: candidates.min(limits.max_storage_bytes / ResourceSizes::CANDIDATE_BYTES)
                 as u32,
             record_capacity: records as u32,
