@@ -13,6 +13,12 @@ pub enum RenderError {
     /// The pattern can't have that many sub-samples.
     #[error(transparent)]
     Pattern(#[from] PatternError),
+    /// Multisampling samples pixels.
+    #[error("msaa samples the pixels of an image, not any locations; ask another method")]
+    SiteMethod,
+    /// A plane of values that detection compares is not as large as the image.
+    #[error(transparent)]
+    Plane(#[from] crate::reference::detect::PlaneError),
     /// A sampling location can't be used.
     #[error(transparent)]
     Site(#[from] SiteError),
@@ -73,6 +79,7 @@ impl RenderError {
             Self::Pattern(_)
                 | Self::Site(_)
                 | Self::Samples { .. }
+                | Self::SiteMethod
                 | Self::Attributes
                 | Self::Size { .. }
         )

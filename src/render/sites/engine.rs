@@ -180,11 +180,15 @@ impl SiteEngine {
             return;
         };
         resources.record_begin(recorder, set, &uniform);
+        let superpixels = match &self.finish {
+            Finish::Points(_) => 0,
+            Finish::Resolve(_) => data.cells.len() as u32,
+        };
         let tiles = data.loads.iter().filter(|[cells, _]| *cells > 0).count() as u32;
         resources.record_counters(
             recorder,
             &[
-                (Counter::Superpixels, data.cells.len() as u32),
+                (Counter::Superpixels, superpixels),
                 (Counter::Tiles, tiles),
             ],
         );
@@ -252,10 +256,7 @@ impl SiteEngine {
             .memory_bytes
             .max(self.memory.used() + scene.memory_bytes());
         for (pass, ms) in self.timings.read()? {
-            match total.passes.iter_mut().find(|known| known.pass == pass) {
-                Some(known) => known.ms += ms,
-                None => total.passes.push(PassTime { pass, ms }),
-            }
+            total.add_time(PassTime { pass, ms });
         }
         Ok(())
     }
@@ -267,7 +268,7 @@ impl SiteEngine {
         window: &Window,
         data: &SiteData,
     ) -> FrameUniform {
-        let middle = window.middle();
+        let middle = window.middle;
         let eye = (pinhole.eye() - scene.origin()).as_vec3();
         // Parallel rays need not be at right angles to the plane.
         let direction = pinhole

@@ -1,10 +1,11 @@
 //! Sampling at any set of locations on a pinhole's image plane.
 //!
 //! A scene is sampled where [`Site`]s lie, once each ([`Headless::sample_points`]) or as superpixels
-//! ([`Headless::sample_superpixels`]). Both run on the engine that antialiases images; no picture is resampled.
+//! ([`Headless::sample_superpixels`]); [`Headless::render_sites`] makes an image of both. They run on the engine that antialiases images; no picture is resampled.
 
 mod engine;
 mod error;
+mod image;
 mod partition;
 mod plan;
 
@@ -39,7 +40,7 @@ pub struct PointSample {
 pub struct Sampled<T> {
     /// One value a site.
     pub values: Vec<T>,
-    /// Figures of all runs; sites count as superpixels, runs as regions.
+    /// Figures of all runs, which count as regions; sites sampled as superpixels count as these.
     pub statistics: Statistics,
 }
 
@@ -128,7 +129,7 @@ impl Headless {
             &scene.gpu_scene,
             settings,
             cells,
-            (sites, &partition),
+            &partition,
             taken,
         )?;
         let mut engine = SiteEngine::new(&layout, scene, settings, cells, &plan.sizes)?;
@@ -137,8 +138,8 @@ impl Headless {
         let mut waiting = plan.runs;
         waiting.reverse();
         while let Some(run) = waiting.pop() {
-            let window = partition.window(sites, cells, &run);
-            let data = partition.data(sites, cells, &run, &window, sizes, settings.samples);
+            let window = partition.window(&run);
+            let data = partition.data(&run, &window, sizes, settings.samples);
             engine.write(&data)?;
             // SAFETY: the last submission was waited for; scene and engine outlive this one, which is waited for.
             self.submit(|_, commands| unsafe {

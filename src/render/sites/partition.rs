@@ -13,6 +13,9 @@ use std::ops::Range;
 const REGION_TILES: [i64; 2] = [256, 512];
 /// Pixels of a tile.
 const TILE: [i64; 2] = [8, 4];
+/// Up to this many pixels sites share what positions are relative to, so that they see the same however they are cut
+/// into runs, and what an image of their plane sees; beyond it 32-bit positions are finer from the middle of each window.
+const COMPACT: f64 = 8192.0;
 /// Half of a cell's side beyond its samples: covers the rounding of edge functions.
 const SLACK: f64 = 1.0 / 64.0;
 /// Key bits below those of the region: a tile of it, and the place in the tile.
@@ -23,6 +26,10 @@ const PLACE_BITS: u32 = 16;
 pub(super) struct Partition {
     /// The sites' places in the caller's list.
     pub order: Vec<u32>,
+    sites: Vec<Site>,
+    cells: Cells,
+    /// What clip-space positions of all runs are relative to, if they lie close enough together.
+    middle: Option<[f64; 2]>,
     /// Parts of the order that lie in one region each.
     regions: Vec<Range<usize>>,
 }
@@ -34,6 +41,8 @@ pub(super) struct Window {
     pub low: [i64; 2],
     /// Its size in tiles.
     pub tiles: [u32; 2],
+    /// The place on the plane that clip-space positions are relative to, in pixels.
+    pub middle: [f64; 2],
     /// The farthest that samples are from the centre of the pixel that holds their site.
     pub reach: f64,
 }
@@ -42,12 +51,6 @@ impl Window {
     /// Its size in pixels.
     pub fn size(&self) -> [u32; 2] {
         [0, 1].map(|axis| self.tiles[axis] * TILE[axis] as u32)
-    }
-
-    /// The position of its middle on the plane, in pixels; clip-space positions are relative to it.
-    pub fn middle(&self) -> [f64; 2] {
-        let size = self.size();
-        [0, 1].map(|axis| self.low[axis] as f64 + 0.5 * f64::from(size[axis]))
     }
 }
 
@@ -63,8 +66,9 @@ impl Partition {
         if sites.len() > (u32::MAX >> 1) as usize {
             return Err(SiteError::TooMany { found: sites.len() });
         }
-        for (index, site) in sites.iter().enumerate() {
-            check(site, index)?;
+        let offender = |(index, site)| check(site, index).err();
+        if let Some(error) = sites.par_iter().enumerate().find_map_first(offender) {
+            return Err(error);
         }
         let mut keyed: Vec<(u64, u32)> = sites
             .par_iter()
@@ -79,8 +83,16 @@ impl Partition {
             regions.push(start..start + part.len());
             start += part.len();
         }
+        let sorted: Vec<Site> = keyed
+            .par_iter()
+            .filter_map(|(_, index)| sites.get(*index as usize).copied())
+            .collect();
+        let bounds = Bounds::of(&sorted);
         Ok(Self {
             order: keyed.into_iter().map(|(_, index)| index).collect(),
+            middle: bounds.is_compact().then(|| bounds.middle()),
+            sites: sorted,
+            cells,
             regions,
         })
     }
@@ -97,38 +109,27 @@ impl Partition {
     }
 
     /// The sites of a run, in order.
-    fn run<'a>(&'a self, sites: &'a [Site], run: &Range<usize>) -> impl Iterator<Item = &'a Site> {
-        let order = self.order.get(run.clone()).unwrap_or(&[]);
-        order.iter().filter_map(|index| sites.get(*index as usize))
+    fn run(&self, run: &Range<usize>) -> &[Site] {
+        self.sites.get(run.clone()).unwrap_or(&[])
     }
 
     /// The window around a run.
-    pub fn window(
-        &self,
-        sites: &[Site],
-        cells: Cells,
-        run: &Range<usize>,
-    ) -> Window {
-        let mut low = [i64::MAX; 2];
-        let mut high = [i64::MIN; 2];
-        let mut reach = 0.5_f64;
-        for site in self.run(sites, run) {
-            let tile = tile_of(site);
-            let extent = half_extent(site, cells);
-            for axis in 0..2 {
-                low[axis] = low[axis].min(tile[axis]);
-                high[axis] = high[axis].max(tile[axis]);
-                let from_centre = site.uv[axis] - site.uv[axis].floor() - 0.5;
-                if cells != Cells::Points {
-                    reach = reach.max(from_centre.abs() + extent[axis]);
-                }
-            }
-        }
-        let tiles = [0, 1].map(|axis| (high[axis] - low[axis] + 1).max(0));
-        let low = [0, 1].map(|axis| low[axis] * TILE[axis]);
+    pub fn window(&self, run: &Range<usize>) -> Window {
+        let sites = self.run(run);
+        let bounds = Bounds::of(sites);
+        let reach = |site: &Site| {
+            let extent = half_extent(site, self.cells);
+            let from_centre = site.uv.map(|v| (v - v.floor() - 0.5).abs());
+            (from_centre[0] + extent[0]).max(from_centre[1] + extent[1])
+        };
+        let reach = match self.cells {
+            Cells::Points => 0.5,
+            _ => sites.iter().map(reach).fold(0.5, f64::max),
+        };
         Window {
-            low,
-            tiles: tiles.map(|count| count as u32),
+            low: bounds.low.map(|pixel| pixel as i64),
+            tiles: bounds.tiles(),
+            middle: self.middle.unwrap_or_else(|| bounds.middle()),
             reach,
         }
     }
@@ -137,13 +138,12 @@ impl Partition {
     /// `samples` is the number of sub-samples of a superpixel.
     pub fn data(
         &self,
-        sites: &[Site],
-        cells: Cells,
         run: &Range<usize>,
         window: &Window,
         [in_cell, in_group]: [usize; 2],
         samples: u32,
     ) -> SiteData {
+        let cells = self.cells;
         let tile_count = window.tiles[0] as usize * window.tiles[1] as usize;
         let mut data = SiteData {
             sites: Vec::with_capacity(run.len()),
@@ -155,7 +155,7 @@ impl Partition {
         // The sites of the tile at hand: their places around its centre, and half extents.
         let mut places: Vec<([f64; 2], [f64; 2])> = Vec::new();
         let mut current = None;
-        for site in self.run(sites, run) {
+        for site in self.run(run) {
             let tile = tile_of(site);
             if current.is_some_and(|current| current != tile) {
                 data.close_tile(&mut places, in_cell, in_group, samples, cells);
@@ -179,6 +179,42 @@ impl Partition {
         }
         data.close_tile(&mut places, in_cell, in_group, samples, cells);
         data
+    }
+}
+
+/// Whole tiles around sites, in pixels of the plane.
+struct Bounds {
+    low: [f64; 2],
+    high: [f64; 2],
+}
+
+impl Bounds {
+    fn of(sites: &[Site]) -> Self {
+        let mut bounds = Self {
+            low: [f64::INFINITY; 2],
+            high: [f64::NEG_INFINITY; 2],
+        };
+        for site in sites {
+            let tile = tile_of(site);
+            for axis in 0..2 {
+                let pixel = (tile[axis] * TILE[axis]) as f64;
+                bounds.low[axis] = bounds.low[axis].min(pixel);
+                bounds.high[axis] = bounds.high[axis].max(pixel + TILE[axis] as f64);
+            }
+        }
+        bounds
+    }
+
+    fn middle(&self) -> [f64; 2] {
+        [0, 1].map(|axis| 0.5 * (self.low[axis] + self.high[axis]))
+    }
+
+    fn tiles(&self) -> [u32; 2] {
+        [0, 1].map(|axis| ((self.high[axis] - self.low[axis]) / TILE[axis] as f64) as u32)
+    }
+
+    fn is_compact(&self) -> bool {
+        (0..2).all(|axis| self.high[axis] - self.low[axis] <= COMPACT)
     }
 }
 

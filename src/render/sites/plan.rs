@@ -2,7 +2,6 @@
 
 use super::engine::cell_sizes;
 use super::partition::{Partition, Window};
-use crate::camera::Site;
 use crate::passes::{Cells, FrameLayout, GpuScene, ResourceSizes, SiteSizes};
 use crate::render::{RenderError, Settings, Shading};
 use std::ops::Range;
@@ -32,7 +31,7 @@ impl SitePlan {
         scene: &GpuScene,
         settings: &Settings,
         cells: Cells,
-        (sites, partition): (&[Site], &Partition),
+        partition: &Partition,
         taken: u64,
     ) -> Result<Self, RenderError> {
         let limits = layout.gpu.limits();
@@ -42,7 +41,7 @@ impl SitePlan {
         };
         loop {
             let runs = partition.runs(longest);
-            let windows = runs.iter().map(|run| partition.window(sites, cells, run));
+            let windows = runs.iter().map(|run| partition.window(run));
             let most = runs.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
             let sizes = sizes(layout, scene, settings, cells, windows, most as u64);
             let needed = taken + sizes.bytes(u64::from(scene.triangle_count()));
