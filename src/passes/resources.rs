@@ -1,8 +1,8 @@
 //! The memory of one frame: sized when it is prepared, used again for every region and every frame.
 
 use super::frame::DescriptorPool;
-use super::{Argument, Counter, FrameLayout, FrameUniform, GpuScene, RasterTargets, SiteSizes};
 use super::sites::SiteBuffers;
+use super::{Argument, Counter, FrameLayout, FrameUniform, GpuScene, RasterTargets, SiteSizes};
 use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
@@ -337,12 +337,9 @@ impl Resources {
         let region = [vk::BufferCopy::default().dst_offset(slot * size).size(size)];
         // SAFETY: the recorder's contract; callers have sized the buffer for the slot.
         unsafe {
-            recorder.device().cmd_copy_buffer(
-                recorder.raw(),
-                self.counters.raw,
-                to.raw,
-                &region,
-            )
+            recorder
+                .device()
+                .cmd_copy_buffer(recorder.raw(), self.counters.raw, to.raw, &region)
         };
     }
 

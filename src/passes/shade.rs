@@ -105,7 +105,8 @@ impl Shade {
                 );
             }
             recorder.push(self.layout.pipeline, &[bin as u32]);
-            let every_record = matches!(self.source, ShadeSource::Records(_)) && self.bins.len() == 1;
+            let every_record =
+                matches!(self.source, ShadeSource::Records(_)) && self.bins.len() == 1;
             let argument = if every_record {
                 Argument::Sort as u32
             } else {

@@ -108,9 +108,18 @@ impl Resources {
             place.ok_or_else(unmapped)?.copy_from_slice(bytes);
             Ok(())
         };
-        put(&mut self.sites.sites.buffer, bytemuck::cast_slice(&data.sites))?;
-        put(&mut self.sites.cells.buffer, bytemuck::cast_slice(&data.cells))?;
-        put(&mut self.sites.groups.buffer, bytemuck::cast_slice(&data.groups))?;
+        put(
+            &mut self.sites.sites.buffer,
+            bytemuck::cast_slice(&data.sites),
+        )?;
+        put(
+            &mut self.sites.cells.buffer,
+            bytemuck::cast_slice(&data.cells),
+        )?;
+        put(
+            &mut self.sites.groups.buffer,
+            bytemuck::cast_slice(&data.groups),
+        )?;
         put(&mut self.sites.loads, bytemuck::cast_slice(&data.loads))?;
         put(&mut self.masks, bytemuck::cast_slice(&data.masks))
     }

@@ -3,8 +3,8 @@
 use super::plan::Plan;
 use super::{RenderError, Settings, Shading};
 use crate::passes::{
-    Bin, Cells, Cull, Detect, DetectMode, FrameLayout, GpuScene, Resolve, Resources, Sample, Schedule,
-    Setup, Shade, ShadeSource, Sort, Thin,
+    Bin, Cells, Cull, Detect, DetectMode, FrameLayout, GpuScene, Resolve, Resources, Sample,
+    Schedule, Setup, Shade, ShadeSource, Sort, Thin,
 };
 use crate::vulkan::{Constants, Recorder};
 use std::sync::Arc;

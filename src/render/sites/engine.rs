@@ -4,8 +4,8 @@ use super::partition::Window;
 use crate::camera::Pinhole;
 use crate::passes::{
     Bin, Cells, Counter, Cull, FrameLayout, FrameUniform, GpuScene, Groups, Points, RasterTargets,
-    Resolve, ResourceSizes, Resources, Sample, Schedule, Setup, Shade, ShadeSource, SiteData,
-    Sort, Transform,
+    Resolve, ResourceSizes, Resources, Sample, Schedule, Setup, Shade, ShadeSource, SiteData, Sort,
+    Transform,
 };
 use crate::render::engine::record_shading;
 use crate::render::renderer::PreparedScene;
@@ -84,10 +84,18 @@ impl SiteEngine {
         let (samples, locations) = if points {
             (in_cell as u32, vec![[0.0; 2]])
         } else {
-            (settings.samples, settings.pattern.offsets(settings.samples)?)
+            (
+                settings.samples,
+                settings.pattern.offsets(settings.samples)?,
+            )
         };
-        let targets =
-            RasterTargets::new(&memory, 1, 1, vk::SampleCountFlags::TYPE_1, scene.has_blend())?;
+        let targets = RasterTargets::new(
+            &memory,
+            1,
+            1,
+            vk::SampleCountFlags::TYPE_1,
+            scene.has_blend(),
+        )?;
         let resources = Resources::new(layout, &memory, scene, &targets, *sizes, &[&locations])?;
         let output = Constants::new()
             .flag(
@@ -187,10 +195,7 @@ impl SiteEngine {
         let tiles = data.loads.iter().filter(|[cells, _]| *cells > 0).count() as u32;
         resources.record_counters(
             recorder,
-            &[
-                (Counter::Superpixels, superpixels),
-                (Counter::Tiles, tiles),
-            ],
+            &[(Counter::Superpixels, superpixels), (Counter::Tiles, tiles)],
         );
         self.transform.record(recorder, scene.vertex_count());
         recorder.mark("transform");

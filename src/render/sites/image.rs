@@ -111,7 +111,9 @@ impl Headless {
 
 impl Cells {
     fn new(count: usize, settings: &Settings) -> Self {
-        let background = settings.background.map_or([0.0; 4], |[r, g, b]| [r, g, b, 1.0]);
+        let background = settings
+            .background
+            .map_or([0.0; 4], |[r, g, b]| [r, g, b, 1.0]);
         let unseen = PixelAttributes {
             samples: 1,
             ..PixelAttributes::default()

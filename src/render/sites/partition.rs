@@ -255,7 +255,12 @@ impl SiteData {
                     .push([tile, self.cells.len() as u32, 1, in_tile]),
             }
             self.cells.push([
-                [bits(middle[0]), bits(middle[1]), bits(half[0]), bits(half[1])],
+                [
+                    bits(middle[0]),
+                    bits(middle[1]),
+                    bits(half[0]),
+                    bits(half[1]),
+                ],
                 [first_site as u32, members.len() as u32, 0, 0],
             ]);
             first_site += members.len();
