@@ -20,7 +20,7 @@ fn pixel_of(at: [f64; 2]) -> usize {
 #[test]
 fn random_points_see_what_the_twin_sees() {
     on_gpu(|gpu| {
-        let stage = soup(3, 150, true, [-1.0, 5.0]);
+        let stage = soup(3, 80, true, [-1.0, 5.0]);
         let prepared = stage.upload(gpu);
         let mut random = Random::new(21);
         // Places that 32 bits hold exactly, all over the image; its pixels' centres make the set's middle the image's.
