@@ -1,0 +1,3 @@
+//! The camera family's model. Nothing here needs a device.
+
+mod pinhole;
