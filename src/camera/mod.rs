@@ -8,10 +8,15 @@
 //! at any distance. Pixel positions are x right, y down, with the image's upper left corner at (0, 0).
 
 mod framing;
+mod map;
 mod pinhole;
+mod site;
+pub mod zoom;
 
 pub use framing::Orbit;
+pub use map::LocationMap;
 pub use pinhole::{Pinhole, PinholeError, Ray};
+pub use site::Site;
 
 use crate::scene::{SceneCamera, SceneProjection};
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};

@@ -1,3 +1,4 @@
 //! The camera family's model. Nothing here needs a device.
 
 mod pinhole;
+mod zoom;
