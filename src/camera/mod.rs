@@ -10,12 +10,15 @@
 mod framing;
 mod map;
 mod pinhole;
+mod rig;
+pub mod set;
 mod site;
 pub mod zoom;
 
 pub use framing::Orbit;
 pub use map::LocationMap;
 pub use pinhole::{Pinhole, PinholeError, Ray};
+pub use rig::{Rig, RigError};
 pub use site::Site;
 
 use crate::scene::{SceneCamera, SceneProjection};

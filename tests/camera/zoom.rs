@@ -139,10 +139,12 @@ fn jacobians_are_the_differences_of_locations() {
             let error = map.jacobian(p) - DMat2::from_cols(columns[0], columns[1]);
             let size = error.x_axis.length().max(error.y_axis.length());
             // On a border or on a rectangle's diagonal the two sides differ.
-            let kinked = [DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y].into_iter().any(|step| {
-                let change = map.jacobian(p + 2.0 * h * step) - map.jacobian(p);
-                change.x_axis.length().max(change.y_axis.length()) > 1e-3
-            });
+            let kinked = [DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y]
+                .into_iter()
+                .any(|step| {
+                    let change = map.jacobian(p + 2.0 * h * step) - map.jacobian(p);
+                    change.x_axis.length().max(change.y_axis.length()) > 1e-3
+                });
             assert!(size < 1e-6 || kinked, "{region:?} at {p}: {size}");
         }
     }
