@@ -85,7 +85,7 @@ impl Partition {
         }
         let sorted: Vec<Site> = keyed
             .par_iter()
-            .filter_map(|(_, index)| sites.get(*index as usize).copied())
+            .map(|(_, index)| sites[*index as usize])
             .collect();
         let bounds = Bounds::of(&sorted);
         Ok(Self {
