@@ -3,14 +3,15 @@
 use super::partition::Window;
 use crate::camera::Pinhole;
 use crate::passes::{
-    Bin, Cells, Counter, Cull, FrameLayout, FrameUniform, GpuScene, Groups, Points, RasterTargets,
-    Resolve, ResourceSizes, Resources, Sample, Schedule, Setup, Shade, ShadeSource, SiteData, Sort,
-    Transform,
+    Bin, Cells, Counter, Cull, FrameLayout, FrameUniform, GpuScene, Groups, Locations, Points,
+    RasterTargets, RecordRate, Resolve, ResourceSizes, Resources, Sample, SampleOptions, Schedule,
+    Setup, Shade, ShadeSource, SiteData, Sort, Transform,
 };
-use crate::render::engine::record_shading;
+use crate::render::engine::{record_rate, record_shading};
 use crate::render::renderer::PreparedScene;
 use crate::render::statistics::unfinished;
-use crate::render::{PassTime, Reference, RenderError, Settings, Shading, Statistics};
+use crate::render::{Coverage, PassTime, Reference, RenderError, Settings, Statistics};
+use crate::sampling::Pattern;
 use crate::vulkan::{Buffer, Constants, Memory, MemoryUse, Recorder, Timings, VulkanError};
 use ash::vk;
 use glam::DVec2;
@@ -34,7 +35,6 @@ enum Finish {
 /// Pipelines and memory to sample runs of sites of one scene.
 pub(super) struct SiteEngine {
     settings: Settings,
-    samples: u32,
     transform: Transform,
     cull: Cull,
     bin: Bin,
@@ -81,13 +81,31 @@ impl SiteEngine {
         );
         let points = cells == Cells::Points;
         let [in_cell, _] = cell_sizes(layout, cells);
-        let (samples, locations) = if points {
-            (in_cell as u32, vec![[0.0; 2]])
+        let options = SampleOptions {
+            cells,
+            samples: if points {
+                in_cell as u32
+            } else {
+                settings.samples
+            },
+            records: if points {
+                RecordRate::Sample
+            } else {
+                record_rate(settings, scene)
+            },
+            exact_areas: settings.coverage == Coverage::Area && settings.samples > 1 && !points,
+            has_mask: scene.has_mask(),
+            has_blend: scene.has_blend(),
+        };
+        let mut locations = if points {
+            vec![[0.0; 2]]
         } else {
-            (
-                settings.samples,
-                settings.pattern.offsets(settings.samples)?,
-            )
+            settings.pattern.offsets(settings.samples)?
+        };
+        locations.extend(Pattern::Sobol.offsets(Sample::PROBES)?);
+        let locations = Locations {
+            all: &locations,
+            count: options.samples,
         };
         let targets = RasterTargets::new(
             &memory,
@@ -96,28 +114,19 @@ impl SiteEngine {
             vk::SampleCountFlags::TYPE_1,
             scene.has_blend(),
         )?;
-        let resources = Resources::new(layout, &memory, scene, &targets, *sizes, &[&locations])?;
+        let resources = Resources::new(layout, &memory, scene, &targets, *sizes, &[locations])?;
         let output = Constants::new()
             .flag(
                 30,
                 settings.reference == Reference::Display && settings.tonemapped_detection,
             )
             .flag(31, settings.tonemapped_detection);
-        let per_sample = points || settings.shading == Shading::Sample;
-        let sample = Sample::new(
-            layout,
-            cells,
-            samples,
-            per_sample,
-            scene.has_mask(),
-            scene.has_blend(),
-        )?;
+        let sample = Sample::new(layout, &options)?;
         let finish = if points {
             Finish::Points(Points::new(layout, &output)?)
         } else {
             Finish::Resolve(Resolve::new(
                 layout,
-                cells,
                 &sample,
                 scene.has_blend(),
                 false,
@@ -126,11 +135,10 @@ impl SiteEngine {
         };
         Ok(Self {
             settings: settings.clone(),
-            samples,
             transform: Transform::new(layout)?,
             cull: Cull::new(layout)?,
             bin: Bin::new(layout)?,
-            schedule: Schedule::new(layout, cells, &sample, per_sample, LAYERS)?,
+            schedule: Schedule::new(layout, &sample, LAYERS)?,
             groups: Groups::new(layout)?,
             setup: Setup::new(layout)?,
             sort: Sort::new(layout, scene.bin_count() == 1)?,
@@ -203,6 +211,10 @@ impl SiteEngine {
         recorder.mark("cull");
         self.bin.record(recorder, arguments);
         recorder.mark("bin");
+        if self.sample.options().probes() {
+            recorder.clear(&resources.marks);
+            recorder.barrier();
+        }
         for _ in 0..ROUNDS {
             self.schedule.record(recorder);
             self.groups.record(recorder, arguments);
@@ -299,7 +311,7 @@ impl SiteEngine {
             triangle_count: scene.triangle_count(),
             first_mask: scene.first_mask(),
             first_blend: scene.first_blend(),
-            sample_count: self.samples,
+            sample_count: self.sample.options().samples,
             list_capacity: self.resources.sizes().list_capacity,
             record_capacity: self.resources.sizes().record_capacity,
             bin_count: scene.bin_count(),
