@@ -478,7 +478,7 @@ impl Passes<'_> {
         if let Some(engine) = self.blended {
             resources.record_begin(recorder, main, &with(main.count(), whole));
             engine.record(recorder, scene, resources, tiles, self.plan.rounds);
-            self.keep_counters(recorder, 2 * index as u64);
+            resources.record_keep_counters(recorder, self.counters, 2 * index as u64);
         }
         if let Some(engine) = self.superpixels {
             resources.record_begin(
@@ -487,7 +487,7 @@ impl Passes<'_> {
                 &with(locations.count(), self.uniform(scene, camera, region, true)),
             );
             engine.record(recorder, scene, resources, tiles, self.plan.rounds);
-            self.keep_counters(recorder, 2 * index as u64 + 1);
+            resources.record_keep_counters(recorder, self.counters, 2 * index as u64 + 1);
         }
         if let Some(attributes) = self.attributes {
             attributes.record(recorder, pixels / (side * side));
@@ -512,15 +512,6 @@ impl Passes<'_> {
         self.deliver(recorder, region, target);
         recorder.barrier();
         recorder.mark("copy");
-    }
-
-    fn keep_counters(&self, recorder: &Recorder<'_>, slot: u64) {
-        copy(
-            recorder,
-            self.resources.counters.handle(),
-            self.counters.handle(),
-            &[(0, slot * COUNTER_BYTES, COUNTER_BYTES)],
-        );
     }
 
     /// Copies what the region owns to its place in the target.

@@ -1,5 +1,6 @@
 //! The passes and memory that sample sites: the engine of superpixels with the caller's cells in the place of pixels.
 
+use super::layout::CellSizes;
 use super::partition::Window;
 use crate::camera::Pinhole;
 use crate::passes::{
@@ -53,14 +54,18 @@ pub(super) struct SiteEngine {
     uploaded: bool,
 }
 
-/// How many sites share a cell, and cells a group.
-pub(super) fn cell_sizes(layout: &FrameLayout, cells: Cells) -> [usize; 2] {
+/// How sites share cells and groups on a device.
+pub(super) fn cell_sizes(layout: &FrameLayout, cells: Cells, samples: u32) -> CellSizes {
     let lanes = layout.gpu.limits().subgroup_size;
     let in_cell = match cells {
         Cells::Points => POINTS_IN_CELL.next_multiple_of(lanes),
-        _ => 1,
+        Cells::Superpixels | Cells::Pixels => 1,
     };
-    [in_cell as usize, lanes as usize]
+    CellSizes {
+        in_cell: in_cell as usize,
+        in_group: lanes as usize,
+        samples,
+    }
 }
 
 impl SiteEngine {
@@ -80,7 +85,7 @@ impl SiteEngine {
             settings.max_memory.map(|limit| limit.saturating_sub(taken)),
         );
         let points = cells == Cells::Points;
-        let [in_cell, _] = cell_sizes(layout, cells);
+        let CellSizes { in_cell, .. } = cell_sizes(layout, cells, settings.samples);
         let options = SampleOptions {
             cells,
             samples: if points {

@@ -77,7 +77,8 @@ fn sizes(
         }
     });
     let tiles = u64::from(region[0] / 8) * u64::from(region[1] / 4);
-    let [in_cell, in_group] = cell_sizes(layout, cells).map(|size| size as u64);
+    let cell_sizes = cell_sizes(layout, cells, settings.samples);
+    let [in_cell, in_group] = [cell_sizes.in_cell, cell_sizes.in_group].map(|size| size as u64);
     let cell_count = most.min(most / in_cell + tiles);
     let group_count = cell_count.min(cell_count / in_group + tiles);
     let samples = u64::from(settings.samples);
