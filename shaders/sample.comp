@@ -18,6 +18,7 @@
 //           (BY_PART: and an eighth of the block; PER_SAMPLE: one a sample, at its location);
 //   CHAINED: index of the next nearer BLEND layer of the sample, or ~0; the first records of a block are its
 //           samples' opaque surfaces (ID 0: background).
+// Where cells are SITES, the first word of a record is its site; POINTS make a record a sample, of location 0.
 // Header of a cell's block: first record, number of records (CHAINED: of samples).
 //
 // Loops are do-while with guarded bodies: on lavapipe a branch skips nothing and other loops run once too often.
@@ -25,6 +26,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/tiles.glsl"
+#include "include/sites.glsl"
 layout(local_size_x_id = 0) in;
 layout(constant_id = 2) const bool PER_SAMPLE = false;
 layout(constant_id = 3) const bool HAS_MASK = false;
@@ -124,11 +126,13 @@ struct CellTest {
     float hides;    // where it covers the whole square with an opaque surface: its farthest depth there, otherwise 0
 };
 
-CellTest test_cell(Candidate k, vec2 at) {
+// `half_side` is that of a cell of SITES.
+CellTest test_cell(Candidate k, vec2 at, vec2 half_side) {
     vec3 e = k.a * at.x + k.b * at.y + k.c;
-    vec3 reach = CELL_REACH * (abs(k.a) + abs(k.b));
+    vec3 reach = SITES ? half_side.x * abs(k.a) + half_side.y * abs(k.b) : CELL_REACH * (abs(k.a) + abs(k.b));
     float middle = k.depth.x * at.x + k.depth.y * at.y + k.depth.z;
-    float slope = CELL_REACH * (abs(k.depth.x) + abs(k.depth.y)) + abs(middle) * 1e-6;
+    float span = SITES ? dot(half_side, abs(k.depth.xy)) : CELL_REACH * (abs(k.depth.x) + abs(k.depth.y));
+    float slope = span + abs(middle) * 1e-6;
     CellTest r;
     r.touches = min(e.x + reach.x, min(e.y + reach.y, e.z + reach.z)) >= 0.0;
     r.near = min(middle + slope, k.near);
@@ -137,6 +141,10 @@ CellTest test_cell(Candidate k, vec2 at) {
     r.hides = spans ? max(middle - slope, k.far) : 0.0;
     return r;
 }
+
+// Position of a sample from the tile's centre, and what its record belongs to.
+#define PLACE(g) (SITES ? place[g] : at + offset[g])
+#define OWNER(g) (POINTS ? packed_pixel + uint(g) * LANES + lane : packed_pixel)
 
 // Index of entry `i` of a cell's candidates.
 uint kept_or_all(bool complete, uint member, uint i, uint entries) {
@@ -228,17 +236,22 @@ void main() {
     uint first_sample = RUN == PROBE ? frame.sample_count : 0u;
     uint blocks = (samples + BLOCK - 1u) / BLOCK;
     uint headers_a_cell = (frame.sample_count + HEADER_SAMPLES - 1u) / HEADER_SAMPLES;
-    // (group of the tile, tile), and then (block, cell)
-    uvec2 place = split(gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u, APART ? 32u * headers_a_cell : 32u / LANES);
-    if (place.y >= counters[COUNTER_PLAIN_TILES + LIST]) return;
-    uvec2 part = split(place.x, headers_a_cell);
+    // (part of an owner, owner): a tile, or a group of sites. A part is (block, cell) where these are APART.
+    uint cells_an_owner = SITES ? LANES : 32u;
+    uvec2 work = split(gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u,
+        APART ? cells_an_owner * headers_a_cell : cells_an_owner / LANES);
+    if (work.y >= counters[COUNTER_PLAIN_TILES + LIST]) return;
+    uvec2 part = split(work.x, headers_a_cell);
     uint lane = gl_SubgroupInvocationID;
-    uint tile = tile_lists[LIST * tile_count + place.y];
+    // What marks are kept for: a tile's pixels, or a group's cells.
+    uint owner = tile_lists[LIST * (SITES ? frame.group_count : tile_count) + work.y];
+    uvec4 site_group = SITES ? texelFetch(site_groups, int(owner)) : uvec4(0u);
+    uint tile = SITES ? site_group.x : owner;
     uvec4 header = tiles[tile];
     ivec2 tile_at = ivec2(split(tile, frame.tiles.x));
     vec2 center = tile_center(tile_at);
-    uint cells_word = masks[tile];
-    uint word = RUN == REST ? cells_word & marks[tile] : cells_word;
+    uint cells_word = SITES ? ~0u >> (32u - site_group.z) : masks[tile];
+    uint word = RUN == REST ? cells_word & marks[owner] : cells_word;
 #ifdef UNLISTED
     uint count = frame.triangle_count, first = 0u;
 #else
@@ -246,7 +259,7 @@ void main() {
 #endif
     uint chunks = max((count + LANES - 1u) / LANES, 1u);
     uint cells = bitCount(word);
-    uint first_cell = APART ? part.y : place.x * LANES;
+    uint first_cell = APART ? part.y : work.x * LANES;
     uint first_block = APART ? part.x : 0u;
     if (first_cell >= cells || first_block >= blocks) return;
     uint group = min(cells - first_cell, APART ? 1u : LANES);
@@ -262,7 +275,15 @@ void main() {
         my_bit = bit_ == first_cell + lane ? uint(findLSB(rest)) : my_bit;
         rest &= rest - 1u;
     } while (++bit_ < first_cell + group);
-    vec2 my_at = vec2(my_bit & 7u, my_bit >> 3) - vec2(3.5, 1.5);
+    vec2 my_at = vec2(my_bit & 7u, my_bit >> 3) - vec2(3.5, 1.5), my_half = vec2(CELL_REACH);
+    uvec2 my_sites = uvec2(0u);     // the first one, and how many
+    if (SITES) {
+        int cell = int(2u * (site_group.y + my_bit));
+        vec4 square = uintBitsToFloat(texelFetch(site_cells, cell));
+        my_at = square.xy;
+        my_half = square.zw;
+        my_sites = texelFetch(site_cells, cell + 1).xy;
+    }
     float my_hidden = 0.0;      // nothing farther than this shows in the cell
     uint my_count = 0u;
     uint chunk = 0u;
@@ -272,7 +293,7 @@ void main() {
         uint j = 0u;
         do {
             [[unroll]] for (uint u = 0u; u < 4u; u++) {
-                CellTest test = test_cell(shuffle_candidate(k, j + u), my_at);
+                CellTest test = test_cell(shuffle_candidate(k, j + u), my_at, my_half);
                 bool exists = j + u < chunk_count;
                 my_hidden = max(my_hidden, exists ? test.hides : 0.0);
                 if (test.touches && test.near >= my_hidden && exists) {
@@ -289,7 +310,7 @@ void main() {
     do {
         vec2 offset[ROWS];
         [[unroll]] for (int g = 0; g < ROWS; g++)
-            offset[g] = texelFetch(locations, int(first_sample + min(block * BLOCK + uint(g) * LANES + lane, samples - 1u))).xy;
+            offset[g] = POINTS ? vec2(0.0) : texelFetch(locations, int(first_sample + min(block * BLOCK + uint(g) * LANES + lane, samples - 1u))).xy;
         uint block_samples = min(samples - block * BLOCK, BLOCK);
 
         uint member = 0u;
@@ -299,6 +320,25 @@ void main() {
             vec2 in_tile = vec2(bit & 7u, bit >> 3);
             vec2 at = in_tile - vec2(3.5, 1.5);
             uvec2 pixel = uvec2(tile_at) * uvec2(8u, 4u) + uvec2(in_tile);
+            vec2 half_side = vec2(CELL_REACH);
+            uint site = 0u;             // POINTS: the block's first one
+            mat2 output_pixel = mat2(1.0);
+            vec2 place[ROWS];           // of samples of SITES, from the tile's centre
+            if (SITES) {
+                at = vec2(subgroupShuffle(my_at.x, member), subgroupShuffle(my_at.y, member));
+                half_side = vec2(subgroupShuffle(my_half.x, member), subgroupShuffle(my_half.y, member));
+                site = subgroupShuffle(my_sites.x, member);
+                if (POINTS) {
+                    uint points = subgroupShuffle(my_sites.y, member);
+                    block_samples = min(points - min(points, block * BLOCK), BLOCK);
+                    [[unroll]] for (int g = 0; g < ROWS; g++)
+                        place[g] = uintBitsToFloat(texelFetch(sites, int(2u * (site + min(block * BLOCK + uint(g) * LANES + lane, points - 1u)))).xy);
+                    site += block * BLOCK;
+                } else {
+                    output_pixel = site_jacobian(site);
+                    [[unroll]] for (int g = 0; g < ROWS; g++) place[g] = at + output_pixel * offset[g];
+                }
+            }
             float hidden = subgroupShuffle(my_hidden, member);
             uint listed = subgroupShuffle(my_count, member);
             bool complete = listed <= KEPT;
@@ -317,7 +357,7 @@ void main() {
             uint batch = 0u;
             do {
                 Candidate k = load_candidate(first, kept_or_all(complete, member, batch * LANES + lane, entries_), center);
-                CellTest test = test_cell(k, at);
+                CellTest test = test_cell(k, at, half_side);
                 bool blend = k.id > frame.first_blend;
                 bool mask_ = HAS_MASK && k.id > frame.first_mask && !blend;
                 bool touches = batch * LANES + lane < entries_ && test.touches && !blend && test.near >= hidden;
@@ -335,7 +375,7 @@ void main() {
                     }
                     [[unroll]] for (int g = 0; g < ROWS; g++) {
                         float d;
-                        bool there = covers(t, least, at + offset[g], d);
+                        bool there = covers(t, least, PLACE(g), d);
                         bool wins = there && (d > depth[g] || (d == depth[g] && t.id < id[g]));
                         depth[g] = wins ? d : depth[g];
                         id[g] = wins ? t.id : id[g];
@@ -349,12 +389,13 @@ void main() {
                         Candidate t = shuffle_candidate(k, some ? uint(findLSB(pending)) : 0u);
                         pending &= pending - 1u;
                         vec3 least = some ? thresholds(t) : vec3(3.4e38);
-                        AlphaTest alpha = alpha_test(t.id - 1u, center, at);
+                        AlphaTest alpha = alpha_test(t.id - 1u, center, at, output_pixel);
                         [[unroll]] for (int g = 0; g < ROWS; g++) {
                             float d;
-                            bool there = covers(t, least, at + offset[g], d);
+                            bool there = covers(t, least, PLACE(g), d);
                             bool wins = there && (d > depth[g] || (d == depth[g] && t.id < id[g]));
-                            wins = wins && alpha_passes(alpha, at + offset[g]);
+                            if (POINTS) alpha = alpha_test(t.id - 1u, center, place[g], site_jacobian(site + min(uint(g) * LANES + lane, max(block_samples, 1u) - 1u)));
+                            wins = wins && alpha_passes(alpha, PLACE(g));
                             depth[g] = wins ? d : depth[g];
                             id[g] = wins ? t.id : id[g];
                         }
@@ -362,8 +403,8 @@ void main() {
                 }
             } while (++batch < batches);
 
-            uint header_index = header.z + cell * headers_a_cell + block;
-            uint packed_pixel = pixel.x | pixel.y << 16;
+            uint header_index = header.z + (site_group.w + cell) * headers_a_cell + block;
+            uint packed_pixel = SITES ? site : pixel.x | pixel.y << 16;
 
 #ifdef CHAINED
             uint base = 0u;
@@ -378,6 +419,7 @@ void main() {
                 live[g] = s < block_samples;
                 node[g] = base + s;
             }
+            uint first_record = POINTS ? POINT_FIRST : 0u;
             // Layers from the farthest to the nearest: each round finds the next one in front.
             bool more;
             do {
@@ -387,7 +429,7 @@ void main() {
                 batch = 0u;
                 do {
                     Candidate k = load_candidate(first, kept_or_all(complete, member, batch * LANES + lane, entries_), center);
-                    CellTest test = test_cell(k, at);
+                    CellTest test = test_cell(k, at, half_side);
                     bool touches = batch * LANES + lane < entries_ && test.touches && k.id > frame.first_blend && test.near >= hidden;
                     uint pending = subgroupBallot(touches).x;
                     trips += 1u + uint(bitCount(pending));
@@ -398,7 +440,7 @@ void main() {
                         vec3 least = some ? thresholds(t) : vec3(3.4e38);
                         [[unroll]] for (int g = 0; g < ROWS; g++) {
                             float d;
-                            bool there = covers(t, least, at + offset[g], d) && d > 0.0;
+                            bool there = covers(t, least, PLACE(g), d) && d > 0.0;
                             bool in_front = id[g] == 0u ? d > depth[g] : d > depth[g] || (d == depth[g] && t.id < id[g]);
                             bool nearest = d < next_depth[g] || (d == next_depth[g] && t.id > next_id[g]);
                             bool wins = there && in_front && nearest;
@@ -421,7 +463,7 @@ void main() {
                 [[unroll]] for (int g = 0; g < ROWS; g++) {
                     bool extends = live[g] && next_id[g] != 0u && !full;
                     if (live[g] && node[g] < frame.record_capacity)
-                        records_out[node[g]] = uvec4(packed_pixel, id[g], pack_location(offset[g]), extends ? slot : ~0u);
+                        records_out[node[g]] = uvec4(OWNER(g) | first_record, id[g], pack_location(offset[g]), extends ? slot : ~0u);
                     node[g] = extends ? slot : node[g];
                     slot += extends ? 1u : 0u;
                     depth[g] = extends ? next_depth[g] : depth[g];
@@ -430,6 +472,7 @@ void main() {
                     more = more || extends;
                 }
                 more = subgroupAny(more);
+                first_record = 0u;
                 lost += more && trips > MOST_TRIPS ? 1u : 0u;
             } while (more && trips <= MOST_TRIPS);
             if (subgroupElect() && lost != 0u) atomicAdd(counters[COUNTER_UNFINISHED], 1u);
@@ -458,13 +501,16 @@ void main() {
                         Candidate t = shuffle_candidate(nearby, holder != 0u ? uint(findLSB(holder)) : 0u);
                         vec3 least = thresholds(t);
                         [[unroll]] for (int g = 0; g < ROWS; g++) {
-                            bool lost = inside(t, least, at + offset[g]) && id[g] != s.id && uint(g) * LANES + lane < block_samples;
+                            bool lost = inside(t, least, PLACE(g)) && id[g] != s.id && uint(g) * LANES + lane < block_samples;
                             s.lost += lost ? 1.0 : 0.0;
                         }
                         float both = lanes_add(s.samples + 4096.0 * s.lost);
                         s.samples = both - 4096.0 * floor(both * (1.0 / 4096.0));
                         whole = holder != 0u && both < 4096.0 && s.samples >= float(FEWEST);
-                        area = area_in_cell(t.a, t.b, t.a * at.x + t.b * at.y + t.c, lane);
+                        // In the coordinates of offsets, in which the cell is a square.
+                        vec3 a = SITES ? t.a * output_pixel[0].x + t.b * output_pixel[0].y : t.a;
+                        vec3 b = SITES ? t.a * output_pixel[1].x + t.b * output_pixel[1].y : t.b;
+                        area = area_in_cell(a, b, t.a * at.x + t.b * at.y + t.c, lane);
                     } else {
                         s.samples = lanes_add(s.samples);
                     }
@@ -511,13 +557,13 @@ void main() {
             bool fits = base + used <= frame.record_capacity && settled;
             if (subgroupElect() && !fits) {
                 atomicAdd(counters[settled ? COUNTER_UNFINISHED : COUNTER_RESAMPLED], 1u);
-                if (!settled) atomicOr(marks[tile], 1u << bit);
+                if (!settled) atomicOr(marks[owner], 1u << bit);
             }
             if (PER_SAMPLE) {
                 [[unroll]] for (int g = 0; g < ROWS; g++) {
                     uint s = uint(g) * LANES + lane;
                     if (fits && s < block_samples)
-                        records_out[base + s] = uvec4(packed_pixel, id[g], pack_location(offset[g]), floatBitsToUint(1.0));
+                        records_out[base + s] = POINTS ? uvec4(OWNER(g) | POINT_FIRST, id[g], 0u, ~0u) : uvec4(packed_pixel, id[g], pack_location(offset[g]), floatBitsToUint(1.0));
                 }
             } else {
                 // Surfaces of one record: all at once, and those beyond the invocations' room one by one.

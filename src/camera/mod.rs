@@ -1,12 +1,25 @@
-//! The planar pinhole camera: where it stands, where it looks and how it projects.
+//! Cameras: where they stand, where they look, how they project, and where they sample.
+//!
+//! [`Camera`] is a planar pinhole camera as files describe it: it knows no image size. [`Pinhole`] is the general one, a
+//! centre of projection and an image plane in pixels.
 //!
 //! World space is glTF's: right-handed, y up. View space has its origin at the eye, x right, y up, and looks along -z.
 //! Clip space has y up as well; depth runs from 1 near to 0 far (reversed), so that float depth keeps its precision
 //! at any distance. Pixel positions are x right, y down, with the image's upper left corner at (0, 0).
 
 mod framing;
+mod map;
+mod pinhole;
+mod rig;
+pub mod set;
+mod site;
+pub mod zoom;
 
 pub use framing::Orbit;
+pub use map::LocationMap;
+pub use pinhole::{Pinhole, PinholeError, Ray};
+pub use rig::{Rig, RigError};
+pub use site::Site;
 
 use crate::scene::{SceneCamera, SceneProjection};
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};

@@ -21,6 +21,7 @@ impl Resolve {
         display_codes: bool,
         output: &Constants,
     ) -> Result<Self, VulkanError> {
+        let output = &sample.options().cells.constants(output.clone());
         let kernels = sample
             .lists()
             .map(|list| {

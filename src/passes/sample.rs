@@ -1,6 +1,6 @@
 //! sample: the nearest triangle of every sub-sample.
 
-use super::{Argument, FrameLayout, spirv};
+use super::{Argument, Cells, FrameLayout, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
@@ -28,7 +28,9 @@ impl TileList {
 /// What the kernels are made for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SampleOptions {
-    /// Sub-samples of a cell.
+    /// What a cell is.
+    pub cells: Cells,
+    /// Sub-samples of a cell, or points at the most.
     pub samples: u32,
     /// How often records are written.
     pub records: RecordRate,
@@ -119,7 +121,9 @@ impl Sample {
             } else {
                 layered_rows
             };
-            let constants = Constants::new()
+            let constants = options
+                .cells
+                .constants(Constants::new())
                 .with(0, lanes)
                 .with(1, lanes)
                 .flag(2, options.records == RecordRate::Sample)

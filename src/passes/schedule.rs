@@ -18,7 +18,10 @@ impl Schedule {
     pub fn new(layout: &FrameLayout, sample: &Sample, layers: u32) -> Result<Self, VulkanError> {
         let lanes = layout.gpu.limits().subgroup_size;
         let records = sample.options().records;
-        let constants = Constants::new()
+        let constants = sample
+            .options()
+            .cells
+            .constants(Constants::new())
             .with(0, lanes)
             .with(1, sample.block(TileList::Plain))
             .with(2, sample.block(TileList::Masked))

@@ -3,8 +3,8 @@
 use super::plan::Plan;
 use super::{Coverage, RenderError, Settings, Shading};
 use crate::passes::{
-    Bin, Cull, Detect, DetectMode, FrameLayout, GpuScene, RecordRate, Resolve, Resources, Sample,
-    SampleOptions, Schedule, Setup, Shade, ShadeSource, Sort, Thin,
+    Bin, Cells, Cull, Detect, DetectMode, FrameLayout, GpuScene, RecordRate, Resolve, Resources,
+    Sample, SampleOptions, Schedule, Setup, Shade, ShadeSource, Sort, Thin,
 };
 use crate::vulkan::{Constants, Recorder};
 use std::sync::Arc;
@@ -50,12 +50,9 @@ impl Engine {
         let sample = Sample::new(
             layout,
             &SampleOptions {
+                cells: Cells::Pixels,
                 samples: kind.samples,
-                records: match settings.shading {
-                    Shading::Part if scene.has_glossy() => RecordRate::Part,
-                    Shading::Triangle | Shading::Part => RecordRate::Triangle,
-                    Shading::Sample => RecordRate::Sample,
-                },
+                records: record_rate(settings, scene),
                 exact_areas: settings.coverage == Coverage::Area && kind.samples > 1,
                 apart: plan.effort.apart,
                 has_mask: scene.has_mask(),
@@ -101,7 +98,7 @@ impl Engine {
         Ok(Arc::new(Shade::new(
             layout,
             scene,
-            ShadeSource::Records,
+            ShadeSource::Records(Cells::Pixels),
             output,
         )?))
     }
@@ -146,6 +143,15 @@ impl Engine {
             self.resolve.record(recorder, arguments);
             recorder.mark("resolve");
         }
+    }
+}
+
+/// How many records the settings' shading asks for.
+pub(super) fn record_rate(settings: &Settings, scene: &GpuScene) -> RecordRate {
+    match settings.shading {
+        Shading::Part if scene.has_glossy() => RecordRate::Part,
+        Shading::Triangle | Shading::Part => RecordRate::Triangle,
+        Shading::Sample => RecordRate::Sample,
     }
 }
 

@@ -488,7 +488,7 @@ impl Passes<'_> {
         if let Some(engine) = self.blended {
             resources.record_begin(recorder, main, &with(main.count(), whole));
             engine.record(recorder, scene, resources, tiles, self.plan.rounds);
-            self.keep_counters(recorder, 2 * index as u64);
+            resources.record_keep_counters(recorder, self.counters, 2 * index as u64);
         }
         if let Some(engine) = self.superpixels {
             resources.record_begin(
@@ -497,7 +497,7 @@ impl Passes<'_> {
                 &with(locations.count(), self.uniform(scene, camera, region, true)),
             );
             engine.record(recorder, scene, resources, tiles, self.plan.rounds);
-            self.keep_counters(recorder, 2 * index as u64 + 1);
+            resources.record_keep_counters(recorder, self.counters, 2 * index as u64 + 1);
         }
         if let Some(attributes) = self.attributes {
             attributes.record(recorder, pixels / (side * side));
@@ -522,15 +522,6 @@ impl Passes<'_> {
         self.deliver(recorder, region, target);
         recorder.barrier();
         recorder.mark("copy");
-    }
-
-    fn keep_counters(&self, recorder: &Recorder<'_>, slot: u64) {
-        copy(
-            recorder,
-            self.resources.counters.handle(),
-            self.counters.handle(),
-            &[(0, slot * COUNTER_BYTES, COUNTER_BYTES)],
-        );
     }
 
     /// Copies what the region owns to its place in the target.
@@ -562,7 +553,7 @@ impl Passes<'_> {
                 if let (Some(attributes), Some(_)) = (attributes, self.attributes) {
                     copy(
                         recorder,
-                        self.resources.attributes.buffer.handle(),
+                        self.resources.attributes.handle(),
                         *attributes,
                         &rows(32),
                     );
@@ -670,6 +661,8 @@ impl Passes<'_> {
             contrast: u32::from(self.settings.contrast),
             exposure: self.settings.exposure.exp2(),
             footprint: side as f32,
+            reach: 0.5,
+            group_count: 0,
         }
     }
 }
@@ -693,7 +686,7 @@ fn gap(camera: &Camera, image_height: f64) -> [f32; 2] {
 }
 
 /// The 8-bit sRGB codes of a premultiplied colour, as `display_code` of `shaders/include/color.glsl` packs them.
-fn display_code(color: [f32; 4]) -> u32 {
+pub(super) fn display_code(color: [f32; 4]) -> u32 {
     let [r, g, b, a] = color.map(f64::from);
     let rgb = [r, g, b].map(crate::reference::srgb::encode_u8);
     u32::from_le_bytes([

@@ -211,6 +211,7 @@ impl Plan {
         };
         let sizes = ResourceSizes {
             region: outer,
+            sites: None,
             pair_capacity: at_most(pairs, ResourceSizes::PAIR_BYTES),
             list_capacity: at_most(candidates, ResourceSizes::CANDIDATE_BYTES),
             record_capacity: records as u32,

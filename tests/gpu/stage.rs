@@ -9,7 +9,8 @@ use std::sync::{Mutex, PoisonError};
 use glam::{DMat3, DVec2, DVec3, Vec3};
 use gpc::camera::{Camera, Projection};
 use gpc::render::{
-    Coverage, Detection, Headless, HeadlessOptions, Method, Reference, Rendered, Settings, Shading,
+    Coverage, Detection, Headless, HeadlessOptions, Method, PreparedScene, Reference, Rendered,
+    Settings, Shading,
 };
 use gpc::sampling::Pattern;
 use gpc::scene::{
@@ -254,6 +255,12 @@ impl Stage {
             warnings: Vec::new(),
         };
         (scene, pose)
+    }
+
+    /// Puts it on the device.
+    pub fn upload(&self, gpu: &mut Headless) -> PreparedScene {
+        let (scene, pose) = self.build();
+        gpu.upload(&scene, &pose, None).unwrap()
     }
 
     /// Renders it.
