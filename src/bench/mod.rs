@@ -6,12 +6,14 @@
 
 mod accuracy;
 mod cache;
+mod causes;
 mod reference;
 mod spread;
 mod timing;
 
 pub use accuracy::{Accuracy, Yardstick};
 pub use cache::{Cache, Fingerprint};
+pub use causes::{Cause, LOOKS, Split, causes};
 pub use reference::{GRID_SAMPLES, MAX_REFERENCE_SAMPLES, brute_force};
 pub use spread::Spread;
 pub use timing::{Contender, Cost, PassCost, take_turns};

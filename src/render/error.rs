@@ -25,6 +25,11 @@ pub enum RenderError {
     /// Multisampling has several IDs a pixel.
     #[error("msaa has no one depth, ID or normal a pixel; ask another method for them")]
     Attributes,
+    /// Attributes are those of an output pixel.
+    #[error(
+        "attributes can't be had with texture levels chosen for samples; choose them for pixels"
+    )]
+    SampleAttributes,
     /// The image has no pixels or too many.
     #[error("an image of {width} x {height} pixels: each side must be from 1 to {limit}")]
     Size {
@@ -66,7 +71,11 @@ impl RenderError {
     pub fn is_usage(&self) -> bool {
         matches!(
             self,
-            Self::Pattern(_) | Self::Samples { .. } | Self::Attributes | Self::Size { .. }
+            Self::Pattern(_)
+                | Self::Samples { .. }
+                | Self::Attributes
+                | Self::SampleAttributes
+                | Self::Size { .. }
         )
     }
 

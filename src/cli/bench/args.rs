@@ -41,6 +41,9 @@ pub struct BenchArgs {
     /// Samples a pixel of the reference, a multiple of 256
     #[arg(long, value_name = "N", default_value_t = 4096, value_parser = reference_samples)]
     pub reference: u32,
+    /// Also against a second reference, whose texture levels follow the footprint of its samples instead of the pixel's
+    #[arg(long)]
+    pub sample_footprint: bool,
     /// Frames to time, at most
     #[arg(long, value_name = "R", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..))]
     pub repeat: u32,

@@ -4,7 +4,7 @@ use super::BenchArgs;
 use super::machine::{self, Machine};
 use super::summary::AtSamples;
 use crate::cli::render::Antialiasing;
-use gpc::bench::{Accuracy, Cost};
+use gpc::bench::{Accuracy, Cost, Split};
 use gpc::vulkan::Limits;
 use serde::Serialize;
 
@@ -34,6 +34,9 @@ pub struct SceneResults {
     pub triangles: u64,
     /// Seconds that the reference took to render; `None` if it came from the cache.
     pub reference_seconds: Option<f64>,
+    /// RMSE of the reference against the second reference, whose texture levels follow the footprint of its samples:
+    /// what filtering textures for whole pixels leaves, whatever the number of samples.
+    pub texture_filtering: Option<f64>,
     /// What was left out, and why.
     pub notes: Vec<String>,
     pub rows: Vec<Row>,
@@ -53,6 +56,10 @@ pub struct Row {
     /// Triangles in the lists of tiles.
     pub candidates: u64,
     pub accuracy: Accuracy,
+    /// The error that is left by cause, where superpixels were measured.
+    pub left: Option<Split>,
+    /// RMSE against the second reference, as a display shows it.
+    pub rmse_sample_footprint: Option<f64>,
 }
 
 impl Results {

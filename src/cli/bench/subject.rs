@@ -6,11 +6,11 @@ use super::progress::Progress;
 use super::results::{Row, SceneResults};
 use crate::cli::input;
 use crate::cli::render::{Antialiasing, CameraArgs, choose_views};
-use gpc::bench::{self, Cache, Contender, Fingerprint, Yardstick};
+use gpc::bench::{self, Cache, Cause, Contender, Fingerprint, Yardstick};
 use gpc::camera::Camera;
 use gpc::output::{DecodedImage, Picture};
 use gpc::reference::srgb;
-use gpc::render::{Headless, PreparedScene, RenderError, Rendered, Settings};
+use gpc::render::{Footprint, Headless, PreparedScene, RenderError, Rendered, Settings};
 use gpc::scene::{Geometry, PoseRequest};
 use std::path::Path;
 use std::time::Instant;
@@ -48,11 +48,16 @@ impl Bench<'_> {
         let settings = self.settings(Antialiasing::None, 1);
         let (reference, reference_seconds) = self.reference(&subject, &settings)?;
         let (_, one_sample) = self.warm_up(&subject, &settings)?;
-        let yardstick = Yardstick::new(
-            &Picture::new(settings.size, &reference)?,
-            &Picture::new(settings.size, &one_sample.colors)?,
-        )?;
-        drop(reference);
+        let triangles = one_sample.statistics.triangles.total;
+        let one_sample = Picture::new(settings.size, &one_sample.colors)?;
+        let reference = Picture::new(settings.size, &reference)?;
+        let yardstick = Yardstick::new(&reference, &one_sample)?;
+        let finer = self.finer_reference(&subject, &settings, &one_sample)?;
+        let texture_filtering = match &finer {
+            Some(finer) => Some(finer.measure(&reference)?.rmse),
+            None => None,
+        };
+        let causes = self.causes(&subject)?;
 
         let shown = self.shown_samples();
         let mut notes = Notes::default();
@@ -84,6 +89,14 @@ impl Bench<'_> {
                         / rendered.colors.len() as f64,
                     candidates: statistics.candidates,
                     accuracy: yardstick.measure(&picture)?,
+                    left: match &causes {
+                        Some(causes) => Some(yardstick.split(&picture, causes)?),
+                        None => None,
+                    },
+                    rmse_sample_footprint: match &finer {
+                        Some(finer) => Some(finer.measure(&picture)?.rmse),
+                        None => None,
+                    },
                 },
                 contender,
             });
@@ -91,8 +104,9 @@ impl Bench<'_> {
         let scene = SceneResults {
             name,
             file: path.display().to_string(),
-            triangles: one_sample.statistics.triangles.total,
+            triangles,
             reference_seconds,
+            texture_filtering,
             notes: notes.lines(),
             rows: self.time(&subject, entries)?,
         };
@@ -133,6 +147,45 @@ impl Bench<'_> {
             .filter(|(method, _)| *method == Antialiasing::Superpixel)
             .map(|(_, samples)| *samples);
         counts.max_by_key(|samples| (*samples == Settings::DEFAULT_SAMPLES, *samples))
+    }
+
+    /// Measures against the second reference, if that is wanted.
+    fn finer_reference(
+        &mut self,
+        subject: &Subject,
+        settings: &Settings,
+        one_sample: &Picture<'_>,
+    ) -> anyhow::Result<Option<Yardstick>> {
+        if !self.args.sample_footprint {
+            return Ok(None);
+        }
+        let settings = Settings {
+            footprint: Footprint::Sample,
+            ..settings.clone()
+        };
+        let (finer, _) = self.reference(subject, &settings)?;
+        let finer = Picture::new(settings.size, &finer)?;
+        Ok(Some(Yardstick::new(&finer, one_sample)?))
+    }
+
+    /// Why pixels err, if superpixels are measured.
+    fn causes(&mut self, subject: &Subject) -> anyhow::Result<Option<Vec<Cause>>> {
+        let Some(samples) = self.shown_samples() else {
+            return Ok(None);
+        };
+        let settings = self.settings(Antialiasing::Superpixel, samples);
+        let progress = &self.progress;
+        let mut looks = 0;
+        Ok(Some(bench::causes(
+            &mut self.headless,
+            &subject.prepared,
+            &subject.camera,
+            &settings,
+            || {
+                looks += 1;
+                progress.say(&format!("what pixels hold, {looks} of {}", bench::LOOKS));
+            },
+        )?))
     }
 
     /// The reference, and how many seconds it took unless it was there already.
