@@ -7,6 +7,7 @@
 mod accuracy;
 mod cache;
 mod causes;
+mod growth;
 mod reference;
 mod spread;
 mod timing;
@@ -14,6 +15,7 @@ mod timing;
 pub use accuracy::{Accuracy, Yardstick};
 pub use cache::{Cache, Fingerprint};
 pub use causes::{Cause, LOOKS, Split, causes};
+pub use growth::{Growth, Step};
 pub use reference::{GRID_SAMPLES, MAX_REFERENCE_SAMPLES, brute_force};
 pub use spread::Spread;
 pub use timing::{Contender, Cost, PassCost, take_turns};

@@ -2,6 +2,7 @@
 
 mod args;
 mod gallery;
+mod growth;
 mod html;
 mod machine;
 mod pictures;
@@ -15,7 +16,7 @@ pub use args::BenchArgs;
 
 use super::{exit, input};
 use anyhow::Context;
-use gpc::bench::Cache;
+use gpc::bench::{Cache, Growth};
 use gpc::output;
 use gpc::render::{Headless, HeadlessOptions};
 use progress::Progress;
@@ -40,7 +41,9 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
         })?,
         cache: Cache::new(&cache),
         args,
-        progress: Progress::new(args.scenes.len()),
+        progress: Progress::new(
+            args.scenes.len() + if args.growth { Growth::ALL.len() } else { 0 },
+        ),
     };
     let mut results = Results::new(args, bench.headless.gpu().limits());
     let mut galleries = Vec::new();
@@ -52,6 +55,14 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
         // Again after each scene, so that what was measured survives a failure.
         results.summary = summary::summarize(&results.scenes);
         write(&args.out, &results, &galleries)?;
+    }
+    if args.growth {
+        for growth in Growth::ALL {
+            let curve = bench.grow(growth)?;
+            bench.progress.suspend(|| growth::print(&curve))?;
+            results.growth.push(curve);
+            write(&args.out, &results, &galleries)?;
+        }
     }
     bench.progress.finish();
     table::print_summary(&results.summary)?;

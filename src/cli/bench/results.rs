@@ -4,7 +4,7 @@ use super::BenchArgs;
 use super::machine::{self, Machine};
 use super::summary::AtSamples;
 use crate::cli::render::Antialiasing;
-use gpc::bench::{Accuracy, Cost, Split};
+use gpc::bench::{Accuracy, Cost, Split, Spread};
 use gpc::vulkan::Limits;
 use serde::Serialize;
 
@@ -24,6 +24,40 @@ pub struct Results {
     pub budget_seconds: f64,
     pub summary: Vec<AtSamples>,
     pub scenes: Vec<SceneResults>,
+    /// Time against the size of things.
+    pub growth: Vec<Curve>,
+}
+
+/// What it costs that one quantity grows.
+#[derive(Serialize)]
+pub struct Curve {
+    pub quantity: String,
+    pub points: Vec<Point>,
+    /// What was left out, and why.
+    pub notes: Vec<String>,
+}
+
+/// One scene of a curve.
+#[derive(Serialize)]
+pub struct Point {
+    /// The quantity that grows.
+    pub value: f64,
+    pub size: [u32; 2],
+    pub triangles: u64,
+    /// Share of the pixels that are superpixels, where these were rendered.
+    pub superpixel_fraction: Option<f64>,
+    pub times: Vec<Time>,
+}
+
+/// What a method took.
+#[derive(Serialize)]
+pub struct Time {
+    pub method: Antialiasing,
+    pub samples: u32,
+    /// Milliseconds on the device.
+    pub gpu_ms: Spread,
+    /// Milliseconds by the clock.
+    pub wall_ms: Spread,
 }
 
 /// What was measured of one scene.
@@ -76,7 +110,16 @@ impl Results {
             budget_seconds: args.budget,
             summary: Vec::new(),
             scenes: Vec::new(),
+            growth: Vec::new(),
         }
+    }
+}
+
+impl Point {
+    /// The median of what a method took on the device, in milliseconds.
+    pub fn ms(&self, method: Antialiasing) -> Option<f64> {
+        let time = self.times.iter().find(|time| time.method == method)?;
+        Some(time.gpu_ms.median)
     }
 }
 

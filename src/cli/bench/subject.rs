@@ -130,13 +130,7 @@ impl Bench<'_> {
     }
 
     fn settings(&self, method: Antialiasing, samples: u32) -> Settings {
-        let [width, height] = self.args.size;
-        Settings {
-            method: method.method(),
-            samples,
-            background: Some(BACKGROUND.map(|value| srgb::decode(value) as f32)),
-            ..Settings::new(width, height)
-        }
+        settings(method, samples, self.args.size)
     }
 
     /// Samples of the superpixels that the report shows: the default number, or else the most there are.
@@ -268,6 +262,16 @@ impl Bench<'_> {
                 ..row
             })
             .collect())
+    }
+}
+
+/// What a method is rendered with.
+pub fn settings(method: Antialiasing, samples: u32, [width, height]: [u32; 2]) -> Settings {
+    Settings {
+        method: method.method(),
+        samples,
+        background: Some(BACKGROUND.map(|value| srgb::decode(value) as f32)),
+        ..Settings::new(width, height)
     }
 }
 
