@@ -10,6 +10,7 @@ mod causes;
 mod growth;
 mod reference;
 mod spread;
+pub mod stress;
 mod timing;
 
 pub use accuracy::{Accuracy, Yardstick};

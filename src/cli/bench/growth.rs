@@ -31,22 +31,8 @@ impl Bench<'_> {
             let Some(step) = growth.step(index, self.args.size) else {
                 break;
             };
-            match self.point(&step, &methods) {
-                Ok(point) => {
-                    methods.retain(|(method, _)| {
-                        let fits = point
-                            .ms(*method)
-                            .is_some_and(|ms| 1e-3 * ms <= self.args.budget);
-                        if !fits {
-                            curve.notes.push(format!(
-                                "{method} ends at {}: a frame takes longer than {} s",
-                                point.value, self.args.budget
-                            ));
-                        }
-                        fits
-                    });
-                    curve.points.push(point);
-                }
+            match self.point(&step, &mut methods, &mut curve.notes) {
+                Ok(point) => curve.points.push(point),
                 Err(error) => {
                     curve
                         .notes
@@ -58,27 +44,34 @@ impl Bench<'_> {
         Ok(curve)
     }
 
+    /// Measures a scene, and takes methods that can go no further out of the list.
     fn point(
         &mut self,
         step: &Step,
-        methods: &[(Antialiasing, u32)],
+        methods: &mut Vec<(Antialiasing, u32)>,
+        notes: &mut Vec<String>,
     ) -> Result<Point, RenderError> {
         let prepared = self.headless.upload(&step.scene, &step.pose, None)?;
         let pixels = f64::from(step.size[0]) * f64::from(step.size[1]);
         let mut contenders = Vec::new();
         let mut superpixel_fraction = None;
-        for (method, samples) in methods {
-            let (contender, rendered) = Contender::warm_up(
-                &mut self.headless,
-                &prepared,
-                &step.camera,
-                &settings(*method, *samples, step.size),
-            )?;
-            if *method == Antialiasing::Superpixel {
-                superpixel_fraction = Some(rendered.statistics.superpixels as f64 / pixels);
+        methods.retain(|(method, samples)| {
+            let settings = settings(*method, *samples, step.size);
+            let headless = &mut self.headless;
+            match Contender::warm_up(headless, &prepared, &step.camera, &settings) {
+                Ok((contender, rendered)) => {
+                    if *method == Antialiasing::Superpixel {
+                        superpixel_fraction = Some(rendered.statistics.superpixels as f64 / pixels);
+                    }
+                    contenders.push(contender);
+                    true
+                }
+                Err(error) => {
+                    notes.push(format!("{method} ends before {}: {error}", step.value));
+                    false
+                }
             }
-            contenders.push(contender);
-        }
+        });
         bench::take_turns(
             &mut self.headless,
             &prepared,
@@ -88,23 +81,37 @@ impl Bench<'_> {
             self.args.budget(),
             |_| {},
         )?;
-        let times = methods.iter().zip(&contenders);
+        let times: Vec<_> = methods
+            .iter()
+            .zip(&contenders)
+            .map(|((method, samples), contender)| {
+                let cost = contender.cost();
+                Time {
+                    method: *method,
+                    samples: *samples,
+                    gpu_ms: cost.gpu_ms,
+                    wall_ms: cost.wall_ms,
+                }
+            })
+            .collect();
+        let budget = self.args.budget;
+        methods.retain(|(method, _)| {
+            let ms = times.iter().find(|time| time.method == *method);
+            let fits = ms.is_some_and(|time| 1e-3 * time.wall_ms.min <= budget);
+            if !fits {
+                notes.push(format!(
+                    "{method} ends at {}: a frame takes longer than {budget} s",
+                    step.value
+                ));
+            }
+            fits
+        });
         Ok(Point {
             value: step.value,
             size: step.size,
             triangles: step.pose.geometry.triangles.len() as u64,
             superpixel_fraction,
-            times: times
-                .map(|((method, samples), contender)| {
-                    let cost = contender.cost();
-                    Time {
-                        method: *method,
-                        samples: *samples,
-                        gpu_ms: cost.gpu_ms,
-                        wall_ms: cost.wall_ms,
-                    }
-                })
-                .collect(),
+            times,
         })
     }
 }
