@@ -1,0 +1,58 @@
+//! Counting how often samples are hit.
+
+use super::stage::{Stage, flat};
+use crate::camera::Camera;
+use crate::render::{Headless, RenderError, Settings};
+use crate::scene::AlphaMode;
+
+/// Samples that were looked at, that nothing covered, and hits beyond the first of a sample.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Hits {
+    pub samples: u64,
+    pub holes: f64,
+    pub doubles: f64,
+}
+
+impl Hits {
+    pub fn add(&mut self, other: Self) {
+        self.samples += other.samples;
+        self.holes += other.holes;
+        self.doubles += other.doubles;
+    }
+}
+
+/// Counts the hits of a stage's triangles in the pixels that `counts` names by column and row.
+///
+/// Opacity is coverage: where all triangles are opaque, a pixel's alpha is the share of samples hit. Where all let one
+/// half through, samples hit once weigh a half and those hit twice three quarters.
+pub(super) fn count(
+    headless: &mut Headless,
+    stage: &Stage,
+    settings: &Settings,
+    camera: &Camera,
+    counts: impl Fn([u32; 2]) -> bool,
+) -> Result<Hits, RenderError> {
+    let mut alphas = |opacity: f32, mode: AlphaMode| {
+        let stage = Stage {
+            materials: vec![flat([1.0, 1.0, 1.0, opacity], mode)],
+            ..stage.clone()
+        };
+        stage.seen_by(headless, settings, camera)
+    };
+    let opaque = alphas(1.0, AlphaMode::Opaque)?;
+    let halves = alphas(0.5, AlphaMode::Blend)?;
+    let samples = f64::from(settings.samples);
+    let mut hits = Hits::default();
+    for (pixel, (opaque, half)) in (0..).zip(opaque.colors.iter().zip(&halves.colors)) {
+        let [width, _] = settings.size;
+        if !counts([pixel % width, pixel / width]) {
+            continue;
+        }
+        let [opaque, half] = [opaque, half].map(|color| f64::from(color[3]));
+        hits.samples += u64::from(settings.samples);
+        // Means that are not of a power of two are rounded, by far less than the weight of a sample.
+        hits.holes += (samples * (1.0 - opaque)).round().abs();
+        hits.doubles += (samples * (half - 0.5 * opaque) / 0.25).round().abs();
+    }
+    Ok(hits)
+}
