@@ -5,19 +5,22 @@ use crate::camera::Camera;
 use crate::render::{Headless, RenderError, Settings};
 use crate::scene::AlphaMode;
 
-/// Samples that were looked at, that nothing covered, and hits beyond the first of a sample.
+/// What was counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Hits {
+    /// Samples that were looked at.
     pub samples: u64,
+    /// Samples that no opaque triangle covers.
     pub holes: f64,
-    pub doubles: f64,
+    /// Hits of translucent triangles by which samples differ from those that opaque triangles cover once.
+    pub excess: f64,
 }
 
 impl Hits {
     pub fn add(&mut self, other: Self) {
         self.samples += other.samples;
         self.holes += other.holes;
-        self.doubles += other.doubles;
+        self.excess += other.excess;
     }
 }
 
@@ -52,7 +55,7 @@ pub(super) fn count(
         hits.samples += u64::from(settings.samples);
         // Means that are not of a power of two are rounded, by far less than the weight of a sample.
         hits.holes += (samples * (1.0 - opaque)).round().abs();
-        hits.doubles += (samples * (half - 0.5 * opaque) / 0.25).round().abs();
+        hits.excess += (samples * (half - 0.5 * opaque) / 0.25).round().abs();
     }
     Ok(hits)
 }

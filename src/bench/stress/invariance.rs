@@ -35,14 +35,14 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
         findings.push(same(format!("vertices turned by {turns}"), &first, &image));
     }
     let used = first.statistics.memory_bytes;
-    for share in [2, 4] {
+    for quarters in [3, 2] {
         let less = Settings {
-            max_memory: Some(used / share),
+            max_memory: Some(used / 4 * quarters),
             ..settings.clone()
         };
         let image = stage.render(headless, &less)?;
         let regions = image.statistics.regions;
-        let case = format!("1/{share} of the memory, {regions} regions");
+        let case = format!("{quarters}/4 of the memory, {regions} regions");
         findings.push(same(case, &first, &image));
     }
     Ok(findings)

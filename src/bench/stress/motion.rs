@@ -13,7 +13,7 @@ const ENERGY: f64 = 0.01;
 const WIDTHS: [f64; 3] = [0.1, 0.3, 0.8];
 /// Degrees between the wires and the vertical.
 const LEANS: [f64; 4] = [0.5, 3.0, 11.0, 27.0];
-/// Pixels between the wires' middles.
+/// Pixels between the wires' middles; the most slanted moves by less than half of it from the image's middle to its side.
 const PITCH: f64 = 60.0;
 
 pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Finding>, RenderError> {
@@ -62,7 +62,7 @@ struct Wires {
 
 impl Wires {
     fn new(width: f64) -> Self {
-        let size = [(PITCH * LEANS.len() as f64) as u32, 48];
+        let size = [(PITCH * LEANS.len() as f64) as u32, 96];
         let mut stage = Stage::new(vec![flat([1.0; 4], AlphaMode::Opaque)]);
         let mut energy = 0.0;
         for (index, lean) in LEANS.into_iter().enumerate() {

@@ -67,7 +67,7 @@ fn of_mesh(
 pub(super) fn report(findings: &mut Vec<Finding>, case: &str, hits: Hits) {
     for (unit, measured) in [
         ("samples without a hit", hits.holes),
-        ("hits too many", hits.doubles),
+        ("hits other than one", hits.excess),
     ] {
         findings.push(Finding {
             case: case.to_owned(),
