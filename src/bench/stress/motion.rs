@@ -13,14 +13,15 @@ const ENERGY: f64 = 0.01;
 const WIDTHS: [f64; 3] = [0.1, 0.3, 0.8];
 /// Degrees between the wires and the vertical.
 const LEANS: [f64; 4] = [0.5, 3.0, 11.0, 27.0];
-/// Pixels between the wires' middles; the most slanted moves by less than half of it from the image's middle to its side.
-const PITCH: f64 = 60.0;
+/// Distance between the wires' middles in heights of the image, so that the most slanted stays within it.
+const PITCH: f64 = 0.625;
 
 pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Finding>, RenderError> {
-    let frames = length.choose(8, 64);
+    let frames = length.choose(8, 32);
+    let height = length.choose(96, 384);
     let mut findings = Vec::new();
     for width in WIDTHS {
-        let scene = Wires::new(width);
+        let scene = Wires::new(width, height);
         for (name, method, samples, allowed) in [
             ("one sample", Method::None, 1, None),
             ("msaa 4", Method::Msaa, 4, None),
@@ -61,12 +62,13 @@ struct Wires {
 }
 
 impl Wires {
-    fn new(width: f64) -> Self {
-        let size = [(PITCH * LEANS.len() as f64) as u32, 96];
+    fn new(width: f64, height: u32) -> Self {
+        let pitch = PITCH * f64::from(height);
+        let size = [(pitch * LEANS.len() as f64) as u32, height];
         let mut stage = Stage::new(vec![flat([1.0; 4], AlphaMode::Opaque)]);
         let mut energy = 0.0;
         for (index, lean) in LEANS.into_iter().enumerate() {
-            let middle = (index as f64 + 0.5) * PITCH - f64::from(size[0]) / 2.0;
+            let middle = (index as f64 + 0.5) * pitch - f64::from(size[0]) / 2.0;
             let slope = lean.to_radians().tan();
             // Its width along a row.
             let across = width / lean.to_radians().cos();

@@ -13,12 +13,12 @@ use std::time::Duration;
 /// Every scene is rendered as by `gpc render`, before a light grey background, by every method at every number of
 /// samples that it can have: once to warm up and then R times, the methods taking turns. Each image is held against
 /// brute force at thousands of samples a pixel, which is kept on disk for the next run. With --growth, scenes made for
-/// it show what grows with what. OUT then holds results.json, results.csv and report.html, written anew after each
+/// it show what grows with what; with --stress, geometry that is hard on a rasterizer shows what holds. OUT then holds results.json, results.csv and report.html, written anew after each
 /// scene.
 #[derive(Args)]
 pub struct BenchArgs {
     /// .glb or .gltf files
-    #[arg(value_name = "SCENE", required_unless_present = "growth")]
+    #[arg(value_name = "SCENE", required_unless_present_any = ["growth", "stress"])]
     pub scenes: Vec<PathBuf>,
     /// Folder for the results
     #[arg(short, long, value_name = "DIR")]
@@ -48,6 +48,9 @@ pub struct BenchArgs {
     /// Time also against the number of triangles, of pixels, of superpixels and of layers, in scenes made for it
     #[arg(long)]
     pub growth: bool,
+    /// Run the stress suite too: what must hold of images whatever the geometry
+    #[arg(long)]
+    pub stress: bool,
     /// Frames to time, at most
     #[arg(long, value_name = "R", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..))]
     pub repeat: u32,

@@ -8,6 +8,7 @@ mod machine;
 mod pictures;
 mod progress;
 mod results;
+mod stress;
 mod subject;
 mod summary;
 mod table;
@@ -16,6 +17,7 @@ pub use args::BenchArgs;
 
 use super::{exit, input};
 use anyhow::Context;
+use gpc::bench::stress::Check;
 use gpc::bench::{Cache, Growth};
 use gpc::output;
 use gpc::render::{Headless, HeadlessOptions};
@@ -34,6 +36,9 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
     };
     std::fs::create_dir_all(&args.out)
         .with_context(|| format!("{}: the folder can't be made", args.out.display()))?;
+    let curves = if args.growth { Growth::ALL.len() } else { 0 };
+    let checks = if args.stress { Check::ALL.len() } else { 0 };
+    let parts = args.scenes.len() + curves + checks;
     let mut bench = Bench {
         headless: Headless::new(&HeadlessOptions {
             device: args.device.clone(),
@@ -41,9 +46,7 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
         })?,
         cache: Cache::new(&cache),
         args,
-        progress: Progress::new(
-            args.scenes.len() + if args.growth { Growth::ALL.len() } else { 0 },
-        ),
+        progress: Progress::new(parts),
     };
     let mut results = Results::new(args, bench.headless.gpu().limits());
     let mut galleries = Vec::new();
@@ -61,6 +64,14 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
             let curve = bench.grow(growth)?;
             bench.progress.suspend(|| growth::print(&curve))?;
             results.growth.push(curve);
+            write(&args.out, &results, &galleries)?;
+        }
+    }
+    if args.stress {
+        for check in Check::ALL {
+            let stress = bench.stress(check)?;
+            bench.progress.suspend(|| stress::print(&stress))?;
+            results.stress.push(stress);
             write(&args.out, &results, &galleries)?;
         }
     }

@@ -4,6 +4,7 @@ use super::BenchArgs;
 use super::machine::{self, Machine};
 use super::summary::AtSamples;
 use crate::cli::render::Antialiasing;
+use gpc::bench::stress::Finding;
 use gpc::bench::{Accuracy, Cost, Split, Spread};
 use gpc::vulkan::Limits;
 use serde::Serialize;
@@ -26,6 +27,16 @@ pub struct Results {
     pub scenes: Vec<SceneResults>,
     /// Time against the size of things.
     pub growth: Vec<Curve>,
+    /// What the stress suite found.
+    pub stress: Vec<Stress>,
+}
+
+/// A part of the stress suite.
+#[derive(Serialize)]
+pub struct Stress {
+    pub about: &'static str,
+    pub seconds: f64,
+    pub findings: Vec<Finding>,
 }
 
 /// What it costs that one quantity grows.
@@ -111,6 +122,7 @@ impl Results {
             summary: Vec::new(),
             scenes: Vec::new(),
             growth: Vec::new(),
+            stress: Vec::new(),
         }
     }
 }

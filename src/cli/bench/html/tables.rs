@@ -224,7 +224,8 @@ fn percent(share: f64) -> String {
     format!("{:.1} %", 100.0 * share)
 }
 
-fn table(head: &str, rows: impl Iterator<Item = String>, caption: &str) -> String {
+/// A table of rows of cells.
+pub fn table(head: &str, rows: impl Iterator<Item = String>, caption: &str) -> String {
     let rows: Vec<_> = rows.collect();
     let caption = if caption.is_empty() {
         String::new()
