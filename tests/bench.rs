@@ -5,7 +5,7 @@ mod cli_support;
 
 use cli_support::{asset, files, gpc};
 use glam::DVec2;
-use gpc::bench::{Yardstick, brute_force, causes};
+use gpc::bench::{Growth, Yardstick, brute_force, causes};
 use gpc::camera::{Camera, Orbit};
 use gpc::output::Picture;
 use gpc::render::{
@@ -168,6 +168,50 @@ fn textures_follow_the_footprint_asked_for() {
     assert!(matches!(refused, Err(RenderError::SampleAttributes)));
 }
 
+/// The scenes of the curves are what they say.
+#[test]
+fn what_grows_is_what_is_said_to() {
+    let mut headless = Headless::new(&HeadlessOptions::default()).unwrap();
+    let size = [320, 180];
+    let pixels = f64::from(size[0] * size[1]);
+    for index in 0..Growth::Superpixels.steps() {
+        let step = Growth::Superpixels.step(index, size).unwrap();
+        let prepared = headless.upload(&step.scene, &step.pose, None).unwrap();
+        let settings = Settings {
+            samples: 4,
+            background: Some([0.8; 3]),
+            ..Settings::new(size[0], size[1])
+        };
+        let mut frame = headless.prepare(&prepared, &settings).unwrap();
+        let image = headless
+            .render(&prepared, &mut frame, &step.camera)
+            .unwrap();
+        let percent = 100.0 * image.statistics.superpixels as f64 / pixels;
+        assert!(
+            (percent - step.value).abs() < 2.0,
+            "{percent} at {}",
+            step.value
+        );
+        assert!(
+            step.value > 0.0 || percent == 0.0,
+            "{percent} without an edge"
+        );
+    }
+    for index in 0..3 {
+        let step = Growth::Triangles.step(index, size).unwrap();
+        let found = step.pose.geometry.triangles.len() as f64;
+        assert!((found / step.value - 1.0).abs() < 0.05, "{found}");
+    }
+    let layers: Vec<_> = (0..Growth::Depth.steps())
+        .filter_map(|index| Growth::Depth.step(index, size))
+        .map(|step| step.value)
+        .collect();
+    assert!(layers.is_sorted() && layers.last() == Some(&64.0));
+    assert!(Growth::Depth.step(layers.len(), size).is_none());
+    let sizes = (0..).map_while(|index| Growth::Pixels.step(index, size));
+    assert_eq!(sizes.last().unwrap().size, [7680, 4320]);
+}
+
 fn bench(folder: &Path) -> Value {
     let scene = asset("letters.glb");
     let arguments = [
@@ -307,7 +351,9 @@ fn wrong_use_is_told_before_anything_is_measured() {
     with(&["--reference", "1000"]).says(&["multiple of 256"]);
     with(&["--samples", "2000"]).says(&["1024"]);
     with(&["--methods", "taa"]).says(&["superpixel"]);
-    gpc(folder.path(), &["bench", "--out", "out"]).exits(2);
+    gpc(folder.path(), &["bench", "--out", "out"])
+        .exits(2)
+        .says(&["SCENE"]);
     gpc(folder.path(), &["bench", "-", "--out", "out"])
         .exits(2)
         .says(&["standard input"]);

@@ -1,7 +1,13 @@
 //! The stress suite, short and under the validation layer.
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use glam::DVec3;
+use gpc::bench::stress::stage::camera;
 use gpc::bench::stress::{Check, Finding, Length};
-use gpc::render::{Headless, HeadlessOptions};
+use gpc::camera::Camera;
+use gpc::render::{Headless, HeadlessOptions, Settings};
+use gpc::scene::{PoseRequest, Scene};
 
 fn headless() -> Headless {
     Headless::new(&HeadlessOptions {
@@ -64,6 +70,63 @@ fn nothing_else_changes_an_image() {
 #[test]
 fn wires_keep_their_energy() {
     hold("motion");
+}
+
+/// A file whose vertices are exact a million units away, and its camera.
+fn far_away(offset: f32) -> (Scene, Camera) {
+    let corner = |x: f32, y: f32, z: f32| [x + offset, y + offset, z - offset];
+    let positions = [
+        corner(-2.0625, -1.0, -4.0),
+        corner(1.9375, -1.5, -4.5),
+        corner(0.1875, 1.8125, -3.5),
+        corner(-1.5, 1.25, -4.25),
+        corner(0.0625, -2.125, -3.75),
+        corner(2.25, 1.0, -4.0),
+    ];
+    let bytes: Vec<u8> = positions
+        .as_flattened()
+        .iter()
+        .flat_map(|v| v.to_le_bytes())
+        .collect();
+    let [low, high] = [f32::min as fn(f32, f32) -> f32, f32::max].map(|pick| {
+        let mut corners = positions.into_iter();
+        let first = corners.next().unwrap();
+        corners.fold(first, |a, b| [0, 1, 2].map(|axis| pick(a[axis], b[axis])))
+    });
+    let file = serde_json::json!({
+        "asset": {"version": "2.0"},
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{
+            "bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3", "min": low, "max": high,
+        }],
+        "bufferViews": [{"buffer": 0, "byteLength": bytes.len()}],
+        "buffers": [{
+            "byteLength": bytes.len(),
+            "uri": format!("data:application/octet-stream;base64,{}", STANDARD.encode(&bytes)),
+        }],
+    });
+    let scene = Scene::from_slice(file.to_string().as_bytes(), "far", None).unwrap();
+    let eye = DVec3::new(1.0, 1.0, -1.0) * f64::from(offset);
+    let camera = Camera { eye, ..camera() };
+    (scene.scene, camera)
+}
+
+/// A file's vertices lose nothing between it and the device, however far from the origin they are.
+#[test]
+fn a_file_far_from_the_origin_is_the_same_picture() {
+    let mut headless = headless();
+    let settings = Settings::new(90, 60);
+    let images = [0.0, 1e6].map(|offset| {
+        let (scene, camera) = far_away(offset);
+        let pose = scene.pose(&PoseRequest::default()).unwrap();
+        let prepared = headless.upload(&scene, &pose, None).unwrap();
+        let mut frame = headless.prepare(&prepared, &settings).unwrap();
+        headless.render(&prepared, &mut frame, &camera).unwrap()
+    });
+    assert!(images[0].statistics.superpixels > 50);
+    assert_eq!(images[0].colors, images[1].colors);
 }
 
 /// Neither what exceeds its bound nor what is no number holds.

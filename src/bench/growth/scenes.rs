@@ -78,8 +78,11 @@ pub(super) fn strips(percentage: u32, size: [u32; 2]) -> Step {
     for strip in 0..count {
         let left = strip as f32 * PITCH - lean;
         // At half of the image's height, where strips have not leant over yet.
-        let alternates =
-            percentage >= 100 || (left + 0.5 * PITCH) * 100.0 < width * percentage as f32;
+        let alternates = match percentage {
+            0 => false,
+            100 => true,
+            share => (left + 0.5 * PITCH) * 100.0 < width * share as f32,
+        };
         let dark = alternates && strip % 2 == 1;
         let color = Vec3::splat(if dark { 0.05 } else { 0.7 });
         mesh.add_grid([1, ROWS], |u, v| {

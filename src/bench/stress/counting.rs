@@ -35,27 +35,34 @@ pub(super) fn count(
     camera: &Camera,
     counts: impl Fn([u32; 2]) -> bool,
 ) -> Result<Hits, RenderError> {
+    let settings = Settings {
+        attributes: true,
+        ..settings.clone()
+    };
     let mut alphas = |opacity: f32, mode: AlphaMode| {
         let stage = Stage {
             materials: vec![flat([1.0, 1.0, 1.0, opacity], mode)],
             ..stage.clone()
         };
-        stage.seen_by(headless, settings, camera)
+        stage.seen_by(headless, &settings, camera)
     };
     let opaque = alphas(1.0, AlphaMode::Opaque)?;
     let halves = alphas(0.5, AlphaMode::Blend)?;
-    let samples = f64::from(settings.samples);
     let mut hits = Hits::default();
-    for (pixel, (opaque, half)) in (0..).zip(opaque.colors.iter().zip(&halves.colors)) {
+    let colors = opaque.colors.iter().zip(&halves.colors);
+    let pixels = opaque.attributes.iter().zip(&halves.attributes);
+    for (pixel, ((opaque, half), seen)) in (0..).zip(colors.zip(pixels)) {
         let [width, _] = settings.size;
         if !counts([pixel % width, pixel / width]) {
             continue;
         }
         let [opaque, half] = [opaque, half].map(|color| f64::from(color[3]));
-        hits.samples += u64::from(settings.samples);
+        // Which pixels are superpixels may depend on the material.
+        let [samples, translucent] = [seen.0, seen.1].map(|seen| f64::from(seen.samples));
+        hits.samples += u64::from(seen.0.samples);
         // Means that are not of a power of two are rounded, by far less than the weight of a sample.
         hits.holes += (samples * (1.0 - opaque)).round().abs();
-        hits.excess += (samples * (half - 0.5 * opaque) / 0.25).round().abs();
+        hits.excess += (translucent * (half - 0.5 * opaque) / 0.25).round().abs();
     }
     Ok(hits)
 }

@@ -17,7 +17,7 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
     let mut findings = Vec::new();
     for samples in COUNTS {
         // About as many samples in each image.
-        let side = length.choose(128, 1024) / samples.isqrt();
+        let side = length.choose(128, 1472) / samples.isqrt();
         let settings = everywhere([side; 2], Pattern::Sobol, samples);
         let mut hits = Hits::default();
         for mesh in tilings(u64::from(samples), f64::from(side) / 2.0) {

@@ -32,7 +32,12 @@ impl Bench<'_> {
                 break;
             };
             match self.point(&step, &mut methods, &mut curve.notes) {
-                Ok(point) => curve.points.push(point),
+                Ok(point) => {
+                    if index + 1 < growth.steps() {
+                        self.drop_slow(&point, &mut methods, &mut curve.notes);
+                    }
+                    curve.points.push(point);
+                }
                 Err(error) => {
                     curve
                         .notes
@@ -42,6 +47,27 @@ impl Bench<'_> {
             }
         }
         Ok(curve)
+    }
+
+    /// Takes methods that would need too long for the next scene out of the list.
+    fn drop_slow(
+        &self,
+        point: &Point,
+        methods: &mut Vec<(Antialiasing, u32)>,
+        notes: &mut Vec<String>,
+    ) {
+        let budget = self.args.budget;
+        methods.retain(|(method, _)| {
+            let time = point.times.iter().find(|time| time.method == *method);
+            let fits = time.is_some_and(|time| 1e-3 * time.wall_ms.min <= budget);
+            if !fits {
+                notes.push(format!(
+                    "{method} ends at {}: a frame takes longer than {budget} s",
+                    point.value
+                ));
+            }
+            fits
+        });
     }
 
     /// Measures a scene, and takes methods that can go no further out of the list.
@@ -94,18 +120,6 @@ impl Bench<'_> {
                 }
             })
             .collect();
-        let budget = self.args.budget;
-        methods.retain(|(method, _)| {
-            let ms = times.iter().find(|time| time.method == *method);
-            let fits = ms.is_some_and(|time| 1e-3 * time.wall_ms.min <= budget);
-            if !fits {
-                notes.push(format!(
-                    "{method} ends at {}: a frame takes longer than {budget} s",
-                    step.value
-                ));
-            }
-            fits
-        });
         Ok(Point {
             value: step.value,
             size: step.size,

@@ -113,3 +113,42 @@ fn table(curve: &Curve) -> String {
         "",
     ) + &notes
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cli::bench::results::Time;
+    use gpc::bench::Spread;
+
+    #[test]
+    fn a_method_that_ends_early_has_a_shorter_line() {
+        let time = |method, ms| Time {
+            method,
+            samples: 64,
+            gpu_ms: Spread::of([ms]),
+            wall_ms: Spread::of([ms]),
+        };
+        let point = |value, times| Point {
+            value,
+            size: [640, 360],
+            triangles: 2,
+            superpixel_fraction: None,
+            times,
+        };
+        let curve = Curve {
+            quantity: "superpixels, %".to_owned(),
+            points: vec![
+                point(
+                    0.0,
+                    vec![time(Antialiasing::None, 2.0), time(Antialiasing::Ssaa, 8.0)],
+                ),
+                point(50.0, vec![time(Antialiasing::None, 3.0)]),
+            ],
+            notes: vec!["ssaa ends".to_owned()],
+        };
+        let section = section(&[curve]);
+        assert_eq!(section.matches("<title>none at").count(), 2, "{section}");
+        assert_eq!(section.matches("<title>ssaa at").count(), 1, "{section}");
+        assert!(section.contains("ssaa ends") && !section.contains("NaN"));
+    }
+}

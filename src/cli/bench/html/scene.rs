@@ -1,6 +1,6 @@
 //! The section of one scene.
 
-use super::{bars, curves, escape, tables};
+use super::{bars, curves, escape, tables, thousands};
 use crate::cli::bench::gallery::{Gallery, Part, Version};
 use crate::cli::bench::results::SceneResults;
 
@@ -45,28 +45,4 @@ fn figure(class: &str, version: &Version) -> String {
     format!(
         "<figure{class}><img alt=\"{caption}\" src=\"{data}\"><figcaption>{caption}</figcaption></figure>"
     )
-}
-
-fn thousands(number: u64) -> String {
-    let digits = number.to_string();
-    let mut text = String::new();
-    for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::thousands;
-
-    #[test]
-    fn commas_part_thousands() {
-        assert_eq!(thousands(7), "7");
-        assert_eq!(thousands(123_456), "123,456");
-        assert_eq!(thousands(1_000_000), "1,000,000");
-    }
 }

@@ -1,6 +1,6 @@
 //! The section on the stress suite.
 
-use super::escape;
+use super::{escape, thousands};
 use crate::cli::bench::results::Stress;
 use crate::cli::bench::stress::{figure, verdict};
 use gpc::bench::stress::Finding;
@@ -27,7 +27,7 @@ fn part(stress: &Stress) -> String {
         format!(
             "<tr><th class=\"name\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td class=\"name\">{}</td></tr>",
             escape(&finding.case),
-            finding.checked,
+            thousands(finding.checked),
             figure(finding.measured),
             finding.allowed.map_or_else(|| "–".to_owned(), figure),
             verdict(finding),
@@ -47,9 +47,42 @@ fn part(stress: &Stress) -> String {
         "",
     );
     format!(
-        "<details{open}><summary>{}: {} findings, {checked} checked in {:.0} s</summary>{table}</details>\n",
+        "<details{open}><summary>{}: {} findings, {} checked in {:.0} s</summary>{table}</details>\n",
         escape(stress.about),
         stress.findings.len(),
+        thousands(checked),
         stress.seconds
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_fails_is_shown_open() {
+        let finding = |measured| Finding {
+            case: "a < b".to_owned(),
+            checked: 12_345,
+            unit: "pixels",
+            measured,
+            allowed: Some(1.0),
+        };
+        let stress = |measured| Stress {
+            about: "order",
+            seconds: 1.0,
+            findings: vec![finding(0.5), finding(measured)],
+        };
+        let [good, bad] = [0.0, 2.0].map(|measured| section(&[stress(measured)]));
+        assert!(
+            good.contains("0 exceeded") && !good.contains("FAILS"),
+            "{good}"
+        );
+        assert!(
+            bad.contains("1 exceeded") && bad.contains("<details open>"),
+            "{bad}"
+        );
+        assert!(bad.contains("a &lt; b") && bad.contains("12,345"), "{bad}");
+        assert_eq!(section(&[]), "");
+    }
 }
