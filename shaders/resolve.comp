@@ -13,6 +13,7 @@ layout(constant_id = 2) const uint BLOCK = 256u;
 layout(constant_id = 3) const bool CHAINED = false;
 layout(constant_id = 4) const uint LIST = 0u;
 layout(constant_id = 5) const bool DISPLAY_CODES = false;
+layout(constant_id = 6) const bool PROBED = false;      // cells that are not marked have one block
 
 // One sample's layers, from its opaque surface on.
 vec4 composite(uint node) {
@@ -75,17 +76,18 @@ void main() {
         uint cell = uint(bitCount(word & ((1u << bit) - 1u)));
         vec4 sum = vec4(0.0);
         float covered = 0.0;
+        uint filled = PROBED && (marks[tile] >> bit & 1u) == 0u ? 1u : blocks;
         uint block = 0u;
         do {
             uvec2 h = mine ? headers[min(first_header + cell * blocks + block, frame.record_capacity - 1u)] : uvec2(0u);
             for (uint r = 0u; r < h.y; r++) {
-                float weight = float(texelFetch(records, int(h.x + r)).w);
+                float weight = uintBitsToFloat(texelFetch(records, int(h.x + r)).w);
                 uint id = texelFetch(records, int(h.x + r)).y;
                 weight = id == 0u ? 0.0 : weight;
                 sum += id == 0u ? vec4(0.0) : weight * to_output(vec4(texelFetch(shaded, int(h.x + r)).rgb, 1.0));
                 covered += weight;
             }
-        } while (++block < blocks);
+        } while (++block < filled);
         sum = (sum + frame.background * (float(frame.sample_count) - covered)) * share;
         if (mine) write(corner + uvec2(bit & 7u, bit >> 3), sum);
     }

@@ -32,6 +32,8 @@ impl Resolve {
                         list,
                         sample.block(list),
                         chained,
+                        sample.options().probes()
+                            && matches!(list, TileList::Plain | TileList::Masked),
                         display_codes,
                         output,
                     )?,
@@ -56,6 +58,7 @@ impl Resolve {
             TileList::Plain,
             samples,
             false,
+            false,
             display_codes,
             output,
         )?;
@@ -69,6 +72,7 @@ impl Resolve {
         list: TileList,
         block: u32,
         chained: bool,
+        probed: bool,
         display_codes: bool,
         output: &Constants,
     ) -> Result<Arc<Pipeline>, VulkanError> {
@@ -80,7 +84,8 @@ impl Resolve {
             .with(2, block)
             .flag(3, chained)
             .with(4, list as u32)
-            .flag(5, display_codes);
+            .flag(5, display_codes)
+            .flag(6, probed);
         layout.compute(spirv::RESOLVE, &constants, Some(lanes))
     }
 

@@ -1,10 +1,10 @@
 //! The sampling engine: from a mask of cells to their colours, in rounds.
 
 use super::plan::Plan;
-use super::{RenderError, Settings, Shading};
+use super::{Coverage, RenderError, Settings, Shading};
 use crate::passes::{
-    Bin, Cull, Detect, DetectMode, FrameLayout, GpuScene, Resolve, Resources, Sample, Schedule,
-    Setup, Shade, ShadeSource, Sort, Thin,
+    Bin, Cull, Detect, DetectMode, FrameLayout, GpuScene, RecordRate, Resolve, Resources, Sample,
+    SampleOptions, Schedule, Setup, Shade, ShadeSource, Sort, Thin,
 };
 use crate::vulkan::{Constants, Recorder};
 use std::sync::Arc;
@@ -47,13 +47,19 @@ impl Engine {
         output: &Constants,
         kind: &EngineKind,
     ) -> Result<Self, RenderError> {
-        let per_sample = settings.shading == Shading::Sample;
         let sample = Sample::new(
             layout,
-            kind.samples,
-            per_sample,
-            scene.has_mask(),
-            scene.has_blend(),
+            &SampleOptions {
+                samples: kind.samples,
+                records: match settings.shading {
+                    Shading::Part if scene.has_glossy() => RecordRate::Part,
+                    Shading::Triangle | Shading::Part => RecordRate::Triangle,
+                    Shading::Sample => RecordRate::Sample,
+                },
+                exact_areas: settings.coverage == Coverage::Area && kind.samples > 1,
+                has_mask: scene.has_mask(),
+                has_blend: scene.has_blend(),
+            },
         )?;
         Ok(Self {
             thin: kind
@@ -70,7 +76,7 @@ impl Engine {
             )?,
             cull: Cull::new(layout)?,
             bin: Bin::new(layout)?,
-            schedule: Schedule::new(layout, &sample, per_sample, plan.layers)?,
+            schedule: Schedule::new(layout, &sample, plan.layers)?,
             setup: Setup::new(layout)?,
             sort: Sort::new(layout, scene.bin_count() == 1)?,
             shade: shade.clone(),
@@ -124,6 +130,10 @@ impl Engine {
         recorder.mark("cull");
         self.bin.record(recorder, arguments);
         recorder.mark("bin");
+        if self.sample.options().probes() {
+            recorder.clear(&resources.marks);
+            recorder.barrier();
+        }
         for _ in 0..rounds {
             self.schedule.record(recorder);
             recorder.mark("schedule");

@@ -8,9 +8,10 @@ use super::{Detection, Footprint, Method, PassTime, Reference, RenderError, Sett
 use crate::camera::{Camera, Projection};
 use crate::passes::{
     Attributes, BoxFilter, Counter, DetectMode, Encode, Encoding, FrameLayout, FrameUniform,
-    GpuScene, Multisample, Raster, RasterTargets, Resolve, Resources, Shade, ShadeSource, Sort,
-    Spans, Transform,
+    GpuScene, Locations, Multisample, Raster, RasterTargets, Resolve, Resources, Sample, Shade,
+    ShadeSource, Sort, Spans, Transform,
 };
+use crate::sampling::Pattern;
 use crate::vulkan::{Buffer, Constants, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;
 use std::sync::Arc;
@@ -115,14 +116,25 @@ impl Frame {
         let multisampled = settings.method == Method::Msaa;
         let [width, height] = plan.sizes.region;
         let targets = RasterTargets::new(&memory, width, height, samples, has_blend)?;
-        let locations = settings.locations()?;
+        let mut locations = settings.locations()?;
+        let sample_count = locations.len() as u32;
+        locations.extend(Pattern::Sobol.offsets(Sample::PROBES)?);
         let resources = Resources::new(
             layout,
             &memory,
             scene,
             &targets,
             plan.sizes,
-            &[&[[0.0, 0.0]], &locations],
+            &[
+                Locations {
+                    all: &[[0.0, 0.0]],
+                    count: 1,
+                },
+                Locations {
+                    all: &locations,
+                    count: sample_count,
+                },
+            ],
         )?;
 
         let display = settings.reference == Reference::Display;

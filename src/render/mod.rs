@@ -15,5 +15,5 @@ pub use error::RenderError;
 pub use frame::{Frame, ImageState, Target};
 pub use headless::{Headless, HeadlessOptions, PixelAttributes, Rendered};
 pub use renderer::{PreparedScene, Renderer};
-pub use settings::{Detection, Footprint, Method, Reference, Settings, Shading};
+pub use settings::{Coverage, Detection, Footprint, Method, Reference, Settings, Shading};
 pub use statistics::{PassTime, Statistics, TriangleCounts};

@@ -6,7 +6,9 @@
 
 use super::{Mesh, Random};
 use crate::camera::{Camera, Projection};
-use crate::render::{Detection, Headless, Method, Reference, RenderError, Rendered, Settings};
+use crate::render::{
+    Coverage, Detection, Headless, Method, Reference, RenderError, Rendered, Settings, Shading,
+};
 use crate::sampling::Pattern;
 use crate::scene::{
     AlphaMode, Draw, DrawClass, Geometry, Image, Material, Pose, Sampler, Scene, Texture,
@@ -270,6 +272,8 @@ pub fn everywhere(size: [u32; 2], pattern: Pattern, samples: u32) -> Settings {
         method: Method::Superpixel,
         samples,
         pattern,
+        coverage: Coverage::Samples,
+        shading: Shading::Triangle,
         detection: Detection::Every,
         reference: Reference::Scene,
         tonemapped_detection: false,

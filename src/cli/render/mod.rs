@@ -129,6 +129,7 @@ fn settings(args: &RenderArgs, format: Format) -> Settings {
         method: args.sampling.aa.method(),
         samples: args.sampling.samples(),
         pattern: args.sampling.pattern.clone(),
+        coverage: args.sampling.coverage.coverage(),
         shading: args.sampling.shading.shading(),
         detection: args.sampling.detect.detection(),
         contrast: args.sampling.contrast,
