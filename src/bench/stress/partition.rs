@@ -1,14 +1,17 @@
 //! Partition of unity: each sample of a tiling is hit, and hit once.
 
-use super::counting::{Hits, count};
+use super::counting::{Hits, count, worst_cover};
 use super::meshes::{ground, tilings};
 use super::stage::{Stage, camera, everywhere};
 use super::{Finding, Length, Mesh};
-use crate::render::{Detection, Headless, RenderError, Settings};
+use crate::render::{Coverage, Detection, Headless, RenderError, Settings};
 use crate::sampling::Pattern;
 
 /// Samples a pixel.
 const COUNTS: [u32; 6] = [1, 4, 16, 64, 256, 1024];
+
+/// By how much areas may fail to add up to a pixel.
+const AREA: f64 = 1e-4;
 
 /// The row below the image's centre from which [`ground`] covers it.
 const HORIZON: f64 = 2.0;
@@ -48,19 +51,51 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
         let case = format!("across the borders of superpixels, {samples} samples");
         report(&mut findings, &case, hits);
     }
+    for samples in [16, 64, 1024] {
+        let settings = Settings {
+            coverage: Coverage::Area,
+            ..everywhere([length.choose(32, 256); 2], Pattern::Sobol, samples)
+        };
+        let half = f64::from(settings.size[0]) / 2.0;
+        let mut worst = 0.0_f64;
+        for mesh in tilings(u64::from(samples), half) {
+            let stage = stage(&mesh, &settings);
+            worst = worst.max(worst_cover(headless, &stage, &settings, &camera(), |_| {
+                true
+            })?);
+        }
+        findings.push(Finding {
+            case: format!("tilings by area, {samples} samples"),
+            checked: u64::from(settings.size[0]) * u64::from(settings.size[1]),
+            unit: "greatest error of a pixel's coverage",
+            measured: worst,
+            allowed: Some(AREA),
+        });
+    }
     Ok(findings)
 }
 
-/// Counts the hits of a mesh whose triangles wind and begin in all ways.
+/// Counts the hits of a mesh.
 fn of_mesh(
     headless: &mut Headless,
     mesh: &Mesh,
     settings: &Settings,
     counts: impl Fn([u32; 2]) -> bool,
 ) -> Result<Hits, RenderError> {
+    count(
+        headless,
+        &stage(mesh, settings),
+        settings,
+        &camera(),
+        counts,
+    )
+}
+
+/// A mesh's triangles in all orders of vertices.
+fn stage(mesh: &Mesh, settings: &Settings) -> Stage {
     let mut stage = Stage::default();
     stage.add_mesh(0, mesh, settings.size[1], |triangle| triangle);
-    count(headless, &stage, settings, &camera(), counts)
+    stage
 }
 
 /// Notes holes and double hits, of which there must be none.
