@@ -43,43 +43,72 @@ pub struct Split {
     pub inside: f64,
 }
 
-/// Finds each pixel's cause under superpixel antialiasing with these settings, rows from the top.
+/// What pixels hold besides what their centres see.
 ///
-/// IDs are those of opaque and MASK triangles; a BLEND triangle counts as what lies behind it. `progress` is called
-/// after each of the [`LOOKS`] renderings.
-///
-/// # Errors
-/// As [`Headless::render`].
-pub fn causes(
-    headless: &mut Headless,
-    scene: &PreparedScene,
-    camera: &Camera,
-    settings: &Settings,
-    mut progress: impl FnMut(),
-) -> Result<Vec<Cause>, RenderError> {
-    let with = |method| Settings {
+/// IDs are those of opaque and MASK triangles; a BLEND triangle counts as what lies behind it.
+#[derive(Clone, Debug)]
+pub struct Looks {
+    unseen: Vec<bool>,
+}
+
+impl Looks {
+    /// Looks into the pixels of an image with these settings; `progress` is called after each of the [`LOOKS`]
+    /// renderings.
+    ///
+    /// # Errors
+    /// As [`Headless::render`].
+    pub fn new(
+        headless: &mut Headless,
+        scene: &PreparedScene,
+        camera: &Camera,
+        settings: &Settings,
+        mut progress: impl FnMut(),
+    ) -> Result<Self, RenderError> {
+        let mut frame = headless.prepare(scene, &with_attributes(settings, Method::None))?;
+        let centres = headless.render(scene, &mut frame, camera)?.attributes;
+        let mut unseen = vec![false; centres.len()];
+        let size = DVec2::from(settings.size.map(f64::from));
+        for place in owen_sobol(LOOKS, SEED) {
+            let camera = Camera {
+                shift: camera.shift + DVec2::from(place.map(f64::from)) / size,
+                ..*camera
+            };
+            let seen = headless.render(scene, &mut frame, &camera)?.attributes;
+            for (pixel, (unseen, looked)) in unseen.iter_mut().zip(&seen).enumerate() {
+                *unseen =
+                    *unseen || !around(&centres, settings.size, pixel).any(|id| id == looked.id);
+            }
+            progress();
+        }
+        Ok(Self { unseen })
+    }
+
+    /// Each pixel's cause under superpixel antialiasing with these settings, rows from the top. Scene, camera and size
+    /// are those that were looked at.
+    ///
+    /// # Errors
+    /// As [`Headless::render`].
+    pub fn causes(
+        &self,
+        headless: &mut Headless,
+        scene: &PreparedScene,
+        camera: &Camera,
+        settings: &Settings,
+    ) -> Result<Vec<Cause>, RenderError> {
+        let mut frame = headless.prepare(scene, &with_attributes(settings, Method::Superpixel))?;
+        let centres = headless.render(scene, &mut frame, camera)?.attributes;
+        Ok(classify(&centres, &self.unseen, settings.size))
+    }
+}
+
+/// One sample is enough to know IDs and superpixels.
+fn with_attributes(settings: &Settings, method: Method) -> Settings {
+    Settings {
         method,
         samples: 1,
         attributes: true,
         ..settings.clone()
-    };
-    let mut frame = headless.prepare(scene, &with(Method::Superpixel))?;
-    let centres = headless.render(scene, &mut frame, camera)?.attributes;
-    let mut frame = headless.prepare(scene, &with(Method::None))?;
-    let mut unseen = vec![false; centres.len()];
-    let size = DVec2::from(settings.size.map(f64::from));
-    for place in owen_sobol(LOOKS, SEED) {
-        let camera = Camera {
-            shift: camera.shift + DVec2::from(place.map(f64::from)) / size,
-            ..*camera
-        };
-        let seen = headless.render(scene, &mut frame, &camera)?.attributes;
-        for (pixel, (unseen, looked)) in unseen.iter_mut().zip(&seen).enumerate() {
-            *unseen = *unseen || !around(&centres, settings.size, pixel).any(|id| id == looked.id);
-        }
-        progress();
     }
-    Ok(classify(&centres, &unseen, settings.size))
 }
 
 fn classify(centres: &[PixelAttributes], unseen: &[bool], size: [u32; 2]) -> Vec<Cause> {

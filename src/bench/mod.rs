@@ -15,7 +15,7 @@ mod timing;
 
 pub use accuracy::{Accuracy, Yardstick};
 pub use cache::{Cache, Fingerprint};
-pub use causes::{Cause, LOOKS, Split, causes};
+pub use causes::{Cause, LOOKS, Looks, Split};
 pub use growth::{Growth, Step};
 pub use reference::{GRID_SAMPLES, MAX_REFERENCE_SAMPLES, brute_force};
 pub use spread::Spread;

@@ -6,7 +6,7 @@ use super::progress::Progress;
 use super::results::{Row, SceneResults};
 use crate::cli::input;
 use crate::cli::render::{Antialiasing, CameraArgs, choose_views};
-use gpc::bench::{self, Cache, Cause, Contender, Fingerprint, Yardstick};
+use gpc::bench::{self, Cache, Cause, Contender, Fingerprint, Looks, Yardstick};
 use gpc::camera::Camera;
 use gpc::output::{DecodedImage, Picture};
 use gpc::reference::srgb;
@@ -57,7 +57,7 @@ impl Bench<'_> {
             Some(finer) => Some(finer.measure(&reference)?.rmse),
             None => None,
         };
-        let causes = self.causes(&subject)?;
+        let looks = self.looks(&subject)?;
 
         let shown = self.shown_samples();
         let mut notes = Notes::default();
@@ -89,8 +89,11 @@ impl Bench<'_> {
                         / rendered.colors.len() as f64,
                     candidates: statistics.candidates,
                     accuracy: yardstick.measure(&picture)?,
-                    left: match &causes {
-                        Some(causes) => Some(yardstick.split(&picture, causes)?),
+                    left: match &looks {
+                        Some(looks) => {
+                            let causes = self.causes(&subject, looks, method, samples)?;
+                            Some(yardstick.split(&picture, &causes)?)
+                        }
                         None => None,
                     },
                     rmse_sample_footprint: match &finer {
@@ -162,15 +165,15 @@ impl Bench<'_> {
         Ok(Some(Yardstick::new(&finer, one_sample)?))
     }
 
-    /// Why pixels err, if superpixels are measured.
-    fn causes(&mut self, subject: &Subject) -> anyhow::Result<Option<Vec<Cause>>> {
-        let Some(samples) = self.shown_samples() else {
+    /// Looks into pixels, if superpixels are measured.
+    fn looks(&mut self, subject: &Subject) -> anyhow::Result<Option<Looks>> {
+        if self.shown_samples().is_none() {
             return Ok(None);
-        };
-        let settings = self.settings(Antialiasing::Superpixel, samples);
+        }
+        let settings = self.settings(Antialiasing::None, 1);
         let progress = &self.progress;
         let mut looks = 0;
-        Ok(Some(bench::causes(
+        Ok(Some(Looks::new(
             &mut self.headless,
             &subject.prepared,
             &subject.camera,
@@ -180,6 +183,27 @@ impl Bench<'_> {
                 progress.say(&format!("what pixels hold, {looks} of {}", bench::LOOKS));
             },
         )?))
+    }
+
+    /// Why pixels err under a method; those without superpixels are split by the superpixels that the report shows.
+    fn causes(
+        &mut self,
+        subject: &Subject,
+        looks: &Looks,
+        method: Antialiasing,
+        samples: u32,
+    ) -> Result<Vec<Cause>, RenderError> {
+        let samples = match (method, self.shown_samples()) {
+            (Antialiasing::Superpixel, _) | (_, None) => samples,
+            (_, Some(shown)) => shown,
+        };
+        let settings = self.settings(Antialiasing::Superpixel, samples);
+        looks.causes(
+            &mut self.headless,
+            &subject.prepared,
+            &subject.camera,
+            &settings,
+        )
     }
 
     /// The reference, and how many seconds it took unless it was there already.
@@ -270,6 +294,7 @@ pub fn settings(method: Antialiasing, samples: u32, [width, height]: [u32; 2]) -
     Settings {
         method: method.method(),
         samples,
+        contrast: Settings::default_contrast(samples),
         background: Some(BACKGROUND.map(|value| srgb::decode(value) as f32)),
         ..Settings::new(width, height)
     }

@@ -132,7 +132,7 @@ fn settings(args: &RenderArgs, format: Format) -> Settings {
         coverage: args.sampling.coverage.coverage(),
         shading: args.sampling.shading.shading(),
         detection: args.sampling.detect.detection(),
-        contrast: args.sampling.contrast,
+        contrast: args.sampling.contrast(),
         background: match args.background {
             Background::Transparent => None,
             Background::Color(color) => Some(color.map(|v| srgb::decode(v) as f32)),
