@@ -66,7 +66,7 @@ impl Growth {
             }
             Self::Pixels => {
                 let size = *scenes::SIZES.get(index)?;
-                let megapixels = 1e-6 * f64::from(size[0]) * f64::from(size[1]);
+                let megapixels = f64::from(size[0]) * f64::from(size[1]) / 1e6;
                 Some(scenes::landscape(100_000, size, megapixels))
             }
             Self::Superpixels => Some(scenes::strips(*scenes::PERCENTAGES.get(index)?, size)),
