@@ -9,7 +9,8 @@
 // Ties in depth go to the smaller ID, so that the order of candidates does not matter.
 //
 // Coverage. A triangle that loses none of the samples that it covers is taken to be seen whole, and weighs the exact
-// area of its part of the cell; what is left is shared by the others in proportion to their samples. With many samples
+// area of its part of the cell; what is left is shared by the others in proportion to their samples. Small areas are
+// left to samples: to trust those that happen to be met would lose those that are not. With many samples
 // to take, a first run PROBEs each cell with few: where at most one surface is left to share, that is exact, and only
 // the REST takes all samples.
 //
@@ -46,7 +47,7 @@ const uint BLOCK = ROWS * LANES;
 const float CELL_REACH = 0.5 + 1.0 / 64.0;              // half a cell, and some rounding
 const uint KEPT = 96u;                                  // room for candidates of a cell
 const uint PROBES = 64u;                                // samples of a PROBE, in one block; they follow the others
-const uint FEWEST = 3u;                                 // samples that vouch for a triangle that is seen whole
+const float FEWEST = 6.0;                               // samples that an area to be trusted is worth
 const float AGREEMENT = 0.1;                            // of areas and samples, in cells
 // Mesa's CPU driver ends all loops of an invocation after 65,535 trips in all; what takes more is reported instead.
 const uint MOST_TRIPS = 60000u, LONGEST_LIST = 40000u;
@@ -506,11 +507,11 @@ void main() {
                         }
                         float both = lanes_add(s.samples + 4096.0 * s.lost);
                         s.samples = both - 4096.0 * floor(both * (1.0 / 4096.0));
-                        whole = holder != 0u && both < 4096.0 && s.samples >= float(FEWEST);
                         // In the coordinates of offsets, in which the cell is a square.
                         vec3 a = SITES ? t.a * output_pixel[0].x + t.b * output_pixel[0].y : t.a;
                         vec3 b = SITES ? t.a * output_pixel[1].x + t.b * output_pixel[1].y : t.b;
                         area = area_in_cell(a, b, t.a * at.x + t.b * at.y + t.c, lane);
+                        whole = holder != 0u && both < 4096.0 && float(area) * float(block_samples) >= FEWEST * AREA_UNIT;
                     } else {
                         s.samples = lanes_add(s.samples);
                     }

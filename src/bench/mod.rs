@@ -6,12 +6,17 @@
 
 mod accuracy;
 mod cache;
+mod causes;
+mod growth;
 mod reference;
 mod spread;
+pub mod stress;
 mod timing;
 
 pub use accuracy::{Accuracy, Yardstick};
 pub use cache::{Cache, Fingerprint};
+pub use causes::{Cause, LOOKS, Looks, Split};
+pub use growth::{Growth, Step};
 pub use reference::{GRID_SAMPLES, MAX_REFERENCE_SAMPLES, brute_force};
 pub use spread::Spread;
 pub use timing::{Contender, Cost, PassCost, take_turns};

@@ -35,6 +35,11 @@ pub enum RenderError {
     /// Multisampling has several IDs a pixel.
     #[error("msaa has no one depth, ID or normal a pixel; ask another method for them")]
     Attributes,
+    /// Attributes are those of an output pixel.
+    #[error(
+        "attributes can't be had with texture levels chosen for samples; choose them for pixels"
+    )]
+    SampleAttributes,
     /// The image has no pixels or too many.
     #[error("an image of {width} x {height} pixels: each side must be from 1 to {limit}")]
     Size {
@@ -81,6 +86,7 @@ impl RenderError {
                 | Self::Samples { .. }
                 | Self::SiteMethod
                 | Self::Attributes
+                | Self::SampleAttributes
                 | Self::Size { .. }
         )
     }

@@ -4,7 +4,7 @@ use super::engine::{Engine, EngineKind, record_shading};
 use super::plan::{Effort, Plan, Region};
 use super::renderer::PreparedScene;
 use super::statistics::unfinished;
-use super::{Detection, Method, PassTime, Reference, RenderError, Settings, Statistics};
+use super::{Detection, Footprint, Method, PassTime, Reference, RenderError, Settings, Statistics};
 use crate::camera::{Camera, Projection};
 use crate::passes::{
     Attributes, BoxFilter, Counter, DetectMode, Encode, Encoding, FrameLayout, FrameUniform,
@@ -660,7 +660,10 @@ impl Passes<'_> {
             light_count: scene.light_features().count,
             contrast: u32::from(self.settings.contrast),
             exposure: self.settings.exposure.exp2(),
-            footprint: side as f32,
+            footprint: match self.settings.footprint {
+                Footprint::Pixel => side as f32,
+                Footprint::Sample => 1.0,
+            },
             reach: 0.5,
             group_count: 0,
         }

@@ -52,6 +52,15 @@ pub enum Shading {
     Sample,
 }
 
+/// What texture levels are chosen for under supersampling; all other methods choose them for the output pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Footprint {
+    /// The output pixel, whatever the number of samples.
+    Pixel,
+    /// The sample: the k-th part of the pixel's side of k x k samples. Attributes can't be had then.
+    Sample,
+}
+
 /// What the numbers in the image refer to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reference {
@@ -93,6 +102,8 @@ pub struct Settings {
     pub tonemapped_detection: bool,
     /// Whether depth, ID, normal and sampling of every pixel are wanted too.
     pub attributes: bool,
+    /// What texture levels are chosen for under supersampling.
+    pub footprint: Footprint,
     /// Bound on device memory in bytes, uploads and read-back included.
     pub max_memory: Option<u64>,
 }
@@ -126,6 +137,7 @@ impl Settings {
             reference: Reference::Display,
             tonemapped_detection: true,
             attributes: false,
+            footprint: Footprint::Pixel,
             max_memory: None,
         }
     }
@@ -173,6 +185,9 @@ impl Settings {
                 refuse("superpixel", "1 to 1024".to_owned())
             }
             Method::Superpixel => self.locations().map(|_| ()),
+            Method::Ssaa if self.attributes && self.footprint == Footprint::Sample => {
+                Err(RenderError::SampleAttributes)
+            }
             Method::Ssaa => {
                 let side = self.samples.isqrt();
                 if side == 0 || side > 32 || side * side != self.samples {

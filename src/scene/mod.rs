@@ -88,6 +88,19 @@ impl Scene {
         read::read(bytes, name, base)
     }
 
+    /// A scene without a file and without textures, for [`Geometry`] made by other means; glTF's default material is
+    /// appended.
+    #[must_use]
+    pub fn from_materials(mut materials: Vec<Material>) -> Self {
+        materials.push(Material::default());
+        Self {
+            materials,
+            textures: Vec::new(),
+            images: Vec::new(),
+            document: document::Document::default(),
+        }
+    }
+
     /// The triangles, lights and cameras of one scene at one moment.
     ///
     /// # Errors

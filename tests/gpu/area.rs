@@ -34,7 +34,7 @@ fn centre(index: usize) -> [f64; 2] {
 
 /// What few samples see is not measured, and what none sees is lost.
 fn tolerance(area: f64) -> f64 {
-    if (0.08..0.95).contains(&area) {
+    if (0.1..0.95).contains(&area) {
         2e-5
     } else {
         0.06

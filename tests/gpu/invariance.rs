@@ -116,7 +116,7 @@ fn the_order_of_triangles_does_not_matter() {
 fn the_order_of_vertices_does_not_matter() {
     on_gpu(|gpu| {
         let size = [64, 64];
-        let materials = soup(3, size, 1, 0).materials;
+        let materials = soup(3, size, 1, 0).materials.clone();
         for mesh in [
             fan(7, 32.0, 48, Depths::Random),
             delaunay(7, 32.0, 12, Depths::Random),

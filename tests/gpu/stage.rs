@@ -1,27 +1,14 @@
-//! Scenes of a few triangles before a camera whose transform the CPU repeats to the bit.
-//!
-//! The camera stands at the origin, looks along -z with a vertical field of view of 90 degrees and has its far plane at
-//! infinity. Each row of its matrix then has a single entry, so that a clip-space coordinate is one product (or the
-//! constant [`NEAR`]): however a device orders or contracts the sum, the rounding is that of [`clip`].
+//! Stages on one device, and the CPU's view of them.
 
+use std::ops::{Deref, DerefMut};
 use std::sync::{Mutex, PoisonError};
 
-use glam::{DMat3, DVec2, DVec3, Vec3};
-use gpc::camera::{Camera, Projection};
-use gpc::render::{
-    Coverage, Detection, Headless, HeadlessOptions, Method, PreparedScene, Reference, Rendered,
-    Settings, Shading,
-};
-use gpc::sampling::Pattern;
-use gpc::scene::{
-    AlphaMode, Draw, DrawClass, Geometry, Image, Material, Pose, Sampler, Scene, Texture,
-    TextureTransform, TextureUse, VertexStreams,
-};
+use glam::{DVec3, Vec3};
+use gpc::bench::stress::stage;
+use gpc::render::{Headless, HeadlessOptions, PreparedScene, Rendered, Settings};
+use gpc::scene::Material;
 
-use crate::meshes::Mesh;
-
-/// Distance of the near plane, and every vertex's clip-space z.
-pub const NEAR: f64 = 0.01;
+pub use gpc::bench::stress::stage::{camera, code, everywhere, flat, once, seen_at, textured};
 
 /// One device for all tests; they take turns.
 static GPU: Mutex<Option<Headless>> = Mutex::new(None);
@@ -47,214 +34,14 @@ pub fn on_gpu(test: impl FnOnce(&mut Headless)) {
     );
 }
 
-/// The camera of all stages.
-pub fn camera() -> Camera {
-    Camera {
-        eye: DVec3::ZERO,
-        axes: DMat3::IDENTITY,
-        projection: Projection::Perspective {
-            fov: std::f64::consts::FRAC_PI_2,
-            near: NEAR,
-            far: None,
-        },
-        shift: DVec2::ZERO,
-    }
-}
-
-/// A position in clip space, as the GPU computes it: (pixel x * w, pixel y * w, z, w).
-pub fn clip(position: [f32; 3], size: [u32; 2]) -> [f32; 4] {
-    let [width, height] = size.map(f64::from);
-    let matrix = camera().pixel_matrix(DVec3::ZERO, width, height).as_mat4();
-    (matrix * Vec3::from_array(position).extend(1.0)).to_array()
-}
-
-/// The position that the camera sees at a place of an image `height` pixels high, in pixels from its centre, y down, at
-/// `distance` along the view.
-pub fn seen_at([x, y]: [f64; 2], distance: f64, height: u32) -> [f32; 3] {
-    let scale = distance * 2.0 / f64::from(height);
-    [x * scale, -y * scale, -distance].map(|v| v as f32)
-}
-
-/// A triangle with vertices of its own.
-#[derive(Clone, Debug)]
-pub struct Triangle {
-    /// Index of its material.
-    pub material: usize,
-    /// Positions of its vertices.
-    pub corners: [[f32; 3]; 3],
-    /// Their colour.
-    pub color: [f32; 4],
-    /// Their texture coordinates.
-    pub uvs: [[f32; 2]; 3],
-}
-
-/// A scene in the making. Triangle `i` has the ID `i + 1`.
+/// A stage that fails the test where it can't be rendered.
 #[derive(Clone, Debug, Default)]
-pub struct Stage {
-    /// Its materials.
-    pub materials: Vec<Material>,
-    /// Its triangles; those of opaque materials come first, then MASK, then BLEND.
-    pub triangles: Vec<Triangle>,
-    /// The texture of all materials made by [`textured`].
-    pub texture: Option<(Image, Sampler)>,
-}
-
-/// An unlit material, seen from both sides.
-pub fn flat(base_color: [f32; 4], alpha_mode: AlphaMode) -> Material {
-    Material {
-        base_color,
-        alpha_mode,
-        unlit: true,
-        double_sided: true,
-        ..Material::default()
-    }
-}
-
-/// An unlit material with the stage's texture.
-pub fn textured(alpha_mode: AlphaMode) -> Material {
-    Material {
-        base_color_texture: Some(TextureUse {
-            texture: 0,
-            uv_set: 0,
-            transform: TextureTransform::default(),
-        }),
-        ..flat([1.0; 4], alpha_mode)
-    }
-}
+pub struct Stage(stage::Stage);
 
 impl Stage {
     /// A stage with these materials and no triangles yet.
     pub fn new(materials: Vec<Material>) -> Self {
-        Self {
-            materials,
-            ..Self::default()
-        }
-    }
-
-    /// Adds a white triangle.
-    pub fn add(&mut self, material: usize, corners: [[f32; 3]; 3]) {
-        self.triangles.push(Triangle {
-            material,
-            corners,
-            color: [1.0; 4],
-            uvs: [[0.0; 2]; 3],
-        });
-    }
-
-    /// Adds the two triangles of a quadrilateral, given by its corners in turn.
-    pub fn add_quad(&mut self, material: usize, [a, b, c, d]: [[f32; 3]; 4]) {
-        self.add(material, [a, b, c]);
-        self.add(material, [a, c, d]);
-    }
-
-    /// Adds a mesh as seen in an image `height` pixels high: its pixel positions and w. The corners of each triangle
-    /// come in the order that `permutation` says for it.
-    pub fn add_mesh(
-        &mut self,
-        material: usize,
-        mesh: &Mesh,
-        height: u32,
-        permutation: impl Fn(usize) -> usize,
-    ) {
-        let half = height as f32 / 2.0;
-        for triangle in 0..mesh.triangles.len() {
-            let corners = mesh.corners(triangle, permutation(triangle));
-            self.add(
-                material,
-                corners.map(|[x, y, _, w]| [x / half, -y / half, -w]),
-            );
-        }
-    }
-
-    /// Gives every triangle three [codes](code) as its colour.
-    pub fn color_by_code(&mut self) {
-        for (index, triangle) in self.triangles.iter_mut().enumerate() {
-            let [r, g, b] = code(index as u32 + 1);
-            triangle.color = [r, g, b, 1.0];
-        }
-    }
-
-    /// How a triangle is drawn.
-    fn class(&self, triangle: &Triangle) -> DrawClass {
-        let material = &self.materials[triangle.material];
-        match (material.alpha_mode, material.double_sided) {
-            (AlphaMode::Opaque, false) => DrawClass::Opaque,
-            (AlphaMode::Opaque, true) => DrawClass::OpaqueDoubleSided,
-            (AlphaMode::Mask { .. }, false) => DrawClass::Mask,
-            (AlphaMode::Mask { .. }, true) => DrawClass::MaskDoubleSided,
-            (AlphaMode::Blend, false) => DrawClass::Blend,
-            (AlphaMode::Blend, true) => DrawClass::BlendDoubleSided,
-        }
-    }
-
-    /// The scene and its pose, as the renderer takes them.
-    pub fn build(&self) -> (Scene, Pose) {
-        let empty = br#"{"asset": {"version": "2.0"}, "scenes": [{}]}"#;
-        let mut scene = Scene::from_slice(empty, "stage", None).unwrap().scene;
-        if !self.materials.is_empty() {
-            scene.materials = self.materials.clone();
-        }
-        if let Some((image, sampler)) = &self.texture {
-            scene.images = vec![image.clone()];
-            scene.textures = vec![Texture {
-                image: 0,
-                sampler: *sampler,
-            }];
-        }
-        let mut draws: Vec<Draw> = Vec::new();
-        for (index, triangle) in self.triangles.iter().enumerate() {
-            let (material, class) = (triangle.material as u32, self.class(triangle));
-            match draws.last_mut() {
-                Some(draw) if draw.material == material && draw.class == class => {
-                    draw.triangle_count += 1;
-                }
-                _ => draws.push(Draw {
-                    first_triangle: index as u32,
-                    triangle_count: 1,
-                    material,
-                    class,
-                }),
-            }
-        }
-        assert!(
-            draws.is_sorted_by_key(|draw| draw.class),
-            "order of classes"
-        );
-        let each = |value: &dyn Fn(&Triangle, usize) -> [f32; 4]| -> Vec<[f32; 4]> {
-            let corners = |t| (0..3).map(move |corner| (t, corner));
-            let all = self.triangles.iter().flat_map(corners);
-            all.map(|(t, corner)| value(t, corner)).collect()
-        };
-        let white = self.triangles.iter().all(|t| t.color == [1.0; 4]);
-        let geometry = Geometry {
-            origin: DVec3::ZERO,
-            positions: self.triangles.iter().flat_map(|t| t.corners).collect(),
-            streams: VertexStreams {
-                normals: self.triangles.iter().flat_map(|t| [normal(t); 3]).collect(),
-                tangents: Vec::new(),
-                uvs: match self.texture {
-                    Some(_) => each(&|t, corner| [t.uvs[corner][0], t.uvs[corner][1], 0.0, 0.0]),
-                    None => Vec::new(),
-                },
-                // Without the stream, white is exactly 1.
-                colors: if white {
-                    Vec::new()
-                } else {
-                    each(&|t, _| t.color)
-                },
-            },
-            triangles: (0..self.triangles.len() as u32)
-                .map(|t| [3 * t, 3 * t + 1, 3 * t + 2])
-                .collect(),
-            draws,
-        };
-        let pose = Pose {
-            geometry,
-            lights: Vec::new(),
-            cameras: Vec::new(),
-            warnings: Vec::new(),
-        };
-        (scene, pose)
+        Self(stage::Stage::new(materials))
     }
 
     /// Puts it on the device.
@@ -265,51 +52,29 @@ impl Stage {
 
     /// Renders it.
     pub fn render(&self, gpu: &mut Headless, settings: &Settings) -> Rendered {
-        let (scene, pose) = self.build();
-        let prepared = gpu.upload(&scene, &pose, settings.max_memory).unwrap();
-        let mut frame = gpu.prepare(&prepared, settings).unwrap();
-        gpu.render(&prepared, &mut frame, &camera()).unwrap()
+        self.0.render(gpu, settings).unwrap()
     }
 }
 
-/// The unit normal of a triangle's front face; towards the camera where it has no area.
-fn normal(triangle: &Triangle) -> [f32; 3] {
-    let [a, b, c] = triangle.corners.map(Vec3::from_array);
-    (b - a).cross(c - a).normalize_or(Vec3::Z).to_array()
-}
+impl Deref for Stage {
+    type Target = stage::Stage;
 
-/// Three whole numbers from 1 to 4,095 that tell a triangle from others, as an unlit colour does: sums of them over up to
-/// 1,024 samples are told apart as well.
-pub fn code(id: u32) -> [f32; 3] {
-    let mut random = crate::meshes::Random::new(u64::from(id));
-    [0; 3].map(|_| (1 + random.below(4095)) as f32)
-}
-
-/// Settings under which every pixel is sampled `samples` times, its colour being the plain average of radiances.
-pub fn everywhere(size: [u32; 2], pattern: Pattern, samples: u32) -> Settings {
-    Settings {
-        method: Method::Superpixel,
-        samples,
-        pattern,
-        coverage: Coverage::Samples,
-        shading: Shading::Triangle,
-        detection: Detection::Every,
-        reference: Reference::Scene,
-        tonemapped_detection: false,
-        ..Settings::new(size[0], size[1])
+    fn deref(&self) -> &stage::Stage {
+        &self.0
     }
 }
 
-/// Settings for one sample at each pixel's centre, radiances as they are, with attributes.
-pub fn once(size: [u32; 2]) -> Settings {
-    Settings {
-        method: Method::None,
-        thin: false,
-        reference: Reference::Scene,
-        tonemapped_detection: false,
-        attributes: true,
-        ..Settings::new(size[0], size[1])
+impl DerefMut for Stage {
+    fn deref_mut(&mut self) -> &mut stage::Stage {
+        &mut self.0
     }
+}
+
+/// A position in clip space, as the GPU computes it: (pixel x * w, pixel y * w, z, w).
+pub fn clip(position: [f32; 3], size: [u32; 2]) -> [f32; 4] {
+    let [width, height] = size.map(f64::from);
+    let matrix = camera().pixel_matrix(DVec3::ZERO, width, height).as_mat4();
+    (matrix * Vec3::from_array(position).extend(1.0)).to_array()
 }
 
 /// The IDs of the triangles at the pixels' centres.

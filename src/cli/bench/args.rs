@@ -12,12 +12,13 @@ use std::time::Duration;
 ///
 /// Every scene is rendered as by `gpc render`, before a light grey background, by every method at every number of
 /// samples that it can have: once to warm up and then R times, the methods taking turns. Each image is held against
-/// brute force at thousands of samples a pixel, which is kept on disk for the next run. OUT then holds results.json,
-/// results.csv and report.html, written anew after each scene.
+/// brute force at thousands of samples a pixel, which is kept on disk for the next run. With --growth, scenes made for
+/// it show what grows with what; with --stress, geometry that is hard on a rasterizer shows what holds. OUT then holds results.json, results.csv and report.html, written anew after each
+/// scene.
 #[derive(Args)]
 pub struct BenchArgs {
     /// .glb or .gltf files
-    #[arg(value_name = "SCENE", required = true)]
+    #[arg(value_name = "SCENE", required_unless_present_any = ["growth", "stress"])]
     pub scenes: Vec<PathBuf>,
     /// Folder for the results
     #[arg(short, long, value_name = "DIR")]
@@ -41,6 +42,15 @@ pub struct BenchArgs {
     /// Samples a pixel of the reference, a multiple of 256
     #[arg(long, value_name = "N", default_value_t = 4096, value_parser = reference_samples)]
     pub reference: u32,
+    /// Also against a second reference, whose texture levels follow the footprint of its samples instead of the pixel's
+    #[arg(long)]
+    pub sample_footprint: bool,
+    /// Time also against the number of triangles, of pixels, of superpixels and of layers, in scenes made for it
+    #[arg(long)]
+    pub growth: bool,
+    /// Run the stress suite too: what must hold of images whatever the geometry
+    #[arg(long)]
+    pub stress: bool,
     /// Frames to time, at most
     #[arg(long, value_name = "R", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..))]
     pub repeat: u32,

@@ -2,11 +2,13 @@
 
 mod args;
 mod gallery;
+mod growth;
 mod html;
 mod machine;
 mod pictures;
 mod progress;
 mod results;
+mod stress;
 mod subject;
 mod summary;
 mod table;
@@ -15,7 +17,8 @@ pub use args::BenchArgs;
 
 use super::{exit, input};
 use anyhow::Context;
-use gpc::bench::Cache;
+use gpc::bench::stress::Check;
+use gpc::bench::{Cache, Growth};
 use gpc::output;
 use gpc::render::{Headless, HeadlessOptions};
 use progress::Progress;
@@ -33,6 +36,9 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
     };
     std::fs::create_dir_all(&args.out)
         .with_context(|| format!("{}: the folder can't be made", args.out.display()))?;
+    let curves = if args.growth { Growth::ALL.len() } else { 0 };
+    let checks = if args.stress { Check::ALL.len() } else { 0 };
+    let parts = args.scenes.len() + curves + checks;
     let mut bench = Bench {
         headless: Headless::new(&HeadlessOptions {
             device: args.device.clone(),
@@ -40,7 +46,7 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
         })?,
         cache: Cache::new(&cache),
         args,
-        progress: Progress::new(args.scenes.len()),
+        progress: Progress::new(parts),
     };
     let mut results = Results::new(args, bench.headless.gpu().limits());
     let mut galleries = Vec::new();
@@ -52,6 +58,22 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
         // Again after each scene, so that what was measured survives a failure.
         results.summary = summary::summarize(&results.scenes);
         write(&args.out, &results, &galleries)?;
+    }
+    if args.growth {
+        for growth in Growth::ALL {
+            let curve = bench.grow(growth)?;
+            bench.progress.suspend(|| growth::print(&curve))?;
+            results.growth.push(curve);
+            write(&args.out, &results, &galleries)?;
+        }
+    }
+    if args.stress {
+        for check in Check::ALL {
+            let stress = bench.stress(check)?;
+            bench.progress.suspend(|| stress::print(&stress))?;
+            results.stress.push(stress);
+            write(&args.out, &results, &galleries)?;
+        }
     }
     bench.progress.finish();
     table::print_summary(&results.summary)?;

@@ -10,10 +10,10 @@ pub struct Progress {
 }
 
 impl Progress {
-    pub fn new(scenes: usize) -> Self {
-        let style =
-            ProgressStyle::with_template("{spinner} {pos}/{len} scenes, {elapsed}  {wide_msg}");
-        let bar = ProgressBar::new(scenes as u64)
+    /// Of a number of scenes, curves and checks.
+    pub fn new(parts: usize) -> Self {
+        let style = ProgressStyle::with_template("{spinner} {pos}/{len}, {elapsed}  {wide_msg}");
+        let bar = ProgressBar::new(parts as u64)
             .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
         bar.enable_steady_tick(Duration::from_millis(200));
         Self {

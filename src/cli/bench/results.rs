@@ -4,7 +4,8 @@ use super::BenchArgs;
 use super::machine::{self, Machine};
 use super::summary::AtSamples;
 use crate::cli::render::Antialiasing;
-use gpc::bench::{Accuracy, Cost};
+use gpc::bench::stress::Finding;
+use gpc::bench::{Accuracy, Cost, Split, Spread};
 use gpc::vulkan::Limits;
 use serde::Serialize;
 
@@ -24,6 +25,50 @@ pub struct Results {
     pub budget_seconds: f64,
     pub summary: Vec<AtSamples>,
     pub scenes: Vec<SceneResults>,
+    /// Time against the size of things.
+    pub growth: Vec<Curve>,
+    /// What the stress suite found.
+    pub stress: Vec<Stress>,
+}
+
+/// A part of the stress suite.
+#[derive(Serialize)]
+pub struct Stress {
+    pub about: &'static str,
+    pub seconds: f64,
+    pub findings: Vec<Finding>,
+}
+
+/// What it costs that one quantity grows.
+#[derive(Serialize)]
+pub struct Curve {
+    pub quantity: String,
+    pub points: Vec<Point>,
+    /// What was left out, and why.
+    pub notes: Vec<String>,
+}
+
+/// One scene of a curve.
+#[derive(Serialize)]
+pub struct Point {
+    /// The quantity that grows.
+    pub value: f64,
+    pub size: [u32; 2],
+    pub triangles: u64,
+    /// Share of the pixels that are superpixels, where these were rendered.
+    pub superpixel_fraction: Option<f64>,
+    pub times: Vec<Time>,
+}
+
+/// What a method took.
+#[derive(Serialize)]
+pub struct Time {
+    pub method: Antialiasing,
+    pub samples: u32,
+    /// Milliseconds on the device.
+    pub gpu_ms: Spread,
+    /// Milliseconds by the clock.
+    pub wall_ms: Spread,
 }
 
 /// What was measured of one scene.
@@ -34,6 +79,9 @@ pub struct SceneResults {
     pub triangles: u64,
     /// Seconds that the reference took to render; `None` if it came from the cache.
     pub reference_seconds: Option<f64>,
+    /// RMSE of the reference against the second reference, whose texture levels follow the footprint of its samples:
+    /// what filtering textures for whole pixels leaves, whatever the number of samples.
+    pub texture_filtering: Option<f64>,
     /// What was left out, and why.
     pub notes: Vec<String>,
     pub rows: Vec<Row>,
@@ -53,6 +101,10 @@ pub struct Row {
     /// Triangles in the lists of tiles.
     pub candidates: u64,
     pub accuracy: Accuracy,
+    /// The error that is left by cause, where superpixels were measured.
+    pub left: Option<Split>,
+    /// RMSE against the second reference, as a display shows it.
+    pub rmse_sample_footprint: Option<f64>,
 }
 
 impl Results {
@@ -69,7 +121,17 @@ impl Results {
             budget_seconds: args.budget,
             summary: Vec::new(),
             scenes: Vec::new(),
+            growth: Vec::new(),
+            stress: Vec::new(),
         }
+    }
+}
+
+impl Point {
+    /// The median of what a method took on the device, in milliseconds.
+    pub fn ms(&self, method: Antialiasing) -> Option<f64> {
+        let time = self.times.iter().find(|time| time.method == method)?;
+        Some(time.gpu_ms.median)
     }
 }
 

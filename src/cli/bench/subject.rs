@@ -6,11 +6,11 @@ use super::progress::Progress;
 use super::results::{Row, SceneResults};
 use crate::cli::input;
 use crate::cli::render::{Antialiasing, CameraArgs, choose_views};
-use gpc::bench::{self, Cache, Contender, Fingerprint, Yardstick};
+use gpc::bench::{self, Cache, Cause, Contender, Fingerprint, Looks, Yardstick};
 use gpc::camera::Camera;
 use gpc::output::{DecodedImage, Picture};
 use gpc::reference::srgb;
-use gpc::render::{Headless, PreparedScene, RenderError, Rendered, Settings};
+use gpc::render::{Footprint, Headless, PreparedScene, RenderError, Rendered, Settings};
 use gpc::scene::{Geometry, PoseRequest};
 use std::path::Path;
 use std::time::Instant;
@@ -48,11 +48,16 @@ impl Bench<'_> {
         let settings = self.settings(Antialiasing::None, 1);
         let (reference, reference_seconds) = self.reference(&subject, &settings)?;
         let (_, one_sample) = self.warm_up(&subject, &settings)?;
-        let yardstick = Yardstick::new(
-            &Picture::new(settings.size, &reference)?,
-            &Picture::new(settings.size, &one_sample.colors)?,
-        )?;
-        drop(reference);
+        let triangles = one_sample.statistics.triangles.total;
+        let one_sample = Picture::new(settings.size, &one_sample.colors)?;
+        let reference = Picture::new(settings.size, &reference)?;
+        let yardstick = Yardstick::new(&reference, &one_sample)?;
+        let finer = self.finer_reference(&subject, &settings, &one_sample)?;
+        let texture_filtering = match &finer {
+            Some(finer) => Some(finer.measure(&reference)?.rmse),
+            None => None,
+        };
+        let looks = self.looks(&subject)?;
 
         let shown = self.shown_samples();
         let mut notes = Notes::default();
@@ -84,6 +89,17 @@ impl Bench<'_> {
                         / rendered.colors.len() as f64,
                     candidates: statistics.candidates,
                     accuracy: yardstick.measure(&picture)?,
+                    left: match &looks {
+                        Some(looks) => {
+                            let causes = self.causes(&subject, looks, method, samples)?;
+                            Some(yardstick.split(&picture, &causes)?)
+                        }
+                        None => None,
+                    },
+                    rmse_sample_footprint: match &finer {
+                        Some(finer) => Some(finer.measure(&picture)?.rmse),
+                        None => None,
+                    },
                 },
                 contender,
             });
@@ -91,8 +107,9 @@ impl Bench<'_> {
         let scene = SceneResults {
             name,
             file: path.display().to_string(),
-            triangles: one_sample.statistics.triangles.total,
+            triangles,
             reference_seconds,
+            texture_filtering,
             notes: notes.lines(),
             rows: self.time(&subject, entries)?,
         };
@@ -116,14 +133,7 @@ impl Bench<'_> {
     }
 
     fn settings(&self, method: Antialiasing, samples: u32) -> Settings {
-        let [width, height] = self.args.size;
-        Settings {
-            method: method.method(),
-            samples,
-            contrast: Settings::default_contrast(samples),
-            background: Some(BACKGROUND.map(|value| srgb::decode(value) as f32)),
-            ..Settings::new(width, height)
-        }
+        settings(method, samples, self.args.size)
     }
 
     /// Samples of the superpixels that the report shows: the default number, or else the most there are.
@@ -134,6 +144,66 @@ impl Bench<'_> {
             .filter(|(method, _)| *method == Antialiasing::Superpixel)
             .map(|(_, samples)| *samples);
         counts.max_by_key(|samples| (*samples == Settings::DEFAULT_SAMPLES, *samples))
+    }
+
+    /// Measures against the second reference, if that is wanted.
+    fn finer_reference(
+        &mut self,
+        subject: &Subject,
+        settings: &Settings,
+        one_sample: &Picture<'_>,
+    ) -> anyhow::Result<Option<Yardstick>> {
+        if !self.args.sample_footprint {
+            return Ok(None);
+        }
+        let settings = Settings {
+            footprint: Footprint::Sample,
+            ..settings.clone()
+        };
+        let (finer, _) = self.reference(subject, &settings)?;
+        let finer = Picture::new(settings.size, &finer)?;
+        Ok(Some(Yardstick::new(&finer, one_sample)?))
+    }
+
+    /// Looks into pixels, if superpixels are measured.
+    fn looks(&mut self, subject: &Subject) -> anyhow::Result<Option<Looks>> {
+        if self.shown_samples().is_none() {
+            return Ok(None);
+        }
+        let settings = self.settings(Antialiasing::None, 1);
+        let progress = &self.progress;
+        let mut looks = 0;
+        Ok(Some(Looks::new(
+            &mut self.headless,
+            &subject.prepared,
+            &subject.camera,
+            &settings,
+            || {
+                looks += 1;
+                progress.say(&format!("what pixels hold, {looks} of {}", bench::LOOKS));
+            },
+        )?))
+    }
+
+    /// Why pixels err under a method; those without superpixels are split by the superpixels that the report shows.
+    fn causes(
+        &mut self,
+        subject: &Subject,
+        looks: &Looks,
+        method: Antialiasing,
+        samples: u32,
+    ) -> Result<Vec<Cause>, RenderError> {
+        let samples = match (method, self.shown_samples()) {
+            (Antialiasing::Superpixel, _) | (_, None) => samples,
+            (_, Some(shown)) => shown,
+        };
+        let settings = self.settings(Antialiasing::Superpixel, samples);
+        looks.causes(
+            &mut self.headless,
+            &subject.prepared,
+            &subject.camera,
+            &settings,
+        )
     }
 
     /// The reference, and how many seconds it took unless it was there already.
@@ -216,6 +286,17 @@ impl Bench<'_> {
                 ..row
             })
             .collect())
+    }
+}
+
+/// What a method is rendered with.
+pub fn settings(method: Antialiasing, samples: u32, [width, height]: [u32; 2]) -> Settings {
+    Settings {
+        method: method.method(),
+        samples,
+        contrast: Settings::default_contrast(samples),
+        background: Some(BACKGROUND.map(|value| srgb::decode(value) as f32)),
+        ..Settings::new(width, height)
     }
 }
 

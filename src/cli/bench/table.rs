@@ -23,6 +23,50 @@ pub fn print(scene: &SceneResults) -> anyhow::Result<()> {
     for row in &scene.rows {
         print::line(&format!("  {}", line(row)))?;
     }
+    print_left(scene)?;
+    print_texture_filtering(scene)
+}
+
+/// Prints what is left of the error, by cause.
+fn print_left(scene: &SceneResults) -> anyhow::Result<()> {
+    let rows = scene.rows.iter().filter_map(|row| Some((row, row.left?)));
+    for (index, (row, left)) in rows.enumerate() {
+        if index == 0 {
+            print::line("  left of one sample's squared error:")?;
+            print::line(
+                "  method       N  in superpixels  below threshold   unseen  inside one triangle",
+            )?;
+        }
+        print::line(&format!(
+            "  {:<10} {:>4} {:>13.2} % {:>14.2} % {:>6.2} % {:>18.2} %",
+            row.method.to_string(),
+            row.samples,
+            100.0 * left.superpixels,
+            100.0 * left.below_threshold,
+            100.0 * left.unseen,
+            100.0 * left.inside,
+        ))?;
+    }
+    Ok(())
+}
+
+/// Prints the errors against the second reference.
+fn print_texture_filtering(scene: &SceneResults) -> anyhow::Result<()> {
+    let Some(reference) = scene.texture_filtering else {
+        return Ok(());
+    };
+    print::line(&format!(
+        "  RMSE against textures filtered for samples: {reference:.5} (the reference)"
+    ))?;
+    for row in &scene.rows {
+        if let Some(rmse) = row.rmse_sample_footprint {
+            print::line(&format!(
+                "  {:<10} {:>4} {rmse:>9.5}",
+                row.method.to_string(),
+                row.samples
+            ))?;
+        }
+    }
     Ok(())
 }
 
@@ -84,7 +128,7 @@ pub fn decibels(psnr: Option<f64>) -> String {
 
 const COLUMNS: &str = "scene,triangles,method,samples,frames,gpu_ms_median,gpu_ms_min,gpu_ms_spread,wall_ms_median,\
     wall_ms_min,wall_ms_spread,memory_bytes,superpixel_fraction,candidates,rmse_linear,psnr_linear,rmse,psnr,max,flip,\
-    removed,needless";
+    removed,needless,left_superpixels,left_below_threshold,left_unseen,left_inside,rmse_sample_footprint";
 
 /// All rows of all scenes, without the times of passes (RFC 4180, but with bare line feeds).
 pub fn csv(scenes: &[SceneResults]) -> String {
@@ -95,7 +139,7 @@ pub fn csv(scenes: &[SceneResults]) -> String {
             // Writing to a string can't fail.
             let _ = writeln!(
                 text,
-                "\"{}\",{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
+                "\"{}\",{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
                 scene.name.replace('"', "\"\""),
                 scene.triangles,
                 row.method,
@@ -118,8 +162,29 @@ pub fn csv(scenes: &[SceneResults]) -> String {
                 accuracy.flip,
                 accuracy.removed,
                 accuracy.needless,
+                left(row),
+                optional(row.rmse_sample_footprint),
             );
         }
     }
     text
+}
+
+/// The four shares of what is left; empty where they were not measured.
+fn left(row: &Row) -> String {
+    let shares = row.left.map(|left| {
+        [
+            left.superpixels,
+            left.below_threshold,
+            left.unseen,
+            left.inside,
+        ]
+    });
+    let shares = shares.map_or([None; 4], |shares| shares.map(Some));
+    shares.map(optional).join(",")
+}
+
+/// A number, or nothing.
+fn optional(value: Option<f64>) -> String {
+    value.map_or_else(String::new, |value| value.to_string())
 }

@@ -1,8 +1,11 @@
 //! `report.html`: one file that needs no other.
 
+mod axis;
 mod bars;
 mod curves;
+mod growth;
 mod scene;
+mod stress;
 mod tables;
 
 use super::gallery::Gallery;
@@ -32,7 +35,7 @@ pub fn page(results: &Results, galleries: &[Gallery]) -> String {
          <div><dt>Machine</dt><dd>{cpu}<br><small>{threads} threads, {os}</small></dd></div>\
          <div><dt>Image</dt><dd>{width} × {height}<br><small>reference: {reference} samples a pixel</small></dd></div>\
          <div><dt>Run</dt><dd>{date}<br><small>gpc {version}, medians of up to {repeat} frames</small></dd></div></dl>\n\
-         </header>\n<main>\n<section>\n<h2>All scenes</h2>\n{summary}{matrix}</section>\n{sections}{method}</main>\n\
+         </header>\n<main>\n{summary}{sections}{growth}{stress}{method}</main>\n\
          </body>\n</html>\n",
         device = escape(&results.device),
         driver = escape(&results.driver),
@@ -43,9 +46,22 @@ pub fn page(results: &Results, galleries: &[Gallery]) -> String {
         date = results.date,
         version = results.version,
         repeat = results.repeat,
-        summary = tables::summary(&results.summary),
-        matrix = tables::by_scene(&results.scenes),
+        summary = summary(results),
+        growth = growth::section(&results.growth),
+        stress = stress::section(&results.stress),
         method = method(results),
+    )
+}
+
+/// The section on all scenes; empty without any.
+fn summary(results: &Results) -> String {
+    if results.scenes.is_empty() {
+        return String::new();
+    }
+    format!(
+        "<section>\n<h2>All scenes</h2>\n{}{}</section>\n",
+        tables::summary(&results.summary),
+        tables::by_scene(&results.scenes)
     )
 }
 
@@ -64,7 +80,9 @@ fn method(results: &Results) -> String {
          <li><b>RMSE, PSNR, max</b> and <b>removed</b> are of sRGB-encoded values of 0 to 1, as a display shows them; \
          <i>linear</i> of linear light. <i>Removed</i> is the share of the squared error of one sample a pixel that is \
          gone. <i>Needless</i> is the share of pixels that were right with one sample, within 1/255, and are further \
-         off than that now. <b>FLIP</b> is the mean of the error map of Andersson et al. (2020).</li>\n\
+         off than that now. <i>Left</i> is told by where it is: in superpixels; in other pixels beside which a centre sees \
+         another triangle, of too little contrast; in other pixels that hold a triangle or a gap that no centre of the \
+         3 × 3 around saw, of 64 looks; and in those of one triangle. <b>FLIP</b> is the mean of the error map of Andersson et al. (2020).</li>\n\
          <li><b>Error maps</b> run from black (no error) to light yellow (an error of {brightest} and above), as the \
          square root of the error.</li>\n</ul>\n</section>\n",
         budget = results.budget_seconds,
@@ -79,6 +97,19 @@ fn escape(text: &str) -> String {
         .replace('<', "&lt;")
         .replace('>', "&gt;")
         .replace('"', "&quot;")
+}
+
+/// A whole number with its thousands apart.
+fn thousands(number: u64) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
 }
 
 /// A number of three digits that count.
@@ -105,6 +136,13 @@ mod tests {
             escape("<a href=\"x\">&"),
             "&lt;a href=&quot;x&quot;&gt;&amp;"
         );
+    }
+
+    #[test]
+    fn commas_part_thousands() {
+        assert_eq!(thousands(7), "7");
+        assert_eq!(thousands(123_456), "123,456");
+        assert_eq!(thousands(1_000_000), "1,000,000");
     }
 
     #[test]

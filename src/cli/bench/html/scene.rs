@@ -1,6 +1,6 @@
 //! The section of one scene.
 
-use super::{bars, curves, escape, tables};
+use super::{bars, curves, escape, tables, thousands};
 use crate::cli::bench::gallery::{Gallery, Part, Version};
 use crate::cli::bench::results::SceneResults;
 
@@ -12,13 +12,15 @@ pub fn section(scene: &SceneResults, gallery: &Gallery) -> String {
     format!(
         "<section>\n<h2>{name}</h2>\n<p class=\"note\">{triangles} triangles{notes}</p>\n\
          <div class=\"two\"><div>{curves}</div><div class=\"overview\">{overview}</div></div>\n{parts}\
-         <h3>Where the time goes</h3>\n{bars}\
+         {left}{filtering}<h3>Where the time goes</h3>\n{bars}\
          <details><summary>Figures</summary>{figures}</details>\n\
          <details><summary>Time by pass</summary>{passes}</details>\n</section>\n",
         name = escape(&scene.name),
         triangles = thousands(scene.triangles),
         notes = escape(&notes),
         curves = curves::chart(scene),
+        left = tables::left(scene),
+        filtering = tables::texture_filtering(scene),
         bars = bars::chart(scene),
         figures = tables::figures(scene),
         passes = tables::passes(scene),
@@ -43,28 +45,4 @@ fn figure(class: &str, version: &Version) -> String {
     format!(
         "<figure{class}><img alt=\"{caption}\" src=\"{data}\"><figcaption>{caption}</figcaption></figure>"
     )
-}
-
-fn thousands(number: u64) -> String {
-    let digits = number.to_string();
-    let mut text = String::new();
-    for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::thousands;
-
-    #[test]
-    fn commas_part_thousands() {
-        assert_eq!(thousands(7), "7");
-        assert_eq!(thousands(123_456), "123,456");
-        assert_eq!(thousands(1_000_000), "1,000,000");
-    }
 }

@@ -125,6 +125,65 @@ pub fn figures(scene: &SceneResults) -> String {
     )
 }
 
+/// What is left of the error of one sample a pixel, by cause; empty where that was not measured.
+pub fn left(scene: &SceneResults) -> String {
+    let rows: Vec<_> = scene
+        .rows
+        .iter()
+        .filter_map(|row| {
+            let left = row.left?;
+            let shares = [
+                left.superpixels,
+                left.below_threshold,
+                left.unseen,
+                left.inside,
+            ];
+            let cells: String = shares
+                .iter()
+                .map(|share| format!("<td>{:.2} %</td>", 100.0 * share))
+                .collect();
+            Some(format!(
+                "<tr><th class=\"name\">{}</th><td>{}</td>{cells}<td>{:.2} %</td></tr>",
+                row.method,
+                row.samples,
+                100.0 * shares.iter().sum::<f64>(),
+            ))
+        })
+        .collect();
+    if rows.is_empty() {
+        return String::new();
+    }
+    let table = table(
+        "<th class=\"name\">method</th><th>N</th><th>in superpixels</th><th>below the threshold</th>\
+         <th>a feature no centre saw</th><th>inside one triangle</th><th>all</th>",
+        rows.into_iter(),
+        "Squared error by the kind of pixel that it is in, in shares of the squared error of one sample a pixel.",
+    );
+    format!("<h3>What is left of the error</h3>\n{table}")
+}
+
+/// Errors against the second reference; empty where that was not rendered.
+pub fn texture_filtering(scene: &SceneResults) -> String {
+    let Some(reference) = scene.texture_filtering else {
+        return String::new();
+    };
+    let cells = scene.rows.iter().filter_map(|row| {
+        let rmse = row.rmse_sample_footprint?;
+        Some((format!("{}<br>{}", row.method, row.samples), rmse))
+    });
+    let (heads, values): (String, String) = [("reference".to_owned(), reference)]
+        .into_iter()
+        .chain(cells)
+        .map(|(head, rmse)| (format!("<th>{head}</th>"), format!("<td>{rmse:.5}</td>")))
+        .unzip();
+    let table = table(
+        &heads,
+        [format!("<tr>{values}</tr>")].into_iter(),
+        "RMSE against a second reference, whose texture levels follow the footprint of its samples.",
+    );
+    format!("<h3>What filtering textures for pixels leaves</h3>\n{table}")
+}
+
 /// Medians of the passes' times, with a column for each method and number of samples.
 pub fn passes(scene: &SceneResults) -> String {
     let mut names: Vec<&str> = Vec::new();
@@ -165,7 +224,8 @@ fn percent(share: f64) -> String {
     format!("{:.1} %", 100.0 * share)
 }
 
-fn table(head: &str, rows: impl Iterator<Item = String>, caption: &str) -> String {
+/// A table of rows of cells.
+pub fn table(head: &str, rows: impl Iterator<Item = String>, caption: &str) -> String {
     let rows: Vec<_> = rows.collect();
     let caption = if caption.is_empty() {
         String::new()

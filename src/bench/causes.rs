@@ -1,0 +1,264 @@
+//! Why pixels err: what antialiasing left, by what it could know of a pixel.
+
+use super::Yardstick;
+use crate::camera::Camera;
+use crate::compare::CompareError;
+use crate::output::{DecodedImage, Picture};
+use crate::render::{Headless, Method, PixelAttributes, PreparedScene, RenderError, Settings};
+use crate::sampling::owen_sobol;
+use glam::DVec2;
+use serde::Serialize;
+use std::ops::RangeInclusive;
+
+/// Places in a pixel at which IDs are looked up besides its centre.
+pub const LOOKS: u32 = 64;
+
+/// Scrambling of these places.
+const SEED: u32 = 2;
+
+/// What an error in a pixel is put down to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cause {
+    /// It is a superpixel: the number of samples and how often they are shaded.
+    Superpixel,
+    /// It is none although a neighbour's centre sees another triangle, for their colours are too much alike.
+    BelowThreshold,
+    /// It is none, and holds a triangle (or a gap between triangles) that no centre of the 3 x 3 pixels around it saw.
+    Unseen,
+    /// It is none, and holds one triangle: its shading or texture.
+    Inside,
+}
+
+/// An image's squared error by cause, each a share of the squared error of one sample a pixel, as a display shows it.
+/// They add up to 1 less the share removed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Split {
+    /// In superpixels.
+    pub superpixels: f64,
+    /// In pixels that contrast too little to become superpixels.
+    pub below_threshold: f64,
+    /// In pixels of features that no centre saw and that did not become superpixels.
+    pub unseen: f64,
+    /// In pixels of one triangle.
+    pub inside: f64,
+}
+
+/// What pixels hold besides what their centres see.
+///
+/// IDs are those of opaque and MASK triangles; a BLEND triangle counts as what lies behind it.
+#[derive(Clone, Debug)]
+pub struct Looks {
+    unseen: Vec<bool>,
+}
+
+impl Looks {
+    /// Looks into the pixels of an image with these settings; `progress` is called after each of the [`LOOKS`]
+    /// renderings.
+    ///
+    /// # Errors
+    /// As [`Headless::render`].
+    pub fn new(
+        headless: &mut Headless,
+        scene: &PreparedScene,
+        camera: &Camera,
+        settings: &Settings,
+        mut progress: impl FnMut(),
+    ) -> Result<Self, RenderError> {
+        let mut frame = headless.prepare(scene, &with_attributes(settings, Method::None))?;
+        let centres = headless.render(scene, &mut frame, camera)?.attributes;
+        let mut unseen = vec![false; centres.len()];
+        let size = DVec2::from(settings.size.map(f64::from));
+        for place in owen_sobol(LOOKS, SEED) {
+            let camera = Camera {
+                shift: camera.shift + DVec2::from(place.map(f64::from)) / size,
+                ..*camera
+            };
+            let seen = headless.render(scene, &mut frame, &camera)?.attributes;
+            for (pixel, (unseen, looked)) in unseen.iter_mut().zip(&seen).enumerate() {
+                *unseen =
+                    *unseen || !around(&centres, settings.size, pixel).any(|id| id == looked.id);
+            }
+            progress();
+        }
+        Ok(Self { unseen })
+    }
+
+    /// Each pixel's cause under superpixel antialiasing with these settings, rows from the top. Scene, camera and size
+    /// are those that were looked at.
+    ///
+    /// # Errors
+    /// As [`Headless::render`].
+    pub fn causes(
+        &self,
+        headless: &mut Headless,
+        scene: &PreparedScene,
+        camera: &Camera,
+        settings: &Settings,
+    ) -> Result<Vec<Cause>, RenderError> {
+        let mut frame = headless.prepare(scene, &with_attributes(settings, Method::Superpixel))?;
+        let centres = headless.render(scene, &mut frame, camera)?.attributes;
+        Ok(classify(&centres, &self.unseen, settings.size))
+    }
+}
+
+/// One sample is enough to know IDs and superpixels.
+fn with_attributes(settings: &Settings, method: Method) -> Settings {
+    Settings {
+        method,
+        samples: 1,
+        attributes: true,
+        ..settings.clone()
+    }
+}
+
+fn classify(centres: &[PixelAttributes], unseen: &[bool], size: [u32; 2]) -> Vec<Cause> {
+    let cause = |(pixel, (centre, unseen)): (usize, (&PixelAttributes, &bool))| {
+        if centre.superpixel != 0 {
+            Cause::Superpixel
+        } else if *unseen {
+            Cause::Unseen
+        } else if around(centres, size, pixel).any(|id| id != centre.id) {
+            Cause::BelowThreshold
+        } else {
+            Cause::Inside
+        }
+    };
+    centres.iter().zip(unseen).enumerate().map(cause).collect()
+}
+
+/// IDs at the centres of a pixel and those around it.
+fn around(
+    centres: &[PixelAttributes],
+    [width, height]: [u32; 2],
+    pixel: usize,
+) -> impl Iterator<Item = u32> {
+    let [width, height] = [width, height].map(|side| side as usize);
+    let beside = |at: usize, side: usize| -> RangeInclusive<usize> {
+        at.saturating_sub(1)..=(at + 1).min(side.saturating_sub(1))
+    };
+    let columns = beside(pixel % width, width);
+    beside(pixel / width, height)
+        .flat_map(move |row| columns.clone().map(move |column| row * width + column))
+        .filter_map(|index| centres.get(index))
+        .map(|centre| centre.id)
+}
+
+impl Yardstick {
+    /// Splits an image's error by cause; all zero where one sample is without error.
+    ///
+    /// # Errors
+    /// [`CompareError::Size`] if the image has not the reference's size.
+    pub fn split(&self, picture: &Picture<'_>, causes: &[Cause]) -> Result<Split, CompareError> {
+        let image = DecodedImage::from(picture);
+        if image.size != self.reference().size {
+            return Err(CompareError::Size {
+                first: self.reference().size,
+                second: image.size,
+            });
+        }
+        let square = |image: &DecodedImage, pixel: usize| -> f64 {
+            let of = |image: &DecodedImage| image.pixels.get(pixel).copied().unwrap_or_default();
+            let pairs = of(self.reference()).into_iter().zip(of(image)).take(3);
+            pairs
+                .map(|(a, b)| (f64::from(a) - f64::from(b)).powi(2))
+                .sum()
+        };
+        let mut split = Split::default();
+        let mut whole = 0.0;
+        for (pixel, cause) in causes.iter().enumerate() {
+            whole += square(self.one_sample(), pixel);
+            *split.of_mut(*cause) += square(&image, pixel);
+        }
+        if whole == 0.0 {
+            return Ok(Split::default());
+        }
+        Ok(Split {
+            superpixels: split.superpixels / whole,
+            below_threshold: split.below_threshold / whole,
+            unseen: split.unseen / whole,
+            inside: split.inside / whole,
+        })
+    }
+}
+
+impl Split {
+    /// The share of a cause.
+    fn of_mut(&mut self, cause: Cause) -> &mut f64 {
+        match cause {
+            Cause::Superpixel => &mut self.superpixels,
+            Cause::BelowThreshold => &mut self.below_threshold,
+            Cause::Unseen => &mut self.unseen,
+            Cause::Inside => &mut self.inside,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_cause_is_told_from_the_others() {
+        // A superpixel, two triangles side by side twice, one of them over something unseen, and one triangle.
+        let ids = [1, 1, 2, 2, 2, 2];
+        let centres: Vec<_> = ids
+            .iter()
+            .enumerate()
+            .map(|(pixel, &id)| PixelAttributes {
+                id,
+                superpixel: u32::from(pixel == 0),
+                ..PixelAttributes::default()
+            })
+            .collect();
+        let unseen = [true, false, true, false, false, true];
+        let expected = [
+            Cause::Superpixel,
+            Cause::BelowThreshold,
+            Cause::Unseen,
+            Cause::Inside,
+            Cause::Inside,
+            Cause::Unseen,
+        ];
+        assert_eq!(classify(&centres, &unseen, [6, 1]), expected);
+    }
+
+    #[test]
+    fn neighbours_end_at_the_image() {
+        let centres: Vec<_> = (0..12)
+            .map(|id| PixelAttributes {
+                id,
+                ..PixelAttributes::default()
+            })
+            .collect();
+        let at = |pixel| around(&centres, [4, 3], pixel).collect::<Vec<_>>();
+        assert_eq!(at(0), [0, 1, 4, 5]);
+        assert_eq!(at(5), [0, 1, 2, 4, 5, 6, 8, 9, 10]);
+        assert_eq!(at(7), [2, 3, 6, 7, 10, 11]);
+    }
+
+    #[test]
+    fn shares_add_up_to_what_is_left() {
+        let pixels = |codes: [f32; 4]| codes.map(|v| [v, v, v, 1.0]);
+        let [reference, one, image] = [
+            [0.2, 0.4, 0.6, 0.8],
+            [0.1, 0.5, 0.4, 0.9],
+            [0.2, 0.45, 0.7, 0.8],
+        ]
+        .map(pixels);
+        let picture = |pixels| Picture::new([4, 1], pixels).unwrap();
+        let yardstick = Yardstick::new(&picture(&reference), &picture(&one)).unwrap();
+        let causes = [
+            Cause::Superpixel,
+            Cause::BelowThreshold,
+            Cause::Unseen,
+            Cause::Inside,
+        ];
+        let image = picture(&image);
+        let split = yardstick.split(&image, &causes).unwrap();
+        let removed = yardstick.measure(&image).unwrap().removed;
+        let sum = split.superpixels + split.below_threshold + split.unseen + split.inside;
+        assert!((sum - (1.0 - removed)).abs() < 1e-9, "{split:?} {removed}");
+        assert!(split.superpixels == 0.0 && split.inside == 0.0, "{split:?}");
+        assert!(split.below_threshold > 0.0 && split.unseen > split.below_threshold);
+    }
+}

@@ -1,0 +1,87 @@
+//! Scenes of which one quantity grows, to see what it costs.
+
+mod mesh;
+mod scenes;
+
+use crate::camera::Camera;
+use crate::scene::{Pose, Scene};
+use std::fmt;
+
+/// What grows while the rest stays as it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Growth {
+    /// Triangles of a landscape of hills, 10^3 to 10^7.
+    Triangles,
+    /// Pixels of an image of a landscape of 10^5 triangles, 0.1 to 33 megapixels.
+    Pixels,
+    /// The share of pixels that are superpixels, 0 to 100 %: upright strips two pixels wide, of which this share
+    /// alternates between two colours.
+    Superpixels,
+    /// Layers that fill the image, 1 to 64, the nearest last: triangles that cover each sample.
+    Depth,
+}
+
+/// One point of a curve: what to render.
+#[derive(Clone, Debug)]
+pub struct Step {
+    /// What has grown: a number of triangles, megapixels, a percentage or a number of layers.
+    pub value: f64,
+    /// Width and height of the image in pixels.
+    pub size: [u32; 2],
+    /// The materials.
+    pub scene: Scene,
+    /// The triangles.
+    pub pose: Pose,
+    /// The camera.
+    pub camera: Camera,
+}
+
+impl Growth {
+    /// Every quantity.
+    pub const ALL: [Self; 4] = [
+        Self::Triangles,
+        Self::Pixels,
+        Self::Superpixels,
+        Self::Depth,
+    ];
+
+    /// The number of steps from the least to the most.
+    #[must_use]
+    pub fn steps(self) -> usize {
+        match self {
+            Self::Triangles => scenes::TRIANGLES.len(),
+            Self::Pixels => scenes::SIZES.len(),
+            Self::Superpixels => scenes::PERCENTAGES.len(),
+            Self::Depth => scenes::LAYERS.len(),
+        }
+    }
+
+    /// Makes a step, for an image of `size` pixels unless these are what grows; `None` after the last.
+    #[must_use]
+    pub fn step(self, index: usize, size: [u32; 2]) -> Option<Step> {
+        match self {
+            Self::Triangles => {
+                let count = *scenes::TRIANGLES.get(index)?;
+                Some(scenes::landscape(count, size, f64::from(count)))
+            }
+            Self::Pixels => {
+                let size = *scenes::SIZES.get(index)?;
+                let megapixels = f64::from(size[0]) * f64::from(size[1]) / 1e6;
+                Some(scenes::landscape(100_000, size, megapixels))
+            }
+            Self::Superpixels => Some(scenes::strips(*scenes::PERCENTAGES.get(index)?, size)),
+            Self::Depth => Some(scenes::layers(*scenes::LAYERS.get(index)?, size)),
+        }
+    }
+}
+
+impl fmt::Display for Growth {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Triangles => "triangles",
+            Self::Pixels => "megapixels",
+            Self::Superpixels => "superpixels, %",
+            Self::Depth => "depth complexity",
+        })
+    }
+}
