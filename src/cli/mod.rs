@@ -8,7 +8,9 @@ mod info;
 mod input;
 mod print;
 mod render;
+mod unzoom;
 mod values;
+mod zoom;
 
 use clap::{Parser, Subcommand};
 use std::io::Write;
@@ -39,6 +41,10 @@ Environment:
 enum Command {
     /// Render a scene to image files
     Render(Box<render::RenderArgs>),
+    /// Enlarge regions of a scene or photograph continuously, in the context of the rest
+    Zoom(Box<zoom::ZoomArgs>),
+    /// Turn a zoomed image back into an ordinary view
+    Unzoom(unzoom::UnzoomArgs),
     /// Compare two images
     Compare(compare::CompareArgs),
     /// Say what a scene holds
@@ -57,6 +63,8 @@ pub fn run() -> ExitCode {
     start_log(quiet);
     let done = match command {
         Command::Render(args) => render::run(&args),
+        Command::Zoom(args) => zoom::run(&args),
+        Command::Unzoom(args) => unzoom::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Bench(args) => bench::run(&args),

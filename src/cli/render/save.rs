@@ -24,21 +24,21 @@ pub fn save(
     if format != Format::Exr {
         for aov in &aovs {
             let bytes = output::encode_aov(rendered.size, aov)?;
-            output::write_atomically(&beside(path, format, aov.kind()), &bytes)?;
+            output::write_atomically(&beside(path, format, aov.kind().name()), &bytes)?;
         }
     }
     output::write_atomically(path, &bytes)?;
     Ok(())
 }
 
-/// `a.depth.png` for `a.png`, `a.16.png` and `a.jpg`.
-fn beside(path: &Path, format: Format, kind: AovKind) -> PathBuf {
+/// `a.depth.png` for `a.png`, `a.16.png` and `a.jpg`, where what the file holds is depth.
+pub fn beside(path: &Path, format: Format, holds: &str) -> PathBuf {
     let mut stem = path.with_extension("");
     if format == Format::Png16 {
         stem.set_extension("");
     }
     let mut name = stem.into_os_string();
-    name.push(format!(".{kind}.png"));
+    name.push(format!(".{holds}.png"));
     PathBuf::from(name)
 }
 
@@ -50,7 +50,7 @@ mod tests {
     fn aovs_are_named_after_the_image() {
         let name = |path: &str| {
             let path = Path::new(path);
-            beside(path, Format::of(path).unwrap(), AovKind::Id)
+            beside(path, Format::of(path).unwrap(), "id")
         };
         assert_eq!(name("o/a.b.png"), Path::new("o/a.b.id.png"));
         assert_eq!(name("a.16.png"), Path::new("a.id.png"));
