@@ -4,7 +4,7 @@
 #include "include/frame.glsl"
 layout(local_size_x = 1) in;
 layout(constant_id = 0) const uint AFTER = 0u;
-const uint DETECT = 0u, CULL = 1u, SAMPLE = 2u, RECORDS = 3u, SPANS = 4u, THIN = 5u;
+const uint DETECT = 0u, CULL = 1u, SAMPLE = 2u, RECORDS = 3u, SPANS = 4u, THIN = 5u, GROUPS = 6u;
 
 void main() {
     if (AFTER == DETECT) {
@@ -16,6 +16,9 @@ void main() {
         uint n = min(counters[COUNTER_RECORDS], frame.record_capacity);
         counters[COUNTER_RECORDS_TOTAL] += n;
         arguments[ARGUMENT_SORT] = groups((n + 63u) / 64u);
+    } else if (AFTER == GROUPS) {
+        for (uint list = 0u; list < 4u; list++)
+            arguments[ARGUMENT_SAMPLE_PLAIN + list] = groups(counters[COUNTER_PLAIN_TILES + list]);
     } else if (AFTER == THIN) {
         arguments[ARGUMENT_THIN] = groups((counters[COUNTER_THIN] + 63u) / 64u);
     } else {

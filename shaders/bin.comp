@@ -30,9 +30,9 @@ void main() {
         uint index = uint(tile.y) * frame.tiles.x + uint(tile.x);
         bool touches = k < count && (masks[index] & footprint_mask(f, tile)) != 0u;
         if (LARGE) {
-            // A sub-sample is within (4, 2) pixels of the tile's centre; a quarter more covers rounding.
+            // A pixel's centre is within (3.5, 1.5) of the tile's; a quarter more covers rounding.
             Setup s = setup_triangle(v0, v1, v2, tile_center(tile), false);
-            vec3 reach = s.c + 4.25 * abs(s.a) + 2.25 * abs(s.b);
+            vec3 reach = s.c + (3.75 + frame.reach) * abs(s.a) + (1.75 + frame.reach) * abs(s.b);
             touches = touches && !(min(reach.x, min(reach.y, reach.z)) < 0.0);
         }
         if (touches) {

@@ -1,6 +1,7 @@
 // resolve: the colour of each superpixel, from its shaded records.
 // Sub-samples are tone-mapped one by one, then averaged in linear light; alpha is coverage.
 // Reads: tile_lists, tiles, masks, headers, records, shaded. Writes: color and, where asked, display.
+// SITES: the cells of a group, into the colours of their sites.
 // CHAINED records are layers over an opaque surface, composited per sample from the farthest to the nearest.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -8,29 +9,19 @@
 #include "include/tiles.glsl"
 #include "include/color.glsl"
 #include "include/lanes.glsl"
+#include "include/composite.glsl"
+#include "include/sites.glsl"
 layout(local_size_x_id = 0) in;
 layout(constant_id = 2) const uint BLOCK = 256u;
 layout(constant_id = 3) const bool CHAINED = false;
 layout(constant_id = 4) const uint LIST = 0u;
 layout(constant_id = 5) const bool DISPLAY_CODES = false;
 
-// One sample's layers, from its opaque surface on.
-vec4 composite(uint node) {
-    uvec4 record = texelFetch(records, int(node));
-    bool background = record.y == 0u;
-    vec4 c = background ? frame.background : texelFetch(shaded, int(node));
-    bool untouched = background && record.w == ~0u;
-    vec4 flat_background = c;
-    while (record.w != ~0u) {
-        node = record.w;
-        record = texelFetch(records, int(node));
-        vec4 layer = texelFetch(shaded, int(node));
-        c = vec4(layer.rgb * layer.a, layer.a) + c * (1.0 - layer.a);
-    }
-    return untouched ? flat_background : to_output(c);
-}
-
 void write(uvec2 pixel, vec4 c) {
+    if (SITES) {
+        color[pixel.x] = c;
+        return;
+    }
     // Whole tiles are cells where the device multisamples: some reach over the border.
     if (any(greaterThanEqual(pixel, frame.size))) return;
     uint at = pixel.y * frame.size.x + pixel.x;
@@ -42,23 +33,26 @@ void main() {
     uint tile_count = frame.tiles.x * frame.tiles.y;
     uint entry = gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u;
     const uint GROUPS = 32u / LANES;
-    if (entry / GROUPS >= counters[COUNTER_PLAIN_TILES + LIST]) return;
+    if ((SITES ? entry : entry / GROUPS) >= counters[COUNTER_PLAIN_TILES + LIST]) return;
     uint lane = gl_SubgroupInvocationID;
-    uint tile = tile_lists[LIST * tile_count + entry / GROUPS];
+    uint listed_at = SITES ? LIST * frame.group_count + entry : LIST * tile_count + entry / GROUPS;
+    uvec4 site_group = SITES ? texelFetch(site_groups, int(tile_lists[listed_at])) : uvec4(0u);
+    uint tile = SITES ? site_group.x : tile_lists[listed_at];
     uint word = masks[tile];
-    uint first_header = tiles[tile].z;
+    uint first_header = tiles[tile].z + site_group.w * ((frame.sample_count + BLOCK - 1u) / BLOCK);
     uvec2 corner = split(tile, frame.tiles.x) * uvec2(8u, 4u);
     uint blocks = (frame.sample_count + BLOCK - 1u) / BLOCK;
     float share = 1.0 / float(frame.sample_count);
 
     if (CHAINED) {
         // A cell at a time, an invocation a sample.
-        uint cells = bitCount(word), cell = 0u, last = min(entry % GROUPS * LANES + LANES, cells);
+        uint cells = SITES ? site_group.z : bitCount(word), cell = 0u;
+        uint first = SITES ? 0u : entry % GROUPS * LANES, last = min(first + LANES, cells);
         uint rest = word;
         while (cell < last) {
             uint bit = uint(findLSB(rest));
             rest &= rest - 1u;
-            if (cell++ < entry % GROUPS * LANES) continue;
+            if (cell++ < first) continue;
             vec4 sum = vec4(0.0);
             for (uint block = 0u; block < blocks; block++) {
                 uvec2 h = headers[min(first_header + (cell - 1u) * blocks + block, frame.record_capacity - 1u)];
@@ -66,13 +60,13 @@ void main() {
                     if (h.x + s < frame.record_capacity) sum += composite(h.x + s);
             }
             sum = vec4(lanes_add(sum.x), lanes_add(sum.y), lanes_add(sum.z), lanes_add(sum.w)) * share;
-            if (subgroupElect()) write(corner + uvec2(bit & 7u, bit >> 3), sum);
+            if (subgroupElect()) write(SITES ? uvec2(site_group.y + cell - 1u, 0u) : corner + uvec2(bit & 7u, bit >> 3), sum);
         }
     } else {
         // An invocation a pixel.
         uint bit = entry % GROUPS * LANES + lane;
-        bool mine = (word >> bit & 1u) != 0u;
-        uint cell = uint(bitCount(word & ((1u << bit) - 1u)));
+        bool mine = SITES ? lane < site_group.z : (word >> bit & 1u) != 0u;
+        uint cell = SITES ? lane : uint(bitCount(word & ((1u << bit) - 1u)));
         vec4 sum = vec4(0.0);
         float covered = 0.0;
         uint block = 0u;
@@ -87,6 +81,6 @@ void main() {
             }
         } while (++block < blocks);
         sum = (sum + frame.background * (float(frame.sample_count) - covered)) * share;
-        if (mine) write(corner + uvec2(bit & 7u, bit >> 3), sum);
+        if (mine) write(SITES ? uvec2(site_group.y + cell, 0u) : corner + uvec2(bit & 7u, bit >> 3), sum);
     }
 }

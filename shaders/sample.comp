@@ -13,6 +13,7 @@
 //           (PER_SAMPLE: one a sample, at its location, number 1);
 //   CHAINED: index of the next nearer BLEND layer of the sample, or ~0; the first records of a block are its
 //           samples' opaque surfaces (ID 0: background).
+// Where cells are SITES, the owner of a record is its site; POINTS are one a sample, of location 0, chained or not.
 // Header of a cell's block: first record, number of records (CHAINED: of samples).
 //
 // Loops are do-while with guarded bodies: on lavapipe a branch skips nothing and other loops run once too often.
@@ -20,6 +21,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/tiles.glsl"
+#include "include/sites.glsl"
 layout(local_size_x_id = 0) in;
 layout(constant_id = 2) const bool PER_SAMPLE = false;
 layout(constant_id = 3) const bool HAS_MASK = false;
@@ -95,11 +97,13 @@ struct CellTest {
     float hides;    // where it covers the whole square with an opaque surface: its farthest depth there, otherwise 0
 };
 
-CellTest test_cell(Candidate k, vec2 at) {
+// `half_side` is that of a cell of SITES.
+CellTest test_cell(Candidate k, vec2 at, vec2 half_side) {
     vec3 e = k.a * at.x + k.b * at.y + k.c;
-    vec3 reach = CELL_REACH * (abs(k.a) + abs(k.b));
+    vec3 reach = SITES ? half_side.x * abs(k.a) + half_side.y * abs(k.b) : CELL_REACH * (abs(k.a) + abs(k.b));
     float middle = k.depth.x * at.x + k.depth.y * at.y + k.depth.z;
-    float slope = CELL_REACH * (abs(k.depth.x) + abs(k.depth.y)) + abs(middle) * 1e-6;
+    float span = SITES ? dot(half_side, abs(k.depth.xy)) : CELL_REACH * (abs(k.depth.x) + abs(k.depth.y));
+    float slope = span + abs(middle) * 1e-6;
     CellTest r;
     r.touches = min(e.x + reach.x, min(e.y + reach.y, e.z + reach.z)) >= 0.0;
     r.near = min(middle + slope, k.near);
@@ -108,6 +112,10 @@ CellTest test_cell(Candidate k, vec2 at) {
     r.hides = spans ? max(middle - slope, k.far) : 0.0;
     return r;
 }
+
+// Position of a sample from the tile's centre, and what its record belongs to.
+#define PLACE(g) (SITES ? place[g] : at + offset[g])
+#define OWNER(g) (POINTS ? packed_pixel + uint(g) * LANES + lane : packed_pixel)
 
 // Index of entry `i` of a cell's candidates.
 uint kept_or_all(bool complete, uint member, uint i, uint entries) {
@@ -138,9 +146,11 @@ void main() {
     uint tile_count = frame.tiles.x * frame.tiles.y;
     const uint GROUPS = 32u / LANES;
     uint entry = gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u;
-    if (entry / GROUPS >= counters[COUNTER_PLAIN_TILES + LIST]) return;
+    if ((SITES ? entry : entry / GROUPS) >= counters[COUNTER_PLAIN_TILES + LIST]) return;
     uint lane = gl_SubgroupInvocationID;
-    uint tile = tile_lists[LIST * tile_count + entry / GROUPS];
+    uint listed_at = SITES ? LIST * frame.group_count + entry : LIST * tile_count + entry / GROUPS;
+    uvec4 site_group = SITES ? texelFetch(site_groups, int(tile_lists[listed_at])) : uvec4(0u);
+    uint tile = SITES ? site_group.x : tile_lists[listed_at];
     uvec4 header = tiles[tile];
     ivec2 tile_at = ivec2(split(tile, frame.tiles.x));
     vec2 center = tile_center(tile_at);
@@ -151,10 +161,10 @@ void main() {
     uint count = header.w >> TILE_COUNT_SHIFT, first = header.y;
 #endif
     uint chunks = max((count + LANES - 1u) / LANES, 1u);
-    uint cells = bitCount(word);
+    uint cells = SITES ? site_group.z : bitCount(word);
     uint blocks = (frame.sample_count + BLOCK - 1u) / BLOCK;
 
-    uint first_cell = entry % GROUPS * LANES;
+    uint first_cell = SITES ? 0u : entry % GROUPS * LANES;
     if (first_cell >= cells) return;
     uint group = min(cells - first_cell, LANES);
     bool manageable = count <= LONGEST_LIST;
@@ -168,7 +178,15 @@ void main() {
         my_bit = bit_ == first_cell + lane ? uint(findLSB(rest)) : my_bit;
         rest &= rest - 1u;
     } while (++bit_ < first_cell + group);
-    vec2 my_at = vec2(my_bit & 7u, my_bit >> 3) - vec2(3.5, 1.5);
+    vec2 my_at = vec2(my_bit & 7u, my_bit >> 3) - vec2(3.5, 1.5), my_half = vec2(CELL_REACH);
+    uvec2 my_sites = uvec2(0u);     // the first one, and how many
+    if (SITES) {
+        int cell = int(2u * (site_group.y + min(lane, group - 1u)));
+        vec4 square = uintBitsToFloat(texelFetch(site_cells, cell));
+        my_at = square.xy;
+        my_half = square.zw;
+        my_sites = texelFetch(site_cells, cell + 1).xy;
+    }
     float my_hidden = 0.0;      // nothing farther than this shows in the cell
     uint my_count = 0u;
     uint chunk = 0u;
@@ -178,7 +196,7 @@ void main() {
         uint j = 0u;
         do {
             [[unroll]] for (uint u = 0u; u < 4u; u++) {
-                CellTest test = test_cell(shuffle_candidate(k, j + u), my_at);
+                CellTest test = test_cell(shuffle_candidate(k, j + u), my_at, my_half);
                 bool exists = j + u < chunk_count;
                 my_hidden = max(my_hidden, exists ? test.hides : 0.0);
                 if (test.touches && test.near >= my_hidden && exists) {
@@ -195,7 +213,7 @@ void main() {
     do {
         vec2 offset[ROWS];
         [[unroll]] for (int g = 0; g < ROWS; g++)
-            offset[g] = texelFetch(locations, int(min(block * BLOCK + uint(g) * LANES + lane, frame.sample_count - 1u))).xy;
+            offset[g] = POINTS ? vec2(0.0) : texelFetch(locations, int(min(block * BLOCK + uint(g) * LANES + lane, frame.sample_count - 1u))).xy;
         uint block_samples = min(frame.sample_count - block * BLOCK, BLOCK);
 
         uint member = 0u;
@@ -205,6 +223,25 @@ void main() {
             vec2 in_tile = vec2(bit & 7u, bit >> 3);
             vec2 at = in_tile - vec2(3.5, 1.5);
             uvec2 pixel = uvec2(tile_at) * uvec2(8u, 4u) + uvec2(in_tile);
+            vec2 half_side = vec2(CELL_REACH);
+            uint site = 0u;             // POINTS: the block's first one
+            mat2 output_pixel = mat2(1.0);
+            vec2 place[ROWS];           // of samples of SITES, from the tile's centre
+            if (SITES) {
+                at = vec2(subgroupShuffle(my_at.x, member), subgroupShuffle(my_at.y, member));
+                half_side = vec2(subgroupShuffle(my_half.x, member), subgroupShuffle(my_half.y, member));
+                site = subgroupShuffle(my_sites.x, member);
+                if (POINTS) {
+                    uint last = subgroupShuffle(my_sites.y, member) - 1u;
+                    block_samples = min(last + 1u - min(last + 1u, block * BLOCK), BLOCK);
+                    [[unroll]] for (int g = 0; g < ROWS; g++)
+                        place[g] = uintBitsToFloat(texelFetch(sites, int(2u * (site + min(block * BLOCK + uint(g) * LANES + lane, last)))).xy);
+                    site += block * BLOCK;
+                } else {
+                    output_pixel = site_jacobian(site);
+                    [[unroll]] for (int g = 0; g < ROWS; g++) place[g] = at + output_pixel * offset[g];
+                }
+            }
             float hidden = subgroupShuffle(my_hidden, member);
             uint listed = subgroupShuffle(my_count, member);
             bool complete = listed <= KEPT;
@@ -218,7 +255,7 @@ void main() {
             uint batch = 0u;
             do {
                 Candidate k = load_candidate(first, kept_or_all(complete, member, batch * LANES + lane, entries_), center);
-                CellTest test = test_cell(k, at);
+                CellTest test = test_cell(k, at, half_side);
                 bool blend = k.id > frame.first_blend;
                 bool mask_ = HAS_MASK && k.id > frame.first_mask && !blend;
                 bool touches = batch * LANES + lane < entries_ && test.touches && !blend && test.near >= hidden;
@@ -231,7 +268,7 @@ void main() {
                     vec3 least = some ? thresholds(t) : vec3(3.4e38);
                     [[unroll]] for (int g = 0; g < ROWS; g++) {
                         float d;
-                        bool inside = covers(t, least, at + offset[g], d);
+                        bool inside = covers(t, least, PLACE(g), d);
                         bool wins = inside && (d > depth[g] || (d == depth[g] && t.id < id[g]));
                         depth[g] = wins ? d : depth[g];
                         id[g] = wins ? t.id : id[g];
@@ -245,12 +282,13 @@ void main() {
                         Candidate t = shuffle_candidate(k, some ? uint(findLSB(pending)) : 0u);
                         pending &= pending - 1u;
                         vec3 least = some ? thresholds(t) : vec3(3.4e38);
-                        AlphaTest alpha = alpha_test(t.id - 1u, center, at);
+                        AlphaTest alpha = alpha_test(t.id - 1u, center, at, output_pixel);
                         [[unroll]] for (int g = 0; g < ROWS; g++) {
                             float d;
-                            bool inside = covers(t, least, at + offset[g], d);
+                            bool inside = covers(t, least, PLACE(g), d);
                             bool wins = inside && (d > depth[g] || (d == depth[g] && t.id < id[g]));
-                            wins = wins && alpha_passes(alpha, at + offset[g]);
+                            if (POINTS) alpha = alpha_test(t.id - 1u, center, place[g], site_jacobian(site + min(uint(g) * LANES + lane, max(block_samples, 1u) - 1u)));
+                            wins = wins && alpha_passes(alpha, PLACE(g));
                             depth[g] = wins ? d : depth[g];
                             id[g] = wins ? t.id : id[g];
                         }
@@ -258,8 +296,8 @@ void main() {
                 }
             } while (++batch < batches);
 
-            uint header_index = header.z + cell * blocks + block;
-            uint packed_pixel = pixel.x | pixel.y << 16;
+            uint header_index = header.z + (SITES ? site_group.w + cell : cell) * blocks + block;
+            uint packed_pixel = SITES ? site : pixel.x | pixel.y << 16;
 
 #ifdef CHAINED
             uint base = 0u;
@@ -274,6 +312,7 @@ void main() {
                 live[g] = s < block_samples;
                 node[g] = base + s;
             }
+            uint first_record = POINTS ? POINT_FIRST : 0u;
             // Layers from the farthest to the nearest: each round finds the next one in front.
             bool more;
             do {
@@ -283,7 +322,7 @@ void main() {
                 batch = 0u;
                 do {
                     Candidate k = load_candidate(first, kept_or_all(complete, member, batch * LANES + lane, entries_), center);
-                    CellTest test = test_cell(k, at);
+                    CellTest test = test_cell(k, at, half_side);
                     bool touches = batch * LANES + lane < entries_ && test.touches && k.id > frame.first_blend && test.near >= hidden;
                     uint pending = subgroupBallot(touches).x;
                     do {
@@ -293,7 +332,7 @@ void main() {
                         vec3 least = some ? thresholds(t) : vec3(3.4e38);
                         [[unroll]] for (int g = 0; g < ROWS; g++) {
                             float d;
-                            bool inside = covers(t, least, at + offset[g], d) && d > 0.0;
+                            bool inside = covers(t, least, PLACE(g), d) && d > 0.0;
                             bool in_front = id[g] == 0u ? d > depth[g] : d > depth[g] || (d == depth[g] && t.id < id[g]);
                             bool nearest = d < next_depth[g] || (d == next_depth[g] && t.id > next_id[g]);
                             bool wins = inside && in_front && nearest;
@@ -316,7 +355,7 @@ void main() {
                 [[unroll]] for (int g = 0; g < ROWS; g++) {
                     bool extends = live[g] && next_id[g] != 0u && !full;
                     if (live[g] && node[g] < frame.record_capacity)
-                        records_out[node[g]] = uvec4(packed_pixel, id[g], pack_location(offset[g]), extends ? slot : ~0u);
+                        records_out[node[g]] = uvec4(OWNER(g) | first_record, id[g], pack_location(offset[g]), extends ? slot : ~0u);
                     node[g] = extends ? slot : node[g];
                     slot += extends ? 1u : 0u;
                     depth[g] = extends ? next_depth[g] : depth[g];
@@ -325,6 +364,7 @@ void main() {
                     more = more || extends;
                 }
                 more = subgroupAny(more);
+                first_record = 0u;
             } while (more);
             if (subgroupElect() && lost != 0u) atomicAdd(counters[COUNTER_UNFINISHED], 1u);
 #else
@@ -357,7 +397,7 @@ void main() {
                 [[unroll]] for (int g = 0; g < ROWS; g++) {
                     uint s = uint(g) * LANES + lane;
                     if (fits && s < block_samples)
-                        records_out[base + s] = uvec4(packed_pixel, id[g], pack_location(offset[g]), 1u);
+                        records_out[base + s] = POINTS ? uvec4(OWNER(g) | POINT_FIRST, id[g], 0u, ~0u) : uvec4(packed_pixel, id[g], pack_location(offset[g]), 1u);
                 }
             } else {
                 if (fits && lane < used) records_out[base + lane] = held;

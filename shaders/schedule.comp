@@ -2,11 +2,13 @@
 // these tiles by what their samples need: PLAIN, MASKED (alpha tests), BLENDED (chains of layers) or UNLISTED
 // (a list that outgrows the buffer: every triangle is a candidate).
 // Reads: tiles (counts from `bin`), masks. Writes: tiles, tile_lists, arguments of the round, counters.
+// SITES: `groups` then lists groups of cells in the place of tiles.
 // One subgroup does it all, in tile order, so that a round's content is the same in every run.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/tiles.glsl"
+#include "include/sites.glsl"
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint PLAIN_BLOCK = 256u;      // samples a pass of the kernel
 layout(constant_id = 2) const uint LAYERED_BLOCK = 64u;
@@ -35,17 +37,19 @@ void main() {
         bool exists = tile < tile_count;
         uint word = exists ? masks[tile] : 0u;
         uvec4 t = exists ? tiles[tile] : uvec4(0u);
-        uint cells = bitCount(word);
+        uvec2 load = SITES && exists ? tile_loads[tile] : uvec2(0u);
+        uint cells = SITES ? load.x : bitCount(word);
+        uint samples = SITES ? load.y : cells * frame.sample_count;
         bool busy = cells != 0u;
         bool listed = busy && (t.w & TILE_OVERFLOW) == 0u;
         bool blend = (t.w & TILE_HAS_BLEND) != 0u, mask_ = (t.w & TILE_HAS_MASK) != 0u;
         uint block = blend || mask_ || !listed ? LAYERED_BLOCK : PLAIN_BLOCK;
         uint blocks = (frame.sample_count + block - 1u) / block;
         uint candidates_ = listed ? t.x : frame.triangle_count;
-        uint per_cell = blend || (!listed && frame.first_blend < frame.triangle_count)
-            ? frame.sample_count * (1u + min(candidates_, LAYERS))
-            : PER_SAMPLE ? frame.sample_count : min(blocks * min(candidates_, block), frame.sample_count);
-        uint list_need = listed ? t.x : 0u, record_need = cells * per_cell, header_need = cells * blocks;
+        uint record_need = blend || (!listed && frame.first_blend < frame.triangle_count)
+            ? samples * (1u + min(candidates_, LAYERS))
+            : PER_SAMPLE ? samples : cells * min(blocks * min(candidates_, block), frame.sample_count);
+        uint list_need = listed ? t.x : 0u, header_need = cells * blocks;
         uint list_first = list_used + subgroupExclusiveAdd(list_need);
         uint record_end = records_used + subgroupInclusiveAdd(record_need);
         uint header_first = headers_used + subgroupExclusiveAdd(header_need);
@@ -58,7 +62,7 @@ void main() {
         bool mine = busy && lane < taken;
         if (mine) {
             tiles[tile] = uvec4(t.x, list_first, header_first,
-                (t.w & (TILE_HAS_MASK | TILE_HAS_BLEND)) | (listed ? TILE_LISTED : 0u) | (listed ? t.x : 0u) << TILE_COUNT_SHIFT);
+                (t.w & (TILE_HAS_MASK | TILE_HAS_BLEND)) | TILE_PLACED | (listed ? TILE_LISTED : 0u) | (listed ? t.x : 0u) << TILE_COUNT_SHIFT);
         }
         bool is_unlisted = mine && !listed, is_blended = mine && listed && blend;
         bool is_masked = mine && listed && !blend && mask_, is_plain = mine && listed && !blend && !mask_;
@@ -87,14 +91,15 @@ void main() {
         counters[COUNTER_ROUND_FIRST] = start;
         counters[COUNTER_NEXT_TILE] = next;
         counters[COUNTER_RECORDS] = 0u;
-        counters[COUNTER_PLAIN_TILES] = plain;
-        counters[COUNTER_MASKED_TILES] = masked;
-        counters[COUNTER_BLENDED_TILES] = blended;
-        counters[COUNTER_UNLISTED_TILES] = unlisted;
+        counters[COUNTER_PLAIN_TILES] = SITES ? 0u : plain;
+        counters[COUNTER_MASKED_TILES] = SITES ? 0u : masked;
+        counters[COUNTER_BLENDED_TILES] = SITES ? 0u : blended;
+        counters[COUNTER_UNLISTED_TILES] = SITES ? 0u : unlisted;
         counters[COUNTER_ROUNDS] += idle ? 0u : 1u;
         counters[COUNTER_CANDIDATES_TOTAL] += list_used;
         counters[COUNTER_UNLISTED_TOTAL] += unlisted;
         arguments[ARGUMENT_SETUP] = idle ? uvec4(0u) : groups((min(counters[COUNTER_PAIRS], frame.list_capacity) + 63u) / 64u);
+        arguments[ARGUMENT_GROUPS] = idle ? uvec4(0u) : groups((frame.group_count + 63u) / 64u);
         // A subgroup for as many of a tile's cells as it has invocations.
         uint parts = 32u / lanes;
         arguments[ARGUMENT_SAMPLE_PLAIN] = groups(plain * parts);

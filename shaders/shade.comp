@@ -1,5 +1,6 @@
 // shade: the radiance of what raster or the sub-samples see, one dispatch a material bin.
-// Sources: PIXELS (the centres of the pixels of a span, by the IDs of raster) or visibility records at their location.
+// Sources: PIXELS (the centres of the pixels of a span, by the IDs of raster) or visibility records at their location
+// in a pixel or in the cell of a site (SITES), whose Jacobian then sets the footprint.
 // Reads: shade_order, ids or records, clip, the geometry, textures. Writes: color and display, or shaded.
 // Linear light throughout. Texture levels follow the footprint of an output pixel, whatever the sampling rate.
 #version 460
@@ -10,6 +11,8 @@
 #include "include/brdf.glsl"
 #include "include/material.glsl"
 #include "include/studio.glsl"
+#include "include/tiles.glsl"
+#include "include/sites.glsl"
 layout(local_size_x = 64) in;
 
 layout(constant_id = 0) const bool PIXELS = false;
@@ -68,6 +71,7 @@ void main() {
     uint id;
     vec2 p;
     bool mine = true;
+    uint site = 0u;
     if (PIXELS) {
         uint columns = (frame.size.x + 7u) / 8u;
         uvec2 pixel = split(source, columns) * uvec2(8u, 1u) + uvec2(i % 8u, 0u);
@@ -79,7 +83,13 @@ void main() {
         uvec4 record = texelFetch(records, int(source));
         id = record.y;
         vec2 location = vec2(ivec2(record.z << 16, record.z) >> 16) * (1.0 / 65536.0);
-        p = frame.origin + vec2(record.x & 0xffffu, record.x >> 16) + location;
+        if (SITES) {
+            site = record.x & ~POINT_FIRST;
+            uvec4 at = texelFetch(sites, int(2u * site));
+            p = tile_center(ivec2(split(at.z, frame.tiles.x))) + uintBitsToFloat(at.xy) + site_jacobian(site) * location;
+        } else {
+            p = frame.origin + vec2(record.x & 0xffffu, record.x >> 16) + location;
+        }
     }
 
     uvec4 indices = texelFetch(triangles, int(max(id, 1u) - 1u));
@@ -87,6 +97,11 @@ void main() {
     uint m = indices.w & 0xffffu;
     mine = mine && id != 0u && (ONE_BIN || (indices.w >> 16 & 0x7fffu) == push.bin);
     Barycentric w = barycentric(texelFetch(clip, v.x), texelFetch(clip, v.y), texelFetch(clip, v.z), p);
+    if (SITES) {
+        mat2x3 change = mat2x3(w.dx, w.dy) * site_jacobian(site);
+        w.dx = change[0];
+        w.dy = change[1];
+    }
 
     Corners corners;
     if (BASE_COLOR_TEXTURE || METALLIC_ROUGHNESS_TEXTURE || NORMAL_TEXTURE || OCCLUSION_TEXTURE || EMISSIVE_TEXTURE)

@@ -27,8 +27,9 @@ struct AlphaTest {
     float cutoff;
 };
 
-// The test of triangle `t` around `center`; its mipmap level is that of an output pixel at `at`, relative to it.
-AlphaTest alpha_test(uint t, vec2 center, vec2 at) {
+// The test of triangle `t` around `center`; its mipmap level is that of an output pixel at `at`, relative to it, whose
+// sides are the columns of `pixel`.
+AlphaTest alpha_test(uint t, vec2 center, vec2 at, mat2 pixel) {
     uvec4 indices = texelFetch(triangles, int(t));
     ivec3 v = ivec3(indices.xyz);
     uint m = indices.w & 0xffffu;
@@ -56,8 +57,8 @@ AlphaTest alpha_test(uint t, vec2 center, vec2 at) {
     float w = 1.0 / dot(r.weight, vec3(at, 1.0));
     vec2 uv = vec2(dot(r.u, vec3(at, 1.0)), dot(r.v, vec3(at, 1.0))) * w;
     float scale = w * frame.footprint;
-    vec2 dx = (vec2(r.u.x, r.v.x) - uv * r.weight.x) * scale * vec2(size);
-    vec2 dy = (vec2(r.u.y, r.v.y) - uv * r.weight.y) * scale * vec2(size);
+    mat2 slope = mat2(vec2(r.u.x, r.v.x) - uv * r.weight.x, vec2(r.u.y, r.v.y) - uv * r.weight.y) * pixel;
+    vec2 dx = slope[0] * scale * vec2(size), dy = slope[1] * scale * vec2(size);
     float level = 0.5 * log2(clamp(max(dot(dx, dx), dot(dy, dy)), 1e-30, 1e30));
     r.nearest = (r.flags & (level <= 0.0 ? ALPHA_NEAREST_MAG : ALPHA_NEAREST_MIN)) != 0u;
     level = (r.flags & ALPHA_NO_MIP) != 0u ? 0.0 : clamp(level, 0.0, float(levels - 1u));

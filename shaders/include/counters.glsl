@@ -34,7 +34,8 @@
 #define ARGUMENT_SAMPLE_UNLISTED 7
 #define ARGUMENT_SORT 8
 #define ARGUMENT_THIN 9
-#define ARGUMENT_SHADE 10
+#define ARGUMENT_GROUPS 10
+#define ARGUMENT_SHADE 11
 
 // An indirect dispatch of n workgroups, folded into rows of 32,768.
 uvec4 groups(uint n) {

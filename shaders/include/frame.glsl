@@ -35,6 +35,8 @@ layout(set = 0, binding = 0) uniform Frame {
     uint contrast;          // code values; more than this is a contrast
     float exposure;         // factor on radiance
     float footprint;        // output pixels a region pixel's side measures, inverted: k for k x k supersampling
+    float reach;            // of samples around the centre of the pixel that owns their cell, in pixels; at least half a pixel
+    uint group_count;       // groups of cells, where cells are sites
 } frame;
 
 // On CPU devices a texel buffer is the quicker one to read and a storage buffer the quicker one to write, so that what

@@ -9,9 +9,9 @@ struct Footprint {
     bool unprojected;   // has a vertex at or behind the eye, or very far off the region
 };
 
-// A sub-sample lies within half a pixel of a centre; the rest covers the rounding of positions relative to the
-// region instead of the tile.
-const float REACH = 0.5 + 1.0 / 64.0;
+// How far a sample of a pixel can be from its centre, and some for the rounding of positions relative to the region
+// instead of the tile.
+#define REACH (frame.reach + 1.0 / 64.0)
 
 // Pixels whose square the triangle's bounding box touches.
 Footprint footprint_of(vec4 c0, vec4 c1, vec4 c2) {
@@ -57,6 +57,7 @@ vec2 tile_center(ivec2 tile) {
 #define TILE_HAS_BLEND 2u
 #define TILE_LISTED 4u
 #define TILE_OVERFLOW 8u    // a pair of the tile was not kept
+#define TILE_PLACED 16u     // in the round at hand
 #define TILE_COUNT_SHIFT 8
 
 #endif

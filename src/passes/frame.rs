@@ -34,6 +34,8 @@ pub struct FrameUniform {
     pub contrast: u32,
     pub exposure: f32,
     pub footprint: f32,
+    pub reach: f32,
+    pub group_count: u32,
 }
 
 /// Indices into the buffer of counters, as in `shaders/include/counters.glsl`.
@@ -86,12 +88,13 @@ pub enum Argument {
     SampleUnlisted,
     Sort,
     Thin,
+    Groups,
     /// The first material bin's; the others follow.
     Shade,
 }
 
 /// How a binding of set 0 is used.
-const BINDINGS: [(u32, vk::DescriptorType); 42] = {
+const BINDINGS: [(u32, vk::DescriptorType); 46] = {
     use vk::DescriptorType as T;
     [
         (0, T::UNIFORM_BUFFER),
@@ -136,6 +139,10 @@ const BINDINGS: [(u32, vk::DescriptorType); 42] = {
         (39, T::STORAGE_BUFFER),
         (40, T::SAMPLED_IMAGE),
         (41, T::STORAGE_BUFFER),
+        (42, T::UNIFORM_TEXEL_BUFFER),
+        (43, T::UNIFORM_TEXEL_BUFFER),
+        (44, T::UNIFORM_TEXEL_BUFFER),
+        (45, T::STORAGE_BUFFER),
     ]
 };
 
@@ -394,6 +401,7 @@ mod tests {
             A::SampleUnlisted,
             A::Sort,
             A::Thin,
+            A::Groups,
             A::Shade,
         ] {
             let name = format!("ARGUMENT_{}", shouted(&format!("{argument:?}")));
@@ -460,7 +468,9 @@ mod tests {
             light_count,
             contrast,
             exposure,
-            footprint
+            footprint,
+            reach,
+            group_count
         );
         assert_eq!(offsets, host);
         assert_eq!(offset.next_multiple_of(16), size_of::<FrameUniform>());

@@ -81,6 +81,20 @@ impl RasterTargets {
         })
     }
 
+    /// Brings single-sampled images into the layout in which descriptor sets show them, where nothing is drawn.
+    pub fn record_unused(&self, recorder: &Recorder<'_>) {
+        for image in [Some(&self.depth), Some(&self.ids), self.blend_ids.as_ref()]
+            .into_iter()
+            .flatten()
+        {
+            recorder.transition(
+                image,
+                vk::ImageLayout::UNDEFINED,
+                vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
+            );
+        }
+    }
+
     /// Whether the images are multisampled.
     #[must_use]
     pub fn multisampled(&self) -> bool {

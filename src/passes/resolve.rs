@@ -1,6 +1,6 @@
 //! resolve: the colour of each superpixel.
 
-use super::{FrameLayout, Sample, TileList, spirv};
+use super::{Cells, FrameLayout, Sample, TileList, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
@@ -16,11 +16,13 @@ impl Resolve {
     /// If the driver refuses one.
     pub fn new(
         layout: &FrameLayout,
+        cells: Cells,
         sample: &Sample,
         has_blend: bool,
         display_codes: bool,
         output: &Constants,
     ) -> Result<Self, VulkanError> {
+        let output = &cells.constants(output.clone());
         let kernels = sample
             .lists()
             .map(|list| {

@@ -1,7 +1,8 @@
 //! The memory of one frame: sized when it is prepared, used again for every region and every frame.
 
 use super::frame::DescriptorPool;
-use super::{Argument, Counter, FrameLayout, FrameUniform, GpuScene, RasterTargets};
+use super::sites::SiteBuffers;
+use super::{Argument, Counter, FrameLayout, FrameUniform, GpuScene, RasterTargets, SiteSizes};
 use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
@@ -11,6 +12,8 @@ use std::sync::Arc;
 pub struct ResourceSizes {
     /// Largest region, in pixels.
     pub region: [u32; 2],
+    /// Sites of a region, where cells are these instead of pixels.
+    pub sites: Option<SiteSizes>,
     /// Candidates of all lists of a round.
     pub list_capacity: u32,
     /// Visibility records of a round; 0 where no cell is ever sampled.
@@ -30,7 +33,7 @@ impl ResourceSizes {
     /// Bytes of the largest storage buffer.
     #[must_use]
     pub fn largest_storage(&self) -> u64 {
-        let colors = u64::from(self.pixels()) * 16;
+        let colors = self.colors() * 16;
         let records = u64::from(self.record_capacity) * 16;
         let candidates = u64::from(self.list_capacity) * Self::CANDIDATE_BYTES;
         colors.max(records).max(candidates)
@@ -42,6 +45,13 @@ impl ResourceSizes {
         self.region[0] * self.region[1]
     }
 
+    /// Colours of a region.
+    #[must_use]
+    pub fn colors(&self) -> u64 {
+        self.sites
+            .map_or(u64::from(self.pixels()), |sites| u64::from(sites.sites))
+    }
+
     /// Tiles of 8 x 4 pixels of a region.
     #[must_use]
     pub fn tiles(&self) -> u32 {
@@ -51,7 +61,7 @@ impl ResourceSizes {
     /// About how many bytes [`Resources`] of this size take, for a scene of `triangles` triangles.
     #[must_use]
     pub fn bytes(&self, triangles: u64) -> u64 {
-        let pixels = u64::from(self.pixels());
+        let pixels = self.colors();
         let tiles = u64::from(self.tiles());
         let records = u64::from(self.record_capacity);
         pixels * (16 + 4 + 4 + 4)
@@ -63,6 +73,7 @@ impl ResourceSizes {
             + u64::from(self.filtered) * 16
             + if self.attributes { pixels * 32 } else { 0 }
             + self.encoded
+            + self.sites.map_or(0, |sites| sites.bytes(tiles))
     }
 }
 
@@ -94,7 +105,7 @@ pub struct Resources {
     display: BufferView,
     pub(crate) color: BufferView,
     pub(crate) counters: Buffer,
-    masks: Buffer,
+    pub(crate) masks: Buffer,
     pub(crate) marks: Buffer,
     tiles: Buffer,
     tile_lists: Buffer,
@@ -110,6 +121,7 @@ pub struct Resources {
     pub(crate) filtered: BufferView,
     pub(crate) attributes: BufferView,
     pub(crate) encoded: Buffer,
+    pub(crate) sites: SiteBuffers,
     layout: Arc<FrameLayout>,
     _pool: DescriptorPool,
     sets: Vec<SampleSet>,
@@ -141,11 +153,12 @@ impl Resources {
         sizes: ResourceSizes,
         location_lists: &[&[[f32; 2]]],
     ) -> Result<Self, VulkanError> {
-        let pixels = u64::from(sizes.pixels());
+        let pixels = sizes.colors();
         let tiles = u64::from(sizes.tiles());
         let records = u64::from(sizes.record_capacity);
+        let site_sizes = sizes.sites.unwrap_or_default();
         let triangles = u64::from(scene.triangle_count());
-        let storage = |name: &str, bytes: u64| {
+        let storage_in = |name: &str, bytes: u64, location: MemoryUse| {
             let limit = memory.gpu().limits().max_storage_bytes;
             if bytes > limit {
                 return Err(VulkanError::TooLarge {
@@ -155,10 +168,20 @@ impl Resources {
                     limit,
                 });
             }
-            memory.buffer(name, bytes, STORAGE, MemoryUse::Device)
+            memory.buffer(name, bytes, STORAGE, location)
+        };
+        let storage = |name: &str, bytes: u64| storage_in(name, bytes, MemoryUse::Device);
+        let texels_in = |name: &str, elements: u64, format, location| {
+            memory.texel_buffer(name, elements, format, TEXELS, location)
         };
         let texels = |name: &str, elements: u64, format| {
-            memory.texel_buffer(name, elements, format, TEXELS, MemoryUse::Device)
+            texels_in(name, elements, format, MemoryUse::Device)
+        };
+        // The host writes the masks of sites and reads what they see, run by run.
+        let (input, output) = if sizes.sites.is_some() {
+            (MemoryUse::Upload, MemoryUse::Readback)
+        } else {
+            (MemoryUse::Device, MemoryUse::Device)
         };
         let float4 = vk::Format::R32G32B32A32_SFLOAT;
         let uint4 = vk::Format::R32G32B32A32_UINT;
@@ -189,12 +212,12 @@ impl Resources {
         let resources = Self {
             sizes,
             display: texels("display codes", pixels, vk::Format::R32_UINT)?,
-            color: texels("colour", pixels, float4)?,
+            color: texels_in("colour", pixels, float4, output)?,
             counters: storage("counters", 4 * Counter::COUNT as u64)?,
-            masks: storage("superpixel mask", tiles * 4)?,
+            masks: storage_in("superpixel mask", tiles * 4, input)?,
             marks: storage("marks of thin triangles", tiles * 4)?,
             tiles: storage("tiles", tiles * 16)?,
-            tile_lists: storage("tile lists", tiles * 16)?,
+            tile_lists: storage("tile lists", tiles.max(site_sizes.groups.into()) * 16)?,
             survivors: storage("survivors", triangles * 4)?,
             pairs: texels("pairs", u64::from(sizes.list_capacity), uint4)?,
             candidates: texels("candidates", u64::from(sizes.list_capacity) * 4, uint4)?,
@@ -210,12 +233,14 @@ impl Resources {
                 MemoryUse::Device,
             )?,
             filtered: texels("filtered colour", u64::from(sizes.filtered), float4)?,
-            attributes: texels(
+            attributes: texels_in(
                 "attributes",
                 if sizes.attributes { 2 * pixels } else { 1 },
                 uint4,
+                output,
             )?,
             encoded: storage("encoded colour", sizes.encoded)?,
+            sites: SiteBuffers::new(memory, &site_sizes, tiles)?,
             layout: layout.clone(),
             _pool: pool,
             sets,
@@ -289,6 +314,35 @@ impl Resources {
         }
     }
 
+    /// Sets counters, where the host knows what other frames detect.
+    pub(crate) fn record_counters(&self, recorder: &Recorder<'_>, values: &[(Counter, u32)]) {
+        for (counter, value) in values {
+            // SAFETY: the recorder's contract; the counter lies in the buffer.
+            unsafe {
+                recorder.device().cmd_fill_buffer(
+                    recorder.raw(),
+                    self.counters.raw,
+                    4 * *counter as u64,
+                    4,
+                    *value,
+                )
+            };
+        }
+        recorder.barrier();
+    }
+
+    /// Copies the counters to slot `slot` of a read-back buffer.
+    pub(crate) fn record_keep_counters(&self, recorder: &Recorder<'_>, to: &Buffer, slot: u64) {
+        let size = 4 * Counter::COUNT as u64;
+        let region = [vk::BufferCopy::default().dst_offset(slot * size).size(size)];
+        // SAFETY: the recorder's contract; callers have sized the buffer for the slot.
+        unsafe {
+            recorder
+                .device()
+                .cmd_copy_buffer(recorder.raw(), self.counters.raw, to.raw, &region)
+        };
+    }
+
     /// Fills the first `pixels` pixels with the background, premultiplied as in the output, and its display code.
     pub(crate) fn record_background(
         &self,
@@ -345,6 +399,9 @@ impl Resources {
             texel(35, &self.filtered, true),
             texel(36, &self.attributes, true),
             texel(38, &self.pairs, false),
+            texel(42, &self.sites.sites, false),
+            texel(43, &self.sites.cells, false),
+            texel(44, &self.sites.groups, false),
         ];
         let views: Vec<[vk::BufferView; 1]> =
             texel_writes.iter().map(|(_, view, _)| [*view]).collect();
@@ -388,6 +445,7 @@ impl Resources {
             (34, buffer(&self.arguments)),
             (37, buffer(&self.encoded)),
             (41, buffer(&self.marks)),
+            (45, buffer(&self.sites.loads)),
         ];
         for (binding, info) in &storage {
             writes.push(

@@ -1,6 +1,6 @@
 //! sample: the nearest triangle of every sub-sample.
 
-use super::{Argument, FrameLayout, spirv};
+use super::{Argument, Cells, FrameLayout, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
@@ -62,12 +62,13 @@ fn kernel(kernels: &[(u32, &'static [u8])], rows_needed: u32) -> (u32, &'static 
 }
 
 impl Sample {
-    /// Makes the kernels for cells of `samples` sub-samples.
+    /// Makes the kernels for cells of `samples` sub-samples, or up to `samples` points.
     ///
     /// # Errors
     /// If the driver refuses one.
     pub fn new(
         layout: &FrameLayout,
+        cells: Cells,
         samples: u32,
         per_sample: bool,
         has_mask: bool,
@@ -81,7 +82,8 @@ impl Sample {
         let mut kernels = Vec::new();
         let mut add =
             |list: TileList, code: &'static [u8], mask: bool| -> Result<(), VulkanError> {
-                let constants = Constants::new()
+                let constants = cells
+                    .constants(Constants::new())
                     .with(0, lanes)
                     .with(1, lanes)
                     .flag(2, per_sample)

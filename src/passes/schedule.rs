@@ -1,6 +1,6 @@
 //! schedule: which tiles' lists are placed in a round.
 
-use super::{FrameLayout, Sample, TileList, spirv};
+use super::{Cells, FrameLayout, Sample, TileList, spirv};
 use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
@@ -17,12 +17,14 @@ impl Schedule {
     /// If the driver refuses it.
     pub fn new(
         layout: &FrameLayout,
+        cells: Cells,
         sample: &Sample,
         per_sample: bool,
         layers: u32,
     ) -> Result<Self, VulkanError> {
         let lanes = layout.gpu.limits().subgroup_size;
-        let constants = Constants::new()
+        let constants = cells
+            .constants(Constants::new())
             .with(0, lanes)
             .with(1, sample.block(TileList::Plain))
             .with(2, sample.block(TileList::Masked))

@@ -1,7 +1,7 @@
 //! shade: the radiance of what is seen, one dispatch a material bin.
 
 use super::geometry::ShadeFeatures;
-use super::{Argument, FrameLayout, GpuScene, spirv};
+use super::{Argument, Cells, FrameLayout, GpuScene, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::collections::HashMap;
@@ -15,8 +15,8 @@ pub enum ShadeSource {
         /// Write display codes for detection.
         display_codes: bool,
     },
-    /// Visibility records.
-    Records,
+    /// Visibility records of such cells.
+    Records(Cells),
 }
 
 /// Shades each bin with a pipeline that has only what its materials and the scene's lights need.
@@ -41,9 +41,12 @@ impl Shade {
         output: &Constants,
     ) -> Result<Self, VulkanError> {
         let lights = scene.light_features();
-        let pixels = source != ShadeSource::Records;
-        let common = output
-            .clone()
+        let (pixels, cells) = match source {
+            ShadeSource::Pixels { .. } => (true, Cells::Pixels),
+            ShadeSource::Records(cells) => (false, cells),
+        };
+        let common = cells
+            .constants(output.clone())
             .flag(0, pixels)
             .flag(1, scene.bins.len() <= 1)
             .flag(
@@ -102,7 +105,8 @@ impl Shade {
                 );
             }
             recorder.push(self.layout.pipeline, &[bin as u32]);
-            let every_record = self.source == ShadeSource::Records && self.bins.len() == 1;
+            let every_record =
+                matches!(self.source, ShadeSource::Records(_)) && self.bins.len() == 1;
             let argument = if every_record {
                 Argument::Sort as u32
             } else {

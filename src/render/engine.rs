@@ -3,8 +3,8 @@
 use super::plan::Plan;
 use super::{RenderError, Settings, Shading};
 use crate::passes::{
-    Bin, Cull, Detect, DetectMode, FrameLayout, GpuScene, Resolve, Resources, Sample, Schedule,
-    Setup, Shade, ShadeSource, Sort, Thin,
+    Bin, Cells, Cull, Detect, DetectMode, FrameLayout, GpuScene, Resolve, Resources, Sample,
+    Schedule, Setup, Shade, ShadeSource, Sort, Thin,
 };
 use crate::vulkan::{Constants, Recorder};
 use std::sync::Arc;
@@ -50,6 +50,7 @@ impl Engine {
         let per_sample = settings.shading == Shading::Sample;
         let sample = Sample::new(
             layout,
+            Cells::Pixels,
             kind.samples,
             per_sample,
             scene.has_mask(),
@@ -70,12 +71,13 @@ impl Engine {
             )?,
             cull: Cull::new(layout)?,
             bin: Bin::new(layout)?,
-            schedule: Schedule::new(layout, &sample, per_sample, plan.layers)?,
+            schedule: Schedule::new(layout, Cells::Pixels, &sample, per_sample, plan.layers)?,
             setup: Setup::new(layout)?,
             sort: Sort::new(layout, scene.bin_count() == 1)?,
             shade: shade.clone(),
             resolve: Resolve::new(
                 layout,
+                Cells::Pixels,
                 &sample,
                 scene.has_blend(),
                 kind.display_codes,
@@ -94,7 +96,7 @@ impl Engine {
         Ok(Arc::new(Shade::new(
             layout,
             scene,
-            ShadeSource::Records,
+            ShadeSource::Records(Cells::Pixels),
             output,
         )?))
     }

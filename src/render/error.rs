@@ -1,5 +1,6 @@
 //! What can go wrong with a frame.
 
+use super::SiteError;
 use crate::sampling::PatternError;
 use crate::vulkan::VulkanError;
 
@@ -12,6 +13,15 @@ pub enum RenderError {
     /// The pattern can't have that many sub-samples.
     #[error(transparent)]
     Pattern(#[from] PatternError),
+    /// Multisampling samples pixels.
+    #[error("msaa samples the pixels of an image, not any locations; ask another method")]
+    SiteMethod,
+    /// A plane of values that detection compares is not as large as the image.
+    #[error(transparent)]
+    Plane(#[from] crate::reference::detect::PlaneError),
+    /// A sampling location can't be used.
+    #[error(transparent)]
+    Site(#[from] SiteError),
     /// The method can't have that many samples.
     #[error("{method} can't have {asked} samples a pixel; it can have {possible}")]
     Samples {
@@ -66,7 +76,12 @@ impl RenderError {
     pub fn is_usage(&self) -> bool {
         matches!(
             self,
-            Self::Pattern(_) | Self::Samples { .. } | Self::Attributes | Self::Size { .. }
+            Self::Pattern(_)
+                | Self::Site(_)
+                | Self::Samples { .. }
+                | Self::SiteMethod
+                | Self::Attributes
+                | Self::Size { .. }
         )
     }
 

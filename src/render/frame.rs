@@ -647,6 +647,8 @@ impl Passes<'_> {
             contrast: u32::from(self.settings.contrast),
             exposure: self.settings.exposure.exp2(),
             footprint: side as f32,
+            reach: 0.5,
+            group_count: 0,
         }
     }
 }
@@ -670,7 +672,7 @@ fn gap(camera: &Camera, image_height: f64) -> [f32; 2] {
 }
 
 /// The 8-bit sRGB codes of a premultiplied colour, as `display_code` of `shaders/include/color.glsl` packs them.
-fn display_code(color: [f32; 4]) -> u32 {
+pub(super) fn display_code(color: [f32; 4]) -> u32 {
     let [r, g, b, a] = color.map(f64::from);
     let rgb = [r, g, b].map(crate::reference::srgb::encode_u8);
     u32::from_le_bytes([

@@ -33,7 +33,7 @@ pub struct Rendered {
 
 /// A device, a queue, and a renderer in it.
 pub struct Headless {
-    renderer: Renderer,
+    pub(super) renderer: Renderer,
     gpu: Arc<Gpu>,
     queue: vk::Queue,
     pool: vk::CommandPool,
@@ -252,7 +252,7 @@ impl Headless {
     }
 
     /// Records, submits and waits.
-    fn submit(
+    pub(super) fn submit(
         &mut self,
         record: impl FnOnce(&Renderer, vk::CommandBuffer),
     ) -> Result<(), RenderError> {

@@ -9,6 +9,7 @@ mod headless;
 mod plan;
 mod renderer;
 mod settings;
+mod sites;
 mod statistics;
 
 pub use error::RenderError;
@@ -16,4 +17,5 @@ pub use frame::{Frame, ImageState, Target};
 pub use headless::{Headless, HeadlessOptions, PixelAttributes, Rendered};
 pub use renderer::{PreparedScene, Renderer};
 pub use settings::{Detection, Method, Reference, Settings, Shading};
+pub use sites::{PointSample, Sampled, SiteError};
 pub use statistics::{PassTime, Statistics, TriangleCounts};

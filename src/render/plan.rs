@@ -83,7 +83,7 @@ impl Plan {
     /// Plans an image.
     ///
     /// # Errors
-    /// [`RenderError::Memory`] if not even a region of 64 x 64 pixels fits.
+    /// [`RenderError::Memory`] if not even a region of 8 x 8 pixels fits.
     pub fn new(
         settings: &Settings,
         scene: &GpuScene,
@@ -118,7 +118,7 @@ impl Plan {
                 return Ok(plan);
             }
             let longer = usize::from(region[1] > region[0]);
-            if region[longer] <= 64 {
+            if region[longer] <= 8 {
                 return Err(RenderError::Memory {
                     needed: needed + taken,
                     allowed: settings.max_memory.unwrap_or(0),
@@ -193,6 +193,7 @@ impl Plan {
         };
         let sizes = ResourceSizes {
             region: outer,
+            sites: None,
             list_capacity: candidates.min(limits.max_storage_bytes / ResourceSizes::CANDIDATE_BYTES)
                 as u32,
             record_capacity: records as u32,

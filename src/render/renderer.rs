@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// Everything that can fail happens in `prepare_scene` and `prepare`; recording a frame writes commands and nothing
 /// else: it does not submit, wait or allocate.
 pub struct Renderer {
-    layout: Arc<FrameLayout>,
+    pub(super) layout: Arc<FrameLayout>,
     gpu: Arc<Gpu>,
 }
 

@@ -65,6 +65,36 @@ impl Statistics {
         self.passes.iter().map(|pass| pass.ms).sum()
     }
 
+    /// Adds the time of a pass to what is booked under its name.
+    pub(super) fn add_time(&mut self, time: PassTime) {
+        match self.passes.iter_mut().find(|known| known.pass == time.pass) {
+            Some(known) => known.ms += time.ms,
+            None => self.passes.push(time),
+        }
+    }
+
+    /// Adds what other runs over the same scene did.
+    pub(super) fn append(&mut self, other: Self) {
+        self.superpixels += other.superpixels;
+        self.tiles += other.tiles;
+        self.busy_tiles += other.busy_tiles;
+        self.triangles.total = self.triangles.total.max(other.triangles.total);
+        self.triangles.drawn += other.triangles.drawn;
+        self.triangles.outside += other.triangles.outside;
+        self.triangles.backfacing += other.triangles.backfacing;
+        self.triangles.degenerate += other.triangles.degenerate;
+        self.triangles.untouching += other.triangles.untouching;
+        self.candidates += other.candidates;
+        self.records += other.records;
+        self.unlisted_tiles += other.unlisted_tiles;
+        self.rounds += other.rounds;
+        self.regions += other.regions;
+        self.memory_bytes = self.memory_bytes.max(other.memory_bytes);
+        for time in other.passes {
+            self.add_time(time);
+        }
+    }
+
     /// Adds the counters of one region's superpixels.
     pub(super) fn add(&mut self, counters: &[u32]) {
         let get = |counter: Counter| counters.get(counter as usize).copied().map_or(0, u64::from);

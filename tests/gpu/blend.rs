@@ -11,7 +11,7 @@ use crate::twin::Twin;
 const SIZE: [u32; 2] = [48, 40];
 
 /// Panes that cross each other, through and before an opaque wall with a hole in it.
-fn panes() -> Stage {
+pub fn panes() -> Stage {
     let mut stage = Stage::new(vec![
         flat([0.125, 0.5, 0.25, 1.0], AlphaMode::Opaque),
         flat([1.0, 0.0, 0.0, 0.5], AlphaMode::Blend),

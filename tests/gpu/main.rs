@@ -14,6 +14,7 @@ mod meshes;
 mod methods;
 mod partition;
 mod scenes;
+mod sites;
 mod stage;
 mod ties;
 mod twin;

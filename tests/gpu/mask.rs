@@ -13,7 +13,7 @@ const HALF: [f64; 2] = [27.3, 19.6];
 const REPEATS: f64 = 5.0;
 
 /// A 2 x 2 checker of texels on either side of the cutoff, repeated, before a blue wall.
-fn checker() -> Stage {
+pub fn checker() -> Stage {
     let mask = AlphaMode::Mask { cutoff: 0.5 };
     let mut stage = Stage::new(vec![
         flat([0.0, 0.0, 1.0, 1.0], AlphaMode::Opaque),

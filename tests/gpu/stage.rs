@@ -8,7 +8,9 @@ use std::sync::{Mutex, PoisonError};
 
 use glam::{DMat3, DVec2, DVec3, Vec3};
 use gpc::camera::{Camera, Projection};
-use gpc::render::{Detection, Headless, HeadlessOptions, Method, Reference, Rendered, Settings};
+use gpc::render::{
+    Detection, Headless, HeadlessOptions, Method, PreparedScene, Reference, Rendered, Settings,
+};
 use gpc::sampling::Pattern;
 use gpc::scene::{
     AlphaMode, Draw, DrawClass, Geometry, Image, Material, Pose, Sampler, Scene, Texture,
@@ -252,6 +254,12 @@ impl Stage {
             warnings: Vec::new(),
         };
         (scene, pose)
+    }
+
+    /// Puts it on the device.
+    pub fn upload(&self, gpu: &mut Headless) -> PreparedScene {
+        let (scene, pose) = self.build();
+        gpu.upload(&scene, &pose, None).unwrap()
     }
 
     /// Renders it.

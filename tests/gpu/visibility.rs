@@ -161,7 +161,7 @@ fn planes_through_the_eye_are_seen_as_the_twin_sees_them() {
 }
 
 /// Triangles that intersect in depth; `distances` from the eye, in powers of two.
-fn soup(seed: u64, count: usize, double_sided: bool, distances: [f64; 2]) -> Stage {
+pub fn soup(seed: u64, count: usize, double_sided: bool, distances: [f64; 2]) -> Stage {
     let mut random = Random::new(seed);
     let mut material = flat([1.0; 4], AlphaMode::Opaque);
     material.double_sided = double_sided;

@@ -1,0 +1,27 @@
+// Sites: sampling locations of the caller's own, in the place of pixels. They come sorted by tile. A cell is one site
+// that is sampled by the pattern, moved by its Jacobian, or (POINTS) a few sites of a tile that are sampled once each,
+// where they are. A group is as many cells of a tile as a subgroup takes.
+#ifndef SITES_GLSL
+#define SITES_GLSL
+
+layout(constant_id = 20) const bool SITES = false;
+layout(constant_id = 21) const bool POINTS = false;
+
+// Two vectors each, floats as bits:
+// a site: (x, y from its tile's centre, tile, 0), (its Jacobian: change of x and y a column, change a row of the output)
+layout(set = 0, binding = 42) uniform utextureBuffer sites;
+// a cell: (x, y of its middle from its tile's centre, half its width and height), (first site, sites, 0, 0)
+layout(set = 0, binding = 43) uniform utextureBuffer site_cells;
+// One vector: tile, first cell, cells, number of the first cell within its tile
+layout(set = 0, binding = 44) uniform utextureBuffer site_groups;
+layout(std430, set = 0, binding = 45) readonly buffer TileLoads { uvec2 tile_loads[]; };     // cells, samples
+
+// Set in the owner of a point's first record, its opaque surface or background.
+#define POINT_FIRST 0x80000000u
+
+mat2 site_jacobian(uint site) {
+    vec4 j = uintBitsToFloat(texelFetch(sites, int(2u * site + 1u)));
+    return mat2(j.xy, j.zw);
+}
+
+#endif

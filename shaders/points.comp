@@ -1,0 +1,42 @@
+// points: what each site sees that is sampled once: its colour and attributes, from its visibility records.
+// Reads: records, shaded, clip, the geometry. Writes: color, and two vectors a site, floats as bits:
+// (distance along the view direction, ID, ID of the nearest BLEND layer, display code), (world normal, 0).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "include/frame.glsl"
+#include "include/tiles.glsl"
+#include "include/color.glsl"
+#include "include/barycentric.glsl"
+#include "include/composite.glsl"
+#include "include/sites.glsl"
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 36, rgba32ui) uniform writeonly uimageBuffer attributes_out;
+
+void main() {
+    uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    if (i >= min(counters[COUNTER_RECORDS], frame.record_capacity)) return;
+    uvec4 record = texelFetch(records, int(i));
+    // Layers are reached from the first record of their point.
+    if ((record.x & POINT_FIRST) == 0u) return;
+    uint site = record.x & ~POINT_FIRST, id = record.y;
+    vec4 c = composite(i);
+    color[site] = c;
+
+    uint blend_id = 0u, node = record.w;
+    while (node != ~0u) {
+        uvec4 layer = texelFetch(records, int(node));
+        blend_id = layer.y;
+        node = layer.w;
+    }
+    uvec4 at = texelFetch(sites, int(2u * site));
+    vec2 p = tile_center(ivec2(split(at.z, frame.tiles.x))) + uintBitsToFloat(at.xy);
+    ivec3 v = ivec3(texelFetch(triangles, int(max(id, 1u) - 1u)).xyz);
+    Barycentric w = barycentric(texelFetch(clip, v.x), texelFetch(clip, v.y), texelFetch(clip, v.z), p);
+    mat3 world = mat3(texelFetch(positions, v.x).xyz, texelFetch(positions, v.y).xyz, texelFetch(positions, v.z).xyz);
+    float distance_ = dot(world * w.at - frame.eye.xyz, frame.view_direction.xyz);
+    vec3 n = mat3(texelFetch(normals, v.x).xyz, texelFetch(normals, v.y).xyz, texelFetch(normals, v.z).xyz) * w.at;
+    n *= inversesqrt(max(dot(n, n), 1e-30));
+    bool hit = id != 0u;
+    imageStore(attributes_out, int(2u * site), uvec4(floatBitsToUint(hit ? distance_ : 0.0), id, blend_id, display_code(c)));
+    imageStore(attributes_out, int(2u * site + 1u), uvec4(floatBitsToUint(hit ? n : vec3(0.0)), 0u));
+}

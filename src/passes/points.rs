@@ -1,0 +1,28 @@
+//! points: colour and attributes of sites that are sampled once.
+
+use super::{Argument, Cells, FrameLayout, spirv};
+use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use std::sync::Arc;
+
+/// Writes a colour and two vectors a site, see `shaders/points.comp`.
+pub struct Points {
+    pipeline: Arc<Pipeline>,
+}
+
+impl Points {
+    /// Makes the pipeline; `output` are the colour constants of `shaders/include/color.glsl`.
+    ///
+    /// # Errors
+    /// If the driver refuses it.
+    pub fn new(layout: &FrameLayout, output: &Constants) -> Result<Self, VulkanError> {
+        let constants = Cells::Points.constants(output.clone());
+        Ok(Self {
+            pipeline: layout.compute(spirv::POINTS, &constants, None)?,
+        })
+    }
+
+    /// Records it over the records of the round.
+    pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
+        recorder.dispatch_indirect(&self.pipeline, arguments, Argument::Sort as u32);
+    }
+}

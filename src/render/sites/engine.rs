@@ -1,0 +1,314 @@
+//! The passes and memory that sample sites: the engine of superpixels with the caller's cells in the place of pixels.
+
+use super::partition::Window;
+use crate::camera::Pinhole;
+use crate::passes::{
+    Bin, Cells, Counter, Cull, FrameLayout, FrameUniform, GpuScene, Groups, Points, RasterTargets,
+    Resolve, ResourceSizes, Resources, Sample, Schedule, Setup, Shade, ShadeSource, SiteData, Sort,
+    Transform,
+};
+use crate::render::engine::record_shading;
+use crate::render::renderer::PreparedScene;
+use crate::render::statistics::unfinished;
+use crate::render::{PassTime, Reference, RenderError, Settings, Shading, Statistics};
+use crate::vulkan::{Buffer, Constants, Memory, MemoryUse, Recorder, Timings, VulkanError};
+use ash::vk;
+use glam::DVec2;
+use std::sync::Arc;
+
+/// Sites of a cell that are sampled once each, at the least; a subgroup may hold more.
+const POINTS_IN_CELL: u32 = 16;
+/// Rounds of lists and records recorded for a run.
+const ROUNDS: u32 = 3;
+/// BLEND layers a sample that tiles are admitted with.
+const LAYERS: u32 = 4;
+/// Bytes of the counters of a run.
+const COUNTER_BYTES: u64 = 4 * Counter::COUNT as u64;
+
+/// What makes colours of records.
+enum Finish {
+    Points(Points),
+    Resolve(Resolve),
+}
+
+/// Pipelines and memory to sample runs of sites of one scene.
+pub(super) struct SiteEngine {
+    settings: Settings,
+    samples: u32,
+    transform: Transform,
+    cull: Cull,
+    bin: Bin,
+    schedule: Schedule,
+    groups: Groups,
+    setup: Setup,
+    sample: Sample,
+    sort: Sort,
+    shade: Shade,
+    finish: Finish,
+    resources: Resources,
+    targets: RasterTargets,
+    counters: Buffer,
+    timings: Timings,
+    memory: Memory,
+    uploaded: bool,
+}
+
+/// How many sites share a cell, and cells a group.
+pub(super) fn cell_sizes(layout: &FrameLayout, cells: Cells) -> [usize; 2] {
+    let lanes = layout.gpu.limits().subgroup_size;
+    let in_cell = match cells {
+        Cells::Points => POINTS_IN_CELL.next_multiple_of(lanes),
+        _ => 1,
+    };
+    [in_cell as usize, lanes as usize]
+}
+
+impl SiteEngine {
+    /// Makes the pipelines, and memory for runs of up to these sizes in windows of up to `window` pixels.
+    pub fn new(
+        layout: &Arc<FrameLayout>,
+        prepared: &PreparedScene,
+        settings: &Settings,
+        cells: Cells,
+        sizes: &ResourceSizes,
+    ) -> Result<Self, RenderError> {
+        let scene = &prepared.gpu_scene;
+        let gpu = prepared.memory.gpu().clone();
+        let taken = prepared.memory_bytes();
+        let memory = Memory::new(
+            gpu.clone(),
+            settings.max_memory.map(|limit| limit.saturating_sub(taken)),
+        );
+        let points = cells == Cells::Points;
+        let [in_cell, _] = cell_sizes(layout, cells);
+        let (samples, locations) = if points {
+            (in_cell as u32, vec![[0.0; 2]])
+        } else {
+            (
+                settings.samples,
+                settings.pattern.offsets(settings.samples)?,
+            )
+        };
+        let targets = RasterTargets::new(
+            &memory,
+            1,
+            1,
+            vk::SampleCountFlags::TYPE_1,
+            scene.has_blend(),
+        )?;
+        let resources = Resources::new(layout, &memory, scene, &targets, *sizes, &[&locations])?;
+        let output = Constants::new()
+            .flag(
+                30,
+                settings.reference == Reference::Display && settings.tonemapped_detection,
+            )
+            .flag(31, settings.tonemapped_detection);
+        let per_sample = points || settings.shading == Shading::Sample;
+        let sample = Sample::new(
+            layout,
+            cells,
+            samples,
+            per_sample,
+            scene.has_mask(),
+            scene.has_blend(),
+        )?;
+        let finish = if points {
+            Finish::Points(Points::new(layout, &output)?)
+        } else {
+            Finish::Resolve(Resolve::new(
+                layout,
+                cells,
+                &sample,
+                scene.has_blend(),
+                false,
+                &output,
+            )?)
+        };
+        Ok(Self {
+            settings: settings.clone(),
+            samples,
+            transform: Transform::new(layout)?,
+            cull: Cull::new(layout)?,
+            bin: Bin::new(layout)?,
+            schedule: Schedule::new(layout, cells, &sample, per_sample, LAYERS)?,
+            groups: Groups::new(layout)?,
+            setup: Setup::new(layout)?,
+            sort: Sort::new(layout, scene.bin_count() == 1)?,
+            shade: Shade::new(layout, scene, ShadeSource::Records(cells), &output)?,
+            sample,
+            finish,
+            resources,
+            targets,
+            counters: memory.buffer(
+                "counter read-back",
+                COUNTER_BYTES,
+                vk::BufferUsageFlags::TRANSFER_DST,
+                MemoryUse::Readback,
+            )?,
+            timings: Timings::new(&gpu, 16 + 8 * ROUNDS)?,
+            memory,
+            uploaded: false,
+        })
+    }
+
+    /// Writes a run's sites for the device to read.
+    pub fn write(&mut self, data: &SiteData) -> Result<(), VulkanError> {
+        self.resources.write_sites(data)
+    }
+
+    /// Records a run whose sites have been written.
+    ///
+    /// # Safety
+    /// - `commands` is being recorded, outside of a render pass, for the device and queue family of the renderer.
+    /// - `scene` is the one that the engine was made for and its upload was recorded before.
+    /// - The commands of the engine's last recording are done: its memory is used again.
+    pub unsafe fn record(
+        &mut self,
+        scene: &PreparedScene,
+        pinhole: &Pinhole,
+        window: &Window,
+        data: &SiteData,
+        commands: vk::CommandBuffer,
+    ) {
+        let uniform = self.uniform(&scene.gpu_scene, pinhole, window, data);
+        let scene = &scene.gpu_scene;
+        let gpu = self.memory.gpu().clone();
+        // SAFETY: passed on to the caller.
+        let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
+        let recorder = &mut recorder;
+        let resources = &self.resources;
+        let arguments = &resources.arguments;
+        if !self.uploaded {
+            resources.record_upload(recorder);
+            self.targets.record_unused(recorder);
+            self.uploaded = true;
+        }
+        recorder.begin();
+        let Some(set) = resources.set(0) else {
+            return;
+        };
+        resources.record_begin(recorder, set, &uniform);
+        let superpixels = match &self.finish {
+            Finish::Points(_) => 0,
+            Finish::Resolve(_) => data.cells.len() as u32,
+        };
+        let tiles = data.loads.iter().filter(|[cells, _]| *cells > 0).count() as u32;
+        resources.record_counters(
+            recorder,
+            &[(Counter::Superpixels, superpixels), (Counter::Tiles, tiles)],
+        );
+        self.transform.record(recorder, scene.vertex_count());
+        recorder.mark("transform");
+        self.cull.record(recorder, arguments);
+        recorder.mark("cull");
+        self.bin.record(recorder, arguments);
+        recorder.mark("bin");
+        for _ in 0..ROUNDS {
+            self.schedule.record(recorder);
+            self.groups.record(recorder, arguments);
+            recorder.mark("schedule");
+            self.setup.record(recorder, arguments);
+            recorder.mark("setup");
+            self.sample.record(recorder, arguments);
+            recorder.mark("sample");
+            record_shading(recorder, scene, resources, &self.sort, &self.shade);
+            match &self.finish {
+                Finish::Points(points) => {
+                    points.record(recorder, arguments);
+                    recorder.mark("points");
+                }
+                Finish::Resolve(resolve) => {
+                    resolve.record(recorder, arguments);
+                    recorder.mark("resolve");
+                }
+            }
+        }
+        resources.record_keep_counters(recorder, &self.counters, 0);
+        recorder.barrier();
+    }
+
+    /// The colours of the last run's sites, in their order.
+    pub fn colors(&self) -> &[[f32; 4]] {
+        bytemuck::try_cast_slice(self.resources.color.buffer.bytes()).unwrap_or(&[])
+    }
+
+    /// What `shaders/points.comp` wrote of the last run's sites, in their order.
+    pub fn attributes(&self) -> &[[[u32; 4]; 2]] {
+        bytemuck::try_cast_slice(self.resources.attributes.buffer.bytes()).unwrap_or(&[])
+    }
+
+    /// Adds the figures of the last run.
+    ///
+    /// # Errors
+    /// [`RenderError::Unfinished`] if its records did not fit, [`RenderError::Vulkan`] if timestamps can't be read.
+    pub fn add_statistics(
+        &self,
+        scene: &PreparedScene,
+        window: &Window,
+        total: &mut Statistics,
+    ) -> Result<(), RenderError> {
+        let counters: &[u32] = bytemuck::try_cast_slice(self.counters.bytes()).unwrap_or(&[]);
+        let tiles = window.tiles[0] * window.tiles[1];
+        let left = unfinished(counters, tiles);
+        if left > 0 {
+            return Err(RenderError::Unfinished { cells: left });
+        }
+        total.add(counters);
+        total.tiles += u64::from(tiles);
+        total.regions += 1;
+        total.triangles.total = u64::from(scene.triangle_count());
+        total.memory_bytes = total
+            .memory_bytes
+            .max(self.memory.used() + scene.memory_bytes());
+        for (pass, ms) in self.timings.read()? {
+            total.add_time(PassTime { pass, ms });
+        }
+        Ok(())
+    }
+
+    fn uniform(
+        &self,
+        scene: &GpuScene,
+        pinhole: &Pinhole,
+        window: &Window,
+        data: &SiteData,
+    ) -> FrameUniform {
+        let middle = window.middle;
+        let eye = (pinhole.eye() - scene.origin()).as_vec3();
+        // Parallel rays need not be at right angles to the plane.
+        let direction = pinhole
+            .parallel_direction()
+            .map_or(pinhole.direction(), |to_centre| -to_centre)
+            .as_vec3();
+        let parallel = if pinhole.is_parallel() { 1.0 } else { 0.0 };
+        FrameUniform {
+            transform: pinhole
+                .pixel_matrix(scene.origin(), DVec2::from_array(middle))
+                .as_mat4()
+                .to_cols_array(),
+            eye: [eye.x, eye.y, eye.z, 1.0],
+            view_direction: [direction.x, direction.y, direction.z, parallel],
+            background: self
+                .settings
+                .background
+                .map_or([0.0; 4], |[r, g, b]| [r, g, b, 1.0]),
+            origin: [0, 1].map(|axis| (window.low[axis] as f64 + 0.5 - middle[axis]) as f32),
+            size: window.size(),
+            tiles: window.tiles,
+            vertex_count: scene.vertex_count(),
+            triangle_count: scene.triangle_count(),
+            first_mask: scene.first_mask(),
+            first_blend: scene.first_blend(),
+            sample_count: self.samples,
+            list_capacity: self.resources.sizes().list_capacity,
+            record_capacity: self.resources.sizes().record_capacity,
+            bin_count: scene.bin_count(),
+            light_count: scene.light_features().count,
+            exposure: self.settings.exposure.exp2(),
+            footprint: 1.0,
+            reach: window.reach as f32,
+            group_count: data.groups.len() as u32,
+            ..FrameUniform::default()
+        }
+    }
+}

@@ -1,0 +1,176 @@
+//! An image whose pixels look where sites say: sampled once, then as superpixels where that aliases.
+
+use super::SiteError;
+use crate::camera::{Pinhole, Site};
+use crate::reference::detect;
+use crate::render::frame::display_code;
+use crate::render::{
+    Detection, Headless, Method, PixelAttributes, PreparedScene, RenderError, Rendered, Settings,
+    Statistics,
+};
+use crate::sampling::Pattern;
+
+/// One value for each output cell, as detection compares them.
+struct Cells {
+    colors: Vec<[f32; 4]>,
+    attributes: Vec<PixelAttributes>,
+    blend_ids: Vec<u32>,
+    codes: Vec<u32>,
+}
+
+impl Headless {
+    /// Renders the image of `size` pixels whose pixel `row * width + column` looks where the site of that output index
+    /// does, on the plane of its pinhole. The pinholes of a list share a centre of projection as a rule, and together
+    /// see what one plane can't.
+    ///
+    /// Every site is sampled once. Where neighbours in the *output* alias, across pinholes too, sites are then sampled
+    /// as superpixels; thin triangles that no sample saw are not looked for. `ssaa` samples every site as a superpixel,
+    /// by a grid. Pixels without a site show the background; of several sites of a pixel the last one counts.
+    ///
+    /// # Errors
+    /// [`RenderError::Site`] names the first site that can't be sampled or has no place in the output,
+    /// [`RenderError::SiteMethod`] if the method is `msaa`; otherwise as [`Headless::render`].
+    pub fn render_sites(
+        &mut self,
+        scene: &PreparedScene,
+        rig: &[(Pinhole, Vec<Site>)],
+        size: [u32; 2],
+        settings: &Settings,
+    ) -> Result<Rendered, RenderError> {
+        let mut settings = Settings {
+            size,
+            ..settings.clone()
+        };
+        match settings.method {
+            Method::Msaa => return Err(RenderError::SiteMethod),
+            Method::Ssaa => {
+                settings.pattern = Pattern::Grid;
+                settings.detection = Detection::Every;
+            }
+            Method::None | Method::Superpixel => {}
+        }
+        settings.check(self.gpu().limits())?;
+        let count = u64::from(size[0]) * u64::from(size[1]);
+        for (index, site) in rig.iter().flat_map(|(_, sites)| sites).enumerate() {
+            if u64::from(site.output) >= count {
+                return Err(SiteError::Output {
+                    index,
+                    output: site.output,
+                    cells: count,
+                }
+                .into());
+            }
+        }
+        let samples_cells = settings.method != Method::None;
+        let every = samples_cells && settings.detection == Detection::Every;
+        let mut statistics = Statistics::default();
+        let mut cells = Cells::new(count as usize, &settings);
+        if !every || settings.attributes {
+            for (pinhole, sites) in rig.iter().filter(|(_, sites)| !sites.is_empty()) {
+                let seen = self.sample_points(scene, pinhole, sites, &settings)?;
+                statistics.append(seen.statistics);
+                for (site, seen) in sites.iter().zip(&seen.values) {
+                    cells.put(site.output as usize, seen);
+                }
+            }
+        }
+        if samples_cells {
+            let marked = if every {
+                vec![true; count as usize]
+            } else {
+                cells.aliasing(&settings)?
+            };
+            for (pinhole, sites) in rig {
+                let chosen: Vec<Site> = sites
+                    .iter()
+                    .filter(|site| marked.get(site.output as usize).copied().unwrap_or(false))
+                    .copied()
+                    .collect();
+                if chosen.is_empty() {
+                    continue;
+                }
+                let resolved = self.sample_superpixels(scene, pinhole, &chosen, &settings)?;
+                statistics.append(resolved.statistics);
+                for (site, color) in chosen.iter().zip(&resolved.values) {
+                    cells.resolve(site.output as usize, *color, settings.samples);
+                }
+            }
+        }
+        Ok(Rendered {
+            size,
+            colors: cells.colors,
+            attributes: if settings.attributes {
+                cells.attributes
+            } else {
+                Vec::new()
+            },
+            statistics,
+        })
+    }
+}
+
+impl Cells {
+    fn new(count: usize, settings: &Settings) -> Self {
+        let background = settings
+            .background
+            .map_or([0.0; 4], |[r, g, b]| [r, g, b, 1.0]);
+        let unseen = PixelAttributes {
+            samples: 1,
+            ..PixelAttributes::default()
+        };
+        Self {
+            colors: vec![background; count],
+            attributes: vec![unseen; count],
+            blend_ids: vec![0; count],
+            codes: vec![display_code(background); count],
+        }
+    }
+
+    fn put(&mut self, cell: usize, seen: &super::PointSample) {
+        if let (Some(color), Some(attributes), Some(blend_id), Some(code)) = (
+            self.colors.get_mut(cell),
+            self.attributes.get_mut(cell),
+            self.blend_ids.get_mut(cell),
+            self.codes.get_mut(cell),
+        ) {
+            *color = seen.color;
+            attributes.depth = seen.depth;
+            attributes.id = seen.id;
+            attributes.normal = seen.normal;
+            *blend_id = seen.blend_id;
+            *code = seen.code;
+        }
+    }
+
+    fn resolve(&mut self, cell: usize, resolved: [f32; 4], samples: u32) {
+        if let (Some(color), Some(attributes)) =
+            (self.colors.get_mut(cell), self.attributes.get_mut(cell))
+        {
+            *color = resolved;
+            attributes.samples = samples;
+            attributes.superpixel = 1;
+        }
+    }
+
+    /// Whether each cell aliases.
+    fn aliasing(&self, settings: &Settings) -> Result<Vec<bool>, RenderError> {
+        let [width, height] = settings.size;
+        let mode = match settings.detection {
+            Detection::Contrast => detect::Mode::Contrast(settings.contrast),
+            Detection::Colour => detect::Mode::Colour(settings.contrast),
+            Detection::Exact | Detection::Every => detect::Mode::Exact,
+        };
+        let ids: Vec<u32> = self.attributes.iter().map(|seen| seen.id).collect();
+        let frame = detect::Frame::new(width, height, &ids, &self.blend_ids, &self.codes)?;
+        let mask = detect::superpixels(&frame, mode);
+        let tiles = width.div_ceil(detect::TILE_WIDTH);
+        let marked = |pixel: u32| {
+            let (x, y) = (pixel % width, pixel / width);
+            let (column, row) = (x / detect::TILE_WIDTH, y / detect::TILE_HEIGHT);
+            let bit = y % detect::TILE_HEIGHT * detect::TILE_WIDTH + x % detect::TILE_WIDTH;
+            mask.get((row * tiles + column) as usize)
+                .is_some_and(|word| word >> bit & 1 != 0)
+        };
+        Ok((0..width * height).map(marked).collect())
+    }
+}

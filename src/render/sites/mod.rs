@@ -1,0 +1,167 @@
+//! Sampling at any set of locations on a pinhole's image plane.
+//!
+//! A scene is sampled where [`Site`]s lie, once each ([`Headless::sample_points`]) or as superpixels
+//! ([`Headless::sample_superpixels`]); [`Headless::render_sites`] makes an image of both. They run on the engine that antialiases images; no picture is resampled.
+
+mod engine;
+mod error;
+mod image;
+mod partition;
+mod plan;
+
+pub use error::SiteError;
+
+use super::{Headless, PreparedScene, RenderError, Settings, Statistics};
+use crate::camera::{Pinhole, Site};
+use crate::passes::Cells;
+use engine::{SiteEngine, cell_sizes};
+use partition::Partition;
+use plan::SitePlan;
+
+/// What a sampling location sees.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PointSample {
+    /// Linear light, premultiplied alpha.
+    pub color: [f32; 4],
+    /// Distance from the eye along the view direction in world units; 0 for background.
+    pub depth: f32,
+    /// ID of the nearest opaque or MASK triangle; 0 is background.
+    pub id: u32,
+    /// ID of the nearest BLEND triangle in front of it; 0 where there is none.
+    pub blend_id: u32,
+    /// Unit normal of the opaque or MASK triangle in world space; 0 for background.
+    pub normal: [f32; 3],
+    /// The colour as detection compares it: 8-bit sRGB codes and alpha, red in the lowest byte.
+    pub code: u32,
+}
+
+/// What a set of sites sees, in the order of the sites, and what it cost.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sampled<T> {
+    /// One value a site.
+    pub values: Vec<T>,
+    /// Figures of all runs, which count as regions; sites sampled as superpixels count as these.
+    pub statistics: Statistics,
+}
+
+impl Headless {
+    /// Samples a scene once at each site. Of the settings, size, method, samples and detection do not matter.
+    ///
+    /// # Errors
+    /// [`RenderError::Site`] names the first site that can't be sampled; otherwise as [`Headless::render`].
+    pub fn sample_points(
+        &mut self,
+        scene: &PreparedScene,
+        pinhole: &Pinhole,
+        sites: &[Site],
+        settings: &Settings,
+    ) -> Result<Sampled<PointSample>, RenderError> {
+        let mut values = vec![PointSample::default(); sites.len()];
+        let statistics = self.run_sites(
+            (scene, pinhole),
+            (sites, Cells::Points),
+            settings,
+            |index, engine, place| {
+                let color = engine.colors().get(place);
+                let attributes = engine.attributes().get(place);
+                if let (Some(value), Some(color), Some([seen, normal])) =
+                    (values.get_mut(index), color, attributes)
+                {
+                    let [depth, id, blend_id, code] = *seen;
+                    let [x, y, z, _] = normal.map(f32::from_bits);
+                    *value = PointSample {
+                        color: *color,
+                        depth: f32::from_bits(depth),
+                        id,
+                        blend_id,
+                        normal: [x, y, z],
+                        code,
+                    };
+                }
+            },
+        )?;
+        Ok(Sampled { values, statistics })
+    }
+
+    /// Samples each site as a superpixel: as often as the settings say, at its location plus its Jacobian times the
+    /// offsets of their pattern. The values are resolved colours, linear light with premultiplied alpha. Of the
+    /// settings, size, method and detection do not matter.
+    ///
+    /// # Errors
+    /// [`RenderError::Site`] names the first site that can't be sampled, [`RenderError::Pattern`] says which numbers of
+    /// samples there are; otherwise as [`Headless::render`].
+    pub fn sample_superpixels(
+        &mut self,
+        scene: &PreparedScene,
+        pinhole: &Pinhole,
+        sites: &[Site],
+        settings: &Settings,
+    ) -> Result<Sampled<[f32; 4]>, RenderError> {
+        let mut values = vec![[0.0; 4]; sites.len()];
+        let statistics = self.run_sites(
+            (scene, pinhole),
+            (sites, Cells::Superpixels),
+            settings,
+            |index, engine, place| {
+                if let (Some(value), Some(color)) =
+                    (values.get_mut(index), engine.colors().get(place))
+                {
+                    *value = *color;
+                }
+            },
+        )?;
+        Ok(Sampled { values, statistics })
+    }
+
+    /// Samples sites run by run; `take` is given each site's index and its place in what the engine holds.
+    fn run_sites(
+        &mut self,
+        (scene, pinhole): (&PreparedScene, &Pinhole),
+        (sites, cells): (&[Site], Cells),
+        settings: &Settings,
+        mut take: impl FnMut(usize, &SiteEngine, usize),
+    ) -> Result<Statistics, RenderError> {
+        let partition = Partition::new(sites, cells)?;
+        let layout = self.renderer.layout.clone();
+        let taken = scene.memory_bytes();
+        let plan = SitePlan::new(
+            &layout,
+            &scene.gpu_scene,
+            settings,
+            cells,
+            &partition,
+            taken,
+        )?;
+        let mut engine = SiteEngine::new(&layout, scene, settings, cells, &plan.sizes)?;
+        let sizes = cell_sizes(&layout, cells);
+        let mut statistics = Statistics::default();
+        let mut waiting = plan.runs;
+        waiting.reverse();
+        while let Some(run) = waiting.pop() {
+            let window = partition.window(&run);
+            let data = partition.data(&run, &window, sizes, settings.samples);
+            engine.write(&data)?;
+            // SAFETY: the last submission was waited for; scene and engine outlive this one, which is waited for.
+            self.submit(|_, commands| unsafe {
+                engine.record(scene, pinhole, &window, &data, commands);
+            })?;
+            match engine.add_statistics(scene, &window, &mut statistics) {
+                Ok(()) => {}
+                // Half as many sites have half as many records.
+                Err(RenderError::Unfinished { cells }) if run.len() > 1 => {
+                    log::debug!("{cells} cells or tiles of {} sites did not fit", run.len());
+                    let middle = run.start + run.len() / 2;
+                    waiting.push(middle..run.end);
+                    waiting.push(run.start..middle);
+                    continue;
+                }
+                Err(error) => return Err(error),
+            }
+            let order = partition.order.get(run).unwrap_or(&[]);
+            for (place, index) in order.iter().enumerate() {
+                take(*index as usize, &engine, place);
+            }
+        }
+        Ok(statistics)
+    }
+}

@@ -1,0 +1,112 @@
+//! How many sites are sampled at once: what memory and the device's limits allow.
+
+use super::engine::cell_sizes;
+use super::partition::{Partition, Window};
+use crate::passes::{Cells, FrameLayout, GpuScene, ResourceSizes, SiteSizes};
+use crate::render::{RenderError, Settings, Shading};
+use std::ops::Range;
+
+/// Most sites of a run.
+const MOST_POINTS: usize = 1 << 20;
+const MOST_SUPERPIXELS: usize = 1 << 18;
+/// Fewest sites of a run, to which runs are cut where memory is bounded.
+const FEWEST_SITES: usize = 1 << 10;
+/// Most visibility records and candidates of a round.
+const MOST_RECORDS: u64 = 6 << 20;
+const MOST_CANDIDATES: u64 = 2 << 20;
+
+/// The runs of a set of sites and the memory that the largest of them needs.
+pub(super) struct SitePlan {
+    pub runs: Vec<Range<usize>>,
+    pub sizes: ResourceSizes,
+}
+
+impl SitePlan {
+    /// Plans the runs of a partition; `taken` bytes of what the settings allow are used already.
+    ///
+    /// # Errors
+    /// [`RenderError::Memory`] if not even short runs fit.
+    pub fn new(
+        layout: &FrameLayout,
+        scene: &GpuScene,
+        settings: &Settings,
+        cells: Cells,
+        partition: &Partition,
+        taken: u64,
+    ) -> Result<Self, RenderError> {
+        let limits = layout.gpu.limits();
+        let mut longest = match cells {
+            Cells::Points => MOST_POINTS,
+            _ => MOST_SUPERPIXELS,
+        };
+        loop {
+            let runs = partition.runs(longest);
+            let windows = runs.iter().map(|run| partition.window(run));
+            let most = runs.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
+            let sizes = sizes(layout, scene, settings, cells, windows, most as u64);
+            let needed = taken + sizes.bytes(u64::from(scene.triangle_count()));
+            let texels = 4 * u64::from(sizes.list_capacity).max(most as u64);
+            let fits = sizes.largest_storage() <= limits.max_storage_bytes
+                && texels <= limits.max_texel_elements;
+            if fits && settings.max_memory.is_none_or(|allowed| needed <= allowed) {
+                return Ok(Self { runs, sizes });
+            }
+            if longest <= FEWEST_SITES {
+                return Err(RenderError::Memory {
+                    needed,
+                    allowed: settings.max_memory.unwrap_or(limits.max_storage_bytes),
+                });
+            }
+            longest /= 2;
+        }
+    }
+}
+
+fn sizes(
+    layout: &FrameLayout,
+    scene: &GpuScene,
+    settings: &Settings,
+    cells: Cells,
+    windows: impl Iterator<Item = Window>,
+    most: u64,
+) -> ResourceSizes {
+    let limits = layout.gpu.limits();
+    let region = windows.fold([0; 2], |most: [u32; 2], window| {
+        let [width, height] = window.size();
+        // Windows share one buffer of tiles, however long and wide each is.
+        if u64::from(width) * u64::from(height) > u64::from(most[0]) * u64::from(most[1]) {
+            [width, height]
+        } else {
+            most
+        }
+    });
+    let tiles = u64::from(region[0] / 8) * u64::from(region[1] / 4);
+    let [in_cell, in_group] = cell_sizes(layout, cells).map(|size| size as u64);
+    let cell_count = most.min(most / in_cell + tiles);
+    let group_count = cell_count.min(cell_count / in_group + tiles);
+    let lanes = u64::from(limits.subgroup_size);
+    let samples = u64::from(settings.samples);
+    let records = match cells {
+        Cells::Points if scene.has_blend() => 3 * most,
+        Cells::Points => most,
+        _ if settings.shading == Shading::Sample || scene.has_blend() => most * samples.min(64),
+        _ => most * (6 * samples.div_ceil(32 * lanes)).min(samples).max(2),
+    };
+    let candidates = u64::from(scene.triangle_count()) * 3 + tiles * 8;
+    ResourceSizes {
+        region,
+        sites: Some(SiteSizes {
+            sites: most as u32,
+            cells: cell_count as u32,
+            groups: group_count as u32,
+        }),
+        list_capacity: candidates
+            .clamp(1 << 14, MOST_CANDIDATES)
+            .min(limits.max_storage_bytes / ResourceSizes::CANDIDATE_BYTES)
+            as u32,
+        record_capacity: records.clamp(1 << 16, MOST_RECORDS) as u32,
+        filtered: 0,
+        attributes: cells == Cells::Points,
+        encoded: 0,
+    }
+}

@@ -1,0 +1,163 @@
+//! Sets that are empty, wrong, crowded or far apart.
+
+use gpc::camera::Site;
+use gpc::render::{Method, RenderError, Settings, SiteError};
+use gpc::sampling::Pattern;
+use gpc::scene::AlphaMode;
+
+use super::{pinhole, planar, site};
+use crate::stage::{Stage, everywhere, flat, on_gpu, once, seen_at};
+use crate::visibility::soup;
+
+const SIZE: [u32; 2] = [64, 64];
+
+#[test]
+fn sets_that_cannot_be_sampled_are_named() {
+    on_gpu(|gpu| {
+        let prepared = soup(1, 3, true, [-1.0, 5.0]).upload(gpu);
+        let mut error = |sites: &[Site]| {
+            let settings = once(SIZE);
+            match gpu.sample_points(&prepared, &pinhole(SIZE), sites, &settings) {
+                Err(RenderError::Site(error)) => error,
+                other => panic!("{other:?}"),
+            }
+        };
+        assert_eq!(error(&[]), SiteError::Empty);
+        let good = site([3.0, 4.0], 0);
+        for bad in [
+            site([f64::NAN, 1.0], 0),
+            site([1.0, f64::INFINITY], 0),
+            Site {
+                jacobian: [[1.0, 0.0], [f64::NAN, 1.0]],
+                ..good
+            },
+        ] {
+            let error = error(&[good, good, bad, bad]);
+            assert!(matches!(error, SiteError::NotFinite { index: 2, .. }));
+        }
+        for far in [
+            site([2e6, 0.0], 0),
+            site([0.0, -1.1e6], 0),
+            Site {
+                jacobian: [[1.0, 0.0], [0.0, 4e6]],
+                ..good
+            },
+        ] {
+            assert!(matches!(
+                error(&[good, far]),
+                SiteError::TooFar { index: 1, .. }
+            ));
+        }
+        let rig = [(pinhole(SIZE), vec![good, site([1.0, 1.0], 4096)])];
+        let rendered = gpu.render_sites(&prepared, &rig, SIZE, &Settings::new(64, 64));
+        assert!(matches!(
+            rendered,
+            Err(RenderError::Site(SiteError::Output {
+                index: 1,
+                output: 4096,
+                cells: 4096
+            }))
+        ));
+        let msaa = Settings {
+            method: Method::Msaa,
+            samples: 4,
+            ..Settings::new(64, 64)
+        };
+        let rendered = gpu.render_sites(&prepared, &rig, SIZE, &msaa);
+        assert!(matches!(rendered, Err(RenderError::SiteMethod)));
+    });
+}
+
+/// A tile with far more sites than pixels, many of them the same.
+#[test]
+fn a_crowd_in_one_pixel_sees_what_each_would_alone() {
+    on_gpu(|gpu| {
+        let stage = soup(9, 200, true, [-1.0, 5.0]);
+        let prepared = stage.upload(gpu);
+        let mut sites = planar(SIZE);
+        sites.extend((0..100_000).map(|index| {
+            let step = |v: u32| 30.0 + f64::from(v) / 64.0;
+            site([step(index % 64), step(index / 64 % 64)], index)
+        }));
+        let settings = everywhere(SIZE, Pattern::Sobol, 4);
+        let pinhole = pinhole(SIZE);
+        let seen = gpu
+            .sample_points(&prepared, &pinhole, &sites, &settings)
+            .unwrap();
+        let crowd = &seen.values[4096..];
+        for (index, value) in crowd.iter().enumerate() {
+            assert_eq!(*value, crowd[index % 4096]);
+        }
+        // Alone with those that keep the set's middle where it is.
+        for chosen in [0, 1234, 4095] {
+            let few = [sites[0], sites[4095], sites[4096 + chosen]];
+            let alone = gpu
+                .sample_points(&prepared, &pinhole, &few, &settings)
+                .unwrap();
+            assert_eq!(alone.values[2], crowd[chosen]);
+        }
+        let seen = gpu
+            .sample_superpixels(&prepared, &pinhole, &sites, &settings)
+            .unwrap();
+        let crowd = &seen.values[4096..];
+        for (index, value) in crowd.iter().enumerate() {
+            assert_eq!(*value, crowd[index % 4096]);
+        }
+    });
+}
+
+#[test]
+fn sites_a_million_pixels_apart_cost_no_area() {
+    on_gpu(|gpu| {
+        let mut stage = Stage::new(vec![
+            flat([1.0, 0.0, 0.0, 1.0], AlphaMode::Opaque),
+            flat([0.0, 1.0, 0.0, 1.0], AlphaMode::Opaque),
+        ]);
+        // Two walls at distance 1 that meet in a line through the image and reach beyond its sides by far.
+        let end = 1.5e6;
+        let corner = |x: f64, y: f64| seen_at([x, y], 1.0, SIZE[1]);
+        stage.add_quad(
+            0,
+            [
+                corner(-end, -end),
+                corner(-end, end),
+                corner(3.25, end),
+                corner(3.25, -end),
+            ],
+        );
+        stage.add_quad(
+            1,
+            [
+                corner(3.25, -end),
+                corner(3.25, end),
+                corner(end, end),
+                corner(end, -end),
+            ],
+        );
+        let prepared = stage.upload(gpu);
+        let sites = [
+            site([-1_000_000.5, 20.5], 0),
+            site([35.0, 40.0], 1),
+            site([35.5, 40.0], 2),
+            site([1_000_000.25, -1_000_000.0], 3),
+        ];
+        let settings = everywhere(SIZE, Pattern::Sobol, 16);
+        let seen = gpu
+            .sample_points(&prepared, &pinhole(SIZE), &sites, &settings)
+            .unwrap();
+        let sides: Vec<bool> = seen.values.iter().map(|v| v.id > 2).collect();
+        assert_eq!(sides, [false, false, true, true]);
+        assert!(seen.statistics.tiles <= 4, "{}", seen.statistics.tiles);
+        assert!(seen.values.iter().all(|v| (v.depth - 1.0).abs() < 1e-4));
+        let seen = gpu
+            .sample_superpixels(&prepared, &pinhole(SIZE), &sites, &settings)
+            .unwrap();
+        let red: Vec<f32> = seen.values.iter().map(|v| v[0]).collect();
+        // The line goes through the middle of both cells in the image.
+        assert!(red[0] == 1.0 && red[3] == 0.0, "{red:?}");
+        assert!(
+            (red[1] - 0.75).abs() < 0.07 && (red[2] - 0.25).abs() < 0.07,
+            "{red:?}"
+        );
+    });
+}

@@ -1,0 +1,138 @@
+//! Images whose pixels look where sites say.
+
+use gpc::camera::{Pinhole, Site};
+use gpc::render::{Method, Rendered, Settings};
+use gpc::scene::{AlphaMode, Filter, Image, Sampler};
+
+use super::{pinhole, planar, site};
+use crate::scenes::ball_over_checker;
+use crate::stage::{Stage, on_gpu, once, seen_at, textured};
+
+const SIZE: [u32; 2] = [96, 64];
+
+fn differing(a: &Rendered, b: &Rendered) -> usize {
+    let far = |(a, b): &(&[f32; 4], &[f32; 4])| (0..4).any(|c| (a[c] - b[c]).abs() > 1e-3);
+    a.colors.iter().zip(&b.colors).filter(far).count()
+}
+
+/// The antialiased image of a planar set is that of the camera, and a rig that shares the pixels out to two pinholes
+/// shows no seam.
+#[test]
+fn a_planar_image_is_the_cameras() {
+    on_gpu(|gpu| {
+        let stage = ball_over_checker();
+        let settings = Settings {
+            thin: false,
+            samples: 16,
+            attributes: true,
+            background: Some([0.2, 0.3, 0.4]),
+            ..Settings::new(SIZE[0], SIZE[1])
+        };
+        let image = stage.render(gpu, &settings);
+        let prepared = stage.upload(gpu);
+        let pinhole = pinhole(SIZE);
+        let one = [(pinhole, planar(SIZE))];
+        let whole = gpu.render_sites(&prepared, &one, SIZE, &settings).unwrap();
+        let superpixels = whole.statistics.superpixels;
+        assert!(superpixels > 200, "{superpixels}");
+        assert!(superpixels.abs_diff(image.statistics.superpixels) <= 12);
+        let count = |rendered: &Rendered| {
+            let seen = rendered.attributes.iter();
+            seen.filter(|p| p.superpixel == 1 && p.samples == 16)
+                .count() as u64
+        };
+        assert_eq!(count(&whole), superpixels);
+        assert!(differing(&image, &whole) <= 12);
+
+        let (left, right): (Vec<Site>, Vec<Site>) =
+            planar(SIZE).into_iter().partition(|site| site.uv[0] < 41.0);
+        let rig: [(Pinhole, Vec<Site>); 2] = [(pinhole, right), (pinhole, left)];
+        let shared = gpu.render_sites(&prepared, &rig, SIZE, &settings).unwrap();
+        assert_eq!(shared.statistics.superpixels, superpixels);
+        assert_eq!(differing(&whole, &shared), 0);
+
+        // Brute force is a grid of samples in every pixel.
+        let brute = Settings {
+            method: Method::Ssaa,
+            ..settings.clone()
+        };
+        let reference = stage.render(
+            gpu,
+            &Settings {
+                attributes: false,
+                ..brute.clone()
+            },
+        );
+        let sites = gpu.render_sites(&prepared, &one, SIZE, &brute).unwrap();
+        assert_eq!(sites.statistics.superpixels, 96 * 64);
+        let error: f64 = reference
+            .colors
+            .iter()
+            .zip(&sites.colors)
+            .map(|(a, b)| f64::from((a[0] - b[0]).abs()))
+            .sum();
+        assert!(error / (96.0 * 64.0) < 2e-3, "{error}");
+    });
+}
+
+/// A texture of black and white texels is sharp where cells are small and grey where they are large, along the
+/// direction that they are large in.
+#[test]
+fn the_jacobian_is_the_footprint_of_textures() {
+    on_gpu(|gpu| {
+        let mut stage = Stage::new(vec![textured(AlphaMode::Opaque)]);
+        // Stripes two texels wide, across u.
+        let texel = |i: u32| {
+            if i % 64 / 2 % 2 == 0 {
+                [255; 4]
+            } else {
+                [0, 0, 0, 255]
+            }
+        };
+        stage.texture = Some((
+            Image {
+                width: 64,
+                height: 64,
+                pixels: (0..64 * 64).flat_map(texel).collect(),
+            },
+            Sampler {
+                mag: Filter::Linear,
+                min: Filter::Linear,
+                mip: Some(Filter::Linear),
+                ..Sampler::default()
+            },
+        ));
+        let corner = |x: f64, y: f64| seen_at([x, y], 1.0, SIZE[1]);
+        stage.add_quad(
+            0,
+            [
+                corner(-32.0, -32.0),
+                corner(-32.0, 32.0),
+                corner(32.0, 32.0),
+                corner(32.0, -32.0),
+            ],
+        );
+        stage.triangles[0].uvs = [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+        stage.triangles[1].uvs = [[0.0, 0.0], [1.0, 1.0], [1.0, 0.0]];
+        let prepared = stage.upload(gpu);
+        // A texel is a pixel of the plane: stripes are white from 16 + 4 n to 18 + 4 n.
+        let at = |u: f64, side: f64| Site {
+            jacobian: [[side, 0.0], [0.0, side]],
+            ..site([u, 32.0], 0)
+        };
+        let sites: Vec<Site> = [0.01, 0.25, 16.0]
+            .into_iter()
+            .flat_map(|side| [at(33.0, side), at(35.0, side)])
+            .collect();
+        let seen = gpu
+            .sample_points(&prepared, &pinhole(SIZE), &sites, &once(SIZE))
+            .unwrap();
+        let red: Vec<f32> = seen.values.iter().map(|v| v.color[0]).collect();
+        for pair in red[..4].chunks(2) {
+            assert!(pair[0] > 0.999 && pair[1] < 0.001, "{red:?}");
+        }
+        for grey in &red[4..] {
+            assert!((0.15..0.6).contains(grey), "{red:?}");
+        }
+    });
+}

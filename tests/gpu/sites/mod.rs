@@ -1,0 +1,34 @@
+//! Sampling at any locations: against the image path at the same places, and against the exact twin at others.
+
+mod equivalence;
+mod extremes;
+mod image;
+mod twin;
+
+use gpc::camera::{Pinhole, Site};
+
+use crate::stage::camera;
+
+/// The pinhole of all stages in an image of `size` pixels.
+fn pinhole(size: [u32; 2]) -> Pinhole {
+    Pinhole::from_camera(&camera(), size).unwrap()
+}
+
+/// A site whose cell is a pixel of the plane.
+fn site(uv: [f64; 2], output: u32) -> Site {
+    Site {
+        uv,
+        jacobian: [[1.0, 0.0], [0.0, 1.0]],
+        output,
+    }
+}
+
+/// The centres of an image's pixels.
+fn planar([width, height]: [u32; 2]) -> Vec<Site> {
+    (0..width * height)
+        .map(|pixel| {
+            let at = [pixel % width, pixel / width];
+            site(at.map(|v| f64::from(v) + 0.5), pixel)
+        })
+        .collect()
+}
