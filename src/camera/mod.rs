@@ -9,6 +9,7 @@
 
 mod framing;
 mod map;
+pub mod panorama;
 mod pinhole;
 mod rig;
 pub mod set;

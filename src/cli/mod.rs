@@ -6,8 +6,11 @@ mod devices;
 mod exit;
 mod info;
 mod input;
+mod panorama;
 mod print;
 mod render;
+mod sample;
+mod stage;
 mod unzoom;
 mod values;
 mod zoom;
@@ -45,6 +48,10 @@ enum Command {
     Zoom(Box<zoom::ZoomArgs>),
     /// Turn a zoomed image back into an ordinary view
     Unzoom(unzoom::UnzoomArgs),
+    /// Sample a scene at given locations
+    Sample(Box<sample::SampleArgs>),
+    /// Render what is around the camera
+    Panorama(Box<panorama::PanoramaArgs>),
     /// Compare two images
     Compare(compare::CompareArgs),
     /// Say what a scene holds
@@ -65,6 +72,8 @@ pub fn run() -> ExitCode {
         Command::Render(args) => render::run(&args),
         Command::Zoom(args) => zoom::run(&args),
         Command::Unzoom(args) => unzoom::run(&args),
+        Command::Sample(args) => sample::run(&args),
+        Command::Panorama(args) => panorama::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Bench(args) => bench::run(&args),

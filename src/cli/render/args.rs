@@ -43,7 +43,7 @@ pub struct RenderArgs {
 }
 
 /// How edges are antialiased.
-#[derive(Args)]
+#[derive(Args, Clone)]
 #[command(next_help_heading = "Antialiasing")]
 pub struct SamplingArgs {
     /// Method

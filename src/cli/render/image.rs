@@ -12,7 +12,7 @@ use gpc::scene::{Loaded, Pose, PoseRequest, SceneError};
 use std::path::Path;
 
 /// Size, colour, sampling, view and device.
-#[derive(Args)]
+#[derive(Args, Clone)]
 pub struct ImageArgs {
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = values::size)]

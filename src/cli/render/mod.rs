@@ -9,9 +9,10 @@ mod session;
 mod template;
 mod view;
 
-pub use args::{Antialiasing, CameraArgs, RenderArgs};
+pub use args::{Antialiasing, CameraArgs, RenderArgs, Tonemap};
 pub use image::ImageArgs;
-pub use save::beside;
+pub use save::{beside, encode, save, write};
+pub use session::open;
 pub use view::choose as choose_views;
 
 use super::exit::usage;

@@ -8,21 +8,19 @@ pub use args::ZoomArgs;
 pub use record::{KEYWORD, Record};
 
 use super::exit::usage;
-use super::render::beside;
-use super::{input, print};
-use gpc::camera::LocationMap;
+use super::stage::Stage;
+use super::{input, render};
+use gpc::camera::set::SamplingSet;
 use gpc::camera::zoom::ZoomMap;
+use gpc::camera::{LocationMap, Pinhole};
 use gpc::output::{self, Format, Picture};
+use gpc::render::{Rendered, Statistics};
 use gpc::resample::Photograph;
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 use std::process::ExitCode;
-
-/// A zoomed image and the pictures on the way to it.
-struct Zoomed {
-    size: [u32; 2],
-    result: steps::Pixels,
-    steps: Vec<(String, [u32; 2], steps::Pixels)>,
-}
+use steps::Step;
 
 pub fn run(args: &ZoomArgs) -> anyhow::Result<ExitCode> {
     let map = args.regions.map()?;
@@ -30,65 +28,96 @@ pub fn run(args: &ZoomArgs) -> anyhow::Result<ExitCode> {
     if args.steps && input::is_standard(&args.output) {
         usage!("--steps writes files named after OUT, and -o - has no name");
     }
-    let zoomed = photograph(args, &map)?;
-    save(args, format, &map, &zoomed)?;
+    let (result, steps) = if is_picture(&args.input) {
+        photograph(args, &map)?
+    } else {
+        scene(args, format, &map)?
+    };
+    for step in &steps {
+        let picture = Picture::new(step.size, &step.pixels)?;
+        let path = render::beside(&args.output, format, &step.name);
+        render::write(&path, &output::encode(Format::Png8, &picture, &[])?)?;
+    }
+    let mut bytes = render::encode(&args.output, format, &result, &args.image.aovs())?;
+    if matches!(format, Format::Png8 | Format::Png16) {
+        let record = serde_json::to_string(&Record::new(result.size, &map))?;
+        bytes = output::add_text(&bytes, KEYWORD, &record)?;
+    }
+    render::write(&args.output, &bytes)?;
     Ok(ExitCode::SUCCESS)
 }
 
+/// Whether a file starts like a PNG or a JPEG. What can't be read is left to the loader of scenes to complain about.
+fn is_picture(path: &Path) -> bool {
+    let mut start = [0; 3];
+    let read = !input::is_standard(path)
+        && File::open(path)
+            .and_then(|mut file| file.read_exact(&mut start))
+            .is_ok();
+    read && (start == *b"\x89PN" || start == *b"\xff\xd8\xff")
+}
+
 /// Zooms into a photograph.
-fn photograph(args: &ZoomArgs, map: &ZoomMap) -> anyhow::Result<Zoomed> {
+fn photograph(args: &ZoomArgs, map: &ZoomMap) -> anyhow::Result<(Rendered, Vec<Step>)> {
+    if !args.image.aov.is_empty() {
+        usage!("--aov: a photograph holds nothing but colours");
+    }
     let photograph = Photograph::from(&output::read(&args.input)?);
     let size = photograph.size();
-    let result = photograph.resample(size, |place| (map.location(place), map.jacobian(place)));
+    let colors = photograph.resample(size, |place| (map.location(place), map.jacobian(place)));
     let steps = if args.steps {
-        common_steps(size, photograph.pixels(), &result, map)
+        steps::common(size, photograph.pixels(), &colors, map)
     } else {
         Vec::new()
     };
-    Ok(Zoomed {
+    let result = Rendered {
         size,
-        result,
-        steps,
-    })
+        colors,
+        attributes: Vec::new(),
+        statistics: Statistics::default(),
+    };
+    Ok((result, steps))
 }
 
-/// The steps that scenes and photographs share.
-fn common_steps(
-    size: [u32; 2],
-    original: &[[f32; 4]],
-    result: &[[f32; 4]],
-    map: &ZoomMap,
-) -> Vec<(String, [u32; 2], steps::Pixels)> {
-    [
-        ("original", original.to_vec()),
-        ("locations", steps::locations(size, original, map)),
-        ("resampled", steps::resampled(size, result, map)),
-        ("transition", steps::transition(size, result, map)),
-    ]
-    .map(|(name, pixels)| (name.to_owned(), size, pixels))
-    .to_vec()
-}
-
-fn save(args: &ZoomArgs, format: Format, map: &ZoomMap, zoomed: &Zoomed) -> anyhow::Result<()> {
-    for (name, size, pixels) in &zoomed.steps {
-        let path = beside(&args.output, format, name);
-        write(&path, &encode(Format::Png8, *size, pixels)?)?;
+/// Samples a scene where the pixels look.
+fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<(Rendered, Vec<Step>)> {
+    let size = args.image.size;
+    let mut stage = Stage::open(&args.input, &args.image, args.image.settings(format))?;
+    let pinhole = stage.pinhole()?;
+    let set = SamplingSet::mapped(size, map)?;
+    let statistics = set.statistics();
+    let result = render_set(&mut stage, pinhole, &set)?;
+    log::info!(
+        "{}: {}x{}, {:.2} to {:.2} samples for a pixel of the plane, {} superpixels",
+        args.output.display(),
+        size[0],
+        size[1],
+        statistics.lowest_rate.unwrap_or(1.0),
+        statistics.highest_rate.unwrap_or(1.0),
+        result.statistics.superpixels
+    );
+    let mut steps = Vec::new();
+    if args.steps {
+        let original = render_set(&mut stage, pinhole, &SamplingSet::planar(size)?)?;
+        steps = steps::common(size, &original.colors, &result.colors, map);
+        for (index, region) in map.regions().iter().enumerate() {
+            let window = region.window();
+            let direct = render_set(
+                &mut stage,
+                pinhole,
+                &SamplingSet::mapped(window.size, &window)?,
+            )?;
+            let name = match map.regions() {
+                [_] => "direct".to_owned(),
+                _ => format!("direct-{index}"),
+            };
+            steps.push(Step::new(&name, window.size, direct.colors));
+        }
     }
-    let mut bytes = encode(format, zoomed.size, &zoomed.result)?;
-    if matches!(format, Format::Png8 | Format::Png16) {
-        let record = serde_json::to_string(&Record::new(zoomed.size, map))?;
-        bytes = output::add_text(&bytes, KEYWORD, &record)?;
-    }
-    write(&args.output, &bytes)
+    stage.finish()?;
+    Ok((result, steps))
 }
 
-fn encode(format: Format, size: [u32; 2], pixels: &[[f32; 4]]) -> anyhow::Result<Vec<u8>> {
-    Ok(output::encode(format, &Picture::new(size, pixels)?, &[])?)
-}
-
-fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
-    if input::is_standard(path) {
-        return print::bytes(bytes);
-    }
-    Ok(output::write_atomically(path, bytes)?)
+fn render_set(stage: &mut Stage, pinhole: Pinhole, set: &SamplingSet) -> anyhow::Result<Rendered> {
+    stage.render(set.size(), &[(pinhole, set.sites())])
 }

@@ -5,7 +5,40 @@ use gpc::camera::LocationMap;
 use gpc::camera::zoom::ZoomMap;
 
 /// A picture, rows from the top.
-pub type Pixels = Vec<[f32; 4]>;
+type Pixels = Vec<[f32; 4]>;
+
+/// A picture on the way to the result.
+pub struct Step {
+    /// What its file is called.
+    pub name: String,
+    pub size: [u32; 2],
+    pub pixels: Pixels,
+}
+
+impl Step {
+    pub fn new(name: &str, size: [u32; 2], pixels: Pixels) -> Self {
+        Self {
+            name: name.to_owned(),
+            size,
+            pixels,
+        }
+    }
+}
+
+/// The steps that scenes and photographs share.
+pub fn common(
+    size: [u32; 2],
+    original: &[[f32; 4]],
+    result: &[[f32; 4]],
+    map: &ZoomMap,
+) -> Vec<Step> {
+    vec![
+        Step::new("original", size, original.to_vec()),
+        Step::new("locations", size, locations(size, original, map)),
+        Step::new("resampled", size, resampled(size, result, map)),
+        Step::new("transition", size, transition(size, result, map)),
+    ]
+}
 
 /// Locations along the wider side that are drawn.
 const DRAWN: u32 = 96;
@@ -14,7 +47,7 @@ const DRAWN: u32 = 96;
 const DIMMED: f32 = 0.15;
 
 /// Every so many locations, as dots over the dimmed image.
-pub fn locations(size: [u32; 2], original: &[[f32; 4]], map: &ZoomMap) -> Pixels {
+fn locations(size: [u32; 2], original: &[[f32; 4]], map: &ZoomMap) -> Pixels {
     let dim = |[r, g, b, _]: &[f32; 4]| [r * DIMMED, g * DIMMED, b * DIMMED, 1.0];
     let mut picture: Pixels = original.iter().map(dim).collect();
     let [width, height] = size;
@@ -38,12 +71,12 @@ pub fn locations(size: [u32; 2], original: &[[f32; 4]], map: &ZoomMap) -> Pixels
 }
 
 /// The result without the transitions.
-pub fn resampled(size: [u32; 2], result: &[[f32; 4]], map: &ZoomMap) -> Pixels {
+fn resampled(size: [u32; 2], result: &[[f32; 4]], map: &ZoomMap) -> Pixels {
     keep(size, result, |place| !in_transition(map, place))
 }
 
 /// The transitions alone.
-pub fn transition(size: [u32; 2], result: &[[f32; 4]], map: &ZoomMap) -> Pixels {
+fn transition(size: [u32; 2], result: &[[f32; 4]], map: &ZoomMap) -> Pixels {
     keep(size, result, |place| in_transition(map, place))
 }
 
