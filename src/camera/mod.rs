@@ -11,6 +11,7 @@ mod framing;
 mod map;
 pub mod panorama;
 mod pinhole;
+pub mod projector;
 mod rig;
 pub mod set;
 mod site;

@@ -132,6 +132,9 @@ const FACES: [Face; 6] = [
     },
 ];
 
+/// Radians that a direction on the edge of the layout may be off by.
+const ROUNDING: f64 = 1e-12;
+
 /// The longest side of a rig's planes in pixels.
 const LARGEST_PLANE: f64 = 65_536.0;
 
@@ -201,7 +204,7 @@ impl Panorama {
             PanoramaProjection::Equirectangular => {
                 let (longitude, latitude) = (way.x * scale, -way.y * scale);
                 let up = DVec3::Y * latitude.sin();
-                (latitude.abs() <= FRAC_PI_2).then(|| around(longitude) * latitude.cos() + up)
+                (latitude.abs() <= FRAC_PI_2 + ROUNDING).then(|| around(longitude) * latitude.cos() + up)
             }
             PanoramaProjection::Cylindrical => {
                 Some((around(way.x * scale) - DVec3::Y * (way.y * scale)).normalize())
@@ -209,7 +212,7 @@ impl Panorama {
             PanoramaProjection::Fisheye => {
                 let angle = way.length() * scale;
                 let aside = DVec3::new(way.x, -way.y, 0.0).normalize_or_zero();
-                let inside = angle <= 0.5 * self.fov.to_radians();
+                let inside = angle <= 0.5 * self.fov.to_radians() + ROUNDING;
                 inside.then(|| aside * angle.sin() - DVec3::Z * angle.cos())
             }
             PanoramaProjection::Cubemap => {

@@ -2,12 +2,14 @@
 
 mod bench;
 mod compare;
+mod csv;
 mod devices;
 mod exit;
 mod info;
 mod input;
 mod panorama;
 mod print;
+mod project;
 mod render;
 mod sample;
 mod stage;
@@ -52,6 +54,8 @@ enum Command {
     Sample(Box<sample::SampleArgs>),
     /// Render what is around the camera
     Panorama(Box<panorama::PanoramaArgs>),
+    /// Render the frames of projectors that together show one picture
+    Project(Box<project::ProjectArgs>),
     /// Compare two images
     Compare(compare::CompareArgs),
     /// Say what a scene holds
@@ -74,6 +78,7 @@ pub fn run() -> ExitCode {
         Command::Unzoom(args) => unzoom::run(&args),
         Command::Sample(args) => sample::run(&args),
         Command::Panorama(args) => panorama::run(&args),
+        Command::Project(args) => project::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Bench(args) => bench::run(&args),
