@@ -204,7 +204,8 @@ impl Panorama {
             PanoramaProjection::Equirectangular => {
                 let (longitude, latitude) = (way.x * scale, -way.y * scale);
                 let up = DVec3::Y * latitude.sin();
-                (latitude.abs() <= FRAC_PI_2 + ROUNDING).then(|| around(longitude) * latitude.cos() + up)
+                (latitude.abs() <= FRAC_PI_2 + ROUNDING)
+                    .then(|| around(longitude) * latitude.cos() + up)
             }
             PanoramaProjection::Cylindrical => {
                 Some((around(way.x * scale) - DVec3::Y * (way.y * scale)).normalize())
