@@ -7,7 +7,7 @@
 #include "include/barycentric.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool SUPERPIXELS = false;
-layout(set = 0, binding = 36, rgba32ui) uniform writeonly uimageBuffer attributes_out;
+layout(std430, set = 0, binding = 36) writeonly buffer AttributesOut { uvec4 attributes_out[]; };
 
 void main() {
     uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
@@ -26,6 +26,6 @@ void main() {
     uint tile = pixel.y / 4u * frame.tiles.x + pixel.x / 8u;
     bool super = SUPERPIXELS && (masks[tile] >> (pixel.y % 4u * 8u + pixel.x % 8u) & 1u) != 0u;
     bool hit = id != 0u;
-    imageStore(attributes_out, int(2u * i), uvec4(floatBitsToUint(hit ? distance_ : 0.0), id, super ? frame.sample_count : side * side, uint(super)));
-    imageStore(attributes_out, int(2u * i + 1u), uvec4(floatBitsToUint(hit ? n : vec3(0.0)), 0u));
+    attributes_out[2u * i] = uvec4(floatBitsToUint(hit ? distance_ : 0.0), id, super ? frame.sample_count : side * side, uint(super));
+    attributes_out[2u * i + 1u] = uvec4(floatBitsToUint(hit ? n : vec3(0.0)), 0u);
 }

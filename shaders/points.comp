@@ -10,7 +10,7 @@
 #include "include/composite.glsl"
 #include "include/sites.glsl"
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 36, rgba32ui) uniform writeonly uimageBuffer attributes_out;
+layout(std430, set = 0, binding = 36) writeonly buffer AttributesOut { uvec4 attributes_out[]; };
 
 void main() {
     uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
@@ -37,6 +37,6 @@ void main() {
     vec3 n = mat3(texelFetch(normals, v.x).xyz, texelFetch(normals, v.y).xyz, texelFetch(normals, v.z).xyz) * w.at;
     n *= inversesqrt(max(dot(n, n), 1e-30));
     bool hit = id != 0u;
-    imageStore(attributes_out, int(2u * site), uvec4(floatBitsToUint(hit ? distance_ : 0.0), id, blend_id, display_code(c)));
-    imageStore(attributes_out, int(2u * site + 1u), uvec4(floatBitsToUint(hit ? n : vec3(0.0)), 0u));
+    attributes_out[2u * site] = uvec4(floatBitsToUint(hit ? distance_ : 0.0), id, blend_id, display_code(c));
+    attributes_out[2u * site + 1u] = uvec4(floatBitsToUint(hit ? n : vec3(0.0)), 0u);
 }

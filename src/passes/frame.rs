@@ -133,7 +133,7 @@ const BINDINGS: [(u32, vk::DescriptorType); 46] = {
         (33, T::STORAGE_BUFFER),
         (34, T::STORAGE_BUFFER),
         (35, T::STORAGE_TEXEL_BUFFER),
-        (36, T::STORAGE_TEXEL_BUFFER),
+        (36, T::STORAGE_BUFFER),
         (37, T::STORAGE_BUFFER),
         (38, T::UNIFORM_TEXEL_BUFFER),
         (39, T::STORAGE_BUFFER),

@@ -36,7 +36,8 @@ impl ResourceSizes {
         let colors = self.colors() * 16;
         let records = u64::from(self.record_capacity) * 16;
         let candidates = u64::from(self.list_capacity) * Self::CANDIDATE_BYTES;
-        colors.max(records).max(candidates)
+        let attributes = if self.attributes { 2 * colors } else { 0 };
+        attributes.max(colors).max(records).max(candidates)
     }
 
     /// Pixels of a region.
@@ -119,7 +120,7 @@ pub struct Resources {
     pub(crate) bins: Buffer,
     pub(crate) arguments: Buffer,
     pub(crate) filtered: BufferView,
-    pub(crate) attributes: BufferView,
+    pub(crate) attributes: Buffer,
     pub(crate) encoded: Buffer,
     pub(crate) sites: SiteBuffers,
     layout: Arc<FrameLayout>,
@@ -233,10 +234,9 @@ impl Resources {
                 MemoryUse::Device,
             )?,
             filtered: texels("filtered colour", u64::from(sizes.filtered), float4)?,
-            attributes: texels_in(
+            attributes: storage_in(
                 "attributes",
-                if sizes.attributes { 2 * pixels } else { 1 },
-                uint4,
+                if sizes.attributes { 32 * pixels } else { 0 },
                 output,
             )?,
             encoded: storage("encoded colour", sizes.encoded)?,
@@ -397,7 +397,6 @@ impl Resources {
             texel(29, &self.shaded, false),
             texel(32, &set.locations, false),
             texel(35, &self.filtered, true),
-            texel(36, &self.attributes, true),
             texel(38, &self.pairs, false),
             texel(42, &self.sites.sites, false),
             texel(43, &self.sites.cells, false),
@@ -443,6 +442,7 @@ impl Resources {
             (31, buffer(&self.shade_order)),
             (33, buffer(&self.bins)),
             (34, buffer(&self.arguments)),
+            (36, buffer(&self.attributes)),
             (37, buffer(&self.encoded)),
             (41, buffer(&self.marks)),
             (45, buffer(&self.sites.loads)),

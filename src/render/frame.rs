@@ -540,7 +540,7 @@ impl Passes<'_> {
                 if let (Some(attributes), Some(_)) = (attributes, self.attributes) {
                     copy(
                         recorder,
-                        self.resources.attributes.buffer.handle(),
+                        self.resources.attributes.handle(),
                         *attributes,
                         &rows(32),
                     );

@@ -234,7 +234,7 @@ impl SiteEngine {
 
     /// What `shaders/points.comp` wrote of the last run's sites, in their order.
     pub fn attributes(&self) -> &[[[u32; 4]; 2]] {
-        bytemuck::try_cast_slice(self.resources.attributes.buffer.bytes()).unwrap_or(&[])
+        bytemuck::try_cast_slice(self.resources.attributes.bytes()).unwrap_or(&[])
     }
 
     /// Adds the figures of the last run.

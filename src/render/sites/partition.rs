@@ -66,15 +66,17 @@ impl Partition {
         if sites.len() > (u32::MAX >> 1) as usize {
             return Err(SiteError::TooMany { found: sites.len() });
         }
-        let offender = |(index, site)| check(site, index).err();
-        if let Some(error) = sites.par_iter().enumerate().find_map_first(offender) {
-            return Err(error);
-        }
-        let mut keyed: Vec<(u64, u32)> = sites
+        let checked: Result<Vec<(u64, u32)>, SiteError> = sites
             .par_iter()
             .enumerate()
-            .map(|(index, site)| (key(site, cells), index as u32))
+            .map(|(index, site)| check(site, index).map(|()| (key(site, cells), index as u32)))
             .collect();
+        let mut keyed = checked.or_else(|any| {
+            // Which one was found first depends on the threads.
+            let offenders = sites.iter().enumerate();
+            let first = offenders.map(|(index, site)| check(site, index));
+            first.collect::<Result<(), _>>().and(Err(any))
+        })?;
         keyed.par_sort_unstable();
         let mut regions: Vec<Range<usize>> = Vec::new();
         let mut start = 0;
@@ -85,7 +87,7 @@ impl Partition {
         }
         let sorted: Vec<Site> = keyed
             .par_iter()
-            .filter_map(|(_, index)| sites.get(*index as usize).copied())
+            .map(|(_, index)| sites[*index as usize])
             .collect();
         let bounds = Bounds::of(&sorted);
         Ok(Self {

@@ -6,9 +6,8 @@ use crate::passes::{Cells, FrameLayout, GpuScene, ResourceSizes, SiteSizes};
 use crate::render::{RenderError, Settings, Shading};
 use std::ops::Range;
 
-/// Most sites of a run.
-const MOST_POINTS: usize = 1 << 20;
-const MOST_SUPERPIXELS: usize = 1 << 18;
+/// Most sites of a run: memory that stays at hand is used again.
+const MOST_SITES: usize = 1 << 18;
 /// Fewest sites of a run, to which runs are cut where memory is bounded.
 const FEWEST_SITES: usize = 1 << 10;
 /// Most visibility records and candidates of a round.
@@ -35,10 +34,7 @@ impl SitePlan {
         taken: u64,
     ) -> Result<Self, RenderError> {
         let limits = layout.gpu.limits();
-        let mut longest = match cells {
-            Cells::Points => MOST_POINTS,
-            _ => MOST_SUPERPIXELS,
-        };
+        let mut longest = MOST_SITES;
         loop {
             let runs = partition.runs(longest);
             let windows = runs.iter().map(|run| partition.window(run));

@@ -83,7 +83,7 @@ fn the_jacobian_is_the_footprint_of_textures() {
         let mut stage = Stage::new(vec![textured(AlphaMode::Opaque)]);
         // Stripes two texels wide, across u.
         let texel = |i: u32| {
-            if i % 64 / 2 % 2 == 0 {
+            if i % 4 < 2 {
                 [255; 4]
             } else {
                 [0, 0, 0, 255]
