@@ -165,6 +165,20 @@ fn samples_at_the_centres_of_pixels_are_the_pixels() {
         let sample = ["sample", &scene, "--samples", "s.csv", "-o", out];
         gpc(folder.path(), &[&sample[..], &options].concat()).ok();
     }
+    // By row and column the samples are the image.
+    let sample = [
+        "sample",
+        &scene,
+        "--samples",
+        "s.csv",
+        "-o",
+        "a.exr",
+        "--tonemap",
+        "none",
+    ];
+    gpc(folder.path(), &[&sample[..], &options].concat()).ok();
+    let compare = ["compare", "r.exr", "a.exr", "--max-rmse", "0.02"];
+    gpc(folder.path(), &compare).ok();
     let text = std::fs::read_to_string(folder.path().join("a.csv")).unwrap();
     let (names, rows) = table(&text);
     assert_eq!(
@@ -384,7 +398,16 @@ fn files_of_samples_that_are_wrong_are_refused() {
         sample(text).exits(1).says(&["s.csv", expected]);
     }
     let out = ["sample", &scene, "--samples", "s.csv", "-o", "a.txt"];
-    gpc(folder.path(), &out).exits(2).says(&[".csv or .npy"]);
+    gpc(folder.path(), &out)
+        .exits(2)
+        .says(&[".csv or .npy", ".png"]);
+    let image = ["sample", &scene, "--samples", "s.csv", "-o", "a.png"];
+    std::fs::write(folder.path().join("s.csv"), "u,v\n1,2\n").unwrap();
+    gpc(folder.path(), &image).exits(2).says(&["u,v,row,col"]);
+    let many = ["--supersamples", "4"];
+    gpc(folder.path(), &[&image[..], &many].concat())
+        .exits(2)
+        .says(&["none"]);
     assert_eq!(files(folder.path()), ["s.csv"]);
 }
 

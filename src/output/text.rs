@@ -86,7 +86,7 @@ mod tests {
     fn broken_files_have_no_text() {
         let png = add_text(&encode_rgb([1, 1], &[[0; 3]]).unwrap(), "note", "text").unwrap();
         for length in 0..png.len() {
-            assert!(matches!(find_text(&png[..length], "other"), None));
+            assert!(find_text(&png[..length], "other").is_none());
         }
         assert!(add_text(b"JFIF", "note", "text").is_err());
         assert!(add_text(&png, "", "text").is_err() && add_text(&png, "note", "ü").is_err());

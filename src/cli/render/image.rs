@@ -45,12 +45,19 @@ pub struct ImageArgs {
 }
 
 impl ImageArgs {
+    /// Refuses numbers of samples that the method can't have whatever the device.
+    pub fn check_samples(&self) -> Result<(), Usage> {
+        match (self.sampling.aa, self.sampling.samples()) {
+            (Antialiasing::None, samples) if samples != 1 => Err(Usage(format!(
+                "none can't have {samples} samples a pixel; it can have 1"
+            ))),
+            _ => Ok(()),
+        }
+    }
+
     /// Refuses what can't go together, and says in what format OUT is written.
     pub fn format(&self, output: &Path) -> anyhow::Result<Format> {
-        let samples = self.sampling.samples();
-        if self.sampling.aa == Antialiasing::None && samples != 1 {
-            usage!("none can't have {samples} samples a pixel; it can have 1");
-        }
+        self.check_samples()?;
         if input::is_standard(output) {
             if !self.aov.is_empty() {
                 usage!("--aov writes files named after OUT, and -o - has no name");

@@ -12,7 +12,7 @@ use anyhow::Context;
 use clap::Args;
 use gpc::camera::Pinhole;
 use gpc::camera::set::SamplingSet;
-use gpc::output::{Format, OutputError};
+use gpc::output::{self, Format, OutputError, Picture};
 use gpc::render::PointSample;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -28,8 +28,10 @@ use table::Locations;
 /// A row of the result belongs to a sample, in the order given: u, v, the colour r, g, b, a (linear light, premultiplied,
 /// not tone-mapped unless asked), depth (distance along the direction of view; 0 where nothing is hit), id (index of the
 /// triangle plus 1), hit (1 or 0) and the normal x, y, z. A CSV has a header; a NPY is an array of N x 12 float64.
-/// Samples are points; with --aa superpixel or ssaa the colour is the mean of --supersamples points
-/// around each.
+/// An image (.png, .16.png, .jpg, .exr) has the mean colour of the samples of each row and column, tone-mapped as those
+/// of gpc render are.
+/// Samples are points; with --aa superpixel or ssaa the colour is the mean of --supersamples
+/// points around each.
 #[derive(Args)]
 #[command(
     mut_arg("aa", |arg| arg.default_value("none")),
@@ -42,7 +44,7 @@ pub struct SampleArgs {
     /// Where to sample: .csv or .npy
     #[arg(long = "samples", value_name = "FILE")]
     locations: PathBuf,
-    /// File to write: .csv or .npy, or - for a CSV on standard output
+    /// File to write: .csv, .npy or an image, or - for a CSV on standard output
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
 
@@ -50,25 +52,48 @@ pub struct SampleArgs {
     image: ImageArgs,
 }
 
+/// What is written.
+#[derive(Clone, Copy)]
+enum Kind {
+    Csv,
+    Npy,
+    /// An image by row and column.
+    Image(Format),
+}
+
 pub fn run(args: &SampleArgs) -> anyhow::Result<ExitCode> {
-    let write = writer(&args.output)?;
-    if !args.image.aov.is_empty() {
-        usage!("--aov: a sample has all that there is");
-    }
+    let kind = kind(args)?;
     let locations = read(&args.locations)?;
+    if matches!(kind, Kind::Image(_)) && locations.cells.is_none() {
+        let name = args.locations.display();
+        usage!("{name}: an image takes rows and columns; give u,v,row,col");
+    }
     let set = set(&locations).with_context(|| args.locations.display().to_string())?;
-    // Without a tone map, colours are those of a scene-linear image.
-    let format = match args.image.tonemap {
-        Some(Tonemap::Neutral) => Format::Png8,
+    let format = match (kind, args.image.tonemap) {
+        (Kind::Image(format), _) => format,
+        // Without a tone map, colours are those of a scene-linear image.
+        (_, Some(Tonemap::Neutral)) => Format::Png8,
         _ => Format::Exr,
     };
-    let settings = args.image.settings(format);
-    let mut stage = Stage::open(&args.scene, &args.image, settings)?;
+    let mut stage = Stage::open(&args.scene, &args.image, args.image.settings(format))?;
     let pinhole = stage.pinhole()?;
     let samples = sample(&mut stage, &pinhole, &set, args.image.sampling.aa)?;
     stage.finish()?;
-    let rows = locations.uv.iter().zip(&samples);
-    let bytes = write(rows.map(|(uv, sample)| table::row(*uv, sample)).collect());
+    let rows = || {
+        let pairs = locations.uv.iter().zip(&samples);
+        pairs
+            .map(|(uv, sample)| table::row(*uv, sample))
+            .collect::<Vec<_>>()
+    };
+    let bytes = match kind {
+        Kind::Csv => csv::write(&rows()),
+        Kind::Npy => npy::write(&rows()),
+        Kind::Image(format) => {
+            let colors: Vec<_> = samples.iter().map(|sample| sample.color).collect();
+            let pixels = set.image(&colors);
+            output::encode(format, &Picture::new(set.size(), &pixels)?, &[])?
+        }
+    };
     render::write(&args.output, &bytes)?;
     Ok(ExitCode::SUCCESS)
 }
@@ -129,19 +154,20 @@ fn read(path: &Path) -> anyhow::Result<Locations> {
     read.map_err(|reason| anyhow::anyhow!("{}: {reason}", path.display()))
 }
 
-/// Rows of a table to the bytes of a file.
-type Writer = fn(Vec<table::Row>) -> Vec<u8>;
-
-fn writer(path: &Path) -> Result<Writer, Usage> {
+fn kind(args: &SampleArgs) -> anyhow::Result<Kind> {
+    args.image.check_samples()?;
+    if !args.image.aov.is_empty() {
+        usage!("--aov: a CSV or NPY of samples has all that there is");
+    }
+    let path = &args.output;
     if input::is_standard(path) || ends_with(path, "csv") {
-        Ok(|rows| csv::write(&rows))
+        Ok(Kind::Csv)
     } else if ends_with(path, "npy") {
-        Ok(|rows| npy::write(&rows))
+        Ok(Kind::Npy)
     } else {
-        Err(Usage(format!(
-            "-o {}: the name must end in .csv or .npy",
-            path.display()
-        )))
+        let known = |error| Usage(format!("-o {error}; for numbers in .csv or .npy"));
+        Format::of(path).map_err(known)?;
+        Ok(Kind::Image(args.image.format(path)?))
     }
 }
 

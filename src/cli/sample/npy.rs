@@ -84,7 +84,7 @@ pub fn write(rows: &[Row]) -> Vec<u8> {
         COLUMNS.len()
     );
     let before = MAGIC.len() + 4;
-    while (before + header.len() + 1) % ALIGNMENT != 0 {
+    while !(before + header.len() + 1).is_multiple_of(ALIGNMENT) {
         header.push(' ');
     }
     header.push('\n');
@@ -148,7 +148,7 @@ mod tests {
     #[test]
     fn written_arrays_start_aligned() {
         let bytes = write(&[[0.5; 12]; 3]);
-        assert_eq!((bytes.len() - 3 * 12 * 8) % ALIGNMENT, 0);
+        assert!((bytes.len() - 3 * 12 * 8).is_multiple_of(ALIGNMENT));
         assert!(read(&bytes).unwrap_err().contains("[3, 12]"));
     }
 }
