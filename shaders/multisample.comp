@@ -34,7 +34,7 @@ void main() {
             next = smaller ? id : next;
         }
         more = next != ~0u;
-        if (more && inside) records_out[first + used] = uvec4(pixel.x | pixel.y << 16, next, 0u, n);
+        if (more && inside) records_out[first + used] = uvec4(pixel.x | pixel.y << 16, next, 0u, floatBitsToUint(float(n)));
         used += more ? 1u : 0u;
         previous = next;
     } while (more);

@@ -16,6 +16,7 @@ layout(constant_id = 2) const uint BLOCK = 256u;
 layout(constant_id = 3) const bool CHAINED = false;
 layout(constant_id = 4) const uint LIST = 0u;
 layout(constant_id = 5) const bool DISPLAY_CODES = false;
+layout(constant_id = 6) const bool PROBED = false;      // cells that are not marked have one block
 
 void write(uvec2 pixel, vec4 c) {
     if (SITES) {
@@ -35,9 +36,9 @@ void main() {
     const uint GROUPS = 32u / LANES;
     if ((SITES ? entry : entry / GROUPS) >= counters[COUNTER_PLAIN_TILES + LIST]) return;
     uint lane = gl_SubgroupInvocationID;
-    uint listed_at = SITES ? LIST * frame.group_count + entry : LIST * tile_count + entry / GROUPS;
-    uvec4 site_group = SITES ? texelFetch(site_groups, int(tile_lists[listed_at])) : uvec4(0u);
-    uint tile = SITES ? site_group.x : tile_lists[listed_at];
+    uint owner = tile_lists[SITES ? LIST * frame.group_count + entry : LIST * tile_count + entry / GROUPS];
+    uvec4 site_group = SITES ? texelFetch(site_groups, int(owner)) : uvec4(0u);
+    uint tile = SITES ? site_group.x : owner;
     uint word = masks[tile];
     uint first_header = tiles[tile].z + site_group.w * ((frame.sample_count + BLOCK - 1u) / BLOCK);
     uvec2 corner = split(tile, frame.tiles.x) * uvec2(8u, 4u);
@@ -69,17 +70,18 @@ void main() {
         uint cell = SITES ? lane : uint(bitCount(word & ((1u << bit) - 1u)));
         vec4 sum = vec4(0.0);
         float covered = 0.0;
+        uint filled = PROBED && (marks[owner] >> (SITES ? lane : bit) & 1u) == 0u ? 1u : blocks;
         uint block = 0u;
         do {
             uvec2 h = mine ? headers[min(first_header + cell * blocks + block, frame.record_capacity - 1u)] : uvec2(0u);
             for (uint r = 0u; r < h.y; r++) {
-                float weight = float(texelFetch(records, int(h.x + r)).w);
+                float weight = uintBitsToFloat(texelFetch(records, int(h.x + r)).w);
                 uint id = texelFetch(records, int(h.x + r)).y;
                 weight = id == 0u ? 0.0 : weight;
                 sum += id == 0u ? vec4(0.0) : weight * to_output(vec4(texelFetch(shaded, int(h.x + r)).rgb, 1.0));
                 covered += weight;
             }
-        } while (++block < blocks);
+        } while (++block < filled);
         sum = (sum + frame.background * (float(frame.sample_count) - covered)) * share;
         if (mine) write(SITES ? uvec2(site_group.y + cell, 0u) : corner + uvec2(bit & 7u, bit >> 3), sum);
     }

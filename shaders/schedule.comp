@@ -10,10 +10,11 @@
 #include "include/tiles.glsl"
 #include "include/sites.glsl"
 layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const uint PLAIN_BLOCK = 256u;      // samples a pass of the kernel
+layout(constant_id = 1) const uint PLAIN_BLOCK = 256u;      // samples of a header
 layout(constant_id = 2) const uint LAYERED_BLOCK = 64u;
 layout(constant_id = 3) const bool PER_SAMPLE = false;
 layout(constant_id = 4) const uint LAYERS = 4u;             // BLEND layers a sample that a tile is admitted with
+layout(constant_id = 5) const uint PARTS = 1u;              // records of a triangle in a block
 
 void main() {
     uint lane = gl_SubgroupInvocationID, lanes = gl_SubgroupSize;
@@ -48,7 +49,7 @@ void main() {
         uint candidates_ = listed ? t.x : frame.triangle_count;
         uint record_need = blend || (!listed && frame.first_blend < frame.triangle_count)
             ? samples * (1u + min(candidates_, LAYERS))
-            : PER_SAMPLE ? samples : cells * min(blocks * min(candidates_, block), frame.sample_count);
+            : PER_SAMPLE ? samples : cells * min(blocks * min(PARTS * candidates_, block), frame.sample_count);
         uint list_need = listed ? t.x : 0u, header_need = cells * blocks;
         uint list_first = list_used + subgroupExclusiveAdd(list_need);
         uint record_end = records_used + subgroupInclusiveAdd(record_need);

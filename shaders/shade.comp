@@ -95,7 +95,7 @@ void main() {
     uvec4 indices = texelFetch(triangles, int(max(id, 1u) - 1u));
     ivec3 v = ivec3(indices.xyz);
     uint m = indices.w & 0xffffu;
-    mine = mine && id != 0u && (ONE_BIN || (indices.w >> 16 & 0x7fffu) == push.bin);
+    mine = mine && id != 0u && (ONE_BIN || (indices.w >> 16 & 0x3fffu) == push.bin);
     Barycentric w = barycentric(texelFetch(clip, v.x), texelFetch(clip, v.y), texelFetch(clip, v.z), p);
     if (SITES) {
         mat2x3 change = mat2x3(w.dx, w.dy) * site_jacobian(site);

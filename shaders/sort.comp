@@ -11,7 +11,7 @@ void main() {
     uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
     uint count = min(counters[COUNTER_RECORDS], frame.record_capacity);
     uint id = i < count ? texelFetch(records, int(i)).y : 0u;
-    uint bin = id == 0u ? ~0u : texelFetch(triangles, int(id - 1u)).w >> 16 & 0x7fffu;
+    uint bin = id == 0u ? ~0u : texelFetch(triangles, int(id - 1u)).w >> 16 & 0x3fffu;
     uint current = subgroupMin(bin);
     // One atomic a bin a subgroup.
     do {

@@ -33,7 +33,7 @@ void main() {
         bool inside = span < span_count && pixel.x < frame.size.x;
         uint id = texelFetch(ids, ivec2(inside ? pixel : uvec2(0u)), 0).x;
         id = inside ? id : 0u;
-        bin[s] = id == 0u ? NONE : ONE_BIN ? 0u : texelFetch(triangles, int(id - 1u)).w >> 16 & 0x7fffu;
+        bin[s] = id == 0u ? NONE : ONE_BIN ? 0u : texelFetch(triangles, int(id - 1u)).w >> 16 & 0x3fffu;
     }
 
     // This invocation's span was seen in step `my_step` by the invocations from `my_source` on.

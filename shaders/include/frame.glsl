@@ -42,7 +42,7 @@ layout(set = 0, binding = 0) uniform Frame {
 // On CPU devices a texel buffer is the quicker one to read and a storage buffer the quicker one to write, so that what
 // passes hand on is bound as both.
 layout(set = 0, binding = 1) uniform textureBuffer positions;
-layout(set = 0, binding = 2) uniform utextureBuffer triangles;   // vertex indices; material | bin << 16
+layout(set = 0, binding = 2) uniform utextureBuffer triangles;   // vertex indices; material | bin << 16 | glossy << 30 | double-sided << 31
 layout(set = 0, binding = 3) uniform textureBuffer normals;
 layout(set = 0, binding = 4) uniform textureBuffer tangents;
 layout(set = 0, binding = 5) uniform textureBuffer uvs;
@@ -86,7 +86,7 @@ layout(std430, set = 0, binding = 34) buffer Arguments { uvec4 arguments[]; }; /
 
 layout(set = 0, binding = 38) uniform utextureBuffer pairs;       // triangle, tile, rank in its list, 0
 layout(std430, set = 0, binding = 39) writeonly buffer PairsOut { uvec4 pairs_out[]; };
-layout(std430, set = 0, binding = 41) buffer Marks { uint marks[]; };       // pixels that `thin` marks, like masks
+layout(std430, set = 0, binding = 41) buffer Marks { uint marks[]; };       // pixels that `thin` marks, like masks; later, that a PROBE leaves
 
 // (n % width, n / width). Integer division is a loop on CPU devices; a float quotient errs by one at the most for
 // quotients below 2^22, and is mended.

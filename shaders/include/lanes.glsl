@@ -11,6 +11,13 @@ float lanes_add(float v) {
     return v + subgroupShuffleXor(v, 4u);
 }
 
+int lanes_add(int v) {
+    if (!BY_SHUFFLE) return subgroupAdd(v);
+    v += subgroupShuffleXor(v, 1u);
+    v += subgroupShuffleXor(v, 2u);
+    return v + subgroupShuffleXor(v, 4u);
+}
+
 uint lanes_min(uint v) {
     if (!BY_SHUFFLE) return subgroupMin(v);
     v = min(v, subgroupShuffleXor(v, 1u));

@@ -66,6 +66,8 @@ pub enum Counter {
     UnlistedTotal,
     Pairs,
     Thin,
+    /// Superpixels that the first few of their samples did not settle.
+    Resampled,
 }
 
 impl Counter {
@@ -384,6 +386,7 @@ mod tests {
             C::UnlistedTotal,
             C::Pairs,
             C::Thin,
+            C::Resampled,
         ] {
             let name = format!("COUNTER_{}", shouted(&format!("{counter:?}")));
             assert_eq!(shader_constant(&name), Some(counter as usize), "{name}");

@@ -59,6 +59,7 @@ pub struct GpuScene {
     pub(super) materials: BufferView,
     pub(super) lights: Buffer,
     pub(super) alpha_atlas: BufferView,
+    has_glossy: bool,
     pub(super) bins: Vec<MaterialBin>,
     runs: Vec<Run>,
     vertex_count: u32,
@@ -75,8 +76,19 @@ pub struct GpuScene {
 
 /// Largest number of materials and of material bins, by the bits of a triangle's last word.
 const MATERIAL_LIMIT: u64 = 1 << 16;
-const BIN_LIMIT: u64 = 1 << 15;
+const BIN_LIMIT: u64 = 1 << 14;
+const GLOSSY_BIT: u32 = 1 << 30;
 const DOUBLE_SIDED_BIT: u32 = 1 << 31;
+
+/// Largest roughness at which the light that a surface reflects changes within a pixel.
+const GLOSSY_ROUGHNESS: f32 = 0.6;
+
+/// Whether light may change so quickly over a material's surface that one shading point in a pixel is too few.
+fn glossy(material: &Material) -> bool {
+    let textured =
+        material.normal_texture.is_some() || material.metallic_roughness_texture.is_some();
+    !material.unlit && (textured || material.roughness < GLOSSY_ROUGHNESS)
+}
 
 /// Fills device buffers from the host: directly where the host sees them, else through a copy in the first frame.
 struct Uploader<'a> {
@@ -195,6 +207,8 @@ impl GpuScene {
 
         let mut words = vec![0_u32; geometry.triangles.len()];
         let mut runs: Vec<Run> = Vec::new();
+        let mut has_glossy = false;
+        let is_glossy = |index: u32| scene.materials.get(index as usize).is_some_and(glossy);
         for draw in &geometry.draws {
             let bin = bin_of.get(&draw.material).copied().unwrap_or(0);
             let word = draw.material
@@ -203,7 +217,13 @@ impl GpuScene {
                     DOUBLE_SIDED_BIT
                 } else {
                     0
+                }
+                | if is_glossy(draw.material) {
+                    GLOSSY_BIT
+                } else {
+                    0
                 };
+            has_glossy |= is_glossy(draw.material);
             let first = draw.first_triangle as usize;
             words[first..first + draw.triangle_count as usize].fill(word);
             match runs.last_mut() {
@@ -311,6 +331,7 @@ impl GpuScene {
                     .any(|light| light.kind != LightKind::Directional),
             },
             origin: geometry.origin,
+            has_glossy,
             runs,
             textures: textures.textures,
             _samplers: textures
@@ -380,6 +401,12 @@ impl GpuScene {
     #[must_use]
     pub fn has_blend(&self) -> bool {
         self.first_blend < self.triangle_count
+    }
+
+    /// Whether a material asks for several shading points in a pixel.
+    #[must_use]
+    pub fn has_glossy(&self) -> bool {
+        self.has_glossy
     }
 
     /// Number of material bins, at least 1.

@@ -1,6 +1,6 @@
 //! resolve: the colour of each superpixel.
 
-use super::{Cells, FrameLayout, Sample, TileList, spirv};
+use super::{FrameLayout, Sample, TileList, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
@@ -16,13 +16,12 @@ impl Resolve {
     /// If the driver refuses one.
     pub fn new(
         layout: &FrameLayout,
-        cells: Cells,
         sample: &Sample,
         has_blend: bool,
         display_codes: bool,
         output: &Constants,
     ) -> Result<Self, VulkanError> {
-        let output = &cells.constants(output.clone());
+        let output = &sample.options().cells.constants(output.clone());
         let kernels = sample
             .lists()
             .map(|list| {
@@ -34,6 +33,8 @@ impl Resolve {
                         list,
                         sample.block(list),
                         chained,
+                        sample.options().probes()
+                            && matches!(list, TileList::Plain | TileList::Masked),
                         display_codes,
                         output,
                     )?,
@@ -58,6 +59,7 @@ impl Resolve {
             TileList::Plain,
             samples,
             false,
+            false,
             display_codes,
             output,
         )?;
@@ -71,6 +73,7 @@ impl Resolve {
         list: TileList,
         block: u32,
         chained: bool,
+        probed: bool,
         display_codes: bool,
         output: &Constants,
     ) -> Result<Arc<Pipeline>, VulkanError> {
@@ -82,7 +85,8 @@ impl Resolve {
             .with(2, block)
             .flag(3, chained)
             .with(4, list as u32)
-            .flag(5, display_codes);
+            .flag(5, display_codes)
+            .flag(6, probed);
         layout.compute(spirv::RESOLVE, &constants, Some(lanes))
     }
 

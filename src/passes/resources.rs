@@ -78,12 +78,22 @@ impl ResourceSizes {
     }
 }
 
+/// Sub-sample locations relative to the pixel's centre, in pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Locations<'a> {
+    /// Those of a cell, and then those of a first run of few samples where there is one.
+    pub all: &'a [[f32; 2]],
+    /// Samples of a cell.
+    pub count: u32,
+}
+
 /// Sub-sample locations and the descriptor set that reads them.
 pub struct SampleSet {
     uniform: Buffer,
     locations: BufferView,
     upload: Option<Buffer>,
     count: u32,
+    bytes: u64,
     pub(super) set: vk::DescriptorSet,
 }
 
@@ -152,7 +162,7 @@ impl Resources {
         scene: &GpuScene,
         targets: &RasterTargets,
         sizes: ResourceSizes,
-        location_lists: &[&[[f32; 2]]],
+        location_lists: &[Locations<'_>],
     ) -> Result<Self, VulkanError> {
         let pixels = sizes.colors();
         let tiles = u64::from(sizes.tiles());
@@ -189,13 +199,13 @@ impl Resources {
         let pool = layout.pool(location_lists.len() as u32, 0)?;
         let sets = location_lists
             .iter()
-            .map(|locations| {
+            .map(|Locations { all, count }| {
                 let view = texels(
                     "sub-sample locations",
-                    locations.len() as u64,
+                    all.len() as u64,
                     vk::Format::R32G32_SFLOAT,
                 )?;
-                let upload = memory.upload("location upload", bytemuck::cast_slice(locations))?;
+                let upload = memory.upload("location upload", bytemuck::cast_slice(all))?;
                 Ok(SampleSet {
                     uniform: memory.buffer(
                         "frame uniform",
@@ -205,7 +215,8 @@ impl Resources {
                     )?,
                     locations: view,
                     upload: Some(upload),
-                    count: locations.len() as u32,
+                    count: *count,
+                    bytes: size_of_val(*all) as u64,
                     set: pool.allocate(layout.frame_set)?,
                 })
             })
@@ -216,7 +227,7 @@ impl Resources {
             color: texels_in("colour", pixels, float4, output)?,
             counters: storage("counters", 4 * Counter::COUNT as u64)?,
             masks: storage_in("superpixel mask", tiles * 4, input)?,
-            marks: storage("marks of thin triangles", tiles * 4)?,
+            marks: storage("marks of pixels", tiles.max(site_sizes.groups.into()) * 4)?,
             tiles: storage("tiles", tiles * 16)?,
             tile_lists: storage("tile lists", tiles.max(site_sizes.groups.into()) * 16)?,
             survivors: storage("survivors", triangles * 4)?,
@@ -266,7 +277,7 @@ impl Resources {
     pub fn record_upload(&self, recorder: &Recorder<'_>) {
         for set in &self.sets {
             if let Some(upload) = &set.upload {
-                let region = [vk::BufferCopy::default().size(u64::from(set.count) * 8)];
+                let region = [vk::BufferCopy::default().size(set.bytes)];
                 // SAFETY: the recorder's contract; both buffers hold all locations.
                 unsafe {
                     recorder.device().cmd_copy_buffer(

@@ -25,14 +25,52 @@ impl TileList {
     }
 }
 
-/// The kernels, one a kind of tile that the scene can have.
+/// What the kernels are made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SampleOptions {
+    /// What a cell is.
+    pub cells: Cells,
+    /// Sub-samples of a cell, or points at the most.
+    pub samples: u32,
+    /// How often records are written.
+    pub records: RecordRate,
+    /// Whether triangles that are seen whole weigh the exact area of their part of a cell.
+    pub exact_areas: bool,
+    /// Whether the scene has MASK triangles.
+    pub has_mask: bool,
+    /// Whether the scene has BLEND triangles.
+    pub has_blend: bool,
+}
+
+/// How many records the samples of a block that see the same triangle make.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RecordRate {
+    /// One.
+    Triangle,
+    /// One for each eighth of the block.
+    Part,
+    /// One for each sample.
+    Sample,
+}
+
+/// Which samples a kernel takes; the order is that of `RUN` in `shaders/sample.comp`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Run {
+    Whole,
+    Probe,
+    Rest,
+}
+
+/// The kernels, one a kind of tile that the scene can have; those of a second run follow the first.
 pub struct Sample {
     kernels: Vec<(TileList, Arc<Pipeline>)>,
+    rest: Vec<(TileList, Arc<Pipeline>)>,
+    options: SampleOptions,
     plain_block: u32,
     layered_block: u32,
 }
 
-/// Register rows of the kernels for tiles with and without layers, least first.
+/// Register rows of the kernels for tiles without and with alpha tests or layers, least first.
 const PLAIN: [(u32, &[u8]); 4] = [
     (1, spirv::SAMPLE_1),
     (2, spirv::SAMPLE_2),
@@ -62,66 +100,84 @@ fn kernel(kernels: &[(u32, &'static [u8])], rows_needed: u32) -> (u32, &'static 
 }
 
 impl Sample {
-    /// Makes the kernels for cells of `samples` sub-samples, or up to `samples` points.
+    /// Samples of the first of two runs; their locations follow those of the cell.
+    pub const PROBES: u32 = 64;
+
+    /// Makes the kernels.
     ///
     /// # Errors
     /// If the driver refuses one.
-    pub fn new(
-        layout: &FrameLayout,
-        cells: Cells,
-        samples: u32,
-        per_sample: bool,
-        has_mask: bool,
-        has_blend: bool,
-    ) -> Result<Self, VulkanError> {
+    pub fn new(layout: &FrameLayout, options: &SampleOptions) -> Result<Self, VulkanError> {
         let lanes = layout.gpu.limits().subgroup_size;
-        let rows_needed = samples.div_ceil(lanes);
-        // One block size serves all tiles with layers, so that headers have one stride.
+        let rows_needed = options.samples.div_ceil(lanes);
         let (plain_rows, plain) = kernel(&PLAIN, rows_needed);
+        // One block size serves all tiles with layers, so that headers have one stride.
         let layered_rows = if rows_needed <= 1 { 1 } else { 8 };
-        let mut kernels = Vec::new();
-        let mut add =
-            |list: TileList, code: &'static [u8], mask: bool| -> Result<(), VulkanError> {
-                let constants = cells
-                    .constants(Constants::new())
-                    .with(0, lanes)
-                    .with(1, lanes)
-                    .flag(2, per_sample)
-                    .flag(3, mask)
-                    .with(4, list as u32);
-                kernels.push((list, layout.compute(code, &constants, Some(lanes))?));
-                Ok(())
+        let make = |list: TileList, run: Run, code: &'static [u8], mask: bool| {
+            let header_rows = if list == TileList::Plain {
+                plain_rows
+            } else {
+                layered_rows
             };
-        add(TileList::Plain, plain, false)?;
-        if has_mask {
-            add(TileList::Masked, kernel(&MASKED, layered_rows).1, true)?;
-        }
-        if has_blend {
-            add(
-                TileList::Blended,
-                kernel(&CHAINED, layered_rows).1,
-                has_mask,
-            )?;
-            add(
-                TileList::Unlisted,
-                kernel(&CHAINED_UNLISTED, layered_rows).1,
-                has_mask,
-            )?;
+            let constants = options
+                .cells
+                .constants(Constants::new())
+                .with(0, lanes)
+                .with(1, lanes)
+                .flag(2, options.records == RecordRate::Sample)
+                .flag(3, mask)
+                .with(4, list as u32)
+                .with(5, run as u32)
+                .flag(6, options.records == RecordRate::Part)
+                .flag(7, options.measures(list, run))
+                .with(8, header_rows * lanes);
+            Ok((list, layout.compute(code, &constants, Some(lanes))?))
+        };
+        let listed = |run: Run| {
+            let plain = match run {
+                Run::Probe => kernel(&PLAIN, Self::PROBES.div_ceil(lanes)).1,
+                Run::Whole | Run::Rest => plain,
+            };
+            let mut kernels = vec![make(TileList::Plain, run, plain, false)?];
+            if options.has_mask {
+                let masked = kernel(&MASKED, layered_rows).1;
+                kernels.push(make(TileList::Masked, run, masked, true)?);
+            }
+            Ok::<_, VulkanError>(kernels)
+        };
+        let whole = |list, kernels: &[(u32, &'static [u8])]| {
+            let code = kernel(kernels, layered_rows).1;
+            make(list, Run::Whole, code, options.has_mask)
+        };
+        let probes = options.probes();
+        let mut kernels = listed(if probes { Run::Probe } else { Run::Whole })?;
+        if options.has_blend {
+            kernels.push(whole(TileList::Blended, &CHAINED)?);
+            kernels.push(whole(TileList::Unlisted, &CHAINED_UNLISTED)?);
         } else {
-            add(
-                TileList::Unlisted,
-                kernel(&UNLISTED, layered_rows).1,
-                has_mask,
-            )?;
+            kernels.push(whole(TileList::Unlisted, &UNLISTED)?);
         }
+        let rest = if probes {
+            listed(Run::Rest)?
+        } else {
+            Vec::new()
+        };
         Ok(Self {
             kernels,
+            rest,
+            options: *options,
             plain_block: plain_rows * lanes,
             layered_block: layered_rows * lanes,
         })
     }
 
-    /// Samples that a kernel holds at once, for tiles of the list.
+    /// What they were made for.
+    #[must_use]
+    pub fn options(&self) -> &SampleOptions {
+        &self.options
+    }
+
+    /// Samples that a header stands for, in tiles of the list.
     #[must_use]
     pub fn block(&self, list: TileList) -> u32 {
         if list == TileList::Plain {
@@ -136,10 +192,29 @@ impl Sample {
         self.kernels.iter().map(|(list, _)| *list)
     }
 
-    /// Records them over the tiles of the round.
+    /// Records them over the tiles of the round. With two runs, no cell is marked before the first round.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
-        for (list, pipeline) in &self.kernels {
+        for (list, pipeline) in self.kernels.iter().chain(&self.rest) {
             recorder.dispatch_indirect(pipeline, arguments, list.argument());
         }
+    }
+}
+
+impl SampleOptions {
+    /// Whether a run measures areas: where it takes all samples of a cell at once.
+    fn measures(&self, list: TileList, run: Run) -> bool {
+        let at_once = match run {
+            Run::Whole => self.samples <= Sample::PROBES,
+            Run::Probe => true,
+            Run::Rest => false,
+        };
+        let listed = matches!(list, TileList::Plain | TileList::Masked);
+        self.exact_areas && self.records != RecordRate::Sample && at_once && listed
+    }
+
+    /// Whether a first run of few samples finds the cells that need no more.
+    #[must_use]
+    pub fn probes(&self) -> bool {
+        self.exact_areas && self.records != RecordRate::Sample && self.samples > Sample::PROBES
     }
 }

@@ -1,6 +1,6 @@
 //! schedule: which tiles' lists are placed in a round.
 
-use super::{Cells, FrameLayout, Sample, TileList, spirv};
+use super::{FrameLayout, RecordRate, Sample, TileList, spirv};
 use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
@@ -15,21 +15,19 @@ impl Schedule {
     ///
     /// # Errors
     /// If the driver refuses it.
-    pub fn new(
-        layout: &FrameLayout,
-        cells: Cells,
-        sample: &Sample,
-        per_sample: bool,
-        layers: u32,
-    ) -> Result<Self, VulkanError> {
+    pub fn new(layout: &FrameLayout, sample: &Sample, layers: u32) -> Result<Self, VulkanError> {
         let lanes = layout.gpu.limits().subgroup_size;
-        let constants = cells
+        let records = sample.options().records;
+        let constants = sample
+            .options()
+            .cells
             .constants(Constants::new())
             .with(0, lanes)
             .with(1, sample.block(TileList::Plain))
             .with(2, sample.block(TileList::Masked))
-            .flag(3, per_sample)
-            .with(4, layers);
+            .flag(3, records == RecordRate::Sample)
+            .with(4, layers)
+            .with(5, if records == RecordRate::Part { 8 } else { 1 });
         let pipeline = layout.compute(spirv::SCHEDULE, &constants, Some(lanes))?;
         Ok(Self { pipeline })
     }

@@ -5,6 +5,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod area;
 pub mod coverage;
 pub mod detect;
 pub mod edge;

@@ -1,10 +1,10 @@
 //! The sampling engine: from a mask of cells to their colours, in rounds.
 
 use super::plan::Plan;
-use super::{RenderError, Settings, Shading};
+use super::{Coverage, RenderError, Settings, Shading};
 use crate::passes::{
-    Bin, Cells, Cull, Detect, DetectMode, FrameLayout, GpuScene, Resolve, Resources, Sample,
-    Schedule, Setup, Shade, ShadeSource, Sort, Thin,
+    Bin, Cells, Cull, Detect, DetectMode, FrameLayout, GpuScene, RecordRate, Resolve, Resources,
+    Sample, SampleOptions, Schedule, Setup, Shade, ShadeSource, Sort, Thin,
 };
 use crate::vulkan::{Constants, Recorder};
 use std::sync::Arc;
@@ -47,14 +47,16 @@ impl Engine {
         output: &Constants,
         kind: &EngineKind,
     ) -> Result<Self, RenderError> {
-        let per_sample = settings.shading == Shading::Sample;
         let sample = Sample::new(
             layout,
-            Cells::Pixels,
-            kind.samples,
-            per_sample,
-            scene.has_mask(),
-            scene.has_blend(),
+            &SampleOptions {
+                cells: Cells::Pixels,
+                samples: kind.samples,
+                records: record_rate(settings, scene),
+                exact_areas: settings.coverage == Coverage::Area && kind.samples > 1,
+                has_mask: scene.has_mask(),
+                has_blend: scene.has_blend(),
+            },
         )?;
         Ok(Self {
             thin: kind
@@ -71,13 +73,12 @@ impl Engine {
             )?,
             cull: Cull::new(layout)?,
             bin: Bin::new(layout)?,
-            schedule: Schedule::new(layout, Cells::Pixels, &sample, per_sample, plan.layers)?,
+            schedule: Schedule::new(layout, &sample, plan.layers)?,
             setup: Setup::new(layout)?,
             sort: Sort::new(layout, scene.bin_count() == 1)?,
             shade: shade.clone(),
             resolve: Resolve::new(
                 layout,
-                Cells::Pixels,
                 &sample,
                 scene.has_blend(),
                 kind.display_codes,
@@ -126,6 +127,10 @@ impl Engine {
         recorder.mark("cull");
         self.bin.record(recorder, arguments);
         recorder.mark("bin");
+        if self.sample.options().probes() {
+            recorder.clear(&resources.marks);
+            recorder.barrier();
+        }
         for _ in 0..rounds {
             self.schedule.record(recorder);
             recorder.mark("schedule");
@@ -137,6 +142,15 @@ impl Engine {
             self.resolve.record(recorder, arguments);
             recorder.mark("resolve");
         }
+    }
+}
+
+/// How many records the settings' shading asks for.
+pub(super) fn record_rate(settings: &Settings, scene: &GpuScene) -> RecordRate {
+    match settings.shading {
+        Shading::Part if scene.has_glossy() => RecordRate::Part,
+        Shading::Triangle | Shading::Part => RecordRate::Triangle,
+        Shading::Sample => RecordRate::Sample,
     }
 }
 

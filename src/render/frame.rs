@@ -8,9 +8,10 @@ use super::{Detection, Method, PassTime, Reference, RenderError, Settings, Stati
 use crate::camera::{Camera, Projection};
 use crate::passes::{
     Attributes, BoxFilter, Counter, DetectMode, Encode, Encoding, FrameLayout, FrameUniform,
-    GpuScene, Multisample, Raster, RasterTargets, Resolve, Resources, Shade, ShadeSource, Sort,
-    Spans, Transform,
+    GpuScene, Locations, Multisample, Raster, RasterTargets, Resolve, Resources, Sample, Shade,
+    ShadeSource, Sort, Spans, Transform,
 };
+use crate::sampling::Pattern;
 use crate::vulkan::{Buffer, Constants, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;
 use std::sync::Arc;
@@ -115,14 +116,25 @@ impl Frame {
         let multisampled = settings.method == Method::Msaa;
         let [width, height] = plan.sizes.region;
         let targets = RasterTargets::new(&memory, width, height, samples, has_blend)?;
-        let locations = settings.locations()?;
+        let mut locations = settings.locations()?;
+        let sample_count = locations.len() as u32;
+        locations.extend(Pattern::Sobol.offsets(Sample::PROBES)?);
         let resources = Resources::new(
             layout,
             &memory,
             scene,
             &targets,
             plan.sizes,
-            &[&[[0.0, 0.0]], &locations],
+            &[
+                Locations {
+                    all: &[[0.0, 0.0]],
+                    count: 1,
+                },
+                Locations {
+                    all: &locations,
+                    count: sample_count,
+                },
+            ],
         )?;
 
         let display = settings.reference == Reference::Display;
@@ -466,7 +478,7 @@ impl Passes<'_> {
         if let Some(engine) = self.blended {
             resources.record_begin(recorder, main, &with(main.count(), whole));
             engine.record(recorder, scene, resources, tiles, self.plan.rounds);
-            self.keep_counters(recorder, 2 * index as u64);
+            resources.record_keep_counters(recorder, self.counters, 2 * index as u64);
         }
         if let Some(engine) = self.superpixels {
             resources.record_begin(
@@ -475,7 +487,7 @@ impl Passes<'_> {
                 &with(locations.count(), self.uniform(scene, camera, region, true)),
             );
             engine.record(recorder, scene, resources, tiles, self.plan.rounds);
-            self.keep_counters(recorder, 2 * index as u64 + 1);
+            resources.record_keep_counters(recorder, self.counters, 2 * index as u64 + 1);
         }
         if let Some(attributes) = self.attributes {
             attributes.record(recorder, pixels / (side * side));
@@ -500,15 +512,6 @@ impl Passes<'_> {
         self.deliver(recorder, region, target);
         recorder.barrier();
         recorder.mark("copy");
-    }
-
-    fn keep_counters(&self, recorder: &Recorder<'_>, slot: u64) {
-        copy(
-            recorder,
-            self.resources.counters.handle(),
-            self.counters.handle(),
-            &[(0, slot * COUNTER_BYTES, COUNTER_BYTES)],
-        );
     }
 
     /// Copies what the region owns to its place in the target.

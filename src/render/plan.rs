@@ -11,7 +11,8 @@ pub(super) struct Region {
     pub low: [u32; 2],
     /// Lower right pixel, exclusive.
     pub high: [u32; 2],
-    /// Pixels around it that detection compares with: left, top, right, bottom, 0 or 1 each.
+    /// Pixels around it that detection compares with: left, top, right, bottom. It needs one; on the left and at the
+    /// top a whole tile keeps tiles, and with them the rounding of edge functions, those of the undivided image.
     pub halo: [u32; 4],
 }
 
@@ -95,7 +96,7 @@ impl Plan {
         let side = settings.side();
         let [width, height] = settings.size;
         let most = REGION_PIXELS;
-        let longest = limits.max_image_side.min(65_535) / side - 2;
+        let longest = limits.max_image_side.min(65_535) / side - 9;
         let mut region = [width.min(longest), height.min(longest)];
         let allowed = settings.max_memory.map(|limit| limit.saturating_sub(taken));
         loop {
@@ -144,15 +145,15 @@ impl Plan {
         for y in (0..height).step_by(region[1] as usize) {
             for x in (0..width).step_by(region[0] as usize) {
                 let high = [(x + region[0]).min(width), (y + region[1]).min(height)];
-                let halo = |inside: bool| u32::from(detects && inside);
+                let halo = |inside: bool, pixels: u32| u32::from(detects && inside) * pixels;
                 regions.push(Region {
                     low: [x, y],
                     high,
                     halo: [
-                        halo(x > 0),
-                        halo(y > 0),
-                        halo(high[0] < width),
-                        halo(high[1] < height),
+                        halo(x > 0, 8),
+                        halo(y > 0, 4),
+                        halo(high[0] < width, 1),
+                        halo(high[1] < height, 1),
                     ],
                 });
             }
@@ -164,14 +165,12 @@ impl Plan {
         let pixels = u64::from(outer[0]) * u64::from(outer[1]);
         let tiles = u64::from(outer[0].div_ceil(8)) * u64::from(outer[1].div_ceil(4));
         let samples = u64::from(settings.samples);
-        let lanes = u64::from(limits.subgroup_size);
         let records = match settings.method {
             Method::Superpixel => {
-                let blocks = samples.div_ceil(32 * lanes);
                 let usual = if settings.shading == Shading::Sample || scene.has_blend() {
                     samples.min(64)
                 } else {
-                    6 * blocks
+                    6 * samples.div_ceil(64)
                 };
                 (pixels * usual.min(samples).max(2)).clamp(1 << 16, MOST_RECORDS)
             }

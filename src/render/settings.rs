@@ -31,11 +31,23 @@ pub enum Detection {
     Every,
 }
 
+/// How the coverage of a triangle in a superpixel is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coverage {
+    /// Exactly where the triangle is seen whole, and by samples elsewhere; superpixels that few samples settle take no
+    /// more.
+    Area,
+    /// By counting samples.
+    Samples,
+}
+
 /// How often the inside of a superpixel is shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shading {
-    /// Once a visible triangle and block of samples, at the centroid of what is seen of it.
+    /// Once a visible triangle and block of 64 samples, at the centroid of what is seen of it.
     Triangle,
+    /// Once a visible triangle and eighth of the pixel, or block of 64 samples where it takes several.
+    Part,
     /// Once a sub-sample.
     Sample,
 }
@@ -60,6 +72,8 @@ pub struct Settings {
     pub samples: u32,
     /// Where sub-samples lie in a superpixel.
     pub pattern: Pattern,
+    /// How they become coverage.
+    pub coverage: Coverage,
     /// How often they are shaded.
     pub shading: Shading,
     /// What makes a superpixel.
@@ -96,7 +110,8 @@ impl Settings {
             method: Method::Superpixel,
             samples: Self::DEFAULT_SAMPLES,
             pattern: Pattern::Sobol,
-            shading: Shading::Triangle,
+            coverage: Coverage::Area,
+            shading: Shading::Part,
             detection: Detection::Contrast,
             contrast: Self::DEFAULT_CONTRAST,
             thin: true,

@@ -34,6 +34,8 @@ pub struct TriangleCounts {
 pub struct Statistics {
     /// Superpixels.
     pub superpixels: u64,
+    /// Superpixels that the first few of their samples did not settle.
+    pub resampled: u64,
     /// Tiles of 8 x 4 pixels.
     pub tiles: u64,
     /// Tiles that hold superpixels.
@@ -76,6 +78,7 @@ impl Statistics {
     /// Adds what other runs over the same scene did.
     pub(super) fn append(&mut self, other: Self) {
         self.superpixels += other.superpixels;
+        self.resampled += other.resampled;
         self.tiles += other.tiles;
         self.busy_tiles += other.busy_tiles;
         self.triangles.total = self.triangles.total.max(other.triangles.total);
@@ -99,6 +102,7 @@ impl Statistics {
     pub(super) fn add(&mut self, counters: &[u32]) {
         let get = |counter: Counter| counters.get(counter as usize).copied().map_or(0, u64::from);
         self.superpixels += get(Counter::Superpixels);
+        self.resampled += get(Counter::Resampled);
         self.busy_tiles += get(Counter::Tiles);
         self.triangles.drawn += get(Counter::Survivors) + get(Counter::Large);
         self.triangles.outside += get(Counter::Outside);

@@ -1,5 +1,6 @@
 //! The renderer on a device, under the validation layer, against the exact twins of `gpc::reference`.
 
+mod area;
 mod blend;
 mod coverage;
 mod detect;

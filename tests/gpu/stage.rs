@@ -9,7 +9,8 @@ use std::sync::{Mutex, PoisonError};
 use glam::{DMat3, DVec2, DVec3, Vec3};
 use gpc::camera::{Camera, Projection};
 use gpc::render::{
-    Detection, Headless, HeadlessOptions, Method, PreparedScene, Reference, Rendered, Settings,
+    Coverage, Detection, Headless, HeadlessOptions, Method, PreparedScene, Reference, Rendered,
+    Settings, Shading,
 };
 use gpc::sampling::Pattern;
 use gpc::scene::{
@@ -290,6 +291,8 @@ pub fn everywhere(size: [u32; 2], pattern: Pattern, samples: u32) -> Settings {
         method: Method::Superpixel,
         samples,
         pattern,
+        coverage: Coverage::Samples,
+        shading: Shading::Triangle,
         detection: Detection::Every,
         reference: Reference::Scene,
         tonemapped_detection: false,

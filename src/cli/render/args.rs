@@ -4,7 +4,7 @@ use super::image::ImageArgs;
 use crate::cli::values;
 use clap::{Args, ValueEnum};
 use glam::DVec3;
-use gpc::render::{Detection, Method, Settings, Shading};
+use gpc::render::{Coverage, Detection, Method, Settings, Shading};
 use gpc::sampling::Pattern;
 use serde::Serialize;
 use std::fmt;
@@ -63,8 +63,11 @@ pub struct SamplingArgs {
     /// Where a superpixel's samples lie: sobol, lattice, korobov, grid or rotated
     #[arg(long, value_name = "P", default_value = "sobol")]
     pub pattern: Pattern,
-    /// Shade a superpixel once for each visible triangle, or once a sample
-    #[arg(long, default_value = "triangle")]
+    /// How samples become coverage: the exact area of triangles that are seen whole, or counts of samples alone
+    #[arg(long, default_value = "area")]
+    pub coverage: CoverageRule,
+    /// Shade a superpixel once for each visible triangle, for each and each eighth of the pixel, or once a sample
+    #[arg(long, default_value = "part")]
     pub shading: ShadingRate,
 }
 
@@ -192,10 +195,27 @@ impl Detect {
     }
 }
 
+/// Values of `--coverage`.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum CoverageRule {
+    Area,
+    Samples,
+}
+
+impl CoverageRule {
+    pub fn coverage(self) -> Coverage {
+        match self {
+            Self::Area => Coverage::Area,
+            Self::Samples => Coverage::Samples,
+        }
+    }
+}
+
 /// Values of `--shading`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum ShadingRate {
     Triangle,
+    Part,
     Sample,
 }
 
@@ -203,6 +223,7 @@ impl ShadingRate {
     pub fn shading(self) -> Shading {
         match self {
             Self::Triangle => Shading::Triangle,
+            Self::Part => Shading::Part,
             Self::Sample => Shading::Sample,
         }
     }

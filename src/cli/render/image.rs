@@ -79,6 +79,7 @@ impl ImageArgs {
             method: self.sampling.aa.method(),
             samples: self.sampling.samples(),
             pattern: self.sampling.pattern.clone(),
+            coverage: self.sampling.coverage.coverage(),
             shading: self.sampling.shading.shading(),
             detection: self.sampling.detect.detection(),
             contrast: self.sampling.contrast,

@@ -43,6 +43,8 @@ struct CameraReport {
 struct Superpixels {
     count: u64,
     fraction: f64,
+    /// Those that the first few of their samples did not settle.
+    resampled: u64,
 }
 
 #[derive(Serialize)]
@@ -87,6 +89,7 @@ impl Report {
             superpixels: Superpixels {
                 count: statistics.superpixels,
                 fraction: statistics.superpixels as f64 / (width * height),
+                resampled: statistics.resampled,
             },
             triangles: count(&statistics.triangles),
             gpu_ms: medians(&shot.passes),

@@ -1,16 +1,18 @@
 //! The passes and memory that sample sites: the engine of superpixels with the caller's cells in the place of pixels.
 
+use super::layout::CellSizes;
 use super::partition::Window;
 use crate::camera::Pinhole;
 use crate::passes::{
-    Bin, Cells, Counter, Cull, FrameLayout, FrameUniform, GpuScene, Groups, Points, RasterTargets,
-    Resolve, ResourceSizes, Resources, Sample, Schedule, Setup, Shade, ShadeSource, SiteData, Sort,
-    Transform,
+    Bin, Cells, Counter, Cull, FrameLayout, FrameUniform, GpuScene, Groups, Locations, Points,
+    RasterTargets, RecordRate, Resolve, ResourceSizes, Resources, Sample, SampleOptions, Schedule,
+    Setup, Shade, ShadeSource, SiteData, Sort, Transform,
 };
-use crate::render::engine::record_shading;
+use crate::render::engine::{record_rate, record_shading};
 use crate::render::renderer::PreparedScene;
 use crate::render::statistics::unfinished;
-use crate::render::{PassTime, Reference, RenderError, Settings, Shading, Statistics};
+use crate::render::{Coverage, PassTime, Reference, RenderError, Settings, Statistics};
+use crate::sampling::Pattern;
 use crate::vulkan::{Buffer, Constants, Memory, MemoryUse, Recorder, Timings, VulkanError};
 use ash::vk;
 use glam::DVec2;
@@ -34,7 +36,6 @@ enum Finish {
 /// Pipelines and memory to sample runs of sites of one scene.
 pub(super) struct SiteEngine {
     settings: Settings,
-    samples: u32,
     transform: Transform,
     cull: Cull,
     bin: Bin,
@@ -53,14 +54,18 @@ pub(super) struct SiteEngine {
     uploaded: bool,
 }
 
-/// How many sites share a cell, and cells a group.
-pub(super) fn cell_sizes(layout: &FrameLayout, cells: Cells) -> [usize; 2] {
+/// How sites share cells and groups on a device.
+pub(super) fn cell_sizes(layout: &FrameLayout, cells: Cells, samples: u32) -> CellSizes {
     let lanes = layout.gpu.limits().subgroup_size;
     let in_cell = match cells {
         Cells::Points => POINTS_IN_CELL.next_multiple_of(lanes),
-        _ => 1,
+        Cells::Superpixels | Cells::Pixels => 1,
     };
-    [in_cell as usize, lanes as usize]
+    CellSizes {
+        in_cell: in_cell as usize,
+        in_group: lanes as usize,
+        samples,
+    }
 }
 
 impl SiteEngine {
@@ -80,14 +85,32 @@ impl SiteEngine {
             settings.max_memory.map(|limit| limit.saturating_sub(taken)),
         );
         let points = cells == Cells::Points;
-        let [in_cell, _] = cell_sizes(layout, cells);
-        let (samples, locations) = if points {
-            (in_cell as u32, vec![[0.0; 2]])
+        let CellSizes { in_cell, .. } = cell_sizes(layout, cells, settings.samples);
+        let options = SampleOptions {
+            cells,
+            samples: if points {
+                in_cell as u32
+            } else {
+                settings.samples
+            },
+            records: if points {
+                RecordRate::Sample
+            } else {
+                record_rate(settings, scene)
+            },
+            exact_areas: settings.coverage == Coverage::Area && settings.samples > 1 && !points,
+            has_mask: scene.has_mask(),
+            has_blend: scene.has_blend(),
+        };
+        let mut locations = if points {
+            vec![[0.0; 2]]
         } else {
-            (
-                settings.samples,
-                settings.pattern.offsets(settings.samples)?,
-            )
+            settings.pattern.offsets(settings.samples)?
+        };
+        locations.extend(Pattern::Sobol.offsets(Sample::PROBES)?);
+        let locations = Locations {
+            all: &locations,
+            count: options.samples,
         };
         let targets = RasterTargets::new(
             &memory,
@@ -96,28 +119,19 @@ impl SiteEngine {
             vk::SampleCountFlags::TYPE_1,
             scene.has_blend(),
         )?;
-        let resources = Resources::new(layout, &memory, scene, &targets, *sizes, &[&locations])?;
+        let resources = Resources::new(layout, &memory, scene, &targets, *sizes, &[locations])?;
         let output = Constants::new()
             .flag(
                 30,
                 settings.reference == Reference::Display && settings.tonemapped_detection,
             )
             .flag(31, settings.tonemapped_detection);
-        let per_sample = points || settings.shading == Shading::Sample;
-        let sample = Sample::new(
-            layout,
-            cells,
-            samples,
-            per_sample,
-            scene.has_mask(),
-            scene.has_blend(),
-        )?;
+        let sample = Sample::new(layout, &options)?;
         let finish = if points {
             Finish::Points(Points::new(layout, &output)?)
         } else {
             Finish::Resolve(Resolve::new(
                 layout,
-                cells,
                 &sample,
                 scene.has_blend(),
                 false,
@@ -126,11 +140,10 @@ impl SiteEngine {
         };
         Ok(Self {
             settings: settings.clone(),
-            samples,
             transform: Transform::new(layout)?,
             cull: Cull::new(layout)?,
             bin: Bin::new(layout)?,
-            schedule: Schedule::new(layout, cells, &sample, per_sample, LAYERS)?,
+            schedule: Schedule::new(layout, &sample, LAYERS)?,
             groups: Groups::new(layout)?,
             setup: Setup::new(layout)?,
             sort: Sort::new(layout, scene.bin_count() == 1)?,
@@ -203,6 +216,10 @@ impl SiteEngine {
         recorder.mark("cull");
         self.bin.record(recorder, arguments);
         recorder.mark("bin");
+        if self.sample.options().probes() {
+            recorder.clear(&resources.marks);
+            recorder.barrier();
+        }
         for _ in 0..ROUNDS {
             self.schedule.record(recorder);
             self.groups.record(recorder, arguments);
@@ -299,7 +316,7 @@ impl SiteEngine {
             triangle_count: scene.triangle_count(),
             first_mask: scene.first_mask(),
             first_blend: scene.first_blend(),
-            sample_count: self.samples,
+            sample_count: self.sample.options().samples,
             list_capacity: self.resources.sizes().list_capacity,
             record_capacity: self.resources.sizes().record_capacity,
             bin_count: scene.bin_count(),

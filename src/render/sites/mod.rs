@@ -6,6 +6,7 @@
 mod engine;
 mod error;
 mod image;
+mod layout;
 mod partition;
 mod plan;
 
@@ -133,13 +134,13 @@ impl Headless {
             taken,
         )?;
         let mut engine = SiteEngine::new(&layout, scene, settings, cells, &plan.sizes)?;
-        let sizes = cell_sizes(&layout, cells);
+        let sizes = cell_sizes(&layout, cells, settings.samples);
         let mut statistics = Statistics::default();
         let mut waiting = plan.runs;
         waiting.reverse();
         while let Some(run) = waiting.pop() {
             let window = partition.window(&run);
-            let data = partition.data(&run, &window, sizes, settings.samples);
+            let data = partition.data(&run, &window, &sizes);
             engine.write(&data)?;
             // SAFETY: the last submission was waited for; scene and engine outlive this one, which is waited for.
             self.submit(|_, commands| unsafe {

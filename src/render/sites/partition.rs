@@ -5,19 +5,19 @@
 
 use super::SiteError;
 use crate::camera::Site;
-use crate::passes::{Cells, SiteData};
+use crate::passes::Cells;
 use rayon::prelude::*;
 use std::ops::Range;
 
 /// Tiles of a region: 2,048 x 2,048 pixels.
 const REGION_TILES: [i64; 2] = [256, 512];
 /// Pixels of a tile.
-const TILE: [i64; 2] = [8, 4];
+pub(super) const TILE: [i64; 2] = [8, 4];
 /// Up to this many pixels sites share what positions are relative to, so that they see the same however they are cut
 /// into runs, and what an image of their plane sees; beyond it 32-bit positions are finer from the middle of each window.
 const COMPACT: f64 = 8192.0;
-/// Half of a cell's side beyond its samples: covers the rounding of edge functions.
-const SLACK: f64 = 1.0 / 64.0;
+/// Factor on the reach of large cells, whose samples are rounded to 32 bits.
+pub(super) const ROUNDING: f64 = 1.0 + 1.0 / 1_048_576.0;
 /// Key bits below those of the region: a tile of it, and the place in the tile.
 const TILE_BITS: u32 = 17;
 const PLACE_BITS: u32 = 16;
@@ -27,7 +27,7 @@ pub(super) struct Partition {
     /// The sites' places in the caller's list.
     pub order: Vec<u32>,
     sites: Vec<Site>,
-    cells: Cells,
+    pub cells: Cells,
     /// What clip-space positions of all runs are relative to, if they lie close enough together.
     middle: Option<[f64; 2]>,
     /// Parts of the order that lie in one region each.
@@ -69,12 +69,14 @@ impl Partition {
         let checked: Result<Vec<(u64, u32)>, SiteError> = sites
             .par_iter()
             .enumerate()
-            .map(|(index, site)| check(site, index).map(|()| (key(site, cells), index as u32)))
+            .map(|(index, site)| {
+                check(site, index, cells).map(|()| (key(site, cells), index as u32))
+            })
             .collect();
         let mut keyed = checked.or_else(|any| {
             // Which one was found first depends on the threads.
             let offenders = sites.iter().enumerate();
-            let first = offenders.map(|(index, site)| check(site, index));
+            let first = offenders.map(|(index, site)| check(site, index, cells));
             first.collect::<Result<(), _>>().and(Err(any))
         })?;
         keyed.par_sort_unstable();
@@ -111,7 +113,7 @@ impl Partition {
     }
 
     /// The sites of a run, in order.
-    fn run(&self, run: &Range<usize>) -> &[Site] {
+    pub fn run(&self, run: &Range<usize>) -> &[Site] {
         self.sites.get(run.clone()).unwrap_or(&[])
     }
 
@@ -132,55 +134,8 @@ impl Partition {
             low: bounds.low.map(|pixel| pixel as i64),
             tiles: bounds.tiles(),
             middle: self.middle.unwrap_or_else(|| bounds.middle()),
-            reach,
+            reach: reach * ROUNDING,
         }
-    }
-
-    /// A run's sites as the device takes them: cells of up to `in_cell` sites, groups of up to `in_group` cells;
-    /// `samples` is the number of sub-samples of a superpixel.
-    pub fn data(
-        &self,
-        run: &Range<usize>,
-        window: &Window,
-        [in_cell, in_group]: [usize; 2],
-        samples: u32,
-    ) -> SiteData {
-        let cells = self.cells;
-        let tile_count = window.tiles[0] as usize * window.tiles[1] as usize;
-        let mut data = SiteData {
-            sites: Vec::with_capacity(run.len()),
-            masks: vec![0; tile_count],
-            loads: vec![[0; 2]; tile_count],
-            ..SiteData::default()
-        };
-        let first_tile = [0, 1].map(|axis| window.low[axis] / TILE[axis]);
-        // The sites of the tile at hand: their places around its centre, and half extents.
-        let mut places: Vec<([f64; 2], [f64; 2])> = Vec::new();
-        let mut current = None;
-        for site in self.run(run) {
-            let tile = tile_of(site);
-            if current.is_some_and(|current| current != tile) {
-                data.close_tile(&mut places, in_cell, in_group, samples, cells);
-            }
-            current = Some(tile);
-            let [column, row] = [0, 1].map(|axis| (tile[axis] - first_tile[axis]) as usize);
-            let index = row * window.tiles[0] as usize + column;
-            let corner = [0, 1].map(|axis| (tile[axis] * TILE[axis]) as f64);
-            let [x, y] = [0, 1].map(|axis| site.uv[axis] - corner[axis]);
-            let bit = (y.floor() as u32 & 3) * 8 + (x.floor() as u32 & 7);
-            if let Some(mask) = data.masks.get_mut(index) {
-                *mask |= 1 << bit;
-            }
-            let place = [x - 4.0, y - 2.0].map(|v| f64::from(v as f32));
-            let [u, v] = site.jacobian;
-            data.sites.push([
-                [bits(place[0]), bits(place[1]), index as u32, 0],
-                [bits(u[0]), bits(u[1]), bits(v[0]), bits(v[1])],
-            ]);
-            places.push((place, half_extent(site, cells)));
-        }
-        data.close_tile(&mut places, in_cell, in_group, samples, cells);
-        data
     }
 }
 
@@ -220,77 +175,13 @@ impl Bounds {
     }
 }
 
-impl SiteData {
-    /// Makes the cells and groups of the last sites, which lie in one tile.
-    fn close_tile(
-        &mut self,
-        places: &mut Vec<([f64; 2], [f64; 2])>,
-        in_cell: usize,
-        in_group: usize,
-        samples: u32,
-        cells: Cells,
-    ) {
-        let mut first_site = self.sites.len() - places.len();
-        let Some(tile) = self.sites.last().map(|[at, _]| at[2]) else {
-            return;
-        };
-        let mut in_tile = 0_u32;
-        for members in places.chunks(in_cell.max(1)) {
-            let mut low = [f64::INFINITY; 2];
-            let mut high = [f64::NEG_INFINITY; 2];
-            for (place, extent) in members {
-                for axis in 0..2 {
-                    low[axis] = low[axis].min(place[axis] - extent[axis]);
-                    high[axis] = high[axis].max(place[axis] + extent[axis]);
-                }
-            }
-            // A lone site is the middle itself, to the bit.
-            let middle = match members {
-                [(place, _)] => *place,
-                _ => [0, 1].map(|axis| 0.5 * (low[axis] + high[axis])),
-            };
-            let half = [0, 1].map(|axis| 0.5 * (high[axis] - low[axis]) + SLACK);
-            match self.groups.last_mut() {
-                Some(group) if in_tile > 0 && (group[2] as usize) < in_group => group[2] += 1,
-                _ => self
-                    .groups
-                    .push([tile, self.cells.len() as u32, 1, in_tile]),
-            }
-            self.cells.push([
-                [
-                    bits(middle[0]),
-                    bits(middle[1]),
-                    bits(half[0]),
-                    bits(half[1]),
-                ],
-                [first_site as u32, members.len() as u32, 0, 0],
-            ]);
-            first_site += members.len();
-            in_tile += 1;
-        }
-        let sampled = if cells == Cells::Points {
-            places.len() as u32
-        } else {
-            in_tile.saturating_mul(samples)
-        };
-        if let Some(load) = self.loads.get_mut(tile as usize) {
-            *load = [in_tile, sampled];
-        }
-        places.clear();
-    }
-}
-
-fn bits(v: f64) -> u32 {
-    (v as f32).to_bits()
-}
-
 /// The tile of the plane that a site lies in.
-fn tile_of(site: &Site) -> [i64; 2] {
+pub(super) fn tile_of(site: &Site) -> [i64; 2] {
     [0, 1].map(|axis| (site.uv[axis] / TILE[axis] as f64).floor() as i64)
 }
 
 /// Half of the width and height of the upright rectangle around a site's cell, in pixels; points have none.
-fn half_extent(site: &Site, cells: Cells) -> [f64; 2] {
+pub(super) fn half_extent(site: &Site, cells: Cells) -> [f64; 2] {
     let [column, row] = site.jacobian;
     if cells == Cells::Points {
         [0.0; 2]
@@ -299,7 +190,7 @@ fn half_extent(site: &Site, cells: Cells) -> [f64; 2] {
     }
 }
 
-fn check(site: &Site, index: usize) -> Result<(), SiteError> {
+fn check(site: &Site, index: usize, cells: Cells) -> Result<(), SiteError> {
     let [u, v] = site.uv;
     let jacobian = site.jacobian;
     let numbers = [u, v].into_iter().chain(jacobian.into_iter().flatten());
@@ -311,7 +202,7 @@ fn check(site: &Site, index: usize) -> Result<(), SiteError> {
             jacobian,
         });
     }
-    let extent = half_extent(site, Cells::Superpixels);
+    let extent = half_extent(site, cells);
     if (0..2).any(|axis| site.uv[axis].abs() + extent[axis] > SiteError::FARTHEST) {
         return Err(SiteError::TooFar {
             index,

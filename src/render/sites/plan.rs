@@ -77,16 +77,16 @@ fn sizes(
         }
     });
     let tiles = u64::from(region[0] / 8) * u64::from(region[1] / 4);
-    let [in_cell, in_group] = cell_sizes(layout, cells).map(|size| size as u64);
+    let cell_sizes = cell_sizes(layout, cells, settings.samples);
+    let [in_cell, in_group] = [cell_sizes.in_cell, cell_sizes.in_group].map(|size| size as u64);
     let cell_count = most.min(most / in_cell + tiles);
     let group_count = cell_count.min(cell_count / in_group + tiles);
-    let lanes = u64::from(limits.subgroup_size);
     let samples = u64::from(settings.samples);
     let records = match cells {
         Cells::Points if scene.has_blend() => 3 * most,
         Cells::Points => most,
         _ if settings.shading == Shading::Sample || scene.has_blend() => most * samples.min(64),
-        _ => most * (6 * samples.div_ceil(32 * lanes)).min(samples).max(2),
+        _ => most * (6 * samples.div_ceil(64)).min(samples).max(2),
     };
     let candidates = u64::from(scene.triangle_count()) * 3 + tiles * 8;
     ResourceSizes {

@@ -35,19 +35,26 @@ fn sets_that_cannot_be_sampled_are_named() {
             let error = error(&[good, good, bad, bad]);
             assert!(matches!(error, SiteError::NotFinite { index: 2, .. }));
         }
-        for far in [
-            site([2e6, 0.0], 0),
-            site([0.0, -1.1e6], 0),
-            Site {
-                jacobian: [[1.0, 0.0], [0.0, 4e6]],
-                ..good
-            },
-        ] {
+        for far in [site([2e6, 0.0], 0), site([0.0, -1.1e6], 0)] {
             assert!(matches!(
                 error(&[good, far]),
                 SiteError::TooFar { index: 1, .. }
             ));
         }
+        // A point has no extent, a superpixel has.
+        let wide = [Site {
+            jacobian: [[1.0, 0.0], [0.0, 4e6]],
+            ..good
+        }];
+        let settings = everywhere(SIZE, Pattern::Sobol, 4);
+        assert!(
+            gpu.sample_points(&prepared, &pinhole(SIZE), &wide, &settings)
+                .is_ok()
+        );
+        assert!(matches!(
+            gpu.sample_superpixels(&prepared, &pinhole(SIZE), &wide, &settings),
+            Err(RenderError::Site(SiteError::TooFar { index: 0, .. }))
+        ));
         let rig = [(pinhole(SIZE), vec![good, site([1.0, 1.0], 4096)])];
         let rendered = gpu.render_sites(&prepared, &rig, SIZE, &Settings::new(64, 64));
         assert!(matches!(

@@ -1,0 +1,46 @@
+// The exact area of a triangle within a cell's square.
+//
+// A convex region's area is half the sum, over the lines that bound it, of the line's distance from the cell's centre
+// (positive where the centre lies inside) times the length of the line's segment within all other half-planes. There
+// are seven lines, three of the triangle and four of the square: an invocation takes one. Twin: src/reference/area.rs.
+#ifndef AREA_GLSL
+#define AREA_GLSL
+
+// Clips the line of points `distance_` along -`normal` to the half-plane n . p + d >= 0.
+void clip_line(vec2 normal, float distance_, vec2 n, float d, bool own, inout float from, inout float to, inout bool empty) {
+    float along = n.y * normal.x - n.x * normal.y;      // the line runs along (-normal.y, normal.x)
+    float before = distance_ * dot(n, normal) - d;
+    float t = before / along;
+    from = !own && along > 0.0 ? max(from, t) : from;
+    to = !own && along < 0.0 ? min(to, t) : to;
+    empty = empty || (!own && along == 0.0 && before > 0.0);
+}
+
+// Areas are sums of integers, so that the order of vertices and triangles does not show.
+const float AREA_UNIT = 1048576.0;      // of a cell
+
+// `a`, `b` and `c` are the triangle's edge functions around the cell's centre, positive inside, the same for all
+// invocations of the subgroup.
+int area_in_cell(vec3 a, vec3 b, vec3 c, uint lane) {
+    vec3 inverse = 1.0 / sqrt(max(a * a + b * b, vec3(1e-37)));
+    a *= inverse;
+    b *= inverse;
+    c *= inverse;
+    uint side = lane - 3u;
+    vec2 side_normal = vec2(side == 0u ? 1.0 : side == 1u ? -1.0 : 0.0, side == 2u ? 1.0 : side == 3u ? -1.0 : 0.0);
+    vec2 normal = lane == 0u ? vec2(a.x, b.x) : lane == 1u ? vec2(a.y, b.y) : lane == 2u ? vec2(a.z, b.z) : side_normal;
+    float distance_ = lane == 0u ? c.x : lane == 1u ? c.y : lane == 2u ? c.z : 0.5;
+    float from = -2.0, to = 2.0;
+    bool empty = lane > 6u;
+    clip_line(normal, distance_, vec2(a.x, b.x), c.x, lane == 0u, from, to, empty);
+    clip_line(normal, distance_, vec2(a.y, b.y), c.y, lane == 1u, from, to, empty);
+    clip_line(normal, distance_, vec2(a.z, b.z), c.z, lane == 2u, from, to, empty);
+    clip_line(normal, distance_, vec2(1.0, 0.0), 0.5, lane == 3u, from, to, empty);
+    clip_line(normal, distance_, vec2(-1.0, 0.0), 0.5, lane == 4u, from, to, empty);
+    clip_line(normal, distance_, vec2(0.0, 1.0), 0.5, lane == 5u, from, to, empty);
+    clip_line(normal, distance_, vec2(0.0, -1.0), 0.5, lane == 6u, from, to, empty);
+    float part = empty || !(from < to) ? 0.0 : 0.5 * distance_ * (to - from);
+    return clamp(lanes_add(int(round(part * AREA_UNIT))), 0, int(AREA_UNIT));
+}
+
+#endif

@@ -1,0 +1,184 @@
+//! A run's sites as the device takes them: sites, cells of one or several of them, groups of cells, tiles.
+
+use super::partition::{Partition, ROUNDING, TILE, Window, half_extent, tile_of};
+use crate::passes::{Cells, SiteData};
+use std::ops::Range;
+
+/// Half of a cell's side beyond its samples, in pixels: covers the rounding of edge functions.
+const SLACK: f64 = 1.0 / 64.0;
+
+/// How sites share cells, and cells groups.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct CellSizes {
+    /// Most sites of a cell.
+    pub in_cell: usize,
+    /// Most cells of a group.
+    pub in_group: usize,
+    /// Samples of a superpixel.
+    pub samples: u32,
+}
+
+/// Where a site lies from the centre of its tile, and half of its cell's width and height.
+type Place = ([f64; 2], [f64; 2]);
+
+impl Partition {
+    /// A run's sites in its window.
+    pub fn data(&self, run: &Range<usize>, window: &Window, sizes: &CellSizes) -> SiteData {
+        let tile_count = window.tiles[0] as usize * window.tiles[1] as usize;
+        let mut data = SiteData {
+            sites: Vec::with_capacity(run.len()),
+            masks: vec![0; tile_count],
+            loads: vec![[0; 2]; tile_count],
+            ..SiteData::default()
+        };
+        let first_tile = [0, 1].map(|axis| window.low[axis] / TILE[axis]);
+        let mut places: Vec<Place> = Vec::new();
+        for sites in self.run(run).chunk_by(|a, b| tile_of(a) == tile_of(b)) {
+            let Some(tile) = sites.first().map(tile_of) else {
+                continue;
+            };
+            let [column, row] = [0, 1].map(|axis| (tile[axis] - first_tile[axis]) as u32);
+            let index = row * window.tiles[0] + column;
+            let corner = [0, 1].map(|axis| (tile[axis] * TILE[axis]) as f64);
+            places.clear();
+            let mut mask = 0;
+            for site in sites {
+                let [x, y] = [0, 1].map(|axis| site.uv[axis] - corner[axis]);
+                // A place just before the far side may be rounded onto it.
+                let pixel = [x.min(7.0) as u32, y.min(3.0) as u32];
+                mask |= 1 << (8 * pixel[1] + pixel[0]);
+                let place = [x - 4.0, y - 2.0].map(|v| f64::from(v as f32));
+                let [u, v] = site.jacobian;
+                data.sites.push([
+                    [bits(place[0]), bits(place[1]), index, 0],
+                    [bits(u[0]), bits(u[1]), bits(v[0]), bits(v[1])],
+                ]);
+                places.push((place, half_extent(site, self.cells)));
+            }
+            if let Some(word) = data.masks.get_mut(index as usize) {
+                *word = mask;
+            }
+            let cells = data.push_cells(index, &places, sizes);
+            let samples = match self.cells {
+                Cells::Points => places.len() as u32,
+                _ => cells.saturating_mul(sizes.samples),
+            };
+            if let Some(load) = data.loads.get_mut(index as usize) {
+                *load = [cells, samples];
+            }
+        }
+        data
+    }
+}
+
+impl SiteData {
+    /// Makes the cells and groups of the last sites, those of a tile, and returns how many cells they are.
+    fn push_cells(&mut self, tile: u32, places: &[Place], sizes: &CellSizes) -> u32 {
+        let mut first_site = self.sites.len() - places.len();
+        let mut in_tile = 0;
+        for members in places.chunks(sizes.in_cell.max(1)) {
+            let mut low = [f64::INFINITY; 2];
+            let mut high = [f64::NEG_INFINITY; 2];
+            for (place, extent) in members {
+                for axis in 0..2 {
+                    low[axis] = low[axis].min(place[axis] - extent[axis]);
+                    high[axis] = high[axis].max(place[axis] + extent[axis]);
+                }
+            }
+            // A lone site is the middle itself, to the bit.
+            let middle = match members {
+                [(place, _)] => *place,
+                _ => [0, 1].map(|axis| 0.5 * (low[axis] + high[axis])),
+            };
+            let half = [0, 1].map(|axis| 0.5 * (high[axis] - low[axis]) * ROUNDING + SLACK);
+            match self.groups.last_mut() {
+                Some(group) if in_tile > 0 && (group[2] as usize) < sizes.in_group => group[2] += 1,
+                _ => {
+                    let first_cell = self.cells.len() as u32;
+                    self.groups.push([tile, first_cell, 1, in_tile]);
+                }
+            }
+            let [x, y] = middle.map(bits);
+            let [width, height] = half.map(bits);
+            let count = members.len();
+            self.cells.push([
+                [x, y, width, height],
+                [first_site as u32, count as u32, 0, 0],
+            ]);
+            first_site += count;
+            in_tile += 1;
+        }
+        in_tile
+    }
+}
+
+fn bits(v: f64) -> u32 {
+    (v as f32).to_bits()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::Site;
+
+    fn site(uv: [f64; 2]) -> Site {
+        Site {
+            uv,
+            jacobian: [[2.0, 0.0], [0.0, 1.0]],
+            output: 0,
+        }
+    }
+
+    const SIZES: CellSizes = CellSizes {
+        in_cell: 3,
+        in_group: 2,
+        samples: 16,
+    };
+
+    #[test]
+    fn tiles_cells_and_groups_hold_every_site_once() {
+        // Seven sites in one tile, one in the next, one left of the plane's corner by less than 64 bits resolve.
+        let mut sites: Vec<Site> = (0..7).map(|i| site([f64::from(i) + 0.5, 3.5])).collect();
+        sites.extend([site([9.0, 0.0]), site([-1e-20, 0.0])]);
+        for (cells, expected) in [
+            (Cells::Points, [[1, 1], [3, 7], [1, 1]]),
+            (Cells::Superpixels, [[1, 16], [7, 112], [1, 16]]),
+        ] {
+            let sizes = CellSizes {
+                in_cell: if cells == Cells::Points { 3 } else { 1 },
+                ..SIZES
+            };
+            let partition = Partition::new(&sites, cells).unwrap();
+            // The region left of the corner is one of its own.
+            let runs = partition.runs(100);
+            assert_eq!(runs.len(), 2);
+            let windows: Vec<_> = runs.iter().map(|run| partition.window(run)).collect();
+            let data: Vec<_> = runs
+                .iter()
+                .zip(&windows)
+                .map(|(run, window)| partition.data(run, window, &sizes))
+                .collect();
+            let loads: Vec<_> = data.iter().flat_map(|data| data.loads.clone()).collect();
+            assert_eq!(loads, expected);
+            let masks: Vec<_> = data.iter().flat_map(|data| data.masks.clone()).collect();
+            assert_eq!(masks, [1 << 7, 0x7f00_0000, 1 << 1]);
+            assert_eq!(windows[0].low, [-8, 0]);
+            assert_eq!(windows[1].tiles, [2, 1]);
+            let mut seen = vec![0; sites.len()];
+            for index in &partition.order {
+                seen[*index as usize] += 1;
+            }
+            assert_eq!(seen, [1; 9]);
+            for data in &data {
+                let grouped: u32 = data.groups.iter().map(|group| group[2]).sum();
+                assert_eq!(grouped as usize, data.cells.len());
+                assert!(data.groups.iter().all(|group| group[2] <= 2));
+                let held: u32 = data.cells.iter().map(|[_, [_, count, ..]]| count).sum();
+                assert_eq!(held as usize, data.sites.len());
+            }
+            let reach = windows[1].reach;
+            let expected = if cells == Cells::Points { 0.5 } else { 1.5 };
+            assert!((reach - expected).abs() < 1e-4, "{reach}");
+        }
+    }
+}
