@@ -41,7 +41,7 @@ void main() {
             if (subgroupElect()) slot = atomicAdd(counters[COUNTER_PAIRS], subgroupBallotBitCount(together));
             slot = subgroupBroadcastFirst(slot) + subgroupBallotExclusiveBitCount(together);
             uint rank = atomicAdd(tiles[index].x, 1u);
-            bool kept = slot < frame.list_capacity;
+            bool kept = slot < frame.pair_capacity;
             uint flags = flag | (kept ? 0u : TILE_OVERFLOW);
             if ((tiles[index].w & flags) != flags) atomicOr(tiles[index].w, flags);
             if (kept) pairs_out[slot] = uvec4(t, index, rank, 0u);

@@ -6,6 +6,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
+#include "include/contrast.glsl"
 layout(local_size_x = 64) in;
 
 layout(constant_id = 0) const uint MODE = 0u;
@@ -25,19 +26,6 @@ uint blend_at(ivec2 p) {
 #endif
 }
 
-uint field_limit, field_mask;
-
-// Three 8-bit channels apart in 11-bit fields, so that one subtraction compares all of them: a field holds
-// 512 + contrast + a - b, whose bit 9 is set where a - b >= -contrast, and its complement where a - b <= contrast.
-uint spread(uint c) {
-    return (c & 0xffu) | (c & 0xff00u) << 3 | (c & 0xff0000u) << 6;
-}
-
-bool contrasting(uint a, uint b) {
-    uint u = a - b + field_limit;
-    return (u & (2u * field_limit - u) & field_mask) != field_mask;
-}
-
 bool differs(uint id_a, uint id_b, uint blend_a, uint blend_b, uint color_a, uint color_b, int alpha_a, int alpha_b) {
     bool other = id_a != id_b || (HAS_BLEND && blend_a != blend_b);
     if (MODE == EXACT) return other;
@@ -52,8 +40,6 @@ void main() {
     tile = min(tile, tile_count - 1u);
     ivec2 base = ivec2(split(tile, frame.tiles.x)) * ivec2(8, 4);
     ivec2 last = ivec2(frame.size) - 1;
-    field_limit = (512u + frame.contrast) * 0x400801u;
-    field_mask = 512u * 0x400801u;
 
     uint word = 0u, previous_row = 0u;
     if (MODE == EVERY) {

@@ -99,7 +99,7 @@ void main() {
         counters[COUNTER_ROUNDS] += idle ? 0u : 1u;
         counters[COUNTER_CANDIDATES_TOTAL] += list_used;
         counters[COUNTER_UNLISTED_TOTAL] += unlisted;
-        arguments[ARGUMENT_SETUP] = idle ? uvec4(0u) : groups((min(counters[COUNTER_PAIRS], frame.list_capacity) + 63u) / 64u);
+        arguments[ARGUMENT_SETUP] = idle ? uvec4(0u) : groups((min(counters[COUNTER_PAIRS], frame.pair_capacity) + 63u) / 64u);
         arguments[ARGUMENT_GROUPS] = idle ? uvec4(0u) : groups((frame.group_count + 63u) / 64u);
         // A subgroup for as many of a tile's cells as it has invocations.
         uint parts = 32u / lanes;

@@ -9,7 +9,7 @@ layout(local_size_x = 64) in;
 
 void main() {
     uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
-    if (i >= min(counters[COUNTER_PAIRS], frame.list_capacity)) return;
+    if (i >= min(counters[COUNTER_PAIRS], frame.pair_capacity)) return;
     uvec4 pair = texelFetch(pairs, int(i));
     uvec4 tile = tiles[pair.y];
     if ((tile.w & TILE_LISTED) == 0u) return;

@@ -28,7 +28,8 @@ layout(set = 0, binding = 0) uniform Frame {
     uint first_mask;        // index of the first MASK triangle
     uint first_blend;       // index of the first BLEND triangle
     uint sample_count;      // sub-samples of a cell
-    uint list_capacity;     // candidates
+    uint pair_capacity;     // pairs of a triangle and a tile
+    uint list_capacity;     // candidates of a round
     uint record_capacity;   // visibility records
     uint bin_count;         // material bins
     uint light_count;

@@ -14,6 +14,8 @@ pub struct ResourceSizes {
     pub region: [u32; 2],
     /// Sites of a region, where cells are these instead of pixels.
     pub sites: Option<SiteSizes>,
+    /// Pairs of a triangle and a tile of all rounds.
+    pub pair_capacity: u32,
     /// Candidates of all lists of a round.
     pub list_capacity: u32,
     /// Visibility records of a round; 0 where no cell is ever sampled.
@@ -27,6 +29,8 @@ pub struct ResourceSizes {
 }
 
 impl ResourceSizes {
+    /// Bytes of a pair.
+    pub const PAIR_BYTES: u64 = 16;
     /// Bytes of a candidate.
     pub const CANDIDATE_BYTES: u64 = 64;
 
@@ -37,7 +41,10 @@ impl ResourceSizes {
         let records = u64::from(self.record_capacity) * 16;
         let candidates = u64::from(self.list_capacity) * Self::CANDIDATE_BYTES;
         let attributes = if self.attributes { 2 * colors } else { 0 };
-        attributes.max(colors).max(records).max(candidates)
+        let pairs = u64::from(self.pair_capacity) * Self::PAIR_BYTES;
+        [attributes, colors, records, candidates, pairs]
+            .into_iter()
+            .fold(0, u64::max)
     }
 
     /// Pixels of a region.
@@ -67,7 +74,8 @@ impl ResourceSizes {
         let records = u64::from(self.record_capacity);
         pixels * (16 + 4 + 4 + 4)
             + tiles * 40
-            + u64::from(self.list_capacity) * 80
+            + u64::from(self.list_capacity) * Self::CANDIDATE_BYTES
+            + u64::from(self.pair_capacity) * Self::PAIR_BYTES
             + records * 40
             + records.max(pixels) * 4
             + triangles * 4
@@ -231,7 +239,7 @@ impl Resources {
             tiles: storage("tiles", tiles * 16)?,
             tile_lists: storage("tile lists", tiles.max(site_sizes.groups.into()) * 16)?,
             survivors: storage("survivors", triangles * 4)?,
-            pairs: texels("pairs", u64::from(sizes.list_capacity), uint4)?,
+            pairs: texels("pairs", u64::from(sizes.pair_capacity), uint4)?,
             candidates: texels("candidates", u64::from(sizes.list_capacity) * 4, uint4)?,
             headers: storage("record headers", records * 8)?,
             records: texels("visibility records", records, vk::Format::R32G32B32A32_UINT)?,

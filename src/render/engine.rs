@@ -61,7 +61,7 @@ impl Engine {
         Ok(Self {
             thin: kind
                 .thin
-                .then(|| Thin::new(layout, scene.has_blend()))
+                .then(|| Thin::new(layout, scene.has_blend(), kind.mode != DetectMode::Exact))
                 .transpose()?,
             detect: Detect::new(
                 layout,

@@ -249,6 +249,16 @@ impl Frame {
         &self.settings
     }
 
+    /// What it was planned for.
+    pub(super) fn effort(&self) -> Effort {
+        self.plan.effort
+    }
+
+    /// Whether [`Effort::with_doubled_lists`] makes any difference.
+    pub(super) fn lists_can_grow(&self) -> bool {
+        self.plan.lists_can_grow && self.settings.max_memory.is_none()
+    }
+
     /// Bytes of device memory that it takes.
     #[must_use]
     pub fn memory_bytes(&self) -> u64 {
@@ -643,6 +653,7 @@ impl Passes<'_> {
             first_mask: scene.first_mask(),
             first_blend: scene.first_blend(),
             sample_count: 1,
+            pair_capacity: self.plan.sizes.pair_capacity,
             list_capacity: self.plan.sizes.list_capacity,
             record_capacity: self.plan.sizes.record_capacity,
             bin_count: scene.bin_count(),

@@ -166,23 +166,34 @@ impl Headless {
         frame: &mut Frame,
         camera: &Camera,
     ) -> Result<Rendered, RenderError> {
-        let mut effort = Effort::default();
         for _ in 0..RETRIES {
             match self.render_once(scene, frame, camera) {
                 Err(RenderError::Unfinished { cells }) => {
                     log::debug!("{cells} cells did not fit; doubling rounds, layers and lists");
-                    effort = effort.doubled();
-                    *frame = self.renderer.prepare_with(
-                        scene,
-                        &frame.settings().clone(),
-                        None,
-                        effort,
-                    )?;
+                    self.prepare_again(scene, frame, frame.effort().doubled())?;
                 }
-                done => return done,
+                Ok(image) => {
+                    // Tiles without a list made the image all the same, but slowly.
+                    if image.statistics.unlisted_tiles > 0 && frame.lists_can_grow() {
+                        self.prepare_again(scene, frame, frame.effort().with_doubled_lists())?;
+                    }
+                    return Ok(image);
+                }
+                failed => return failed,
             }
         }
         self.render_once(scene, frame, camera)
+    }
+
+    fn prepare_again(
+        &self,
+        scene: &PreparedScene,
+        frame: &mut Frame,
+        effort: Effort,
+    ) -> Result<(), RenderError> {
+        let settings = frame.settings().clone();
+        *frame = self.renderer.prepare_with(scene, &settings, None, effort)?;
+        Ok(())
     }
 
     fn render_once(

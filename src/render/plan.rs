@@ -41,6 +41,10 @@ pub(super) struct Plan {
     pub rounds: u32,
     /// BLEND layers a sample that tiles are admitted with.
     pub layers: u32,
+    /// What it was planned for.
+    pub effort: Effort,
+    /// Whether the device has room for longer lists.
+    pub lists_can_grow: bool,
 }
 
 /// What a frame was found to need more of than first planned.
@@ -53,6 +57,14 @@ pub(super) struct Effort {
 }
 
 impl Effort {
+    /// Twice the lists.
+    pub fn with_doubled_lists(self) -> Self {
+        Self {
+            lists: self.lists * 2,
+            ..self
+        }
+    }
+
     /// Twice as much of everything.
     pub fn doubled(self) -> Self {
         Self {
@@ -79,6 +91,8 @@ const REGION_PIXELS: u64 = 4 << 20;
 /// Most visibility records and candidates of a round.
 const MOST_RECORDS: u64 = 6 << 20;
 const MOST_CANDIDATES: u64 = 2 << 20;
+/// Most pairs of a triangle and a tile, of all rounds, that a frame is first planned with.
+const MOST_PAIRS: u64 = 8 << 20;
 
 impl Plan {
     /// Plans an image.
@@ -179,12 +193,13 @@ impl Plan {
             Method::None | Method::Ssaa => 0,
         };
         let samples_cells = detects || scene.has_blend();
-        let candidates = if samples_cells {
-            (u64::from(scene.triangle_count()) * 3 + tiles * 8).clamp(1 << 14, MOST_CANDIDATES)
-                * u64::from(effort.lists)
-        } else {
-            0
+        let at_most = |room: u64, bytes: u64| {
+            let room = if samples_cells { room } else { 0 };
+            (room * u64::from(effort.lists)).min(limits.max_storage_bytes / bytes) as u32
         };
+        let triangles = u64::from(scene.triangle_count());
+        let pairs = (triangles * 4 + tiles * 16).clamp(1 << 14, MOST_PAIRS);
+        let candidates = (triangles * 3 + tiles * 8).clamp(1 << 14, MOST_CANDIDATES);
         let filtered = if side > 1 {
             pixels / u64::from(side * side)
         } else {
@@ -193,8 +208,8 @@ impl Plan {
         let sizes = ResourceSizes {
             region: outer,
             sites: None,
-            list_capacity: candidates.min(limits.max_storage_bytes / ResourceSizes::CANDIDATE_BYTES)
-                as u32,
+            pair_capacity: at_most(pairs, ResourceSizes::PAIR_BYTES),
+            list_capacity: at_most(candidates, ResourceSizes::CANDIDATE_BYTES),
             record_capacity: records as u32,
             filtered: filtered as u32,
             attributes: settings.attributes,
@@ -207,6 +222,9 @@ impl Plan {
             sizes,
             rounds: effort.rounds,
             layers: effort.layers,
+            effort,
+            lists_can_grow: u64::from(sizes.pair_capacity)
+                < limits.max_storage_bytes / ResourceSizes::PAIR_BYTES,
         }
     }
 

@@ -78,7 +78,8 @@ pub struct Settings {
     pub shading: Shading,
     /// What makes a superpixel.
     pub detection: Detection,
-    /// Differences above this, in 8-bit sRGB code values of any channel, are a contrast.
+    /// Differences above this, in 8-bit sRGB code values of any channel, are a contrast; see
+    /// [`Self::default_contrast`].
     pub contrast: u8,
     /// Whether triangles too thin for a pixel's centre to see make superpixels too.
     pub thin: bool,
@@ -97,10 +98,15 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// Default contrast threshold in code values.
-    pub const DEFAULT_CONTRAST: u8 = 12;
     /// Default number of sub-samples.
     pub const DEFAULT_SAMPLES: u32 = 64;
+
+    /// Default contrast threshold in code values: the more samples, the more of the error is left in pixels that are
+    /// no superpixels.
+    #[must_use]
+    pub fn default_contrast(samples: u32) -> u8 {
+        if samples < 128 { 12 } else { 6 }
+    }
 
     /// Superpixel antialiasing with the defaults, at a size.
     #[must_use]
@@ -113,7 +119,7 @@ impl Settings {
             coverage: Coverage::Area,
             shading: Shading::Part,
             detection: Detection::Contrast,
-            contrast: Self::DEFAULT_CONTRAST,
+            contrast: Self::default_contrast(Self::DEFAULT_SAMPLES),
             thin: true,
             background: None,
             exposure: 0.0,

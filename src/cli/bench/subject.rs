@@ -120,6 +120,7 @@ impl Bench<'_> {
         Settings {
             method: method.method(),
             samples,
+            contrast: Settings::default_contrast(samples),
             background: Some(BACKGROUND.map(|value| srgb::decode(value) as f32)),
             ..Settings::new(width, height)
         }

@@ -54,8 +54,9 @@ pub struct SamplingArgs {
     #[arg(long, value_name = "N")]
     samples: Option<u32>,
     /// Differences of neighbours above this are a contrast, in 8-bit sRGB code values
-    #[arg(long, value_name = "T", default_value_t = Settings::DEFAULT_CONTRAST)]
-    pub contrast: u8,
+    /// [default: 12; 6 from 128 samples on]
+    #[arg(long, value_name = "T")]
+    contrast: Option<u8>,
     /// What makes a pixel a superpixel: a neighbour of another triangle and contrasting colour, of another triangle,
     /// or of contrasting colour
     #[arg(long, default_value = "contrast")]
@@ -72,6 +73,12 @@ pub struct SamplingArgs {
 }
 
 impl SamplingArgs {
+    /// The threshold asked for, or the default for the number of samples.
+    pub fn contrast(&self) -> u8 {
+        self.contrast
+            .unwrap_or_else(|| Settings::default_contrast(self.samples()))
+    }
+
     /// The number of samples asked for, or the method's default.
     pub fn samples(&self) -> u32 {
         self.samples.unwrap_or(match self.aa {

@@ -82,7 +82,7 @@ impl ImageArgs {
             coverage: self.sampling.coverage.coverage(),
             shading: self.sampling.shading.shading(),
             detection: self.sampling.detect.detection(),
-            contrast: self.sampling.contrast,
+            contrast: self.sampling.contrast(),
             background: match self.background {
                 Background::Transparent => None,
                 Background::Color(color) => Some(color.map(|v| srgb::decode(v) as f32)),

@@ -317,6 +317,7 @@ impl SiteEngine {
             first_mask: scene.first_mask(),
             first_blend: scene.first_blend(),
             sample_count: self.sample.options().samples,
+            pair_capacity: self.resources.sizes().pair_capacity,
             list_capacity: self.resources.sizes().list_capacity,
             record_capacity: self.resources.sizes().record_capacity,
             bin_count: scene.bin_count(),

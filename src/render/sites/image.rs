@@ -5,8 +5,8 @@ use crate::camera::{Pinhole, Site};
 use crate::reference::detect;
 use crate::render::frame::display_code;
 use crate::render::{
-    Detection, Headless, Method, PixelAttributes, PreparedScene, RenderError, Rendered, Settings,
-    Statistics,
+    Coverage, Detection, Headless, Method, PixelAttributes, PreparedScene, RenderError, Rendered,
+    Settings, Shading, Statistics,
 };
 use crate::sampling::Pattern;
 
@@ -24,8 +24,8 @@ impl Headless {
     /// see what one plane can't.
     ///
     /// Every site is sampled once. Where neighbours in the *output* alias, across pinholes too, sites are then sampled
-    /// as superpixels; thin triangles that no sample saw are not looked for. `ssaa` samples every site as a superpixel,
-    /// by a grid. Pixels without a site show the background; of several sites of a pixel the last one counts.
+    /// as superpixels; thin triangles that no sample saw are not looked for. `ssaa` samples every site by a grid and
+    /// shades each sample. Pixels without a site show the background; of several sites of a pixel the last one counts.
     ///
     /// # Errors
     /// [`RenderError::Site`] names the first site that can't be sampled or has no place in the output,
@@ -46,6 +46,8 @@ impl Headless {
             Method::Ssaa => {
                 settings.pattern = Pattern::Grid;
                 settings.detection = Detection::Every;
+                settings.coverage = Coverage::Samples;
+                settings.shading = Shading::Sample;
             }
             Method::None | Method::Superpixel => {}
         }

@@ -13,6 +13,8 @@ const FEWEST_SITES: usize = 1 << 10;
 /// Most visibility records and candidates of a round.
 const MOST_RECORDS: u64 = 6 << 20;
 const MOST_CANDIDATES: u64 = 2 << 20;
+/// Most pairs of a triangle and a tile.
+const MOST_PAIRS: u64 = 8 << 20;
 
 /// The runs of a set of sites and the memory that the largest of them needs.
 pub(super) struct SitePlan {
@@ -88,7 +90,10 @@ fn sizes(
         _ if settings.shading == Shading::Sample || scene.has_blend() => most * samples.min(64),
         _ => most * (6 * samples.div_ceil(64)).min(samples).max(2),
     };
-    let candidates = u64::from(scene.triangle_count()) * 3 + tiles * 8;
+    let triangles = u64::from(scene.triangle_count());
+    let pairs = (triangles * 4 + tiles * 16).clamp(1 << 14, MOST_PAIRS);
+    let candidates = (triangles * 3 + tiles * 8).clamp(1 << 14, MOST_CANDIDATES);
+    let at_most = |room: u64, bytes: u64| room.min(limits.max_storage_bytes / bytes) as u32;
     ResourceSizes {
         region,
         sites: Some(SiteSizes {
@@ -96,10 +101,8 @@ fn sizes(
             cells: cell_count as u32,
             groups: group_count as u32,
         }),
-        list_capacity: candidates
-            .clamp(1 << 14, MOST_CANDIDATES)
-            .min(limits.max_storage_bytes / ResourceSizes::CANDIDATE_BYTES)
-            as u32,
+        pair_capacity: at_most(pairs, ResourceSizes::PAIR_BYTES),
+        list_capacity: at_most(candidates, ResourceSizes::CANDIDATE_BYTES),
         record_capacity: records.clamp(1 << 16, MOST_RECORDS) as u32,
         filtered: 0,
         attributes: cells == Cells::Points,
