@@ -164,6 +164,50 @@ fn a_multiplicity_of_one_changes_nothing() {
 }
 
 #[test]
+fn a_photograph_may_be_a_jpeg_with_several_regions() {
+    let folder = tempfile::tempdir().unwrap();
+    let card = folder.path().join("card.16.png");
+    write_card(&card);
+    image::open(&card)
+        .unwrap()
+        .to_rgb8()
+        .save(folder.path().join("card.jpg"))
+        .unwrap();
+    let zoom = [
+        "zoom", "card.jpg", "-o", "a.png", "--center", "70,60", "--center", "230,170",
+    ];
+    let regions = [
+        "--radius",
+        "16",
+        "--radius",
+        "12,20",
+        "--multiplicity",
+        "0.5",
+    ];
+    let rest = [
+        "--multiplicity",
+        "0.8",
+        "--shape",
+        "circle",
+        "--shape",
+        "rectangle",
+    ];
+    gpc(folder.path(), &[&zoom[..], &regions, &rest].concat()).ok();
+    gpc(
+        folder.path(),
+        &["unzoom", "a.png", "-o", "r.png", "--region", "1"],
+    )
+    .ok();
+    let region = output::read(&folder.path().join("r.png")).unwrap();
+    assert_eq!(region.size, [24, 40]);
+    let found = sampled(&region, 12, 20).unwrap();
+    // JPEG and 8 bits.
+    assert!(found.distance(DVec2::new(230.4, 170.4)) < 12.0, "{found}");
+    let aov = [&zoom[..], &regions, &rest, &["--aov", "depth"]].concat();
+    gpc(folder.path(), &aov).exits(2).says(&["photograph"]);
+}
+
+#[test]
 fn wrong_usage_exits_with_2() {
     let folder = tempfile::tempdir().unwrap();
     write_card(&folder.path().join("card.png"));
