@@ -35,6 +35,7 @@ layout(constant_id = 5) const uint RUN = 0u;
 layout(constant_id = 6) const bool BY_PART = false;     // records for each part of a block, to shade at
 layout(constant_id = 7) const bool EXACT_AREAS = false;
 layout(constant_id = 8) const uint HEADER_SAMPLES = 0u; // samples that a header stands for
+layout(constant_id = 9) const bool APART = false;       // a subgroup takes one block of one cell, not all of several
 const uint WHOLE = 0u, PROBE = 1u, REST = 2u;           // RUN: all samples at once; few; all, in the cells that are left
 
 #include "include/lanes.glsl"
@@ -47,8 +48,8 @@ const uint KEPT = 96u;                                  // room for candidates o
 const uint PROBES = 64u;                                // samples of a PROBE, in one block; they follow the others
 const uint FEWEST = 3u;                                 // samples that vouch for a triangle that is seen whole
 const float AGREEMENT = 0.1;                            // of areas and samples, in cells
-// Mesa's CPU driver ends all loops of an invocation after 65,535 trips in all; a longer list is reported instead.
-const uint LONGEST_LIST = 40000u;
+// Mesa's CPU driver ends all loops of an invocation after 65,535 trips in all; what takes more is reported instead.
+const uint MOST_TRIPS = 60000u, LONGEST_LIST = 40000u;
 const float OUTSIDE = 1.1754944e-38;                    // the least E of a sample off the owning side
 
 shared uint kept[32 * KEPT];                            // by invocation, then entry
@@ -231,12 +232,19 @@ uint parts_of(uint id[ROWS], uint wanted) {
 
 void main() {
     uint tile_count = frame.tiles.x * frame.tiles.y;
-    const uint GROUPS = 32u / LANES;
-    uint entry = gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u;
-    if ((SITES ? entry : entry / GROUPS) >= counters[COUNTER_PLAIN_TILES + LIST]) return;
+    uint samples = RUN == PROBE ? PROBES : frame.sample_count;
+    uint first_sample = RUN == PROBE ? frame.sample_count : 0u;
+    uint blocks = (samples + BLOCK - 1u) / BLOCK;
+    uint headers_a_cell = (frame.sample_count + HEADER_SAMPLES - 1u) / HEADER_SAMPLES;
+    // (part of an owner, owner): a tile, or a group of sites. A part is (block, cell) where these are APART.
+    uint cells_an_owner = SITES ? LANES : 32u;
+    uvec2 work = split(gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u,
+        APART ? cells_an_owner * headers_a_cell : cells_an_owner / LANES);
+    if (work.y >= counters[COUNTER_PLAIN_TILES + LIST]) return;
+    uvec2 part = split(work.x, headers_a_cell);
     uint lane = gl_SubgroupInvocationID;
     // What marks are kept for: a tile's pixels, or a group's cells.
-    uint owner = tile_lists[SITES ? LIST * frame.group_count + entry : LIST * tile_count + entry / GROUPS];
+    uint owner = tile_lists[LIST * (SITES ? frame.group_count : tile_count) + work.y];
     uvec4 site_group = SITES ? texelFetch(site_groups, int(owner)) : uvec4(0u);
     uint tile = SITES ? site_group.x : owner;
     uvec4 header = tiles[tile];
@@ -251,14 +259,11 @@ void main() {
 #endif
     uint chunks = max((count + LANES - 1u) / LANES, 1u);
     uint cells = bitCount(word);
-    uint samples = RUN == PROBE ? PROBES : frame.sample_count;
-    uint first_sample = RUN == PROBE ? frame.sample_count : 0u;
-    uint blocks = (samples + BLOCK - 1u) / BLOCK;
-    uint headers_a_cell = (frame.sample_count + HEADER_SAMPLES - 1u) / HEADER_SAMPLES;
-
-    uint first_cell = SITES ? 0u : entry % GROUPS * LANES;
-    if (first_cell >= cells) return;
-    uint group = min(cells - first_cell, LANES);
+    uint first_cell = APART ? part.y : work.x * LANES;
+    uint first_block = APART ? part.x : 0u;
+    if (first_cell >= cells || first_block >= blocks) return;
+    uint group = min(cells - first_cell, APART ? 1u : LANES);
+    blocks = APART ? first_block + 1u : blocks;
     bool manageable = count <= LONGEST_LIST;
     if (!manageable && subgroupElect()) atomicAdd(counters[COUNTER_UNFINISHED], group);
     chunks = manageable ? chunks : 1u;
@@ -301,7 +306,7 @@ void main() {
     } while (++chunk < chunks);
     subgroupBarrier();
 
-    uint block = 0u;
+    uint trips = 4u * chunks, block = first_block;
     do {
         vec2 offset[ROWS];
         [[unroll]] for (int g = 0; g < ROWS; g++)
@@ -337,7 +342,9 @@ void main() {
             float hidden = subgroupShuffle(my_hidden, member);
             uint listed = subgroupShuffle(my_count, member);
             bool complete = listed <= KEPT;
-            uint entries_ = complete ? listed : count;
+            bool out_of_trips = trips > MOST_TRIPS;
+            if (out_of_trips && subgroupElect()) atomicAdd(counters[COUNTER_UNFINISHED], 1u);
+            uint entries_ = out_of_trips ? 0u : complete ? listed : count;
             uint batches = max((entries_ + LANES - 1u) / LANES, 1u);
 
             float depth[ROWS];
@@ -355,6 +362,7 @@ void main() {
                 bool mask_ = HAS_MASK && k.id > frame.first_mask && !blend;
                 bool touches = batch * LANES + lane < entries_ && test.touches && !blend && test.near >= hidden;
 
+                trips += 2u + uint(bitCount(subgroupBallot(touches).x));
                 uint pending = subgroupBallot(touches && !mask_).x;
                 do {
                     bool some = pending != 0u;
@@ -424,6 +432,7 @@ void main() {
                     CellTest test = test_cell(k, at, half_side);
                     bool touches = batch * LANES + lane < entries_ && test.touches && k.id > frame.first_blend && test.near >= hidden;
                     uint pending = subgroupBallot(touches).x;
+                    trips += 1u + uint(bitCount(pending));
                     do {
                         bool some = pending != 0u;
                         Candidate t = shuffle_candidate(k, some ? uint(findLSB(pending)) : 0u);
@@ -464,7 +473,8 @@ void main() {
                 }
                 more = subgroupAny(more);
                 first_record = 0u;
-            } while (more);
+                lost += more && trips > MOST_TRIPS ? 1u : 0u;
+            } while (more && trips <= MOST_TRIPS);
             if (subgroupElect() && lost != 0u) atomicAdd(counters[COUNTER_UNFINISHED], 1u);
 #else
             [[unroll]] for (int g = 0; g < ROWS; g++)

@@ -15,6 +15,7 @@ layout(constant_id = 2) const uint LAYERED_BLOCK = 64u;
 layout(constant_id = 3) const bool PER_SAMPLE = false;
 layout(constant_id = 4) const uint LAYERS = 4u;             // BLEND layers a sample that a tile is admitted with
 layout(constant_id = 5) const uint PARTS = 1u;              // records of a triangle in a block
+layout(constant_id = 6) const bool APART = false;           // `sample` takes a block of a cell at a time
 
 void main() {
     uint lane = gl_SubgroupInvocationID, lanes = gl_SubgroupSize;
@@ -101,11 +102,15 @@ void main() {
         counters[COUNTER_UNLISTED_TOTAL] += unlisted;
         arguments[ARGUMENT_SETUP] = idle ? uvec4(0u) : groups((min(counters[COUNTER_PAIRS], frame.pair_capacity) + 63u) / 64u);
         arguments[ARGUMENT_GROUPS] = idle ? uvec4(0u) : groups((frame.group_count + 63u) / 64u);
-        // A subgroup for as many of a tile's cells as it has invocations.
-        uint parts = 32u / lanes;
-        arguments[ARGUMENT_SAMPLE_PLAIN] = groups(plain * parts);
-        arguments[ARGUMENT_SAMPLE_MASKED] = groups(masked * parts);
-        arguments[ARGUMENT_SAMPLE_BLENDED] = groups(blended * parts);
-        arguments[ARGUMENT_SAMPLE_UNLISTED] = groups(unlisted * parts);
+        // A subgroup for as many of a tile's cells as it has invocations, or for a block of one.
+        uint plain_parts = 32u / lanes, layered_parts = plain_parts;
+        if (APART) {
+            plain_parts = 32u * ((frame.sample_count + PLAIN_BLOCK - 1u) / PLAIN_BLOCK);
+            layered_parts = 32u * ((frame.sample_count + LAYERED_BLOCK - 1u) / LAYERED_BLOCK);
+        }
+        arguments[ARGUMENT_SAMPLE_PLAIN] = groups(plain * plain_parts);
+        arguments[ARGUMENT_SAMPLE_MASKED] = groups(masked * layered_parts);
+        arguments[ARGUMENT_SAMPLE_BLENDED] = groups(blended * layered_parts);
+        arguments[ARGUMENT_SAMPLE_UNLISTED] = groups(unlisted * layered_parts);
     }
 }

@@ -80,6 +80,27 @@ const BIN_LIMIT: u64 = 1 << 14;
 const GLOSSY_BIT: u32 = 1 << 30;
 const DOUBLE_SIDED_BIT: u32 = 1 << 31;
 
+/// A triangle's vertices in their order, beginning with the one whose position comes first. Duplicates of a triangle that
+/// begin elsewhere are then computed alike to the bit, and the same one is seen everywhere.
+fn first_corner_first(corners: [u32; 3], positions: &[[f32; 3]]) -> [u32; 3] {
+    let position = |corner: u32| positions.get(corner as usize).copied().unwrap_or_default();
+    let before = |a: u32, b: u32| {
+        let pairs = position(a).into_iter().zip(position(b));
+        pairs
+            .map(|(a, b)| a.total_cmp(&b))
+            .find(|order| order.is_ne())
+            .is_some_and(std::cmp::Ordering::is_lt)
+    };
+    let [a, b, c] = corners;
+    if before(b, a) && !before(c, b) {
+        [b, c, a]
+    } else if before(c, a) && before(c, b) {
+        [c, a, b]
+    } else {
+        corners
+    }
+}
+
 /// Largest roughness at which the light that a surface reflects changes within a pixel.
 const GLOSSY_ROUGHNESS: f32 = 0.6;
 
@@ -239,7 +260,10 @@ impl GpuScene {
             .triangles
             .iter()
             .zip(&words)
-            .map(|(&[a, b, c], &w)| [a, b, c, w])
+            .map(|(&corners, &w)| {
+                let [a, b, c] = first_corner_first(corners, &geometry.positions);
+                [a, b, c, w]
+            })
             .collect();
         let triangle_count = triangles.len() as u32;
         let first_of = |class: DrawClass| {

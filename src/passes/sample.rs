@@ -36,6 +36,8 @@ pub struct SampleOptions {
     pub records: RecordRate,
     /// Whether triangles that are seen whole weigh the exact area of their part of a cell.
     pub exact_areas: bool,
+    /// Whether a subgroup takes a block of one cell, for lists that are too long to take several.
+    pub apart: bool,
     /// Whether the scene has MASK triangles.
     pub has_mask: bool,
     /// Whether the scene has BLEND triangles.
@@ -130,7 +132,8 @@ impl Sample {
                 .with(5, run as u32)
                 .flag(6, options.records == RecordRate::Part)
                 .flag(7, options.measures(list, run))
-                .with(8, header_rows * lanes);
+                .with(8, header_rows * lanes)
+                .flag(9, options.apart);
             Ok((list, layout.compute(code, &constants, Some(lanes))?))
         };
         let listed = |run: Run| {

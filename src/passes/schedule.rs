@@ -27,7 +27,8 @@ impl Schedule {
             .with(2, sample.block(TileList::Masked))
             .flag(3, records == RecordRate::Sample)
             .with(4, layers)
-            .with(5, if records == RecordRate::Part { 8 } else { 1 });
+            .with(5, if records == RecordRate::Part { 8 } else { 1 })
+            .flag(6, sample.options().apart);
         let pipeline = layout.compute(spirv::SCHEDULE, &constants, Some(lanes))?;
         Ok(Self { pipeline })
     }

@@ -54,6 +54,7 @@ impl Engine {
                 samples: kind.samples,
                 records: record_rate(settings, scene),
                 exact_areas: settings.coverage == Coverage::Area && kind.samples > 1,
+                apart: plan.effort.apart,
                 has_mask: scene.has_mask(),
                 has_blend: scene.has_blend(),
             },

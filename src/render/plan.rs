@@ -54,6 +54,8 @@ pub(super) struct Effort {
     pub layers: u32,
     /// Factor on the room for candidates.
     pub lists: u32,
+    /// Whether a subgroup samples one cell at a time.
+    pub apart: bool,
 }
 
 impl Effort {
@@ -71,6 +73,7 @@ impl Effort {
             rounds: self.rounds * 2,
             layers: self.layers * 2,
             lists: self.lists * 2,
+            apart: true,
         }
     }
 }
@@ -81,6 +84,7 @@ impl Default for Effort {
             rounds: 3,
             layers: 4,
             lists: 1,
+            apart: false,
         }
     }
 }

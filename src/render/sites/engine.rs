@@ -99,6 +99,7 @@ impl SiteEngine {
                 record_rate(settings, scene)
             },
             exact_areas: settings.coverage == Coverage::Area && settings.samples > 1 && !points,
+            apart: false,
             has_mask: scene.has_mask(),
             has_blend: scene.has_blend(),
         };
