@@ -9,6 +9,7 @@ pub mod output;
 pub mod passes;
 pub mod reference;
 pub mod render;
+pub mod resample;
 pub mod sampling;
 pub mod scene;
 pub mod vulkan;

@@ -9,7 +9,9 @@
 
 mod framing;
 mod map;
+pub mod panorama;
 mod pinhole;
+pub mod projector;
 mod rig;
 pub mod set;
 mod site;

@@ -43,13 +43,7 @@ pub fn run(args: &CompareArgs) -> anyhow::Result<ExitCode> {
     if args.json {
         print::json(&comparison)?;
     } else {
-        let psnr = comparison
-            .psnr
-            .map_or_else(|| "identical".to_owned(), |psnr| format!("{psnr:.2} dB"));
-        print::line(&format!(
-            "rmse {:.6}\npsnr {psnr}\nmax  {:.6}\nflip {:.6}",
-            comparison.rmse, comparison.max, comparison.flip
-        ))?;
+        print_lines(&comparison)?;
     }
     match args.max_rmse {
         Some(bound) if comparison.rmse > bound => {
@@ -58,4 +52,15 @@ pub fn run(args: &CompareArgs) -> anyhow::Result<ExitCode> {
         }
         _ => Ok(ExitCode::SUCCESS),
     }
+}
+
+/// Prints a comparison for people.
+pub fn print_lines(comparison: &compare::Comparison) -> anyhow::Result<()> {
+    let psnr = comparison
+        .psnr
+        .map_or_else(|| "identical".to_owned(), |psnr| format!("{psnr:.2} dB"));
+    print::line(&format!(
+        "rmse {:.6}\npsnr {psnr}\nmax  {:.6}\nflip {:.6}",
+        comparison.rmse, comparison.max, comparison.flip
+    ))
 }

@@ -2,13 +2,20 @@
 
 mod bench;
 mod compare;
+mod csv;
 mod devices;
 mod exit;
 mod info;
 mod input;
+mod panorama;
 mod print;
+mod project;
 mod render;
+mod sample;
+mod stage;
+mod unzoom;
 mod values;
+mod zoom;
 
 use clap::{Parser, Subcommand};
 use std::io::Write;
@@ -39,6 +46,16 @@ Environment:
 enum Command {
     /// Render a scene to image files
     Render(Box<render::RenderArgs>),
+    /// Enlarge regions of a scene or photograph continuously, in the context of the rest
+    Zoom(Box<zoom::ZoomArgs>),
+    /// Turn a zoomed image back into an ordinary view
+    Unzoom(unzoom::UnzoomArgs),
+    /// Sample a scene at given locations
+    Sample(Box<sample::SampleArgs>),
+    /// Render what is around the camera
+    Panorama(Box<panorama::PanoramaArgs>),
+    /// Render the frames of projectors that together show one picture
+    Project(Box<project::ProjectArgs>),
     /// Compare two images
     Compare(compare::CompareArgs),
     /// Say what a scene holds
@@ -57,6 +74,11 @@ pub fn run() -> ExitCode {
     start_log(quiet);
     let done = match command {
         Command::Render(args) => render::run(&args),
+        Command::Zoom(args) => zoom::run(&args),
+        Command::Unzoom(args) => unzoom::run(&args),
+        Command::Sample(args) => sample::run(&args),
+        Command::Panorama(args) => panorama::run(&args),
+        Command::Project(args) => project::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Bench(args) => bench::run(&args),

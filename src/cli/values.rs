@@ -47,14 +47,30 @@ pub fn size(text: &str) -> Result<[u32; 2], String> {
 
 /// A point or direction: `X,Y,Z`.
 pub fn vector(text: &str) -> Result<DVec3, String> {
-    three(text)
+    numbers(text)
         .map(DVec3::from_array)
         .ok_or_else(|| "expected three numbers X,Y,Z, such as 0,1.5,-4".to_owned())
 }
 
-fn three(text: &str) -> Option<[f64; 3]> {
+fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
     let numbers: Option<Vec<_>> = text.split(',').map(|t| finite(t.trim()).ok()).collect();
     numbers?.try_into().ok()
+}
+
+/// A place: `X,Y`.
+pub fn place(text: &str) -> Result<[f64; 2], String> {
+    numbers(text).ok_or_else(|| "expected two numbers X,Y, such as 320,240".to_owned())
+}
+
+/// One radius for both axes, `R`, or one for each, `RX,RY`; all above 0.
+pub fn radii(text: &str) -> Result<[f64; 2], String> {
+    let radii = match numbers(text) {
+        Some([radius]) => Some([radius; 2]),
+        None => numbers(text),
+    };
+    radii
+        .filter(|radii| radii.iter().all(|radius| *radius > 0.0))
+        .ok_or_else(|| "expected a radius R or RX,RY above 0, such as 80 or 120,60".to_owned())
 }
 
 /// What lies behind the scene.
@@ -73,7 +89,9 @@ pub fn background(text: &str) -> Result<Background, String> {
     }
     let color = match text.strip_prefix('#') {
         Some(digits) => hexadecimal(digits),
-        None => three(text).filter(|color| color.iter().all(|v| (0.0..=1.0).contains(v))),
+        None => {
+            numbers(text).filter(|color: &[f64; 3]| color.iter().all(|v| (0.0..=1.0).contains(v)))
+        }
     };
     color.map(Background::Color).ok_or_else(|| {
         "expected none, an sRGB colour R,G,B of 0 to 1, such as 0.8,0.9,1, or #rrggbb".to_owned()
@@ -129,6 +147,19 @@ mod tests {
         assert_eq!(vector("-1,2.5,3e1"), Ok(DVec3::new(-1.0, 2.5, 30.0)));
         for wrong in ["1,2", "1,2,3,4", "a,b,c", "nan,0,0", "1,,2", ""] {
             assert!(vector(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn places_and_radii() {
+        assert_eq!(place("3,-4.5"), Ok([3.0, -4.5]));
+        assert_eq!(radii("3"), Ok([3.0, 3.0]));
+        assert_eq!(radii("3,4"), Ok([3.0, 4.0]));
+        for wrong in ["0", "1,0", "-1", "1,2,3", "nan", ""] {
+            assert!(
+                radii(wrong).is_err() && place(wrong).is_err() || wrong == "1,0",
+                "{wrong}"
+            );
         }
     }
 

@@ -19,6 +19,7 @@ mod encode;
 mod error;
 mod exr;
 mod format;
+mod text;
 mod write;
 
 pub use aov::{Aov, AovKind};
@@ -26,6 +27,7 @@ pub use decode::{DecodedImage, decode, decode_linear, read};
 pub use encode::{encode, encode_aov, encode_rgb};
 pub use error::{OutputError, UnknownAov, UnknownFormat};
 pub use format::Format;
+pub use text::{add_text, find_text};
 pub use write::write_atomically;
 
 /// A rendered image: rows from the top, linear light, premultiplied alpha.

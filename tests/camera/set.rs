@@ -214,6 +214,23 @@ fn jacobians_come_from_the_map_or_from_neighbours() {
 }
 
 #[test]
+fn cells_far_apart_cost_no_memory() {
+    // The corners of an output of a quarter of a billion cells, and a neighbour of the last.
+    let (last, far) = ((1 << 14) - 1, [0.5, 0.5]);
+    let at = |row, col, uv| Sample { uv, row, col };
+    let samples = vec![
+        at(last, last, [9.0, 9.0]),
+        at(0, 0, far),
+        at(last, last - 1, [8.0, 8.5]),
+    ];
+    let set = SamplingSet::no_pattern([1 << 14; 2], samples, None, 4).unwrap();
+    let jacobians: Vec<_> = set.sites().iter().map(|site| site.jacobian).collect();
+    assert_eq!(jacobians[0], [[1.0, 0.5], [-0.5, 1.0]]);
+    assert_eq!(jacobians[1], [[1.0, 0.0], [0.0, 1.0]]);
+    assert_eq!(set.statistics().quads, 0);
+}
+
+#[test]
 fn statistics_know_the_rates_of_a_zoom_and_see_folds() {
     let region = ZoomRegion {
         center: [40.0, 40.0],

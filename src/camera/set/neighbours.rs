@@ -3,38 +3,61 @@
 use super::Sample;
 use glam::{DMat2, DVec2};
 
-/// The mean location of each cell of an output.
+/// The mean location of each cell of an output that has samples.
 pub(super) struct Neighbours {
-    size: [u32; 2],
-    /// Sums of locations and their numbers, row by row.
-    cells: Vec<(DVec2, u32)>,
+    columns: u64,
+    /// Index of the cell, row by row, and its mean location; in the order of the indices.
+    cells: Vec<(u64, DVec2)>,
+    /// Whether every cell up to the last has samples, so that the index is the place in the list.
+    complete: bool,
 }
 
 impl Neighbours {
     pub(super) fn new(size: [u32; 2], samples: &[Sample]) -> Self {
-        let mut cells = vec![(DVec2::ZERO, 0); size[0] as usize * size[1] as usize];
-        for sample in samples {
-            let index = sample.row as usize * size[0] as usize + sample.col as usize;
-            if let Some((sum, count)) = cells.get_mut(index) {
-                *sum += DVec2::from(sample.uv);
-                *count += 1;
-            }
+        let columns = u64::from(size[0]);
+        let index = |sample: &Sample| u64::from(sample.row) * columns + u64::from(sample.col);
+        let mut all: Vec<_> = samples
+            .iter()
+            .map(|sample| (index(sample), DVec2::from(sample.uv)))
+            .collect();
+        all.sort_by_key(|(index, _)| *index);
+        let mean = |run: &[(u64, DVec2)]| {
+            let sum: DVec2 = run.iter().map(|(_, location)| *location).sum();
+            run.first()
+                .map(|(index, _)| (*index, sum / run.len() as f64))
+        };
+        let cells: Vec<_> = all.chunk_by(|a, b| a.0 == b.0).filter_map(mean).collect();
+        let complete = cells
+            .last()
+            .is_some_and(|(last, _)| last + 1 == cells.len() as u64);
+        Self {
+            columns,
+            cells,
+            complete,
         }
-        Self { size, cells }
     }
 
-    pub(super) fn size(&self) -> [u32; 2] {
-        self.size
+    /// Rows and columns of the cells with samples.
+    pub(super) fn places(&self) -> impl Iterator<Item = (i64, i64)> {
+        let place = |index: u64| ((index / self.columns) as i64, (index % self.columns) as i64);
+        self.cells.iter().map(move |(index, _)| place(*index))
     }
 
     /// The mean location of a cell; `None` outside of the output and where there is no sample.
     pub(super) fn at(&self, row: i64, col: i64) -> Option<DVec2> {
-        let [columns, rows] = self.size.map(i64::from);
-        if !(0..rows).contains(&row) || !(0..columns).contains(&col) {
+        let (row, col) = (u64::try_from(row).ok()?, u64::try_from(col).ok()?);
+        if col >= self.columns {
             return None;
         }
-        let (sum, count) = self.cells.get((row * columns + col) as usize)?;
-        (*count > 0).then(|| *sum / f64::from(*count))
+        let index = row * self.columns + col;
+        let place = if self.complete {
+            usize::try_from(index).ok()?
+        } else {
+            self.cells
+                .binary_search_by_key(&index, |(index, _)| *index)
+                .ok()?
+        };
+        self.cells.get(place).map(|(_, location)| *location)
     }
 
     /// Differences of locations along columns and rows: central where both neighbours are there, one-sided where one is.

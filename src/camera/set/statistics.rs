@@ -28,31 +28,28 @@ pub(super) fn of(neighbours: &Neighbours, fullest_cell: usize) -> SetStatistics 
         folds: 0,
         fullest_cell,
     };
-    let [columns, rows] = neighbours.size().map(i64::from);
-    for row in 0..rows - 1 {
-        for col in 0..columns - 1 {
-            let corners = [(0, 0), (0, 1), (1, 1), (1, 0)];
-            let [Some(a), Some(b), Some(c), Some(d)] =
-                corners.map(|(y, x)| neighbours.at(row + y, col + x))
-            else {
-                continue;
-            };
-            found.quads += 1;
-            // Twice the signed areas of the triangles at the corners; y down, so that the upright way around is positive.
-            let turns = [
-                (b - a).perp_dot(d - a),
-                (c - b).perp_dot(a - b),
-                (d - c).perp_dot(b - c),
-                (a - d).perp_dot(c - d),
-            ];
-            if turns.iter().any(|turn| *turn < 0.0) {
-                found.folds += 1;
-            }
-            let area = 0.25 * turns.iter().sum::<f64>();
-            let rate = 1.0 / area.abs();
-            found.lowest_rate = Some(found.lowest_rate.map_or(rate, |lowest| lowest.min(rate)));
-            found.highest_rate = Some(found.highest_rate.map_or(rate, |highest| highest.max(rate)));
+    for (row, col) in neighbours.places() {
+        let corners = [(0, 0), (0, 1), (1, 1), (1, 0)];
+        let [Some(a), Some(b), Some(c), Some(d)] =
+            corners.map(|(y, x)| neighbours.at(row + y, col + x))
+        else {
+            continue;
+        };
+        found.quads += 1;
+        // Twice the signed areas of the triangles at the corners; y down, so that the upright way around is positive.
+        let turns = [
+            (b - a).perp_dot(d - a),
+            (c - b).perp_dot(a - b),
+            (d - c).perp_dot(b - c),
+            (a - d).perp_dot(c - d),
+        ];
+        if turns.iter().any(|turn| *turn < 0.0) {
+            found.folds += 1;
         }
+        let area = 0.25 * turns.iter().sum::<f64>();
+        let rate = 1.0 / area.abs();
+        found.lowest_rate = Some(found.lowest_rate.map_or(rate, |lowest| lowest.min(rate)));
+        found.highest_rate = Some(found.highest_rate.map_or(rate, |highest| highest.max(rate)));
     }
     found
 }

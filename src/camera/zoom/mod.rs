@@ -19,8 +19,10 @@
 //! centre inside is never left.
 
 mod profile;
+mod window;
 
 pub use profile::Transition;
+pub use window::Window;
 
 use super::LocationMap;
 use glam::{DMat2, DVec2};
@@ -107,6 +109,20 @@ impl ZoomRegion {
     #[must_use]
     pub fn outer(&self) -> f64 {
         self.profile().outer()
+    }
+
+    /// What an ordinary image of the inside shows: the rectangle around it, with a pixel for each of its pixels.
+    #[must_use]
+    pub fn window(&self) -> Window {
+        let size = self
+            .radius
+            .map(|radius| (2.0 * radius).ceil().clamp(1.0, 65_535.0));
+        let half = 0.5 * self.multiplicity * DVec2::from(size);
+        Window {
+            size: size.map(|side| side as u32),
+            corner: (DVec2::from(self.center) - half).to_array(),
+            step: self.multiplicity,
+        }
     }
 
     /// Whether a place of the output is inside the region, its transition not included.

@@ -1,9 +1,9 @@
 //! The options of `gpc render`.
 
-use crate::cli::values::{self, Background};
+use super::image::ImageArgs;
+use crate::cli::values;
 use clap::{Args, ValueEnum};
 use glam::DVec3;
-use gpc::output::AovKind;
 use gpc::render::{Coverage, Detection, Method, Settings, Shading};
 use gpc::sampling::Pattern;
 use serde::Serialize;
@@ -26,36 +26,10 @@ pub struct RenderArgs {
     #[arg(short, long, value_name = "OUT")]
     pub output: PathBuf,
 
-    /// Width and height in pixels
-    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = values::size)]
-    pub size: [u32; 2],
-    /// Linear factor on the light, in stops
-    #[arg(long, value_name = "EV", default_value_t = 0.0, allow_negative_numbers = true, value_parser = values::finite)]
-    pub exposure: f64,
-    /// How radiance becomes display colour: Khronos PBR Neutral, or clamped [default: neutral; none for .exr]
-    #[arg(long)]
-    pub tonemap: Option<Tonemap>,
-    /// Colour behind the scene: none (transparent), sRGB R,G,B of 0 to 1, or #rrggbb
-    #[arg(long, value_name = "COLOUR", default_value = "none", value_parser = values::background)]
-    pub background: Background,
-    /// More of each pixel: depth, id, normal, superpixels, samples. Layers of an EXR; otherwise PNG files beside OUT,
-    /// named like it with .depth and so on before .png
-    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
-    pub aov: Vec<AovKind>,
-
     #[command(flatten)]
-    pub sampling: SamplingArgs,
-    #[command(flatten)]
-    pub camera: CameraArgs,
+    pub image: ImageArgs,
     #[command(flatten)]
     pub sequence: SequenceArgs,
-
-    /// Part of the device's name, in upper or lower case [default: the best device]
-    #[arg(long, value_name = "NAME", help_heading = "Device")]
-    pub device: Option<String>,
-    /// Bound on device memory, such as 512M or 2G
-    #[arg(long, value_name = "BYTES", value_parser = values::bytes, help_heading = "Device")]
-    pub max_memory: Option<u64>,
 
     /// Render once to warm up and then R times, and report medians
     #[arg(long, value_name = "R", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Report")]
@@ -69,7 +43,7 @@ pub struct RenderArgs {
 }
 
 /// How edges are antialiased.
-#[derive(Args)]
+#[derive(Args, Clone)]
 #[command(next_help_heading = "Antialiasing")]
 pub struct SamplingArgs {
     /// Method
@@ -116,7 +90,7 @@ impl SamplingArgs {
 }
 
 /// Where the scene is seen from, and when.
-#[derive(Args, Default)]
+#[derive(Args, Clone, Default)]
 #[command(next_help_heading = "View")]
 pub struct CameraArgs {
     /// A camera of the scene by index or name, or all [default: the first, or else one that shows everything]

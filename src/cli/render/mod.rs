@@ -1,6 +1,7 @@
 //! `gpc render`.
 
 mod args;
+mod image;
 mod report;
 mod save;
 mod sequence;
@@ -8,17 +9,14 @@ mod session;
 mod template;
 mod view;
 
-pub use args::{Antialiasing, CameraArgs, RenderArgs};
+pub use args::{Antialiasing, CameraArgs, RenderArgs, Tonemap};
+pub use image::ImageArgs;
+pub use save::{beside, encode, save, write};
+pub use session::open;
 pub use view::choose as choose_views;
 
-use super::exit::{Usage, usage};
-use super::values::Background;
+use super::exit::usage;
 use super::{input, print};
-use args::Tonemap;
-use gpc::output::{AovKind, Format};
-use gpc::reference::srgb;
-use gpc::render::{Reference, Settings};
-use gpc::scene::{Loaded, Pose, PoseRequest};
 use indicatif::{ProgressBar, ProgressStyle};
 use report::{Origin, Report};
 use serde::Serialize;
@@ -34,25 +32,29 @@ struct Sequence {
 
 pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     let template = Template::new(&args.output)?;
-    let format = check(args)?;
+    if input::is_standard(&args.output) && args.json {
+        usage!("-o - and --json both want standard output");
+    }
+    let image = &args.image;
+    let format = image.format(&args.output)?;
     let steps = sequence::steps(args)?;
     template.require("frame", "frames", steps.len())?;
 
     let loaded = input::load(&args.scene)?;
     let mut warnings = Warnings::default();
     warnings.add(&loaded.warnings);
-    let settings = settings(args, format);
+    let settings = image.settings(format);
     let aspect = f64::from(settings.size[0]) / f64::from(settings.size[1]);
-    let aovs = kinds(args);
+    let aovs = image.aovs();
     let stem = input::stem(&args.scene);
 
     let mut time = steps.first().map_or(0.0, |step| step.time);
-    let mut pose = pose(&loaded, args, time)?;
+    let mut pose = image.pose(&loaded, time)?;
     warnings.add(&pose.warnings);
-    let cameras = view::choose(&args.camera, &pose, aspect)?.len();
+    let cameras = view::choose(&image.camera, &pose, aspect)?.len();
     template.require("camera", "cameras", cameras)?;
 
-    let mut session = Session::new(args.device.clone(), settings.clone())?;
+    let mut session = Session::new(image.device.clone(), settings.clone())?;
     let device = session.device();
     session.show(&loaded.scene, &pose)?;
     let progress = progress(steps.len() * cameras, args.quiet);
@@ -60,11 +62,11 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     for step in &steps {
         if step.time != time {
             time = step.time;
-            pose = self::pose(&loaded, args, time)?;
+            pose = image.pose(&loaded, time)?;
             warnings.add(&pose.warnings);
             session.show(&loaded.scene, &pose)?;
         }
-        for view in view::choose(&args.camera, &pose, aspect)? {
+        for view in view::choose(&image.camera, &pose, aspect)? {
             let camera = view.turned(step.turn);
             let shot = session.shoot(&camera, args.repeat)?;
             let path = template.fill(&Fields {
@@ -98,70 +100,6 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
         }
     }
     Ok(ExitCode::SUCCESS)
-}
-
-/// Refuses what can't go together, and says what is written.
-fn check(args: &RenderArgs) -> anyhow::Result<Format> {
-    let samples = args.sampling.samples();
-    if args.sampling.aa == Antialiasing::None && samples != 1 {
-        usage!("none can't have {samples} samples a pixel; it can have 1");
-    }
-    if input::is_standard(&args.output) {
-        if args.json {
-            usage!("-o - and --json both want standard output");
-        }
-        if !args.aov.is_empty() {
-            usage!("--aov writes files named after OUT, and -o - has no name");
-        }
-        return Ok(Format::Png8);
-    }
-    let format = Format::of(&args.output).map_err(|error| Usage(format!("-o {error}")))?;
-    if format.is_scene_linear() && args.tonemap == Some(Tonemap::Neutral) {
-        usage!("--tonemap neutral: an EXR holds light that is not tone-mapped");
-    }
-    Ok(format)
-}
-
-fn settings(args: &RenderArgs, format: Format) -> Settings {
-    let [width, height] = args.size;
-    let tonemaps = args.tonemap != Some(Tonemap::None);
-    Settings {
-        method: args.sampling.aa.method(),
-        samples: args.sampling.samples(),
-        pattern: args.sampling.pattern.clone(),
-        coverage: args.sampling.coverage.coverage(),
-        shading: args.sampling.shading.shading(),
-        detection: args.sampling.detect.detection(),
-        contrast: args.sampling.contrast(),
-        background: match args.background {
-            Background::Transparent => None,
-            Background::Color(color) => Some(color.map(|v| srgb::decode(v) as f32)),
-        },
-        exposure: args.exposure as f32,
-        reference: if tonemaps && !format.is_scene_linear() {
-            Reference::Display
-        } else {
-            Reference::Scene
-        },
-        tonemapped_detection: tonemaps,
-        attributes: !args.aov.is_empty(),
-        max_memory: args.max_memory,
-        ..Settings::new(width, height)
-    }
-}
-
-/// The AOVs asked for, each once.
-fn kinds(args: &RenderArgs) -> Vec<AovKind> {
-    let asked = |kind: &AovKind| args.aov.contains(kind);
-    AovKind::ALL.into_iter().filter(asked).collect()
-}
-
-fn pose(loaded: &Loaded, args: &RenderArgs, time: f64) -> anyhow::Result<Pose> {
-    Ok(loaded.scene.pose(&PoseRequest {
-        scene: args.camera.scene,
-        animation: args.camera.animation.clone(),
-        time,
-    })?)
 }
 
 /// Counts images on standard error where that is a terminal.

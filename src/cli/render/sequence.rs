@@ -18,7 +18,7 @@ const MAX_STEPS: u32 = 1_000_000;
 
 /// The steps that the options ask for, at least one.
 pub fn steps(args: &RenderArgs) -> Result<Vec<Step>, Usage> {
-    let time = args.camera.time;
+    let time = args.image.camera.time;
     let still = Step {
         frame: 0,
         time,

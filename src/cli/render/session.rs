@@ -24,12 +24,17 @@ pub struct Shot {
     pub wall_ms: Vec<f64>,
 }
 
+/// Opens a device by part of its name, or the best one; under the validation layer where the environment says so.
+pub fn open(device: Option<String>) -> Result<Headless, VulkanError> {
+    let validation = std::env::var_os("GPC_VALIDATION").is_some_and(|value| !value.is_empty());
+    Headless::new(&HeadlessOptions { device, validation })
+}
+
 impl Session {
     /// Opens a device by part of its name, or the best one.
     pub fn new(device: Option<String>, settings: Settings) -> Result<Self, VulkanError> {
-        let validation = std::env::var_os("GPC_VALIDATION").is_some_and(|value| !value.is_empty());
         Ok(Self {
-            headless: Headless::new(&HeadlessOptions { device, validation })?,
+            headless: open(device)?,
             settings,
             shown: None,
         })

@@ -3,6 +3,7 @@
 mod equivalence;
 mod extremes;
 mod image;
+mod sets;
 mod twin;
 
 use gpc::camera::{Pinhole, Site};

@@ -1,0 +1,117 @@
+//! The options that all commands share which make an image of a scene.
+
+use super::args::{Antialiasing, CameraArgs, SamplingArgs, Tonemap};
+use crate::cli::exit::{Usage, usage};
+use crate::cli::input;
+use crate::cli::values::{self, Background};
+use clap::Args;
+use gpc::output::{AovKind, Format};
+use gpc::reference::srgb;
+use gpc::render::{Reference, Settings};
+use gpc::scene::{Loaded, Pose, PoseRequest, SceneError};
+use std::path::Path;
+
+/// Size, colour, sampling, view and device.
+#[derive(Args, Clone)]
+pub struct ImageArgs {
+    /// Width and height in pixels
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = values::size)]
+    pub size: [u32; 2],
+    /// Linear factor on the light, in stops
+    #[arg(long, value_name = "EV", default_value_t = 0.0, allow_negative_numbers = true, value_parser = values::finite)]
+    pub exposure: f64,
+    /// How radiance becomes display colour: Khronos PBR Neutral, or clamped [default: neutral; none for .exr]
+    #[arg(long)]
+    pub tonemap: Option<Tonemap>,
+    /// Colour behind the scene: none (transparent), sRGB R,G,B of 0 to 1, or #rrggbb
+    #[arg(long, value_name = "COLOUR", default_value = "none", value_parser = values::background)]
+    pub background: Background,
+    /// More of each pixel: depth, id, normal, superpixels, samples. Layers of an EXR; otherwise PNG files beside OUT,
+    /// named like it with .depth and so on before .png
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub aov: Vec<AovKind>,
+
+    #[command(flatten)]
+    pub sampling: SamplingArgs,
+    #[command(flatten)]
+    pub camera: CameraArgs,
+
+    /// Part of the device's name, in upper or lower case [default: the best device]
+    #[arg(long, value_name = "NAME", help_heading = "Device")]
+    pub device: Option<String>,
+    /// Bound on device memory, such as 512M or 2G
+    #[arg(long, value_name = "BYTES", value_parser = values::bytes, help_heading = "Device")]
+    pub max_memory: Option<u64>,
+}
+
+impl ImageArgs {
+    /// Refuses numbers of samples that the method can't have whatever the device.
+    pub fn check_samples(&self) -> Result<(), Usage> {
+        match (self.sampling.aa, self.sampling.samples()) {
+            (Antialiasing::None, samples) if samples != 1 => Err(Usage(format!(
+                "none can't have {samples} samples a pixel; it can have 1"
+            ))),
+            _ => Ok(()),
+        }
+    }
+
+    /// Refuses what can't go together, and says in what format OUT is written.
+    pub fn format(&self, output: &Path) -> anyhow::Result<Format> {
+        self.check_samples()?;
+        if input::is_standard(output) {
+            if !self.aov.is_empty() {
+                usage!("--aov writes files named after OUT, and -o - has no name");
+            }
+            return Ok(Format::Png8);
+        }
+        let format = Format::of(output).map_err(|error| Usage(format!("-o {error}")))?;
+        if format.is_scene_linear() && self.tonemap == Some(Tonemap::Neutral) {
+            usage!("--tonemap neutral: an EXR holds light that is not tone-mapped");
+        }
+        Ok(format)
+    }
+
+    /// How to render for a format.
+    pub fn settings(&self, format: Format) -> Settings {
+        let [width, height] = self.size;
+        let tonemaps = self.tonemap != Some(Tonemap::None);
+        Settings {
+            method: self.sampling.aa.method(),
+            samples: self.sampling.samples(),
+            pattern: self.sampling.pattern.clone(),
+            coverage: self.sampling.coverage.coverage(),
+            shading: self.sampling.shading.shading(),
+            detection: self.sampling.detect.detection(),
+            contrast: self.sampling.contrast(),
+            background: match self.background {
+                Background::Transparent => None,
+                Background::Color(color) => Some(color.map(|v| srgb::decode(v) as f32)),
+            },
+            exposure: self.exposure as f32,
+            reference: if tonemaps && !format.is_scene_linear() {
+                Reference::Display
+            } else {
+                Reference::Scene
+            },
+            tonemapped_detection: tonemaps,
+            attributes: !self.aov.is_empty(),
+            max_memory: self.max_memory,
+            ..Settings::new(width, height)
+        }
+    }
+
+    /// The AOVs asked for, each once.
+    pub fn aovs(&self) -> Vec<AovKind> {
+        let asked = |kind: &AovKind| self.aov.contains(kind);
+        AovKind::ALL.into_iter().filter(asked).collect()
+    }
+
+    /// The scene at a moment.
+    pub fn pose(&self, loaded: &Loaded, time: f64) -> Result<Pose, SceneError> {
+        loaded.scene.pose(&PoseRequest {
+            scene: self.camera.scene,
+            animation: self.camera.animation.clone(),
+            time,
+        })
+    }
+}

@@ -1,0 +1,111 @@
+//! `gpc unzoom`.
+
+use super::exit::{Usage, usage};
+use super::zoom::{KEYWORD, Record};
+use super::{compare as report, input, print};
+use anyhow::Context;
+use clap::Args;
+use gpc::camera::LocationMap;
+use gpc::camera::zoom::{Window, ZoomMap};
+use gpc::output::{self, DecodedImage, Format, Picture};
+use gpc::resample::Photograph;
+use gpc::{compare, output::OutputError};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Turns an image of gpc zoom back into an ordinary view, without the scene.
+///
+/// The map is found in the image, so that it must be a PNG as gpc zoom wrote it. The view is that of a region: the
+/// rectangle around it, with a pixel for each of its pixels, as if the camera had looked at nothing else.
+#[derive(Args)]
+pub struct UnzoomArgs {
+    /// A PNG of gpc zoom
+    image: PathBuf,
+    /// Image to write: .png, .16.png, .jpg or .exr, or - for a PNG on standard output
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+    /// Which region, in the order in which they were given to gpc zoom, from 0
+    #[arg(long, value_name = "N", default_value_t = 0, conflicts_with = "whole")]
+    region: usize,
+    /// All that the image shows, at the rate of its surroundings, in place of one region
+    #[arg(long)]
+    whole: bool,
+    /// Compare with this image of the same view, and print rmse, psnr, max and flip as gpc compare does
+    #[arg(long, value_name = "IMAGE")]
+    reference: Option<PathBuf>,
+}
+
+pub fn run(args: &UnzoomArgs) -> anyhow::Result<ExitCode> {
+    let format = if input::is_standard(&args.output) {
+        if args.reference.is_some() {
+            usage!("-o - and --reference both want standard output");
+        }
+        Format::Png8
+    } else {
+        Format::of(&args.output).map_err(|error| Usage(format!("-o {error}")))?
+    };
+    let name = args.image.display().to_string();
+    let bytes = std::fs::read(&args.image).map_err(|source| OutputError::Read {
+        path: args.image.clone(),
+        source,
+    })?;
+    let photograph = Photograph::from(&output::decode(&bytes, &name)?);
+    let record = find_record(&bytes, &name, photograph.size())?;
+    let map = ZoomMap::new(record.regions.clone()).with_context(|| name.clone())?;
+    let window = window(args, &record)?;
+    let pixels = photograph.resample(window.size, |place| {
+        let place = map.inverse(window.location(place));
+        let back = map.jacobian(place).inverse();
+        (place, back * window.jacobian(place))
+    });
+
+    let picture = Picture::new(window.size, &pixels)?;
+    let bytes = output::encode(format, &picture, &[])?;
+    if input::is_standard(&args.output) {
+        print::bytes(&bytes)?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    output::write_atomically(&args.output, &bytes)?;
+    if let Some(reference) = &args.reference {
+        let reference = output::read(reference)?;
+        report::print_lines(&compare::compare(
+            &reference,
+            &DecodedImage::from(&picture),
+        )?)?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn find_record(bytes: &[u8], name: &str, size: [u32; 2]) -> anyhow::Result<Record> {
+    let text = output::find_text(bytes, KEYWORD).with_context(|| {
+        format!("{name}: it holds no zoom; give a PNG as gpc zoom wrote it, not converted")
+    })?;
+    let record: Record = serde_json::from_str(&text)
+        .with_context(|| format!("{name}: the zoom that it holds can't be read"))?;
+    if record.size != size {
+        let [[width, height], [found_width, found_height]] = [record.size, size];
+        anyhow::bail!(
+            "{name}: its zoom is one of {width} x {height} pixels, but it has {found_width} x {found_height}; give it as gpc zoom wrote it"
+        );
+    }
+    Ok(record)
+}
+
+/// The part of the plane that is asked for.
+fn window(args: &UnzoomArgs, record: &Record) -> Result<Window, Usage> {
+    if args.whole {
+        return Ok(Window {
+            size: record.size,
+            corner: [0.0, 0.0],
+            step: 1.0,
+        });
+    }
+    let Some(region) = record.regions.get(args.region) else {
+        return Err(Usage(format!(
+            "--region {}: the image has {} regions, counted from 0",
+            args.region,
+            record.regions.len()
+        )));
+    };
+    Ok(region.window())
+}

@@ -1,0 +1,123 @@
+//! `gpc zoom`.
+
+mod args;
+mod record;
+mod steps;
+
+pub use args::ZoomArgs;
+pub use record::{KEYWORD, Record};
+
+use super::exit::usage;
+use super::stage::Stage;
+use super::{input, render};
+use gpc::camera::set::SamplingSet;
+use gpc::camera::zoom::ZoomMap;
+use gpc::camera::{LocationMap, Pinhole};
+use gpc::output::{self, Format, Picture};
+use gpc::render::{Rendered, Statistics};
+use gpc::resample::Photograph;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+use std::process::ExitCode;
+use steps::Step;
+
+pub fn run(args: &ZoomArgs) -> anyhow::Result<ExitCode> {
+    let map = args.regions.map()?;
+    let format = args.image.format(&args.output)?;
+    if args.steps && input::is_standard(&args.output) {
+        usage!("--steps writes files named after OUT, and -o - has no name");
+    }
+    let (result, steps) = if is_picture(&args.input) {
+        photograph(args, &map)?
+    } else {
+        scene(args, format, &map)?
+    };
+    for step in &steps {
+        let picture = Picture::new(step.size, &step.pixels)?;
+        let path = render::beside(&args.output, format, &step.name);
+        render::write(&path, &output::encode(Format::Png8, &picture, &[])?)?;
+    }
+    let mut bytes = render::encode(&args.output, format, &result, &args.image.aovs())?;
+    if matches!(format, Format::Png8 | Format::Png16) {
+        let record = serde_json::to_string(&Record::new(result.size, &map))?;
+        bytes = output::add_text(&bytes, KEYWORD, &record)?;
+    }
+    render::write(&args.output, &bytes)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Whether a file starts like a PNG or a JPEG. What can't be read is left to the loader of scenes to complain about.
+fn is_picture(path: &Path) -> bool {
+    let mut start = [0; 3];
+    let read = !input::is_standard(path)
+        && File::open(path)
+            .and_then(|mut file| file.read_exact(&mut start))
+            .is_ok();
+    read && (start == *b"\x89PN" || start == *b"\xff\xd8\xff")
+}
+
+/// Zooms into a photograph.
+fn photograph(args: &ZoomArgs, map: &ZoomMap) -> anyhow::Result<(Rendered, Vec<Step>)> {
+    if !args.image.aov.is_empty() {
+        usage!("--aov: a photograph holds nothing but colours");
+    }
+    let photograph = Photograph::from(&output::read(&args.input)?);
+    let size = photograph.size();
+    let colors = photograph.resample(size, |place| (map.location(place), map.jacobian(place)));
+    let steps = if args.steps {
+        steps::common(size, photograph.pixels(), &colors, map)
+    } else {
+        Vec::new()
+    };
+    let result = Rendered {
+        size,
+        colors,
+        attributes: Vec::new(),
+        statistics: Statistics::default(),
+    };
+    Ok((result, steps))
+}
+
+/// Samples a scene where the pixels look.
+fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<(Rendered, Vec<Step>)> {
+    let size = args.image.size;
+    let mut stage = Stage::open(&args.input, &args.image, args.image.settings(format))?;
+    let pinhole = stage.pinhole()?;
+    let set = SamplingSet::mapped(size, map)?;
+    let statistics = set.statistics();
+    let result = render_set(&mut stage, pinhole, &set)?;
+    log::info!(
+        "{}: {}x{}, {:.2} to {:.2} samples for a pixel of the plane, {} superpixels",
+        args.output.display(),
+        size[0],
+        size[1],
+        statistics.lowest_rate.unwrap_or(1.0),
+        statistics.highest_rate.unwrap_or(1.0),
+        result.statistics.superpixels
+    );
+    let mut steps = Vec::new();
+    if args.steps {
+        let original = render_set(&mut stage, pinhole, &SamplingSet::planar(size)?)?;
+        steps = steps::common(size, &original.colors, &result.colors, map);
+        for (index, region) in map.regions().iter().enumerate() {
+            let window = region.window();
+            let direct = render_set(
+                &mut stage,
+                pinhole,
+                &SamplingSet::mapped(window.size, &window)?,
+            )?;
+            let name = match map.regions() {
+                [_] => "direct".to_owned(),
+                _ => format!("direct-{index}"),
+            };
+            steps.push(Step::new(&name, window.size, direct.colors));
+        }
+    }
+    stage.finish()?;
+    Ok((result, steps))
+}
+
+fn render_set(stage: &mut Stage, pinhole: Pinhole, set: &SamplingSet) -> anyhow::Result<Rendered> {
+    stage.render(set.size(), &[(pinhole, set.sites())])
+}
