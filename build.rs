@@ -42,11 +42,15 @@ const VARIANTS: &[Variant] = &[
     ("sample_1", "sample.comp", &[("ROWS", "1")]),
     ("sample_2", "sample.comp", &[("ROWS", "2")]),
     ("sample_8", "sample.comp", &[("ROWS", "8")]),
-    ("sample_32", "sample.comp", &[("ROWS", "32")]),
     (
         "sample_chained_1",
         "sample.comp",
         &[("ROWS", "1"), ("CHAINED", "")],
+    ),
+    (
+        "sample_chained_2",
+        "sample.comp",
+        &[("ROWS", "2"), ("CHAINED", "")],
     ),
     (
         "sample_chained_8",
@@ -59,6 +63,11 @@ const VARIANTS: &[Variant] = &[
         &[("ROWS", "1"), ("UNLISTED", "")],
     ),
     (
+        "sample_unlisted_2",
+        "sample.comp",
+        &[("ROWS", "2"), ("UNLISTED", "")],
+    ),
+    (
         "sample_unlisted_8",
         "sample.comp",
         &[("ROWS", "8"), ("UNLISTED", "")],
@@ -67,6 +76,11 @@ const VARIANTS: &[Variant] = &[
         "sample_chained_unlisted_1",
         "sample.comp",
         &[("ROWS", "1"), ("CHAINED", ""), ("UNLISTED", "")],
+    ),
+    (
+        "sample_chained_unlisted_2",
+        "sample.comp",
+        &[("ROWS", "2"), ("CHAINED", ""), ("UNLISTED", "")],
     ),
     (
         "sample_chained_unlisted_8",

@@ -4,6 +4,8 @@
 #include "include/frame.glsl"
 layout(local_size_x = 1) in;
 layout(constant_id = 0) const uint AFTER = 0u;
+layout(constant_id = 6) const uint SUBGROUPS_FIRST = 1u;    // as in schedule.comp
+layout(constant_id = 7) const uint SUBGROUPS = 1u;
 const uint DETECT = 0u, CULL = 1u, SAMPLE = 2u, RECORDS = 3u, SPANS = 4u, THIN = 5u, GROUPS = 6u, PROBE = 7u;
 
 void main() {
@@ -18,10 +20,10 @@ void main() {
         arguments[ARGUMENT_SORT] = groups((n + 63u) / 64u);
     } else if (AFTER == GROUPS) {
         for (uint list = 0u; list < 4u; list++)
-            arguments[ARGUMENT_SAMPLE_PLAIN + list] = groups(counters[COUNTER_PLAIN_TILES + list]);
+            arguments[ARGUMENT_SAMPLE_PLAIN + list] = groups(counters[COUNTER_PLAIN_TILES + list] * (list < 2u ? SUBGROUPS_FIRST : SUBGROUPS));
     } else if (AFTER == PROBE) {
-        arguments[ARGUMENT_PLAIN_LEFT] = groups(counters[COUNTER_PLAIN_LEFT]);
-        arguments[ARGUMENT_MASKED_LEFT] = groups(counters[COUNTER_MASKED_LEFT]);
+        arguments[ARGUMENT_PLAIN_LEFT] = groups(counters[COUNTER_PLAIN_LEFT] * SUBGROUPS);
+        arguments[ARGUMENT_MASKED_LEFT] = groups(counters[COUNTER_MASKED_LEFT] * SUBGROUPS);
     } else if (AFTER == THIN) {
         arguments[ARGUMENT_THIN] = groups((counters[COUNTER_THIN] + 63u) / 64u);
     } else {

@@ -5,7 +5,7 @@
 // A subgroup takes LANES cells of a tile. First an invocation holds a cell and the tile's candidates pass by:
 // a conservative test against the cell's square keeps a short list, and the nearest triangle that covers the whole
 // square hides what lies behind it. Then, cell by cell, an invocation holds ROWS samples, with their depth and ID in
-// registers, and the short list passes by, run by run of rows. A list that outgrows its room is replaced by all
+// registers, and the short list passes by, block by block of samples. A list that outgrows its room is replaced by all
 // candidates of the tile. Ties in depth go to the smaller ID, so that the order of candidates does not matter.
 //
 // Coverage. A triangle that loses none of the samples that it covers is taken to be seen whole, and weighs the exact
@@ -16,7 +16,7 @@
 //
 // Record: pixel (x | y << 16), triangle ID, location relative to the pixel's centre (2 x 16 bits, 2^-16 pixels), and
 //   merged: weight as a float, in samples; one record a visible triangle and block, at the centroid of its samples there
-//           (BY_PART: and an eighth of the block; PER_SAMPLE: one a sample, at its location);
+//           (BY_PART: and part of it; PER_SAMPLE: one a sample, at its location);
 //   CHAINED: index of the next nearer BLEND layer of the sample, or ~0; the first records of a block are its
 //           samples' opaque surfaces (ID 0: background).
 // Where cells are SITES, the first word of a record is its site; POINTS make a record a sample, of location 0.
@@ -33,12 +33,13 @@ layout(constant_id = 3) const bool HAS_MASK = false;
 layout(constant_id = 4) const uint LIST = 0u;           // which of the tile lists
 layout(constant_id = 5) const uint RUN = 0u;
 layout(constant_id = 6) const bool BY_PART = false;     // records for each part of a block, to shade at
-layout(constant_id = 7) const bool EXACT_AREAS = false; // in blocks of one run
-layout(constant_id = 8) const uint HEADER_SAMPLES = 0u; // samples that a header stands for
-layout(constant_id = 9) const bool APART = false;       // a subgroup takes one block of one cell, not all of several
+layout(constant_id = 7) const bool EXACT_AREAS = false; // where a block has all samples of a cell
+layout(constant_id = 8) const uint PART = 8u;           // samples of a part
+layout(constant_id = 9) const bool APART = false;       // a subgroup takes one block of one cell, not some of several
 const uint WHOLE = 0u, PROBE = 1u, REST = 2u;           // RUN: all samples at once; few; all, in the cells that are left
 
 const float ROUNDING = 1.0 / 64.0;                      // of positions and edge functions in a tile, in pixels
+const uint BLOCKS_AT_ONCE = APART ? 1u : 4u, CELLS_AT_ONCE = APART ? 1u : LANES;
 const uint KEPT = 96u;                                  // room for candidates of a cell
 const uint PROBES = 64u;                                // samples of a PROBE, in one block; they follow the others
 // Mesa's CPU driver ends all loops of an invocation after 65,535 trips in all; what takes more is reported instead.
@@ -58,17 +59,15 @@ shared uint kept[32 * KEPT];                            // by invocation, then e
 void main() {
     uint samples = RUN == PROBE ? PROBES : frame.sample_count;
     uint first_sample = RUN == PROBE ? frame.sample_count : 0u;
-    uint blocks = (samples + BLOCK - 1u) / BLOCK;
-    uint headers_a_cell = (frame.sample_count + HEADER_SAMPLES - 1u) / HEADER_SAMPLES;
-    // Where cells are APART, a subgroup takes one (block, cell) of an entry.
-    const uint list = RUN == REST && !APART ? LIST + LEFT : LIST;
-    uint number = gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u;
-    uvec2 work = APART ? split(number, LANES * headers_a_cell) : uvec2(0u, number);
-    if (work.y >= counters[RUN == REST && !APART ? COUNTER_PLAIN_LEFT + LIST : COUNTER_PLAIN_TILES + LIST]) return;
-    uvec2 part = split(work.x, headers_a_cell);
+    uint blocks = (samples + BLOCK - 1u) / BLOCK, headers_a_cell = (frame.sample_count + BLOCK - 1u) / BLOCK;
+    // A subgroup's share of an entry: (blocks, cells).
+    uint spans = (blocks + BLOCKS_AT_ONCE - 1u) / BLOCKS_AT_ONCE;
+    uvec2 work = split(gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u, spans * (LANES / CELLS_AT_ONCE));
+    if (work.y >= counters[RUN == REST ? COUNTER_PLAIN_LEFT + LIST : COUNTER_PLAIN_TILES + LIST]) return;
+    uvec2 share = split(work.x, spans);
     uint lane = gl_SubgroupInvocationID;
     // What marks are kept for: a tile's pixels, or a group's cells.
-    uint entry = tile_lists[first_entry(list) + work.y], owner = entry_owner(entry);
+    uint entry = tile_lists[first_entry(RUN == REST ? LIST + LEFT : LIST) + work.y], owner = entry_owner(entry);
     uvec4 site_group = SITES ? texelFetch(site_groups, int(owner)) : uvec4(0u);
     uint tile = SITES ? site_group.x : owner;
     uvec4 header = tiles[tile];
@@ -76,11 +75,11 @@ void main() {
     uint cells_word = SITES ? ~0u >> (32u - site_group.z) : masks[tile];
     uint word = RUN == REST ? cells_word & marks[owner] : cells_word;
     uint cells = bitCount(word);
-    uint first_cell = entry_part(entry) * LANES + (APART ? part.y : 0u);
-    uint first_block = APART ? part.x : 0u;
-    if (first_cell >= cells || first_block >= blocks) return;
-    uint group = min(cells - first_cell, APART ? 1u : LANES);
-    blocks = APART ? first_block + 1u : blocks;
+    uint first_cell = entry_part(entry) * LANES + share.y * CELLS_AT_ONCE;
+    uint first_block = share.x * BLOCKS_AT_ONCE;
+    if (first_cell >= cells) return;
+    uint group = min(cells - first_cell, CELLS_AT_ONCE);
+    blocks = min(blocks, first_block + BLOCKS_AT_ONCE);
 
     Cell cell;
     cell.center = tile_center(tile_at);
@@ -92,7 +91,7 @@ void main() {
     cell.first = header.y;
 #endif
     bool manageable = count <= LONGEST_LIST;
-    if (!manageable && subgroupElect()) atomicAdd(counters[COUNTER_UNFINISHED], group);
+    if (!manageable && subgroupElect()) atomicAdd(counters[COUNTER_STALLED], group);
     count = manageable ? count : 0u;
 
     // The cell of each invocation, and what it keeps of the tile's candidates.
@@ -160,16 +159,11 @@ void main() {
             uint listed = subgroupShuffle(my_count, cell.member);
             cell.complete = listed <= KEPT;
             bool out_of_trips = trips > MOST_TRIPS;
-            if (out_of_trips && subgroupElect()) atomicAdd(counters[COUNTER_UNFINISHED], 1u);
+            if (out_of_trips && subgroupElect()) atomicAdd(counters[COUNTER_STALLED], 1u);
             cell.entries = out_of_trips ? 0u : cell.complete ? listed : count;
 
             begin_cell(cell);
-            show_candidates(cell, 0);
-#if ROWS > 8
-            show_candidates(cell, 8);
-            show_candidates(cell, 16);
-            show_candidates(cell, 24);
-#endif
+            show_candidates(cell);
             uvec2 records_made;
 #ifdef CHAINED
             records_made = record_layers(cell, record_owner);
@@ -193,7 +187,7 @@ void main() {
         atomicAdd(counters[COUNTER_RESAMPLED], more);
         // These and the cells of the tile that others left fill entries one after the other.
         uint part = (before + LANES - 1u) / LANES;
-        if (!APART && part * LANES < before + more)
+        if (part * LANES < before + more)
             tile_lists[first_entry(LIST + LEFT) + atomicAdd(counters[COUNTER_PLAIN_LEFT + LIST], 1u)] = work_entry(owner, part);
     }
 }

@@ -10,12 +10,12 @@
 #include "include/tiles.glsl"
 #include "include/work.glsl"
 layout(local_size_x_id = 0) in;
-layout(constant_id = 7) const uint PLAIN_BLOCK = 256u;      // samples of a header
-layout(constant_id = 2) const uint LAYERED_BLOCK = 64u;
+layout(constant_id = 2) const uint BLOCK = 64u;             // samples of a header
 layout(constant_id = 3) const bool PER_SAMPLE = false;
 layout(constant_id = 4) const uint LAYERS = 4u;             // BLEND layers a sample that a tile is admitted with
 layout(constant_id = 5) const uint PARTS = 1u;              // records of a triangle in a block
-layout(constant_id = 6) const bool APART = false;           // `sample` takes a block of a cell at a time
+layout(constant_id = 6) const uint SUBGROUPS_FIRST = 1u;    // that `sample` gives an entry, where it may PROBE it
+layout(constant_id = 7) const uint SUBGROUPS = 1u;          // and where it takes all samples
 
 void main() {
     uint lane = gl_SubgroupInvocationID;
@@ -30,6 +30,7 @@ void main() {
         p += LANES;
     }
 
+    uint blocks = (frame.sample_count + BLOCK - 1u) / BLOCK;
     uint list_used = 0u, records_used = 0u, headers_used = 0u, placed = 0u, unlisted = 0u;
     uvec4 entries = uvec4(0u);      // of each list
     uint next = start;
@@ -45,12 +46,10 @@ void main() {
         bool busy = cells != 0u;
         bool listed = busy && (t.w & TILE_OVERFLOW) == 0u;
         bool blend = (t.w & TILE_HAS_BLEND) != 0u, mask_ = (t.w & TILE_HAS_MASK) != 0u;
-        uint block = blend || mask_ || !listed ? LAYERED_BLOCK : PLAIN_BLOCK;
-        uint blocks = (frame.sample_count + block - 1u) / block;
         uint candidates_ = listed ? t.x : frame.triangle_count;
         uint record_need = blend || (!listed && frame.first_blend < frame.triangle_count)
             ? samples * (1u + min(candidates_, LAYERS))
-            : PER_SAMPLE ? samples : cells * min(blocks * min(PARTS * candidates_, block), frame.sample_count);
+            : PER_SAMPLE ? samples : cells * min(blocks * min(PARTS * candidates_, BLOCK), frame.sample_count);
         uint list_need = listed ? t.x : 0u, header_need = cells * blocks;
         uint list_first = list_used + subgroupExclusiveAdd(list_need);
         uint record_end = records_used + subgroupInclusiveAdd(record_need);
@@ -97,15 +96,9 @@ void main() {
         counters[COUNTER_UNLISTED_TOTAL] += unlisted;
         arguments[ARGUMENT_SETUP] = idle ? uvec4(0u) : groups((min(counters[COUNTER_PAIRS], frame.pair_capacity) + 63u) / 64u);
         arguments[ARGUMENT_GROUPS] = idle ? uvec4(0u) : groups((frame.group_count + 63u) / 64u);
-        // A subgroup an entry, or one for each block of each of its cells.
-        uint plain_blocks = 1u, layered_blocks = 1u;
-        if (APART) {
-            plain_blocks = LANES * ((frame.sample_count + PLAIN_BLOCK - 1u) / PLAIN_BLOCK);
-            layered_blocks = LANES * ((frame.sample_count + LAYERED_BLOCK - 1u) / LAYERED_BLOCK);
-        }
-        arguments[ARGUMENT_SAMPLE_PLAIN] = groups(entries.x * plain_blocks);
-        arguments[ARGUMENT_SAMPLE_MASKED] = groups(entries.y * layered_blocks);
-        arguments[ARGUMENT_SAMPLE_BLENDED] = groups(entries.z * layered_blocks);
-        arguments[ARGUMENT_SAMPLE_UNLISTED] = groups(entries.w * layered_blocks);
+        arguments[ARGUMENT_SAMPLE_PLAIN] = groups(entries.x * SUBGROUPS_FIRST);
+        arguments[ARGUMENT_SAMPLE_MASKED] = groups(entries.y * SUBGROUPS_FIRST);
+        arguments[ARGUMENT_SAMPLE_BLENDED] = groups(entries.z * SUBGROUPS);
+        arguments[ARGUMENT_SAMPLE_UNLISTED] = groups(entries.w * SUBGROUPS);
     }
 }

@@ -1,13 +1,11 @@
 // The samples of a block of a cell: an invocation holds ROWS of them, and what each one sees in registers.
 //
-// Patterns order samples so that neighbours in the list are neighbours in the cell: the rows of a run lie close
-// together, and candidates are tested against the run's rectangle before its samples.
+// Patterns order samples so that neighbours in the list are neighbours in the cell: those of a block lie close together,
+// and candidates are tested against the block's rectangle before its samples.
 #ifndef BLOCK_GLSL
 #define BLOCK_GLSL
 
 const uint BLOCK = ROWS * LANES;                        // samples of one
-#define RUN_ROWS (ROWS < 8 ? ROWS : 8)
-#define RUNS (ROWS / RUN_ROWS)
 
 // The cell at hand.
 struct Cell {
@@ -25,7 +23,7 @@ struct Cell {
 
 vec2 offset[ROWS];          // of the samples, the same in every cell
 vec2 place[ROWS];           // of samples of SITES, from the tile's centre
-vec2 run_middle[RUNS], run_reach[RUNS];
+vec2 block_middle, block_reach;      // the rectangle that holds them
 float depth[ROWS];          // seen so far, 0 for nothing
 uint id[ROWS];
 
@@ -49,21 +47,19 @@ mat2 pixel_of(Cell cell, int g) {
     return POINTS ? site_jacobian(cell.site + min(sample_of(g), max(cell.samples, 1u) - 1u)) : cell.pixel;
 }
 
-// Loads the pattern's locations from number `first` on, at most up to `last`, and the rectangles of their runs.
+// Loads the pattern's locations from number `first` on, at most up to `last`, and their rectangle.
 void load_offsets(uint first, uint last) {
     [[unroll]] for (int g = 0; g < ROWS; g++)
         offset[g] = POINTS ? vec2(0.0) : texelFetch(locations, int(min(first + sample_of(g), last))).xy;
-    [[unroll]] for (int run = 0; run < RUNS; run++) {
-        vec2 low = vec2(1.0), high = vec2(-1.0);
-        [[unroll]] for (int g = run * RUN_ROWS; g < (run + 1) * RUN_ROWS; g++) {
-            low = min(low, offset[g]);
-            high = max(high, offset[g]);
-        }
-        low = vec2(lanes_min(low.x), lanes_min(low.y));
-        high = vec2(lanes_max(high.x), lanes_max(high.y));
-        run_middle[run] = 0.5 * (low + high);
-        run_reach[run] = 0.5 * (high - low) + ROUNDING;
+    vec2 low = vec2(1.0), high = vec2(-1.0);
+    [[unroll]] for (int g = 0; g < ROWS; g++) {
+        low = min(low, offset[g]);
+        high = max(high, offset[g]);
     }
+    low = vec2(lanes_min(low.x), lanes_min(low.y));
+    high = vec2(lanes_max(high.x), lanes_max(high.y));
+    block_middle = 0.5 * (low + high);
+    block_reach = 0.5 * (high - low) + ROUNDING;
 }
 
 // Moves the samples to a cell, where they have seen nothing yet.
@@ -119,12 +115,10 @@ bool wins(float d, uint by, int g) {
     return d > depth[g] || (d == depth[g] && by < id[g]);
 }
 
-// Shows an opaque triangle to the rows from `first_row` on.
-void show_opaque(Cell cell, Candidate t, bool some, const int first_row) {
+void show_opaque(Cell cell, Candidate t, bool some) {
     vec3 least = some ? thresholds(t) : vec3(3.4e38);
     float covered = 0.0;
-    [[unroll]] for (int h = 0; h < RUN_ROWS; h++) {
-        int g = first_row + h;
+    [[unroll]] for (int g = 0; g < ROWS; g++) {
         vec2 p = position_of(cell, g);
         float d = depth_at(t, p);
         bool there = inside(t, least, p);
@@ -136,47 +130,45 @@ void show_opaque(Cell cell, Candidate t, bool some, const int first_row) {
     if (EXACT_AREAS) hold_nearby(t, some, lanes_add(covered));
 }
 
-// Shows an alpha-tested triangle to the rows from `first_row` on: the test is dear, and goes to rows that may see it.
-void show_masked(Cell cell, Candidate t, bool some, const int first_row) {
+// The alpha test is dear, and goes to rows that may see the triangle.
+void show_masked(Cell cell, Candidate t, bool some) {
     vec3 least = some ? thresholds(t) : vec3(3.4e38);
     AlphaTest alpha = alpha_test(t.id - 1u, cell.center, cell.at, cell.pixel);
     uint rows = 0u;
-    [[unroll]] for (int h = 0; h < RUN_ROWS; h++) {
+    [[unroll]] for (int g = 0; g < ROWS; g++) {
         float d;
-        bool seen = covers(t, least, position_of(cell, first_row + h), d) && wins(d, t.id, first_row + h);
-        rows |= subgroupAny(seen) ? 1u << h : 0u;
+        bool seen = covers(t, least, position_of(cell, g), d) && wins(d, t.id, g);
+        rows |= subgroupAny(seen) ? 1u << g : 0u;
     }
     do {
-        int row = rows == 0u ? RUN_ROWS : findLSB(rows);
+        int row = rows == 0u ? ROWS : findLSB(rows);
         rows &= rows - 1u;
         vec2 p = vec2(0.0);
-        mat2 pixel = cell.pixel;
         float depth_there = 0.0;
         uint id_there = 0u;
-        [[unroll]] for (int h = 0; h < RUN_ROWS; h++) {
-            int g = first_row + h;
-            p = row == h ? position_of(cell, g) : p;
-            depth_there = row == h ? depth[g] : depth_there;
-            id_there = row == h ? id[g] : id_there;
+        [[unroll]] for (int g = 0; g < ROWS; g++) {
+            p = row == g ? position_of(cell, g) : p;
+            depth_there = row == g ? depth[g] : depth_there;
+            id_there = row == g ? id[g] : id_there;
         }
         float d;
-        bool there = covers(t, least, p, d) && row < RUN_ROWS;
-        if (POINTS) alpha = alpha_test(t.id - 1u, cell.center, p, pixel_of(cell, first_row + row));
+        bool there = covers(t, least, p, d) && row < ROWS;
+        if (POINTS) alpha = alpha_test(t.id - 1u, cell.center, p, pixel_of(cell, row));
         bool seen = there && (d > depth_there || (d == depth_there && t.id < id_there)) && alpha_passes(alpha, p);
-        [[unroll]] for (int h = 0; h < RUN_ROWS; h++) {
-            depth[first_row + h] = seen && row == h ? d : depth[first_row + h];
-            id[first_row + h] = seen && row == h ? t.id : id[first_row + h];
+        [[unroll]] for (int g = 0; g < ROWS; g++) {
+            depth[g] = seen && row == g ? d : depth[g];
+            id[g] = seen && row == g ? t.id : id[g];
         }
     } while (rows != 0u);
 }
 
-// Shows the cell's opaque and alpha-tested candidates to the run of rows from `first_row` on.
-void show_candidates(Cell cell, const int first_row) {
+// Shows the cell's opaque and alpha-tested candidates to the samples.
+void show_candidates(Cell cell) {
     vec2 middle = cell.at, half_side = cell.half_side;
+    // Areas count all triangles near the cell, in any order of candidates.
     if (!POINTS && !EXACT_AREAS) {
-        middle += cell.pixel * run_middle[first_row / RUN_ROWS];
-        vec2 reach = run_reach[first_row / RUN_ROWS];
-        half_side = abs(cell.pixel[0]) * reach.x + abs(cell.pixel[1]) * reach.y + (SITES ? ROUNDING * cell.half_side : vec2(0.0));
+        middle += cell.pixel * block_middle;
+        half_side = abs(cell.pixel[0]) * block_reach.x + abs(cell.pixel[1]) * block_reach.y + (SITES ? ROUNDING * cell.half_side : vec2(0.0));
     }
     uint batches = max((cell.entries + LANES - 1u) / LANES, 1u), batch = 0u;
     float hidden = cell.hidden;
@@ -185,7 +177,6 @@ void show_candidates(Cell cell, const int first_row) {
         Candidate k = entry_of(cell, entry);
         RectangleTest test = test_rectangle(k, middle, half_side, HAS_MASK);
         bool exists = entry < cell.entries;
-        // Areas count the triangles nearby, which must not depend on the order of candidates.
         if (!EXACT_AREAS) hidden = max(hidden, lanes_max(exists ? test.hides : 0.0));
         bool blend = k.id > frame.first_blend;
         bool masked = HAS_MASK && k.id > frame.first_mask && !blend;
@@ -194,15 +185,15 @@ void show_candidates(Cell cell, const int first_row) {
         uint pending = subgroupBallot(touches && !masked).x;
         do {
             bool some = pending != 0u;
-            show_opaque(cell, shuffle_candidate(k, some ? uint(findLSB(pending)) : 0u), some, first_row);
+            show_opaque(cell, shuffle_candidate(k, some ? uint(findLSB(pending)) : 0u), some);
             pending &= pending - 1u;
         } while (pending != 0u);
         if (HAS_MASK) {
             pending = subgroupBallot(touches && masked).x;
-            trips += uint(bitCount(pending)) * RUN_ROWS;
+            trips += uint(bitCount(pending)) * ROWS;
             do {
                 bool some = pending != 0u;
-                show_masked(cell, shuffle_candidate(k, some ? uint(findLSB(pending)) : 0u), some, first_row);
+                show_masked(cell, shuffle_candidate(k, some ? uint(findLSB(pending)) : 0u), some);
                 pending &= pending - 1u;
             } while (pending != 0u);
         }

@@ -70,8 +70,8 @@ uvec2 record_layers(Cell cell, uint owner) {
         }
         more = subgroupAny(more);
         first_record = 0u;
-        lost += more && trips > MOST_TRIPS ? 1u : 0u;
     } while (more && trips <= MOST_TRIPS);
+    if (subgroupElect() && more) atomicAdd(counters[COUNTER_STALLED], 1u);
     if (subgroupElect() && lost != 0u) atomicAdd(counters[COUNTER_UNFINISHED], 1u);
     return uvec2(base, cell.samples);
 }

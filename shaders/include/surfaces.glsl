@@ -14,8 +14,7 @@ struct Surface {
     uint parts;             // BY_PART: a bit for each that sees it
 };
 
-// Parts of a block: at most eight runs of neighbouring samples.
-const uint PART = BLOCK > 64u ? BLOCK / 8u : 8u;        // samples of a part
+// Parts of a block: at most as many runs of neighbouring samples as there are invocations.
 const uint PARTS_A_ROW = LANES > PART ? LANES / PART : 1u, ROWS_A_PART = PART > LANES ? PART / LANES : 1u;
 const uint PART_LANES = PART < LANES ? PART : LANES;
 
@@ -43,22 +42,27 @@ struct Part { uint samples; vec2 sum; };
 Part part_of(uint wanted) {
     uint lane = gl_SubgroupInvocationID;
     Part r = Part(0u, vec2(0.0));
+    uint first = lane % PARTS_A_ROW * PART;
+    uint seen = 0u;
+    vec2 sum = vec2(0.0);
     [[unroll]] for (int g = 0; g < ROWS; g++) {
         bool same = id[g] == wanted;
-        uint first = lane % PARTS_A_ROW * PART;
-        uint seen = bitfieldExtract(subgroupBallot(same).x, int(first), int(PART_LANES));
-        vec2 sum = same ? offset[g] : vec2(0.0);
-        if (PARTS_A_ROW == 1u) {
-            sum = vec2(lanes_add(sum.x), lanes_add(sum.y));
-        } else {
-            sum += vec2(subgroupShuffleXor(sum.x, 1u), subgroupShuffleXor(sum.y, 1u));
-            sum += vec2(subgroupShuffleXor(sum.x, 2u), subgroupShuffleXor(sum.y, 2u));
-            sum += vec2(subgroupShuffleXor(sum.x, 4u), subgroupShuffleXor(sum.y, 4u));
-            sum = vec2(subgroupShuffle(sum.x, first), subgroupShuffle(sum.y, first));
+        seen += uint(bitCount(bitfieldExtract(subgroupBallot(same).x, int(first), int(PART_LANES))));
+        sum += same ? offset[g] : vec2(0.0);
+        if ((uint(g) + 1u) % ROWS_A_PART == 0u) {
+            if (PARTS_A_ROW == 1u) {
+                sum = vec2(lanes_add(sum.x), lanes_add(sum.y));
+            } else {
+                [[unroll]] for (uint step = 1u; step < PART_LANES; step *= 2u)
+                    sum += vec2(subgroupShuffleXor(sum.x, step), subgroupShuffleXor(sum.y, step));
+                sum = vec2(subgroupShuffle(sum.x, first), subgroupShuffle(sum.y, first));
+            }
+            bool mine = lane / PARTS_A_ROW == uint(g) / ROWS_A_PART;
+            r.samples = mine ? seen : r.samples;
+            r.sum = mine ? sum : r.sum;
+            seen = 0u;
+            sum = vec2(0.0);
         }
-        bool mine = lane / PARTS_A_ROW == uint(g) / ROWS_A_PART;
-        r.samples += mine ? uint(bitCount(seen)) : 0u;
-        r.sum += mine ? sum : vec2(0.0);
     }
     return r;
 }

@@ -71,6 +71,8 @@ pub enum Counter {
     Resampled,
     PlainLeft,
     MaskedLeft,
+    /// Cells with more candidates than loops may have trips.
+    Stalled,
 }
 
 impl Counter {
@@ -394,6 +396,7 @@ mod tests {
             C::Resampled,
             C::PlainLeft,
             C::MaskedLeft,
+            C::Stalled,
         ] {
             let name = format!("COUNTER_{}", shouted(&format!("{counter:?}")));
             assert_eq!(shader_constant(&name), Some(counter as usize), "{name}");

@@ -1,6 +1,6 @@
 //! groups: the groups of cells of a round, where cells are sites.
 
-use super::{Argument, FrameLayout, spirv};
+use super::{Argument, FrameLayout, Sample, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
@@ -11,15 +11,23 @@ pub struct Groups {
 }
 
 impl Groups {
-    /// Makes the pipelines.
+    /// Makes the pipelines for what `sample` takes.
     ///
     /// # Errors
     /// If the driver refuses one.
-    pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
+    pub fn new(layout: &FrameLayout, sample: &Sample) -> Result<Self, VulkanError> {
+        let lanes = layout.gpu.limits().subgroup_size;
         let make = |code, constants| layout.compute(code, &constants, None);
         Ok(Self {
-            pipeline: make(spirv::GROUPS, Constants::new())?,
-            arguments: make(spirv::ARGUMENTS, Constants::new().with(0, 6))?,
+            pipeline: make(
+                spirv::GROUPS,
+                sample
+                    .options()
+                    .cells
+                    .constants(Constants::new())
+                    .with(1, lanes),
+            )?,
+            arguments: make(spirv::ARGUMENTS, sample.subgroups().clone().with(0, 6))?,
         })
     }
 

@@ -31,7 +31,7 @@ impl Resolve {
                     Self::pipeline(
                         layout,
                         list,
-                        sample.block(list),
+                        sample.block(),
                         chained,
                         sample.options().probes()
                             && matches!(list, TileList::Plain | TileList::Masked),

@@ -49,7 +49,7 @@ pub struct SampleOptions {
 pub enum RecordRate {
     /// One.
     Triangle,
-    /// One for each eighth of the block.
+    /// One for each run of 8 to 32 samples, an eighth of those of a cell where that lies between.
     Part,
     /// One for each sample.
     Sample,
@@ -69,42 +69,51 @@ pub struct Sample {
     rest: Vec<(TileList, Arc<Pipeline>)>,
     arguments_of_rest: Arc<Pipeline>,
     options: SampleOptions,
-    plain_block: u32,
-    layered_block: u32,
+    block: u32,
+    subgroups: Constants,
 }
 
-/// Register rows of the kernels for tiles without and with alpha tests or layers, least first.
-const PLAIN: [(u32, &[u8]); 4] = [
-    (1, spirv::SAMPLE_1),
-    (2, spirv::SAMPLE_2),
-    (8, spirv::SAMPLE_8),
-    (32, spirv::SAMPLE_32),
-];
-const MASKED: [(u32, &[u8]); 3] = [
+/// A kernel for each number of register rows that there is, least first.
+type Kernels = [(u32, &'static [u8]); 3];
+
+const KERNELS: Kernels = [
     (1, spirv::SAMPLE_1),
     (2, spirv::SAMPLE_2),
     (8, spirv::SAMPLE_8),
 ];
-const CHAINED: [(u32, &[u8]); 2] = [(1, spirv::SAMPLE_CHAINED_1), (8, spirv::SAMPLE_CHAINED_8)];
-const UNLISTED: [(u32, &[u8]); 2] = [(1, spirv::SAMPLE_UNLISTED_1), (8, spirv::SAMPLE_UNLISTED_8)];
-const CHAINED_UNLISTED: [(u32, &[u8]); 2] = [
+const UNLISTED: Kernels = [
+    (1, spirv::SAMPLE_UNLISTED_1),
+    (2, spirv::SAMPLE_UNLISTED_2),
+    (8, spirv::SAMPLE_UNLISTED_8),
+];
+const CHAINED: Kernels = [
+    (1, spirv::SAMPLE_CHAINED_1),
+    (2, spirv::SAMPLE_CHAINED_2),
+    (8, spirv::SAMPLE_CHAINED_8),
+];
+const CHAINED_UNLISTED: Kernels = [
     (1, spirv::SAMPLE_CHAINED_UNLISTED_1),
+    (2, spirv::SAMPLE_CHAINED_UNLISTED_2),
     (8, spirv::SAMPLE_CHAINED_UNLISTED_8),
 ];
 
-/// The smallest kernel that holds all samples at once, or else the largest.
-fn kernel(kernels: &[(u32, &'static [u8])], rows_needed: u32) -> (u32, &'static [u8]) {
-    kernels
-        .iter()
-        .find(|(rows, _)| *rows >= rows_needed)
-        .or(kernels.last())
-        .copied()
-        .unwrap_or((1, &[]))
+/// Blocks of several cells that a subgroup takes, as in `shaders/sample.comp`.
+const BLOCKS_AT_ONCE: u32 = 4;
+
+/// The smallest kernel of at least as many rows, or else the largest.
+fn kernel(kernels: &Kernels, rows: u32) -> (u32, &'static [u8]) {
+    let [first, second, third] = *kernels;
+    [first, second]
+        .into_iter()
+        .find(|(has, _)| *has >= rows)
+        .unwrap_or(third)
 }
 
 impl Sample {
     /// Samples of the first of two runs; their locations follow those of the cell.
     pub const PROBES: u32 = 64;
+    /// Samples that a block aims at: one has more only where as few as that leave invocations idle.
+    const BLOCK: u32 = 64;
 
     /// Makes the kernels.
     ///
@@ -112,16 +121,8 @@ impl Sample {
     /// If the driver refuses one.
     pub fn new(layout: &FrameLayout, options: &SampleOptions) -> Result<Self, VulkanError> {
         let lanes = layout.gpu.limits().subgroup_size;
-        let rows_needed = options.samples.div_ceil(lanes);
-        let (plain_rows, plain) = kernel(&PLAIN, rows_needed);
-        // One block size serves all tiles with layers, so that headers have one stride.
-        let layered_rows = if rows_needed <= 1 { 1 } else { 8 };
-        let make = |list: TileList, run: Run, code: &'static [u8], mask: bool| {
-            let header_rows = if list == TileList::Plain {
-                plain_rows
-            } else {
-                layered_rows
-            };
+        let (rows, _) = kernel(&KERNELS, options.samples.min(Self::BLOCK).div_ceil(lanes));
+        let make = |list: TileList, run: Run, kernels: &Kernels, mask: bool| {
             let constants = options
                 .cells
                 .constants(Constants::new())
@@ -133,26 +134,19 @@ impl Sample {
                 .with(5, run as u32)
                 .flag(6, options.records == RecordRate::Part)
                 .flag(7, options.measures(list, run))
-                .with(8, header_rows * lanes)
+                .with(8, options.part_samples())
                 .flag(9, options.apart);
+            let code = kernel(kernels, rows).1;
             Ok((list, layout.compute(code, &constants, Some(lanes))?))
         };
         let listed = |run: Run| {
-            let plain = match run {
-                Run::Probe => kernel(&PLAIN, Self::PROBES.div_ceil(lanes)).1,
-                Run::Whole | Run::Rest => plain,
-            };
-            let mut kernels = vec![make(TileList::Plain, run, plain, false)?];
+            let mut kernels = vec![make(TileList::Plain, run, &KERNELS, false)?];
             if options.has_mask {
-                let masked = kernel(&MASKED, layered_rows).1;
-                kernels.push(make(TileList::Masked, run, masked, true)?);
+                kernels.push(make(TileList::Masked, run, &KERNELS, true)?);
             }
             Ok::<_, VulkanError>(kernels)
         };
-        let whole = |list, kernels: &[(u32, &'static [u8])]| {
-            let code = kernel(kernels, layered_rows).1;
-            make(list, Run::Whole, code, options.has_mask)
-        };
+        let whole = |list, kernels| make(list, Run::Whole, kernels, options.has_mask);
         let probes = options.probes();
         let mut kernels = listed(if probes { Run::Probe } else { Run::Whole })?;
         if options.has_blend {
@@ -166,17 +160,34 @@ impl Sample {
         } else {
             Vec::new()
         };
+        let block = rows * lanes;
+        let taking = |samples: u32| {
+            let blocks = samples.div_ceil(block);
+            if options.apart {
+                lanes * blocks
+            } else {
+                blocks.div_ceil(BLOCKS_AT_ONCE)
+            }
+        };
+        let first = if probes {
+            Self::PROBES
+        } else {
+            options.samples
+        };
+        let subgroups = Constants::new()
+            .with(6, taking(first))
+            .with(7, taking(options.samples));
         Ok(Self {
             kernels,
             rest,
             arguments_of_rest: layout.compute(
                 spirv::ARGUMENTS,
-                &Constants::new().with(0, 7),
+                &subgroups.clone().with(0, 7),
                 None,
             )?,
             options: *options,
-            plain_block: plain_rows * lanes,
-            layered_block: layered_rows * lanes,
+            block,
+            subgroups,
         })
     }
 
@@ -186,13 +197,23 @@ impl Sample {
         &self.options
     }
 
-    /// Samples that a header stands for, in tiles of the list.
+    /// Samples of a block: a header stands for that many.
     #[must_use]
-    pub fn block(&self, list: TileList) -> u32 {
-        if list == TileList::Plain {
-            self.plain_block
-        } else {
-            self.layered_block
+    pub fn block(&self) -> u32 {
+        self.block
+    }
+
+    /// The constants of `shaders/schedule.comp` that say how many subgroups take an entry of a list.
+    pub(crate) fn subgroups(&self) -> &Constants {
+        &self.subgroups
+    }
+
+    /// Most records that a block makes of a triangle.
+    #[must_use]
+    pub fn parts(&self) -> u32 {
+        match self.options.records {
+            RecordRate::Part => self.block / self.options.part_samples(),
+            RecordRate::Triangle | RecordRate::Sample => 1,
         }
     }
 
@@ -211,13 +232,11 @@ impl Sample {
         }
         recorder.dispatch(&self.arguments_of_rest, 1);
         for (list, pipeline) in &self.rest {
-            // Cells that are apart go through the whole list again.
-            let argument = if self.options.apart {
-                list.argument()
-            } else {
-                Argument::PlainLeft as u32 + *list as u32
-            };
-            recorder.dispatch_indirect(pipeline, arguments, argument);
+            recorder.dispatch_indirect(
+                pipeline,
+                arguments,
+                Argument::PlainLeft as u32 + *list as u32,
+            );
         }
     }
 }
@@ -232,6 +251,11 @@ impl SampleOptions {
         };
         let listed = matches!(list, TileList::Plain | TileList::Masked);
         self.exact_areas && self.records != RecordRate::Sample && at_once && listed
+    }
+
+    /// Samples of a part, where records are made by part.
+    fn part_samples(&self) -> u32 {
+        (self.samples / 8).next_power_of_two().clamp(8, 32)
     }
 
     /// Whether a first run of few samples finds the cells that need no more.

@@ -1,7 +1,7 @@
 //! schedule: which tiles' lists are placed in a round.
 
-use super::{FrameLayout, RecordRate, Sample, TileList, spirv};
-use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
+use super::{FrameLayout, RecordRate, Sample, spirv};
+use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
 /// Places as many lists as fit.
@@ -21,15 +21,13 @@ impl Schedule {
         let constants = sample
             .options()
             .cells
-            .constants(Constants::new())
+            .constants(sample.subgroups().clone())
             .with(0, lanes)
             .with(1, lanes)
-            .with(7, sample.block(TileList::Plain))
-            .with(2, sample.block(TileList::Masked))
+            .with(2, sample.block())
             .flag(3, records == RecordRate::Sample)
             .with(4, layers)
-            .with(5, if records == RecordRate::Part { 8 } else { 1 })
-            .flag(6, sample.options().apart);
+            .with(5, sample.parts());
         let pipeline = layout.compute(spirv::SCHEDULE, &constants, Some(lanes))?;
         Ok(Self { pipeline })
     }

@@ -3,7 +3,7 @@
 use super::engine::{Engine, EngineKind, record_shading};
 use super::plan::{Effort, Plan, Region};
 use super::renderer::PreparedScene;
-use super::statistics::unfinished;
+use super::statistics::Shortfall;
 use super::{Detection, Footprint, Method, PassTime, Reference, RenderError, Settings, Statistics};
 use crate::camera::{Camera, Projection};
 use crate::passes::{
@@ -254,6 +254,34 @@ impl Frame {
         self.plan.effort
     }
 
+    /// What the last frame could not finish.
+    pub(super) fn shortfall(&self) -> Shortfall {
+        let mut shortfall = Shortfall::default();
+        for (tiles, blended, superpixels) in self.counted() {
+            if self.blended.is_some() {
+                shortfall.add(blended, tiles);
+            }
+            if self.superpixels.is_some() {
+                shortfall.add(superpixels, tiles);
+            }
+        }
+        shortfall
+    }
+
+    /// Tiles of each region, and what the last frame counted over them for BLEND pixels and for superpixels.
+    fn counted(&self) -> impl Iterator<Item = (u32, &[u32], &[u32])> {
+        let words: &[u32] = bytemuck::try_cast_slice(self.counters.bytes()).unwrap_or(&[]);
+        self.plan
+            .regions
+            .iter()
+            .zip(words.chunks_exact(2 * Counter::COUNT))
+            .map(|(region, runs)| {
+                let [width, height] = region.outer().map(|side| side * self.settings.side());
+                let (blended, superpixels) = runs.split_at(Counter::COUNT);
+                (width.div_ceil(8) * height.div_ceil(4), blended, superpixels)
+            })
+    }
+
     /// Whether [`Effort::with_doubled_lists`] makes any difference.
     pub(super) fn lists_can_grow(&self) -> bool {
         self.plan.lists_can_grow && self.settings.max_memory.is_none()
@@ -328,28 +356,12 @@ impl Frame {
             ..Statistics::default()
         };
         statistics.triangles.total = u64::from(scene.triangle_count());
-        let words: &[u32] = bytemuck::try_cast_slice(self.counters.bytes()).unwrap_or(&[]);
-        let mut left = 0;
-        for (region, runs) in self
-            .plan
-            .regions
-            .iter()
-            .zip(words.chunks_exact(2 * Counter::COUNT))
-        {
-            let [width, height] = region.outer().map(|side| side * self.settings.side());
-            let tiles = width.div_ceil(8) * height.div_ceil(4);
-            let (blended, superpixels) = runs.split_at(Counter::COUNT);
-            if self.blended.is_some() {
-                left += unfinished(blended, tiles);
-            }
+        self.shortfall().check()?;
+        for (tiles, _, superpixels) in self.counted() {
             if self.superpixels.is_some() {
                 statistics.tiles += u64::from(tiles);
                 statistics.add(superpixels);
-                left += unfinished(superpixels, tiles);
             }
-        }
-        if left > 0 {
-            return Err(RenderError::Unfinished { cells: left });
         }
         if !self.has_blend {
             statistics.skipped_passes.push("blend");

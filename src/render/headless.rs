@@ -169,8 +169,9 @@ impl Headless {
         for _ in 0..RETRIES {
             match self.render_once(scene, frame, camera) {
                 Err(RenderError::Unfinished { cells }) => {
-                    log::debug!("{cells} cells did not fit; doubling rounds, layers and lists");
-                    self.prepare_again(scene, frame, frame.effort().doubled())?;
+                    let shortfall = frame.shortfall();
+                    log::debug!("{cells} cells or tiles are left: {shortfall:?}");
+                    self.prepare_again(scene, frame, frame.effort().more(shortfall))?;
                 }
                 Ok(image) => {
                     // Tiles without a list made the image all the same, but slowly.

@@ -1,5 +1,6 @@
 //! How an image is worked through in parts: each region fits the device's limits and the memory allowed.
 
+use super::statistics::Shortfall;
 use super::{Method, RenderError, Settings, Shading};
 use crate::passes::{Encoding, GpuScene, ResourceSizes};
 use crate::vulkan::Limits;
@@ -67,14 +68,21 @@ impl Effort {
         }
     }
 
-    /// Twice as much of everything.
-    pub fn doubled(self) -> Self {
+    /// Twice as much of what a frame lacked.
+    pub fn more(self, shortfall: Shortfall) -> Self {
+        let factor = |lacked: bool| if lacked { 2 } else { 1 };
+        let crowded = shortfall.crowded > 0;
         Self {
-            rounds: self.rounds * 2,
-            layers: self.layers * 2,
-            lists: self.lists * 2,
-            apart: true,
+            rounds: self.rounds * factor(crowded || shortfall.waiting > 0),
+            layers: self.layers * factor(crowded),
+            lists: self.lists * factor(crowded || shortfall.stalled > 0),
+            apart: self.apart || shortfall.stalled > 0,
         }
+    }
+
+    /// Rounds to record for cells of that many samples, which reserve more room for records than they need.
+    pub fn rounds_for(self, samples: u32) -> u32 {
+        self.rounds * samples.div_ceil(192)
     }
 }
 
@@ -224,7 +232,7 @@ impl Plan {
         Self {
             regions,
             sizes,
-            rounds: effort.rounds,
+            rounds: effort.rounds_for(settings.samples),
             layers: effort.layers,
             effort,
             lists_can_grow: u64::from(sizes.pair_capacity)

@@ -114,7 +114,8 @@ impl Renderer {
         self.prepare_with(scene, settings, encoding, Effort::default())
     }
 
-    /// Makes a frame like another one that ended as [`RenderError::Unfinished`], with twice the memory and effort.
+    /// Makes a frame like another one that ended as [`RenderError::Unfinished`], with more of what it lacked: rounds, memory for
+    /// candidates and layers, or subgroups.
     ///
     /// # Errors
     /// As for [`Self::prepare`].
@@ -124,7 +125,12 @@ impl Renderer {
         frame: &Frame,
         encoding: Option<Encoding>,
     ) -> Result<Frame, RenderError> {
-        self.prepare_with(scene, frame.settings(), encoding, frame.effort().doubled())
+        self.prepare_with(
+            scene,
+            frame.settings(),
+            encoding,
+            frame.effort().more(frame.shortfall()),
+        )
     }
 
     pub(super) fn prepare_with(

@@ -1,5 +1,6 @@
 //! What a frame did, and what it left undone because the scene did not need it.
 
+use super::RenderError;
 use crate::passes::Counter;
 use serde::Serialize;
 
@@ -116,13 +117,33 @@ impl Statistics {
     }
 }
 
-/// Tiles and superpixels that a run of the sampling passes could not finish.
-pub(super) fn unfinished(counters: &[u32], tiles: u32) -> u64 {
-    let get = |counter: Counter| counters.get(counter as usize).copied().unwrap_or(0);
-    let waiting = if get(Counter::Tiles) == 0 {
-        0
-    } else {
-        tiles.saturating_sub(get(Counter::NextTile))
-    };
-    u64::from(waiting) + u64::from(get(Counter::Unfinished))
+/// What the sampling passes could not finish, by what they lacked.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Shortfall {
+    /// Tiles that no round took.
+    pub waiting: u64,
+    /// Cells whose records found no room in their round.
+    pub crowded: u64,
+    /// Cells with more candidates than loops may have trips.
+    pub stalled: u64,
+}
+
+impl Shortfall {
+    /// Adds a run of the sampling passes over `tiles` tiles.
+    pub fn add(&mut self, counters: &[u32], tiles: u32) {
+        let get = |counter: Counter| counters.get(counter as usize).copied().unwrap_or(0);
+        if get(Counter::Tiles) != 0 {
+            self.waiting += u64::from(tiles.saturating_sub(get(Counter::NextTile)));
+        }
+        self.crowded += u64::from(get(Counter::Unfinished));
+        self.stalled += u64::from(get(Counter::Stalled));
+    }
+
+    /// Fails where anything is left.
+    pub fn check(&self) -> Result<(), RenderError> {
+        match self.waiting + self.crowded + self.stalled {
+            0 => Ok(()),
+            cells => Err(RenderError::Unfinished { cells }),
+        }
+    }
 }

@@ -9,8 +9,9 @@ use crate::passes::{
     Setup, Shade, ShadeSource, SiteData, Sort, Transform,
 };
 use crate::render::engine::{record_rate, record_shading};
+use crate::render::plan::Effort;
 use crate::render::renderer::PreparedScene;
-use crate::render::statistics::unfinished;
+use crate::render::statistics::Shortfall;
 use crate::render::{Coverage, PassTime, Reference, RenderError, Settings, Statistics};
 use crate::sampling::Pattern;
 use crate::vulkan::{Buffer, Constants, Memory, MemoryUse, Recorder, Timings, VulkanError};
@@ -20,8 +21,6 @@ use std::sync::Arc;
 
 /// Sites of a cell that are sampled once each, at the least; a subgroup may hold more.
 const POINTS_IN_CELL: u32 = 16;
-/// Rounds of lists and records recorded for a run.
-const ROUNDS: u32 = 3;
 /// BLEND layers a sample that tiles are admitted with.
 const LAYERS: u32 = 4;
 /// Bytes of the counters of a run.
@@ -36,6 +35,8 @@ enum Finish {
 /// Pipelines and memory to sample runs of sites of one scene.
 pub(super) struct SiteEngine {
     settings: Settings,
+    /// Rounds of lists and records recorded for a run.
+    rounds: u32,
     transform: Transform,
     cull: Cull,
     bin: Bin,
@@ -86,6 +87,7 @@ impl SiteEngine {
         );
         let points = cells == Cells::Points;
         let CellSizes { in_cell, .. } = cell_sizes(layout, cells, settings.samples);
+        let rounds = Effort::default().rounds_for(if points { 1 } else { settings.samples });
         let options = SampleOptions {
             cells,
             samples: if points {
@@ -145,7 +147,7 @@ impl SiteEngine {
             cull: Cull::new(layout)?,
             bin: Bin::new(layout)?,
             schedule: Schedule::new(layout, &sample, LAYERS)?,
-            groups: Groups::new(layout)?,
+            groups: Groups::new(layout, &sample)?,
             setup: Setup::new(layout)?,
             sort: Sort::new(layout, scene.bin_count() == 1)?,
             shade: Shade::new(layout, scene, ShadeSource::Records(cells), &output)?,
@@ -159,7 +161,8 @@ impl SiteEngine {
                 vk::BufferUsageFlags::TRANSFER_DST,
                 MemoryUse::Readback,
             )?,
-            timings: Timings::new(&gpu, 16 + 8 * ROUNDS)?,
+            rounds,
+            timings: Timings::new(&gpu, 16 + 8 * rounds)?,
             memory,
             uploaded: false,
         })
@@ -221,7 +224,7 @@ impl SiteEngine {
             recorder.clear(&resources.marks);
             recorder.barrier();
         }
-        for _ in 0..ROUNDS {
+        for _ in 0..self.rounds {
             self.schedule.record(recorder);
             self.groups.record(recorder, arguments);
             recorder.mark("schedule");
@@ -267,10 +270,9 @@ impl SiteEngine {
     ) -> Result<(), RenderError> {
         let counters: &[u32] = bytemuck::try_cast_slice(self.counters.bytes()).unwrap_or(&[]);
         let tiles = window.tiles[0] * window.tiles[1];
-        let left = unfinished(counters, tiles);
-        if left > 0 {
-            return Err(RenderError::Unfinished { cells: left });
-        }
+        let mut shortfall = Shortfall::default();
+        shortfall.add(counters, tiles);
+        shortfall.check()?;
         total.add(counters);
         total.tiles += u64::from(tiles);
         total.regions += 1;
