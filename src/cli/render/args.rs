@@ -1,6 +1,7 @@
 //! The options of `gpc render`.
 
 use super::image::ImageArgs;
+use crate::cli::report::ReportArgs;
 use crate::cli::values;
 use clap::{Args, ValueEnum};
 use glam::DVec3;
@@ -34,12 +35,8 @@ pub struct RenderArgs {
     /// Render once to warm up and then R times, and report medians
     #[arg(long, value_name = "R", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Report")]
     pub repeat: Option<u32>,
-    /// Print one JSON object: figures of the image, or `images`, a list of them, for a sequence
-    #[arg(long, help_heading = "Report")]
-    pub json: bool,
-    /// Say nothing but errors
-    #[arg(long, help_heading = "Report")]
-    pub quiet: bool,
+    #[command(flatten)]
+    pub report: ReportArgs,
 }
 
 /// How edges are antialiased.

@@ -2,6 +2,7 @@
 
 use crate::cli::exit::Usage;
 use crate::cli::render::ImageArgs;
+use crate::cli::report::ReportArgs;
 use crate::cli::values;
 use clap::{Args, ValueEnum};
 use gpc::camera::zoom::{Shape, Transition, ZoomMap, ZoomRegion};
@@ -32,6 +33,8 @@ pub struct ZoomArgs {
     pub regions: RegionArgs,
     #[command(flatten)]
     pub image: ImageArgs,
+    #[command(flatten)]
+    pub report: ReportArgs,
 }
 
 /// Which regions are enlarged, and how.
