@@ -85,7 +85,7 @@ pub fn run(args: &PanoramaArgs) -> anyhow::Result<ExitCode> {
         statistics: rendered.statistics,
     };
     log::info!(
-        "{}: {}x{}, {} pinholes, {} superpixels",
+        "{}: {}x{}, pinholes in use: {}, {} superpixels",
         args.output.display(),
         rendered.size[0],
         rendered.size[1],

@@ -2,7 +2,7 @@
 
 use super::exit::{Usage, usage};
 use super::report::ReportArgs;
-use super::zoom::{KEYWORD, Record};
+use super::zoom::{KEYWORD, Record, check_window};
 use super::{compare as text, input, print};
 use anyhow::Context;
 use clap::Args;
@@ -143,10 +143,12 @@ fn window(args: &UnzoomArgs, record: &Record) -> Result<Window, Usage> {
     }
     let Some(region) = record.regions.get(args.region) else {
         return Err(Usage(format!(
-            "--region {}: the image has {} regions, counted from 0",
+            "--region {}: regions are counted from 0, and the image has {}",
             args.region,
             record.regions.len()
         )));
     };
-    Ok(region.window())
+    let window = region.window();
+    check_window(args.region, &window)?;
+    Ok(window)
 }

@@ -46,9 +46,9 @@ pub fn read(args: &ProjectArgs) -> anyhow::Result<Vec<Calibrated>> {
             })?;
             let read = match path.extension() {
                 Some(ending) if ending.eq_ignore_ascii_case("exr") => dense(&bytes, &name),
-                _ => planar(args, &bytes, size, path),
+                _ => planar(args, &bytes, size, path).with_context(|| name),
             };
-            read.with_context(|| name)
+            read
         })
         .collect()
 }
@@ -62,7 +62,7 @@ fn dense(bytes: &[u8], name: &str) -> anyhow::Result<Calibrated> {
     };
     let locations = pixels.into_iter().map(location).collect();
     Ok(Calibrated {
-        projector: Projector::dense(size, locations)?,
+        projector: Projector::dense(size, locations).with_context(|| name.to_owned())?,
         fit: None,
     })
 }

@@ -7,6 +7,7 @@ use super::render::{self, ImageArgs, Shot};
 use super::report::{Figures, ReportArgs};
 use super::stage::Stage;
 use super::{input, values};
+use anyhow::Context;
 use calibration::Fit;
 use clap::Args;
 use gpc::camera::projector::{Projector, blend_weights};
@@ -39,7 +40,7 @@ pub struct ProjectArgs {
     projector_size: Vec<[u32; 2]>,
     /// Correspondences that are further than this from the homography of the others, in pixels of the picture, do not
     /// count
-    #[arg(long, value_name = "PX", default_value_t = 2.0, value_parser = values::positive)]
+    #[arg(long, value_name = "PX", default_value_t = 2.0, allow_negative_numbers = true, value_parser = values::positive)]
     tolerance: f64,
     /// Chooses the random fits to correspondences; the same seed gives the same frames
     #[arg(long, value_name = "N", default_value_t = 1)]
@@ -98,6 +99,9 @@ pub fn run(args: &ProjectArgs) -> anyhow::Result<ExitCode> {
     if count > 1 && (input::is_standard(&args.output) || !name.contains(FIELD)) {
         usage!("-o {name}: add {FIELD} to it, for there are {count} projectors");
     }
+    if name.replace(FIELD, "").contains(['{', '}']) {
+        usage!("-o {name}: {FIELD} is all that it can hold in braces");
+    }
     let (projectors, fits): (Vec<_>, Vec<_>) = calibration::read(args)?
         .into_iter()
         .map(|calibrated| (calibrated.projector, calibrated.fit))
@@ -108,7 +112,7 @@ pub fn run(args: &ProjectArgs) -> anyhow::Result<ExitCode> {
     let mut frames = Vec::new();
     for (index, (projector, weights)) in projectors.iter().zip(&weights).enumerate() {
         let size = projector.size();
-        let shot = shoot(&mut stage, projector)?;
+        let shot = shoot(&mut stage, projector).with_context(|| format!("projector {index}"))?;
         let colors = dim(&shot.rendered.colors, weights);
         let path = PathBuf::from(name.replace(FIELD, &index.to_string()));
         let picture = Picture::new(size, &colors)?;

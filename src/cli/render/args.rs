@@ -104,7 +104,7 @@ pub struct CameraArgs {
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector, requires = "eye")]
     pub up: Option<DVec3>,
     /// Vertical field of view in degrees [default: the camera's, or else 40]
-    #[arg(long, value_name = "DEG", value_parser = values::field_of_view)]
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = values::field_of_view)]
     pub fov: Option<f64>,
     /// See the whole scene from this angle around it; 0 looks along -z, 90 along -x [default: 35]
     #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = values::finite)]

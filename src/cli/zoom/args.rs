@@ -45,7 +45,7 @@ pub struct RegionArgs {
     #[arg(long, value_name = "X,Y", required = true, allow_hyphen_values = true, value_parser = values::place)]
     center: Vec<[f64; 2]>,
     /// Its radius, or radii along x and y: half sides of a rectangle
-    #[arg(long, value_name = "R|RX,RY", required = true, value_parser = values::radii)]
+    #[arg(long, value_name = "R|RX,RY", required = true, allow_hyphen_values = true, value_parser = values::radii)]
     radius: Vec<[f64; 2]>,
     /// Its multiplicity, above 0 and at most 1: the region is enlarged by one over it
     #[arg(long, value_name = "M", required = true, allow_negative_numbers = true, value_parser = values::finite)]

@@ -7,13 +7,13 @@ mod steps;
 pub use args::ZoomArgs;
 pub use record::{KEYWORD, Record};
 
-use super::exit::usage;
+use super::exit::{Usage, usage};
 use super::render::Shot;
 use super::report::Figures;
 use super::stage::Stage;
 use super::{input, render};
-use gpc::camera::set::{SamplingSet, SetStatistics};
-use gpc::camera::zoom::{ZoomMap, ZoomRegion};
+use gpc::camera::set::{MOST_CELLS, SamplingSet, SetStatistics};
+use gpc::camera::zoom::{Window, ZoomMap, ZoomRegion};
 use gpc::camera::{LocationMap, Pinhole};
 use gpc::output::{self, Format, Picture};
 use gpc::render::{Rendered, Statistics};
@@ -86,6 +86,17 @@ pub fn run(args: &ZoomArgs) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// Refuses the ordinary image of a region that is too large for one.
+pub fn check_window(index: usize, window: &Window) -> Result<(), Usage> {
+    let [width, height] = window.size;
+    if u64::from(width) * u64::from(height) <= MOST_CELLS {
+        return Ok(());
+    }
+    Err(Usage(format!(
+        "region {index} would be an ordinary image of {width} x {height} pixels; at most {MOST_CELLS} are possible"
+    )))
+}
+
 /// Whether a file starts like a PNG or a JPEG. What can't be read is left to the loader of scenes to complain about.
 fn is_picture(path: &Path) -> bool {
     let mut start = [0; 3];
@@ -133,6 +144,11 @@ fn photograph(args: &ZoomArgs, map: &ZoomMap) -> anyhow::Result<Zoomed> {
 /// Samples a scene where the pixels look.
 fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<Zoomed> {
     let size = args.image.size;
+    if args.steps {
+        for (index, region) in map.regions().iter().enumerate() {
+            check_window(index, &region.window())?;
+        }
+    }
     let mut stage = Stage::open(&args.input, &args.image, args.image.settings(format))?;
     let pinhole = stage.pinhole()?;
     let set = SamplingSet::mapped(size, map)?;
@@ -145,12 +161,12 @@ fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<Zoome
     let figures = stage.figures(&args.output, size, stage.effort(&shot), about);
     let result = shot.rendered;
     log::info!(
-        "{}: {}x{}, {:.2} to {:.2} samples for a pixel of the plane, {} superpixels",
+        "{}: {}x{}, {} to {} samples for a pixel of the plane, {} superpixels",
         args.output.display(),
         size[0],
         size[1],
-        statistics.lowest_rate.unwrap_or(1.0),
-        statistics.highest_rate.unwrap_or(1.0),
+        rate(statistics.lowest_rate),
+        rate(statistics.highest_rate),
         result.statistics.superpixels
     );
     let mut steps = Vec::new();
@@ -177,6 +193,14 @@ fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<Zoome
         steps,
         figures: Report::Scene(Box::new(figures)),
     })
+}
+
+/// A rate for people; images of one row or column have none of their own.
+fn rate(rate: Option<f64>) -> String {
+    match rate.unwrap_or(1.0) {
+        rate if rate < 1e6 => format!("{rate:.2}"),
+        rate => format!("{rate:.1e}"),
+    }
 }
 
 fn render_set(stage: &mut Stage, pinhole: Pinhole, set: &SamplingSet) -> anyhow::Result<Shot> {
