@@ -22,7 +22,7 @@ pub(super) enum Work {
     /// One sample at each site of each pinhole.
     Points(Vec<(Pinhole, Vec<Site>)>, Box<Settings>),
     /// An image at two rates.
-    TwoRates([(Pinhole, Vec<Site>); 1], Box<Settings>),
+    TwoRates(Vec<(Pinhole, Vec<Site>)>, Box<Settings>),
 }
 
 /// What a run did.
@@ -55,7 +55,7 @@ impl Work {
             Variant::Superpixel => {
                 let settings = with(Method::Superpixel, Settings::DEFAULT_SAMPLES);
                 let sites = SamplingSet::planar(size)?.sites();
-                return Ok(Self::TwoRates([(pinhole, sites)], Box::new(settings)));
+                return Ok(Self::TwoRates(vec![(pinhole, sites)], Box::new(settings)));
             }
             Variant::Planar => points(SamplingSet::planar(size)?),
             Variant::Offset => points(SamplingSet::mapped(size, &zoom(size)?)?),

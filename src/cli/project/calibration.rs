@@ -44,11 +44,10 @@ pub fn read(args: &ProjectArgs) -> anyhow::Result<Vec<Calibrated>> {
                 path: path.clone(),
                 source,
             })?;
-            let read = match path.extension() {
+            match path.extension() {
                 Some(ending) if ending.eq_ignore_ascii_case("exr") => dense(&bytes, &name),
                 _ => planar(args, &bytes, size, path).with_context(|| name),
-            };
-            read
+            }
         })
         .collect()
 }
