@@ -7,6 +7,7 @@ pub mod camera;
 pub mod compare;
 pub mod output;
 pub mod passes;
+mod random;
 pub mod reference;
 pub mod render;
 pub mod resample;

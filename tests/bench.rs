@@ -5,8 +5,8 @@ mod cli_support;
 
 use cli_support::{asset, files, gpc};
 use glam::DVec2;
-use gpc::bench::{Growth, Looks, Yardstick, brute_force};
-use gpc::camera::{Camera, Orbit};
+use gpc::bench::{Growth, Looks, Variant, VariantContender, VariantError, Yardstick, brute_force};
+use gpc::camera::{Camera, Orbit, Projection};
 use gpc::output::Picture;
 use gpc::render::{
     Footprint, Headless, HeadlessOptions, Method, PreparedScene, RenderError, Settings,
@@ -369,4 +369,90 @@ fn wrong_use_is_told_before_anything_is_measured() {
         .exits(2)
         .says(&["standard input"]);
     assert!(files(folder.path()).is_empty());
+}
+
+#[test]
+fn variants_of_the_camera_are_timed_beside_the_raster_pass() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = asset("letters.glb");
+    let arguments =
+        "--size 64x64 --methods none --reference 256 --repeat 2 --variants --cache cache --out out";
+    let all: Vec<_> = ["bench", &scene]
+        .into_iter()
+        .chain(arguments.split(' '))
+        .collect();
+    let run = gpc(folder.path(), &all).ok();
+    let out = folder.path().join("out");
+    let results = std::fs::read(out.join("results.json")).unwrap();
+    let results: Value = serde_json::from_slice(&results).unwrap();
+    let timed = &results["variants"][0];
+    assert_eq!(timed["name"], "letters");
+    let rows = timed["rows"].as_array().unwrap();
+    let names: Vec<_> = rows
+        .iter()
+        .map(|row| row["variant"].as_str().unwrap())
+        .collect();
+    let expected = Variant::ALL.map(|variant| variant.to_string());
+    assert_eq!(names, expected);
+    let pixels = f64::from(SIZE * SIZE);
+    let raster = &rows[0];
+    for row in rows {
+        let samples = number(row, "/samples");
+        match row["variant"].as_str().unwrap() {
+            // With a column more on both sides, where the panorama goes on.
+            "rig" => assert_eq!(samples, f64::from((SIZE + 2) * SIZE / 2)),
+            "superpixel" => {
+                let more = samples - pixels;
+                assert!(more > 0.0 && more % 64.0 == 0.0, "{row}");
+            }
+            _ => assert_eq!(samples, pixels),
+        }
+        for clock in ["gpu", "wall"] {
+            let of = |row: &Value, what: &str| number(row, &format!("/{clock}_{what}"));
+            assert_eq!(of(row, "ms/count"), 2.0);
+            assert!(
+                0.0 < of(row, "ms/min") && of(row, "ms/min") <= of(row, "ms/median"),
+                "{row}"
+            );
+            let each = 1e6 * of(row, "ms/median") / samples;
+            assert!((of(row, "ns") / each - 1.0).abs() < 1e-12, "{row}");
+            assert!(
+                (of(row, "ratio") / (each / of(raster, "ns")) - 1.0).abs() < 1e-12,
+                "{row}"
+            );
+        }
+    }
+    let csv = std::fs::read_to_string(out.join("variants.csv")).unwrap();
+    let columns: Vec<_> = csv.lines().map(|line| line.split(',').count()).collect();
+    assert_eq!(columns, vec![15; rows.len() + 1]);
+    let page = std::fs::read_to_string(out.join("report.html")).unwrap();
+    let printed = String::from_utf8(run.stdout).unwrap();
+    for variant in Variant::ALL {
+        assert!(
+            page.contains(variant.about()) && printed.contains(&variant.to_string()),
+            "{variant}"
+        );
+    }
+}
+
+/// An orthographic camera has no panorama; the rest is timed all the same.
+#[test]
+fn a_variant_that_a_camera_can_not_have_says_why() {
+    let (mut headless, scene, camera) = stage("letters.glb");
+    let camera = Camera {
+        projection: Projection::Orthographic {
+            half_height: 1.0,
+            near: 0.0,
+            far: 100.0,
+        },
+        ..camera
+    };
+    let settings = settings(Method::None, 1);
+    let mut warm_up =
+        |variant| VariantContender::warm_up(variant, &mut headless, &scene, &camera, &settings);
+    assert!(warm_up(Variant::Planar).is_ok());
+    assert!(matches!(
+        warm_up(Variant::Rig),
+        Err(VariantError::Panorama(_))
+    ));
 }

@@ -277,7 +277,7 @@ fn images_without_a_zoom_can_not_be_unzoomed() {
         &["unzoom", "a.png", "-o", "b.png", "--region", "1"],
     )
     .exits(2)
-    .says(&["--region 1", "1 regions"]);
+    .says(&["--region 1", "image has 1"]);
     // A text that is no zoom, and a zoom that is none.
     let bytes = std::fs::read(&card).unwrap();
     for (text, expected) in [

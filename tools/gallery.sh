@@ -39,5 +39,7 @@ for projection in equirectangular cylindrical fisheye cubemap; do
 done
 
 # Projectors: two with keystone, from correspondences.
-gpc project assets/fence.glb -o "$out/projector-{projector}.png" --size 480x300 --background '#a8c0d8' \
-    --projector $out/left.csv --projector $out/right.csv --projector-size 320x240
+gpc project assets/fence.glb -o "$work/projector-{projector}.png" --size 480x300 --background '#a8c0d8' \
+    --projector $out/left.csv --projector $out/right.csv --projector-size 320x240 \
+    --weights --wall $out/wall.png
+cp "$work/projector-0.png" "$work/projector-0.weights.png" "$work/projector-1.png" $out

@@ -2,7 +2,7 @@
 //!
 //! [`brute_force`] renders the reference, which a [`Cache`] keeps on disk; [`Yardstick`] holds images against it;
 //! [`take_turns`] times several [`Contender`]s in one run, each in its turn, so that a machine that slows down slows all
-//! of them down.
+//! of them down. A [`VariantContender`] does so for the sampling sets of the camera's variants.
 
 mod accuracy;
 mod cache;
@@ -12,7 +12,9 @@ mod reference;
 mod spread;
 pub mod stress;
 mod timing;
+mod variants;
 
+pub use crate::random::Random;
 pub use accuracy::{Accuracy, Yardstick};
 pub use cache::{Cache, Fingerprint};
 pub use causes::{Cause, LOOKS, Looks, Split};
@@ -20,3 +22,4 @@ pub use growth::{Growth, Step};
 pub use reference::{GRID_SAMPLES, MAX_REFERENCE_SAMPLES, brute_force};
 pub use spread::Spread;
 pub use timing::{Contender, Cost, PassCost, take_turns};
+pub use variants::{Variant, VariantContender, VariantCost, VariantError};

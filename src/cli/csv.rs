@@ -3,17 +3,21 @@
 /// Reads a header, one of those known, and a line of as many numbers for each row. Returns the number of columns, which
 /// tells the headers apart, and the numbers row by row.
 pub fn numbers(bytes: &[u8], headers: &[&[&str]]) -> Result<(usize, Vec<f64>), String> {
-    let text = std::str::from_utf8(bytes).map_err(|_| "it is not UTF-8".to_owned())?;
+    let text = std::str::from_utf8(bytes)
+        .map_err(|_| "it is no text in UTF-8, as a CSV must be".to_owned())?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut lines = text.lines().enumerate();
     let header = lines.next().map_or("", |(_, line)| line);
     let names: Vec<_> = header.split(',').map(str::trim).collect();
     if !headers.contains(&names.as_slice()) {
         let known: Vec<_> = headers.iter().map(|header| header.join(",")).collect();
+        let known = known.join(" or ");
+        if text.trim().is_empty() {
+            return Err(format!("it is empty; its first line must be {known}"));
+        }
         return Err(format!(
-            "its first line is \"{}\"; it must be {}",
+            "its first line is \"{}\"; it must be {known}",
             header.chars().take(40).collect::<String>(),
-            known.join(" or ")
         ));
     }
     let mut numbers = Vec::new();

@@ -11,6 +11,7 @@ mod panorama;
 mod print;
 mod project;
 mod render;
+mod report;
 mod sample;
 mod stage;
 mod unzoom;
@@ -66,12 +67,27 @@ enum Command {
     Devices(devices::DevicesArgs),
 }
 
+impl Command {
+    /// Whether nothing but errors is said.
+    fn is_quiet(&self) -> bool {
+        let report = match self {
+            Self::Render(args) => &args.report,
+            Self::Zoom(args) => &args.report,
+            Self::Unzoom(args) => &args.report,
+            Self::Sample(args) => &args.report,
+            Self::Panorama(args) => &args.report,
+            Self::Project(args) => &args.report,
+            Self::Compare(_) | Self::Info(_) | Self::Bench(_) | Self::Devices(_) => return false,
+        };
+        report.quiet
+    }
+}
+
 /// Runs the command that the process was started with.
 pub fn run() -> ExitCode {
     // Wrong usage ends here with exit code 2.
     let command = Cli::parse().command;
-    let quiet = matches!(&command, Command::Render(args) if args.quiet);
-    start_log(quiet);
+    start_log(command.is_quiet());
     let done = match command {
         Command::Render(args) => render::run(&args),
         Command::Zoom(args) => zoom::run(&args),

@@ -2,10 +2,12 @@
 
 use super::exit::Usage;
 use super::render::{self, ImageArgs};
+use super::report::ReportArgs;
 use super::stage::Stage;
 use clap::{Args, ValueEnum};
 use gpc::camera::panorama::{Panorama, PanoramaError, PanoramaProjection};
 use gpc::render::{PixelAttributes, Rendered};
+use serde::Serialize;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -34,6 +36,15 @@ pub struct PanoramaArgs {
 
     #[command(flatten)]
     image: ImageArgs,
+    #[command(flatten)]
+    pub report: ReportArgs,
+}
+
+/// What `--json` says of a panorama beside what is said of every image.
+#[derive(Serialize)]
+struct Around {
+    /// Pinholes that were sampled.
+    pinholes: usize,
 }
 
 /// Values of `--projection`.
@@ -46,6 +57,7 @@ enum Layout {
 }
 
 pub fn run(args: &PanoramaArgs) -> anyhow::Result<ExitCode> {
+    args.report.check(&args.output)?;
     let format = args.image.format(&args.output)?;
     let (projection, widest) = match args.projection {
         Layout::Equirectangular => (PanoramaProjection::Equirectangular, 360.0),
@@ -60,8 +72,10 @@ pub fn run(args: &PanoramaArgs) -> anyhow::Result<ExitCode> {
     let panorama = Panorama::new(projection, fov, image.size).map_err(refuse)?;
     let mut stage = Stage::open(&args.scene, &image, image.settings(format))?;
     let sites = panorama.sites(&stage.camera).map_err(refuse)?;
-    let rendered = stage.render(sites.size(), sites.rig())?;
+    let shot = stage.render(sites.size(), sites.rig())?;
     stage.finish()?;
+    let effort = stage.effort(&shot);
+    let rendered = shot.rendered;
     let background = stage.settings.background;
     let empty = background.map_or([0.0; 4], |[r, g, b]| [r, g, b, 1.0]);
     let rendered = Rendered {
@@ -71,7 +85,7 @@ pub fn run(args: &PanoramaArgs) -> anyhow::Result<ExitCode> {
         statistics: rendered.statistics,
     };
     log::info!(
-        "{}: {}x{}, {} pinholes, {} superpixels",
+        "{}: {}x{}, pinholes in use: {}, {} superpixels",
         args.output.display(),
         rendered.size[0],
         rendered.size[1],
@@ -79,5 +93,10 @@ pub fn run(args: &PanoramaArgs) -> anyhow::Result<ExitCode> {
         rendered.statistics.superpixels
     );
     render::save(&args.output, format, &rendered, &image.aovs())?;
+    let around = Around {
+        pinholes: sites.rig().len(),
+    };
+    let figures = stage.figures(&args.output, rendered.size, effort, around);
+    args.report.print(&figures)?;
     Ok(ExitCode::SUCCESS)
 }

@@ -2,10 +2,13 @@
 
 use super::exit::usage;
 use super::input;
-use super::render::{self, ImageArgs};
+use super::render::{self, ImageArgs, Shot};
+use super::report::{Device, Effort, Figures, Work};
 use gpc::camera::{Camera, Pinhole, Site};
-use gpc::render::{Headless, PreparedScene, Rendered, Settings};
+use gpc::render::{Headless, PreparedScene, Settings};
+use serde::Serialize;
 use std::path::Path;
+use std::time::Instant;
 
 /// What is sampled, from where, and with which settings.
 pub struct Stage {
@@ -13,6 +16,8 @@ pub struct Stage {
     pub scene: PreparedScene,
     pub camera: Camera,
     pub settings: Settings,
+    /// What could not be shown of the scene.
+    warnings: Vec<String>,
 }
 
 impl Stage {
@@ -20,7 +25,13 @@ impl Stage {
     pub fn open(path: &Path, image: &ImageArgs, settings: Settings) -> anyhow::Result<Self> {
         let loaded = input::load(path)?;
         let pose = image.pose(&loaded, image.camera.time)?;
-        for warning in loaded.warnings.iter().chain(&pose.warnings) {
+        let warnings: Vec<_> = loaded
+            .warnings
+            .iter()
+            .chain(&pose.warnings)
+            .cloned()
+            .collect();
+        for warning in &warnings {
             log::warn!("{warning}");
         }
         let [width, height] = image.size.map(f64::from);
@@ -35,6 +46,7 @@ impl Stage {
             scene,
             camera: view.camera,
             settings,
+            warnings,
         })
     }
 
@@ -44,14 +56,47 @@ impl Stage {
     }
 
     /// Renders an image of `size` pixels that look where the sites of pinholes say.
-    pub fn render(
-        &mut self,
-        size: [u32; 2],
-        rig: &[(Pinhole, Vec<Site>)],
-    ) -> anyhow::Result<Rendered> {
-        Ok(self
+    pub fn render(&mut self, size: [u32; 2], rig: &[(Pinhole, Vec<Site>)]) -> anyhow::Result<Shot> {
+        let start = Instant::now();
+        let rendered = self
             .headless
-            .render_sites(&self.scene, rig, size, &self.settings)?)
+            .render_sites(&self.scene, rig, size, &self.settings)?;
+        Ok(Shot {
+            passes: vec![rendered.statistics.passes.clone()],
+            wall_ms: vec![1e3 * start.elapsed().as_secs_f64()],
+            rendered,
+        })
+    }
+
+    /// Figures of what was rendered to a file; `more` is what only the command can say.
+    pub fn figures<T: Serialize>(
+        &self,
+        output: &Path,
+        size: [u32; 2],
+        effort: Effort,
+        more: T,
+    ) -> Figures<T> {
+        Figures {
+            output: output.display().to_string(),
+            device: Device::of(&self.headless),
+            size,
+            effort,
+            more,
+            warnings: self.warnings.clone(),
+        }
+    }
+
+    /// What an image took.
+    pub fn effort(&self, shot: &Shot) -> Effort {
+        Effort::new(
+            &self.settings,
+            &Work {
+                statistics: &shot.rendered.statistics,
+                cells: shot.rendered.colors.len() as u64,
+                passes: &shot.passes,
+                wall_ms: &shot.wall_ms,
+            },
+        )
     }
 
     /// Fails if the validation layer was asked, and has said anything.

@@ -1,17 +1,21 @@
 //! `gpc unzoom`.
 
 use super::exit::{Usage, usage};
-use super::zoom::{KEYWORD, Record};
-use super::{compare as report, input, print};
+use super::report::ReportArgs;
+use super::zoom::{KEYWORD, Record, check_window};
+use super::{compare as text, input, print};
 use anyhow::Context;
 use clap::Args;
 use gpc::camera::LocationMap;
-use gpc::camera::zoom::{Window, ZoomMap};
+use gpc::camera::zoom::{Window, ZoomMap, ZoomRegion};
+use gpc::compare::Comparison;
 use gpc::output::{self, DecodedImage, Format, Picture};
 use gpc::resample::Photograph;
 use gpc::{compare, output::OutputError};
+use serde::Serialize;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::time::Instant;
 
 /// Turns an image of gpc zoom back into an ordinary view, without the scene.
 ///
@@ -33,9 +37,30 @@ pub struct UnzoomArgs {
     /// Compare with this image of the same view, and print rmse, psnr, max and flip as gpc compare does
     #[arg(long, value_name = "IMAGE")]
     reference: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub report: ReportArgs,
+}
+
+/// What `--json` says.
+#[derive(Serialize)]
+struct Unzoomed {
+    /// The file.
+    output: String,
+    /// Width and height of the image.
+    size: [u32; 2],
+    /// The regions that the zoomed image holds.
+    regions: Vec<ZoomRegion>,
+    /// Which of them is shown; `null` for all that the image shows.
+    region: Option<usize>,
+    /// Wall-clock milliseconds of resampling.
+    wall_ms: f64,
+    /// How far the image is from that of `--reference`.
+    comparison: Option<Comparison>,
 }
 
 pub fn run(args: &UnzoomArgs) -> anyhow::Result<ExitCode> {
+    args.report.check(&args.output)?;
     let format = if input::is_standard(&args.output) {
         if args.reference.is_some() {
             usage!("-o - and --reference both want standard output");
@@ -53,12 +78,14 @@ pub fn run(args: &UnzoomArgs) -> anyhow::Result<ExitCode> {
     let record = find_record(&bytes, &name, photograph.size())?;
     let map = ZoomMap::new(record.regions.clone()).with_context(|| name.clone())?;
     let window = window(args, &record)?;
+    let start = Instant::now();
     let pixels = photograph.resample(window.size, |place| {
         let place = map.inverse(window.location(place));
         let back = map.jacobian(place).inverse();
         (place, back * window.jacobian(place))
     });
 
+    let wall_ms = 1e3 * start.elapsed().as_secs_f64();
     let picture = Picture::new(window.size, &pixels)?;
     let bytes = output::encode(format, &picture, &[])?;
     if input::is_standard(&args.output) {
@@ -66,13 +93,27 @@ pub fn run(args: &UnzoomArgs) -> anyhow::Result<ExitCode> {
         return Ok(ExitCode::SUCCESS);
     }
     output::write_atomically(&args.output, &bytes)?;
-    if let Some(reference) = &args.reference {
-        let reference = output::read(reference)?;
-        report::print_lines(&compare::compare(
-            &reference,
-            &DecodedImage::from(&picture),
-        )?)?;
+    let comparison = match &args.reference {
+        Some(reference) => {
+            let reference = output::read(reference)?;
+            Some(compare::compare(&reference, &DecodedImage::from(&picture))?)
+        }
+        None => None,
+    };
+    if let Some(comparison) = &comparison
+        && !args.report.json
+        && !args.report.quiet
+    {
+        text::print_lines(comparison)?;
     }
+    args.report.print(&Unzoomed {
+        output: args.output.display().to_string(),
+        size: window.size,
+        region: (!args.whole).then_some(args.region),
+        regions: record.regions,
+        wall_ms,
+        comparison,
+    })?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -102,10 +143,12 @@ fn window(args: &UnzoomArgs, record: &Record) -> Result<Window, Usage> {
     }
     let Some(region) = record.regions.get(args.region) else {
         return Err(Usage(format!(
-            "--region {}: the image has {} regions, counted from 0",
+            "--region {}: regions are counted from 0, and the image has {}",
             args.region,
             record.regions.len()
         )));
     };
-    Ok(region.window())
+    let window = region.window();
+    check_window(args.region, &window)?;
+    Ok(window)
 }

@@ -88,6 +88,17 @@ pub fn encode_rgb(size: [u32; 2], pixels: &[[u8; 3]]) -> Result<Vec<u8>, OutputE
     png(size, pixels.as_flattened(), ExtendedColorType::Rgb8)
 }
 
+/// Encodes shares of 0 to 1 as a PNG in grey, 65,535 for 1; linear, not sRGB.
+///
+/// # Errors
+/// [`OutputError::PixelCount`] if there are not width times height shares, [`OutputError::Encode`] if they can't be held.
+pub fn encode_shares(size: [u32; 2], shares: &[f32]) -> Result<Vec<u8>, OutputError> {
+    check_count(size, shares.len())?;
+    let code = |share: &f32| (share.clamp(0.0, 1.0) * f32::from(u16::MAX)).round() as u16;
+    let codes: Vec<_> = shares.iter().map(code).collect();
+    png(size, bytemuck::cast_slice(&codes), ExtendedColorType::L16)
+}
+
 enum Channels {
     Rgb,
     Rgba,

@@ -24,7 +24,7 @@ mod write;
 
 pub use aov::{Aov, AovKind};
 pub use decode::{DecodedImage, decode, decode_linear, read};
-pub use encode::{encode, encode_aov, encode_rgb};
+pub use encode::{encode, encode_aov, encode_rgb, encode_shares};
 pub use error::{OutputError, UnknownAov, UnknownFormat};
 pub use format::Format;
 pub use text::{add_text, find_text};

@@ -60,9 +60,10 @@ pub enum RenderError {
         /// What is allowed.
         allowed: u64,
     },
-    /// Lists of records outgrew their memory in every round.
+    /// Lists of records outgrew their memory in every round, or lists of triangles what a kernel can walk: one pixel
+    /// shows tens of thousands of them.
     #[error(
-        "the records of {cells} superpixels do not fit in memory, even in parts; give more with --max-memory or ask for fewer samples"
+        "{cells} superpixels have more records than fit in memory, even in parts, or more triangles in them than can be listed; ask for a larger image or fewer samples, or give more memory with --max-memory"
     )]
     Unfinished {
         /// How many superpixels or tiles are left.

@@ -77,7 +77,7 @@ impl Statistics {
     }
 
     /// Adds what other runs over the same scene did.
-    pub(super) fn append(&mut self, other: Self) {
+    pub fn append(&mut self, other: Self) {
         self.superpixels += other.superpixels;
         self.resampled += other.resampled;
         self.tiles += other.tiles;

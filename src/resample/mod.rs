@@ -6,8 +6,11 @@
 //! reconstruction is averaged over what the output pixel covers (the prefilter), lest it aliases.
 
 mod footprint;
+mod wall;
 
-use crate::output::DecodedImage;
+pub use wall::light_on_wall;
+
+use crate::output::{DecodedImage, Picture};
 use crate::reference::srgb;
 use footprint::Footprint;
 use glam::{DMat2, DVec2};
@@ -27,6 +30,15 @@ impl From<&DecodedImage> for Photograph {
         Self {
             size: image.size,
             pixels: image.pixels.par_iter().map(pixel).collect(),
+        }
+    }
+}
+
+impl From<&Picture<'_>> for Photograph {
+    fn from(picture: &Picture<'_>) -> Self {
+        Self {
+            size: picture.size(),
+            pixels: picture.pixels().to_vec(),
         }
     }
 }

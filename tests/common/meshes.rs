@@ -3,5 +3,5 @@
 // Each test program uses some of them.
 #![allow(unused_imports)]
 
-pub use gpc::bench::stress::Random;
+pub use gpc::bench::Random;
 pub use gpc::bench::stress::meshes::*;

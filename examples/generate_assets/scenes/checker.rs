@@ -4,8 +4,8 @@
 use super::glb::{Builder, Placement};
 use super::mesh::Mesh;
 use super::picture;
-use super::random::Random;
 use glam::{DQuat, DVec2, DVec3, dvec2, dvec3};
+use gpc::bench::Random;
 use serde_json::json;
 
 const LIGHT: [u8; 3] = [238, 230, 214];
@@ -135,7 +135,7 @@ fn strip_and_columns(file: &mut Builder) {
 fn mountains(file: &mut Builder) {
     let near = file.paint("near mountains", [92, 122, 118], 0.9);
     let far = file.paint("far mountains", [136, 160, 172], 0.9);
-    let mut random = Random(7);
+    let mut random = Random::new(7);
     for (material, distance, height, steps) in [(near, -312.0, 16.0, 84), (far, -330.0, 30.0, 54)] {
         let mut range = Mesh::default();
         let width = 760.0;

@@ -3,8 +3,8 @@
 
 use super::glb::{Builder, Placement};
 use super::mesh::Mesh;
-use super::random::Random;
 use glam::{DQuat, DVec3, dvec2, dvec3};
+use gpc::bench::Random;
 
 /// Length of one fence panel in metres, and how many stand in a row.
 const PANEL: f64 = 2.0;
@@ -53,7 +53,7 @@ fn ground(file: &mut Builder) {
     lane.cuboid(dvec3(-0.9, -0.5, -300.0), dvec3(0.9, 0.03, 30.0));
     add(file, &lane, gravel);
     let mut hills = Mesh::default();
-    let mut random = Random(11);
+    let mut random = Random::new(11);
     for i in -6..=6 {
         let centre = dvec3(
             f64::from(i) * 38.0,

@@ -3,8 +3,8 @@
 use super::glb::{Builder, Placement};
 use super::mesh::Mesh;
 use super::picture::{coverage, paint};
-use super::random::Random;
 use glam::{DVec3, dvec2, dvec3};
+use gpc::bench::Random;
 use serde_json::json;
 use std::f64::consts::{PI, TAU};
 
@@ -13,7 +13,7 @@ const TEXELS: u32 = 256;
 /// Builds the scene.
 pub fn build() -> Vec<u8> {
     let mut file = Builder::default();
-    let mut random = Random(29);
+    let mut random = Random::new(29);
     ground(&mut file);
     let bark = file.paint("bark", [122, 94, 72], 0.95);
     let mut wood = Mesh::default();

@@ -9,7 +9,6 @@ mod glyphs;
 mod letters;
 mod mesh;
 mod picture;
-mod random;
 mod spheres;
 
 /// Builds the bytes of a `.glb` file.

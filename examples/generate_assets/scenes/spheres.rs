@@ -2,8 +2,8 @@
 
 use super::glb::{Builder, Placement, linear};
 use super::mesh::{Mesh, icosphere};
-use super::random::Random;
 use glam::{DQuat, DVec3, dvec3};
+use gpc::bench::Random;
 use serde_json::json;
 use std::f64::consts::TAU;
 
@@ -40,7 +40,7 @@ pub fn build() -> Vec<u8> {
             ]
         })
         .collect();
-    let mut random = Random(3);
+    let mut random = Random::new(3);
     // Sunflower packing: each sphere a golden angle further round, at a radius that keeps density even.
     let golden_angle = TAU * (1.0 - 1.0 / ((1.0 + 5.0_f64.sqrt()) / 2.0));
     for i in 0..COUNT {

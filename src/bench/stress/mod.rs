@@ -12,16 +12,15 @@ pub mod meshes;
 mod motion;
 mod near;
 mod partition;
-mod random;
 mod scale;
 mod slivers;
 mod soup;
 pub mod stage;
 
 pub use meshes::Mesh;
-pub use random::Random;
 pub use soup::soup;
 
+use super::Random;
 use crate::render::{Headless, RenderError};
 use serde::Serialize;
 

@@ -3,6 +3,7 @@
 use super::ProjectorError;
 use super::eigen;
 use crate::camera::LocationMap;
+use crate::random::Random;
 use glam::{DMat2, DMat3, DVec2, DVec3};
 
 /// A place of one plane and where it is on another.
@@ -96,10 +97,14 @@ impl Homography {
         // Tells what is wrong with all of them, and is the one to beat.
         let mut best = Self::fit(pairs)?;
         let mut lowest = best.cost(pairs, tolerance);
-        let mut random = SplitMix(seed);
+        let mut random = Random::new(seed);
         for _ in 0..TRIALS {
             let chosen: Vec<_> = (0..4)
-                .filter_map(|_| pairs.get(random.below(pairs.len())).copied())
+                .filter_map(|_| {
+                    pairs
+                        .get(random.below(pairs.len() as u64) as usize)
+                        .copied()
+                })
                 .collect();
             // Four that are on a line, or not four, are no trial.
             let Ok(fitted) = Self::fit(&chosen) else {
@@ -204,19 +209,4 @@ fn normalisation(points: impl Iterator<Item = DVec2> + Clone) -> Option<DMat3> {
     }
     let scale = 2.0_f64.sqrt() / distance;
     Some(DMat3::from_scale(DVec2::splat(scale)) * DMat3::from_translation(-mean))
-}
-
-/// G. Steele, D. Lea and C. Flood's generator ("Fast Splittable Pseudorandom Number Generators", OOPSLA 2014).
-struct SplitMix(u64);
-
-impl SplitMix {
-    fn below(&mut self, count: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^= z >> 31;
-        // The bias is a trillionth for a million pairs.
-        (z % count as u64) as usize
-    }
 }

@@ -24,7 +24,7 @@ pub use warp::WarpMap;
 
 use super::LocationMap;
 use super::set::{Sample, SamplingSet};
-use glam::DVec2;
+use glam::{DMat2, DVec2};
 use rayon::prelude::*;
 
 /// A calibrated projector.
@@ -94,6 +94,16 @@ impl Projector {
                 Some(map.location(DVec2::new(f64::from(col) + 0.5, f64::from(row) + 0.5)))
             }
             ProjectorMap::Dense(map) => map.at(row, col),
+        }
+    }
+
+    /// Change of the location for each column and row at a place on the projector, in pixels; `None` where it lights
+    /// nothing.
+    #[must_use]
+    pub fn jacobian(&self, place: DVec2) -> Option<DMat2> {
+        match &self.map {
+            ProjectorMap::Planar(map) => Some(map.jacobian(place)),
+            ProjectorMap::Dense(map) => map.jacobian(place),
         }
     }
 

@@ -87,6 +87,12 @@ impl WarpMap {
         None
     }
 
+    /// Change of the location for each column and row at a place; `None` where the pixels around it light nothing.
+    #[must_use]
+    pub fn jacobian(&self, place: DVec2) -> Option<DMat2> {
+        self.bilinear(place).map(|(_, slope)| slope)
+    }
+
     /// The location of a place and its derivative, bilinear between the centres of four pixels; half a pixel at the
     /// borders is extrapolated.
     fn bilinear(&self, place: DVec2) -> Option<(DVec2, DMat2)> {

@@ -12,9 +12,10 @@ use std::time::Duration;
 ///
 /// Every scene is rendered as by `gpc render`, before a light grey background, by every method at every number of
 /// samples that it can have: once to warm up and then R times, the methods taking turns. Each image is held against
-/// brute force at thousands of samples a pixel, which is kept on disk for the next run. With --growth, scenes made for
-/// it show what grows with what; with --stress, geometry that is hard on a rasterizer shows what holds. OUT then holds results.json, results.csv and report.html, written anew after each
-/// scene.
+/// brute force at thousands of samples a pixel, which is kept on disk for the next run. With --variants, other
+/// sampling sets than the pixels of an image are timed too; with --growth, scenes made for it show what grows with what;
+/// with --stress, geometry that is hard on a rasterizer shows what holds. DIR then holds results.json, results.csv and
+/// report.html, and variants.csv with --variants, written anew after each scene.
 #[derive(Args)]
 pub struct BenchArgs {
     /// .glb or .gltf files
@@ -48,6 +49,10 @@ pub struct BenchArgs {
     /// Time also against the number of triangles, of pixels, of superpixels and of layers, in scenes made for it
     #[arg(long)]
     pub growth: bool,
+    /// Time the variants of the camera too: of each scene planar, offset, superpixel and random sets and a panorama,
+    /// beside the raster pass, a sample and in all
+    #[arg(long)]
+    pub variants: bool,
     /// Run the stress suite too: what must hold of images whatever the geometry
     #[arg(long)]
     pub stress: bool,

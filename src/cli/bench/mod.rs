@@ -12,6 +12,7 @@ mod stress;
 mod subject;
 mod summary;
 mod table;
+mod variants;
 
 pub use args::BenchArgs;
 
@@ -38,7 +39,8 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
         .with_context(|| format!("{}: the folder can't be made", args.out.display()))?;
     let curves = if args.growth { Growth::ALL.len() } else { 0 };
     let checks = if args.stress { Check::ALL.len() } else { 0 };
-    let parts = args.scenes.len() + curves + checks;
+    let timed = if args.variants { args.scenes.len() } else { 0 };
+    let parts = args.scenes.len() + timed + curves + checks;
     let mut bench = Bench {
         headless: Headless::new(&HeadlessOptions {
             device: args.device.clone(),
@@ -58,6 +60,14 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
         // Again after each scene, so that what was measured survives a failure.
         results.summary = summary::summarize(&results.scenes);
         write(&args.out, &results, &galleries)?;
+    }
+    if args.variants {
+        for path in &args.scenes {
+            let scene = bench.variants(path)?;
+            bench.progress.suspend(|| variants::print(&scene))?;
+            results.variants.push(scene);
+            write(&args.out, &results, &galleries)?;
+        }
     }
     if args.growth {
         for growth in Growth::ALL {
@@ -81,11 +91,14 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
 }
 
 fn write(folder: &Path, results: &Results, galleries: &[gallery::Gallery]) -> anyhow::Result<()> {
-    let files = [
+    let mut files = vec![
         ("results.json", serde_json::to_string(results)? + "\n"),
         ("results.csv", table::csv(&results.scenes)),
         ("report.html", html::page(results, galleries)),
     ];
+    if !results.variants.is_empty() {
+        files.push(("variants.csv", variants::csv(&results.variants)));
+    }
     for (name, text) in files {
         output::write_atomically(&folder.join(name), text.as_bytes())?;
     }

@@ -5,7 +5,7 @@ use super::machine::{self, Machine};
 use super::summary::AtSamples;
 use crate::cli::render::Antialiasing;
 use gpc::bench::stress::Finding;
-use gpc::bench::{Accuracy, Cost, Split, Spread};
+use gpc::bench::{Accuracy, Cost, Split, Spread, VariantCost};
 use gpc::vulkan::Limits;
 use serde::Serialize;
 
@@ -25,10 +25,38 @@ pub struct Results {
     pub budget_seconds: f64,
     pub summary: Vec<AtSamples>,
     pub scenes: Vec<SceneResults>,
+    /// Time of the camera's variants, scene by scene.
+    pub variants: Vec<SceneVariants>,
     /// Time against the size of things.
     pub growth: Vec<Curve>,
     /// What the stress suite found.
     pub stress: Vec<Stress>,
+}
+
+/// What the variants of the camera cost on one scene.
+#[derive(Serialize)]
+pub struct SceneVariants {
+    pub name: String,
+    pub triangles: u64,
+    /// The raster pass first.
+    pub rows: Vec<VariantRow>,
+    /// What was left out, and why.
+    pub notes: Vec<String>,
+}
+
+/// What a variant costs, in all, a sample and beside the raster pass.
+#[derive(Serialize)]
+pub struct VariantRow {
+    #[serde(flatten)]
+    pub cost: VariantCost,
+    /// Nanoseconds a sample on the device.
+    pub gpu_ns: f64,
+    /// Nanoseconds a sample by the clock.
+    pub wall_ns: f64,
+    /// Time of the device a sample over that of the raster pass.
+    pub gpu_ratio: f64,
+    /// Time by the clock a sample over that of the raster pass.
+    pub wall_ratio: f64,
 }
 
 /// A part of the stress suite.
@@ -121,8 +149,22 @@ impl Results {
             budget_seconds: args.budget,
             summary: Vec::new(),
             scenes: Vec::new(),
+            variants: Vec::new(),
             growth: Vec::new(),
             stress: Vec::new(),
+        }
+    }
+}
+
+impl VariantRow {
+    /// A row held against the raster pass.
+    pub fn new(cost: VariantCost, raster: &VariantCost) -> Self {
+        Self {
+            cost,
+            gpu_ns: cost.gpu_ns(),
+            wall_ns: cost.wall_ns(),
+            gpu_ratio: cost.gpu_ns() / raster.gpu_ns(),
+            wall_ratio: cost.wall_ns() / raster.wall_ns(),
         }
     }
 }

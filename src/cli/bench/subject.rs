@@ -27,10 +27,10 @@ pub struct Bench<'a> {
 }
 
 /// A scene on the device.
-struct Subject {
-    prepared: PreparedScene,
+pub(super) struct Subject {
+    pub prepared: PreparedScene,
     geometry: Geometry,
-    camera: Camera,
+    pub camera: Camera,
 }
 
 /// A method that takes part, with what is known of it before it is timed.
@@ -117,7 +117,8 @@ impl Bench<'_> {
         Ok((scene, gallery))
     }
 
-    fn upload(&mut self, path: &Path) -> anyhow::Result<Subject> {
+    /// Puts the scene of a file on the device.
+    pub(super) fn upload(&mut self, path: &Path) -> anyhow::Result<Subject> {
         let loaded = input::load(path)?;
         let pose = loaded.scene.pose(&PoseRequest::default())?;
         let [width, height] = self.args.size.map(f64::from);
@@ -289,6 +290,12 @@ impl Bench<'_> {
     }
 }
 
+impl Subject {
+    pub fn triangles(&self) -> u64 {
+        self.geometry.triangles.len() as u64
+    }
+}
+
 /// What a method is rendered with.
 pub fn settings(method: Antialiasing, samples: u32, [width, height]: [u32; 2]) -> Settings {
     Settings {
@@ -329,7 +336,7 @@ impl Notes {
 }
 
 /// A file's name without its ending, or its folder's where files of all scenes are called `scene`, as Sketchfab's are.
-fn name(path: &Path) -> String {
+pub(super) fn name(path: &Path) -> String {
     let stem = input::stem(path);
     let folder = || Some(path.parent()?.file_name()?.to_string_lossy().into_owned());
     if stem == "scene" {

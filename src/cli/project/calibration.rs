@@ -6,10 +6,24 @@ use crate::cli::exit::Usage;
 use anyhow::Context;
 use gpc::camera::projector::{Correspondence, Homography, Projector};
 use gpc::output::{self, OutputError};
+use serde::Serialize;
 use std::path::Path;
 
+/// A projector and what its correspondences were worth.
+pub struct Calibrated {
+    pub projector: Projector,
+    pub fit: Option<Fit>,
+}
+
+/// How many correspondences a homography is fitted to.
+#[derive(Clone, Copy, Serialize)]
+pub struct Fit {
+    correspondences: usize,
+    agreeing: usize,
+}
+
 /// The projectors that the options name.
-pub fn read(args: &ProjectArgs) -> anyhow::Result<Vec<Projector>> {
+pub fn read(args: &ProjectArgs) -> anyhow::Result<Vec<Calibrated>> {
     let count = args.projector.len();
     let sizes = match args.projector_size.as_slice() {
         [size] => vec![*size; count],
@@ -30,26 +44,26 @@ pub fn read(args: &ProjectArgs) -> anyhow::Result<Vec<Projector>> {
                 path: path.clone(),
                 source,
             })?;
-            let read = match path.extension() {
+            match path.extension() {
                 Some(ending) if ending.eq_ignore_ascii_case("exr") => dense(&bytes, &name),
-                _ => planar(args, &bytes, size, path),
-            };
-            read.with_context(|| name)
+                _ => planar(args, &bytes, size, path).with_context(|| name),
+            }
         })
         .collect()
 }
 
 /// From a location for each pixel.
-fn dense(bytes: &[u8], name: &str) -> anyhow::Result<Projector> {
+fn dense(bytes: &[u8], name: &str) -> anyhow::Result<Calibrated> {
     let (size, pixels) = output::decode_linear(bytes, name)?;
     let location = |[u, v, _, alpha]: [f32; 4]| match alpha {
         0.0 => [f64::NAN; 2],
         _ => [f64::from(u), f64::from(v)],
     };
-    Ok(Projector::dense(
-        size,
-        pixels.into_iter().map(location).collect(),
-    )?)
+    let locations = pixels.into_iter().map(location).collect();
+    Ok(Calibrated {
+        projector: Projector::dense(size, locations).with_context(|| name.to_owned())?,
+        fit: None,
+    })
 }
 
 /// From correspondences.
@@ -58,7 +72,7 @@ fn planar(
     bytes: &[u8],
     size: [u32; 2],
     path: &Path,
-) -> anyhow::Result<Projector> {
+) -> anyhow::Result<Calibrated> {
     let (_, numbers) =
         csv::numbers(bytes, &[&["x", "y", "u", "v"]]).map_err(|reason| anyhow::anyhow!(reason))?;
     let (rows, _) = numbers.as_chunks::<4>();
@@ -74,5 +88,11 @@ fn planar(
         path.display(),
         pairs.len()
     );
-    Ok(Projector::planar(size, homography)?)
+    Ok(Calibrated {
+        projector: Projector::planar(size, homography)?,
+        fit: Some(Fit {
+            correspondences: pairs.len(),
+            agreeing,
+        }),
+    })
 }

@@ -2,14 +2,19 @@
 
 mod calibration;
 
-use super::exit::usage;
-use super::render::{self, ImageArgs};
+use super::exit::{Usage, usage};
+use super::render::{self, ImageArgs, Shot};
+use super::report::{Figures, ReportArgs};
 use super::stage::Stage;
 use super::{input, values};
+use anyhow::Context;
+use calibration::Fit;
 use clap::Args;
 use gpc::camera::projector::{Projector, blend_weights};
-use gpc::output::Picture;
-use std::path::{Path, PathBuf};
+use gpc::output::{self, Format, Picture};
+use gpc::resample::{Photograph, light_on_wall};
+use serde::Serialize;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Renders the frames of projectors that together show one picture of a scene on a wall.
@@ -35,23 +40,58 @@ pub struct ProjectArgs {
     projector_size: Vec<[u32; 2]>,
     /// Correspondences that are further than this from the homography of the others, in pixels of the picture, do not
     /// count
-    #[arg(long, value_name = "PX", default_value_t = 2.0, value_parser = values::positive)]
+    #[arg(long, value_name = "PX", default_value_t = 2.0, allow_negative_numbers = true, value_parser = values::positive)]
     tolerance: f64,
     /// Chooses the random fits to correspondences; the same seed gives the same frames
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
 
+    /// Write each projector's blend weights too, as a PNG beside its frame named like it with .weights: grey of 16 bits,
+    /// 65535 where it shines alone
+    #[arg(long)]
+    weights: bool,
+    /// Also write what lands on the wall, seen as the picture: the sum of all frames
+    #[arg(long, value_name = "OUT")]
+    wall: Option<PathBuf>,
+
     #[command(flatten)]
     image: ImageArgs,
+    #[command(flatten)]
+    pub report: ReportArgs,
+}
+
+/// What `--json` says of a frame beside what is said of every image.
+#[derive(Serialize)]
+struct Frame {
+    /// What its correspondences were worth; `null` for a dense map.
+    calibration: Option<Fit>,
+    /// Mean of its blend weights.
+    mean_weight: f64,
+    weights: Option<String>,
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Report {
+    images: Vec<Figures<Frame>>,
+    wall: Option<String>,
 }
 
 const FIELD: &str = "{projector}";
 
 pub fn run(args: &ProjectArgs) -> anyhow::Result<ExitCode> {
+    args.report.check(&args.output)?;
     let format = args.image.format(&args.output)?;
     if !args.image.aov.is_empty() {
         usage!("--aov: frames are for projectors, which show nothing but colours");
     }
+    if args.weights && input::is_standard(&args.output) {
+        usage!("--weights writes files named after OUT, and -o - has no name");
+    }
+    let wall_format = match &args.wall {
+        Some(path) => Some(Format::of(path).map_err(|error| Usage(format!("--wall {error}")))?),
+        None => None,
+    };
     let count = args.projector.len();
     let Some(name) = args.output.to_str() else {
         usage!("-o {}: it is not UTF-8", args.output.display());
@@ -59,32 +99,76 @@ pub fn run(args: &ProjectArgs) -> anyhow::Result<ExitCode> {
     if count > 1 && (input::is_standard(&args.output) || !name.contains(FIELD)) {
         usage!("-o {name}: add {FIELD} to it, for there are {count} projectors");
     }
-    let projectors = calibration::read(args)?;
+    if name.replace(FIELD, "").contains(['{', '}']) {
+        usage!("-o {name}: {FIELD} is all that it can hold in braces");
+    }
+    let (projectors, fits): (Vec<_>, Vec<_>) = calibration::read(args)?
+        .into_iter()
+        .map(|calibrated| (calibrated.projector, calibrated.fit))
+        .unzip();
     let weights = blend_weights(&projectors);
     let mut stage = Stage::open(&args.scene, &args.image, args.image.settings(format))?;
+    let mut images = Vec::new();
+    let mut frames = Vec::new();
     for (index, (projector, weights)) in projectors.iter().zip(&weights).enumerate() {
-        let colors = frame(&mut stage, projector, weights)?;
-        let path = name.replace(FIELD, &index.to_string());
-        let picture = Picture::new(projector.size(), &colors)?;
-        let bytes = gpc::output::encode(format, &picture, &[])?;
-        render::write(Path::new(&path), &bytes)?;
+        let size = projector.size();
+        let shot = shoot(&mut stage, projector).with_context(|| format!("projector {index}"))?;
+        let colors = dim(&shot.rendered.colors, weights);
+        let path = PathBuf::from(name.replace(FIELD, &index.to_string()));
+        let picture = Picture::new(size, &colors)?;
+        render::write(&path, &output::encode(format, &picture, &[])?)?;
+        let weights_path = args
+            .weights
+            .then(|| render::beside(&path, format, "weights"));
+        if let Some(path) = &weights_path {
+            render::write(path, &output::encode_shares(size, weights)?)?;
+        }
+        if args.wall.is_some() {
+            frames.push(Photograph::from(&picture));
+        }
+        let sum: f64 = weights.iter().copied().map(f64::from).sum();
+        let frame = Frame {
+            calibration: fits.get(index).copied().flatten(),
+            mean_weight: sum / weights.len().max(1) as f64,
+            weights: weights_path.map(|path| path.display().to_string()),
+        };
+        let effort = stage.effort(&shot);
+        log::info!(
+            "{}: {}x{}, {} superpixels, mean weight {:.3}",
+            path.display(),
+            size[0],
+            size[1],
+            effort.superpixels.count,
+            frame.mean_weight
+        );
+        images.push(stage.figures(&path, size, effort, frame));
     }
     stage.finish()?;
+    if let (Some(path), Some(format)) = (&args.wall, wall_format) {
+        let lit: Vec<_> = projectors.iter().zip(&frames).collect();
+        let light = light_on_wall(args.image.size, &lit);
+        let picture = Picture::new(args.image.size, &light)?;
+        render::write(path, &output::encode(format, &picture, &[])?)?;
+    }
+    args.report.print(&Report {
+        images,
+        wall: args.wall.as_ref().map(|path| path.display().to_string()),
+    })?;
     Ok(ExitCode::SUCCESS)
 }
 
-/// What a projector shows: opaque, for a projector knows no other, and black where it lights nothing.
-fn frame(
-    stage: &mut Stage,
-    projector: &Projector,
-    weights: &[f32],
-) -> anyhow::Result<Vec<[f32; 4]>> {
+/// The picture where a projector's pixels shine.
+fn shoot(stage: &mut Stage, projector: &Projector) -> anyhow::Result<Shot> {
     let pinhole = stage.pinhole()?;
     let sites = projector.set()?.sites();
-    let rendered = stage.render(projector.size(), &[(pinhole, sites)])?;
+    stage.render(projector.size(), &[(pinhole, sites)])
+}
+
+/// What a projector shows: opaque, for a projector knows no other, and black where it lights nothing.
+fn dim(colors: &[[f32; 4]], weights: &[f32]) -> Vec<[f32; 4]> {
     let dim = |([r, g, b, _], weight): (&[f32; 4], &f32)| {
         let [r, g, b] = [r, g, b].map(|light| light * weight);
         [r, g, b, 1.0]
     };
-    Ok(rendered.colors.iter().zip(weights).map(dim).collect())
+    colors.iter().zip(weights).map(dim).collect()
 }

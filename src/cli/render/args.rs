@@ -1,6 +1,7 @@
 //! The options of `gpc render`.
 
 use super::image::ImageArgs;
+use crate::cli::report::ReportArgs;
 use crate::cli::values;
 use clap::{Args, ValueEnum};
 use glam::DVec3;
@@ -34,12 +35,8 @@ pub struct RenderArgs {
     /// Render once to warm up and then R times, and report medians
     #[arg(long, value_name = "R", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Report")]
     pub repeat: Option<u32>,
-    /// Print one JSON object: figures of the image, or `images`, a list of them, for a sequence
-    #[arg(long, help_heading = "Report")]
-    pub json: bool,
-    /// Say nothing but errors
-    #[arg(long, help_heading = "Report")]
-    pub quiet: bool,
+    #[command(flatten)]
+    pub report: ReportArgs,
 }
 
 /// How edges are antialiased.
@@ -107,7 +104,7 @@ pub struct CameraArgs {
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector, requires = "eye")]
     pub up: Option<DVec3>,
     /// Vertical field of view in degrees [default: the camera's, or else 40]
-    #[arg(long, value_name = "DEG", value_parser = values::field_of_view)]
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = values::field_of_view)]
     pub fov: Option<f64>,
     /// See the whole scene from this angle around it; 0 looks along -z, 90 along -x [default: 35]
     #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = values::finite)]

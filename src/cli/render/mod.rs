@@ -12,11 +12,10 @@ mod view;
 pub use args::{Antialiasing, CameraArgs, RenderArgs, Tonemap};
 pub use image::ImageArgs;
 pub use save::{beside, encode, save, write};
-pub use session::open;
+pub use session::{Shot, open};
 pub use view::choose as choose_views;
 
-use super::exit::usage;
-use super::{input, print};
+use super::input;
 use indicatif::{ProgressBar, ProgressStyle};
 use report::{Origin, Report};
 use serde::Serialize;
@@ -32,9 +31,7 @@ struct Sequence {
 
 pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     let template = Template::new(&args.output)?;
-    if input::is_standard(&args.output) && args.json {
-        usage!("-o - and --json both want standard output");
-    }
+    args.report.check(&args.output)?;
     let image = &args.image;
     let format = image.format(&args.output)?;
     let steps = sequence::steps(args)?;
@@ -57,7 +54,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     let mut session = Session::new(image.device.clone(), settings.clone())?;
     let device = session.device();
     session.show(&loaded.scene, &pose)?;
-    let progress = progress(steps.len() * cameras, args.quiet);
+    let progress = progress(steps.len() * cameras, args.report.quiet);
     let mut images = Vec::new();
     for step in &steps {
         if step.time != time {
@@ -93,11 +90,9 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     if let Some(message) = session.validation_messages().first() {
         anyhow::bail!("the validation layer says: {message}");
     }
-    if args.json {
-        match images.as_slice() {
-            [image] => print::json(image)?,
-            _ => print::json(&Sequence { images })?,
-        }
+    match images.as_slice() {
+        [image] => args.report.print(image)?,
+        _ => args.report.print(&Sequence { images })?,
     }
     Ok(ExitCode::SUCCESS)
 }

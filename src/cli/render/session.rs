@@ -1,5 +1,6 @@
 //! A device with one scene on it, rendering image after image.
 
+use crate::cli::report::Device;
 use gpc::camera::Camera;
 use gpc::render::{
     Frame, Headless, HeadlessOptions, PassTime, PreparedScene, RenderError, Rendered, Settings,
@@ -40,10 +41,9 @@ impl Session {
         })
     }
 
-    /// Name of the device, and its driver.
-    pub fn device(&self) -> (String, String) {
-        let limits = self.headless.gpu().limits();
-        (limits.device_name.clone(), limits.driver.clone())
+    /// The device.
+    pub fn device(&self) -> Device {
+        Device::of(&self.headless)
     }
 
     /// Puts a pose on the device in place of the one before.

@@ -6,6 +6,7 @@ mod table;
 
 use super::exit::{Usage, usage};
 use super::render::{Antialiasing, ImageArgs, Tonemap};
+use super::report::{Effort, ReportArgs, Work};
 use super::stage::Stage;
 use super::{input, render};
 use anyhow::Context;
@@ -13,9 +14,11 @@ use clap::Args;
 use gpc::camera::Pinhole;
 use gpc::camera::set::SamplingSet;
 use gpc::output::{self, Format, OutputError, Picture};
-use gpc::render::PointSample;
+use gpc::render::{PointSample, Sampled};
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::time::Instant;
 use table::Locations;
 
 /// Samples a scene at any locations.
@@ -50,6 +53,17 @@ pub struct SampleArgs {
 
     #[command(flatten)]
     image: ImageArgs,
+    #[command(flatten)]
+    pub report: ReportArgs,
+}
+
+/// What `--json` says of samples beside what is said of every image.
+#[derive(Serialize)]
+struct Seen {
+    /// Sampling locations.
+    locations: usize,
+    /// Those that see a triangle.
+    hits: usize,
 }
 
 /// What is written.
@@ -62,6 +76,7 @@ enum Kind {
 }
 
 pub fn run(args: &SampleArgs) -> anyhow::Result<ExitCode> {
+    args.report.check(&args.output)?;
     let kind = kind(args)?;
     let locations = read(&args.locations)?;
     if matches!(kind, Kind::Image(_)) && locations.cells.is_none() {
@@ -77,7 +92,17 @@ pub fn run(args: &SampleArgs) -> anyhow::Result<ExitCode> {
     };
     let mut stage = Stage::open(&args.scene, &args.image, args.image.settings(format))?;
     let pinhole = stage.pinhole()?;
-    let samples = sample(&mut stage, &pinhole, &set, args.image.sampling.aa)?;
+    let start = Instant::now();
+    let Sampled {
+        values: samples,
+        statistics,
+    } = sample(&mut stage, &pinhole, &set, args.image.sampling.aa)?;
+    let work = Work {
+        statistics: &statistics,
+        cells: samples.len() as u64,
+        passes: std::slice::from_ref(&statistics.passes),
+        wall_ms: &[1e3 * start.elapsed().as_secs_f64()],
+    };
     stage.finish()?;
     let rows = || {
         let pairs = locations.uv.iter().zip(&samples);
@@ -95,6 +120,26 @@ pub fn run(args: &SampleArgs) -> anyhow::Result<ExitCode> {
         }
     };
     render::write(&args.output, &bytes)?;
+    let seen = Seen {
+        locations: samples.len(),
+        hits: samples
+            .iter()
+            .filter(|sample| table::is_hit(sample))
+            .count(),
+    };
+    log::info!(
+        "{}: {} samples, {} of them see a triangle",
+        args.output.display(),
+        seen.locations,
+        seen.hits
+    );
+    let size = match kind {
+        Kind::Image(_) => set.size(),
+        Kind::Csv | Kind::Npy => args.image.size,
+    };
+    let effort = Effort::new(&stage.settings, &work);
+    args.report
+        .print(&stage.figures(&args.output, size, effort, seen))?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -104,7 +149,7 @@ fn sample(
     pinhole: &Pinhole,
     set: &SamplingSet,
     aa: Antialiasing,
-) -> anyhow::Result<Vec<PointSample>> {
+) -> anyhow::Result<Sampled<PointSample>> {
     let sites = set.sites();
     let Stage {
         headless,
@@ -112,16 +157,15 @@ fn sample(
         settings,
         ..
     } = stage;
-    let mut samples = headless
-        .sample_points(scene, pinhole, &sites, settings)?
-        .values;
+    let mut samples = headless.sample_points(scene, pinhole, &sites, settings)?;
     match aa {
         Antialiasing::None => {}
         Antialiasing::Superpixel | Antialiasing::Ssaa => {
             let means = headless.sample_superpixels(scene, pinhole, &sites, settings)?;
-            for (sample, color) in samples.iter_mut().zip(means.values) {
+            for (sample, color) in samples.values.iter_mut().zip(means.values) {
                 sample.color = color;
             }
+            samples.statistics.append(means.statistics);
         }
         Antialiasing::Msaa => usage!("--aa msaa: the device's own samples lie in pixels only"),
     }

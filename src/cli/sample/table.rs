@@ -62,11 +62,15 @@ pub const COLUMNS: [&str; 12] = [
 /// The values of one sample.
 pub type Row = [f64; COLUMNS.len()];
 
+/// Whether a sample sees a triangle.
+pub fn is_hit(sample: &PointSample) -> bool {
+    sample.id != 0 || sample.blend_id != 0
+}
+
 pub fn row(uv: [f64; 2], sample: &PointSample) -> Row {
     let [r, g, b, a] = sample.color.map(f64::from);
     let [x, y, z] = sample.normal.map(f64::from);
-    let hit = sample.id != 0 || sample.blend_id != 0;
-    let hit = f64::from(u8::from(hit));
+    let hit = f64::from(u8::from(is_hit(sample)));
     let (depth, id) = (f64::from(sample.depth), f64::from(sample.id));
     [uv[0], uv[1], r, g, b, a, depth, id, hit, x, y, z]
 }

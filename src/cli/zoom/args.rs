@@ -2,6 +2,7 @@
 
 use crate::cli::exit::Usage;
 use crate::cli::render::ImageArgs;
+use crate::cli::report::ReportArgs;
 use crate::cli::values;
 use clap::{Args, ValueEnum};
 use gpc::camera::zoom::{Shape, Transition, ZoomMap, ZoomRegion};
@@ -32,6 +33,8 @@ pub struct ZoomArgs {
     pub regions: RegionArgs,
     #[command(flatten)]
     pub image: ImageArgs,
+    #[command(flatten)]
+    pub report: ReportArgs,
 }
 
 /// Which regions are enlarged, and how.
@@ -42,7 +45,7 @@ pub struct RegionArgs {
     #[arg(long, value_name = "X,Y", required = true, allow_hyphen_values = true, value_parser = values::place)]
     center: Vec<[f64; 2]>,
     /// Its radius, or radii along x and y: half sides of a rectangle
-    #[arg(long, value_name = "R|RX,RY", required = true, value_parser = values::radii)]
+    #[arg(long, value_name = "R|RX,RY", required = true, allow_hyphen_values = true, value_parser = values::radii)]
     radius: Vec<[f64; 2]>,
     /// Its multiplicity, above 0 and at most 1: the region is enlarged by one over it
     #[arg(long, value_name = "M", required = true, allow_negative_numbers = true, value_parser = values::finite)]

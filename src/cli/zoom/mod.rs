@@ -7,28 +7,66 @@ mod steps;
 pub use args::ZoomArgs;
 pub use record::{KEYWORD, Record};
 
-use super::exit::usage;
+use super::exit::{Usage, usage};
+use super::render::Shot;
+use super::report::Figures;
 use super::stage::Stage;
 use super::{input, render};
-use gpc::camera::set::SamplingSet;
-use gpc::camera::zoom::ZoomMap;
+use gpc::camera::set::{MOST_CELLS, SamplingSet, SetStatistics};
+use gpc::camera::zoom::{Window, ZoomMap, ZoomRegion};
 use gpc::camera::{LocationMap, Pinhole};
 use gpc::output::{self, Format, Picture};
 use gpc::render::{Rendered, Statistics};
 use gpc::resample::Photograph;
+use serde::Serialize;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 use std::process::ExitCode;
+use std::time::Instant;
 use steps::Step;
 
+/// An image, the steps to it, and what is said of it.
+struct Zoomed {
+    result: Rendered,
+    steps: Vec<Step>,
+    figures: Report,
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Report {
+    Scene(Box<Figures<About>>),
+    Photograph {
+        output: String,
+        size: [u32; 2],
+        regions: Vec<ZoomRegion>,
+        /// Wall-clock milliseconds of resampling.
+        wall_ms: f64,
+    },
+}
+
+/// What is said of the zoom of a scene beside what is said of every image.
+#[derive(Serialize)]
+struct About {
+    regions: Vec<ZoomRegion>,
+    /// Local rates of sampling, and folds of the map.
+    locations: SetStatistics,
+}
+
 pub fn run(args: &ZoomArgs) -> anyhow::Result<ExitCode> {
+    args.report.check(&args.output)?;
     let map = args.regions.map()?;
     let format = args.image.format(&args.output)?;
     if args.steps && input::is_standard(&args.output) {
         usage!("--steps writes files named after OUT, and -o - has no name");
     }
-    let (result, steps) = if is_picture(&args.input) {
+    let Zoomed {
+        result,
+        steps,
+        figures,
+    } = if is_picture(&args.input) {
         photograph(args, &map)?
     } else {
         scene(args, format, &map)?
@@ -44,7 +82,19 @@ pub fn run(args: &ZoomArgs) -> anyhow::Result<ExitCode> {
         bytes = output::add_text(&bytes, KEYWORD, &record)?;
     }
     render::write(&args.output, &bytes)?;
+    args.report.print(&figures)?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// Refuses the ordinary image of a region that is too large for one.
+pub fn check_window(index: usize, window: &Window) -> Result<(), Usage> {
+    let [width, height] = window.size;
+    if u64::from(width) * u64::from(height) <= MOST_CELLS {
+        return Ok(());
+    }
+    Err(Usage(format!(
+        "region {index} would be an ordinary image of {width} x {height} pixels; at most {MOST_CELLS} are possible"
+    )))
 }
 
 /// Whether a file starts like a PNG or a JPEG. What can't be read is left to the loader of scenes to complain about.
@@ -58,13 +108,15 @@ fn is_picture(path: &Path) -> bool {
 }
 
 /// Zooms into a photograph.
-fn photograph(args: &ZoomArgs, map: &ZoomMap) -> anyhow::Result<(Rendered, Vec<Step>)> {
+fn photograph(args: &ZoomArgs, map: &ZoomMap) -> anyhow::Result<Zoomed> {
     if !args.image.aov.is_empty() {
         usage!("--aov: a photograph holds nothing but colours");
     }
     let photograph = Photograph::from(&output::read(&args.input)?);
     let size = photograph.size();
+    let start = Instant::now();
     let colors = photograph.resample(size, |place| (map.location(place), map.jacobian(place)));
+    let wall_ms = 1e3 * start.elapsed().as_secs_f64();
     let steps = if args.steps {
         steps::common(size, photograph.pixels(), &colors, map)
     } else {
@@ -76,29 +128,50 @@ fn photograph(args: &ZoomArgs, map: &ZoomMap) -> anyhow::Result<(Rendered, Vec<S
         attributes: Vec::new(),
         statistics: Statistics::default(),
     };
-    Ok((result, steps))
+    let figures = Report::Photograph {
+        output: args.output.display().to_string(),
+        size,
+        regions: map.regions().to_vec(),
+        wall_ms,
+    };
+    Ok(Zoomed {
+        result,
+        steps,
+        figures,
+    })
 }
 
 /// Samples a scene where the pixels look.
-fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<(Rendered, Vec<Step>)> {
+fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<Zoomed> {
     let size = args.image.size;
+    if args.steps {
+        for (index, region) in map.regions().iter().enumerate() {
+            check_window(index, &region.window())?;
+        }
+    }
     let mut stage = Stage::open(&args.input, &args.image, args.image.settings(format))?;
     let pinhole = stage.pinhole()?;
     let set = SamplingSet::mapped(size, map)?;
     let statistics = set.statistics();
-    let result = render_set(&mut stage, pinhole, &set)?;
+    let shot = render_set(&mut stage, pinhole, &set)?;
+    let about = About {
+        regions: map.regions().to_vec(),
+        locations: statistics,
+    };
+    let figures = stage.figures(&args.output, size, stage.effort(&shot), about);
+    let result = shot.rendered;
     log::info!(
-        "{}: {}x{}, {:.2} to {:.2} samples for a pixel of the plane, {} superpixels",
+        "{}: {}x{}, {} to {} samples for a pixel of the plane, {} superpixels",
         args.output.display(),
         size[0],
         size[1],
-        statistics.lowest_rate.unwrap_or(1.0),
-        statistics.highest_rate.unwrap_or(1.0),
+        rate(statistics.lowest_rate),
+        rate(statistics.highest_rate),
         result.statistics.superpixels
     );
     let mut steps = Vec::new();
     if args.steps {
-        let original = render_set(&mut stage, pinhole, &SamplingSet::planar(size)?)?;
+        let original = render_set(&mut stage, pinhole, &SamplingSet::planar(size)?)?.rendered;
         steps = steps::common(size, &original.colors, &result.colors, map);
         for (index, region) in map.regions().iter().enumerate() {
             let window = region.window();
@@ -111,13 +184,25 @@ fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<(Rend
                 [_] => "direct".to_owned(),
                 _ => format!("direct-{index}"),
             };
-            steps.push(Step::new(&name, window.size, direct.colors));
+            steps.push(Step::new(&name, window.size, direct.rendered.colors));
         }
     }
     stage.finish()?;
-    Ok((result, steps))
+    Ok(Zoomed {
+        result,
+        steps,
+        figures: Report::Scene(Box::new(figures)),
+    })
 }
 
-fn render_set(stage: &mut Stage, pinhole: Pinhole, set: &SamplingSet) -> anyhow::Result<Rendered> {
+/// A rate for people; images of one row or column have none of their own.
+fn rate(rate: Option<f64>) -> String {
+    match rate.unwrap_or(1.0) {
+        rate if rate < 1e6 => format!("{rate:.2}"),
+        rate => format!("{rate:.1e}"),
+    }
+}
+
+fn render_set(stage: &mut Stage, pinhole: Pinhole, set: &SamplingSet) -> anyhow::Result<Shot> {
     stage.render(set.size(), &[(pinhole, set.sites())])
 }

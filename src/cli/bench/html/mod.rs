@@ -7,6 +7,7 @@ mod growth;
 mod scene;
 mod stress;
 mod tables;
+mod variants;
 
 use super::gallery::Gallery;
 use super::pictures::BRIGHTEST;
@@ -35,7 +36,7 @@ pub fn page(results: &Results, galleries: &[Gallery]) -> String {
          <div><dt>Machine</dt><dd>{cpu}<br><small>{threads} threads, {os}</small></dd></div>\
          <div><dt>Image</dt><dd>{width} × {height}<br><small>reference: {reference} samples a pixel</small></dd></div>\
          <div><dt>Run</dt><dd>{date}<br><small>gpc {version}, medians of up to {repeat} frames</small></dd></div></dl>\n\
-         </header>\n<main>\n{summary}{sections}{growth}{stress}{method}</main>\n\
+         </header>\n<main>\n{summary}{sections}{variants}{growth}{stress}{method}</main>\n\
          </body>\n</html>\n",
         device = escape(&results.device),
         driver = escape(&results.driver),
@@ -47,6 +48,7 @@ pub fn page(results: &Results, galleries: &[Gallery]) -> String {
         version = results.version,
         repeat = results.repeat,
         summary = summary(results),
+        variants = variants::section(&results.variants),
         growth = growth::section(&results.growth),
         stress = stress::section(&results.stress),
         method = method(results),

@@ -1,6 +1,7 @@
 //! Numbers that look random and are the same in every run.
 
-/// A pseudo-random sequence (Steele, Lea and Flood's SplitMix64).
+/// A pseudo-random sequence: SplitMix64 (G. Steele, D. Lea and C. Flood, "Fast Splittable Pseudorandom Number
+/// Generators", OOPSLA 2014).
 #[derive(Clone, Debug)]
 pub struct Random(u64);
 
@@ -25,7 +26,7 @@ impl Random {
         low + (high - low) * (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Below `bound`, which must not be 0.
+    /// Below `bound`, which must not be 0. The bias is a trillionth for a bound of a million.
     pub fn below(&mut self, bound: u64) -> u64 {
         self.bits() % bound
     }

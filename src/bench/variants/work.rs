@@ -1,0 +1,131 @@
+//! The locations of a variant, and a run over them.
+
+use super::{Variant, VariantError};
+use crate::bench::Random;
+use crate::camera::panorama::{Panorama, PanoramaProjection};
+use crate::camera::set::{Sample, SamplingSet, SetError};
+use crate::camera::zoom::{Shape, Transition, ZoomError, ZoomMap, ZoomRegion};
+use crate::camera::{Camera, Pinhole, Site};
+use crate::render::{Frame, Headless, Method, PreparedScene, RenderError, Settings, Statistics};
+
+/// Most samples of a leaf of the quad-tree.
+const LEAF_SAMPLES: usize = 32;
+/// The random locations are the same in every run.
+const SEED: u64 = 2010;
+/// How much the middle of the image is zoomed.
+const MULTIPLICITY: f64 = 0.3;
+
+/// A variant, ready to run.
+pub(super) enum Work {
+    /// A frame of the raster pass.
+    Frame(Box<Frame>),
+    /// One sample at each site of each pinhole.
+    Points(Vec<(Pinhole, Vec<Site>)>, Box<Settings>),
+    /// An image at two rates.
+    TwoRates(Vec<(Pinhole, Vec<Site>)>, Box<Settings>),
+}
+
+/// What a run did.
+pub(super) struct Done {
+    pub samples: u64,
+    pub gpu_ms: f64,
+}
+
+impl Work {
+    pub fn new(
+        variant: Variant,
+        headless: &Headless,
+        scene: &PreparedScene,
+        camera: &Camera,
+        settings: &Settings,
+    ) -> Result<Self, VariantError> {
+        let size = settings.size;
+        let with = |method, samples| Settings {
+            method,
+            samples,
+            ..settings.clone()
+        };
+        let once = with(Method::None, 1);
+        let pinhole = Pinhole::from_camera(camera, size)?;
+        let points = |set: SamplingSet| vec![(pinhole, set.sites())];
+        let rig = match variant {
+            Variant::Raster => {
+                return Ok(Self::Frame(Box::new(headless.prepare(scene, &once)?)));
+            }
+            Variant::Superpixel => {
+                let settings = with(Method::Superpixel, Settings::DEFAULT_SAMPLES);
+                let sites = SamplingSet::planar(size)?.sites();
+                return Ok(Self::TwoRates(vec![(pinhole, sites)], Box::new(settings)));
+            }
+            Variant::Planar => points(SamplingSet::planar(size)?),
+            Variant::Offset => points(SamplingSet::mapped(size, &zoom(size)?)?),
+            Variant::NoPattern => points(random(size)?),
+            Variant::Rig => {
+                let around = [size[0], size[0].div_ceil(2)];
+                let panorama = Panorama::new(PanoramaProjection::Equirectangular, 360.0, around)?;
+                panorama.sites(camera)?.rig().to_vec()
+            }
+        };
+        Ok(Self::Points(rig, Box::new(once)))
+    }
+
+    pub fn run(
+        &mut self,
+        headless: &mut Headless,
+        scene: &PreparedScene,
+        camera: &Camera,
+    ) -> Result<Done, RenderError> {
+        let done = |samples: u64, statistics: &Statistics| Done {
+            samples,
+            gpu_ms: statistics.gpu_ms(),
+        };
+        match self {
+            Self::Frame(frame) => {
+                let rendered = headless.render(scene, frame, camera)?;
+                Ok(done(rendered.colors.len() as u64, &rendered.statistics))
+            }
+            Self::Points(rig, settings) => {
+                let mut sum = done(0, &Statistics::default());
+                for (pinhole, sites) in rig {
+                    let sampled = headless.sample_points(scene, pinhole, sites, settings)?;
+                    sum.samples += sites.len() as u64;
+                    sum.gpu_ms += sampled.statistics.gpu_ms();
+                }
+                Ok(sum)
+            }
+            Self::TwoRates(rig, settings) => {
+                let rendered = headless.render_sites(scene, rig, settings.size, settings)?;
+                let pixels = rendered.colors.len() as u64;
+                let more = rendered.statistics.superpixels * u64::from(settings.samples);
+                Ok(done(pixels + more, &rendered.statistics))
+            }
+        }
+    }
+}
+
+/// A zoom of the middle of an image.
+fn zoom(size: [u32; 2]) -> Result<ZoomMap, ZoomError> {
+    let [width, height] = size.map(f64::from);
+    let radius = 0.15 * width.min(height);
+    ZoomMap::new(vec![ZoomRegion {
+        center: [0.5 * width, 0.5 * height],
+        radius: [radius; 2],
+        multiplicity: MULTIPLICITY,
+        shape: Shape::Circle,
+        transition: Transition::Smooth,
+    }])
+}
+
+/// A random location for each pixel of an image, anywhere in the image. All belong to one cell of the output, so that
+/// none has a neighbour and each stands for a pixel.
+fn random(size: [u32; 2]) -> Result<SamplingSet, SetError> {
+    let [width, height] = size.map(f64::from);
+    let count = u64::from(size[0]) * u64::from(size[1]);
+    let mut random = Random::new(SEED);
+    let sample = |_| Sample {
+        uv: [random.range(0.0, width), random.range(0.0, height)],
+        row: 0,
+        col: 0,
+    };
+    SamplingSet::no_pattern([1, 1], (0..count).map(sample).collect(), None, LEAF_SAMPLES)
+}
