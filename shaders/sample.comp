@@ -20,6 +20,7 @@
 //   CHAINED: index of the next nearer BLEND layer of the sample, or ~0; the first records of a block are its
 //           samples' opaque surfaces (ID 0: background).
 // Where cells are SITES, the first word of a record is its site; POINTS make a record a sample, of location 0.
+// OCCLUDERS know their triangle and depth: another one that is nearer is recorded, or else background.
 // Header of a cell's block: first record, number of records (CHAINED: of samples).
 //
 // Loops are do-while with guarded bodies: on lavapipe a branch skips nothing and other loops run once too often.
@@ -350,7 +351,17 @@ void main() {
 
             float depth[ROWS];
             uint id[ROWS];
-            [[unroll]] for (int g = 0; g < ROWS; g++) { depth[g] = 0.0; id[g] = 0u; }
+            uint own[ROWS];             // the triangle that OCCLUDERS lie on
+            [[unroll]] for (int g = 0; g < ROWS; g++) {
+                depth[g] = 0.0;
+                id[g] = 0u;
+                own[g] = 0u;
+                if (OCCLUDERS) {
+                    int receiver = int(2u * (site + min(uint(g) * LANES + lane, max(block_samples, 1u) - 1u)));
+                    own[g] = texelFetch(sites, receiver).w;
+                    depth[g] = uintBitsToFloat(texelFetch(sites, receiver + 1).x);
+                }
+            }
 
             Candidate nearby;           // an invocation holds one that may show
             nearby.id = 0u;
@@ -376,7 +387,7 @@ void main() {
                     }
                     [[unroll]] for (int g = 0; g < ROWS; g++) {
                         float d;
-                        bool there = covers(t, least, PLACE(g), d);
+                        bool there = covers(t, least, PLACE(g), d) && (!OCCLUDERS || t.id != own[g]);
                         bool wins = there && (d > depth[g] || (d == depth[g] && t.id < id[g]));
                         depth[g] = wins ? d : depth[g];
                         id[g] = wins ? t.id : id[g];
@@ -393,7 +404,7 @@ void main() {
                         AlphaTest alpha = alpha_test(t.id - 1u, center, at, output_pixel);
                         [[unroll]] for (int g = 0; g < ROWS; g++) {
                             float d;
-                            bool there = covers(t, least, PLACE(g), d);
+                            bool there = covers(t, least, PLACE(g), d) && (!OCCLUDERS || t.id != own[g]);
                             bool wins = there && (d > depth[g] || (d == depth[g] && t.id < id[g]));
                             if (POINTS) alpha = alpha_test(t.id - 1u, center, place[g], site_jacobian(site + min(uint(g) * LANES + lane, max(block_samples, 1u) - 1u)));
                             wins = wins && alpha_passes(alpha, PLACE(g));

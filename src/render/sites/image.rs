@@ -6,7 +6,7 @@ use crate::reference::detect;
 use crate::render::frame::display_code;
 use crate::render::{
     Coverage, Detection, Headless, Method, PixelAttributes, PreparedScene, RenderError, Rendered,
-    Settings, Shading, Statistics,
+    Settings, Shading, Shadows, Statistics,
 };
 use crate::sampling::Pattern;
 
@@ -16,6 +16,8 @@ struct Cells {
     attributes: Vec<PixelAttributes>,
     blend_ids: Vec<u32>,
     codes: Vec<u32>,
+    /// What lights each lies in the shadow of.
+    shadows: Vec<u32>,
 }
 
 impl Headless {
@@ -125,15 +127,17 @@ impl Cells {
             attributes: vec![unseen; count],
             blend_ids: vec![0; count],
             codes: vec![display_code(background); count],
+            shadows: vec![0; count],
         }
     }
 
     fn put(&mut self, cell: usize, seen: &super::PointSample) {
-        if let (Some(color), Some(attributes), Some(blend_id), Some(code)) = (
+        if let (Some(color), Some(attributes), Some(blend_id), Some(code), Some(shadows)) = (
             self.colors.get_mut(cell),
             self.attributes.get_mut(cell),
             self.blend_ids.get_mut(cell),
             self.codes.get_mut(cell),
+            self.shadows.get_mut(cell),
         ) {
             *color = seen.color;
             attributes.depth = seen.depth;
@@ -141,6 +145,7 @@ impl Cells {
             attributes.normal = seen.normal;
             *blend_id = seen.blend_id;
             *code = seen.code;
+            *shadows = seen.shadows;
         }
     }
 
@@ -154,7 +159,7 @@ impl Cells {
         }
     }
 
-    /// Whether each cell aliases.
+    /// Whether each cell aliases: beside another triangle, or the border of a shadow.
     fn aliasing(&self, settings: &Settings) -> Result<Vec<bool>, RenderError> {
         let [width, height] = settings.size;
         let mode = match settings.detection {
@@ -164,7 +169,15 @@ impl Cells {
         };
         let ids: Vec<u32> = self.attributes.iter().map(|seen| seen.id).collect();
         let frame = detect::Frame::new(width, height, &ids, &self.blend_ids, &self.codes)?;
-        let mask = detect::superpixels(&frame, mode);
+        let mut mask = detect::superpixels(&frame, mode);
+        if settings.shadows == Shadows::Exact {
+            let no_layers = vec![0; self.shadows.len()];
+            let frame = detect::Frame::new(width, height, &self.shadows, &no_layers, &self.codes)?;
+            let borders = detect::superpixels(&frame, mode);
+            for (word, borders) in mask.iter_mut().zip(borders) {
+                *word |= borders;
+            }
+        }
         let tiles = width.div_ceil(detect::TILE_WIDTH);
         let marked = |pixel: u32| {
             let (x, y) = (pixel % width, pixel / width);

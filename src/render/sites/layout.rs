@@ -1,7 +1,7 @@
 //! A run's sites as the device takes them: sites, cells of one or several of them, groups of cells, tiles.
 
 use super::partition::{Partition, ROUNDING, TILE, Window, half_extent, tile_of};
-use crate::passes::{Cells, SiteData};
+use crate::passes::SiteData;
 use std::ops::Range;
 
 /// Half of a cell's side beyond its samples, in pixels: covers the rounding of edge functions.
@@ -33,6 +33,7 @@ impl Partition {
         };
         let first_tile = [0, 1].map(|axis| window.low[axis] / TILE[axis]);
         let mut places: Vec<Place> = Vec::new();
+        let mut words = self.words(run).iter();
         for sites in self.run(run).chunk_by(|a, b| tile_of(a) == tile_of(b)) {
             let Some(tile) = sites.first().map(tile_of) else {
                 continue;
@@ -49,8 +50,9 @@ impl Partition {
                 mask |= 1 << (8 * pixel[1] + pixel[0]);
                 let place = [x - 4.0, y - 2.0].map(|v| f64::from(v as f32));
                 let [u, v] = site.jacobian;
+                let word = words.next().copied().unwrap_or(0);
                 data.sites.push([
-                    [bits(place[0]), bits(place[1]), index, 0],
+                    [bits(place[0]), bits(place[1]), index, word],
                     [bits(u[0]), bits(u[1]), bits(v[0]), bits(v[1])],
                 ]);
                 places.push((place, half_extent(site, self.cells)));
@@ -59,9 +61,10 @@ impl Partition {
                 *word = mask;
             }
             let cells = data.push_cells(index, &places, sizes);
-            let samples = match self.cells {
-                Cells::Points => places.len() as u32,
-                _ => cells.saturating_mul(sizes.samples),
+            let samples = if self.cells.are_points() {
+                places.len() as u32
+            } else {
+                cells.saturating_mul(sizes.samples)
             };
             if let Some(load) = data.loads.get_mut(index as usize) {
                 *load = [cells, samples];
@@ -120,6 +123,7 @@ fn bits(v: f64) -> u32 {
 mod tests {
     use super::*;
     use crate::camera::Site;
+    use crate::passes::Cells;
 
     fn site(uv: [f64; 2]) -> Site {
         Site {
@@ -148,7 +152,7 @@ mod tests {
                 in_cell: if cells == Cells::Points { 3 } else { 1 },
                 ..SIZES
             };
-            let partition = Partition::new(&sites, cells).unwrap();
+            let partition = Partition::new(&sites, &[], cells).unwrap();
             // The region left of the corner is one of its own.
             let runs = partition.runs(100);
             assert_eq!(runs.len(), 2);

@@ -27,6 +27,8 @@ pub(super) struct Partition {
     /// The sites' places in the caller's list.
     pub order: Vec<u32>,
     sites: Vec<Site>,
+    /// A word for each site, in order.
+    words: Vec<u32>,
     pub cells: Cells,
     /// What clip-space positions of all runs are relative to, if they lie close enough together.
     middle: Option<[f64; 2]>,
@@ -55,11 +57,11 @@ impl Window {
 }
 
 impl Partition {
-    /// Sorts `sites`.
+    /// Sorts `sites`, and their `words` as `shaders/include/sites.glsl` describes them; words that are missing are 0.
     ///
     /// # Errors
     /// The first site that is not finite or too far off the image.
-    pub fn new(sites: &[Site], cells: Cells) -> Result<Self, SiteError> {
+    pub fn new(sites: &[Site], words: &[u32], cells: Cells) -> Result<Self, SiteError> {
         if sites.is_empty() {
             return Err(SiteError::Empty);
         }
@@ -92,7 +94,9 @@ impl Partition {
             .map(|(_, index)| sites[*index as usize])
             .collect();
         let bounds = Bounds::of(&sorted);
+        let word = |index: u32| words.get(index as usize).copied().unwrap_or(0);
         Ok(Self {
+            words: keyed.iter().map(|(_, index)| word(*index)).collect(),
             order: keyed.into_iter().map(|(_, index)| index).collect(),
             middle: bounds.is_compact().then(|| bounds.middle()),
             sites: sorted,
@@ -117,6 +121,11 @@ impl Partition {
         self.sites.get(run.clone()).unwrap_or(&[])
     }
 
+    /// The words of a run's sites.
+    pub fn words(&self, run: &Range<usize>) -> &[u32] {
+        self.words.get(run.clone()).unwrap_or(&[])
+    }
+
     /// The window around a run.
     pub fn window(&self, run: &Range<usize>) -> Window {
         let sites = self.run(run);
@@ -126,9 +135,10 @@ impl Partition {
             let from_centre = site.uv.map(|v| (v - v.floor() - 0.5).abs());
             (from_centre[0] + extent[0]).max(from_centre[1] + extent[1])
         };
-        let reach = match self.cells {
-            Cells::Points => 0.5,
-            _ => sites.iter().map(reach).fold(0.5, f64::max),
+        let reach = if self.cells.are_points() {
+            0.5
+        } else {
+            sites.iter().map(reach).fold(0.5, f64::max)
         };
         Window {
             low: bounds.low.map(|pixel| pixel as i64),
@@ -183,7 +193,7 @@ pub(super) fn tile_of(site: &Site) -> [i64; 2] {
 /// Half of the width and height of the upright rectangle around a site's cell, in pixels; points have none.
 pub(super) fn half_extent(site: &Site, cells: Cells) -> [f64; 2] {
     let [column, row] = site.jacobian;
-    if cells == Cells::Points {
+    if cells.are_points() {
         [0.0; 2]
     } else {
         [0, 1].map(|axis| 0.5 * (column[axis].abs() + row[axis].abs()))

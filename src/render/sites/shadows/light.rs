@@ -1,0 +1,182 @@
+//! The pinholes of a light, and where receivers lie on their planes.
+//!
+//! ```text
+//!   directional: parallel rays, w = 0      spot: one perspective plane       point, wide spot: six planes, a cube
+//!
+//!     │ │ │ │ │                                    C                              ┌─────┐
+//!   ──┼─┼─┼─┼─┼── plane                           ╱│╲                             │  C  │
+//!     ▼ ▼ ▼ ▼ ▼                                  ╱─┼─╲ plane                      └─────┘
+//! ```
+
+use super::casters::Receiver;
+use crate::camera::{Pinhole, Rig, Site};
+use crate::render::RenderError;
+use crate::scene::{Light, LightKind};
+use glam::{DMat3, DVec2, DVec3};
+
+/// What lies nearer than this is the receiver itself: part of the distance to a local light, or of the scene's depth in
+/// the direction of a distant one, 2^-17. It covers the rounding of positions to 32 bits on surfaces that light grazes
+/// at more than a degree.
+const BIAS: f64 = 1.0 / 131_072.0;
+/// Largest half angle of a cone on one plane, in radians: 75 degrees. A pixel on its rim is 15 times as large as on its
+/// axis.
+const WIDEST: f64 = 75.0 * std::f64::consts::PI / 180.0;
+/// Distance of the near plane of local lights, in diagonals of the scene; nothing nearer casts a shadow.
+const NEAR: f64 = 1e-6;
+/// Most pixels along a side of a light's plane, which then is one region of the engine.
+const MOST_PIXELS: f64 = 2_000.0;
+
+/// A pinhole of a light, and the receivers that it sees: a sampling set without any pattern.
+pub(super) struct LightView {
+    pub pinhole: Pinhole,
+    /// Their places on the plane and, where others have the Jacobian, the least depth of what shadows them.
+    pub sites: Vec<Site>,
+    /// IDs of their triangles.
+    pub ids: Vec<u32>,
+    /// Their places in the caller's list.
+    pub indices: Vec<usize>,
+}
+
+/// The views of a light that together see all receivers that its light can reach, in a scene within `bounds`.
+///
+/// # Errors
+/// If a pinhole can't be, since the scene has no extent that 64 bits tell apart.
+pub(super) fn views(
+    light: &Light,
+    bounds: (DVec3, DVec3),
+    receivers: &[Receiver],
+) -> Result<Vec<LightView>, RenderError> {
+    // About as many pixels as receivers: tiles then have short lists.
+    let side = (receivers.len() as f64).sqrt().clamp(64.0, MOST_PIXELS);
+    let mut views: Vec<LightView>;
+    match light.kind {
+        LightKind::Directional => {
+            let pinhole = distant(light.direction, bounds, receivers, side)?;
+            let mut view = LightView::new(pinhole);
+            for receiver in receivers {
+                view.push(receiver, pinhole.project(receiver.position));
+            }
+            views = vec![view];
+        }
+        LightKind::Point | LightKind::Spot { .. } => {
+            let rig = local(light, bounds, side)?;
+            views = rig.pinholes().iter().copied().map(LightView::new).collect();
+            for receiver in receivers {
+                let way = receiver.position - light.position;
+                if !reaches(light, way) {
+                    continue;
+                }
+                if let Some((index, uv)) = rig.locate(way)
+                    && let Some(view) = views.get_mut(index)
+                {
+                    view.push(receiver, Some(uv));
+                }
+            }
+        }
+    }
+    views.retain(|view| !view.sites.is_empty());
+    Ok(views)
+}
+
+/// Whether light goes this way from a local light.
+fn reaches(light: &Light, way: DVec3) -> bool {
+    let near = light.range.is_none_or(|range| way.length() <= range.into());
+    let inside = match light.kind {
+        LightKind::Spot { outer_angle, .. } => {
+            way.dot(light.direction) >= f64::from(outer_angle).cos() * way.length()
+        }
+        LightKind::Directional | LightKind::Point => true,
+    };
+    near && inside
+}
+
+/// The pinhole of parallel light, with a plane of `side` pixels around the receivers and all of the scene behind it.
+fn distant(
+    along: DVec3,
+    (low, high): (DVec3, DVec3),
+    receivers: &[Receiver],
+    side: f64,
+) -> Result<Pinhole, RenderError> {
+    let a = along.any_orthonormal_vector();
+    let b = along.cross(a);
+    let diagonal = (high - low).length();
+    // Relative to the scene, wherever it lies in the world.
+    let on_plane = |receiver: &Receiver| {
+        let from_low = receiver.position - low;
+        DVec2::new(from_low.dot(a), from_low.dot(b))
+    };
+    let first = receivers.first().map(on_plane).unwrap_or_default();
+    let (least, most) = receivers
+        .iter()
+        .map(on_plane)
+        .fold((first, first), |(least, most), p| {
+            (least.min(p), most.max(p))
+        });
+    let extent = (most - least).max_element().max(1e-6 * diagonal);
+    // The box's nearest and farthest corners.
+    let size = high - low;
+    let nearest = (size * along).min(DVec3::ZERO).element_sum();
+    let farthest = (size * along).max(DVec3::ZERO).element_sum();
+    let margin = 1e-3 * diagonal;
+    let origin = low + a * least.x + b * least.y + along * (nearest - margin);
+    let pixel = extent / side;
+    let depth = farthest - nearest + 2.0 * margin;
+    Ok(Pinhole::new(
+        (-along).extend(0.0),
+        origin,
+        a * pixel,
+        b * pixel,
+        0.0,
+        Some(depth),
+    )?)
+}
+
+/// The pinholes of a local light: one for a cone that a plane of `side` pixels holds, otherwise a cube.
+fn local(light: &Light, (low, high): (DVec3, DVec3), side: f64) -> Result<Rig, RenderError> {
+    let (eye, axis) = (light.position, light.direction);
+    let near = NEAR * (high - low).length();
+    match light.kind {
+        LightKind::Spot { outer_angle, .. } if f64::from(outer_angle) <= WIDEST => {
+            let half = f64::from(outer_angle).tan();
+            let a = axis.any_orthonormal_vector();
+            let b = axis.cross(a);
+            let origin = eye + axis - (a + b) * half;
+            let pixel = 2.0 * half / side;
+            let pinhole = Pinhole::new(eye.extend(1.0), origin, a * pixel, b * pixel, near, None)?;
+            Ok(Rig::new(vec![pinhole])?)
+        }
+        _ => Ok(Rig::cube(eye, DMat3::IDENTITY, side as u32, near)?),
+    }
+}
+
+impl LightView {
+    fn new(pinhole: Pinhole) -> Self {
+        Self {
+            pinhole,
+            sites: Vec::new(),
+            ids: Vec::new(),
+            indices: Vec::new(),
+        }
+    }
+
+    fn push(&mut self, receiver: &Receiver, uv: Option<DVec2>) {
+        let Some(uv) = uv else {
+            return;
+        };
+        let matrix = self.pinhole.pixel_matrix(self.pinhole.eye(), DVec2::ZERO);
+        let place = matrix * (receiver.position - self.pinhole.eye()).extend(1.0);
+        let depth = place.z / place.w;
+        let least = if self.pinhole.is_parallel() {
+            depth + BIAS
+        } else {
+            depth * (1.0 + BIAS)
+        };
+        self.sites.push(Site {
+            uv: uv.to_array(),
+            jacobian: [[least, 0.0], [0.0; 2]],
+            output: 0,
+        });
+        self.ids.push(receiver.id);
+        self.indices.push(receiver.index);
+    }
+}
