@@ -336,7 +336,7 @@ fn what_casts_shadows_is_what_stands_in_the_way() {
             lit(AlphaMode::Blend),
         ]);
         stage.triangles.iter_mut().for_each(|t| t.material = 0);
-        let texel = |i: u32| [255, 255, 255, if (i + i / 4) % 2 == 0 { 255 } else { 0 }];
+        let texel = |i: u32| [255, 255, 255, 255 * (1 - (i + i / 4) as u8 % 2)];
         stage.texture = Some((
             Image {
                 width: 4,

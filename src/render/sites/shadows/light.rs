@@ -12,7 +12,7 @@ use super::casters::Receiver;
 use crate::camera::{Pinhole, Rig, Site};
 use crate::render::RenderError;
 use crate::scene::{Light, LightKind};
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DMat3, DMat4, DVec2, DVec3};
 
 /// What lies nearer than this is the receiver itself: part of the distance to a local light, or of the scene's depth in
 /// the direction of a distant one, 2^-17. It covers the rounding of positions to 32 bits on surfaces that light grazes
@@ -29,6 +29,8 @@ const MOST_PIXELS: f64 = 2_000.0;
 /// A pinhole of a light, and the receivers that it sees: a sampling set without any pattern.
 pub(super) struct LightView {
     pub pinhole: Pinhole,
+    /// From positions relative to its eye to its plane and depth.
+    matrix: DMat4,
     /// Their places on the plane and, where others have the Jacobian, the least depth of what shadows them.
     pub sites: Vec<Site>,
     /// IDs of their triangles.
@@ -153,6 +155,7 @@ impl LightView {
     fn new(pinhole: Pinhole) -> Self {
         Self {
             pinhole,
+            matrix: pinhole.pixel_matrix(pinhole.eye(), DVec2::ZERO),
             sites: Vec::new(),
             ids: Vec::new(),
             indices: Vec::new(),
@@ -163,8 +166,7 @@ impl LightView {
         let Some(uv) = uv else {
             return;
         };
-        let matrix = self.pinhole.pixel_matrix(self.pinhole.eye(), DVec2::ZERO);
-        let place = matrix * (receiver.position - self.pinhole.eye()).extend(1.0);
+        let place = self.matrix * (receiver.position - self.pinhole.eye()).extend(1.0);
         let depth = place.z / place.w;
         let least = if self.pinhole.is_parallel() {
             depth + BIAS

@@ -116,12 +116,13 @@ impl Headless {
         )?;
         book(&mut statistics, &run);
         let receivers = casters.receivers(pinhole, sites, &ids);
+        let lights = casters.lights.iter().filter(|_| !receivers.is_empty());
         let own = scene.memory_bytes() - casters.memory_bytes();
         let settings = Settings {
             max_memory: settings.max_memory.map(|most| most.saturating_sub(own)),
             ..settings.clone()
         };
-        for (bit, light) in casters.lights.iter().enumerate() {
+        for (bit, light) in lights.enumerate() {
             for view in light::views(light, bounds, &receivers)? {
                 let task = Task {
                     cells: Cells::Occluders,
