@@ -2,6 +2,7 @@
 
 use super::frame::Frame;
 use super::plan::Effort;
+use super::sites::Triangles;
 use super::{RenderError, Settings};
 use crate::passes::{Encoding, FrameLayout, GpuScene};
 use crate::scene::{Pose, Scene};
@@ -22,6 +23,8 @@ pub struct Renderer {
 pub struct PreparedScene {
     pub(super) gpu_scene: GpuScene,
     pub(super) memory: Memory,
+    /// For what the host looks for in images of sites.
+    pub(super) triangles: Triangles,
 }
 
 impl PreparedScene {
@@ -97,7 +100,11 @@ impl Renderer {
     ) -> Result<PreparedScene, RenderError> {
         let memory = Memory::new(self.gpu.clone(), max_memory);
         let gpu_scene = GpuScene::new(&self.layout, &memory, scene, pose)?;
-        Ok(PreparedScene { gpu_scene, memory })
+        Ok(PreparedScene {
+            gpu_scene,
+            memory,
+            triangles: Triangles::new(&pose.geometry),
+        })
     }
 
     /// Makes the pipelines and memory for frames of a scene; `encoding` is that of the host's image, `None` for

@@ -9,8 +9,10 @@ mod image;
 mod layout;
 mod partition;
 mod plan;
+mod thin;
 
 pub use error::SiteError;
+pub(super) use thin::Triangles;
 
 use super::{Headless, PreparedScene, RenderError, Settings, Statistics};
 use crate::camera::{Pinhole, Site};

@@ -1,0 +1,255 @@
+//! Where a triangle appears on a pinhole's plane, and how near it is there.
+
+use crate::camera::{Pinhole, Site};
+use glam::{DMat2, DMat4, DVec2, DVec3, DVec4, Vec4Swizzles};
+
+/// Half of a cell's side, the output's unit being a cell.
+const HALF: f64 = 0.5;
+
+/// A pinhole's way of seeing a window of its plane. Nearness is 1 / distance from the eye along the view direction, or
+/// minus that distance where rays are parallel: linear over the plane, and larger for what is nearer.
+pub struct View {
+    /// Positions to (u w, v w, w, distance).
+    matrix: DMat4,
+    /// Half-spaces of the window's sides and of what is seen, as factors and a constant; positive inside.
+    sides: [(DVec4, f64); 5],
+    parallel: bool,
+    /// Width on the plane's own scale that a cell of one pixel has: per unit of distance, or of the world where rays
+    /// are parallel.
+    pixel: f64,
+}
+
+/// The part of a triangle inside a window.
+#[derive(Clone, Debug, Default)]
+pub struct Outline {
+    /// Its corners in pixels of the plane; they turn clockwise, as v points down.
+    corners: Vec<DVec2>,
+    /// What `corners` are made from, and where they are clipped.
+    clipped: [Vec<DVec4>; 2],
+    low: DVec2,
+    high: DVec2,
+    breadth: f64,
+    /// Unit vector along the line between its farthest corners.
+    along: DVec2,
+    /// Nearness as a function of (u, v, 1).
+    plane: DVec3,
+    /// The least and the largest.
+    range: [f64; 2],
+}
+
+impl View {
+    /// How a pinhole sees positions relative to `origin`, in the window from `low` to `high` in pixels of its plane.
+    pub fn new(pinhole: &Pinhole, origin: DVec3, [low, high]: [DVec2; 2]) -> Self {
+        let pixels = pinhole.pixel_matrix(origin, DVec2::ZERO);
+        let normal = pinhole.direction();
+        let distance = normal.extend(normal.dot(origin - pinhole.eye()));
+        let [u, v, w] = [pixels.row(0), pixels.row(1), pixels.row(3)];
+        let [x, y, z, d] = [DVec4::X, DVec4::Y, DVec4::Z, DVec4::W];
+        let [a, b] = pinhole.steps();
+        let to_plane = if pinhole.is_parallel() {
+            1.0
+        } else {
+            (pinhole.origin() - pinhole.eye()).dot(normal)
+        };
+        Self {
+            matrix: DMat4::from_cols(u, v, w, distance).transpose(),
+            sides: [
+                (d, -pinhole.near()),
+                (x - low.x * z, 0.0),
+                (high.x * z - x, 0.0),
+                (y - low.y * z, 0.0),
+                (high.y * z - y, 0.0),
+            ],
+            parallel: pinhole.is_parallel(),
+            pixel: a.cross(b).length().sqrt() / to_plane,
+        }
+    }
+
+    /// Nearness of a surface at a distance along the view direction; 0 is the background.
+    pub fn nearness(&self, distance: f64) -> f64 {
+        match (self.parallel, distance == 0.0) {
+            (true, true) => f64::NEG_INFINITY,
+            (false, true) => 0.0,
+            (true, false) => -distance,
+            (false, false) => 1.0 / distance,
+        }
+    }
+
+    /// Difference of nearness between a surface and one that is a cell's width behind it.
+    pub fn gap(&self, nearness: f64, site: &Site) -> f64 {
+        let [[a, b], [c, d]] = site.jacobian;
+        let width = self.pixel * (a * d - b * c).abs().sqrt();
+        if self.parallel {
+            width
+        } else {
+            width * nearness
+        }
+    }
+
+    /// Puts the outline of a triangle into `outline`. `false` if nothing of it is seen: it shows its back and has but
+    /// one side, lies outside of the window or in front of it, or is seen edge-on.
+    pub fn outline(&self, corners: [DVec3; 3], double_sided: bool, outline: &mut Outline) -> bool {
+        let seen = corners.map(|corner| self.matrix * corner.extend(1.0));
+        let [a, b, c] = seen.map(|v| v.xyz());
+        let [ab, bc, ca] = [a.cross(b), b.cross(c), c.cross(a)];
+        let determinant = a.dot(bc);
+        // v points down, so that a front face has a negative determinant.
+        if !(determinant < 0.0 || double_sided && determinant > 0.0) {
+            return false;
+        }
+        if !outline.clip(seen, &self.sides) {
+            return false;
+        }
+        let [from_a, from_b, from_c] = seen.map(|v| if self.parallel { -v.w } else { 1.0 });
+        outline.plane = (from_a * bc + from_b * ca + from_c * ab) / determinant;
+        let [current, _] = &outline.clipped;
+        let nearness = current.iter().map(|v| self.nearness(v.w));
+        outline.range = nearness.fold([f64::INFINITY, f64::NEG_INFINITY], |[far, near], v| {
+            [v.min(far), v.max(near)]
+        });
+        outline.measure();
+        true
+    }
+}
+
+impl Outline {
+    /// Leaves what is inside all half-spaces (Sutherland and Hodgman, "Reentrant Polygon Clipping", 1974); `false` if
+    /// that has no area.
+    fn clip(&mut self, triangle: [DVec4; 3], sides: &[(DVec4, f64)]) -> bool {
+        let [current, next] = &mut self.clipped;
+        current.clear();
+        current.extend(triangle);
+        for (factors, constant) in sides {
+            let inside = |v: &DVec4| factors.dot(*v) + constant;
+            if current.iter().all(|v| inside(v) >= 0.0) {
+                continue;
+            }
+            next.clear();
+            let following = current.iter().cycle().skip(1);
+            for (v, w) in current.iter().zip(following) {
+                let [at_v, at_w] = [inside(v), inside(w)];
+                if at_v >= 0.0 {
+                    next.push(*v);
+                }
+                if (at_v < 0.0) != (at_w < 0.0) {
+                    next.push(v.lerp(*w, at_v / (at_v - at_w)));
+                }
+            }
+            std::mem::swap(current, next);
+            if current.len() < 3 {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// Everything that follows from the corners.
+    fn measure(&mut self) {
+        let [current, _] = &self.clipped;
+        self.corners.clear();
+        self.corners.extend(current.iter().map(|v| v.xy() / v.z));
+        let corners = self.corners.as_slice();
+        self.low = corners.iter().copied().fold(DVec2::INFINITY, DVec2::min);
+        self.high = corners
+            .iter()
+            .copied()
+            .fold(DVec2::NEG_INFINITY, DVec2::max);
+        let first = corners.first().copied().unwrap_or_default();
+        let fan = corners.windows(2).map(|pair| match pair {
+            [p, q] => (*p - first).perp_dot(*q - first),
+            _ => 0.0,
+        });
+        let area = 0.5 * fan.sum::<f64>();
+        let chords = corners
+            .iter()
+            .enumerate()
+            .flat_map(|(i, p)| corners.iter().skip(i + 1).map(move |q| *q - *p));
+        let longest = chords.fold(DVec2::ZERO, |longest, chord| {
+            if chord.length_squared() > longest.length_squared() {
+                chord
+            } else {
+                longest
+            }
+        });
+        self.along = longest.normalize_or_zero();
+        if area < 0.0 {
+            self.corners.reverse();
+        }
+        self.breadth = area.abs() / longest.length();
+    }
+
+    /// Its area over the distance of its farthest corners, in pixels: at most its height over any of its sides.
+    pub fn breadth(&self) -> f64 {
+        self.breadth
+    }
+
+    /// How far along it a place of the plane is, in pixels.
+    pub fn along(&self, uv: [f64; 2]) -> f64 {
+        self.along.dot(DVec2::from_array(uv))
+    }
+
+    /// Pairs of corners, in turn.
+    fn edges(corners: &[DVec2]) -> impl Iterator<Item = (DVec2, DVec2)> {
+        let following = corners.iter().cycle().skip(1);
+        corners.iter().copied().zip(following.copied())
+    }
+
+    /// Whether it touches an upright rectangle of the plane.
+    pub fn touches(&self, low: DVec2, high: DVec2) -> bool {
+        self.low.cmple(high).all()
+            && self.high.cmpge(low).all()
+            && no_edge_separates(&self.corners, 0.5 * (low + high), 0.5 * (high - low))
+    }
+
+    /// The least and largest nearness in the cell of a site that it crosses, and its height over its longest side
+    /// there with the cell as the unit.
+    pub fn across(&self, site: &Site, scratch: &mut Vec<DVec2>) -> Option<([f64; 2], f64)> {
+        let [column, row] = site.jacobian.map(DVec2::from_array);
+        let jacobian = DMat2::from_cols(column, row);
+        let determinant = jacobian.determinant();
+        if determinant == 0.0 {
+            return None;
+        }
+        let (to_output, at) = (jacobian.inverse(), DVec2::from_array(site.uv));
+        scratch.clear();
+        scratch.extend(self.corners.iter().map(|corner| to_output * (*corner - at)));
+        if determinant < 0.0 {
+            scratch.reverse();
+        }
+        let low = scratch.iter().copied().fold(DVec2::INFINITY, DVec2::min);
+        let high = scratch
+            .iter()
+            .copied()
+            .fold(DVec2::NEG_INFINITY, DVec2::max);
+        let beside = low.max_element() > HALF || high.min_element() < -HALF;
+        if beside || !no_edge_separates(scratch, DVec2::ZERO, DVec2::splat(HALF)) {
+            return None;
+        }
+        let gradient = self.plane.truncate();
+        let middle = gradient.dot(at) + self.plane.z;
+        let slope = HALF * (gradient.dot(column).abs() + gradient.dot(row).abs());
+        let [far, near] = self.range;
+        let nearness = [middle - slope, middle + slope].map(|v| v.max(far).min(near));
+        Some((nearness, height(scratch)))
+    }
+}
+
+/// Whether no edge of a convex outline, whose corners turn clockwise as v points down, has an upright rectangle on its
+/// outer side.
+fn no_edge_separates(corners: &[DVec2], centre: DVec2, half: DVec2) -> bool {
+    Outline::edges(corners).all(|(p, q)| {
+        let inward = (q - p).perp();
+        inward.dot(centre - p) + inward.abs().dot(half) >= 0.0
+    })
+}
+
+/// Height over the longest side.
+fn height(corners: &[DVec2]) -> f64 {
+    let longest = Outline::edges(corners)
+        .max_by(|(p, q), (r, s)| p.distance_squared(*q).total_cmp(&r.distance_squared(*s)));
+    let Some((p, q)) = longest else { return 0.0 };
+    let heights = corners
+        .iter()
+        .map(|corner| (q - p).perp_dot(*corner - p).abs());
+    heights.fold(0.0, f64::max) / p.distance(q)
+}
