@@ -15,9 +15,10 @@ use crate::camera::{Pinhole, Site};
 use crate::render::PixelAttributes;
 use crate::scene::{DrawClass, Geometry};
 use glam::DVec3;
-use outline::{Outline, View};
+use outline::{Outline, View, Window};
 use rayon::prelude::*;
 use rule::{Crossing, THIN};
+use std::ops::Range;
 use tree::SiteTree;
 
 /// Triangles that one thread takes at a time.
@@ -29,8 +30,16 @@ pub(in crate::render) struct Triangles {
     origin: DVec3,
     positions: Vec<[f32; 3]>,
     corners: Vec<[u32; 3]>,
-    /// Runs of triangles that are alike: the first one's index, their number, and whether they have two sides.
-    runs: Vec<(usize, usize, bool)>,
+    chunks: Vec<Chunk>,
+}
+
+/// Neighbouring triangles that are alike.
+#[derive(Clone, Debug)]
+struct Chunk {
+    range: Range<usize>,
+    double_sided: bool,
+    /// Corners of the box around them.
+    bounds: [DVec3; 2],
 }
 
 impl Triangles {
@@ -38,27 +47,35 @@ impl Triangles {
     pub fn new(geometry: &Geometry) -> Self {
         use DrawClass::{BlendDoubleSided, MaskDoubleSided, OpaqueDoubleSided};
         let two = [OpaqueDoubleSided, MaskDoubleSided, BlendDoubleSided];
-        let draws = geometry.draws.iter().map(|draw| {
-            let [first, count] = [draw.first_triangle, draw.triangle_count].map(|n| n as usize);
-            (first, count, two.contains(&draw.class))
-        });
-        Self {
+        let mut triangles = Self {
             origin: geometry.origin,
             positions: geometry.positions.clone(),
             corners: geometry.triangles.clone(),
-            runs: draws.collect(),
+            chunks: Vec::new(),
+        };
+        for draw in &geometry.draws {
+            let first = draw.first_triangle as usize;
+            let end = first + draw.triangle_count as usize;
+            for start in (first..end).step_by(CHUNK) {
+                let range = start..end.min(start + CHUNK);
+                let chunk = Chunk {
+                    bounds: triangles.bounds(range.clone()),
+                    range,
+                    double_sided: two.contains(&draw.class),
+                };
+                triangles.chunks.push(chunk);
+            }
         }
+        triangles
     }
 
-    /// Runs of up to [`CHUNK`] triangles.
-    fn chunks(&self) -> Vec<(usize, &[[u32; 3]], bool)> {
-        let runs = self.runs.iter().flat_map(|(first, count, double_sided)| {
-            let run = self.corners.get(*first..first + count).unwrap_or(&[]);
-            let starts = (*first..).step_by(CHUNK);
-            let chunks = starts.zip(run.chunks(CHUNK));
-            chunks.map(|(first, corners)| (first, corners, *double_sided))
-        });
-        runs.collect()
+    /// Corners of the box around a range of triangles.
+    fn bounds(&self, range: Range<usize>) -> [DVec3; 2] {
+        let corners = self.corners.get(range).unwrap_or(&[]).iter().flatten();
+        let places = corners.map(|corner| self.position(*corner));
+        places.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], at| {
+            [low.min(at), high.max(at)]
+        })
     }
 
     fn position(&self, corner: u32) -> DVec3 {
@@ -109,38 +126,43 @@ pub(super) fn crossed(
     output: &Output<'_>,
     contrast: Option<u8>,
 ) -> Vec<u32> {
-    let tree = SiteTree::new(sites);
+    let view = View::new(pinhole, triangles.origin);
+    let tree = SiteTree::new(sites, |site| {
+        let shown = output.attributes.get(site.output as usize);
+        view.nearness(shown.map_or(0.0, |shown| f64::from(shown.depth)))
+    });
     let search = Search {
-        view: View::new(pinhole, triangles.origin, tree.bounds()),
+        window: view.window(tree.bounds()),
+        view,
         tree,
         sites,
         output,
         contrast,
     };
-    let chunks = triangles.chunks();
-    let marked =
-        chunks
-            .par_iter()
-            .map_init(Scratch::default, |scratch, (first, chunk, double_sided)| {
-                let mut marked = Vec::new();
-                for (index, corners) in (*first..).zip(*chunk) {
-                    let corners = corners.map(|corner| triangles.position(corner));
-                    search.mark(
-                        index as u32 + 1,
-                        corners,
-                        *double_sided,
-                        scratch,
-                        &mut marked,
-                    );
-                }
-                marked
-            });
+    let chunks = triangles.chunks.par_iter();
+    let shown = chunks.filter(|chunk| search.view.may_show(&search.window, chunk.bounds));
+    let marked = shown.map_init(Scratch::default, |scratch, chunk| {
+        let mut marked = Vec::new();
+        let corners = triangles.corners.get(chunk.range.clone()).unwrap_or(&[]);
+        for (index, corners) in chunk.range.clone().zip(corners) {
+            let corners = corners.map(|corner| triangles.position(corner));
+            search.mark(
+                index as u32 + 1,
+                corners,
+                chunk.double_sided,
+                scratch,
+                &mut marked,
+            );
+        }
+        marked
+    });
     marked.collect::<Vec<_>>().concat()
 }
 
 /// The sites of one pinhole, among which triangles are looked up.
 struct Search<'a> {
     view: View,
+    window: Window,
     tree: SiteTree,
     sites: &'a [Site],
     output: &'a Output<'a>,
@@ -173,7 +195,10 @@ impl Search<'_> {
             crossings,
             ordered,
         } = scratch;
-        if !self.view.outline(corners, double_sided, outline) {
+        if !self
+            .view
+            .outline(&self.window, corners, double_sided, outline)
+        {
             return;
         }
         crossings.clear();

@@ -6,17 +6,21 @@ use glam::{DMat2, DMat4, DVec2, DVec3, DVec4, Vec4Swizzles};
 /// Half of a cell's side, the output's unit being a cell.
 const HALF: f64 = 0.5;
 
-/// A pinhole's way of seeing a window of its plane. Nearness is 1 / distance from the eye along the view direction, or
+/// A pinhole's way of seeing. Nearness is 1 / distance from the eye along the view direction, or
 /// minus that distance where rays are parallel: linear over the plane, and larger for what is nearer.
 pub struct View {
     /// Positions to (u w, v w, w, distance).
     matrix: DMat4,
-    /// Half-spaces of the window's sides and of what is seen, as factors and a constant; positive inside.
-    sides: [(DVec4, f64); 5],
+    near: f64,
     parallel: bool,
     /// Width on the plane's own scale that a cell of one pixel has: per unit of distance, or of the world where rays
     /// are parallel.
     pixel: f64,
+}
+
+/// What a view shows of a window of the plane: half-spaces of (u w, v w, w, distance, 1), positive inside.
+pub struct Window {
+    sides: [(DVec4, f64); 5],
 }
 
 /// The part of a triangle inside a window.
@@ -38,13 +42,12 @@ pub struct Outline {
 }
 
 impl View {
-    /// How a pinhole sees positions relative to `origin`, in the window from `low` to `high` in pixels of its plane.
-    pub fn new(pinhole: &Pinhole, origin: DVec3, [low, high]: [DVec2; 2]) -> Self {
+    /// How a pinhole sees positions relative to `origin`.
+    pub fn new(pinhole: &Pinhole, origin: DVec3) -> Self {
         let pixels = pinhole.pixel_matrix(origin, DVec2::ZERO);
         let normal = pinhole.direction();
         let distance = normal.extend(normal.dot(origin - pinhole.eye()));
         let [u, v, w] = [pixels.row(0), pixels.row(1), pixels.row(3)];
-        let [x, y, z, d] = [DVec4::X, DVec4::Y, DVec4::Z, DVec4::W];
         let [a, b] = pinhole.steps();
         let to_plane = if pinhole.is_parallel() {
             1.0
@@ -53,16 +56,33 @@ impl View {
         };
         Self {
             matrix: DMat4::from_cols(u, v, w, distance).transpose(),
-            sides: [
-                (d, -pinhole.near()),
-                (x - low.x * z, 0.0),
-                (high.x * z - x, 0.0),
-                (y - low.y * z, 0.0),
-                (high.y * z - y, 0.0),
-            ],
+            near: pinhole.near(),
             parallel: pinhole.is_parallel(),
             pixel: a.cross(b).length().sqrt() / to_plane,
         }
+    }
+
+    /// The window from `low` to `high` in pixels of the plane.
+    pub fn window(&self, [low, high]: [DVec2; 2]) -> Window {
+        let [x, y, w, distance] = [DVec4::X, DVec4::Y, DVec4::Z, DVec4::W];
+        let sides = [
+            (distance, -self.near),
+            (x - low.x * w, 0.0),
+            (high.x * w - x, 0.0),
+            (y - low.y * w, 0.0),
+            (high.y * w - y, 0.0),
+        ];
+        Window { sides }
+    }
+
+    /// Whether a window may show something of the box between two corners.
+    pub fn may_show(&self, window: &Window, [low, high]: [DVec3; 2]) -> bool {
+        let centre = (0.5 * (low + high)).extend(1.0);
+        let half = (0.5 * (high - low)).extend(0.0);
+        window.sides.iter().all(|(factors, constant)| {
+            let factors = self.matrix.transpose() * *factors;
+            factors.dot(centre) + factors.abs().dot(half) + constant >= 0.0
+        })
     }
 
     /// Nearness of a surface at a distance along the view direction; 0 is the background.
@@ -88,7 +108,13 @@ impl View {
 
     /// Puts the outline of a triangle into `outline`. `false` if nothing of it is seen: it shows its back and has but
     /// one side, lies outside of the window or in front of it, or is seen edge-on.
-    pub fn outline(&self, corners: [DVec3; 3], double_sided: bool, outline: &mut Outline) -> bool {
+    pub fn outline(
+        &self,
+        window: &Window,
+        corners: [DVec3; 3],
+        double_sided: bool,
+        outline: &mut Outline,
+    ) -> bool {
         let seen = corners.map(|corner| self.matrix * corner.extend(1.0));
         let [a, b, c] = seen.map(|v| v.xyz());
         let [ab, bc, ca] = [a.cross(b), b.cross(c), c.cross(a)];
@@ -97,7 +123,7 @@ impl View {
         if !(determinant < 0.0 || double_sided && determinant > 0.0) {
             return false;
         }
-        if !outline.clip(seen, &self.sides) {
+        if !outline.clip(seen, &window.sides) {
             return false;
         }
         let [from_a, from_b, from_c] = seen.map(|v| if self.parallel { -v.w } else { 1.0 });
@@ -183,6 +209,11 @@ impl Outline {
         self.breadth
     }
 
+    /// Its largest nearness.
+    pub fn nearest(&self) -> f64 {
+        self.range[1]
+    }
+
     /// How far along it a place of the plane is, in pixels.
     pub fn along(&self, uv: [f64; 2]) -> f64 {
         self.along.dot(DVec2::from_array(uv))
@@ -205,12 +236,17 @@ impl Outline {
     /// there with the cell as the unit.
     pub fn across(&self, site: &Site, scratch: &mut Vec<DVec2>) -> Option<([f64; 2], f64)> {
         let [column, row] = site.jacobian.map(DVec2::from_array);
+        let at = DVec2::from_array(site.uv);
+        let half = HALF * (column.abs() + row.abs());
+        if (at - half).cmpgt(self.high).any() || (at + half).cmplt(self.low).any() {
+            return None;
+        }
         let jacobian = DMat2::from_cols(column, row);
         let determinant = jacobian.determinant();
         if determinant == 0.0 {
             return None;
         }
-        let (to_output, at) = (jacobian.inverse(), DVec2::from_array(site.uv));
+        let to_output = jacobian.inverse();
         scratch.clear();
         scratch.extend(self.corners.iter().map(|corner| to_output * (*corner - at)));
         if determinant < 0.0 {

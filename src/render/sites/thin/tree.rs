@@ -29,6 +29,8 @@ struct Node {
     high: DVec2,
     /// The most that a unit of the output is stretched to on the plane, in pixels, or more (Frobenius norm).
     stretch: f64,
+    /// The least nearness of what a cell shows.
+    behind: f64,
 }
 
 impl Node {
@@ -36,9 +38,10 @@ impl Node {
         low: DVec2::INFINITY,
         high: DVec2::NEG_INFINITY,
         stretch: 0.0,
+        behind: f64::INFINITY,
     };
 
-    fn of(site: &Site) -> Self {
+    fn of(site: &Site, behind: f64) -> Self {
         let at = DVec2::from_array(site.uv);
         let half = DVec2::from_array(half_extent(site, Cells::Superpixels));
         let squares = site.jacobian.iter().flatten().map(|v| v * v);
@@ -46,6 +49,7 @@ impl Node {
             low: at - half,
             high: at + half,
             stretch: squares.sum::<f64>().sqrt(),
+            behind,
         }
     }
 
@@ -54,17 +58,20 @@ impl Node {
             low: self.low.min(other.low),
             high: self.high.max(other.high),
             stretch: self.stretch.max(other.stretch),
+            behind: self.behind.min(other.behind),
         }
     }
 
     fn may_hold(&self, outline: &Outline) -> bool {
-        outline.breadth() < THIN * self.stretch && outline.touches(self.low, self.high)
+        outline.touches(self.low, self.high)
+            && outline.breadth() < THIN * self.stretch
+            && outline.nearest() >= self.behind
     }
 }
 
 impl SiteTree {
-    /// The tree of some sites, whose numbers are finite.
-    pub fn new(sites: &[Site]) -> Self {
+    /// The tree of some sites, whose numbers are finite; `behind` is the nearness of what the cell of each shows.
+    pub fn new(sites: &[Site], behind: impl Fn(&Site) -> f64 + Sync) -> Self {
         let places = sites.iter().map(|site| DVec2::from_array(site.uv));
         let (low, high) = places.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), at| {
             (low.min(at), high.max(at))
@@ -83,7 +90,8 @@ impl SiteTree {
         let order: Vec<u32> = keyed.into_iter().map(|(_, index)| index).collect();
         let cells = |part: &[u32]| {
             let cells = part.iter().filter_map(|index| sites.get(*index as usize));
-            cells.map(Node::of).fold(Node::NOTHING, Node::and)
+            let nodes = cells.map(|site| Node::of(site, behind(site)));
+            nodes.fold(Node::NOTHING, Node::and)
         };
         let mut levels: Vec<Vec<Node>> = vec![order.par_chunks(FAN).map(cells).collect()];
         while let Some(below) = levels.last().filter(|level| level.len() > 1) {
@@ -100,12 +108,8 @@ impl SiteTree {
         [root.low, root.high]
     }
 
-    /// Whether a triangle with an outline like this may be thin in a cell.
-    pub fn may_hold(&self, outline: &Outline) -> bool {
-        self.root().may_hold(outline)
-    }
-
-    /// Hands the places in their list of all sites whose cells may touch a thin outline, and of some more, to `found`.
+    /// Hands the places in their list of all sites whose cells a thin outline may touch unhidden, and of some more, to
+    /// `found`.
     pub fn search(&self, outline: &Outline, found: &mut impl FnMut(u32)) {
         self.descend(self.levels.len(), 0, outline, found);
     }
@@ -119,8 +123,10 @@ impl SiteTree {
             return sites.iter().copied().for_each(found);
         };
         let nodes = self.levels.get(below).map_or(&[][..], Vec::as_slice);
-        for child in children.start..children.end.min(nodes.len()) {
-            if nodes.get(child).is_some_and(|node| node.may_hold(outline)) {
+        let end = children.end.min(nodes.len());
+        let nodes = nodes.get(children.start..end).unwrap_or(&[]);
+        for (child, node) in (children.start..).zip(nodes) {
+            if node.may_hold(outline) {
                 self.descend(below, child, outline, found);
             }
         }
