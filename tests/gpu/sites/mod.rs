@@ -4,6 +4,7 @@ mod equivalence;
 mod extremes;
 mod image;
 mod sets;
+mod thin;
 mod twin;
 
 use gpc::camera::{Pinhole, Site};

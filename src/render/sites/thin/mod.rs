@@ -129,7 +129,7 @@ pub(super) fn crossed(
     let view = View::new(pinhole, triangles.origin);
     let tree = SiteTree::new(sites, |site| {
         let shown = output.attributes.get(site.output as usize);
-        view.nearness(shown.map_or(0.0, |shown| f64::from(shown.depth)))
+        view.behind(shown.map_or(0.0, |shown| shown.depth))
     });
     let search = Search {
         window: view.window(tree.bounds()),
@@ -236,7 +236,7 @@ impl Search<'_> {
             layer: self.output.blend_ids.get(cell) == Some(&id),
             code: self.output.codes.get(cell).copied().unwrap_or(0),
             nearness,
-            behind: self.view.nearness(f64::from(shown.depth)),
+            behind: self.view.behind(shown.depth),
             gap: self.view.gap(nearness[0], site),
         })
     }

@@ -85,13 +85,21 @@ impl View {
         })
     }
 
-    /// Nearness of a surface at a distance along the view direction; 0 is the background.
-    pub fn nearness(&self, distance: f64) -> f64 {
-        match (self.parallel, distance == 0.0) {
+    /// Nearness at a distance along the view direction.
+    fn nearness(&self, distance: f64) -> f64 {
+        if self.parallel {
+            -distance
+        } else {
+            1.0 / distance
+        }
+    }
+
+    /// Nearness of what a location sees at a depth; a depth of 0 is the background, with nothing behind it.
+    pub fn behind(&self, depth: f32) -> f64 {
+        match (depth == 0.0, self.parallel) {
             (true, true) => f64::NEG_INFINITY,
-            (false, true) => 0.0,
-            (true, false) => -distance,
-            (false, false) => 1.0 / distance,
+            (true, false) => 0.0,
+            _ => self.nearness(f64::from(depth)),
         }
     }
 
@@ -221,15 +229,16 @@ impl Outline {
 
     /// Pairs of corners, in turn.
     fn edges(corners: &[DVec2]) -> impl Iterator<Item = (DVec2, DVec2)> {
-        let following = corners.iter().cycle().skip(1);
-        corners.iter().copied().zip(following.copied())
+        let last = corners.last().into_iter();
+        last.chain(corners).copied().zip(corners.iter().copied())
     }
 
     /// Whether it touches an upright rectangle of the plane.
     pub fn touches(&self, low: DVec2, high: DVec2) -> bool {
-        self.low.cmple(high).all()
-            && self.high.cmpge(low).all()
-            && no_edge_separates(&self.corners, 0.5 * (low + high), 0.5 * (high - low))
+        let overlaps = self.low.cmple(high).all() && self.high.cmpge(low).all();
+        let lies_within = || self.low.cmpge(low).all() && self.high.cmple(high).all();
+        let meets = || no_edge_separates(&self.corners, 0.5 * (low + high), 0.5 * (high - low));
+        overlaps && (lies_within() || meets())
     }
 
     /// The least and largest nearness in the cell of a site that it crosses, and its height over its longest side
@@ -288,4 +297,105 @@ fn height(corners: &[DVec2]) -> f64 {
         .iter()
         .map(|corner| (q - p).perp_dot(*corner - p).abs());
     heights.fold(0.0, f64::max) / p.distance(q)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Looks along -z from the origin; a pixel at distance 1 is 0.1 wide, and (10, 10) is straight ahead.
+    fn pinhole() -> Pinhole {
+        let corner = DVec3::new(-1.0, 1.0, -1.0);
+        let [a, b] = [DVec3::X * 0.1, DVec3::NEG_Y * 0.1];
+        Pinhole::new(DVec4::W, corner, a, b, 0.5, None).unwrap()
+    }
+
+    const WINDOW: [DVec2; 2] = [DVec2::ZERO, DVec2::splat(20.0)];
+
+    fn site(uv: [f64; 2], side: f64) -> Site {
+        Site {
+            uv,
+            jacobian: [[side, 0.0], [0.0, side]],
+            output: 0,
+        }
+    }
+
+    fn outlined(corners: [[f64; 3]; 3], double_sided: bool) -> Option<Outline> {
+        let view = View::new(&pinhole(), DVec3::ZERO);
+        let mut outline = Outline::default();
+        let corners = corners.map(DVec3::from_array);
+        view.outline(&view.window(WINDOW), corners, double_sided, &mut outline)
+            .then_some(outline)
+    }
+
+    #[test]
+    fn only_faces_in_the_window_have_an_outline() {
+        let front = [[0.0, 0.0, -2.0], [1.0, 0.0, -2.0], [0.0, 1.0, -2.0]];
+        let [a, b, c] = front;
+        assert!(outlined(front, false).is_some());
+        assert!(outlined([a, c, b], false).is_none());
+        assert!(outlined([a, c, b], true).is_some());
+        let moved = |by: [f64; 3]| front.map(|corner| [0, 1, 2].map(|i| corner[i] + by[i]));
+        assert!(outlined(moved([3.0, 0.0, 0.0]), false).is_none());
+        assert!(outlined(moved([0.0, 0.0, 4.0]), true).is_none());
+        assert!(
+            outlined(moved([0.0, 0.0, 1.6]), false).is_none(),
+            "before the near plane"
+        );
+        assert!(
+            outlined([a, b, [0.5, 0.0, -2.0]], true).is_none(),
+            "edge-on"
+        );
+    }
+
+    /// A strip from far ahead to behind the eye is as wide as what the window shows of it.
+    #[test]
+    fn what_passes_the_eye_is_clipped_to_the_window() {
+        let strip = outlined(
+            [[0.0, 1.0, 9.0], [0.02, 1.0, -50.0], [0.0, 1.0, -50.0]],
+            true,
+        );
+        let strip = strip.unwrap();
+        assert!(strip.low.y > -1e-9 && strip.high.y < 10.0, "{strip:?}");
+        assert!(strip.breadth() < 0.2, "{strip:?}");
+    }
+
+    #[test]
+    fn nearness_is_that_of_the_cell() {
+        // A wall that leans: distance 2 to the left, 4 to the right.
+        let wall = outlined(
+            [[-2.0, -9.0, -2.0], [4.0, -9.0, -4.0], [-2.0, 9.0, -2.0]],
+            true,
+        );
+        let wall = wall.unwrap();
+        let mut scratch = Vec::new();
+        let mut across = |u: f64, side| wall.across(&site([u, 10.0], side), &mut scratch);
+        let ([far, near], _) = across(5.0, 2.0).unwrap();
+        // u = 10 + 10 x / d, with x = 3 d - 8 on the wall.
+        let distance = |u: f64| 80.0 / (40.0 - u);
+        assert!((near - 1.0 / distance(4.0)).abs() < 1e-12, "{near}");
+        assert!((far - 1.0 / distance(6.0)).abs() < 1e-12, "{far}");
+        assert!(across(21.5, 1.0).is_none());
+    }
+
+    /// Half as wide and deep, cells make twice the height of the same triangle, and half the gap.
+    #[test]
+    fn height_and_gap_are_in_cells() {
+        let view = View::new(&pinhole(), DVec3::ZERO);
+        let strip = [[-1.0, 0.0, -2.0], [1.0, 0.0, -2.0], [0.0, 0.3, -2.0]];
+        let strip = outlined(strip, false).unwrap();
+        for (side, height) in [(1.0, 1.5), (0.5, 3.0), (3.0, 0.5)] {
+            let site = site([10.0, 10.0], side);
+            let (_, found) = strip.across(&site, &mut Vec::new()).unwrap();
+            assert!((found - height).abs() < 1e-12, "{found}");
+            // A surface at distance 2, where a cell is 0.2 wide, and one about a cell behind.
+            let nearness = view.nearness(2.0);
+            let behind = |widths: f64| view.nearness(2.0 + 0.2 * side * widths);
+            let gap = view.gap(nearness, &site);
+            assert!(
+                nearness - behind(0.5) < gap && nearness - behind(1.6) > gap,
+                "{side}"
+            );
+        }
+    }
 }

@@ -147,3 +147,82 @@ fn spread(v: u32) -> u64 {
     let v = (v | v << 2) & 0x3333_3333_3333_3333;
     (v | v << 1) & 0x5555_5555_5555_5555
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::outline::View;
+    use super::*;
+    use crate::bench::stress::Random;
+    use crate::camera::Pinhole;
+    use glam::{DVec3, DVec4};
+
+    /// Pixel (u, v) of its plane is the world's (u, v, 0).
+    fn plane() -> Pinhole {
+        Pinhole::new(DVec4::Z, DVec3::ZERO, DVec3::X, DVec3::Y, -1.0, Some(1.0)).unwrap()
+    }
+
+    /// A crowd, duplicates and sites far away.
+    fn sites(random: &mut Random) -> Vec<Site> {
+        (0..600)
+            .map(|index| {
+                let side = [20.0, 0.01, 1e5][index % 3];
+                Site {
+                    uv: [(random.range(0.0, side)).round(), random.range(0.0, side)],
+                    jacobian: [
+                        [random.range(0.1, 2.0), 0.3],
+                        [-0.2, random.range(0.1, 2.0)],
+                    ],
+                    output: 0,
+                }
+            })
+            .collect()
+    }
+
+    #[test]
+    fn no_cell_that_a_thin_outline_crosses_is_missed() {
+        let mut random = Random::new(17);
+        let sites = sites(&mut random);
+        let view = View::new(&plane(), DVec3::ZERO);
+        let tree = SiteTree::new(&sites, |_| f64::NEG_INFINITY);
+        let window = view.window(tree.bounds());
+        let (mut outline, mut scratch) = (Outline::default(), Vec::new());
+        let mut crossed = 0;
+        for triangle in 0..300 {
+            let length = [1.0, 30.0, 1e5][triangle % 3];
+            let mut corner =
+                || DVec3::new(random.range(-0.1, length), random.range(-0.1, length), 0.0);
+            let [a, b] = [corner(), corner()];
+            let c = a + DVec3::new(0.3, 0.2, 0.0);
+            if !view.outline(&window, [a, b, c], true, &mut outline) {
+                continue;
+            }
+            let mut found = Vec::new();
+            tree.search(&outline, &mut |place| found.push(place));
+            for (place, site) in sites.iter().enumerate() {
+                if let Some((_, height)) = outline.across(site, &mut scratch) {
+                    crossed += 1;
+                    let missed = height < THIN && !found.contains(&(place as u32));
+                    assert!(!missed, "triangle {triangle}, site {place}");
+                }
+            }
+        }
+        assert!(crossed > 1000, "{crossed}");
+    }
+
+    #[test]
+    fn what_lies_behind_all_that_cells_show_is_passed_over() {
+        let sites = sites(&mut Random::new(4));
+        let view = View::new(&plane(), DVec3::ZERO);
+        let mut outline = Outline::default();
+        for (shown, expected) in [(0.5, true), (-0.5, false)] {
+            // The triangle lies in the plane, at distance 0.
+            let tree = SiteTree::new(&sites, |_| view.behind(shown));
+            let window = view.window(tree.bounds());
+            let corners = [DVec3::ZERO, DVec3::new(9.0, 0.1, 0.0), DVec3::Y];
+            assert!(view.outline(&window, corners, true, &mut outline));
+            let mut found = false;
+            tree.search(&outline, &mut |_| found = true);
+            assert_eq!(found, expected);
+        }
+    }
+}
