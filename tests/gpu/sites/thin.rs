@@ -72,10 +72,10 @@ fn wires_of_a_planar_set_are_the_images() {
             let pairs = image.attributes.iter().zip(&sites.attributes);
             let differ = pairs.filter(|(a, b)| a.superpixel != b.superpixel).count();
             assert!(image.statistics.superpixels > 1000);
-            assert!(differ <= 12, "{differ} superpixels differ at {distance}");
+            assert!(differ <= 24, "{differ} superpixels differ at {distance}");
             let far = |(a, b): &(&[f32; 4], &[f32; 4])| (a[0] - b[0]).abs() > 1e-3;
             let differ = image.colors.iter().zip(&sites.colors).filter(far).count();
-            assert!(differ <= 12, "{differ} colours differ at {distance}");
+            assert!(differ <= 24, "{differ} colours differ at {distance}");
         }
     });
 }
@@ -133,7 +133,8 @@ fn dense_meshes_make_no_superpixels() {
             })
             .collect();
         let at = |column: usize, row: usize| {
-            let place = [column as f64 * 0.5 - 55.0, row as f64 * 0.5 - 40.0];
+            // No vertex lies on a site.
+            let place = [column as f64 * 0.5 - 54.87, row as f64 * 0.5 - 39.91];
             seen_at(place, distances[row * columns + column], SIZE[1])
         };
         for row in 1..rows {
