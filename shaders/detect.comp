@@ -6,7 +6,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
-#include "include/contrast.glsl"
 layout(local_size_x = 64) in;
 
 layout(constant_id = 0) const uint MODE = 0u;
@@ -24,6 +23,21 @@ uint blend_at(ivec2 p) {
 #else
     return texelFetch(blend_ids, p, 0).x;
 #endif
+}
+
+// Three 8-bit channels apart in 11-bit fields, so that one subtraction compares all of them: a field holds
+// 512 + contrast + a - b, whose bit 9 is set where a - b >= -contrast, and its complement where a - b <= contrast.
+const uint FIELDS = 0x400801u;
+
+uint spread(uint c) {
+    return (c & 0xffu) | (c & 0xff00u) << 3 | (c & 0xff0000u) << 6;
+}
+
+// Of spread colours.
+bool contrasting(uint a, uint b) {
+    uint limit = (512u + frame.contrast) * FIELDS;
+    uint u = a - b + limit;
+    return (u & (2u * limit - u) & 512u * FIELDS) != 512u * FIELDS;
 }
 
 bool differs(uint id_a, uint id_b, uint blend_a, uint blend_b, uint color_a, uint color_b, int alpha_a, int alpha_b) {

@@ -50,7 +50,7 @@ const uint PROBES = 64u;                                // samples of a PROBE, i
 const float FEWEST = 6.0;                               // samples that an area to be trusted is worth
 const float AGREEMENT = 0.1;                            // of areas and samples, in cells
 // Mesa's CPU driver ends all loops of an invocation after 65,535 trips in all; what takes more is reported instead.
-const uint MOST_TRIPS = 60000u, LONGEST_LIST = 40000u;
+const uint MOST_TRIPS = 50000u, LONGEST_LIST = 40000u;
 const float OUTSIDE = 1.1754944e-38;                    // the least E of a sample off the owning side
 
 shared uint kept[32 * KEPT];                            // by invocation, then entry
@@ -363,7 +363,7 @@ void main() {
                 bool mask_ = HAS_MASK && k.id > frame.first_mask && !blend;
                 bool touches = batch * LANES + lane < entries_ && test.touches && !blend && test.near >= hidden;
 
-                trips += 2u + uint(bitCount(subgroupBallot(touches).x));
+                trips += 3u + uint(bitCount(subgroupBallot(touches).x));
                 uint pending = subgroupBallot(touches && !mask_).x;
                 do {
                     bool some = pending != 0u;
@@ -433,7 +433,7 @@ void main() {
                     CellTest test = test_cell(k, at, half_side);
                     bool touches = batch * LANES + lane < entries_ && test.touches && k.id > frame.first_blend && test.near >= hidden;
                     uint pending = subgroupBallot(touches).x;
-                    trips += 1u + uint(bitCount(pending));
+                    trips += 2u + uint(bitCount(pending));
                     do {
                         bool some = pending != 0u;
                         Candidate t = shuffle_candidate(k, some ? uint(findLSB(pending)) : 0u);

@@ -1,22 +1,20 @@
 // thin: pixels that a thin triangle crosses unseen become superpixels, although no pixel centre saw it: a rope or wire
 // narrower than a pixel, the tip of a leaf. Runs twice: SELECT lists thin triangles, then each is walked along its
 // longer side, pixel by pixel.
-// Reads: triangles, clip, raster's depth, ids, blend_ids, display. Writes: marks, survivors (a scratch list here).
+// Reads: triangles, clip, raster's depth, ids, blend_ids. Writes: marks, survivors (a scratch list here).
 //
 // A pixel is marked where the triangle, all of it that lies there, is nearer than the surface at the pixel's centre by
 // more than a pixel's width. On a dense mesh each small triangle lies within its neighbours' surface, and marks nothing.
-// Where a triangle lies close to a surface, like paint on a road, its colour tells: a pixel is marked, too, if the
-// triangle may be nearer there and contrasts with it in the colour last seen along the walk; or, where no centre sees
-// the triangle, if it lies amid a larger one.
+// Where a triangle lies close to a surface, like paint on a road, depth can't tell: a pixel is marked, too, if the
+// triangle may be nearer there and the pixel lies amid a larger one. (Beside a pixel that shows the triangle, `detect`
+// compares colours.)
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/tiles.glsl"
-#include "include/contrast.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool SELECT = false;
 layout(constant_id = 1) const bool HAS_BLEND = false;
-layout(constant_id = 2) const bool COLOURS = false;     // there are display codes to compare
 
 layout(set = 0, binding = 40) uniform texture2D raster_depth;
 
@@ -59,39 +57,27 @@ vec2 span_of(vec2 p, vec2 q, float left, float right) {
     return from <= to ? vec2(min(a, b), max(a, b)) : vec2(3.4e38, -3.4e38);
 }
 
-// Whether a pixel and its four neighbours show the same triangle.
-bool amid_one(ivec2 pixel) {
+// Whether a pixel lies amid a triangle other than `id`: it and both its neighbours to the sides, or above and below,
+// show the same one.
+bool amid_another(ivec2 pixel, uint id) {
     ivec2 low = max(pixel - 1, ivec2(0)), high = min(pixel + 1, ivec2(frame.size) - 1);
     uint here = texelFetch(ids, pixel, 0).x;
-    return here != 0u
-        && here == texelFetch(ids, ivec2(low.x, pixel.y), 0).x && here == texelFetch(ids, ivec2(high.x, pixel.y), 0).x
-        && here == texelFetch(ids, ivec2(pixel.x, low.y), 0).x && here == texelFetch(ids, ivec2(pixel.x, high.y), 0).x;
+    bool beside = here == texelFetch(ids, ivec2(low.x, pixel.y), 0).x && here == texelFetch(ids, ivec2(high.x, pixel.y), 0).x;
+    bool above = here == texelFetch(ids, ivec2(pixel.x, low.y), 0).x && here == texelFetch(ids, ivec2(pixel.x, high.y), 0).x;
+    return here != 0u && here != id && (beside || above);
 }
 
-struct Walker {
-    uint triangle;
-    vec3 plane;         // depth
-    float near, far;
-    bool has_color;     // it was seen
-    uint color;         // where it was seen last, spread
-};
-
-void visit(inout Walker w, ivec2 pixel, bool marks_it) {
-    bool seen = texelFetch(ids, pixel, 0).x == w.triangle + 1u;
-    uint color_there = COLOURS ? spread(texelFetch(display, pixel.y * int(frame.size.x) + pixel.x).x) : 0u;
-    bool unseen = !HAS_BLEND || w.triangle < frame.first_blend || texelFetch(blend_ids, pixel, 0).x != w.triangle + 1u;
-    float middle = dot(w.plane, vec3(pixel, 1.0)), slope = 0.5 * (abs(w.plane.x) + abs(w.plane.y));
-    float farthest = clamp(middle - slope, w.far, w.near), nearest = clamp(middle + slope, w.far, w.near);
-    float behind = texelFetch(raster_depth, pixel, 0).x;
-    bool apart = farthest - behind > frame.gap.x * farthest + frame.gap.y;
-    bool stands_out = COLOURS && w.has_color ? contrasting(w.color, color_there) : amid_one(pixel);
-    bool painted = nearest >= behind && stands_out;
-    if (marks_it && unseen && !seen && nearest <= 1.0 && (apart || painted)) {
+void mark(ivec2 pixel, uint t, vec3 plane, float near, float far) {
+    float middle = dot(plane, vec3(pixel, 1.0)), slope = 0.5 * (abs(plane.x) + abs(plane.y));
+    float farthest = clamp(middle - slope, far, near), nearest = clamp(middle + slope, far, near);
+    float seen = texelFetch(raster_depth, pixel, 0).x;
+    bool unseen = !HAS_BLEND || t < frame.first_blend || texelFetch(blend_ids, pixel, 0).x != t + 1u;
+    bool apart = farthest - seen > frame.gap.x * farthest + frame.gap.y;
+    bool painted = nearest >= seen && amid_another(pixel, t + 1u);
+    if (unseen && nearest <= 1.0 && (apart || painted)) {
         uvec2 tile = uvec2(pixel) / uvec2(8u, 4u), within = uvec2(pixel) % uvec2(8u, 4u);
         atomicOr(marks[tile.y * frame.tiles.x + tile.x], 1u << (within.y * 8u + within.x));
     }
-    w.color = seen ? color_there : w.color;
-    w.has_color = w.has_color || seen;
 }
 
 void walk() {
@@ -107,32 +93,25 @@ void walk() {
     vec2 d1 = p1 - p0, d2 = p2 - p0;
     float inverse = 1.0 / (d1.x * d2.y - d1.y * d2.x);
     vec2 g = vec2((z1 - z0) * d2.y - (z2 - z0) * d1.y, (z2 - z0) * d1.x - (z1 - z0) * d2.x) * inverse;
-    Walker walker = Walker(t, vec3(g, z0 - dot(g, p0)), max(z0, max(z1, z2)), min(z0, min(z1, z2)), false, 0u);
+    vec3 plane = vec3(g, z0 - dot(g, p0));
+    float near = max(z0, max(z1, z2)), far = min(z0, min(z1, z2));
 
-    // Along the longer side; the coordinates are exchanged where that is y. With colours, a first walk finds one for
-    // the pixels before any sees the triangle.
+    // Along the longer side; the coordinates are exchanged where that is y.
     vec2 extent = max(p0, max(p1, p2)) - min(p0, min(p1, p2));
     bool swap = extent.y > extent.x;
     if (swap) { p0 = p0.yx; p1 = p1.yx; p2 = p2.yx; }
     ivec2 last = swap ? ivec2(frame.size.yx) - 1 : ivec2(frame.size) - 1;
-    int begin = int(clamp(floor(min(p0.x, min(p1.x, p2.x)) + 0.5), 0.0, float(last.x)));
+    int x = int(clamp(floor(min(p0.x, min(p1.x, p2.x)) + 0.5), 0.0, float(last.x)));
     int end = int(clamp(floor(max(p0.x, max(p1.x, p2.x)) + 0.5), 0.0, float(last.x)));
-    int walks = COLOURS ? 2 : 1;
     do {
-        // The way back first, so that the colour in hand at its end is the nearest to where marking begins.
-        int x = walks == 2 ? end : begin;
+        float left = float(x) - 0.5, right = float(x) + 0.5;
+        vec2 a = span_of(p0, p1, left, right), b = span_of(p1, p2, left, right), c = span_of(p2, p0, left, right);
+        int y = int(clamp(floor(min(a.x, min(b.x, c.x)) + 0.5), 0.0, float(last.y) + 1.0));
+        int bottom = int(clamp(floor(max(a.y, max(b.y, c.y)) + 0.5), -1.0, float(last.y)));
         do {
-            float left = float(x) - 0.5, right = float(x) + 0.5;
-            vec2 a = span_of(p0, p1, left, right), b = span_of(p1, p2, left, right), c = span_of(p2, p0, left, right);
-            int y = int(clamp(floor(min(a.x, min(b.x, c.x)) + 0.5), 0.0, float(last.y) + 1.0));
-            int bottom = int(clamp(floor(max(a.y, max(b.y, c.y)) + 0.5), -1.0, float(last.y)));
-            do {
-                bool within = y <= bottom && x >= begin && x <= end;
-                if (within) visit(walker, swap ? ivec2(y, x) : ivec2(x, y), walks == 1);
-            } while (++y <= bottom);
-            x += walks == 2 ? -1 : 1;
-        } while (x >= begin && x <= end);
-    } while (--walks > 0);
+            if (y <= bottom && x <= end) mark(swap ? ivec2(y, x) : ivec2(x, y), t, plane, near, far);
+        } while (++y <= bottom);
+    } while (++x <= end);
 }
 
 void main() {

@@ -217,7 +217,7 @@ impl Resources {
                 Ok(SampleSet {
                     uniform: memory.buffer(
                         "frame uniform",
-                        size_of::<FrameUniform>() as u64,
+                        size_of::<FrameUniform>().next_multiple_of(16) as u64,
                         vk::BufferUsageFlags::UNIFORM_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
                         MemoryUse::Device,
                     )?,

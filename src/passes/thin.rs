@@ -12,19 +12,16 @@ pub struct Thin {
 }
 
 impl Thin {
-    /// Makes the pipelines; `colours` says whether display codes are there to compare.
+    /// Makes the pipelines.
     ///
     /// # Errors
     /// If the driver refuses one.
-    pub fn new(layout: &FrameLayout, has_blend: bool, colours: bool) -> Result<Self, VulkanError> {
+    pub fn new(layout: &FrameLayout, has_blend: bool) -> Result<Self, VulkanError> {
         let make = |code, constants| layout.compute(code, &constants, None);
         let thin = |select| {
             make(
                 spirv::THIN,
-                Constants::new()
-                    .flag(0, select)
-                    .flag(1, has_blend)
-                    .flag(2, colours),
+                Constants::new().flag(0, select).flag(1, has_blend),
             )
         };
         Ok(Self {

@@ -62,7 +62,7 @@ impl Engine {
         Ok(Self {
             thin: kind
                 .thin
-                .then(|| Thin::new(layout, scene.has_blend(), kind.mode != DetectMode::Exact))
+                .then(|| Thin::new(layout, scene.has_blend()))
                 .transpose()?,
             detect: Detect::new(
                 layout,

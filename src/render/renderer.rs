@@ -121,6 +121,19 @@ impl Renderer {
         self.prepare_with(scene, settings, encoding, Effort::default())
     }
 
+    /// Makes a frame like another one that ended as [`RenderError::Unfinished`], with twice the memory and effort.
+    ///
+    /// # Errors
+    /// As for [`Self::prepare`].
+    pub fn prepare_again(
+        &self,
+        scene: &PreparedScene,
+        frame: &Frame,
+        encoding: Option<Encoding>,
+    ) -> Result<Frame, RenderError> {
+        self.prepare_with(scene, frame.settings(), encoding, frame.effort().doubled())
+    }
+
     pub(super) fn prepare_with(
         &self,
         scene: &PreparedScene,
