@@ -25,8 +25,9 @@ impl Headless {
     /// see what one plane can't.
     ///
     /// Every site is sampled once. Where neighbours in the *output* alias, across pinholes too, sites are then sampled
-    /// as superpixels, and so are those that a triangle narrower than their cell crosses unseen. `ssaa` samples every site by a grid and
-    /// shades each sample. Pixels without a site show the background; of several sites of a pixel the last one counts.
+    /// as superpixels, and so are those that a triangle narrower than their cell crosses unseen. `ssaa` samples every
+    /// site by a grid and shades each sample. Pixels without a site show the background; of several sites of a pixel the
+    /// last one counts.
     ///
     /// # Errors
     /// [`RenderError::Site`] names the first site that can't be sampled or has no place in the output,
@@ -84,7 +85,7 @@ impl Headless {
                 cells.aliasing(&settings)?
             };
             if settings.thin && !every {
-                cells.mark_thin(scene, rig, &settings, &mut marked);
+                cells.mark_thin(scene, rig, size[0], &mut marked);
             }
             for (pinhole, sites) in rig {
                 let chosen: Vec<Site> = sites
@@ -185,20 +186,17 @@ impl Cells {
         &self,
         scene: &PreparedScene,
         rig: &[(Pinhole, Vec<Site>)],
-        settings: &Settings,
+        width: u32,
         marked: &mut [bool],
     ) {
         let start = Instant::now();
-        let contrast = (settings.detection != Detection::Exact).then_some(settings.contrast);
-        let [width, _] = settings.size;
         let output = thin::Output {
             width,
             attributes: &self.attributes,
             blend_ids: &self.blend_ids,
-            codes: &self.codes,
         };
         for (pinhole, sites) in rig.iter().filter(|(_, sites)| !sites.is_empty()) {
-            for cell in thin::crossed(&scene.triangles, pinhole, sites, &output, contrast) {
+            for cell in thin::crossed(&scene.triangles, pinhole, sites, &output) {
                 if let Some(mark) = marked.get_mut(cell as usize) {
                     *mark = true;
                 }

@@ -3,7 +3,7 @@
 //! 1. The sites of a pinhole are put under a tree of boxes ([`tree`]).
 //! 2. Each triangle that faces the pinhole is clipped to what it sees ([`outline`]) and looked up in the tree; parts of
 //!    the tree in whose cells it can't be thin are passed over.
-//! 3. The cells that it crosses, in their order along the triangle, are marked by a rule ([`rule`]).
+//! 3. The cells that it crosses are marked by a rule ([`rule`]).
 //!
 //! All of it runs on the host, in 64 bits: the locations come from there and the result goes back there.
 
@@ -14,7 +14,7 @@ mod tree;
 use crate::camera::{Pinhole, Site};
 use crate::render::PixelAttributes;
 use crate::scene::{DrawClass, Geometry};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use outline::{Outline, View, Window};
 use rayon::prelude::*;
 use rule::{Crossing, THIN};
@@ -23,6 +23,9 @@ use tree::SiteTree;
 
 /// Triangles that one thread takes at a time.
 const CHUNK: usize = 1024;
+/// What triangles are clipped to, beyond the sites on each side, in extents of these: so far out that what is left of a
+/// wide triangle, of which sites see the edge, is not thin.
+const MARGIN: f64 = 2.0;
 
 /// The triangles of a posed scene as the host needs them to look for thin ones.
 #[derive(Clone, Debug, Default)]
@@ -89,70 +92,59 @@ pub(super) struct Output<'a> {
     pub width: u32,
     pub attributes: &'a [PixelAttributes],
     pub blend_ids: &'a [u32],
-    pub codes: &'a [u32],
 }
 
 impl Output<'_> {
-    fn id(&self, cell: u32) -> u32 {
-        let seen = self.attributes.get(cell as usize);
-        seen.map_or(0, |seen| seen.id)
-    }
-
-    /// Whether a cell and its four neighbours, as far as there are any, show the same triangle.
-    fn amid_one(&self, cell: u32) -> bool {
-        let (here, column, width) = (self.id(cell), cell % self.width, self.width);
-        let neighbours = [
-            (column > 0).then(|| cell - 1),
-            (column + 1 < width).then(|| cell + 1),
-            cell.checked_sub(width),
-            cell.checked_add(width)
-                .filter(|below| (*below as usize) < self.attributes.len()),
-        ];
-        here != 0
-            && neighbours
-                .into_iter()
-                .flatten()
-                .all(|near| self.id(near) == here)
+    /// Whether a cell lies amid a triangle other than `id`: it and both its neighbours to the sides, or above and below,
+    /// show the same one. Beyond the border everything is as it is there.
+    fn amid_another(&self, cell: u32, id: u32) -> bool {
+        let shown = |cell: u32| self.attributes.get(cell as usize).map(|seen| seen.id);
+        let (here, column) = (shown(cell), cell % self.width);
+        let same = |near: Option<u32>| near.and_then(shown).is_none_or(|near| Some(near) == here);
+        let beside = || {
+            let right = (column + 1 < self.width).then(|| cell + 1);
+            same((column > 0).then(|| cell - 1)) && same(right)
+        };
+        let above = || same(cell.checked_sub(self.width)) && same(cell.checked_add(self.width));
+        here.is_some_and(|here| here != 0 && here != id) && (beside() || above())
     }
 }
 
 /// The output cells of sites, each of which sees what `output` says of its cell, that thin triangles cross unseen; a
-/// cell may come several times. `contrast` is the threshold between two colours in code values, `None` where colours do
-/// not count.
+/// cell may come several times.
 pub(super) fn crossed(
     triangles: &Triangles,
     pinhole: &Pinhole,
     sites: &[Site],
     output: &Output<'_>,
-    contrast: Option<u8>,
 ) -> Vec<u32> {
     let view = View::new(pinhole, triangles.origin);
     let tree = SiteTree::new(sites, |site| {
         let shown = output.attributes.get(site.output as usize);
         view.behind(shown.map_or(0.0, |shown| shown.depth))
     });
+    let [low, high] = tree.bounds();
+    let window = view.window([low, high]);
+    let around = MARGIN * (high - low);
     let search = Search {
-        window: view.window(tree.bounds()),
+        window: view.window([low - around, high + around]),
         view,
         tree,
         sites,
         output,
-        contrast,
     };
     let chunks = triangles.chunks.par_iter();
-    let shown = chunks.filter(|chunk| search.view.may_show(&search.window, chunk.bounds));
+    let shown = chunks.filter(|chunk| search.view.may_show(&window, chunk.bounds));
     let marked = shown.map_init(Scratch::default, |scratch, chunk| {
         let mut marked = Vec::new();
         let corners = triangles.corners.get(chunk.range.clone()).unwrap_or(&[]);
         for (index, corners) in chunk.range.clone().zip(corners) {
-            let corners = corners.map(|corner| triangles.position(corner));
-            search.mark(
-                index as u32 + 1,
-                corners,
-                chunk.double_sided,
-                scratch,
-                &mut marked,
-            );
+            let triangle = Triangle {
+                id: index as u32 + 1,
+                corners: corners.map(|corner| triangles.position(corner)),
+                double_sided: chunk.double_sided,
+            };
+            search.mark(&triangle, scratch, &mut marked);
         }
         marked
     });
@@ -166,57 +158,43 @@ struct Search<'a> {
     tree: SiteTree,
     sites: &'a [Site],
     output: &'a Output<'a>,
-    contrast: Option<u8>,
+}
+
+/// What is looked up.
+struct Triangle {
+    id: u32,
+    corners: [DVec3; 3],
+    double_sided: bool,
 }
 
 /// Memory that one triangle after another uses.
 #[derive(Default)]
 struct Scratch {
     outline: Outline,
-    corners: Vec<glam::DVec2>,
-    /// With the place along the triangle and the site's in its list.
-    crossings: Vec<(f64, u32, Crossing)>,
-    ordered: Vec<Crossing>,
+    in_cell: Vec<DVec2>,
 }
 
 impl Search<'_> {
     /// Adds the cells that a triangle marks.
-    fn mark(
-        &self,
-        id: u32,
-        corners: [DVec3; 3],
-        double_sided: bool,
-        scratch: &mut Scratch,
-        marked: &mut Vec<u32>,
-    ) {
-        let Scratch {
-            outline,
-            corners: in_cell,
-            crossings,
-            ordered,
-        } = scratch;
+    fn mark(&self, triangle: &Triangle, scratch: &mut Scratch, marked: &mut Vec<u32>) {
+        let Scratch { outline, in_cell } = scratch;
+        let Triangle { id, .. } = *triangle;
+        let corners = triangle.corners;
         if !self
             .view
-            .outline(&self.window, corners, double_sided, outline)
+            .outline(&self.window, corners, triangle.double_sided, outline)
         {
             return;
         }
-        crossings.clear();
         self.tree.search(outline, &mut |place| {
             let site = self.sites.get(place as usize);
-            let crossing = site.and_then(|site| {
+            let cell = site.and_then(|site| {
                 let crossing = self.crossing(id, outline, site, in_cell)?;
-                Some((outline.along(site.uv), place, crossing))
+                let marks = crossing.marks(|| self.output.amid_another(site.output, id));
+                marks.then_some(site.output)
             });
-            crossings.extend(crossing);
+            marked.extend(cell);
         });
-        crossings.sort_unstable_by(|(a, first, _), (b, second, _)| {
-            a.total_cmp(b).then(first.cmp(second))
-        });
-        ordered.clear();
-        ordered.extend(crossings.iter().map(|(_, _, crossing)| *crossing));
-        let amid_one = |cell| self.output.amid_one(cell);
-        marked.extend(rule::marked(ordered, self.contrast, amid_one));
     }
 
     /// How a triangle crosses the cell of a site, if it does and is thin there.
@@ -225,19 +203,48 @@ impl Search<'_> {
         id: u32,
         outline: &Outline,
         site: &Site,
-        in_cell: &mut Vec<glam::DVec2>,
+        in_cell: &mut Vec<DVec2>,
     ) -> Option<Crossing> {
         let (nearness, height) = outline.across(site, in_cell)?;
         let cell = site.output as usize;
         let shown = self.output.attributes.get(cell)?;
         (height < THIN).then(|| Crossing {
-            cell: site.output,
-            seen: shown.id == id,
-            layer: self.output.blend_ids.get(cell) == Some(&id),
-            code: self.output.codes.get(cell).copied().unwrap_or(0),
             nearness,
             behind: self.view.behind(shown.depth),
             gap: self.view.gap(nearness[0], site),
+            layer: self.output.blend_ids.get(cell) == Some(&id),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Three by three cells show these triangles; does the one at `cell` lie amid another than triangle 9?
+    fn amid(ids: [u32; 9], cell: u32) -> bool {
+        let attributes = ids.map(|id| PixelAttributes {
+            id,
+            ..PixelAttributes::default()
+        });
+        let output = Output {
+            width: 3,
+            attributes: &attributes,
+            blend_ids: &[],
+        };
+        output.amid_another(cell, 9)
+    }
+
+    #[test]
+    fn amid_is_between_two_that_show_the_same() {
+        assert!(amid([0, 0, 0, 1, 1, 1, 0, 0, 0], 4));
+        assert!(amid([0, 1, 0, 0, 1, 0, 0, 1, 0], 4));
+        assert!(!amid([1, 0, 1, 0, 1, 1, 1, 1, 1], 4));
+        assert!(!amid([9; 9], 4), "the triangle itself");
+        assert!(!amid([0; 9], 4), "background");
+        // A cell of a border has its own like beyond it, and none of the row before or after.
+        assert!(amid([0, 1, 1, 0, 0, 0, 0, 0, 0], 2));
+        assert!(!amid([0, 0, 1, 1, 0, 0, 0, 0, 0], 3));
+        assert!(amid([0, 0, 0, 1, 0, 0, 1, 0, 0], 6));
     }
 }

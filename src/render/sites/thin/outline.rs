@@ -33,8 +33,6 @@ pub struct Outline {
     low: DVec2,
     high: DVec2,
     breadth: f64,
-    /// Unit vector along the line between its farthest corners.
-    along: DVec2,
     /// Nearness as a function of (u, v, 1).
     plane: DVec3,
     /// The least and the largest.
@@ -194,22 +192,16 @@ impl Outline {
             _ => 0.0,
         });
         let area = 0.5 * fan.sum::<f64>();
-        let chords = corners
+        let following = |place| corners.iter().skip(place + 1);
+        let longest = corners
             .iter()
             .enumerate()
-            .flat_map(|(i, p)| corners.iter().skip(i + 1).map(move |q| *q - *p));
-        let longest = chords.fold(DVec2::ZERO, |longest, chord| {
-            if chord.length_squared() > longest.length_squared() {
-                chord
-            } else {
-                longest
-            }
-        });
-        self.along = longest.normalize_or_zero();
+            .flat_map(|(place, p)| following(place).map(move |q| p.distance_squared(*q)))
+            .fold(0.0, f64::max);
         if area < 0.0 {
             self.corners.reverse();
         }
-        self.breadth = area.abs() / longest.length();
+        self.breadth = area.abs() / longest.sqrt();
     }
 
     /// Its area over the distance of its farthest corners, in pixels: at most its height over any of its sides.
@@ -220,11 +212,6 @@ impl Outline {
     /// Its largest nearness.
     pub fn nearest(&self) -> f64 {
         self.range[1]
-    }
-
-    /// How far along it a place of the plane is, in pixels.
-    pub fn along(&self, uv: [f64; 2]) -> f64 {
-        self.along.dot(DVec2::from_array(uv))
     }
 
     /// Pairs of corners, in turn.
