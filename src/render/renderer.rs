@@ -2,7 +2,7 @@
 
 use super::frame::Frame;
 use super::plan::Effort;
-use super::sites::Casters;
+use super::sites::{Casters, Triangles};
 use super::{RenderError, Settings, Shadows};
 use crate::passes::{Encoding, FrameLayout, GpuScene};
 use crate::scene::{Pose, Scene};
@@ -23,6 +23,8 @@ pub struct Renderer {
 pub struct PreparedScene {
     pub(super) gpu_scene: GpuScene,
     pub(super) memory: Memory,
+    /// For what the host looks for in images of sites.
+    pub(super) triangles: Triangles,
     /// What casts shadows, where the scene was made ready for them.
     pub(super) casters: Option<Box<Casters>>,
 }
@@ -107,6 +109,7 @@ impl Renderer {
         Ok(PreparedScene {
             gpu_scene,
             memory,
+            triangles: Triangles::new(&pose.geometry),
             casters: None,
         })
     }

@@ -1,6 +1,6 @@
 //! An image whose pixels look where sites say: sampled once, then as superpixels where that aliases.
 
-use super::SiteError;
+use super::{SiteError, thin};
 use crate::camera::{Pinhole, Site};
 use crate::reference::detect;
 use crate::render::frame::display_code;
@@ -9,6 +9,7 @@ use crate::render::{
     Settings, Shading, Shadows, Statistics,
 };
 use crate::sampling::Pattern;
+use std::time::Instant;
 
 /// One value for each output cell, as detection compares them.
 struct Cells {
@@ -26,8 +27,9 @@ impl Headless {
     /// see what one plane can't.
     ///
     /// Every site is sampled once. Where neighbours in the *output* alias, across pinholes too, sites are then sampled
-    /// as superpixels; thin triangles that no sample saw are not looked for. `ssaa` samples every site by a grid and
-    /// shades each sample. Pixels without a site show the background; of several sites of a pixel the last one counts.
+    /// as superpixels, and so are those that a triangle narrower than their cell crosses unseen. `ssaa` samples every
+    /// site by a grid and shades each sample. Pixels without a site show the background; of several sites of a pixel the
+    /// last one counts.
     ///
     /// # Errors
     /// [`RenderError::Site`] names the first site that can't be sampled or has no place in the output,
@@ -79,11 +81,14 @@ impl Headless {
             }
         }
         if samples_cells {
-            let marked = if every {
+            let mut marked = if every {
                 vec![true; count as usize]
             } else {
                 cells.aliasing(&settings)?
             };
+            if settings.thin && !every {
+                cells.mark_thin(scene, rig, size[0], &mut marked);
+            }
             for (pinhole, sites) in rig {
                 let chosen: Vec<Site> = sites
                     .iter()
@@ -187,5 +192,32 @@ impl Cells {
                 .is_some_and(|word| word >> bit & 1 != 0)
         };
         Ok((0..width * height).map(marked).collect())
+    }
+
+    /// Marks the cells that a thin triangle crosses unseen.
+    fn mark_thin(
+        &self,
+        scene: &PreparedScene,
+        rig: &[(Pinhole, Vec<Site>)],
+        width: u32,
+        marked: &mut [bool],
+    ) {
+        let start = Instant::now();
+        let output = thin::Output {
+            width,
+            attributes: &self.attributes,
+            blend_ids: &self.blend_ids,
+        };
+        for (pinhole, sites) in rig.iter().filter(|(_, sites)| !sites.is_empty()) {
+            for cell in thin::crossed(&scene.triangles, pinhole, sites, &output) {
+                if let Some(mark) = marked.get_mut(cell as usize) {
+                    *mark = true;
+                }
+            }
+        }
+        log::debug!(
+            "thin triangles: {:.1} ms",
+            start.elapsed().as_secs_f64() * 1e3
+        );
     }
 }

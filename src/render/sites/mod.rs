@@ -10,9 +10,11 @@ mod layout;
 mod partition;
 mod plan;
 mod shadows;
+mod thin;
 
 pub use error::SiteError;
 pub(super) use shadows::Casters;
+pub(super) use thin::Triangles;
 
 use super::{Headless, PreparedScene, RenderError, Settings, Shadows, Statistics};
 use crate::camera::{Pinhole, Site};

@@ -5,6 +5,7 @@ mod extremes;
 mod image;
 mod sets;
 mod shadows;
+mod thin;
 mod twin;
 
 use gpc::camera::{Pinhole, Site};
