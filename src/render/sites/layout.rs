@@ -22,8 +22,15 @@ pub(super) struct CellSizes {
 type Place = ([f64; 2], [f64; 2]);
 
 impl Partition {
-    /// A run's sites in its window.
-    pub fn data(&self, run: &Range<usize>, window: &Window, sizes: &CellSizes) -> SiteData {
+    /// A run's sites in its window. `words` are those of all sites in the caller's order, which
+    /// `shaders/include/sites.glsl` describes; missing ones are 0.
+    pub fn data(
+        &self,
+        run: &Range<usize>,
+        window: &Window,
+        sizes: &CellSizes,
+        words: &[u32],
+    ) -> SiteData {
         let tile_count = window.tiles[0] as usize * window.tiles[1] as usize;
         let mut data = SiteData {
             sites: Vec::with_capacity(run.len()),
@@ -33,7 +40,7 @@ impl Partition {
         };
         let first_tile = [0, 1].map(|axis| window.low[axis] / TILE[axis]);
         let mut places: Vec<Place> = Vec::new();
-        let mut words = self.words(run).iter();
+        let mut indices = self.places(run).iter();
         for sites in self.run(run).chunk_by(|a, b| tile_of(a) == tile_of(b)) {
             let Some(tile) = sites.first().map(tile_of) else {
                 continue;
@@ -50,9 +57,14 @@ impl Partition {
                 mask |= 1 << (8 * pixel[1] + pixel[0]);
                 let place = [x - 4.0, y - 2.0].map(|v| f64::from(v as f32));
                 let [u, v] = site.jacobian;
-                let word = words.next().copied().unwrap_or(0);
+                let word = indices.next().and_then(|index| words.get(*index as usize));
                 data.sites.push([
-                    [bits(place[0]), bits(place[1]), index, word],
+                    [
+                        bits(place[0]),
+                        bits(place[1]),
+                        index,
+                        word.copied().unwrap_or(0),
+                    ],
                     [bits(u[0]), bits(u[1]), bits(v[0]), bits(v[1])],
                 ]);
                 places.push((place, half_extent(site, self.cells)));
@@ -152,7 +164,7 @@ mod tests {
                 in_cell: if cells == Cells::Points { 3 } else { 1 },
                 ..SIZES
             };
-            let partition = Partition::new(&sites, &[], cells).unwrap();
+            let partition = Partition::new(&sites, cells).unwrap();
             // The region left of the corner is one of its own.
             let runs = partition.runs(100);
             assert_eq!(runs.len(), 2);
@@ -160,7 +172,7 @@ mod tests {
             let data: Vec<_> = runs
                 .iter()
                 .zip(&windows)
-                .map(|(run, window)| partition.data(run, window, &sizes))
+                .map(|(run, window)| partition.data(run, window, &sizes, &[]))
                 .collect();
             let loads: Vec<_> = data.iter().flat_map(|data| data.loads.clone()).collect();
             assert_eq!(loads, expected);

@@ -11,10 +11,11 @@ mod partition;
 mod plan;
 mod shadows;
 mod thin;
+mod triangles;
 
 pub use error::SiteError;
 pub(super) use shadows::Casters;
-pub(super) use thin::Triangles;
+pub(super) use triangles::Triangles;
 
 use super::{Headless, PreparedScene, RenderError, Settings, Shadows, Statistics};
 use crate::camera::{Pinhole, Site};
@@ -43,11 +44,11 @@ pub struct PointSample {
     pub shadows: u32,
 }
 
-/// What is asked of the engine at sites.
+/// What is asked of the engine.
 #[derive(Clone, Copy)]
 struct Task<'a> {
-    /// What a cell is.
-    cells: Cells,
+    scene: &'a PreparedScene,
+    pinhole: &'a Pinhole,
     /// Whether records are shaded.
     colors: bool,
     /// A word for each site, see `shaders/include/sites.glsl`; those that are missing are 0.
@@ -76,41 +77,38 @@ impl Headless {
         sites: &[Site],
         settings: &Settings,
     ) -> Result<Sampled<PointSample>, RenderError> {
+        let partition = Partition::new(sites, Cells::Points)?;
         let shadows = match settings.shadows {
             Shadows::None => Sampled::default(),
-            Shadows::Exact => self.shadows(scene, pinhole, sites, settings)?,
+            Shadows::Exact => self.shadows((scene, pinhole), (sites, &partition), settings)?,
         };
         let task = Task {
-            cells: Cells::Points,
+            scene,
+            pinhole,
             colors: true,
             words: &shadows.values,
         };
         let mut values = vec![PointSample::default(); sites.len()];
         let mut statistics = shadows.statistics;
-        let run = self.run_sites(
-            (scene, pinhole),
-            (sites, task),
-            settings,
-            |index, engine, place| {
-                let color = engine.colors().get(place);
-                let attributes = engine.attributes().get(place);
-                if let (Some(value), Some(color), Some([seen, normal])) =
-                    (values.get_mut(index), color, attributes)
-                {
-                    let [depth, id, blend_id, code] = *seen;
-                    let [x, y, z, _] = normal.map(f32::from_bits);
-                    *value = PointSample {
-                        color: *color,
-                        depth: f32::from_bits(depth),
-                        id,
-                        blend_id,
-                        normal: [x, y, z],
-                        code,
-                        shadows: shadows.values.get(index).copied().unwrap_or(0),
-                    };
-                }
-            },
-        )?;
+        let run = self.run_sites(&partition, task, settings, |index, engine, place| {
+            let color = engine.colors().get(place);
+            let attributes = engine.attributes().get(place);
+            if let (Some(value), Some(color), Some([seen, normal])) =
+                (values.get_mut(index), color, attributes)
+            {
+                let [depth, id, blend_id, code] = *seen;
+                let [x, y, z, _] = normal.map(f32::from_bits);
+                *value = PointSample {
+                    color: *color,
+                    depth: f32::from_bits(depth),
+                    id,
+                    blend_id,
+                    normal: [x, y, z],
+                    code,
+                    shadows: shadows.values.get(index).copied().unwrap_or(0),
+                };
+            }
+        })?;
         statistics.append(run);
         Ok(Sampled { values, statistics })
     }
@@ -133,51 +131,41 @@ impl Headless {
         if settings.shadows == Shadows::Exact {
             return self.superpixels_of_points(scene, pinhole, sites, settings);
         }
+        let partition = Partition::new(sites, Cells::Superpixels)?;
         let task = Task {
-            cells: Cells::Superpixels,
+            scene,
+            pinhole,
             colors: true,
             words: &[],
         };
         let mut values = vec![[0.0; 4]; sites.len()];
-        let statistics = self.run_sites(
-            (scene, pinhole),
-            (sites, task),
-            settings,
-            |index, engine, place| {
-                if let (Some(value), Some(color)) =
-                    (values.get_mut(index), engine.colors().get(place))
-                {
-                    *value = *color;
-                }
-            },
-        )?;
+        let statistics = self.run_sites(&partition, task, settings, |index, engine, place| {
+            if let (Some(value), Some(color)) = (values.get_mut(index), engine.colors().get(place))
+            {
+                *value = *color;
+            }
+        })?;
         Ok(Sampled { values, statistics })
     }
 
     /// Samples sites run by run; `take` is given each site's index and its place in what the engine holds.
     fn run_sites(
         &mut self,
-        (scene, pinhole): (&PreparedScene, &Pinhole),
-        (sites, task): (&[Site], Task<'_>),
+        partition: &Partition,
+        task: Task<'_>,
         settings: &Settings,
         mut take: impl FnMut(usize, &SiteEngine, usize),
     ) -> Result<Statistics, RenderError> {
         let Task {
-            cells,
+            scene,
+            pinhole,
             colors,
             words,
         } = task;
-        let partition = Partition::new(sites, words, cells)?;
+        let cells = partition.cells;
         let layout = self.renderer.layout.clone();
         let taken = scene.memory_bytes();
-        let plan = SitePlan::new(
-            &layout,
-            &scene.gpu_scene,
-            settings,
-            cells,
-            &partition,
-            taken,
-        )?;
+        let plan = SitePlan::new(&layout, &scene.gpu_scene, settings, partition, taken)?;
         let mut engine = SiteEngine::new(&layout, scene, settings, (cells, colors), &plan.sizes)?;
         let sizes = cell_sizes(&layout, cells, settings.samples);
         let mut statistics = Statistics::default();
@@ -185,7 +173,7 @@ impl Headless {
         waiting.reverse();
         while let Some(run) = waiting.pop() {
             let window = partition.window(&run);
-            let data = partition.data(&run, &window, &sizes);
+            let data = partition.data(&run, &window, &sizes, words);
             engine.write(&data)?;
             // SAFETY: the last submission was waited for; scene and engine outlive this one, which is waited for.
             self.submit(|_, commands| unsafe {
@@ -203,8 +191,7 @@ impl Headless {
                 }
                 Err(error) => return Err(error),
             }
-            let order = partition.order.get(run).unwrap_or(&[]);
-            for (place, index) in order.iter().enumerate() {
+            for (place, index) in partition.places(&run).iter().enumerate() {
                 take(*index as usize, &engine, place);
             }
         }

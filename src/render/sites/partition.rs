@@ -25,10 +25,8 @@ const PLACE_BITS: u32 = 16;
 /// Sites in the order in which they are sampled.
 pub(super) struct Partition {
     /// The sites' places in the caller's list.
-    pub order: Vec<u32>,
+    order: Vec<u32>,
     sites: Vec<Site>,
-    /// A word for each site, in order.
-    words: Vec<u32>,
     pub cells: Cells,
     /// What clip-space positions of all runs are relative to, if they lie close enough together.
     middle: Option<[f64; 2]>,
@@ -57,11 +55,11 @@ impl Window {
 }
 
 impl Partition {
-    /// Sorts `sites`, and their `words` as `shaders/include/sites.glsl` describes them; words that are missing are 0.
+    /// Sorts `sites`.
     ///
     /// # Errors
     /// The first site that is not finite or too far off the image.
-    pub fn new(sites: &[Site], words: &[u32], cells: Cells) -> Result<Self, SiteError> {
+    pub fn new(sites: &[Site], cells: Cells) -> Result<Self, SiteError> {
         if sites.is_empty() {
             return Err(SiteError::Empty);
         }
@@ -94,9 +92,7 @@ impl Partition {
             .map(|(_, index)| sites[*index as usize])
             .collect();
         let bounds = Bounds::of(&sorted);
-        let word = |index: u32| words.get(index as usize).copied().unwrap_or(0);
         Ok(Self {
-            words: keyed.iter().map(|(_, index)| word(*index)).collect(),
             order: keyed.into_iter().map(|(_, index)| index).collect(),
             middle: bounds.is_compact().then(|| bounds.middle()),
             sites: sorted,
@@ -121,9 +117,9 @@ impl Partition {
         self.sites.get(run.clone()).unwrap_or(&[])
     }
 
-    /// The words of a run's sites.
-    pub fn words(&self, run: &Range<usize>) -> &[u32] {
-        self.words.get(run.clone()).unwrap_or(&[])
+    /// The places of a run's sites in the caller's list.
+    pub fn places(&self, run: &Range<usize>) -> &[u32] {
+        self.order.get(run.clone()).unwrap_or(&[])
     }
 
     /// The window around a run.

@@ -31,11 +31,11 @@ impl SitePlan {
         layout: &FrameLayout,
         scene: &GpuScene,
         settings: &Settings,
-        cells: Cells,
         partition: &Partition,
         taken: u64,
     ) -> Result<Self, RenderError> {
         let limits = layout.gpu.limits();
+        let cells = partition.cells;
         let mut longest = MOST_SITES;
         loop {
             let runs = partition.runs(longest);

@@ -1,31 +1,15 @@
 //! What casts shadows: the opaque and MASK triangles of a pose, from both sides.
 
-use crate::camera::{Pinhole, Site};
 use crate::render::PreparedScene;
-use crate::scene::{
-    AlphaMode, Draw, DrawClass, Geometry, Image, Light, Material, Pose, Scene, TextureUse,
-};
-use glam::{DVec2, DVec3};
-use rayon::prelude::*;
+use crate::scene::{AlphaMode, Draw, DrawClass, Image, Light, Material, Pose, Scene, TextureUse};
+use glam::DVec3;
 
-/// Casters on the device and, to find the world positions of what sites see, on the host.
+/// Casters on the device, and the lights.
 pub(in crate::render) struct Casters {
     pub(super) scene: PreparedScene,
     pub(super) lights: Vec<Light>,
     /// The box around all triangles; nothing where there are none.
     pub(super) bounds: Option<(DVec3, DVec3)>,
-    geometry: Geometry,
-}
-
-/// A point of a triangle that a site sees.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Receiver {
-    /// The site's place in the caller's list.
-    pub index: usize,
-    /// ID of the triangle.
-    pub id: u32,
-    /// Where it is in the world.
-    pub position: DVec3,
 }
 
 /// The casters of a pose, as a scene of their own whose triangles have the same IDs: no BLEND triangles, nothing culled,
@@ -94,61 +78,11 @@ impl Casters {
             scene,
             bounds: pose.geometry.bounds(),
             lights: pose.lights,
-            geometry: pose.geometry,
         }
     }
 
     /// Bytes of device memory that they take.
     pub(in crate::render) fn memory_bytes(&self) -> u64 {
         self.scene.memory_bytes()
-    }
-
-    /// Where sites of a pinhole see triangles of these IDs; those that see none are left out.
-    pub(super) fn receivers(
-        &self,
-        pinhole: &Pinhole,
-        sites: &[Site],
-        ids: &[u32],
-    ) -> Vec<Receiver> {
-        let seen = sites.par_iter().zip(ids).enumerate();
-        seen.filter_map(|(index, (site, id))| {
-            let position = self.seen_at(pinhole, site, *id)?;
-            Some(Receiver {
-                index,
-                id: *id,
-                position,
-            })
-        })
-        .collect()
-    }
-
-    /// The point of a triangle on a site's ray, or the nearest one that its plane has where the device, which rounds
-    /// positions to 32 bits, sees the triangle beside the ray.
-    fn seen_at(&self, pinhole: &Pinhole, site: &Site, id: u32) -> Option<DVec3> {
-        let triangle = self.geometry.triangles.get(id.checked_sub(1)? as usize)?;
-        let corner = |corner: u32| {
-            let position = self.geometry.positions.get(corner as usize)?;
-            Some(DVec3::from_array(position.map(f64::from)))
-        };
-        let [a, b, c] = *triangle;
-        let [a, b, c] = [corner(a)?, corner(b)?, corner(c)?];
-        let ray = pinhole.ray(DVec2::from_array(site.uv));
-        let start = ray.start - self.geometry.origin;
-        let (ab, ac) = (b - a, c - a);
-        let normal = ab.cross(ac);
-        let distance = normal.dot(a - start) / normal.dot(ray.direction);
-        let ap = start + ray.direction * distance - a;
-        let square = normal.length_squared();
-        let of_b = ap.cross(ac).dot(normal) / square;
-        let of_c = ab.cross(ap).dot(normal) / square;
-        let weights = DVec3::new(1.0 - of_b - of_c, of_b, of_c).max(DVec3::ZERO);
-        let sum = weights.element_sum();
-        // Seen edge-on, any of its points is as near as another.
-        let weights = if sum.is_finite() && sum > 0.0 {
-            weights / sum
-        } else {
-            DVec3::splat(1.0 / 3.0)
-        };
-        Some(self.geometry.origin + a * weights.x + b * weights.y + c * weights.z)
     }
 }

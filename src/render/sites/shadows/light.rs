@@ -8,11 +8,12 @@
 //!     ▼ ▼ ▼ ▼ ▼                                  ╱─┼─╲ plane                      └─────┘
 //! ```
 
-use super::casters::Receiver;
+use super::receivers::Receiver;
 use crate::camera::{Pinhole, Rig, Site};
 use crate::render::RenderError;
 use crate::scene::{Light, LightKind};
 use glam::{DMat3, DMat4, DVec2, DVec3};
+use rayon::prelude::*;
 
 /// What lies nearer than this is the receiver itself: part of the distance to a local light, or of the scene's depth in
 /// the direction of a distant one, 2^-17. It covers the rounding of positions to 32 bits on surfaces that light grazes
@@ -39,7 +40,24 @@ pub(super) struct LightView {
     pub indices: Vec<usize>,
 }
 
-/// The views of a light that together see all receivers that its light can reach, in a scene within `bounds`.
+/// The receivers that a light reaches if nothing stands in the way: those whose seen side faces it, and those whose side
+/// is turned from it, which lie in the shadow of their own triangle.
+pub(super) fn reached(light: &Light, receivers: &[Receiver]) -> [Vec<Receiver>; 2] {
+    let within = receivers.par_iter().copied().filter(|receiver| {
+        let is_distant = light.kind == LightKind::Directional;
+        is_distant || reaches(light, receiver.position - light.position)
+    });
+    let (facing, turned) = within.partition(|receiver| {
+        let to_light = match light.kind {
+            LightKind::Directional => -light.direction,
+            LightKind::Point | LightKind::Spot { .. } => light.position - receiver.position,
+        };
+        receiver.normal.dot(to_light) >= 0.0
+    });
+    [facing, turned]
+}
+
+/// The views of a light that together see all of these receivers, in a scene within `bounds`.
 ///
 /// # Errors
 /// If a pinhole can't be, since the scene has no extent that 64 bits tell apart.
@@ -50,30 +68,25 @@ pub(super) fn views(
 ) -> Result<Vec<LightView>, RenderError> {
     // About as many pixels as receivers: tiles then have short lists.
     let side = (receivers.len() as f64).sqrt().clamp(64.0, MOST_PIXELS);
-    let mut views: Vec<LightView>;
-    match light.kind {
+    let all = receivers.par_iter();
+    let (pinholes, places): (Vec<Pinhole>, Vec<Option<(usize, DVec2)>>) = match light.kind {
         LightKind::Directional => {
             let pinhole = distant(light.direction, bounds, receivers, side)?;
-            let mut view = LightView::new(pinhole);
-            for receiver in receivers {
-                view.push(receiver, pinhole.project(receiver.position));
-            }
-            views = vec![view];
+            let place = |receiver: &Receiver| Some((0, pinhole.project(receiver.position)?));
+            (vec![pinhole], all.map(place).collect())
         }
         LightKind::Point | LightKind::Spot { .. } => {
             let rig = local(light, bounds, side)?;
-            views = rig.pinholes().iter().copied().map(LightView::new).collect();
-            for receiver in receivers {
-                let way = receiver.position - light.position;
-                if !reaches(light, way) {
-                    continue;
-                }
-                if let Some((index, uv)) = rig.locate(way)
-                    && let Some(view) = views.get_mut(index)
-                {
-                    view.push(receiver, Some(uv));
-                }
-            }
+            let place = |receiver: &Receiver| rig.locate(receiver.position - light.position);
+            (rig.pinholes().to_vec(), all.map(place).collect())
+        }
+    };
+    let mut views: Vec<LightView> = pinholes.into_iter().map(LightView::new).collect();
+    for (receiver, place) in receivers.iter().zip(places) {
+        if let Some((index, uv)) = place
+            && let Some(view) = views.get_mut(index)
+        {
+            view.push(receiver, uv);
         }
     }
     views.retain(|view| !view.sites.is_empty());
@@ -162,10 +175,7 @@ impl LightView {
         }
     }
 
-    fn push(&mut self, receiver: &Receiver, uv: Option<DVec2>) {
-        let Some(uv) = uv else {
-            return;
-        };
+    fn push(&mut self, receiver: &Receiver, uv: DVec2) {
         let place = self.matrix * (receiver.position - self.pinhole.eye()).extend(1.0);
         let depth = place.z / place.w;
         let least = if self.pinhole.is_parallel() {

@@ -3,18 +3,20 @@
 //! before: no map of depths is made, and there is nothing of one to alias.
 //!
 //! A point is in shadow where a triangle other than its own, opaque or passing its alpha test, lies nearer to the light
-//! by more than 2^-17 of its distance (of the scene's depth for a distant light). BLEND triangles neither cast shadows
-//! nor receive them. Facets that face away from the light are in the shadow of those in front, whatever their
-//! interpolated normals say, so that the border of light on a smooth ball of few triangles follows its edges.
+//! by more than 2^-17 of its distance (of the scene's depth for a distant light); and where its own triangle turns the
+//! side that is seen from the light, whatever its interpolated normals say, so that the border of light on a smooth ball
+//! of few triangles follows its edges. BLEND triangles neither cast shadows nor receive them.
 //!
 //! The host stands between the steps: it reads back what sites see, projects it, asks for each light, and hands a word
 //! of bits for each site to the run that shades it.
 
 mod casters;
 mod light;
+mod receivers;
 
 pub(in crate::render) use casters::Casters;
 
+use super::partition::Partition;
 use super::{Sampled, Task};
 use crate::camera::{Camera, Pinhole, Site};
 use crate::passes::Cells;
@@ -23,6 +25,7 @@ use crate::render::{
 };
 use crate::scene::{Pose, Scene};
 use casters::caster_scene;
+use receivers::receivers;
 
 /// Most lights that cast shadows: bits of a site's word.
 const MOST_LIGHTS: usize = 32;
@@ -82,9 +85,8 @@ impl Headless {
     /// A bit for each light that sites see the shadow of.
     pub(super) fn shadows(
         &mut self,
-        scene: &PreparedScene,
-        pinhole: &Pinhole,
-        sites: &[Site],
+        (scene, pinhole): (&PreparedScene, &Pinhole),
+        (sites, partition): (&[Site], &Partition),
         settings: &Settings,
     ) -> Result<Sampled<u32>, RenderError> {
         let casters = scene.casters.as_deref().ok_or(RenderError::NoCasters)?;
@@ -98,52 +100,50 @@ impl Headless {
         };
         let mut ids = vec![0; sites.len()];
         let surfaces = Task {
-            cells: Cells::Points,
+            scene,
+            pinhole,
             colors: false,
             words: &[],
         };
-        let run = self.run_sites(
-            (scene, pinhole),
-            (sites, surfaces),
-            settings,
-            |index, engine, place| {
-                if let (Some(id), Some([[_, seen, ..], _])) =
-                    (ids.get_mut(index), engine.attributes().get(place))
-                {
-                    *id = *seen;
-                }
-            },
-        )?;
+        let run = self.run_sites(partition, surfaces, settings, |index, engine, place| {
+            if let (Some(id), Some([[_, seen, ..], _])) =
+                (ids.get_mut(index), engine.attributes().get(place))
+            {
+                *id = *seen;
+            }
+        })?;
         book(&mut statistics, &run);
-        let receivers = casters.receivers(pinhole, sites, &ids);
-        let lights = casters.lights.iter().filter(|_| !receivers.is_empty());
+        let receivers = receivers(&scene.triangles, pinhole, sites, &ids);
         let own = scene.memory_bytes() - casters.memory_bytes();
         let settings = Settings {
             max_memory: settings.max_memory.map(|most| most.saturating_sub(own)),
             ..settings.clone()
         };
-        for (bit, light) in lights.enumerate() {
-            for view in light::views(light, bounds, &receivers)? {
+        for (bit, light) in casters.lights.iter().enumerate() {
+            let mut hide = |index: usize| {
+                if let Some(word) = words.get_mut(index) {
+                    *word |= 1 << bit;
+                }
+            };
+            let [facing, turned] = light::reached(light, &receivers);
+            turned.iter().for_each(|receiver| hide(receiver.index));
+            if facing.is_empty() {
+                continue;
+            }
+            for view in light::views(light, bounds, &facing)? {
+                let partition = Partition::new(&view.sites, Cells::Occluders)?;
                 let task = Task {
-                    cells: Cells::Occluders,
+                    scene: &casters.scene,
+                    pinhole: &view.pinhole,
                     colors: false,
                     words: &view.ids,
                 };
-                let run = self.run_sites(
-                    (&casters.scene, &view.pinhole),
-                    (&view.sites, task),
-                    &settings,
-                    |index, engine, place| {
-                        let occluder = engine.attributes().get(place).map(|[[_, id, ..], _]| *id);
-                        let word = view
-                            .indices
-                            .get(index)
-                            .and_then(|site| words.get_mut(*site));
-                        if let (Some(1..), Some(word)) = (occluder, word) {
-                            *word |= 1 << bit;
-                        }
-                    },
-                )?;
+                let run = self.run_sites(&partition, task, &settings, |index, engine, place| {
+                    let occluder = engine.attributes().get(place).map(|[[_, id, ..], _]| *id);
+                    if let (Some(1..), Some(receiver)) = (occluder, view.indices.get(index)) {
+                        hide(*receiver);
+                    }
+                })?;
                 book(&mut statistics, &run);
             }
         }

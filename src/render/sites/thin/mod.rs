@@ -13,79 +13,16 @@ mod tree;
 
 use crate::camera::{Pinhole, Site};
 use crate::render::PixelAttributes;
-use crate::scene::{DrawClass, Geometry};
+use crate::render::sites::Triangles;
 use glam::{DVec2, DVec3};
 use outline::{Outline, View, Window};
 use rayon::prelude::*;
 use rule::{Crossing, THIN};
-use std::ops::Range;
 use tree::SiteTree;
 
-/// Triangles that one thread takes at a time.
-const CHUNK: usize = 1024;
 /// What triangles are clipped to, beyond the sites on each side, in extents of these: so far out that what is left of a
 /// wide triangle, of which sites see the edge, is not thin.
 const MARGIN: f64 = 2.0;
-
-/// The triangles of a posed scene as the host needs them to look for thin ones.
-#[derive(Clone, Debug, Default)]
-pub(in crate::render) struct Triangles {
-    origin: DVec3,
-    positions: Vec<[f32; 3]>,
-    corners: Vec<[u32; 3]>,
-    chunks: Vec<Chunk>,
-}
-
-/// Neighbouring triangles that are alike.
-#[derive(Clone, Debug)]
-struct Chunk {
-    range: Range<usize>,
-    double_sided: bool,
-    /// Corners of the box around them.
-    bounds: [DVec3; 2],
-}
-
-impl Triangles {
-    /// The triangles of a pose.
-    pub fn new(geometry: &Geometry) -> Self {
-        use DrawClass::{BlendDoubleSided, MaskDoubleSided, OpaqueDoubleSided};
-        let two = [OpaqueDoubleSided, MaskDoubleSided, BlendDoubleSided];
-        let mut triangles = Self {
-            origin: geometry.origin,
-            positions: geometry.positions.clone(),
-            corners: geometry.triangles.clone(),
-            chunks: Vec::new(),
-        };
-        for draw in &geometry.draws {
-            let first = draw.first_triangle as usize;
-            let end = first + draw.triangle_count as usize;
-            for start in (first..end).step_by(CHUNK) {
-                let range = start..end.min(start + CHUNK);
-                let chunk = Chunk {
-                    bounds: triangles.bounds(range.clone()),
-                    range,
-                    double_sided: two.contains(&draw.class),
-                };
-                triangles.chunks.push(chunk);
-            }
-        }
-        triangles
-    }
-
-    /// Corners of the box around a range of triangles.
-    fn bounds(&self, range: Range<usize>) -> [DVec3; 2] {
-        let corners = self.corners.get(range).unwrap_or(&[]).iter().flatten();
-        let places = corners.map(|corner| self.position(*corner));
-        places.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], at| {
-            [low.min(at), high.max(at)]
-        })
-    }
-
-    fn position(&self, corner: u32) -> DVec3 {
-        let position = self.positions.get(corner as usize);
-        DVec3::from_array(position.copied().unwrap_or_default().map(f64::from))
-    }
-}
 
 /// What the cells of an output show, row by row.
 pub(super) struct Output<'a> {
@@ -137,11 +74,13 @@ pub(super) fn crossed(
     let shown = chunks.filter(|chunk| search.view.may_show(&window, chunk.bounds));
     let marked = shown.map_init(Scratch::default, |scratch, chunk| {
         let mut marked = Vec::new();
-        let corners = triangles.corners.get(chunk.range.clone()).unwrap_or(&[]);
-        for (index, corners) in chunk.range.clone().zip(corners) {
+        for index in chunk.range.clone() {
+            let Some(corners) = triangles.get(index) else {
+                continue;
+            };
             let triangle = Triangle {
                 id: index as u32 + 1,
-                corners: corners.map(|corner| triangles.position(corner)),
+                corners,
                 double_sided: chunk.double_sided,
             };
             search.mark(&triangle, scratch, &mut marked);
