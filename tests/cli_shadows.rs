@@ -70,8 +70,8 @@ fn a_triangle_casts_its_shadow() {
         let bytes = std::fs::read(folder.path().join(name)).unwrap();
         decode_linear(&bytes, name).unwrap().1
     };
-    let open = render("open.png", &[]);
-    let shadowed = render("shadowed.png", &["--shadows", "exact"]);
+    let open = render("open.exr", &[]);
+    let shadowed = render("shadowed.exr", &["--shadows", "exact"]);
     // Beside the triangle's shadow, and under its nearer side, where the triangle itself does not hide the floor.
     for beside in [[2.0, 0.0], [-2.0, 0.5], [0.0, 2.0], [1.2, 0.3]] {
         assert!((at(&open, beside) - at(&shadowed, beside)).abs() < 0.01);
@@ -111,8 +111,8 @@ fn other_commands_cast_shadows_and_what_can_not_says_so() {
         colors.iter().map(|color| f64::from(color[1])).sum::<f64>()
     };
     let [open, shadowed] = [
-        panorama("a.png", &options[2..]),
-        panorama("b.png", &options),
+        panorama("a.exr", &options[2..]),
+        panorama("b.exr", &options),
     ];
     assert!(shadowed < open - 1.0, "{shadowed} of {open}");
 
@@ -130,10 +130,10 @@ fn other_commands_cast_shadows_and_what_can_not_says_so() {
     assert_eq!(run.code, Some(2), "{}", run.stderr);
     assert!(run.stderr.contains("msaa"), "{}", run.stderr);
 
-    let fence = asset("fence.glb");
+    let spheres = asset("spheres.glb");
     let unlit = [
         "render",
-        &fence,
+        &spheres,
         "-o",
         "d.png",
         "--shadows",
