@@ -41,3 +41,9 @@ done
 # Projectors: two with keystone, from correspondences.
 gpc project assets/fence.glb -o "$out/projector-{projector}.png" --size 480x300 --background '#a8c0d8' \
     --projector $out/left.csv --projector $out/right.csv --projector-size 320x240
+
+# Shadows: what is seen, on the planes of the lights.
+for scene in letters fence; do
+    gpc render assets/$scene.glb -o $out/shadows-$scene.png --size 480x300 --background '#a8c0d8' --shadows exact \
+        --quiet
+done
