@@ -25,7 +25,7 @@ const PLACE_BITS: u32 = 16;
 /// Sites in the order in which they are sampled.
 pub(super) struct Partition {
     /// The sites' places in the caller's list.
-    order: Vec<u32>,
+    pub order: Vec<u32>,
     sites: Vec<Site>,
     pub cells: Cells,
     /// What clip-space positions of all runs are relative to, if they lie close enough together.

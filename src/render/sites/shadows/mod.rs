@@ -30,7 +30,7 @@ use receivers::receivers;
 /// Most lights that cast shadows: bits of a site's word.
 const MOST_LIGHTS: usize = 32;
 /// Most sub-samples that are points at once, on the host.
-const MOST_POINTS: usize = 1 << 20;
+const MOST_POINTS: usize = 1 << 18;
 
 impl Headless {
     /// Makes an uploaded scene ready for [`Shadows::Exact`](crate::render::Shadows::Exact): puts what casts shadows on
