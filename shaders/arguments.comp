@@ -4,7 +4,7 @@
 #include "include/frame.glsl"
 layout(local_size_x = 1) in;
 layout(constant_id = 0) const uint AFTER = 0u;
-const uint DETECT = 0u, CULL = 1u, SAMPLE = 2u, RECORDS = 3u, SPANS = 4u, THIN = 5u, GROUPS = 6u;
+const uint DETECT = 0u, CULL = 1u, SAMPLE = 2u, RECORDS = 3u, SPANS = 4u, THIN = 5u, GROUPS = 6u, PROBE = 7u;
 
 void main() {
     if (AFTER == DETECT) {
@@ -19,6 +19,9 @@ void main() {
     } else if (AFTER == GROUPS) {
         for (uint list = 0u; list < 4u; list++)
             arguments[ARGUMENT_SAMPLE_PLAIN + list] = groups(counters[COUNTER_PLAIN_TILES + list]);
+    } else if (AFTER == PROBE) {
+        arguments[ARGUMENT_PLAIN_LEFT] = groups(counters[COUNTER_PLAIN_LEFT]);
+        arguments[ARGUMENT_MASKED_LEFT] = groups(counters[COUNTER_MASKED_LEFT]);
     } else if (AFTER == THIN) {
         arguments[ARGUMENT_THIN] = groups((counters[COUNTER_THIN] + 63u) / 64u);
     } else {

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/tiles.glsl"
-#include "include/sites.glsl"
+#include "include/work.glsl"
 layout(local_size_x = 64) in;
 
 void main() {
@@ -18,6 +18,6 @@ void main() {
         uint n = subgroupBallotBitCount(together), base = 0u;
         if (subgroupElect() && n != 0u) base = atomicAdd(counters[COUNTER_PLAIN_TILES + list], n);
         base = subgroupBroadcastFirst(base);
-        if (mine) tile_lists[list * frame.group_count + base + subgroupBallotExclusiveBitCount(together)] = i;
+        if (mine) tile_lists[first_entry(list) + base + subgroupBallotExclusiveBitCount(together)] = work_entry(i, 0u);
     }
 }

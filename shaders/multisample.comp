@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/tiles.glsl"
-#include "include/lanes.glsl"
+#include "include/work.glsl"
 layout(local_size_x = 64) in;
 
 uint sample_id(ivec2 pixel, int s) {
@@ -41,16 +41,14 @@ void main() {
     for (uint s = used; s < frame.sample_count; s++)
         if (exists) records_out[first + s] = uvec4(0u);
     if (exists) headers[tile * 32u + bit] = uvec2(first, inside ? used : 0u);
+    if (exists && bit < PARTS_OF_TILE) tile_lists[tile * PARTS_OF_TILE + bit] = work_entry(tile, bit);
     if (exists && bit == 0u) {
-        tile_lists[tile] = tile;
         masks[tile] = ~0u;
         tiles[tile] = uvec4(0u, 0u, tile * 32u, 0u);
     }
     if (i == 0u) {
         counters[COUNTER_RECORDS] = tile_count * 32u * frame.sample_count;
-        counters[COUNTER_PLAIN_TILES] = tile_count;
-        // `resolve` takes a subgroup's number of pixels at a time.
-        uint n = tile_count * (32u / LANES);
-        arguments[ARGUMENT_SAMPLE_PLAIN] = uvec4(min(n, 32768u), (n + 32767u) / 32768u, 1u, 0u);
+        counters[COUNTER_PLAIN_TILES] = tile_count * PARTS_OF_TILE;
+        arguments[ARGUMENT_SAMPLE_PLAIN] = groups(tile_count * PARTS_OF_TILE);
     }
 }

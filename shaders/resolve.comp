@@ -8,9 +8,8 @@
 #include "include/frame.glsl"
 #include "include/tiles.glsl"
 #include "include/color.glsl"
-#include "include/lanes.glsl"
 #include "include/composite.glsl"
-#include "include/sites.glsl"
+#include "include/work.glsl"
 layout(local_size_x_id = 0) in;
 layout(constant_id = 2) const uint BLOCK = 256u;
 layout(constant_id = 3) const bool CHAINED = false;
@@ -31,12 +30,10 @@ void write(uvec2 pixel, vec4 c) {
 }
 
 void main() {
-    uint tile_count = frame.tiles.x * frame.tiles.y;
-    uint entry = gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u;
-    const uint GROUPS = 32u / LANES;
-    if ((SITES ? entry : entry / GROUPS) >= counters[COUNTER_PLAIN_TILES + LIST]) return;
+    uint number = gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u;
+    if (number >= counters[COUNTER_PLAIN_TILES + LIST]) return;
     uint lane = gl_SubgroupInvocationID;
-    uint owner = tile_lists[SITES ? LIST * frame.group_count + entry : LIST * tile_count + entry / GROUPS];
+    uint entry = tile_lists[first_entry(LIST) + number], owner = entry_owner(entry);
     uvec4 site_group = SITES ? texelFetch(site_groups, int(owner)) : uvec4(0u);
     uint tile = SITES ? site_group.x : owner;
     uint word = masks[tile];
@@ -47,30 +44,28 @@ void main() {
 
     if (CHAINED) {
         // A cell at a time, an invocation a sample.
-        uint cells = SITES ? site_group.z : bitCount(word), cell = 0u;
-        uint first = SITES ? 0u : entry % GROUPS * LANES, last = min(first + LANES, cells);
-        uint rest = word;
+        uint cell = entry_part(entry) * LANES, last = min(cell + LANES, SITES ? site_group.z : bitCount(word));
+        uint bits = bit_of_cell(word, cell, lane);
         while (cell < last) {
-            uint bit = uint(findLSB(rest));
-            rest &= rest - 1u;
-            if (cell++ < first) continue;
+            uint bit = subgroupShuffle(bits, cell % LANES);
             vec4 sum = vec4(0.0);
             for (uint block = 0u; block < blocks; block++) {
-                uvec2 h = headers[min(first_header + (cell - 1u) * blocks + block, frame.record_capacity - 1u)];
+                uvec2 h = headers[min(first_header + cell * blocks + block, frame.record_capacity - 1u)];
                 for (uint s = lane; s < h.y; s += LANES)
                     if (h.x + s < frame.record_capacity) sum += composite(h.x + s);
             }
             sum = vec4(lanes_add(sum.x), lanes_add(sum.y), lanes_add(sum.z), lanes_add(sum.w)) * share;
-            if (subgroupElect()) write(SITES ? uvec2(site_group.y + cell - 1u, 0u) : corner + uvec2(bit & 7u, bit >> 3), sum);
+            if (subgroupElect()) write(SITES ? uvec2(site_group.y + cell, 0u) : corner + uvec2(bit & 7u, bit >> 3), sum);
+            cell++;
         }
     } else {
-        // An invocation a pixel.
-        uint bit = entry % GROUPS * LANES + lane;
-        bool mine = SITES ? lane < site_group.z : (word >> bit & 1u) != 0u;
-        uint cell = SITES ? lane : uint(bitCount(word & ((1u << bit) - 1u)));
+        // An invocation a cell.
+        uint first = entry_part(entry) * LANES, cell = first + lane;
+        uint bit = SITES ? lane : bit_of_cell(word, first, lane);
+        bool mine = cell < (SITES ? site_group.z : bitCount(word));
         vec4 sum = vec4(0.0);
         float covered = 0.0;
-        uint filled = PROBED && (marks[owner] >> (SITES ? lane : bit) & 1u) == 0u ? 1u : blocks;
+        uint filled = PROBED && (marks[owner] >> bit & 1u) == 0u ? 1u : blocks;
         uint block = 0u;
         do {
             uvec2 h = mine ? headers[min(first_header + cell * blocks + block, frame.record_capacity - 1u)] : uvec2(0u);

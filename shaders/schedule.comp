@@ -8,9 +8,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/tiles.glsl"
-#include "include/sites.glsl"
+#include "include/work.glsl"
 layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const uint PLAIN_BLOCK = 256u;      // samples of a header
+layout(constant_id = 7) const uint PLAIN_BLOCK = 256u;      // samples of a header
 layout(constant_id = 2) const uint LAYERED_BLOCK = 64u;
 layout(constant_id = 3) const bool PER_SAMPLE = false;
 layout(constant_id = 4) const uint LAYERS = 4u;             // BLEND layers a sample that a tile is admitted with
@@ -18,7 +18,7 @@ layout(constant_id = 5) const uint PARTS = 1u;              // records of a tria
 layout(constant_id = 6) const bool APART = false;           // `sample` takes a block of a cell at a time
 
 void main() {
-    uint lane = gl_SubgroupInvocationID, lanes = gl_SubgroupSize;
+    uint lane = gl_SubgroupInvocationID;
     uint tile_count = frame.tiles.x * frame.tiles.y;
     bool any_tile = counters[COUNTER_TILES] != 0u;
     uint start = any_tile ? counters[COUNTER_NEXT_TILE] : tile_count;
@@ -27,11 +27,11 @@ void main() {
     uint p = previous + lane;
     while (p < start) {
         tiles[p].w = 0u;
-        p += lanes;
+        p += LANES;
     }
 
-    uint list_used = 0u, records_used = 0u, headers_used = 0u, unlisted_samples = 0u;
-    uint plain = 0u, masked = 0u, blended = 0u, unlisted = 0u;
+    uint list_used = 0u, records_used = 0u, headers_used = 0u, placed = 0u, unlisted = 0u;
+    uvec4 entries = uvec4(0u);      // of each list
     uint next = start;
     bool open_ = start < tile_count;
     while (open_) {
@@ -60,57 +60,52 @@ void main() {
         // The first tile of a round is always taken: what does not fit then is counted by `sample`.
         fits = fits || (next == start && lane == 0u);
         uvec4 refused = subgroupBallot(!fits);
-        uint taken = subgroupBallotBitCount(refused) == 0u ? lanes : subgroupBallotFindLSB(refused);
+        uint taken = subgroupBallotBitCount(refused) == 0u ? LANES : subgroupBallotFindLSB(refused);
         bool mine = busy && lane < taken;
         if (mine) {
             tiles[tile] = uvec4(t.x, list_first, header_first,
                 (t.w & (TILE_HAS_MASK | TILE_HAS_BLEND)) | TILE_PLACED | (listed ? TILE_LISTED : 0u) | (listed ? t.x : 0u) << TILE_COUNT_SHIFT);
         }
-        bool is_unlisted = mine && !listed, is_blended = mine && listed && blend;
-        bool is_masked = mine && listed && !blend && mask_, is_plain = mine && listed && !blend && !mask_;
-        uvec4 b = subgroupBallot(is_plain);
-        if (is_plain) tile_lists[plain + subgroupBallotExclusiveBitCount(b)] = tile;
-        plain += subgroupBallotBitCount(b);
-        b = subgroupBallot(is_masked);
-        if (is_masked) tile_lists[tile_count + masked + subgroupBallotExclusiveBitCount(b)] = tile;
-        masked += subgroupBallotBitCount(b);
-        b = subgroupBallot(is_blended);
-        if (is_blended) tile_lists[2u * tile_count + blended + subgroupBallotExclusiveBitCount(b)] = tile;
-        blended += subgroupBallotBitCount(b);
-        b = subgroupBallot(is_unlisted);
-        if (is_unlisted) tile_lists[3u * tile_count + unlisted + subgroupBallotExclusiveBitCount(b)] = tile;
-        unlisted += subgroupBallotBitCount(b);
+        uint list = !listed ? 3u : blend ? 2u : mask_ ? 1u : 0u;
+        // Lengths of all lists in one scan, a byte each.
+        uint parts = !mine || SITES ? 0u : (cells + LANES - 1u) / LANES;
+        uint before = subgroupExclusiveAdd(parts << (8u * list)), added = subgroupAdd(parts << (8u * list));
+        uint at = first_entry(list) + entries[list] + (before >> (8u * list) & 0xffu);
+        [[unroll]] for (uint part = 0u; part < PARTS_OF_TILE; part++)
+            if (part < parts) tile_lists[at + part] = work_entry(tile, part);
+        entries += uvec4(added, added >> 8, added >> 16, added >> 24) & 0xffu;
+        unlisted += subgroupBallotBitCount(subgroupBallot(mine && !listed));
         list_used += subgroupAdd(mine ? list_need : 0u);
         records_used += subgroupAdd(mine ? record_need : 0u);
         headers_used += subgroupAdd(mine ? header_need : 0u);
+        placed += subgroupBallotBitCount(subgroupBallot(mine));
         next += taken;
-        open_ = taken == lanes && next < tile_count;
+        open_ = taken == LANES && next < tile_count;
     }
     next = min(next, tile_count);
 
     if (subgroupElect()) {
-        bool idle = plain + masked + blended + unlisted == 0u;
+        bool idle = placed == 0u;
         counters[COUNTER_ROUND_FIRST] = start;
         counters[COUNTER_NEXT_TILE] = next;
         counters[COUNTER_RECORDS] = 0u;
-        counters[COUNTER_PLAIN_TILES] = SITES ? 0u : plain;
-        counters[COUNTER_MASKED_TILES] = SITES ? 0u : masked;
-        counters[COUNTER_BLENDED_TILES] = SITES ? 0u : blended;
-        counters[COUNTER_UNLISTED_TILES] = SITES ? 0u : unlisted;
+        [[unroll]] for (uint list = 0u; list < 4u; list++) counters[COUNTER_PLAIN_TILES + list] = entries[list];
+        counters[COUNTER_PLAIN_LEFT] = 0u;
+        counters[COUNTER_MASKED_LEFT] = 0u;
         counters[COUNTER_ROUNDS] += idle ? 0u : 1u;
         counters[COUNTER_CANDIDATES_TOTAL] += list_used;
         counters[COUNTER_UNLISTED_TOTAL] += unlisted;
         arguments[ARGUMENT_SETUP] = idle ? uvec4(0u) : groups((min(counters[COUNTER_PAIRS], frame.pair_capacity) + 63u) / 64u);
         arguments[ARGUMENT_GROUPS] = idle ? uvec4(0u) : groups((frame.group_count + 63u) / 64u);
-        // A subgroup for as many of a tile's cells as it has invocations, or for a block of one.
-        uint plain_parts = 32u / lanes, layered_parts = plain_parts;
+        // A subgroup an entry, or one for each block of each of its cells.
+        uint plain_blocks = 1u, layered_blocks = 1u;
         if (APART) {
-            plain_parts = 32u * ((frame.sample_count + PLAIN_BLOCK - 1u) / PLAIN_BLOCK);
-            layered_parts = 32u * ((frame.sample_count + LAYERED_BLOCK - 1u) / LAYERED_BLOCK);
+            plain_blocks = LANES * ((frame.sample_count + PLAIN_BLOCK - 1u) / PLAIN_BLOCK);
+            layered_blocks = LANES * ((frame.sample_count + LAYERED_BLOCK - 1u) / LAYERED_BLOCK);
         }
-        arguments[ARGUMENT_SAMPLE_PLAIN] = groups(plain * plain_parts);
-        arguments[ARGUMENT_SAMPLE_MASKED] = groups(masked * layered_parts);
-        arguments[ARGUMENT_SAMPLE_BLENDED] = groups(blended * layered_parts);
-        arguments[ARGUMENT_SAMPLE_UNLISTED] = groups(unlisted * layered_parts);
+        arguments[ARGUMENT_SAMPLE_PLAIN] = groups(entries.x * plain_blocks);
+        arguments[ARGUMENT_SAMPLE_MASKED] = groups(entries.y * layered_blocks);
+        arguments[ARGUMENT_SAMPLE_BLENDED] = groups(entries.z * layered_blocks);
+        arguments[ARGUMENT_SAMPLE_UNLISTED] = groups(entries.w * layered_blocks);
     }
 }

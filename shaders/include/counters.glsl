@@ -23,6 +23,8 @@
 #define COUNTER_PAIRS 21
 #define COUNTER_THIN 22
 #define COUNTER_RESAMPLED 23
+#define COUNTER_PLAIN_LEFT 24
+#define COUNTER_MASKED_LEFT 25
 #define COUNTER_COUNT 32
 
 #define ARGUMENT_CULL 0
@@ -36,7 +38,9 @@
 #define ARGUMENT_SORT 8
 #define ARGUMENT_THIN 9
 #define ARGUMENT_GROUPS 10
-#define ARGUMENT_SHADE 11
+#define ARGUMENT_PLAIN_LEFT 11
+#define ARGUMENT_MASKED_LEFT 12
+#define ARGUMENT_SHADE 13
 
 // An indirect dispatch of n workgroups, folded into rows of 32,768.
 uvec4 groups(uint n) {

@@ -24,3 +24,28 @@ uint lanes_min(uint v) {
     v = min(v, subgroupShuffleXor(v, 2u));
     return min(v, subgroupShuffleXor(v, 4u));
 }
+
+float lanes_min(float v) {
+    if (!BY_SHUFFLE) return subgroupMin(v);
+    v = min(v, subgroupShuffleXor(v, 1u));
+    v = min(v, subgroupShuffleXor(v, 2u));
+    return min(v, subgroupShuffleXor(v, 4u));
+}
+
+float lanes_max(float v) {
+    if (!BY_SHUFFLE) return subgroupMax(v);
+    v = max(v, subgroupShuffleXor(v, 1u));
+    v = max(v, subgroupShuffleXor(v, 2u));
+    return max(v, subgroupShuffleXor(v, 4u));
+}
+
+uint lanes_or(uint v) {
+    if (!BY_SHUFFLE) return subgroupOr(v);
+    v |= subgroupShuffleXor(v, 1u);
+    v |= subgroupShuffleXor(v, 2u);
+    return v | subgroupShuffleXor(v, 4u);
+}
+
+uint lanes_add(uint v) {
+    return uint(lanes_add(int(v)));
+}

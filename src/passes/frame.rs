@@ -69,6 +69,8 @@ pub enum Counter {
     Thin,
     /// Superpixels that the first few of their samples did not settle.
     Resampled,
+    PlainLeft,
+    MaskedLeft,
 }
 
 impl Counter {
@@ -92,6 +94,8 @@ pub enum Argument {
     Sort,
     Thin,
     Groups,
+    PlainLeft,
+    MaskedLeft,
     /// The first material bin's; the others follow.
     Shade,
 }
@@ -388,6 +392,8 @@ mod tests {
             C::Pairs,
             C::Thin,
             C::Resampled,
+            C::PlainLeft,
+            C::MaskedLeft,
         ] {
             let name = format!("COUNTER_{}", shouted(&format!("{counter:?}")));
             assert_eq!(shader_constant(&name), Some(counter as usize), "{name}");
@@ -406,6 +412,8 @@ mod tests {
             A::Sort,
             A::Thin,
             A::Groups,
+            A::PlainLeft,
+            A::MaskedLeft,
             A::Shade,
         ] {
             let name = format!("ARGUMENT_{}", shouted(&format!("{argument:?}")));

@@ -33,6 +33,8 @@ impl ResourceSizes {
     pub const PAIR_BYTES: u64 = 16;
     /// Bytes of a candidate.
     pub const CANDIDATE_BYTES: u64 = 64;
+    /// Bytes of the work lists for a tile or group of sites: six lists of up to four entries.
+    pub const WORK_BYTES: u64 = 96;
 
     /// Bytes of the largest storage buffer.
     #[must_use]
@@ -42,7 +44,8 @@ impl ResourceSizes {
         let candidates = u64::from(self.list_capacity) * Self::CANDIDATE_BYTES;
         let attributes = if self.attributes { 2 * colors } else { 0 };
         let pairs = u64::from(self.pair_capacity) * Self::PAIR_BYTES;
-        [attributes, colors, records, candidates, pairs]
+        let work = self.work_owners() * Self::WORK_BYTES;
+        [attributes, colors, records, candidates, pairs, work]
             .into_iter()
             .fold(0, u64::max)
     }
@@ -60,6 +63,12 @@ impl ResourceSizes {
             .map_or(u64::from(self.pixels()), |sites| u64::from(sites.sites))
     }
 
+    /// Owners of cells: tiles or, where there are more, groups of sites.
+    fn work_owners(&self) -> u64 {
+        let groups = self.sites.map_or(0, |sites| sites.groups);
+        self.tiles().max(groups).into()
+    }
+
     /// Tiles of 8 x 4 pixels of a region.
     #[must_use]
     pub fn tiles(&self) -> u32 {
@@ -73,7 +82,8 @@ impl ResourceSizes {
         let tiles = u64::from(self.tiles());
         let records = u64::from(self.record_capacity);
         pixels * (16 + 4 + 4 + 4)
-            + tiles * 40
+            + tiles * 20
+            + self.work_owners() * (4 + Self::WORK_BYTES)
             + u64::from(self.list_capacity) * Self::CANDIDATE_BYTES
             + u64::from(self.pair_capacity) * Self::PAIR_BYTES
             + records * 40
@@ -235,9 +245,12 @@ impl Resources {
             color: texels_in("colour", pixels, float4, output)?,
             counters: storage("counters", 4 * Counter::COUNT as u64)?,
             masks: storage_in("superpixel mask", tiles * 4, input)?,
-            marks: storage("marks of pixels", tiles.max(site_sizes.groups.into()) * 4)?,
+            marks: storage("marks of pixels", sizes.work_owners() * 4)?,
             tiles: storage("tiles", tiles * 16)?,
-            tile_lists: storage("tile lists", tiles.max(site_sizes.groups.into()) * 16)?,
+            tile_lists: storage(
+                "tile lists",
+                sizes.work_owners() * ResourceSizes::WORK_BYTES,
+            )?,
             survivors: storage("survivors", triangles * 4)?,
             pairs: texels("pairs", u64::from(sizes.pair_capacity), uint4)?,
             candidates: texels("candidates", u64::from(sizes.list_capacity) * 4, uint4)?,

@@ -18,7 +18,7 @@ pub enum TileList {
 }
 
 impl TileList {
-    /// The indirect dispatch over the list's tiles.
+    /// The indirect dispatch over the list's entries.
     #[must_use]
     pub fn argument(self) -> u32 {
         Argument::SamplePlain as u32 + self as u32
@@ -67,6 +67,7 @@ enum Run {
 pub struct Sample {
     kernels: Vec<(TileList, Arc<Pipeline>)>,
     rest: Vec<(TileList, Arc<Pipeline>)>,
+    arguments_of_rest: Arc<Pipeline>,
     options: SampleOptions,
     plain_block: u32,
     layered_block: u32,
@@ -168,6 +169,11 @@ impl Sample {
         Ok(Self {
             kernels,
             rest,
+            arguments_of_rest: layout.compute(
+                spirv::ARGUMENTS,
+                &Constants::new().with(0, 7),
+                None,
+            )?,
             options: *options,
             plain_block: plain_rows * lanes,
             layered_block: layered_rows * lanes,
@@ -197,8 +203,21 @@ impl Sample {
 
     /// Records them over the tiles of the round. With two runs, no cell is marked before the first round.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
-        for (list, pipeline) in self.kernels.iter().chain(&self.rest) {
+        for (list, pipeline) in &self.kernels {
             recorder.dispatch_indirect(pipeline, arguments, list.argument());
+        }
+        if self.rest.is_empty() {
+            return;
+        }
+        recorder.dispatch(&self.arguments_of_rest, 1);
+        for (list, pipeline) in &self.rest {
+            // Cells that are apart go through the whole list again.
+            let argument = if self.options.apart {
+                list.argument()
+            } else {
+                Argument::PlainLeft as u32 + *list as u32
+            };
+            recorder.dispatch_indirect(pipeline, arguments, argument);
         }
     }
 }

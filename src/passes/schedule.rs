@@ -23,7 +23,8 @@ impl Schedule {
             .cells
             .constants(Constants::new())
             .with(0, lanes)
-            .with(1, sample.block(TileList::Plain))
+            .with(1, lanes)
+            .with(7, sample.block(TileList::Plain))
             .with(2, sample.block(TileList::Masked))
             .flag(3, records == RecordRate::Sample)
             .with(4, layers)

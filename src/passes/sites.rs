@@ -49,7 +49,7 @@ impl SiteSizes {
     #[must_use]
     pub fn bytes(&self, tiles: u64) -> u64 {
         let [sites, cells, groups] = [self.sites, self.cells, self.groups].map(u64::from);
-        32 * (sites + cells) + 32 * groups + 8 * tiles
+        32 * (sites + cells) + 16 * groups + 8 * tiles
     }
 }
 

@@ -1,0 +1,222 @@
+// The samples of a block of a cell: an invocation holds ROWS of them, and what each one sees in registers.
+//
+// Patterns order samples so that neighbours in the list are neighbours in the cell: the rows of a run lie close
+// together, and candidates are tested against the run's rectangle before its samples.
+#ifndef BLOCK_GLSL
+#define BLOCK_GLSL
+
+const uint BLOCK = ROWS * LANES;                        // samples of one
+#define RUN_ROWS (ROWS < 8 ? ROWS : 8)
+#define RUNS (ROWS / RUN_ROWS)
+
+// The cell at hand.
+struct Cell {
+    uint first;             // candidate of its tile
+    vec2 center;            // of its tile
+    uint member;            // invocation that holds its short list
+    bool complete;          // the short list has all
+    uint entries;           // of the short list, or of the tile
+    float hidden;           // nothing farther than this shows
+    vec2 at, half_side;     // its middle from the tile's centre, and half its sides
+    mat2 pixel;             // its axes: how far a sample's offsets of 1 take it
+    uint site;              // of SITES, its first one in the block
+    uint samples;           // in the block
+};
+
+vec2 offset[ROWS];          // of the samples, the same in every cell
+vec2 place[ROWS];           // of samples of SITES, from the tile's centre
+vec2 run_middle[RUNS], run_reach[RUNS];
+float depth[ROWS];          // seen so far, 0 for nothing
+uint id[ROWS];
+uint own[ROWS];             // the triangle that OCCLUDERS lie on
+
+// What EXACT_AREAS need: an invocation holds a triangle that may show, and the number of samples that it covers.
+Candidate nearby;
+float nearby_covered;
+uint nearby_count;
+
+uint trips;                 // of loops, by this invocation
+
+uint sample_of(int g) {
+    return uint(g) * LANES + gl_SubgroupInvocationID;
+}
+
+vec2 position_of(Cell cell, int g) {
+    return SITES ? place[g] : cell.at + offset[g];
+}
+
+uint site_of(Cell cell, int g) {
+    return cell.site + min(sample_of(g), max(cell.samples, 1u) - 1u);
+}
+
+// The Jacobian at a sample: that of its site where cells hold several.
+mat2 pixel_of(Cell cell, int g) {
+    return POINTS ? site_jacobian(site_of(cell, g)) : cell.pixel;
+}
+
+// Loads the pattern's locations from number `first` on, at most up to `last`, and the rectangles of their runs.
+void load_offsets(uint first, uint last) {
+    [[unroll]] for (int g = 0; g < ROWS; g++)
+        offset[g] = POINTS ? vec2(0.0) : texelFetch(locations, int(min(first + sample_of(g), last))).xy;
+    [[unroll]] for (int run = 0; run < RUNS; run++) {
+        vec2 low = vec2(1.0), high = vec2(-1.0);
+        [[unroll]] for (int g = run * RUN_ROWS; g < (run + 1) * RUN_ROWS; g++) {
+            low = min(low, offset[g]);
+            high = max(high, offset[g]);
+        }
+        low = vec2(lanes_min(low.x), lanes_min(low.y));
+        high = vec2(lanes_max(high.x), lanes_max(high.y));
+        run_middle[run] = 0.5 * (low + high);
+        run_reach[run] = 0.5 * (high - low) + ROUNDING;
+    }
+}
+
+// Moves the samples to a cell, where they have seen nothing yet.
+void begin_cell(Cell cell) {
+    [[unroll]] for (int g = 0; g < ROWS; g++) {
+        depth[g] = 0.0;
+        id[g] = 0u;
+        own[g] = 0u;
+        if (SITES)
+            place[g] = POINTS ? uintBitsToFloat(texelFetch(sites, int(2u * site_of(cell, g))).xy) : cell.at + cell.pixel * offset[g];
+        if (OCCLUDERS) {
+            own[g] = texelFetch(sites, int(2u * site_of(cell, g))).w;
+            depth[g] = uintBitsToFloat(texelFetch(sites, int(2u * site_of(cell, g) + 1u)).x);
+        }
+    }
+    nearby.id = 0u;
+    nearby_covered = 0.0;
+    nearby_count = 0u;
+}
+
+// Forgets what places beyond the last sample saw.
+void end_cell(Cell cell) {
+    [[unroll]] for (int g = 0; g < ROWS; g++) id[g] = sample_of(g) < cell.samples ? id[g] : 0u;
+}
+
+// Entry `i` of a cell's candidates.
+Candidate entry_of(Cell cell, uint i) {
+    uint clamped = min(i, max(cell.entries, 1u) - 1u);
+    uint index = cell.complete ? kept[cell.member * KEPT + min(clamped, KEPT - 1u)] : clamped;
+    return load_candidate(cell.first, index, cell.center);
+}
+
+// What `inside` and `area_in_cell` need of one of two candidates.
+Candidate choose(bool first, Candidate a, Candidate b) {
+    Candidate r = b;
+    r.a = mix(b.a, a.a, bvec3(first));
+    r.b = mix(b.b, a.b, bvec3(first));
+    r.c = mix(b.c, a.c, bvec3(first));
+    r.id = first ? a.id : b.id;
+    return r;
+}
+
+void hold_nearby(Candidate t, bool some, float covered) {
+    bool mine = some && nearby_count == gl_SubgroupInvocationID;
+    nearby = choose(mine, t, nearby);
+    nearby_covered = mine ? covered : nearby_covered;
+    nearby_count += some ? 1u : 0u;
+}
+
+// A sample's offset in units of 2^-16 pixels.
+uint pack_location(vec2 offset) {
+    ivec2 q = clamp(ivec2(round(offset * 65536.0)), ivec2(-32768), ivec2(32767));
+    return uint(q.x & 0xffff) | uint(q.y) << 16;
+}
+
+bool wins(float d, uint by, int g) {
+    return (!OCCLUDERS || by != own[g]) && (d > depth[g] || (d == depth[g] && by < id[g]));
+}
+
+// Shows an opaque triangle to the rows from `first_row` on.
+void show_opaque(Cell cell, Candidate t, bool some, const int first_row) {
+    vec3 least = some ? thresholds(t) : vec3(3.4e38);
+    float covered = 0.0;
+    [[unroll]] for (int h = 0; h < RUN_ROWS; h++) {
+        int g = first_row + h;
+        vec2 p = position_of(cell, g);
+        float d = depth_at(t, p);
+        bool there = inside(t, least, p);
+        covered += there && sample_of(g) < cell.samples ? 1.0 : 0.0;
+        bool seen = there && d <= 1.0 && wins(d, t.id, g);
+        depth[g] = seen ? d : depth[g];
+        id[g] = seen ? t.id : id[g];
+    }
+    if (EXACT_AREAS) hold_nearby(t, some, lanes_add(covered));
+}
+
+// Shows an alpha-tested triangle to the rows from `first_row` on: the test is dear, and goes to rows that may see it.
+void show_masked(Cell cell, Candidate t, bool some, const int first_row) {
+    vec3 least = some ? thresholds(t) : vec3(3.4e38);
+    AlphaTest alpha = alpha_test(t.id - 1u, cell.center, cell.at, cell.pixel);
+    uint rows = 0u;
+    [[unroll]] for (int h = 0; h < RUN_ROWS; h++) {
+        float d;
+        bool seen = covers(t, least, position_of(cell, first_row + h), d) && wins(d, t.id, first_row + h);
+        rows |= subgroupAny(seen) ? 1u << h : 0u;
+    }
+    do {
+        int row = rows == 0u ? RUN_ROWS : findLSB(rows);
+        rows &= rows - 1u;
+        vec2 p = vec2(0.0);
+        mat2 pixel = cell.pixel;
+        float depth_there = 0.0;
+        uint id_there = 0u, own_there = 0u;
+        [[unroll]] for (int h = 0; h < RUN_ROWS; h++) {
+            int g = first_row + h;
+            p = row == h ? position_of(cell, g) : p;
+            depth_there = row == h ? depth[g] : depth_there;
+            id_there = row == h ? id[g] : id_there;
+            own_there = row == h ? own[g] : own_there;
+        }
+        float d;
+        bool there = covers(t, least, p, d) && row < RUN_ROWS && (!OCCLUDERS || t.id != own_there);
+        if (POINTS) alpha = alpha_test(t.id - 1u, cell.center, p, pixel_of(cell, first_row + row));
+        bool seen = there && (d > depth_there || (d == depth_there && t.id < id_there)) && alpha_passes(alpha, p);
+        [[unroll]] for (int h = 0; h < RUN_ROWS; h++) {
+            depth[first_row + h] = seen && row == h ? d : depth[first_row + h];
+            id[first_row + h] = seen && row == h ? t.id : id[first_row + h];
+        }
+    } while (rows != 0u);
+}
+
+// Shows the cell's opaque and alpha-tested candidates to the run of rows from `first_row` on.
+void show_candidates(Cell cell, const int first_row) {
+    vec2 middle = cell.at, half_side = cell.half_side;
+    if (!POINTS && !EXACT_AREAS) {
+        middle += cell.pixel * run_middle[first_row / RUN_ROWS];
+        vec2 reach = run_reach[first_row / RUN_ROWS];
+        half_side = abs(cell.pixel[0]) * reach.x + abs(cell.pixel[1]) * reach.y + (SITES ? ROUNDING * cell.half_side : vec2(0.0));
+    }
+    uint batches = max((cell.entries + LANES - 1u) / LANES, 1u), batch = 0u;
+    float hidden = cell.hidden;
+    do {
+        uint entry = batch * LANES + gl_SubgroupInvocationID;
+        Candidate k = entry_of(cell, entry);
+        RectangleTest test = test_rectangle(k, middle, half_side, HAS_MASK);
+        bool exists = entry < cell.entries;
+        // Areas count the triangles nearby, which must not depend on the order of candidates.
+        if (!EXACT_AREAS) hidden = max(hidden, lanes_max(exists ? test.hides : 0.0));
+        bool blend = k.id > frame.first_blend;
+        bool masked = HAS_MASK && k.id > frame.first_mask && !blend;
+        bool touches = exists && test.touches && !blend && test.near >= hidden;
+        trips += 3u + uint(bitCount(subgroupBallot(touches).x));
+        uint pending = subgroupBallot(touches && !masked).x;
+        do {
+            bool some = pending != 0u;
+            show_opaque(cell, shuffle_candidate(k, some ? uint(findLSB(pending)) : 0u), some, first_row);
+            pending &= pending - 1u;
+        } while (pending != 0u);
+        if (HAS_MASK) {
+            pending = subgroupBallot(touches && masked).x;
+            trips += uint(bitCount(pending)) * RUN_ROWS;
+            do {
+                bool some = pending != 0u;
+                show_masked(cell, shuffle_candidate(k, some ? uint(findLSB(pending)) : 0u), some, first_row);
+                pending &= pending - 1u;
+            } while (pending != 0u);
+        }
+    } while (++batch < batches);
+}
+
+#endif

@@ -1,0 +1,88 @@
+// Candidates of a tile: triangles that may cover samples there, their edge functions and depth around the tile's centre.
+#ifndef CANDIDATE_GLSL
+#define CANDIDATE_GLSL
+#include "tiles.glsl"
+
+const float OUTSIDE = 1.1754944e-38;                    // the least E of a sample off the owning side
+
+struct Candidate { vec3 a, b, c, depth; float near, far; uint id; };
+
+Candidate load_candidate(uint first, uint index, vec2 center) {
+    Candidate k;
+#ifdef UNLISTED
+    uvec4 indices = texelFetch(triangles, int(index));
+    vec4 v0 = texelFetch(clip, int(indices.x)), v1 = texelFetch(clip, int(indices.y)), v2 = texelFetch(clip, int(indices.z));
+    Setup s = setup_triangle(v0, v1, v2, center, (indices.w >> 31) == 0u);
+    bool usable = s.valid && !footprint_of(v0, v1, v2).outside;
+    k.a = s.a; k.b = s.b; k.c = usable ? s.c : vec3(-3.4e38);
+    k.depth = s.depth; k.near = s.near; k.far = s.far; k.id = index + 1u;
+#else
+    int o = int(first + index) * 4;
+    uvec4 last = texelFetch(candidates, o + 3);
+    vec4 q0 = uintBitsToFloat(texelFetch(candidates, o)), q1 = uintBitsToFloat(texelFetch(candidates, o + 1));
+    vec4 q2 = uintBitsToFloat(texelFetch(candidates, o + 2)), q3 = uintBitsToFloat(last);
+    k.a = vec3(q0.x, q0.w, q1.z); k.b = vec3(q0.y, q1.x, q1.w); k.c = vec3(q0.z, q1.y, q2.x);
+    k.depth = q2.yzw; k.near = q3.x; k.far = q3.y; k.id = last.z;
+#endif
+    return k;
+}
+
+Candidate shuffle_candidate(Candidate k, uint lane) {
+    Candidate r;
+    r.a = vec3(subgroupShuffle(k.a.x, lane), subgroupShuffle(k.a.y, lane), subgroupShuffle(k.a.z, lane));
+    r.b = vec3(subgroupShuffle(k.b.x, lane), subgroupShuffle(k.b.y, lane), subgroupShuffle(k.b.z, lane));
+    r.c = vec3(subgroupShuffle(k.c.x, lane), subgroupShuffle(k.c.y, lane), subgroupShuffle(k.c.z, lane));
+    r.depth = vec3(subgroupShuffle(k.depth.x, lane), subgroupShuffle(k.depth.y, lane), subgroupShuffle(k.depth.z, lane));
+    r.near = subgroupShuffle(k.near, lane);
+    r.far = subgroupShuffle(k.far, lane);
+    r.id = subgroupShuffle(k.id, lane);
+    return r;
+}
+
+// Least value of each edge function inside: the owning side of an edge includes E = 0.
+vec3 thresholds(Candidate k) {
+    return vec3(
+        k.a.x > 0.0 || (k.a.x == 0.0 && k.b.x > 0.0) ? 0.0 : OUTSIDE,
+        k.a.y > 0.0 || (k.a.y == 0.0 && k.b.y > 0.0) ? 0.0 : OUTSIDE,
+        k.a.z > 0.0 || (k.a.z == 0.0 && k.b.z > 0.0) ? 0.0 : OUTSIDE);
+}
+
+bool inside(Candidate k, vec3 least, vec2 p) {
+    precise float e0 = k.a.x * p.x + k.b.x * p.y + k.c.x;
+    precise float e1 = k.a.y * p.x + k.b.y * p.y + k.c.y;
+    precise float e2 = k.a.z * p.x + k.b.z * p.y + k.c.z;
+    return e0 >= least.x && e1 >= least.y && e2 >= least.z;
+}
+
+float depth_at(Candidate k, vec2 p) {
+    precise float d = k.depth.x * p.x + k.depth.y * p.y + k.depth.z;
+    return clamp(d, k.far, k.near);
+}
+
+bool covers(Candidate k, vec3 least, vec2 p, out float depth) {
+    depth = depth_at(k, p);
+    return inside(k, least, p) && depth <= 1.0;
+}
+
+// A candidate against a rectangle.
+struct RectangleTest {
+    bool touches;
+    float near;     // its nearest depth there
+    float hides;    // where it covers all of it with an opaque surface: its farthest depth there, otherwise 0
+};
+
+RectangleTest test_rectangle(Candidate k, vec2 middle, vec2 half_side, bool has_mask) {
+    vec3 e = k.a * middle.x + k.b * middle.y + k.c;
+    vec3 reach = half_side.x * abs(k.a) + half_side.y * abs(k.b);
+    float depth = k.depth.x * middle.x + k.depth.y * middle.y + k.depth.z;
+    float slope = dot(half_side, abs(k.depth.xy)) + abs(depth) * 1e-6;
+    RectangleTest r;
+    r.touches = min(e.x + reach.x, min(e.y + reach.y, e.z + reach.z)) >= 0.0;
+    r.near = min(depth + slope, k.near);
+    bool spans = k.id <= (has_mask ? frame.first_mask : frame.first_blend) && k.near <= 1.0
+        && min(e.x - reach.x, min(e.y - reach.y, e.z - reach.z)) > 0.0;
+    r.hides = spans ? max(depth - slope, k.far) : 0.0;
+    return r;
+}
+
+#endif

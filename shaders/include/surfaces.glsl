@@ -1,0 +1,211 @@
+// Records of the surfaces that a block sees: one a triangle (BY_PART: and part of the block), or one a sample.
+#ifndef SURFACES_GLSL
+#define SURFACES_GLSL
+#include "area.glsl"
+
+const float FEWEST = 6.0;                               // samples that an area to be trusted is worth
+const float AGREEMENT = 0.1;                            // of areas and samples, in cells
+
+// What a block of samples sees of one triangle.
+struct Surface {
+    uint id;                // ~0: no other triangle
+    float samples;
+    vec2 sum;               // of their locations
+    uint parts;             // BY_PART: a bit for each that sees it
+};
+
+// Parts of a block: at most eight runs of neighbouring samples.
+const uint PART = BLOCK > 64u ? BLOCK / 8u : 8u;        // samples of a part
+const uint PARTS_A_ROW = LANES > PART ? LANES / PART : 1u, ROWS_A_PART = PART > LANES ? PART / LANES : 1u;
+const uint PART_LANES = PART < LANES ? PART : LANES;
+
+// The triangle with the least ID above `seen`.
+Surface surface_after(uint seen) {
+    Surface r = Surface(~0u, 0.0, vec2(0.0), 0u);
+    [[unroll]] for (int g = 0; g < ROWS; g++) r.id = min(r.id, id[g] > seen ? id[g] : ~0u);
+    r.id = lanes_min(r.id);
+    [[unroll]] for (int g = 0; g < ROWS; g++) {
+        bool same = id[g] == r.id;
+        r.samples += same ? 1.0 : 0.0;
+        r.sum += same ? offset[g] : vec2(0.0);
+        uint part = PARTS_A_ROW > 1u ? uint(g) * PARTS_A_ROW + gl_SubgroupInvocationID / PART_LANES : uint(g) / ROWS_A_PART;
+        if (BY_PART) r.parts |= same ? 1u << part : 0u;
+    }
+    r.samples = lanes_add(r.samples);
+    r.sum = vec2(lanes_add(r.sum.x), lanes_add(r.sum.y));
+    if (BY_PART) r.parts = lanes_or(r.parts);
+    return r;
+}
+
+struct Part { uint samples; vec2 sum; };
+
+// What each part sees of a triangle; an invocation holds a part.
+Part part_of(uint wanted) {
+    uint lane = gl_SubgroupInvocationID;
+    Part r = Part(0u, vec2(0.0));
+    [[unroll]] for (int g = 0; g < ROWS; g++) {
+        bool same = id[g] == wanted;
+        uint first = lane % PARTS_A_ROW * PART;
+        uint seen = bitfieldExtract(subgroupBallot(same).x, int(first), int(PART_LANES));
+        vec2 sum = same ? offset[g] : vec2(0.0);
+        if (PARTS_A_ROW == 1u) {
+            sum = vec2(lanes_add(sum.x), lanes_add(sum.y));
+        } else {
+            sum += vec2(subgroupShuffleXor(sum.x, 1u), subgroupShuffleXor(sum.y, 1u));
+            sum += vec2(subgroupShuffleXor(sum.x, 2u), subgroupShuffleXor(sum.y, 2u));
+            sum += vec2(subgroupShuffleXor(sum.x, 4u), subgroupShuffleXor(sum.y, 4u));
+            sum = vec2(subgroupShuffle(sum.x, first), subgroupShuffle(sum.y, first));
+        }
+        bool mine = lane / PARTS_A_ROW == uint(g) / ROWS_A_PART;
+        r.samples += mine ? uint(bitCount(seen)) : 0u;
+        r.sum += mine ? sum : vec2(0.0);
+    }
+    return r;
+}
+
+// Whether a triangle's light may change within a pixel.
+bool glossy(uint of) {
+    return (texelFetch(triangles, int(max(of, 1u) - 1u)).w >> 30 & 1u) != 0u;
+}
+
+// The surfaces of a block, ascending by ID; an invocation holds one.
+struct Surfaces {
+    uint count;             // may be more than there are invocations
+    uint id;
+    uint location;
+    float samples;
+    uint parts;
+    int area;
+    bool whole;             // it loses no sample that it covers, so that its area is exact
+};
+
+Surfaces surfaces_of(Cell cell) {
+    uint lane = gl_SubgroupInvocationID;
+    Surfaces r = Surfaces(0u, 0u, 0u, 0.0, 0u, 0, false);
+    float left = 0.0;
+    [[unroll]] for (int g = 0; g < ROWS; g++) left += id[g] != 0u ? 1.0 : 0.0;
+    left = lanes_add(left);
+    uint seen = 0u;
+    do {
+        Surface s = surface_after(seen);
+        bool some = s.id != ~0u, mine = some && r.count == lane;
+        r.id = mine ? s.id : r.id;
+        r.location = mine ? pack_location(s.sum / s.samples) : r.location;
+        r.samples = mine ? s.samples : r.samples;
+        r.parts = mine ? s.parts : r.parts;
+        if (EXACT_AREAS) {
+            uint holders = subgroupBallot(nearby.id == s.id).x;
+            uint holder = holders != 0u ? uint(findLSB(holders)) : 0u;
+            Candidate t = shuffle_candidate(nearby, holder);
+            // In the coordinates of offsets, in which the cell is a square.
+            vec3 a = SITES ? t.a * cell.pixel[0].x + t.b * cell.pixel[0].y : t.a;
+            vec3 b = SITES ? t.a * cell.pixel[1].x + t.b * cell.pixel[1].y : t.b;
+            int area = area_in_cell(a, b, t.a * cell.at.x + t.b * cell.at.y + t.c, lane);
+            bool whole = holders != 0u && subgroupShuffle(nearby_covered, holder) == s.samples
+                && float(area) * float(cell.samples) >= FEWEST * AREA_UNIT;
+            r.area = mine ? area : r.area;
+            r.whole = mine ? whole : r.whole;
+        }
+        r.count += some ? 1u : 0u;
+        left -= s.samples;
+        seen = s.id;
+    } while (left > 0.0);
+    return r;
+}
+
+// The weight of the surface that an invocation holds, in samples of the pattern, and whether the cell needs no more
+// samples to know it.
+float weigh(Surfaces s, uint samples, out bool settled) {
+    settled = true;
+    if (!EXACT_AREAS) return s.samples;
+    // Beyond the invocations' room to hold triangles, all go by samples.
+    bool known = s.count <= LANES && nearby_count <= LANES;
+    bool shares = s.samples > 0.0 && !s.whole;
+    float whole_area = float(lanes_add(s.whole ? s.area : 0)) * (1.0 / AREA_UNIT);
+    float whole_samples = lanes_add(s.whole ? s.samples : 0.0);
+    float sharing = lanes_add(shares ? 1.0 : 0.0);
+    float left = float(samples) - whole_samples;
+    float background = left - lanes_add(shares ? s.samples : 0.0);
+    sharing += background > 0.0 ? 1.0 : 0.0;
+    float mend = left > 0.0 && whole_area <= 1.0 ? 1.0 : 1.0 / max(whole_area, 1e-6);
+    float share = max(1.0 - whole_area, 0.0) / max(left, 1.0);
+    bool agrees = abs(whole_area - whole_samples / float(samples)) <= AGREEMENT;
+    bool exact = known && agrees;
+    settled = RUN != PROBE || (exact && sharing <= 1.0);
+    float cell_weight = float(frame.sample_count);
+    return exact ? cell_weight * (s.whole ? float(s.area) * (1.0 / AREA_UNIT) * mend : s.samples * share)
+        : cell_weight / float(samples) * s.samples;
+}
+
+// Makes room for records; returns the first one, and whether they fit.
+uint allocate_records(uint count, out bool fits) {
+    uint base = 0u;
+    if (subgroupElect() && count != 0u) base = atomicAdd(counters[COUNTER_RECORDS], count);
+    base = subgroupBroadcastFirst(base);
+    fits = base + count <= frame.record_capacity;
+    if (subgroupElect() && !fits) atomicAdd(counters[COUNTER_UNFINISHED], 1u);
+    return base;
+}
+
+// A record a sample; returns the first one and their number.
+uvec2 record_samples(Cell cell, uint owner) {
+    bool fits;
+    uint base = allocate_records(cell.samples, fits);
+    [[unroll]] for (int g = 0; g < ROWS; g++) {
+        uint s = sample_of(g);
+        if (fits && s < cell.samples)
+            records_out[base + s] = POINTS ? uvec4((owner + s) | POINT_FIRST, id[g], 0u, ~0u)
+                : uvec4(owner, id[g], pack_location(offset[g]), floatBitsToUint(1.0));
+    }
+    return uvec2(base, fits ? cell.samples : 0u);
+}
+
+// A record a surface or part of one; returns the first one and their number, and whether the cell needs no more samples.
+uvec2 record_surfaces(Cell cell, uint owner, out bool settled) {
+    uint lane = gl_SubgroupInvocationID;
+    Surfaces held = surfaces_of(cell);
+    float weight = weigh(held, cell.samples, settled);
+    bool holds = lane < held.count;
+    bool several = BY_PART && holds && glossy(held.id);
+    bool single = holds && !several;
+    trips += 2u * held.count;
+    uint beyond = held.count - min(held.count, LANES);
+    uint used = beyond + lanes_add(several ? uint(bitCount(held.parts)) : single ? 1u : 0u);
+    bool fits;
+    uint base = allocate_records(settled ? used : 0u, fits);
+    fits = fits && settled;
+
+    // Surfaces of one record: all at once, and those beyond the invocations' room one by one.
+    uvec4 singles = subgroupBallot(single);
+    if (fits && single)
+        records_out[base + subgroupBallotExclusiveBitCount(singles)] = uvec4(owner, held.id, held.location, floatBitsToUint(weight));
+    uint slot = base + subgroupBallotBitCount(singles);
+    uint seen = subgroupMax(held.id), stored = 0u;
+    do {
+        Surface s = surface_after(seen);
+        if (fits && stored < beyond && subgroupElect())
+            records_out[slot] = uvec4(owner, s.id, pack_location(s.sum / s.samples), floatBitsToUint(s.samples));
+        slot += stored < beyond ? 1u : 0u;
+        seen = s.id;
+    } while (++stored < beyond);
+    if (BY_PART) {
+        float each = weight / max(held.samples, 1.0);
+        uint pending = subgroupBallot(several).x;
+        do {
+            uint holder = pending != 0u ? uint(findLSB(pending)) : 0u;
+            uint current = pending != 0u ? subgroupShuffle(held.id, holder) : ~0u;
+            Part part = part_of(current);
+            uint present = subgroupBallot(part.samples != 0u).x;
+            float n = float(part.samples);
+            float value = n * subgroupShuffle(each, holder);
+            if (fits && part.samples != 0u)
+                records_out[slot + uint(bitCount(present & ((1u << lane) - 1u)))] =
+                    uvec4(owner, current, pack_location(part.sum / n), floatBitsToUint(value));
+            slot += uint(bitCount(present));
+            pending &= pending - 1u;
+        } while (pending != 0u);
+    }
+    return uvec2(base, fits ? used : 0u);
+}
+
+#endif
