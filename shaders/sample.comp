@@ -20,6 +20,7 @@
 //   CHAINED: index of the next nearer BLEND layer of the sample, or ~0; the first records of a block are its
 //           samples' opaque surfaces (ID 0: background).
 // Where cells are SITES, the first word of a record is its site; POINTS make a record a sample, of location 0.
+// OCCLUDERS know their triangle and depth: another one that is nearer is recorded, or else background.
 // Header of a cell's block: first record, number of records (CHAINED: of samples).
 //
 // Loops are do-while with guarded bodies: on lavapipe a branch skips nothing and other loops run once too often.

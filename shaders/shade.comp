@@ -71,7 +71,7 @@ void main() {
     uint id;
     vec2 p;
     bool mine = true;
-    uint site = 0u;
+    uint site = 0u, shadows = 0u;       // a bit for each light that the surface lies in the shadow of
     if (PIXELS) {
         uint columns = (frame.size.x + 7u) / 8u;
         uvec2 pixel = split(source, columns) * uvec2(8u, 1u) + uvec2(i % 8u, 0u);
@@ -86,6 +86,8 @@ void main() {
         if (SITES) {
             site = record.x & ~POINT_FIRST;
             uvec4 at = texelFetch(sites, int(2u * site));
+            // BLEND layers lie before the surface that shadows are known of.
+            shadows = POINTS && (record.x & POINT_FIRST) != 0u ? at.w : 0u;
             p = tile_center(ivec2(split(at.z, frame.tiles.x))) + uintBitsToFloat(at.xy) + site_jacobian(site) * location;
         } else {
             p = frame.origin + vec2(record.x & 0xffffu, record.x >> 16) + location;
@@ -175,6 +177,7 @@ void main() {
                     float cone = clamp(dot(-to_light, light.direction_kind.xyz) * light.color_scale.w + light.offset.x, 0.0, 1.0);
                     e *= light.direction_kind.w == 2.0 ? cone * cone : 1.0;
                 }
+                e *= POINTS && l < 32u && (shadows >> l & 1u) != 0u ? 0.0 : 1.0;
                 radiance += reflect_light(s, to_eye, to_light, e);
             }
         }

@@ -43,3 +43,9 @@ gpc project assets/fence.glb -o "$work/projector-{projector}.png" --size 480x300
     --projector $out/left.csv --projector $out/right.csv --projector-size 320x240 \
     --weights --wall $out/wall.png
 cp "$work/projector-0.png" "$work/projector-0.weights.png" "$work/projector-1.png" $out
+
+# Shadows: what is seen, on the planes of the lights.
+for scene in letters fence; do
+    gpc render assets/$scene.glb -o $out/shadows-$scene.png --size 480x300 --background '#a8c0d8' --shadows exact \
+        --quiet
+done

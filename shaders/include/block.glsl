@@ -26,6 +26,7 @@ vec2 place[ROWS];           // of samples of SITES, from the tile's centre
 vec2 block_middle, block_reach;      // the rectangle that holds them
 float depth[ROWS];          // seen so far, 0 for nothing
 uint id[ROWS];
+uint own[ROWS];             // the triangle that OCCLUDERS lie on
 
 // What EXACT_AREAS need: an invocation holds a triangle that may show, and the number of samples that it covers.
 Candidate nearby;
@@ -42,9 +43,13 @@ vec2 position_of(Cell cell, int g) {
     return SITES ? place[g] : cell.at + offset[g];
 }
 
+uint site_of(Cell cell, int g) {
+    return cell.site + min(sample_of(g), max(cell.samples, 1u) - 1u);
+}
+
 // The Jacobian at a sample: that of its site where cells hold several.
 mat2 pixel_of(Cell cell, int g) {
-    return POINTS ? site_jacobian(cell.site + min(sample_of(g), max(cell.samples, 1u) - 1u)) : cell.pixel;
+    return POINTS ? site_jacobian(site_of(cell, g)) : cell.pixel;
 }
 
 // Loads the pattern's locations from number `first` on, at most up to `last`, and their rectangle.
@@ -67,9 +72,13 @@ void begin_cell(Cell cell) {
     [[unroll]] for (int g = 0; g < ROWS; g++) {
         depth[g] = 0.0;
         id[g] = 0u;
+        own[g] = 0u;
         if (SITES)
-            place[g] = POINTS ? uintBitsToFloat(texelFetch(sites, int(2u * (cell.site + min(sample_of(g), max(cell.samples, 1u) - 1u)))).xy)
-                : cell.at + cell.pixel * offset[g];
+            place[g] = POINTS ? uintBitsToFloat(texelFetch(sites, int(2u * site_of(cell, g))).xy) : cell.at + cell.pixel * offset[g];
+        if (OCCLUDERS) {
+            own[g] = texelFetch(sites, int(2u * site_of(cell, g))).w;
+            depth[g] = uintBitsToFloat(texelFetch(sites, int(2u * site_of(cell, g) + 1u)).x);
+        }
     }
     nearby.id = 0u;
     nearby_covered = 0.0;
@@ -112,7 +121,7 @@ uint pack_location(vec2 offset) {
 }
 
 bool wins(float d, uint by, int g) {
-    return d > depth[g] || (d == depth[g] && by < id[g]);
+    return (!OCCLUDERS || by != own[g]) && (d > depth[g] || (d == depth[g] && by < id[g]));
 }
 
 void show_opaque(Cell cell, Candidate t, bool some) {
@@ -145,14 +154,15 @@ void show_masked(Cell cell, Candidate t, bool some) {
         rows &= rows - 1u;
         vec2 p = vec2(0.0);
         float depth_there = 0.0;
-        uint id_there = 0u;
+        uint id_there = 0u, own_there = 0u;
         [[unroll]] for (int g = 0; g < ROWS; g++) {
             p = row == g ? position_of(cell, g) : p;
             depth_there = row == g ? depth[g] : depth_there;
             id_there = row == g ? id[g] : id_there;
+            own_there = row == g ? own[g] : own_there;
         }
         float d;
-        bool there = covers(t, least, p, d) && row < ROWS;
+        bool there = covers(t, least, p, d) && row < ROWS && (!OCCLUDERS || t.id != own_there);
         if (POINTS) alpha = alpha_test(t.id - 1u, cell.center, p, pixel_of(cell, row));
         bool seen = there && (d > depth_there || (d == depth_there && t.id < id_there)) && alpha_passes(alpha, p);
         [[unroll]] for (int g = 0; g < ROWS; g++) {

@@ -6,9 +6,12 @@
 
 layout(constant_id = 20) const bool SITES = false;
 layout(constant_id = 21) const bool POINTS = false;
+layout(constant_id = 22) const bool OCCLUDERS = false;  // POINTS on surfaces, seen by a light: which triangle lies before theirs
 
 // Two vectors each, floats as bits:
-// a site: (x, y from its tile's centre, tile, 0), (its Jacobian: change of x and y a column, change a row of the output)
+// a site: (x, y from its tile's centre, tile, word), (its Jacobian: change of x and y a column, change a row of the output);
+//   word: POINTS: a bit for each light that its surface lies in the shadow of; OCCLUDERS: ID of the surface's triangle,
+//   and, in place of the Jacobian, (least depth of what lies before it, 0, 0, 0)
 layout(set = 0, binding = 42) uniform utextureBuffer sites;
 // a cell: (x, y of its middle from its tile's centre, half its width and height), (first site, sites, 0, 0)
 layout(set = 0, binding = 43) uniform utextureBuffer site_cells;
@@ -19,9 +22,10 @@ layout(std430, set = 0, binding = 45) readonly buffer TileLoads { uvec2 tile_loa
 // Set in the owner of a point's first record, its opaque surface or background.
 #define POINT_FIRST 0x80000000u
 
+// OCCLUDERS have no extent: textures are read at their finest level.
 mat2 site_jacobian(uint site) {
     vec4 j = uintBitsToFloat(texelFetch(sites, int(2u * site + 1u)));
-    return mat2(j.xy, j.zw);
+    return OCCLUDERS ? mat2(0.0) : mat2(j.xy, j.zw);
 }
 
 #endif

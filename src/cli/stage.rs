@@ -40,7 +40,7 @@ impl Stage {
             usage!("--camera all: this command takes one camera");
         };
         let mut headless = render::open(image.device.clone())?;
-        let scene = headless.upload(&loaded.scene, &pose, settings.max_memory)?;
+        let scene = render::upload(&mut headless, &loaded.scene, &pose, &settings)?;
         Ok(Self {
             headless,
             scene,

@@ -13,14 +13,23 @@ pub enum Cells {
     Superpixels,
     /// A few sites of a tile, each sampled once, where it is.
     Points,
+    /// The same, for surfaces that a light's pinhole sees: which triangle lies before theirs.
+    Occluders,
 }
 
 impl Cells {
+    /// Whether its sites are sampled once each.
+    #[must_use]
+    pub fn are_points(self) -> bool {
+        matches!(self, Self::Points | Self::Occluders)
+    }
+
     /// Adds the constants of `shaders/include/sites.glsl`.
     pub(crate) fn constants(self, constants: Constants) -> Constants {
         constants
             .flag(20, self != Self::Pixels)
-            .flag(21, self == Self::Points)
+            .flag(21, self.are_points())
+            .flag(22, self == Self::Occluders)
     }
 }
 

@@ -22,6 +22,24 @@ pub enum RenderError {
     /// A sampling location can't be used.
     #[error(transparent)]
     Site(#[from] SiteError),
+    /// A camera makes no pinhole.
+    #[error(transparent)]
+    Pinhole(#[from] crate::camera::PinholeError),
+    /// The lights of a scene make no rig of pinholes.
+    #[error(transparent)]
+    Rig(#[from] crate::camera::RigError),
+    /// A frame writes commands once, and shadows need the host between their steps.
+    #[error("a frame can't have exact shadows; sample sites, or ask Headless::render_with_shadows")]
+    FrameShadows,
+    /// The scene was not made ready for shadows.
+    #[error("the scene can't cast shadows yet; hand it to Headless::prepare_shadows first")]
+    NoCasters,
+    /// A point has 32 bits for lights.
+    #[error("{found} lights can't all cast shadows; 32 can")]
+    ShadowLights {
+        /// How many there are.
+        found: usize,
+    },
     /// The method can't have that many samples.
     #[error("{method} can't have {asked} samples a pixel; it can have {possible}")]
     Samples {
@@ -86,6 +104,9 @@ impl RenderError {
                 | Self::Site(_)
                 | Self::Samples { .. }
                 | Self::SiteMethod
+                | Self::Pinhole(_)
+                | Self::FrameShadows
+                | Self::ShadowLights { .. }
                 | Self::Attributes
                 | Self::SampleAttributes
                 | Self::Size { .. }

@@ -2,7 +2,8 @@
 
 use super::frame::Frame;
 use super::plan::Effort;
-use super::{RenderError, Settings};
+use super::sites::{Casters, Triangles};
+use super::{RenderError, Settings, Shadows};
 use crate::passes::{Encoding, FrameLayout, GpuScene};
 use crate::scene::{Pose, Scene};
 use crate::vulkan::{Gpu, Host, Memory, Recorder, VulkanError};
@@ -22,13 +23,21 @@ pub struct Renderer {
 pub struct PreparedScene {
     pub(super) gpu_scene: GpuScene,
     pub(super) memory: Memory,
+    /// For what the host looks for in images of sites.
+    pub(super) triangles: Triangles,
+    /// What casts shadows, where the scene was made ready for them.
+    pub(super) casters: Option<Box<Casters>>,
 }
 
 impl PreparedScene {
     /// Bytes of device memory that it takes.
     #[must_use]
     pub fn memory_bytes(&self) -> u64 {
-        self.memory.used()
+        let casters = self
+            .casters
+            .as_ref()
+            .map_or(0, |casters| casters.memory_bytes());
+        self.memory.used() + casters
     }
 
     /// Number of triangles.
@@ -97,7 +106,12 @@ impl Renderer {
     ) -> Result<PreparedScene, RenderError> {
         let memory = Memory::new(self.gpu.clone(), max_memory);
         let gpu_scene = GpuScene::new(&self.layout, &memory, scene, pose)?;
-        Ok(PreparedScene { gpu_scene, memory })
+        Ok(PreparedScene {
+            gpu_scene,
+            memory,
+            triangles: Triangles::new(&pose.geometry),
+            casters: None,
+        })
     }
 
     /// Makes the pipelines and memory for frames of a scene; `encoding` is that of the host's image, `None` for
@@ -140,6 +154,9 @@ impl Renderer {
         encoding: Option<Encoding>,
         effort: Effort,
     ) -> Result<Frame, RenderError> {
+        if settings.shadows == Shadows::Exact {
+            return Err(RenderError::FrameShadows);
+        }
         settings.check(self.gpu.limits())?;
         Frame::new(&self.layout, scene, settings, encoding, effort)
     }

@@ -61,6 +61,17 @@ pub enum Footprint {
     Sample,
 }
 
+/// Whether surfaces keep the light from others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shadows {
+    /// Lights shine through everything.
+    None,
+    /// Every point that is shaded asks every light whether another triangle lies before it: a sampling set on the light's
+    /// own image plane, without the aliasing of a map of depths. Sites alone can be sampled so, not a [`super::Frame`];
+    /// see [`super::Headless::prepare_shadows`].
+    Exact,
+}
+
 /// What the numbers in the image refer to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reference {
@@ -104,6 +115,8 @@ pub struct Settings {
     pub attributes: bool,
     /// What texture levels are chosen for under supersampling.
     pub footprint: Footprint,
+    /// Whether surfaces keep the light from others.
+    pub shadows: Shadows,
     /// Bound on device memory in bytes, uploads and read-back included.
     pub max_memory: Option<u64>,
 }
@@ -138,6 +151,7 @@ impl Settings {
             tonemapped_detection: true,
             attributes: false,
             footprint: Footprint::Pixel,
+            shadows: Shadows::None,
             max_memory: None,
         }
     }

@@ -194,28 +194,34 @@ fn black_contrasts_with_a_transparent_background() {
     });
 }
 
-/// Wires a tenth of a pixel wide, which few pixel centres see, keep their energy only if they make superpixels unseen.
+/// Twelve wires a tenth of a pixel wide, at `distance`, before a black wall.
+pub fn wires(size: [u32; 2], distance: f64) -> Stage {
+    let mut stage = Stage::new(vec![
+        flat([1.0; 4], AlphaMode::Opaque),
+        flat([0.0, 0.0, 0.0, 1.0], AlphaMode::Opaque),
+    ]);
+    let wall = [[-90.0, -90.0], [-90.0, 90.0], [90.0, 90.0], [90.0, -90.0]];
+    stage.add_quad(1, wall.map(|place| seen_at(place, 5.0, size[1])));
+    for wire in 0..12 {
+        let y = f64::from(wire) * 5.0 - 28.0;
+        let [rise, left, right] = [f64::from(wire) * 0.61 - 3.0, -43.7, 41.9];
+        let corners = [
+            [left, y],
+            [left, y + 0.1],
+            [right, y + rise + 0.1],
+            [right, y + rise],
+        ];
+        stage.add_quad(0, corners.map(|place| seen_at(place, distance, size[1])));
+    }
+    stage
+}
+
+/// Wires that few pixel centres see keep their energy only if they make superpixels unseen.
 #[test]
 fn unseen_wires_make_superpixels() {
     on_gpu(|gpu| {
         let size = [96, 64];
-        let mut stage = Stage::new(vec![
-            flat([1.0; 4], AlphaMode::Opaque),
-            flat([0.0, 0.0, 0.0, 1.0], AlphaMode::Opaque),
-        ]);
-        let wall = [[-90.0, -90.0], [-90.0, 90.0], [90.0, 90.0], [90.0, -90.0]];
-        stage.add_quad(1, wall.map(|place| seen_at(place, 5.0, size[1])));
-        for wire in 0..12 {
-            let y = f64::from(wire) * 5.0 - 28.0;
-            let [rise, left, right] = [f64::from(wire) * 0.61 - 3.0, -43.7, 41.9];
-            let corners = [
-                [left, y],
-                [left, y + 0.1],
-                [right, y + rise + 0.1],
-                [right, y + rise],
-            ];
-            stage.add_quad(0, corners.map(|place| seen_at(place, 2.0, size[1])));
-        }
+        let stage = wires(size, 2.0);
         let mut energy = |detection, thin| {
             let settings = Settings {
                 method: Method::Superpixel,

@@ -5,7 +5,7 @@ use crate::cli::report::ReportArgs;
 use crate::cli::values;
 use clap::{Args, ValueEnum};
 use glam::DVec3;
-use gpc::render::{Coverage, Detection, Method, Settings, Shading};
+use gpc::render::{Coverage, Detection, Method, Settings, Shading, Shadows};
 use gpc::sampling::Pattern;
 use serde::Serialize;
 use std::fmt;
@@ -229,6 +229,22 @@ impl ShadingRate {
             Self::Triangle => Shading::Triangle,
             Self::Part => Shading::Part,
             Self::Sample => Shading::Sample,
+        }
+    }
+}
+
+/// Values of `--shadows`.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum Shadow {
+    None,
+    Exact,
+}
+
+impl Shadow {
+    pub fn shadows(self) -> Shadows {
+        match self {
+            Self::None => Shadows::None,
+            Self::Exact => Shadows::Exact,
         }
     }
 }

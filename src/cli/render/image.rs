@@ -1,6 +1,6 @@
 //! The options that all commands share which make an image of a scene.
 
-use super::args::{Antialiasing, CameraArgs, SamplingArgs, Tonemap};
+use super::args::{Antialiasing, CameraArgs, SamplingArgs, Shadow, Tonemap};
 use crate::cli::exit::{Usage, usage};
 use crate::cli::input;
 use crate::cli::values::{self, Background};
@@ -26,6 +26,9 @@ pub struct ImageArgs {
     /// Colour behind the scene: none (transparent), sRGB R,G,B of 0 to 1, or #rrggbb
     #[arg(long, value_name = "COLOUR", default_value = "none", value_parser = values::background)]
     pub background: Background,
+    /// Shadows of the scene's own lights: none, or exact at every sample, whatever their number and distance
+    #[arg(long, default_value = "none")]
+    pub shadows: Shadow,
     /// More of each pixel: depth, id, normal, superpixels, samples. Layers of an EXR; otherwise PNG files beside OUT,
     /// named like it with .depth and so on before .png
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
@@ -94,6 +97,7 @@ impl ImageArgs {
                 Reference::Scene
             },
             tonemapped_detection: tonemaps,
+            shadows: self.shadows.shadows(),
             attributes: !self.aov.is_empty(),
             max_memory: self.max_memory,
             ..Settings::new(width, height)

@@ -12,7 +12,7 @@ mod view;
 pub use args::{Antialiasing, CameraArgs, RenderArgs, Tonemap};
 pub use image::ImageArgs;
 pub use save::{beside, encode, save, write};
-pub use session::{Shot, open};
+pub use session::{Shot, open, upload};
 pub use view::choose as choose_views;
 
 use super::input;

@@ -4,6 +4,7 @@ use crate::cli::report::Device;
 use gpc::camera::Camera;
 use gpc::render::{
     Frame, Headless, HeadlessOptions, PassTime, PreparedScene, RenderError, Rendered, Settings,
+    Shadows,
 };
 use gpc::scene::{Pose, Scene};
 use gpc::vulkan::VulkanError;
@@ -13,7 +14,14 @@ use std::time::Instant;
 pub struct Session {
     headless: Headless,
     settings: Settings,
-    shown: Option<(PreparedScene, Frame)>,
+    shown: Option<Shown>,
+}
+
+/// A scene, and how it is rendered.
+struct Shown {
+    scene: PreparedScene,
+    /// Nothing with shadows, which no frame has.
+    frame: Option<Frame>,
 }
 
 /// An image, and the times of all renderings that it took.
@@ -29,6 +37,23 @@ pub struct Shot {
 pub fn open(device: Option<String>) -> Result<Headless, VulkanError> {
     let validation = std::env::var_os("GPC_VALIDATION").is_some_and(|value| !value.is_empty());
     Headless::new(&HeadlessOptions { device, validation })
+}
+
+/// Puts a pose on the device, ready for the shadows that the settings ask for.
+pub fn upload(
+    headless: &mut Headless,
+    scene: &Scene,
+    pose: &Pose,
+    settings: &Settings,
+) -> Result<PreparedScene, RenderError> {
+    let mut prepared = headless.upload(scene, pose, settings.max_memory)?;
+    if settings.shadows == Shadows::Exact {
+        if pose.lights.is_empty() {
+            log::warn!("--shadows: the scene has no lights of its own, and so no shadows");
+        }
+        headless.prepare_shadows(&mut prepared, scene, pose, settings.max_memory)?;
+    }
+    Ok(prepared)
 }
 
 impl Session {
@@ -50,27 +75,25 @@ impl Session {
     pub fn show(&mut self, scene: &Scene, pose: &Pose) -> Result<(), RenderError> {
         // The memory of the pose before is free for this one.
         self.shown = None;
-        let prepared = self
-            .headless
-            .upload(scene, pose, self.settings.max_memory)?;
-        let frame = self.headless.prepare(&prepared, &self.settings)?;
-        self.shown = Some((prepared, frame));
+        let scene = upload(&mut self.headless, scene, pose, &self.settings)?;
+        let frame = match self.settings.shadows {
+            Shadows::None => Some(self.headless.prepare(&scene, &self.settings)?),
+            Shadows::Exact => None,
+        };
+        self.shown = Some(Shown { scene, frame });
         Ok(())
     }
 
     /// Renders what is shown: once, or with `repeat` once unmeasured and then so many times.
     pub fn shoot(&mut self, camera: &Camera, repeat: Option<u32>) -> anyhow::Result<Shot> {
-        let Some((scene, frame)) = &mut self.shown else {
-            anyhow::bail!("nothing was put on the device to render");
-        };
         if repeat.is_some() {
-            self.headless.render(scene, frame, camera)?;
+            self.render(camera)?;
         }
         let mut passes = Vec::new();
         let mut wall_ms = Vec::new();
         loop {
             let start = Instant::now();
-            let rendered = self.headless.render(scene, frame, camera)?;
+            let rendered = self.render(camera)?;
             wall_ms.push(1e3 * start.elapsed().as_secs_f64());
             passes.push(rendered.statistics.passes.clone());
             if passes.len() >= repeat.unwrap_or(1) as usize {
@@ -81,6 +104,18 @@ impl Session {
                 });
             }
         }
+    }
+
+    fn render(&mut self, camera: &Camera) -> anyhow::Result<Rendered> {
+        let Some(Shown { scene, frame }) = &mut self.shown else {
+            anyhow::bail!("nothing was put on the device to render");
+        };
+        Ok(match frame {
+            Some(frame) => self.headless.render(scene, frame, camera)?,
+            None => self
+                .headless
+                .render_with_shadows(scene, camera, &self.settings)?,
+        })
     }
 
     /// What the validation layer has said, if it was asked.

@@ -26,7 +26,7 @@ const LAYERS: u32 = 4;
 /// Bytes of the counters of a run.
 const COUNTER_BYTES: u64 = 4 * Counter::COUNT as u64;
 
-/// What makes colours of records.
+/// What makes values of records.
 enum Finish {
     Points(Points),
     Resolve(Resolve),
@@ -45,7 +45,8 @@ pub(super) struct SiteEngine {
     setup: Setup,
     sample: Sample,
     sort: Sort,
-    shade: Shade,
+    /// Nothing where surfaces are asked for and no colours.
+    shade: Option<Shade>,
     finish: Finish,
     resources: Resources,
     targets: RasterTargets,
@@ -59,7 +60,7 @@ pub(super) struct SiteEngine {
 pub(super) fn cell_sizes(layout: &FrameLayout, cells: Cells, samples: u32) -> CellSizes {
     let lanes = layout.gpu.limits().subgroup_size;
     let in_cell = match cells {
-        Cells::Points => POINTS_IN_CELL.next_multiple_of(lanes),
+        Cells::Points | Cells::Occluders => POINTS_IN_CELL.next_multiple_of(lanes),
         Cells::Superpixels | Cells::Pixels => 1,
     };
     CellSizes {
@@ -70,12 +71,12 @@ pub(super) fn cell_sizes(layout: &FrameLayout, cells: Cells, samples: u32) -> Ce
 }
 
 impl SiteEngine {
-    /// Makes the pipelines, and memory for runs of up to these sizes in windows of up to `window` pixels.
+    /// Makes the pipelines, and memory for runs of up to these sizes; with `colors`, records are shaded.
     pub fn new(
         layout: &Arc<FrameLayout>,
         prepared: &PreparedScene,
         settings: &Settings,
-        cells: Cells,
+        (cells, colors): (Cells, bool),
         sizes: &ResourceSizes,
     ) -> Result<Self, RenderError> {
         let scene = &prepared.gpu_scene;
@@ -85,7 +86,7 @@ impl SiteEngine {
             gpu.clone(),
             settings.max_memory.map(|limit| limit.saturating_sub(taken)),
         );
-        let points = cells == Cells::Points;
+        let points = cells.are_points();
         let CellSizes { in_cell, .. } = cell_sizes(layout, cells, settings.samples);
         let rounds = Effort::default().rounds_for(if points { 1 } else { settings.samples });
         let options = SampleOptions {
@@ -149,8 +150,10 @@ impl SiteEngine {
             schedule: Schedule::new(layout, &sample, LAYERS)?,
             groups: Groups::new(layout, &sample)?,
             setup: Setup::new(layout)?,
-            sort: Sort::new(layout, scene.bin_count() == 1)?,
-            shade: Shade::new(layout, scene, ShadeSource::Records(cells), &output)?,
+            sort: Sort::new(layout, !colors || scene.bin_count() == 1)?,
+            shade: colors
+                .then(|| Shade::new(layout, scene, ShadeSource::Records(cells), &output))
+                .transpose()?,
             sample,
             finish,
             resources,
@@ -232,7 +235,11 @@ impl SiteEngine {
             recorder.mark("setup");
             self.sample.record(recorder, arguments);
             recorder.mark("sample");
-            record_shading(recorder, scene, resources, &self.sort, &self.shade);
+            match &self.shade {
+                Some(shade) => record_shading(recorder, scene, resources, &self.sort, shade),
+                // Counts the records.
+                None => self.sort.record(recorder, &resources.bins, arguments),
+            }
             match &self.finish {
                 Finish::Points(points) => {
                     points.record(recorder, arguments);

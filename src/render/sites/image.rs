@@ -1,14 +1,15 @@
 //! An image whose pixels look where sites say: sampled once, then as superpixels where that aliases.
 
-use super::SiteError;
+use super::{SiteError, thin};
 use crate::camera::{Pinhole, Site};
 use crate::reference::detect;
 use crate::render::frame::display_code;
 use crate::render::{
     Coverage, Detection, Headless, Method, PixelAttributes, PreparedScene, RenderError, Rendered,
-    Settings, Shading, Statistics,
+    Settings, Shading, Shadows, Statistics,
 };
 use crate::sampling::Pattern;
+use std::time::Instant;
 
 /// One value for each output cell, as detection compares them.
 struct Cells {
@@ -16,6 +17,8 @@ struct Cells {
     attributes: Vec<PixelAttributes>,
     blend_ids: Vec<u32>,
     codes: Vec<u32>,
+    /// What lights each lies in the shadow of.
+    shadows: Vec<u32>,
 }
 
 impl Headless {
@@ -24,8 +27,9 @@ impl Headless {
     /// see what one plane can't.
     ///
     /// Every site is sampled once. Where neighbours in the *output* alias, across pinholes too, sites are then sampled
-    /// as superpixels; thin triangles that no sample saw are not looked for. `ssaa` samples every site by a grid and
-    /// shades each sample. Pixels without a site show the background; of several sites of a pixel the last one counts.
+    /// as superpixels, and so are those that a triangle narrower than their cell crosses unseen. `ssaa` samples every
+    /// site by a grid and shades each sample. Pixels without a site show the background; of several sites of a pixel the
+    /// last one counts.
     ///
     /// # Errors
     /// [`RenderError::Site`] names the first site that can't be sampled or has no place in the output,
@@ -77,11 +81,14 @@ impl Headless {
             }
         }
         if samples_cells {
-            let marked = if every {
+            let mut marked = if every {
                 vec![true; count as usize]
             } else {
                 cells.aliasing(&settings)?
             };
+            if settings.thin && !every {
+                cells.mark_thin(scene, rig, size[0], &mut marked);
+            }
             for (pinhole, sites) in rig {
                 let chosen: Vec<Site> = sites
                     .iter()
@@ -125,15 +132,17 @@ impl Cells {
             attributes: vec![unseen; count],
             blend_ids: vec![0; count],
             codes: vec![display_code(background); count],
+            shadows: vec![0; count],
         }
     }
 
     fn put(&mut self, cell: usize, seen: &super::PointSample) {
-        if let (Some(color), Some(attributes), Some(blend_id), Some(code)) = (
+        if let (Some(color), Some(attributes), Some(blend_id), Some(code), Some(shadows)) = (
             self.colors.get_mut(cell),
             self.attributes.get_mut(cell),
             self.blend_ids.get_mut(cell),
             self.codes.get_mut(cell),
+            self.shadows.get_mut(cell),
         ) {
             *color = seen.color;
             attributes.depth = seen.depth;
@@ -141,6 +150,7 @@ impl Cells {
             attributes.normal = seen.normal;
             *blend_id = seen.blend_id;
             *code = seen.code;
+            *shadows = seen.shadows;
         }
     }
 
@@ -154,7 +164,7 @@ impl Cells {
         }
     }
 
-    /// Whether each cell aliases.
+    /// Whether each cell aliases: beside another triangle, or the border of a shadow.
     fn aliasing(&self, settings: &Settings) -> Result<Vec<bool>, RenderError> {
         let [width, height] = settings.size;
         let mode = match settings.detection {
@@ -164,7 +174,15 @@ impl Cells {
         };
         let ids: Vec<u32> = self.attributes.iter().map(|seen| seen.id).collect();
         let frame = detect::Frame::new(width, height, &ids, &self.blend_ids, &self.codes)?;
-        let mask = detect::superpixels(&frame, mode);
+        let mut mask = detect::superpixels(&frame, mode);
+        if settings.shadows == Shadows::Exact {
+            let no_layers = vec![0; self.shadows.len()];
+            let frame = detect::Frame::new(width, height, &self.shadows, &no_layers, &self.codes)?;
+            let borders = detect::superpixels(&frame, mode);
+            for (word, borders) in mask.iter_mut().zip(borders) {
+                *word |= borders;
+            }
+        }
         let tiles = width.div_ceil(detect::TILE_WIDTH);
         let marked = |pixel: u32| {
             let (x, y) = (pixel % width, pixel / width);
@@ -174,5 +192,32 @@ impl Cells {
                 .is_some_and(|word| word >> bit & 1 != 0)
         };
         Ok((0..width * height).map(marked).collect())
+    }
+
+    /// Marks the cells that a thin triangle crosses unseen.
+    fn mark_thin(
+        &self,
+        scene: &PreparedScene,
+        rig: &[(Pinhole, Vec<Site>)],
+        width: u32,
+        marked: &mut [bool],
+    ) {
+        let start = Instant::now();
+        let output = thin::Output {
+            width,
+            attributes: &self.attributes,
+            blend_ids: &self.blend_ids,
+        };
+        for (pinhole, sites) in rig.iter().filter(|(_, sites)| !sites.is_empty()) {
+            for cell in thin::crossed(&scene.triangles, pinhole, sites, &output) {
+                if let Some(mark) = marked.get_mut(cell as usize) {
+                    *mark = true;
+                }
+            }
+        }
+        log::debug!(
+            "thin triangles: {:.1} ms",
+            start.elapsed().as_secs_f64() * 1e3
+        );
     }
 }

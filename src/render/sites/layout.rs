@@ -1,7 +1,7 @@
 //! A run's sites as the device takes them: sites, cells of one or several of them, groups of cells, tiles.
 
 use super::partition::{Partition, ROUNDING, TILE, Window, half_extent, tile_of};
-use crate::passes::{Cells, SiteData};
+use crate::passes::SiteData;
 use std::ops::Range;
 
 /// Half of a cell's side beyond its samples, in pixels: covers the rounding of edge functions.
@@ -22,8 +22,15 @@ pub(super) struct CellSizes {
 type Place = ([f64; 2], [f64; 2]);
 
 impl Partition {
-    /// A run's sites in its window.
-    pub fn data(&self, run: &Range<usize>, window: &Window, sizes: &CellSizes) -> SiteData {
+    /// A run's sites in its window. `words` are those of all sites in the caller's order, which
+    /// `shaders/include/sites.glsl` describes; missing ones are 0.
+    pub fn data(
+        &self,
+        run: &Range<usize>,
+        window: &Window,
+        sizes: &CellSizes,
+        words: &[u32],
+    ) -> SiteData {
         let tile_count = window.tiles[0] as usize * window.tiles[1] as usize;
         let mut data = SiteData {
             sites: Vec::with_capacity(run.len()),
@@ -33,6 +40,7 @@ impl Partition {
         };
         let first_tile = [0, 1].map(|axis| window.low[axis] / TILE[axis]);
         let mut places: Vec<Place> = Vec::new();
+        let mut indices = self.places(run).iter();
         for sites in self.run(run).chunk_by(|a, b| tile_of(a) == tile_of(b)) {
             let Some(tile) = sites.first().map(tile_of) else {
                 continue;
@@ -49,8 +57,14 @@ impl Partition {
                 mask |= 1 << (8 * pixel[1] + pixel[0]);
                 let place = [x - 4.0, y - 2.0].map(|v| f64::from(v as f32));
                 let [u, v] = site.jacobian;
+                let word = indices.next().and_then(|index| words.get(*index as usize));
                 data.sites.push([
-                    [bits(place[0]), bits(place[1]), index, 0],
+                    [
+                        bits(place[0]),
+                        bits(place[1]),
+                        index,
+                        word.copied().unwrap_or(0),
+                    ],
                     [bits(u[0]), bits(u[1]), bits(v[0]), bits(v[1])],
                 ]);
                 places.push((place, half_extent(site, self.cells)));
@@ -59,9 +73,10 @@ impl Partition {
                 *word = mask;
             }
             let cells = data.push_cells(index, &places, sizes);
-            let samples = match self.cells {
-                Cells::Points => places.len() as u32,
-                _ => cells.saturating_mul(sizes.samples),
+            let samples = if self.cells.are_points() {
+                places.len() as u32
+            } else {
+                cells.saturating_mul(sizes.samples)
             };
             if let Some(load) = data.loads.get_mut(index as usize) {
                 *load = [cells, samples];
@@ -120,6 +135,7 @@ fn bits(v: f64) -> u32 {
 mod tests {
     use super::*;
     use crate::camera::Site;
+    use crate::passes::Cells;
 
     fn site(uv: [f64; 2]) -> Site {
         Site {
@@ -156,7 +172,7 @@ mod tests {
             let data: Vec<_> = runs
                 .iter()
                 .zip(&windows)
-                .map(|(run, window)| partition.data(run, window, &sizes))
+                .map(|(run, window)| partition.data(run, window, &sizes, &[]))
                 .collect();
             let loads: Vec<_> = data.iter().flat_map(|data| data.loads.clone()).collect();
             assert_eq!(loads, expected);

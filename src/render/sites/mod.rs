@@ -9,10 +9,15 @@ mod image;
 mod layout;
 mod partition;
 mod plan;
+mod shadows;
+mod thin;
+mod triangles;
 
 pub use error::SiteError;
+pub(super) use shadows::Casters;
+pub(super) use triangles::Triangles;
 
-use super::{Headless, PreparedScene, RenderError, Settings, Statistics};
+use super::{Headless, PreparedScene, RenderError, Settings, Shadows, Statistics};
 use crate::camera::{Pinhole, Site};
 use crate::passes::Cells;
 use engine::{SiteEngine, cell_sizes};
@@ -34,6 +39,20 @@ pub struct PointSample {
     pub normal: [f32; 3],
     /// The colour as detection compares it: 8-bit sRGB codes and alpha, red in the lowest byte.
     pub code: u32,
+    /// With [`Shadows::Exact`](super::Shadows::Exact), a bit for each light of the pose, the first one lowest, that
+    /// another triangle keeps from the opaque or MASK triangle; otherwise 0.
+    pub shadows: u32,
+}
+
+/// What is asked of the engine.
+#[derive(Clone, Copy)]
+struct Task<'a> {
+    scene: &'a PreparedScene,
+    pinhole: &'a Pinhole,
+    /// Whether records are shaded.
+    colors: bool,
+    /// A word for each site, see `shaders/include/sites.glsl`; those that are missing are 0.
+    words: &'a [u32],
 }
 
 /// What a set of sites sees, in the order of the sites, and what it cost.
@@ -49,7 +68,8 @@ impl Headless {
     /// Samples a scene once at each site. Of the settings, size, method, samples and detection do not matter.
     ///
     /// # Errors
-    /// [`RenderError::Site`] names the first site that can't be sampled; otherwise as [`Headless::render`].
+    /// [`RenderError::Site`] names the first site that can't be sampled; with [`Shadows::Exact`](super::Shadows::Exact),
+    /// [`RenderError::NoCasters`] and [`RenderError::ShadowLights`]; otherwise as [`Headless::render`].
     pub fn sample_points(
         &mut self,
         scene: &PreparedScene,
@@ -57,36 +77,46 @@ impl Headless {
         sites: &[Site],
         settings: &Settings,
     ) -> Result<Sampled<PointSample>, RenderError> {
+        let partition = Partition::new(sites, Cells::Points)?;
+        let shadows = match settings.shadows {
+            Shadows::None => Sampled::default(),
+            Shadows::Exact => self.shadows((scene, pinhole), (sites, &partition), settings)?,
+        };
+        let task = Task {
+            scene,
+            pinhole,
+            colors: true,
+            words: &shadows.values,
+        };
         let mut values = vec![PointSample::default(); sites.len()];
-        let statistics = self.run_sites(
-            (scene, pinhole),
-            (sites, Cells::Points),
-            settings,
-            |index, engine, place| {
-                let color = engine.colors().get(place);
-                let attributes = engine.attributes().get(place);
-                if let (Some(value), Some(color), Some([seen, normal])) =
-                    (values.get_mut(index), color, attributes)
-                {
-                    let [depth, id, blend_id, code] = *seen;
-                    let [x, y, z, _] = normal.map(f32::from_bits);
-                    *value = PointSample {
-                        color: *color,
-                        depth: f32::from_bits(depth),
-                        id,
-                        blend_id,
-                        normal: [x, y, z],
-                        code,
-                    };
-                }
-            },
-        )?;
+        let mut statistics = shadows.statistics;
+        let run = self.run_sites(&partition, task, settings, |index, engine, place| {
+            let color = engine.colors().get(place);
+            let attributes = engine.attributes().get(place);
+            if let (Some(value), Some(color), Some([seen, normal])) =
+                (values.get_mut(index), color, attributes)
+            {
+                let [depth, id, blend_id, code] = *seen;
+                let [x, y, z, _] = normal.map(f32::from_bits);
+                *value = PointSample {
+                    color: *color,
+                    depth: f32::from_bits(depth),
+                    id,
+                    blend_id,
+                    normal: [x, y, z],
+                    code,
+                    shadows: shadows.values.get(index).copied().unwrap_or(0),
+                };
+            }
+        })?;
+        statistics.append(run);
         Ok(Sampled { values, statistics })
     }
 
     /// Samples each site as a superpixel: as often as the settings say, at its location plus its Jacobian times the
     /// offsets of their pattern. The values are resolved colours, linear light with premultiplied alpha. Of the
-    /// settings, size, method and detection do not matter.
+    /// settings, size, method and detection do not matter. With [`Shadows::Exact`](super::Shadows::Exact) every
+    /// sub-sample is a point of its own, as [`Headless::sample_points`] takes it, and the value is their mean.
     ///
     /// # Errors
     /// [`RenderError::Site`] names the first site that can't be sampled, [`RenderError::Pattern`] says which numbers of
@@ -98,49 +128,52 @@ impl Headless {
         sites: &[Site],
         settings: &Settings,
     ) -> Result<Sampled<[f32; 4]>, RenderError> {
+        if settings.shadows == Shadows::Exact {
+            return self.superpixels_of_points(scene, pinhole, sites, settings);
+        }
+        let partition = Partition::new(sites, Cells::Superpixels)?;
+        let task = Task {
+            scene,
+            pinhole,
+            colors: true,
+            words: &[],
+        };
         let mut values = vec![[0.0; 4]; sites.len()];
-        let statistics = self.run_sites(
-            (scene, pinhole),
-            (sites, Cells::Superpixels),
-            settings,
-            |index, engine, place| {
-                if let (Some(value), Some(color)) =
-                    (values.get_mut(index), engine.colors().get(place))
-                {
-                    *value = *color;
-                }
-            },
-        )?;
+        let statistics = self.run_sites(&partition, task, settings, |index, engine, place| {
+            if let (Some(value), Some(color)) = (values.get_mut(index), engine.colors().get(place))
+            {
+                *value = *color;
+            }
+        })?;
         Ok(Sampled { values, statistics })
     }
 
     /// Samples sites run by run; `take` is given each site's index and its place in what the engine holds.
     fn run_sites(
         &mut self,
-        (scene, pinhole): (&PreparedScene, &Pinhole),
-        (sites, cells): (&[Site], Cells),
+        partition: &Partition,
+        task: Task<'_>,
         settings: &Settings,
         mut take: impl FnMut(usize, &SiteEngine, usize),
     ) -> Result<Statistics, RenderError> {
-        let partition = Partition::new(sites, cells)?;
+        let Task {
+            scene,
+            pinhole,
+            colors,
+            words,
+        } = task;
+        let cells = partition.cells;
         let layout = self.renderer.layout.clone();
         let taken = scene.memory_bytes();
-        let plan = SitePlan::new(
-            &layout,
-            &scene.gpu_scene,
-            settings,
-            cells,
-            &partition,
-            taken,
-        )?;
-        let mut engine = SiteEngine::new(&layout, scene, settings, cells, &plan.sizes)?;
+        let plan = SitePlan::new(&layout, &scene.gpu_scene, settings, partition, taken)?;
+        let mut engine = SiteEngine::new(&layout, scene, settings, (cells, colors), &plan.sizes)?;
         let sizes = cell_sizes(&layout, cells, settings.samples);
         let mut statistics = Statistics::default();
         let mut waiting = plan.runs;
         waiting.reverse();
         while let Some(run) = waiting.pop() {
             let window = partition.window(&run);
-            let data = partition.data(&run, &window, &sizes);
+            let data = partition.data(&run, &window, &sizes, words);
             engine.write(&data)?;
             // SAFETY: the last submission was waited for; scene and engine outlive this one, which is waited for.
             self.submit(|_, commands| unsafe {
@@ -158,8 +191,7 @@ impl Headless {
                 }
                 Err(error) => return Err(error),
             }
-            let order = partition.order.get(run).unwrap_or(&[]);
-            for (place, index) in order.iter().enumerate() {
+            for (place, index) in partition.places(&run).iter().enumerate() {
                 take(*index as usize, &engine, place);
             }
         }

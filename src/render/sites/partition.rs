@@ -117,6 +117,11 @@ impl Partition {
         self.sites.get(run.clone()).unwrap_or(&[])
     }
 
+    /// The places of a run's sites in the caller's list.
+    pub fn places(&self, run: &Range<usize>) -> &[u32] {
+        self.order.get(run.clone()).unwrap_or(&[])
+    }
+
     /// The window around a run.
     pub fn window(&self, run: &Range<usize>) -> Window {
         let sites = self.run(run);
@@ -126,9 +131,10 @@ impl Partition {
             let from_centre = site.uv.map(|v| (v - v.floor() - 0.5).abs());
             (from_centre[0] + extent[0]).max(from_centre[1] + extent[1])
         };
-        let reach = match self.cells {
-            Cells::Points => 0.5,
-            _ => sites.iter().map(reach).fold(0.5, f64::max),
+        let reach = if self.cells.are_points() {
+            0.5
+        } else {
+            sites.iter().map(reach).fold(0.5, f64::max)
         };
         Window {
             low: bounds.low.map(|pixel| pixel as i64),
@@ -183,7 +189,7 @@ pub(super) fn tile_of(site: &Site) -> [i64; 2] {
 /// Half of the width and height of the upright rectangle around a site's cell, in pixels; points have none.
 pub(super) fn half_extent(site: &Site, cells: Cells) -> [f64; 2] {
     let [column, row] = site.jacobian;
-    if cells == Cells::Points {
+    if cells.are_points() {
         [0.0; 2]
     } else {
         [0, 1].map(|axis| 0.5 * (column[axis].abs() + row[axis].abs()))

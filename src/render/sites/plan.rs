@@ -31,11 +31,11 @@ impl SitePlan {
         layout: &FrameLayout,
         scene: &GpuScene,
         settings: &Settings,
-        cells: Cells,
         partition: &Partition,
         taken: u64,
     ) -> Result<Self, RenderError> {
         let limits = layout.gpu.limits();
+        let cells = partition.cells;
         let mut longest = MOST_SITES;
         loop {
             let runs = partition.runs(longest);
@@ -86,7 +86,7 @@ fn sizes(
     let samples = u64::from(settings.samples);
     let records = match cells {
         Cells::Points if scene.has_blend() => 3 * most,
-        Cells::Points => most,
+        Cells::Points | Cells::Occluders => most,
         _ if settings.shading == Shading::Sample || scene.has_blend() => most * samples.min(64),
         _ => most * (6 * samples.div_ceil(64)).min(samples).max(2),
     };
@@ -105,7 +105,7 @@ fn sizes(
         list_capacity: at_most(candidates, ResourceSizes::CANDIDATE_BYTES),
         record_capacity: records.clamp(1 << 16, MOST_RECORDS) as u32,
         filtered: 0,
-        attributes: cells == Cells::Points,
+        attributes: cells.are_points(),
         encoded: 0,
     }
 }

@@ -22,7 +22,6 @@ fn a_planar_image_is_the_cameras() {
     on_gpu(|gpu| {
         let stage = ball_over_checker();
         let settings = Settings {
-            thin: false,
             samples: 16,
             attributes: true,
             background: Some([0.2, 0.3, 0.4]),

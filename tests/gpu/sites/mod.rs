@@ -4,6 +4,8 @@ mod equivalence;
 mod extremes;
 mod image;
 mod sets;
+mod shadows;
+mod thin;
 mod twin;
 
 use gpc::camera::{Pinhole, Site};

@@ -1,0 +1,88 @@
+//! What casts shadows: the opaque and MASK triangles of a pose, from both sides.
+
+use crate::render::PreparedScene;
+use crate::scene::{AlphaMode, Draw, DrawClass, Image, Light, Material, Pose, Scene, TextureUse};
+use glam::DVec3;
+
+/// Casters on the device, and the lights.
+pub(in crate::render) struct Casters {
+    pub(super) scene: PreparedScene,
+    pub(super) lights: Vec<Light>,
+    /// The box around all triangles; nothing where there are none.
+    pub(super) bounds: Option<(DVec3, DVec3)>,
+}
+
+/// The casters of a pose, as a scene of their own whose triangles have the same IDs: no BLEND triangles, nothing culled,
+/// and of the materials what alpha tests need.
+pub(super) fn caster_scene(scene: &Scene, pose: &Pose) -> (Scene, Pose) {
+    let material = |material: &Material| {
+        let opaque = Material {
+            alpha_mode: material.alpha_mode,
+            unlit: true,
+            ..Material::default()
+        };
+        match material.alpha_mode {
+            AlphaMode::Mask { .. } => Material {
+                base_color: material.base_color,
+                base_color_texture: material.base_color_texture,
+                ..opaque
+            },
+            AlphaMode::Opaque | AlphaMode::Blend => opaque,
+        }
+    };
+    let materials: Vec<Material> = scene.materials.iter().map(material).collect();
+    let used = |index: u32| {
+        let images = materials.iter().filter_map(|m| m.base_color_texture);
+        let texture = |used: TextureUse| scene.textures.get(used.texture as usize);
+        images.filter_map(texture).any(|t| t.image == index)
+    };
+    let image = |(index, image): (usize, &Image)| match used(index as u32) {
+        true => image.clone(),
+        false => Image {
+            width: 1,
+            height: 1,
+            pixels: vec![255; 4],
+        },
+    };
+    let images = scene.images.iter().enumerate().map(image).collect();
+    let draws: Vec<Draw> = pose.geometry.draws.iter().filter_map(caster).collect();
+    let count = draws.iter().map(|draw| draw.triangle_count as usize).sum();
+    let mut geometry = pose.geometry.clone();
+    geometry.triangles.truncate(count);
+    geometry.draws = draws;
+    let mut casting = Scene::from_materials(materials);
+    casting.images = images;
+    casting.textures = scene.textures.clone();
+    let pose = Pose {
+        geometry,
+        lights: pose.lights.clone(),
+        cameras: Vec::new(),
+        warnings: Vec::new(),
+    };
+    (casting, pose)
+}
+
+/// A draw seen from both sides; BLEND, which comes last, casts no shadow.
+fn caster(draw: &Draw) -> Option<Draw> {
+    let class = match draw.class {
+        DrawClass::Opaque | DrawClass::OpaqueDoubleSided => DrawClass::OpaqueDoubleSided,
+        DrawClass::Mask | DrawClass::MaskDoubleSided => DrawClass::MaskDoubleSided,
+        DrawClass::Blend | DrawClass::BlendDoubleSided => return None,
+    };
+    Some(Draw { class, ..*draw })
+}
+
+impl Casters {
+    pub(super) fn new(scene: PreparedScene, pose: Pose) -> Self {
+        Self {
+            scene,
+            bounds: pose.geometry.bounds(),
+            lights: pose.lights,
+        }
+    }
+
+    /// Bytes of device memory that they take.
+    pub(in crate::render) fn memory_bytes(&self) -> u64 {
+        self.scene.memory_bytes()
+    }
+}
