@@ -11,7 +11,7 @@ layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint MODE = 0u;
 const uint CONTRAST = 0u, EXACT = 1u, COLOUR = 2u, BLENDED = 3u, EVERY = 4u;
 layout(constant_id = 1) const bool HAS_BLEND = false;
-layout(constant_id = 2) const bool THIN = false;    // pixels that `thin` marked are superpixels too
+layout(constant_id = 2) const bool THIN = false;    // pixels that `thin` marked are superpixels too; some, if they lie amid a triangle
 layout(constant_id = 3) const bool TRANSPARENT = false;  // colours differ in alpha too
 
 // The nearest BLEND triangle at a pixel; multisampled, that of any of its samples.
@@ -56,6 +56,7 @@ void main() {
     ivec2 last = ivec2(frame.size) - 1;
 
     uint word = 0u, previous_row = 0u;
+    uint amid = 0u, previous_beside = 0u, previous_same = 0u;   // pixels between two that show the same triangle
     if (MODE == EVERY) {
         word = ~0u;
     } else if (MODE == BLENDED) {
@@ -100,6 +101,14 @@ void main() {
                 }
             }
             if (r >= 1) word |= ((previous_row | above) >> 1 & 255u) << (8 * (r - 1));
+            if (THIN) {
+                uint same = 0u, pairs_ = 0u;
+                [[unroll]] for (int i = 1; i < 9; i++) same |= id[i] == above_id[i] && id[i] != 0u ? 1u << i : 0u;
+                [[unroll]] for (int i = 0; i < 9; i++) pairs_ |= id[i] == id[i + 1] && id[i] != 0u ? 1u << i : 0u;
+                if (r >= 1) amid |= ((previous_beside | (previous_same & same)) >> 1 & 255u) << (8 * (r - 1));
+                previous_beside = pairs_ & pairs_ << 1;
+                previous_same = same;
+            }
             previous_row = row;
             [[unroll]] for (int i = 0; i < 10; i++) {
                 above_id[i] = id[i];
@@ -110,7 +119,7 @@ void main() {
         }
     }
 
-    if (THIN && inside) word |= marks[tile];
+    if (THIN && inside) word |= marks[tile] | (marks[tile_count + tile] & amid);
 
     // Pixels of the halo belong to another region; beyond the border there are none.
     ivec2 low = clamp(ivec2(frame.interior_low) - base, ivec2(0), ivec2(8, 4));

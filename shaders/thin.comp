@@ -5,9 +5,8 @@
 //
 // A pixel is marked where the triangle, all of it that lies there, is nearer than the surface at the pixel's centre by
 // more than a pixel's width. On a dense mesh each small triangle lies within its neighbours' surface, and marks nothing.
-// Where a triangle lies close to a surface, like paint on a road, depth can't tell: a pixel is marked, too, if the
-// triangle may be nearer there and the pixel lies amid a larger one. (Beside a pixel that shows the triangle, `detect`
-// compares colours.)
+// Where a triangle lies close to a surface, like paint on a road, depth can't tell: pixels where it may be nearer are
+// marked apart from the others, and become superpixels if `detect` finds them amid another triangle.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -57,26 +56,17 @@ vec2 span_of(vec2 p, vec2 q, float left, float right) {
     return from <= to ? vec2(min(a, b), max(a, b)) : vec2(3.4e38, -3.4e38);
 }
 
-// Whether a pixel lies amid a triangle other than `id`: it and both its neighbours to the sides, or above and below,
-// show the same one.
-bool amid_another(ivec2 pixel, uint id) {
-    ivec2 low = max(pixel - 1, ivec2(0)), high = min(pixel + 1, ivec2(frame.size) - 1);
-    uint here = texelFetch(ids, pixel, 0).x;
-    bool beside = here == texelFetch(ids, ivec2(low.x, pixel.y), 0).x && here == texelFetch(ids, ivec2(high.x, pixel.y), 0).x;
-    bool above = here == texelFetch(ids, ivec2(pixel.x, low.y), 0).x && here == texelFetch(ids, ivec2(pixel.x, high.y), 0).x;
-    return here != 0u && here != id && (beside || above);
-}
-
 void mark(ivec2 pixel, uint t, vec3 plane, float near, float far) {
     float middle = dot(plane, vec3(pixel, 1.0)), slope = 0.5 * (abs(plane.x) + abs(plane.y));
     float farthest = clamp(middle - slope, far, near), nearest = clamp(middle + slope, far, near);
     float seen = texelFetch(raster_depth, pixel, 0).x;
     bool unseen = !HAS_BLEND || t < frame.first_blend || texelFetch(blend_ids, pixel, 0).x != t + 1u;
     bool apart = farthest - seen > frame.gap.x * farthest + frame.gap.y;
-    bool painted = nearest >= seen && amid_another(pixel, t + 1u);
+    bool painted = nearest >= seen && texelFetch(ids, pixel, 0).x != t + 1u;
     if (unseen && nearest <= 1.0 && (apart || painted)) {
         uvec2 tile = uvec2(pixel) / uvec2(8u, 4u), within = uvec2(pixel) % uvec2(8u, 4u);
-        atomicOr(marks[tile.y * frame.tiles.x + tile.x], 1u << (within.y * 8u + within.x));
+        uint word = (apart ? 0u : frame.tiles.x * frame.tiles.y) + tile.y * frame.tiles.x + tile.x;
+        atomicOr(marks[word], 1u << (within.y * 8u + within.x));
     }
 }
 

@@ -87,7 +87,7 @@ layout(std430, set = 0, binding = 34) buffer Arguments { uvec4 arguments[]; }; /
 
 layout(set = 0, binding = 38) uniform utextureBuffer pairs;       // triangle, tile, rank in its list, 0
 layout(std430, set = 0, binding = 39) writeonly buffer PairsOut { uvec4 pairs_out[]; };
-layout(std430, set = 0, binding = 41) buffer Marks { uint marks[]; };       // pixels that `thin` marks, like masks; later, that a PROBE leaves
+layout(std430, set = 0, binding = 41) buffer Marks { uint marks[]; };       // pixels that `thin` marks, like masks: unseen ones, then those of paint; later, cells that a PROBE leaves
 
 // (n % width, n / width). Integer division is a loop on CPU devices; a float quotient errs by one at the most for
 // quotients below 2^22, and is mended.

@@ -83,7 +83,7 @@ impl ResourceSizes {
         let records = u64::from(self.record_capacity);
         pixels * (16 + 4 + 4 + 4)
             + tiles * 20
-            + self.work_owners() * (4 + Self::WORK_BYTES)
+            + self.work_owners() * (8 + Self::WORK_BYTES)
             + u64::from(self.list_capacity) * Self::CANDIDATE_BYTES
             + u64::from(self.pair_capacity) * Self::PAIR_BYTES
             + records * 40
@@ -245,7 +245,7 @@ impl Resources {
             color: texels_in("colour", pixels, float4, output)?,
             counters: storage("counters", 4 * Counter::COUNT as u64)?,
             masks: storage_in("superpixel mask", tiles * 4, input)?,
-            marks: storage("marks of pixels", sizes.work_owners() * 4)?,
+            marks: storage("marks of pixels", sizes.work_owners() * 8)?,
             tiles: storage("tiles", tiles * 16)?,
             tile_lists: storage(
                 "tile lists",

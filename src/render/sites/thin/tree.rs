@@ -152,8 +152,8 @@ fn spread(v: u32) -> u64 {
 mod tests {
     use super::super::outline::View;
     use super::*;
-    use crate::bench::stress::Random;
     use crate::camera::Pinhole;
+    use crate::random::Random;
     use glam::{DVec3, DVec4};
 
     /// Pixel (u, v) of its plane is the world's (u, v, 0).
