@@ -133,10 +133,10 @@ void main() {
     do {
         load_offsets(first_sample + block * BLOCK, first_sample + samples - 1u);
         cell.samples = min(samples - block * BLOCK, BLOCK);
+        uvec2 my_header = uvec2(0u);    // records that the block makes of the cell
         cell.member = 0u;
         do {
             uint bit = subgroupShuffle(my_bit, cell.member);
-            uint cell_number = uint(bitCount(cells_word & ((1u << bit) - 1u)));
             vec2 in_tile = vec2(bit & 7u, bit >> 3);
             uvec2 pixel = uvec2(tile_at) * uvec2(8u, 4u) + uvec2(in_tile);
             uint record_owner = pixel.x | pixel.y << 16;
@@ -178,9 +178,10 @@ void main() {
                 unsettled |= settled ? 0u : 1u << bit;
             }
 #endif
-            uint at = header.z + (site_group.w + cell_number) * headers_a_cell + block;
-            if (subgroupElect()) headers[min(at, frame.record_capacity - 1u)] = records_made;
+            my_header = lane == cell.member ? records_made : my_header;
         } while (++cell.member < group);
+        uint number = site_group.w + uint(bitCount(cells_word & ((1u << my_bit) - 1u)));
+        if (lane < group) headers[min(header.z + number * headers_a_cell + block, frame.record_capacity - 1u)] = my_header;
     } while (++block < blocks);
 
     if (RUN == PROBE && unsettled != 0u && subgroupElect()) {
