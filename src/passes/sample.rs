@@ -134,7 +134,7 @@ impl Sample {
                 .with(5, run as u32)
                 .flag(6, options.records == RecordRate::Part)
                 .flag(7, options.measures(list, run))
-                .with(8, options.part_samples())
+                .with(8, options.part_samples(run))
                 .flag(9, options.apart);
             let code = kernel(kernels, rows).1;
             Ok((list, layout.compute(code, &constants, Some(lanes))?))
@@ -208,11 +208,11 @@ impl Sample {
         &self.subgroups
     }
 
-    /// Most records that a block makes of a triangle.
+    /// Most records that a block makes of a triangle, where a cell has all its samples.
     #[must_use]
     pub fn parts(&self) -> u32 {
         match self.options.records {
-            RecordRate::Part => self.block / self.options.part_samples(),
+            RecordRate::Part => self.block / self.options.part_samples(Run::Whole),
             RecordRate::Triangle | RecordRate::Sample => 1,
         }
     }
@@ -253,9 +253,14 @@ impl SampleOptions {
         self.exact_areas && self.records != RecordRate::Sample && at_once && listed
     }
 
-    /// Samples of a part, where records are made by part.
-    fn part_samples(&self) -> u32 {
-        (self.samples / 8).next_power_of_two().clamp(8, 32)
+    /// Samples of a part, where records are made by part: an eighth of those that a cell takes, within bounds.
+    fn part_samples(&self, run: Run) -> u32 {
+        let samples = if run == Run::Probe {
+            Sample::PROBES
+        } else {
+            self.samples
+        };
+        (samples / 8).next_power_of_two().clamp(8, 32)
     }
 
     /// Whether a first run of few samples finds the cells that need no more.
