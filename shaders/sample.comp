@@ -41,12 +41,12 @@ const uint WHOLE = 0u, PROBE = 1u, REST = 2u;           // RUN: all samples at o
 
 const float ROUNDING = 1.0 / 64.0;                      // of positions and edge functions in a tile, in pixels
 const uint BLOCKS_AT_ONCE = APART ? 1u : 4u, CELLS_AT_ONCE = APART ? 1u : LANES;
-const uint KEPT = 96u;                                  // room for candidates of a cell
+const uint KEPT = APART ? 3072u : 96u;                  // room for candidates of a cell
 const uint PROBES = 64u;                                // samples of a PROBE, in one block; they follow the others
 // Mesa's CPU driver ends all loops of an invocation after 65,535 trips in all; what takes more is reported instead.
-const uint MOST_TRIPS = 50000u, LONGEST_LIST = 40000u;
+const uint MOST_TRIPS = 50000u, LONGEST_LIST = APART ? 350000u : 40000u;
 
-shared uint kept[32 * KEPT];                            // by invocation, then entry
+shared uint kept[3072];                                 // by cell, then entry
 
 #include "include/alpha.glsl"
 #include "include/candidate.glsl"
@@ -106,29 +106,42 @@ void main() {
         my_half = square.zw;
         my_sites = texelFetch(site_cells, at + 1).xy;
     }
+    vec2 cell_at = vec2(subgroupShuffle(my_at.x, 0u), subgroupShuffle(my_at.y, 0u));
+    vec2 cell_half = vec2(subgroupShuffle(my_half.x, 0u), subgroupShuffle(my_half.y, 0u));
     float my_hidden = 0.0;          // nothing farther than this shows in the cell
     uint my_count = 0u;
     uint chunks = max((count + LANES - 1u) / LANES, 1u), chunk = 0u;
     do {
         Candidate k = load_candidate(cell.first, min(chunk * LANES + lane, max(count, 1u) - 1u), cell.center);
         uint chunk_count = min(count - min(count, chunk * LANES), LANES);
-        uint j = 0u;
-        do {
-            [[unroll]] for (uint u = 0u; u < 4u; u++) {
-                RectangleTest test = test_rectangle(shuffle_candidate(k, j + u), my_at, my_half, HAS_MASK);
-                bool exists = j + u < chunk_count;
-                my_hidden = max(my_hidden, exists ? test.hides : 0.0);
-                if (test.touches && test.near >= my_hidden && exists) {
-                    kept[lane * KEPT + min(my_count, KEPT - 1u)] = chunk * LANES + j + u;
-                    my_count++;
+        if (APART) {
+            // The cell is the only one: an invocation tests a candidate.
+            RectangleTest test = test_rectangle(k, cell_at, cell_half, HAS_MASK);
+            bool exists = lane < chunk_count;
+            my_hidden = max(my_hidden, lanes_max(exists ? test.hides : 0.0));
+            bool keeps = exists && test.touches && test.near >= my_hidden;
+            uvec4 keeping = subgroupBallot(keeps);
+            if (keeps) kept[min(my_count + subgroupBallotExclusiveBitCount(keeping), KEPT - 1u)] = chunk * LANES + lane;
+            my_count += subgroupBallotBitCount(keeping);
+        } else {
+            uint j = 0u;
+            do {
+                [[unroll]] for (uint u = 0u; u < 4u; u++) {
+                    RectangleTest test = test_rectangle(shuffle_candidate(k, j + u), my_at, my_half, HAS_MASK);
+                    bool exists = j + u < chunk_count;
+                    my_hidden = max(my_hidden, exists ? test.hides : 0.0);
+                    if (test.touches && test.near >= my_hidden && exists) {
+                        kept[lane * KEPT + min(my_count, KEPT - 1u)] = chunk * LANES + j + u;
+                        my_count++;
+                    }
                 }
-            }
-            j += 4u;
-        } while (j < chunk_count);
+                j += 4u;
+            } while (j < chunk_count);
+        }
     } while (++chunk < chunks);
     subgroupBarrier();
 
-    trips = 4u * chunks;
+    trips = (APART ? 1u : 4u) * chunks;
     uint unsettled = 0u, block = first_block;
     do {
         load_offsets(first_sample + block * BLOCK, first_sample + samples - 1u);
