@@ -357,3 +357,29 @@ fn what_can_not_be_is_refused_with_one_error() {
         .exits(2)
         .says(&["--region 1"]);
 }
+
+/// All 51,113 triangles of the scene lie in a pixel or two: more than a subgroup goes through for several cells.
+#[test]
+fn a_scene_fits_in_a_pixel() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let fence = asset("fence.glb");
+    let linear = |line: &str| {
+        let name = "pixel.exr";
+        run(folder, &format!("{line} -o {name}")).ok();
+        let bytes = std::fs::read(folder.join(name)).unwrap();
+        output::decode_linear(&bytes, name).unwrap().1
+    };
+    for samples in [64, 1024] {
+        let one = format!("render {fence} --size 1x1 --background #80a0c0 --samples {samples}");
+        let (seen, true_) = (linear(&one), linear(&format!("{one} --aa ssaa")));
+        for (a, b) in seen[0].iter().zip(true_[0]) {
+            assert!((a - b).abs() < 0.03, "{samples}: {seen:?}, {true_:?}");
+        }
+    }
+    let around = linear(&format!(
+        "panorama {fence} --projection fisheye --size 12x9 --background #80a0c0"
+    ));
+    assert!(around.iter().flatten().all(|value| value.is_finite()));
+    assert!(around.iter().any(|color| color[1] != around[0][1]));
+}

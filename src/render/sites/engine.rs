@@ -78,6 +78,7 @@ impl SiteEngine {
         settings: &Settings,
         (cells, colors): (Cells, bool),
         sizes: &ResourceSizes,
+        apart: bool,
     ) -> Result<Self, RenderError> {
         let scene = &prepared.gpu_scene;
         let gpu = prepared.memory.gpu().clone();
@@ -102,7 +103,7 @@ impl SiteEngine {
                 record_rate(settings, scene)
             },
             exact_areas: settings.coverage == Coverage::Area && settings.samples > 1 && !points,
-            apart: false,
+            apart,
             has_mask: scene.has_mask(),
             has_blend: scene.has_blend(),
         };
@@ -265,6 +266,17 @@ impl SiteEngine {
         bytemuck::try_cast_slice(self.resources.attributes.bytes()).unwrap_or(&[])
     }
 
+    fn counted(&self) -> &[u32] {
+        bytemuck::try_cast_slice(self.counters.bytes()).unwrap_or(&[])
+    }
+
+    /// What the last run could not finish.
+    pub fn shortfall(&self, window: &Window) -> Shortfall {
+        let mut shortfall = Shortfall::default();
+        shortfall.add(self.counted(), window.tile_count());
+        shortfall
+    }
+
     /// Adds the figures of the last run.
     ///
     /// # Errors
@@ -275,13 +287,9 @@ impl SiteEngine {
         window: &Window,
         total: &mut Statistics,
     ) -> Result<(), RenderError> {
-        let counters: &[u32] = bytemuck::try_cast_slice(self.counters.bytes()).unwrap_or(&[]);
-        let tiles = window.tiles[0] * window.tiles[1];
-        let mut shortfall = Shortfall::default();
-        shortfall.add(counters, tiles);
-        shortfall.check()?;
-        total.add(counters);
-        total.tiles += u64::from(tiles);
+        self.shortfall(window).check()?;
+        total.add(self.counted());
+        total.tiles += u64::from(window.tile_count());
         total.regions += 1;
         total.triangles.total = u64::from(scene.triangle_count());
         total.memory_bytes = total

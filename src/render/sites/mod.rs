@@ -166,7 +166,17 @@ impl Headless {
         let layout = self.renderer.layout.clone();
         let taken = scene.memory_bytes();
         let plan = SitePlan::new(&layout, &scene.gpu_scene, settings, partition, taken)?;
-        let mut engine = SiteEngine::new(&layout, scene, settings, (cells, colors), &plan.sizes)?;
+        let make = |apart: bool| {
+            SiteEngine::new(
+                &layout,
+                scene,
+                settings,
+                (cells, colors),
+                &plan.sizes,
+                apart,
+            )
+        };
+        let (mut engine, mut apart) = (make(false)?, false);
         let sizes = cell_sizes(&layout, cells, settings.samples);
         let mut statistics = Statistics::default();
         let mut waiting = plan.runs;
@@ -181,6 +191,15 @@ impl Headless {
             })?;
             match engine.add_statistics(scene, &window, &mut statistics) {
                 Ok(()) => {}
+                // One cell at a time gets through longer lists.
+                Err(RenderError::Unfinished { .. })
+                    if !apart && engine.shortfall(&window).stalled > 0 =>
+                {
+                    apart = true;
+                    engine = make(apart)?;
+                    waiting.push(run);
+                    continue;
+                }
                 // Half as many sites have half as many records.
                 Err(RenderError::Unfinished { cells }) if run.len() > 1 => {
                     log::debug!("{cells} cells or tiles of {} sites did not fit", run.len());

@@ -48,6 +48,11 @@ pub(super) struct Window {
 }
 
 impl Window {
+    /// Tiles that it has.
+    pub fn tile_count(&self) -> u32 {
+        self.tiles[0] * self.tiles[1]
+    }
+
     /// Its size in pixels.
     pub fn size(&self) -> [u32; 2] {
         [0, 1].map(|axis| self.tiles[axis] * TILE[axis] as u32)
