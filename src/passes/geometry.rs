@@ -1,8 +1,8 @@
 //! A posed scene on the device.
 
 use super::FrameLayout;
-use super::frame::DescriptorPool;
 use super::material::{AlphaAtlas, GpuLight, GpuMaterial, texture_uses};
+use super::pool::DescriptorPool;
 use super::raster::double_sided;
 use super::texture::{DeviceSampler, Texture};
 use crate::scene::{

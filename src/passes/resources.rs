@@ -1,6 +1,6 @@
 //! The memory of one frame: sized when it is prepared, used again for every region and every frame.
 
-use super::frame::DescriptorPool;
+use super::pool::DescriptorPool;
 use super::sites::SiteBuffers;
 use super::{Argument, Counter, FrameLayout, FrameUniform, GpuScene, RasterTargets, SiteSizes};
 use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, Recorder, VulkanError};
@@ -243,7 +243,7 @@ impl Resources {
             sizes,
             display: texels("display codes", pixels, vk::Format::R32_UINT)?,
             color: texels_in("colour", pixels, float4, output)?,
-            counters: storage("counters", 4 * Counter::COUNT as u64)?,
+            counters: storage("counters", Counter::BYTES)?,
             masks: storage_in("superpixel mask", tiles * 4, input)?,
             marks: storage("marks of pixels", sizes.work_owners() * 8)?,
             tiles: storage("tiles", tiles * 16)?,
@@ -365,7 +365,7 @@ impl Resources {
 
     /// Copies the counters to slot `slot` of a read-back buffer.
     pub(crate) fn record_keep_counters(&self, recorder: &Recorder<'_>, to: &Buffer, slot: u64) {
-        let size = 4 * Counter::COUNT as u64;
+        let size = Counter::BYTES;
         let region = [vk::BufferCopy::default().dst_offset(slot * size).size(size)];
         // SAFETY: the recorder's contract; callers have sized the buffer for the slot.
         unsafe {

@@ -88,8 +88,6 @@ pub struct Frame {
 const CENTRE: usize = 0;
 /// Descriptor set with the method's sample locations.
 const LOCATIONS: usize = 1;
-/// Bytes of the counters of one run of the engine.
-const COUNTER_BYTES: u64 = 4 * Counter::COUNT as u64;
 
 impl Frame {
     pub(super) fn new(
@@ -231,7 +229,7 @@ impl Frame {
             resources,
             counters: memory.buffer(
                 "counter read-back",
-                regions * 2 * COUNTER_BYTES,
+                regions * 2 * Counter::BYTES,
                 vk::BufferUsageFlags::TRANSFER_DST,
                 MemoryUse::Readback,
             )?,

@@ -23,8 +23,6 @@ use std::sync::Arc;
 const POINTS_IN_CELL: u32 = 16;
 /// BLEND layers a sample that tiles are admitted with.
 const LAYERS: u32 = 4;
-/// Bytes of the counters of a run.
-const COUNTER_BYTES: u64 = 4 * Counter::COUNT as u64;
 
 /// What makes values of records.
 enum Finish {
@@ -161,7 +159,7 @@ impl SiteEngine {
             targets,
             counters: memory.buffer(
                 "counter read-back",
-                COUNTER_BYTES,
+                Counter::BYTES,
                 vk::BufferUsageFlags::TRANSFER_DST,
                 MemoryUse::Readback,
             )?,
