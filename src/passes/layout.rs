@@ -6,7 +6,7 @@ use ash::vk;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// How a binding of set 0 is used.
+/// The bindings of set 0.
 const BINDINGS: [(u32, vk::DescriptorType); 46] = {
     use vk::DescriptorType as T;
     [
@@ -58,6 +58,14 @@ const BINDINGS: [(u32, vk::DescriptorType); 46] = {
         (45, T::STORAGE_BUFFER),
     ]
 };
+
+/// What a binding of set 0 shows.
+pub(super) fn descriptor_type(binding: u32) -> vk::DescriptorType {
+    BINDINGS
+        .iter()
+        .find(|(known, _)| *known == binding)
+        .map_or(vk::DescriptorType::default(), |(_, kind)| *kind)
+}
 
 /// Textures of a material bin, set 1.
 const TEXTURES: u32 = 5;

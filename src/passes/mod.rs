@@ -32,6 +32,7 @@ mod sort;
 mod spans;
 mod thin;
 mod transform;
+mod upload;
 
 /// The compiled shaders.
 #[allow(missing_docs)]

@@ -7,13 +7,13 @@ mod material;
 mod texture;
 mod texture_set;
 mod triangles;
-mod upload;
 
 pub use bins::ShadeFeatures;
 pub use light::LightFeatures;
 
 use super::FrameLayout;
 use super::pool::DescriptorPool;
+use super::upload::{Upload, Uploader};
 use crate::scene::{AlphaMode, DrawClass, Pose, Scene};
 use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, Recorder, VulkanError};
 use alpha_atlas::AlphaAtlas;
@@ -26,7 +26,6 @@ use std::borrow::Cow;
 use texture::{DeviceSampler, Texture};
 use texture_set::TextureSet;
 use triangles::{Run, Triangles};
-use upload::{Upload, Uploader};
 
 /// A posed scene on the device.
 pub struct GpuScene {

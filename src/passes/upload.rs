@@ -12,6 +12,19 @@ pub(super) struct Upload {
 }
 
 impl Upload {
+    pub(super) fn new(
+        memory: &Memory,
+        name: &str,
+        to: &Buffer,
+        bytes: &[u8],
+    ) -> Result<Self, VulkanError> {
+        Ok(Self {
+            from: memory.upload(name, bytes)?,
+            to: to.raw,
+            size: bytes.len() as u64,
+        })
+    }
+
     pub(super) fn record(&self, recorder: &Recorder<'_>) {
         let region = [vk::BufferCopy::default().size(self.size)];
         // SAFETY: the recorder's contract; both buffers hold `size` bytes.
@@ -42,11 +55,9 @@ impl<'a> Uploader<'a> {
             mapped.copy_from_slice(bytes);
             return Ok(());
         }
-        self.uploads.push(Upload {
-            from: self.memory.upload(&format!("{name} upload"), bytes)?,
-            to: buffer.raw,
-            size: bytes.len() as u64,
-        });
+        let name = format!("{name} upload");
+        let upload = Upload::new(self.memory, &name, buffer, bytes)?;
+        self.uploads.push(upload);
         Ok(())
     }
 
@@ -78,18 +89,11 @@ impl<'a> Uploader<'a> {
 
     /// A storage buffer of these bytes.
     pub(super) fn storage(&mut self, name: &str, bytes: &[u8]) -> Result<Buffer, VulkanError> {
-        let limit = self.memory.gpu().limits().max_storage_bytes;
-        let needed = bytes.len() as u64;
-        if needed > limit {
-            return Err(VulkanError::TooLarge {
-                what: name.to_owned(),
-                needed,
-                unit: "bytes",
-                limit,
-            });
-        }
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
-        let mut buffer = self.memory.buffer(name, needed, usage, MemoryUse::Device)?;
+        let size = bytes.len() as u64;
+        let mut buffer = self
+            .memory
+            .storage_buffer(name, size, usage, MemoryUse::Device)?;
         self.fill(name, &mut buffer, bytes)?;
         Ok(buffer)
     }
