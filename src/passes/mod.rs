@@ -4,7 +4,9 @@
 //! transform ─▶ raster ─▶ spans ─▶ shade ─▶ thin ─▶ detect ─▶ cull ─▶ bin ─▶ schedule ─▶ setup ─▶ sample ─▶ sort ─▶ shade ─▶ resolve
 //!                        └─ pixel centres ─┘                        └─────── a round, as often as memory needs it ───────┘
 //! ```
-//! Every pass records into a caller's command buffer and reads what the pass before left on the device.
+//! Every pass records into a caller's command buffer and reads what the pass before left on the device. They share the
+//! scene (`scene/`), the memory that they hand to each other (`resources/`), the layout of descriptors (`layout.rs`) and
+//! the twins of what shaders include (`frame.rs`, `counters.rs`, `sites.rs`).
 
 mod attributes;
 mod bin;

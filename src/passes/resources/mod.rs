@@ -34,7 +34,7 @@ pub struct Resources {
     shade_order: Buffer,
     pub(crate) bins: Buffer,
     pub(crate) arguments: Buffer,
-    pub(crate) filtered: BufferView,
+    filtered: BufferView,
     pub(crate) attributes: Buffer,
     pub(crate) encoded: Buffer,
     pub(super) sites: SiteBuffers,

@@ -76,6 +76,21 @@ impl Resources {
         };
     }
 
+    /// Puts the first `pixels` pixels that the box filter made in the place of those that it made them of.
+    pub(crate) fn record_keep_filtered(&self, recorder: &Recorder<'_>, pixels: u32) {
+        let region = [vk::BufferCopy::default().size(16 * u64::from(pixels))];
+        // SAFETY: the recorder's contract; both buffers hold the pixels of a region.
+        unsafe {
+            recorder.device().cmd_copy_buffer(
+                recorder.raw(),
+                self.filtered.buffer.raw,
+                self.color.buffer.raw,
+                &region,
+            )
+        };
+        recorder.barrier();
+    }
+
     /// Fills the first `pixels` pixels with the background, premultiplied as in the output, and its display code.
     pub(crate) fn record_background(
         &self,
