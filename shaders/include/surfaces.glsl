@@ -42,19 +42,18 @@ struct Part { float samples; vec2 sum; };
 // invocations of a part and shared out among them at once, each step halving the rows that an invocation holds.
 Part part_of(uint wanted) {
     uint lane = gl_SubgroupInvocationID;
-    vec3 sums[PART_ROWS];
-    [[unroll]] for (uint r = 0u; r < PART_ROWS; r++) sums[r] = vec3(0.0);
+    vec3 sums[ROWS];
+    [[unroll]] for (int r = 0; r < ROWS; r++) sums[r] = vec3(0.0);
     [[unroll]] for (int g = 0; g < ROWS; g++)
         sums[uint(g) / ROWS_A_PART] += id[g] == wanted ? vec3(offset[g], 1.0) : vec3(0.0);
-    uint held = PART_ROWS;
-    [[unroll]] for (uint step = PART_LANES / 2u; step > 0u; step /= 2u) {
+    [[unroll]] for (uint stage = 0u; stage < 5u; stage++) {
+        uint step = PART_LANES >> (stage + 1u), rows = PART_ROWS >> (stage + 1u);
         bool upper = (lane & step) != 0u;
-        uint rows = max(held / 2u, 1u);
-        [[unroll]] for (uint r = 0u; r < rows; r++) {
-            vec3 keep = held > 1u && upper ? sums[r + rows] : sums[r], give = held > 1u && !upper ? sums[r + rows] : sums[r];
+        [[unroll]] for (uint r = 0u; r < ROWS; r++) {
+            if (step == 0u || r >= max(rows, 1u)) continue;
+            vec3 keep = rows > 0u && upper ? sums[r + rows] : sums[r], give = rows > 0u && !upper ? sums[r + rows] : sums[r];
             sums[r] = keep + vec3(subgroupShuffleXor(give.x, step), subgroupShuffleXor(give.y, step), subgroupShuffleXor(give.z, step));
         }
-        held = rows;
     }
     return Part(lane % (PART_LANES / PART_ROWS) == 0u ? sums[0].z : 0.0, sums[0].xy);
 }
