@@ -162,6 +162,8 @@ uvec2 record_surfaces(Cell cell, uint owner, out bool settled) {
     bool holds = lane < held.count;
     bool several = BY_PART && holds && uneven_triangle(held.id);
     bool single = holds && !several;
+    // What is shaded in many places takes all samples to choose them from.
+    settled = settled && (RUN != PROBE || !subgroupAny(several));
     trips += 2u * held.count;
     uint beyond = held.count - min(held.count, LANES);
     uint used = beyond + lanes_add(several ? uint(bitCount(held.parts)) : single ? 1u : 0u);
@@ -182,7 +184,7 @@ uvec2 record_surfaces(Cell cell, uint owner, out bool settled) {
         slot += stored < beyond ? 1u : 0u;
         seen = s.id;
     } while (++stored < beyond);
-    if (BY_PART) {
+    if (BY_PART && RUN != PROBE) {
         float each = weight / max(held.samples, 1.0);
         uint pending = subgroupBallot(several).x;
         do {

@@ -136,7 +136,7 @@ impl Sample {
                 .with(5, run as u32)
                 .flag(6, options.by_part(run, rows * lanes))
                 .flag(7, options.measures(list, run))
-                .with(8, options.part_samples(run))
+                .with(8, options.part_samples())
                 .flag(9, options.apart);
             let code = kernel(kernels, rows).1;
             Ok((list, layout.compute(code, &constants, Some(lanes))?))
@@ -214,7 +214,7 @@ impl Sample {
     #[must_use]
     pub fn parts(&self) -> u32 {
         match self.options.records {
-            RecordRate::Part => (self.block / self.options.part_samples(Run::Whole)).max(1),
+            RecordRate::Part => (self.block / self.options.part_samples()).max(1),
             RecordRate::Triangle | RecordRate::Sample => 1,
         }
     }
@@ -255,19 +255,14 @@ impl SampleOptions {
         self.exact_areas && self.records != RecordRate::Sample && at_once && listed
     }
 
-    /// Whether a run makes records by part; where a part holds a block, there is no telling.
+    /// Whether a run tells parts: not where a part holds a block. A probe leaves what is to be shaded by part.
     fn by_part(&self, run: Run, block: u32) -> bool {
-        self.records == RecordRate::Part && self.part_samples(run) < block
+        self.records == RecordRate::Part && (run == Run::Probe || self.part_samples() < block)
     }
 
     /// Samples of a part: a sixteenth of those that a cell takes, but at least 8.
-    fn part_samples(&self, run: Run) -> u32 {
-        let samples = if run == Run::Probe {
-            Sample::PROBES
-        } else {
-            self.samples
-        };
-        (samples / 16).next_power_of_two().max(8)
+    fn part_samples(&self) -> u32 {
+        (self.samples / 16).next_power_of_two().max(8)
     }
 
     /// Whether a first run of few samples finds the cells that need no more.

@@ -21,7 +21,7 @@ pub enum Method {
 /// What makes a pixel a superpixel: see [`crate::passes::DetectMode`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Detection {
-    /// Another triangle in a contrasting colour beside it.
+    /// A contrasting colour beside it, of another triangle, or where light or paint may change within a pixel.
     Contrast,
     /// Another triangle beside it.
     Exact,
@@ -34,8 +34,9 @@ pub enum Detection {
 /// How the coverage of a triangle in a superpixel is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
-    /// Exactly where the triangle is seen whole, and by samples elsewhere; superpixels that few samples settle take no
-    /// more.
+    /// Exactly where the triangle is seen whole, and by samples elsewhere. Of more than 256 samples, superpixels that
+    /// few settle take no more; between 64 and 256, to find them takes longer than to take all samples, and counting
+    /// those is about as good.
     Area,
     /// By counting samples.
     Samples,
@@ -46,7 +47,8 @@ pub enum Coverage {
 pub enum Shading {
     /// Once a visible triangle and block of 64 samples, at the centroid of what is seen of it.
     Triangle,
-    /// Once a visible triangle and eighth of the pixel, or block of 64 samples where it takes several.
+    /// Once a visible triangle, but in each of many parts of the pixel where light or paint may change within it: in 8
+    /// parts at 64 samples, and in 16 from 128 on.
     Part,
     /// Once a sub-sample.
     Sample,
@@ -129,7 +131,7 @@ impl Settings {
     /// no superpixels.
     #[must_use]
     pub fn default_contrast(samples: u32) -> u8 {
-        if samples < 128 { 12 } else { 6 }
+        if samples < 128 { 8 } else { 6 }
     }
 
     /// Superpixel antialiasing with the defaults, at a size.

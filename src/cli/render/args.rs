@@ -51,11 +51,11 @@ pub struct SamplingArgs {
     #[arg(long, value_name = "N")]
     samples: Option<u32>,
     /// Differences of neighbours above this are a contrast, in 8-bit sRGB code values
-    /// [default: 12; 6 from 128 samples on]
+    /// [default: 8; 6 from 128 samples on]
     #[arg(long, value_name = "T")]
     contrast: Option<u8>,
-    /// What makes a pixel a superpixel: a neighbour of another triangle and contrasting colour, of another triangle,
-    /// or of contrasting colour
+    /// What makes a pixel a superpixel: a neighbour in a contrasting colour, of another triangle or on a glossy or
+    /// unfiltered one; any other triangle; or any contrasting colour
     #[arg(long, default_value = "contrast")]
     pub detect: Detect,
     /// Where a superpixel's samples lie: sobol, lattice, korobov, grid or rotated
@@ -64,7 +64,7 @@ pub struct SamplingArgs {
     /// How samples become coverage: the exact area of triangles that are seen whole, or counts of samples alone
     #[arg(long, default_value = "area")]
     pub coverage: CoverageRule,
-    /// Shade a superpixel once for each visible triangle, for each and each eighth of the pixel, or once a sample
+    /// Shade a superpixel once for each visible triangle, several times for glossy or unfiltered ones, or once a sample
     #[arg(long, default_value = "part")]
     pub shading: ShadingRate,
 }
