@@ -67,6 +67,12 @@ void load_offsets(uint first, uint last) {
     block_reach = 0.5 * (high - low) + ROUNDING;
 }
 
+// The rectangle of a cell's samples that are in the block.
+void rectangle_of_block(Cell cell, out vec2 middle, out vec2 half_side) {
+    middle = cell.at + cell.pixel * block_middle;
+    half_side = abs(cell.pixel[0]) * block_reach.x + abs(cell.pixel[1]) * block_reach.y + (SITES ? ROUNDING * cell.half_side : vec2(0.0));
+}
+
 // Moves the samples to a cell, where they have seen nothing yet.
 void begin_cell(Cell cell) {
     [[unroll]] for (int g = 0; g < ROWS; g++) {
@@ -176,10 +182,7 @@ void show_masked(Cell cell, Candidate t, bool some) {
 void show_candidates(Cell cell) {
     vec2 middle = cell.at, half_side = cell.half_side;
     // Areas count all triangles near the cell, in any order of candidates.
-    if (!POINTS && !EXACT_AREAS) {
-        middle += cell.pixel * block_middle;
-        half_side = abs(cell.pixel[0]) * block_reach.x + abs(cell.pixel[1]) * block_reach.y + (SITES ? ROUNDING * cell.half_side : vec2(0.0));
-    }
+    if (!POINTS && !EXACT_AREAS) rectangle_of_block(cell, middle, half_side);
     uint batches = max((cell.entries + LANES - 1u) / LANES, 1u), batch = 0u;
     float hidden = cell.hidden;
     do {

@@ -1,21 +1,22 @@
-// BLEND layers over an opaque surface.
+// BLEND layers over an opaque surface or the background.
 #ifndef COMPOSITE_GLSL
 #define COMPOSITE_GLSL
 
-// One sample's layers, from its opaque surface on.
+// The surfaces of a chain, from the record of the nearest one on. Links go to records that come before, so that there
+// is an end to what is left of another round too, where a record found no room.
 vec4 composite(uint node) {
-    uvec4 record = texelFetch(records, int(node));
-    bool background = record.y == 0u;
-    vec4 c = background ? frame.background : texelFetch(shaded, int(node));
-    bool untouched = background && record.w == ~0u;
-    vec4 flat_background = c;
-    while (record.w != ~0u) {
-        node = record.w;
-        record = texelFetch(records, int(node));
+    vec3 light = vec3(0.0);
+    float through = 1.0;
+    bool more;
+    do {
+        uint farther = texelFetch(records, int(node)).w;
         vec4 layer = texelFetch(shaded, int(node));
-        c = vec4(layer.rgb * layer.a, layer.a) + c * (1.0 - layer.a);
-    }
-    return untouched ? flat_background : to_output(c);
+        light += through * layer.a * layer.rgb;
+        through *= 1.0 - layer.a;
+        more = farther < node;
+        node = farther;
+    } while (more);
+    return to_output(vec4(light + through * frame.background.rgb, 1.0 - through * (1.0 - frame.background.a)));
 }
 
 #endif
