@@ -18,22 +18,20 @@ void main() {
     uvec4 record = texelFetch(records, int(i));
     if ((record.x & POINT_VALUE) == 0u) return;
     uint site = record.x & POINT_SITE;
-    // A leaf is not seen itself.
-    uint nearest = record.y != 0u ? i : record.w;
-    bool hits = nearest <= i;
+    // A leaf is no surface itself.
+    uint nearest = record.y != 0u ? i : farther(i);
+    bool hits = nearest != ~0u;
     nearest = hits ? nearest : i;
     vec4 c = hits ? composite(nearest) : frame.background;
     color[site] = c;
 
     uint seen = texelFetch(records, int(nearest)).y, blend_id = seen > frame.first_blend ? seen : 0u;
-    uint id = 0u, node = nearest;
-    bool more;
-    do {
-        uvec4 surface = texelFetch(records, int(node));
-        id = surface.y;
-        more = surface.w < node;
-        node = surface.w;
-    } while (more);
+    uint last = nearest, next = farther(last);
+    while (next != ~0u) {
+        last = next;
+        next = farther(last);
+    }
+    uint id = texelFetch(records, int(last)).y;
     id = id > frame.first_blend ? 0u : id;
     uvec4 at = texelFetch(sites, int(2u * site));
     vec2 p = tile_center(ivec2(split(at.z, frame.tiles.x))) + uintBitsToFloat(at.xy);

@@ -55,9 +55,10 @@ void main() {
         for (uint r = 0u; r < h.y; r++) {
             uint at = h.x + r;
             uvec4 record = texelFetch(records, int(at));
-            bool seen = CHAINED ? record.w < at : record.y != 0u;
+            uint nearest = CHAINED ? farther(at) : at;
+            bool seen = CHAINED ? nearest != ~0u : record.y != 0u;
             float weight = seen ? uintBitsToFloat(CHAINED ? record.z : record.w) : 0.0;
-            vec4 c = CHAINED ? composite(seen ? record.w : at) : to_output(vec4(texelFetch(shaded, int(at)).rgb, 1.0));
+            vec4 c = CHAINED ? composite(nearest) : to_output(vec4(texelFetch(shaded, int(at)).rgb, 1.0));
             sum += seen ? weight * c : vec4(0.0);
             covered += weight;
         }

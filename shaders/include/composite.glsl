@@ -2,20 +2,24 @@
 #ifndef COMPOSITE_GLSL
 #define COMPOSITE_GLSL
 
-// The surfaces of a chain, from the record of the nearest one on. Links go to records that come before, so that there
-// is an end to what is left of another round too, where a record found no room.
+// What a record links to, or ~0. Links go to records that come before: nothing else is followed, so that chains end even
+// where a record found no room, and what is there is left from another round.
+uint farther(uint node) {
+    uint next = texelFetch(records, int(node)).w;
+    return next < node ? next : ~0u;
+}
+
+// The surfaces of a chain, from the record of the nearest one on.
 vec4 composite(uint node) {
     vec3 light = vec3(0.0);
     float through = 1.0;
-    bool more;
-    do {
-        uint farther = texelFetch(records, int(node)).w;
+    // Not do-while: llvmpipe lets invocations that have left see what later trips make of variables of its body.
+    while (node != ~0u) {
         vec4 layer = texelFetch(shaded, int(node));
         light += through * layer.a * layer.rgb;
         through *= 1.0 - layer.a;
-        more = farther < node;
-        node = farther;
-    } while (more);
+        node = farther(node);
+    }
     return to_output(vec4(light + through * frame.background.rgb, 1.0 - through * (1.0 - frame.background.a)));
 }
 
