@@ -14,7 +14,7 @@ layout(constant_id = 2) const uint BLOCK = 64u;             // samples of a head
 layout(constant_id = 3) const bool PER_SAMPLE = false;
 layout(constant_id = 4) const uint LAYERS = 4u;             // BLEND layers of a chain that a tile is admitted with
 layout(constant_id = 5) const uint PARTS = 1u;              // records of a triangle in a block
-const uint CHAINS = 2u * PARTS;                             // ways to see BLEND layers that a block is admitted with
+const uint CHAINS = max(2u * PARTS, 8u);                    // different chains of layers that a block is admitted with
 layout(constant_id = 6) const uint SUBGROUPS_FIRST = 1u;    // that `sample` gives an entry, where it may PROBE it
 layout(constant_id = 7) const uint SUBGROUPS = 1u;          // and where it takes all samples
 
@@ -48,7 +48,7 @@ void main() {
         bool listed = busy && (t.w & TILE_OVERFLOW) == 0u;
         bool blend = (t.w & TILE_HAS_BLEND) != 0u, mask_ = (t.w & TILE_HAS_MASK) != 0u;
         uint candidates_ = listed ? t.x : frame.triangle_count;
-        // Records of BLEND tiles vary; these are as many as few need more than, on average of a round.
+        // Most tiles with BLEND triangles need less than half of it. Tiles of a round share what they don't use.
         uint chains = PER_SAMPLE || POINTS ? samples : min(cells * blocks * CHAINS, samples);
         uint record_need = blend || (!listed && frame.first_blend < frame.triangle_count)
             ? chains * (2u + min(candidates_, LAYERS))

@@ -33,6 +33,9 @@ Candidate nearby;
 float nearby_covered;
 uint nearby_count;
 
+// What CHAINED samples need: runs of LANES candidates among which BLEND ones may show, a bit each; those beyond share one.
+uint blend_batches;
+
 uint trips;                 // of loops, by this invocation
 
 uint sample_of(int g) {
@@ -185,6 +188,7 @@ void show_candidates(Cell cell) {
     if (!POINTS && !EXACT_AREAS) rectangle_of_block(cell, middle, half_side);
     uint batches = max((cell.entries + LANES - 1u) / LANES, 1u), batch = 0u;
     float hidden = cell.hidden;
+    blend_batches = 0u;
     do {
         uint entry = batch * LANES + gl_SubgroupInvocationID;
         Candidate k = entry_of(cell, entry);
@@ -193,7 +197,8 @@ void show_candidates(Cell cell) {
         if (!EXACT_AREAS) hidden = max(hidden, lanes_max(exists ? test.hides : 0.0));
         bool blend = k.id > frame.first_blend;
         bool masked = HAS_MASK && k.id > frame.first_mask && !blend;
-        bool touches = exists && test.touches && !blend && test.near >= hidden;
+        bool shows = exists && test.touches && test.near >= hidden, touches = shows && !blend;
+        blend_batches |= subgroupAny(shows && blend) ? 1u << min(batch, 31u) : 0u;
         trips += 3u + uint(bitCount(subgroupBallot(touches).x));
         uint pending = subgroupBallot(touches && !masked).x;
         do {

@@ -133,12 +133,13 @@ bool find_layers(Cell cell) {
     behind = max(lanes_min(behind), cell.hidden);
     vec2 middle = cell.at, half_side = cell.half_side;
     if (!POINTS) rectangle_of_block(cell, middle, half_side);
-    uint batches = max((cell.entries + LANES - 1u) / LANES, 1u), batch = 0u;
+    uint batches = (cell.entries + LANES - 1u) / LANES, left = blend_batches;
+    uint batch = left != 0u ? uint(findLSB(left)) : 0u;
     do {
         uint entry = batch * LANES + gl_SubgroupInvocationID;
         Candidate k = entry_of(cell, entry);
         RectangleTest test = test_rectangle(k, middle, half_side, HAS_MASK);
-        bool touches = entry < cell.entries && test.touches && k.id > frame.first_blend && test.near >= behind;
+        bool touches = left != 0u && entry < cell.entries && test.touches && k.id > frame.first_blend && test.near >= behind;
         uint pending = subgroupBallot(touches).x;
         trips += 2u + uint(bitCount(pending));
         do {
@@ -156,7 +157,10 @@ bool find_layers(Cell cell) {
                 next_id[g] = in_front && nearest ? t.id : next_id[g];
             }
         } while (pending != 0u);
-    } while (++batch < batches);
+        // The last bit stands for all batches from there on.
+        left &= batch < 31u ? left - 1u : batch + 1u < batches ? ~0u : 0u;
+        batch = batch < 31u && left != 0u ? uint(findLSB(left)) : batch + 1u;
+    } while (left != 0u);
     uint most = 0u;
     [[unroll]] for (int g = 0; g < ROWS; g++) {
         depth[g] = next_id[g] != 0u ? next_depth[g] : depth[g];
