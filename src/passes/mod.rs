@@ -4,33 +4,37 @@
 //! transform ─▶ raster ─▶ spans ─▶ shade ─▶ thin ─▶ detect ─▶ cull ─▶ bin ─▶ schedule ─▶ setup ─▶ sample ─▶ sort ─▶ shade ─▶ resolve
 //!                        └─ pixel centres ─┘                        └─────── a round, as often as memory needs it ───────┘
 //! ```
-//! Every pass records into a caller's command buffer and reads what the pass before left on the device.
+//! Every pass records into a caller's command buffer and reads what the pass before left on the device. They share the
+//! scene (`scene/`), the memory that they hand to each other (`resources/`), the layout of descriptors (`layout.rs`) and
+//! the twins of what shaders include (`frame.rs`, `counters.rs`, `sites.rs`).
 
 mod attributes;
 mod bin;
 mod box_filter;
+mod counters;
 mod cull;
 mod detect;
 mod encode;
 mod frame;
-mod geometry;
 mod groups;
-mod material;
+mod layout;
 mod multisample;
 mod points;
+mod pool;
 mod raster;
 mod resolve;
 mod resources;
 mod sample;
+mod scene;
 mod schedule;
 mod setup;
 mod shade;
 mod sites;
 mod sort;
 mod spans;
-mod texture;
 mod thin;
 mod transform;
+mod upload;
 
 /// The compiled shaders.
 #[allow(missing_docs)]
@@ -41,18 +45,20 @@ mod spirv {
 pub use attributes::Attributes;
 pub use bin::Bin;
 pub use box_filter::BoxFilter;
+pub use counters::{Argument, Counter};
 pub use cull::Cull;
 pub use detect::{Detect, DetectMode};
 pub use encode::{Encode, Encoding};
-pub use frame::{Argument, Counter, FrameLayout, FrameUniform};
-pub use geometry::GpuScene;
+pub use frame::FrameUniform;
 pub use groups::Groups;
+pub use layout::FrameLayout;
 pub use multisample::Multisample;
 pub use points::Points;
 pub use raster::{Raster, RasterTargets};
 pub use resolve::Resolve;
 pub use resources::{Locations, ResourceSizes, Resources, SampleSet};
 pub use sample::{RecordRate, Sample, SampleOptions, TileList};
+pub use scene::GpuScene;
 pub use schedule::Schedule;
 pub use setup::Setup;
 pub use shade::{Shade, ShadeSource};

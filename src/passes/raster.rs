@@ -16,7 +16,6 @@ pub struct RasterTargets {
     pub(super) blend_ids: Option<Image>,
     /// Stands for the single-sampled IDs where these are multisampled.
     pub(super) placeholder: Option<Image>,
-    samples: vk::SampleCountFlags,
 }
 
 impl RasterTargets {
@@ -77,7 +76,6 @@ impl RasterTargets {
                     make("placeholder", [1, 1], single, format, color, aspect)
                 })
                 .transpose()?,
-            samples,
         })
     }
 
@@ -93,12 +91,6 @@ impl RasterTargets {
                 vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
             );
         }
-    }
-
-    /// Whether the images are multisampled.
-    #[must_use]
-    pub fn multisampled(&self) -> bool {
-        self.samples != vk::SampleCountFlags::TYPE_1
     }
 }
 

@@ -1,6 +1,6 @@
 //! shade: the radiance of what is seen, one dispatch a material bin.
 
-use super::geometry::ShadeFeatures;
+use super::scene::ShadeFeatures;
 use super::{Argument, Cells, FrameLayout, GpuScene, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use ash::vk;

@@ -119,6 +119,29 @@ impl Memory {
         Ok(buffer)
     }
 
+    /// A buffer that shaders read and write as a whole.
+    ///
+    /// # Errors
+    /// [`VulkanError::TooLarge`] past the device's `maxStorageBufferRange`, else as [`Memory::buffer`].
+    pub(crate) fn storage_buffer(
+        &self,
+        name: &str,
+        size: u64,
+        usage: vk::BufferUsageFlags,
+        location: MemoryUse,
+    ) -> Result<Buffer, VulkanError> {
+        let limit = self.gpu.limits().max_storage_bytes;
+        if size > limit {
+            return Err(VulkanError::TooLarge {
+                what: name.to_owned(),
+                needed: size,
+                unit: "bytes",
+                limit,
+            });
+        }
+        self.buffer(name, size, usage, location)
+    }
+
     /// A buffer that holds `bytes`, to be copied from by the device.
     ///
     /// # Errors

@@ -12,9 +12,9 @@ use crate::render::engine::{record_rate, record_shading};
 use crate::render::plan::Effort;
 use crate::render::renderer::PreparedScene;
 use crate::render::statistics::Shortfall;
-use crate::render::{Coverage, PassTime, Reference, RenderError, Settings, Statistics};
+use crate::render::{Coverage, PassTime, RenderError, Settings, Statistics};
 use crate::sampling::Pattern;
-use crate::vulkan::{Buffer, Constants, Memory, MemoryUse, Recorder, Timings, VulkanError};
+use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings, VulkanError};
 use ash::vk;
 use glam::DVec2;
 use std::sync::Arc;
@@ -23,8 +23,6 @@ use std::sync::Arc;
 const POINTS_IN_CELL: u32 = 16;
 /// BLEND layers a sample that tiles are admitted with.
 const LAYERS: u32 = 4;
-/// Bytes of the counters of a run.
-const COUNTER_BYTES: u64 = 4 * Counter::COUNT as u64;
 
 /// What makes values of records.
 enum Finish {
@@ -125,12 +123,7 @@ impl SiteEngine {
             scene.has_blend(),
         )?;
         let resources = Resources::new(layout, &memory, scene, &targets, *sizes, &[locations])?;
-        let output = Constants::new()
-            .flag(
-                30,
-                settings.reference == Reference::Display && settings.tonemapped_detection,
-            )
-            .flag(31, settings.tonemapped_detection);
+        let output = settings.color_constants();
         let sample = Sample::new(layout, &options)?;
         let finish = if points {
             Finish::Points(Points::new(layout, &output)?)
@@ -161,7 +154,7 @@ impl SiteEngine {
             targets,
             counters: memory.buffer(
                 "counter read-back",
-                COUNTER_BYTES,
+                Counter::BYTES,
                 vk::BufferUsageFlags::TRANSFER_DST,
                 MemoryUse::Readback,
             )?,
@@ -323,10 +316,7 @@ impl SiteEngine {
                 .to_cols_array(),
             eye: [eye.x, eye.y, eye.z, 1.0],
             view_direction: [direction.x, direction.y, direction.z, parallel],
-            background: self
-                .settings
-                .background
-                .map_or([0.0; 4], |[r, g, b]| [r, g, b, 1.0]),
+            background: self.settings.background_rgba(),
             origin: [0, 1].map(|axis| (window.low[axis] as f64 + 0.5 - middle[axis]) as f32),
             size: window.size(),
             tiles: window.tiles,

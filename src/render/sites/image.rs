@@ -3,7 +3,7 @@
 use super::{SiteError, thin};
 use crate::camera::{Pinhole, Site};
 use crate::reference::detect;
-use crate::render::frame::display_code;
+use crate::render::color::display_code;
 use crate::render::{
     Coverage, Detection, Headless, Method, PixelAttributes, PreparedScene, RenderError, Rendered,
     Settings, Shading, Shadows, Statistics,
@@ -120,9 +120,7 @@ impl Headless {
 
 impl Cells {
     fn new(count: usize, settings: &Settings) -> Self {
-        let background = settings
-            .background
-            .map_or([0.0; 4], |[r, g, b]| [r, g, b, 1.0]);
+        let background = settings.background_rgba();
         let unseen = PixelAttributes {
             samples: 1,
             ..PixelAttributes::default()

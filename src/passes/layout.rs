@@ -1,0 +1,214 @@
+//! The layout of the descriptor sets and pipelines that all passes share, and the pipelines made so far.
+
+use super::pool::DescriptorPool;
+use crate::vulkan::{Constants, Gpu, Pipeline, VulkanError, compute_pipeline};
+use ash::vk;
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// The bindings of set 0.
+const BINDINGS: [(u32, vk::DescriptorType); 46] = {
+    use vk::DescriptorType as T;
+    [
+        (0, T::UNIFORM_BUFFER),
+        (1, T::UNIFORM_TEXEL_BUFFER),
+        (2, T::UNIFORM_TEXEL_BUFFER),
+        (3, T::UNIFORM_TEXEL_BUFFER),
+        (4, T::UNIFORM_TEXEL_BUFFER),
+        (5, T::UNIFORM_TEXEL_BUFFER),
+        (6, T::UNIFORM_TEXEL_BUFFER),
+        (7, T::UNIFORM_TEXEL_BUFFER),
+        (8, T::STORAGE_BUFFER),
+        (9, T::UNIFORM_TEXEL_BUFFER),
+        (10, T::UNIFORM_TEXEL_BUFFER),
+        (11, T::STORAGE_TEXEL_BUFFER),
+        (12, T::SAMPLED_IMAGE),
+        (13, T::SAMPLED_IMAGE),
+        (14, T::SAMPLED_IMAGE),
+        (15, T::SAMPLED_IMAGE),
+        (16, T::UNIFORM_TEXEL_BUFFER),
+        (17, T::STORAGE_BUFFER),
+        (18, T::STORAGE_BUFFER),
+        (19, T::STORAGE_BUFFER),
+        (20, T::STORAGE_BUFFER),
+        (21, T::STORAGE_BUFFER),
+        (22, T::STORAGE_BUFFER),
+        (23, T::STORAGE_BUFFER),
+        (24, T::UNIFORM_TEXEL_BUFFER),
+        (25, T::STORAGE_BUFFER),
+        (26, T::STORAGE_BUFFER),
+        (27, T::UNIFORM_TEXEL_BUFFER),
+        (28, T::STORAGE_BUFFER),
+        (29, T::UNIFORM_TEXEL_BUFFER),
+        (30, T::STORAGE_BUFFER),
+        (31, T::STORAGE_BUFFER),
+        (32, T::UNIFORM_TEXEL_BUFFER),
+        (33, T::STORAGE_BUFFER),
+        (34, T::STORAGE_BUFFER),
+        (35, T::STORAGE_TEXEL_BUFFER),
+        (36, T::STORAGE_BUFFER),
+        (37, T::STORAGE_BUFFER),
+        (38, T::UNIFORM_TEXEL_BUFFER),
+        (39, T::STORAGE_BUFFER),
+        (40, T::SAMPLED_IMAGE),
+        (41, T::STORAGE_BUFFER),
+        (42, T::UNIFORM_TEXEL_BUFFER),
+        (43, T::UNIFORM_TEXEL_BUFFER),
+        (44, T::UNIFORM_TEXEL_BUFFER),
+        (45, T::STORAGE_BUFFER),
+    ]
+};
+
+/// What a binding of set 0 shows.
+pub(super) fn descriptor_type(binding: u32) -> vk::DescriptorType {
+    BINDINGS
+        .iter()
+        .find(|(known, _)| *known == binding)
+        .map_or(vk::DescriptorType::default(), |(_, kind)| *kind)
+}
+
+/// Textures of a material bin, set 1.
+const TEXTURES: u32 = 5;
+
+/// What tells one pipeline from another: its shader, its constants, and a variant of its fixed state.
+type PipelineKey = (usize, Constants, u32);
+
+/// The layout of both descriptor sets and of every pipeline, and the pipelines made so far: frames of other sizes,
+/// poses and scenes use them again.
+pub struct FrameLayout {
+    pub(crate) gpu: Arc<Gpu>,
+    pub(super) frame_set: vk::DescriptorSetLayout,
+    pub(super) texture_set: vk::DescriptorSetLayout,
+    pub(super) pipeline: vk::PipelineLayout,
+    pipelines: Mutex<HashMap<PipelineKey, Arc<Pipeline>>>,
+}
+
+impl FrameLayout {
+    /// Makes the layouts.
+    ///
+    /// # Errors
+    /// [`VulkanError::Call`] if the driver refuses them.
+    pub fn new(gpu: &Arc<Gpu>) -> Result<Arc<Self>, VulkanError> {
+        let stages = vk::ShaderStageFlags::VERTEX
+            | vk::ShaderStageFlags::FRAGMENT
+            | vk::ShaderStageFlags::COMPUTE;
+        let frame = BINDINGS.map(|(binding, kind)| {
+            vk::DescriptorSetLayoutBinding::default()
+                .binding(binding)
+                .descriptor_type(kind)
+                .descriptor_count(1)
+                .stage_flags(stages)
+        });
+        let textures: Vec<_> = (0..TEXTURES)
+            .map(|binding| {
+                vk::DescriptorSetLayoutBinding::default()
+                    .binding(binding)
+                    .descriptor_type(vk::DescriptorType::COMBINED_IMAGE_SAMPLER)
+                    .descriptor_count(1)
+                    .stage_flags(vk::ShaderStageFlags::COMPUTE)
+            })
+            .collect();
+        let mut layout = Self {
+            gpu: gpu.clone(),
+            frame_set: vk::DescriptorSetLayout::null(),
+            texture_set: vk::DescriptorSetLayout::null(),
+            pipeline: vk::PipelineLayout::null(),
+            pipelines: Mutex::default(),
+        };
+        // SAFETY: plain creations on a live device; handles made before a failure are destroyed by `Drop`.
+        unsafe {
+            let make = |bindings: &[vk::DescriptorSetLayoutBinding<'_>]| {
+                let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(bindings);
+                gpu.device
+                    .create_descriptor_set_layout(&info, None)
+                    .map_err(VulkanError::of("vkCreateDescriptorSetLayout"))
+            };
+            layout.frame_set = make(&frame)?;
+            layout.texture_set = make(&textures)?;
+            let sets = [layout.frame_set, layout.texture_set];
+            let push = [vk::PushConstantRange {
+                stage_flags: vk::ShaderStageFlags::COMPUTE,
+                offset: 0,
+                size: 16,
+            }];
+            let info = vk::PipelineLayoutCreateInfo::default()
+                .set_layouts(&sets)
+                .push_constant_ranges(&push);
+            layout.pipeline = gpu
+                .device
+                .create_pipeline_layout(&info, None)
+                .map_err(VulkanError::of("vkCreatePipelineLayout"))?;
+        }
+        Ok(Arc::new(layout))
+    }
+
+    /// A compute pipeline of one of the crate's shaders; `subgroup` fixes the size of its subgroups.
+    pub(super) fn compute(
+        &self,
+        code: &'static [u8],
+        constants: &Constants,
+        subgroup: Option<u32>,
+    ) -> Result<Arc<Pipeline>, VulkanError> {
+        self.cached(code, constants, subgroup.unwrap_or(0), || {
+            compute_pipeline(&self.gpu, self.pipeline, code, constants, subgroup)
+        })
+    }
+
+    /// The pipeline of a shader, constants and variant, made where it is not known yet.
+    pub(super) fn cached(
+        &self,
+        code: &'static [u8],
+        constants: &Constants,
+        variant: u32,
+        make: impl FnOnce() -> Result<Pipeline, VulkanError>,
+    ) -> Result<Arc<Pipeline>, VulkanError> {
+        let key = (code.as_ptr() as usize, constants.clone(), variant);
+        let mut known = self
+            .pipelines
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
+        if let Some(pipeline) = known.get(&key) {
+            return Ok(pipeline.clone());
+        }
+        let pipeline = Arc::new(make()?);
+        known.insert(key, pipeline.clone());
+        Ok(pipeline)
+    }
+
+    /// A pool for `frames` sets 0 and `bins` sets 1.
+    pub(super) fn pool(&self, frames: u32, bins: u32) -> Result<DescriptorPool, VulkanError> {
+        let mut sizes: Vec<vk::DescriptorPoolSize> = Vec::new();
+        for (_, kind) in BINDINGS {
+            match sizes.iter_mut().find(|size| size.ty == kind) {
+                Some(size) => size.descriptor_count += frames,
+                None => sizes.push(vk::DescriptorPoolSize {
+                    ty: kind,
+                    descriptor_count: frames,
+                }),
+            }
+        }
+        sizes.retain(|size| size.descriptor_count > 0);
+        if bins > 0 {
+            sizes.push(vk::DescriptorPoolSize {
+                ty: vk::DescriptorType::COMBINED_IMAGE_SAMPLER,
+                descriptor_count: bins * TEXTURES,
+            });
+        }
+        DescriptorPool::new(&self.gpu, frames + bins, &sizes)
+    }
+}
+
+impl Drop for FrameLayout {
+    fn drop(&mut self) {
+        // SAFETY: owners drop the layout after the frames that use it; null handles are ignored.
+        unsafe {
+            self.gpu.device.destroy_pipeline_layout(self.pipeline, None);
+            self.gpu
+                .device
+                .destroy_descriptor_set_layout(self.texture_set, None);
+            self.gpu
+                .device
+                .destroy_descriptor_set_layout(self.frame_set, None);
+        }
+    }
+}

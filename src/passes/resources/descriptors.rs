@@ -1,0 +1,103 @@
+//! Which buffer or image each binding of a frame's descriptor set shows.
+
+use super::{Resources, SampleSet};
+use crate::passes::layout::descriptor_type;
+use crate::passes::{GpuScene, RasterTargets};
+use crate::vulkan::Buffer;
+use ash::vk;
+
+impl Resources {
+    /// Writes a set that was just allocated.
+    pub(super) fn write_set(&self, set: &SampleSet, scene: &GpuScene, targets: &RasterTargets) {
+        let texels = [
+            (1, &scene.positions),
+            (2, &scene.triangles),
+            (3, &scene.normals),
+            (4, &scene.tangents),
+            (5, &scene.uvs),
+            (6, &scene.colors),
+            (7, &scene.materials),
+            (9, &scene.alpha_atlas),
+            (10, &scene.clip),
+            (11, &scene.clip),
+            (16, &self.display),
+            (24, &self.candidates),
+            (27, &self.records),
+            (29, &self.shaded),
+            (32, &set.locations),
+            (35, &self.filtered),
+            (38, &self.pairs),
+            (42, &self.sites.sites),
+            (43, &self.sites.cells),
+            (44, &self.sites.groups),
+        ]
+        .map(|(binding, view)| (binding, [view.view]));
+        let whole = |buffer: &Buffer| {
+            [vk::DescriptorBufferInfo::default()
+                .buffer(buffer.raw)
+                .range(vk::WHOLE_SIZE)]
+        };
+        let buffers = [
+            (0, &set.uniform),
+            (8, &scene.lights),
+            (17, &self.display.buffer),
+            (18, &self.color.buffer),
+            (25, &self.candidates.buffer),
+            (28, &self.records.buffer),
+            (30, &self.shaded.buffer),
+            (39, &self.pairs.buffer),
+            (19, &self.counters),
+            (20, &self.masks),
+            (21, &self.tiles),
+            (22, &self.tile_lists),
+            (23, &self.survivors),
+            (26, &self.headers),
+            (31, &self.shade_order),
+            (33, &self.bins),
+            (34, &self.arguments),
+            (36, &self.attributes),
+            (37, &self.encoded),
+            (41, &self.marks),
+            (45, &self.sites.loads),
+        ]
+        .map(|(binding, buffer)| (binding, whole(buffer)));
+        // A set shows either single-sampled or multisampled IDs; pipelines that could read the former but are
+        // specialised not to see a placeholder. Without BLEND its binding shows the opaque IDs, which is not read either.
+        let ids = targets.ids.view;
+        let blend_ids = targets.blend_ids.as_ref().map_or(ids, |image| image.view);
+        let images = match &targets.placeholder {
+            Some(placeholder) => {
+                let unread = placeholder.view;
+                vec![(12, unread), (13, unread), (14, ids), (15, blend_ids)]
+            }
+            None => vec![(12, ids), (13, blend_ids), (40, targets.depth.view)],
+        };
+        let images: Vec<_> = images
+            .into_iter()
+            .map(|(binding, view)| {
+                let info = vk::DescriptorImageInfo::default()
+                    .image_view(view)
+                    .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
+                (binding, [info])
+            })
+            .collect();
+        let write = |binding: u32| {
+            vk::WriteDescriptorSet::default()
+                .dst_set(set.descriptor())
+                .dst_binding(binding)
+                .descriptor_type(descriptor_type(binding))
+        };
+        let texels = texels
+            .iter()
+            .map(|(binding, view)| write(*binding).texel_buffer_view(view));
+        let buffers = buffers
+            .iter()
+            .map(|(binding, info)| write(*binding).buffer_info(info));
+        let images = images
+            .iter()
+            .map(|(binding, info)| write(*binding).image_info(info));
+        let writes: Vec<_> = texels.chain(buffers).chain(images).collect();
+        // SAFETY: the set was just allocated and no frame uses it; every handle is alive and outlives the set.
+        unsafe { self.layout.gpu.device.update_descriptor_sets(&writes, &[]) };
+    }
+}

@@ -1,0 +1,154 @@
+//! The memory of one frame: sized when it is prepared, used again for every region and every frame.
+
+mod descriptors;
+mod record;
+mod sample_set;
+mod sizes;
+
+pub use sample_set::{Locations, SampleSet};
+pub use sizes::ResourceSizes;
+
+use super::pool::DescriptorPool;
+use super::sites::SiteBuffers;
+use super::{Argument, Counter, FrameLayout, GpuScene, RasterTargets};
+use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, VulkanError};
+use ash::vk;
+use std::sync::Arc;
+
+/// Buffers that passes hand to each other.
+pub struct Resources {
+    sizes: ResourceSizes,
+    display: BufferView,
+    pub(crate) color: BufferView,
+    counters: Buffer,
+    pub(super) masks: Buffer,
+    pub(crate) marks: Buffer,
+    tiles: Buffer,
+    tile_lists: Buffer,
+    survivors: Buffer,
+    pairs: BufferView,
+    candidates: BufferView,
+    headers: Buffer,
+    records: BufferView,
+    shaded: BufferView,
+    shade_order: Buffer,
+    pub(crate) bins: Buffer,
+    pub(crate) arguments: Buffer,
+    filtered: BufferView,
+    pub(crate) attributes: Buffer,
+    pub(crate) encoded: Buffer,
+    pub(super) sites: SiteBuffers,
+    layout: Arc<FrameLayout>,
+    _pool: DescriptorPool,
+    sets: Vec<SampleSet>,
+}
+
+const STORAGE: vk::BufferUsageFlags = vk::BufferUsageFlags::from_raw(
+    vk::BufferUsageFlags::STORAGE_BUFFER.as_raw()
+        | vk::BufferUsageFlags::TRANSFER_DST.as_raw()
+        | vk::BufferUsageFlags::TRANSFER_SRC.as_raw(),
+);
+const TEXELS: vk::BufferUsageFlags = vk::BufferUsageFlags::from_raw(
+    vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER.as_raw()
+        | vk::BufferUsageFlags::STORAGE_TEXEL_BUFFER.as_raw()
+        | vk::BufferUsageFlags::STORAGE_BUFFER.as_raw()
+        | vk::BufferUsageFlags::TRANSFER_DST.as_raw()
+        | vk::BufferUsageFlags::TRANSFER_SRC.as_raw(),
+);
+
+impl Resources {
+    /// Allocates a frame's memory and one descriptor set for each list of sub-sample locations.
+    ///
+    /// # Errors
+    /// If memory runs out or a buffer passes the device's limits.
+    pub fn new(
+        layout: &Arc<FrameLayout>,
+        memory: &Memory,
+        scene: &GpuScene,
+        targets: &RasterTargets,
+        sizes: ResourceSizes,
+        location_lists: &[Locations<'_>],
+    ) -> Result<Self, VulkanError> {
+        let pixels = sizes.colors();
+        let tiles = u64::from(sizes.tiles());
+        let records = u64::from(sizes.record_capacity);
+        let site_sizes = sizes.sites.unwrap_or_default();
+        let triangles = u64::from(scene.triangle_count());
+        let storage_in = |name: &str, bytes: u64, location: MemoryUse| {
+            memory.storage_buffer(name, bytes, STORAGE, location)
+        };
+        let storage = |name: &str, bytes: u64| storage_in(name, bytes, MemoryUse::Device);
+        let texels_in = |name: &str, elements: u64, format, location| {
+            memory.texel_buffer(name, elements, format, TEXELS, location)
+        };
+        let texels = |name: &str, elements: u64, format| {
+            texels_in(name, elements, format, MemoryUse::Device)
+        };
+        // The host writes the masks of sites and reads what they see, run by run.
+        let (input, output) = if sizes.sites.is_some() {
+            (MemoryUse::Upload, MemoryUse::Readback)
+        } else {
+            (MemoryUse::Device, MemoryUse::Device)
+        };
+        let float4 = vk::Format::R32G32B32A32_SFLOAT;
+        let uint4 = vk::Format::R32G32B32A32_UINT;
+        let pool = layout.pool(location_lists.len() as u32, 0)?;
+        let sets = location_lists
+            .iter()
+            .map(|locations| SampleSet::new(layout, memory, &pool, locations))
+            .collect::<Result<Vec<_>, VulkanError>>()?;
+        let resources = Self {
+            sizes,
+            display: texels("display codes", pixels, vk::Format::R32_UINT)?,
+            color: texels_in("colour", pixels, float4, output)?,
+            counters: storage("counters", Counter::BYTES)?,
+            masks: storage_in("superpixel mask", tiles * 4, input)?,
+            marks: storage("marks of pixels", sizes.work_owners() * 8)?,
+            tiles: storage("tiles", tiles * 16)?,
+            tile_lists: storage(
+                "tile lists",
+                sizes.work_owners() * ResourceSizes::WORK_BYTES,
+            )?,
+            survivors: storage("survivors", triangles * 4)?,
+            pairs: texels("pairs", u64::from(sizes.pair_capacity), uint4)?,
+            candidates: texels("candidates", u64::from(sizes.list_capacity) * 4, uint4)?,
+            headers: storage("record headers", records * 8)?,
+            records: texels("visibility records", records, uint4)?,
+            shaded: texels("shaded records", records, float4)?,
+            shade_order: storage("shading order", records.max(pixels) * 4)?,
+            bins: storage("material bins", u64::from(scene.bin_count()) * 16)?,
+            arguments: memory.buffer(
+                "indirect dispatches",
+                u64::from(Argument::Shade as u32 + scene.bin_count()) * 16,
+                STORAGE | vk::BufferUsageFlags::INDIRECT_BUFFER,
+                MemoryUse::Device,
+            )?,
+            filtered: texels("filtered colour", u64::from(sizes.filtered), float4)?,
+            attributes: storage_in(
+                "attributes",
+                if sizes.attributes { 32 * pixels } else { 0 },
+                output,
+            )?,
+            encoded: storage("encoded colour", sizes.encoded)?,
+            sites: SiteBuffers::new(memory, &site_sizes, tiles)?,
+            layout: layout.clone(),
+            _pool: pool,
+            sets,
+        };
+        for set in &resources.sets {
+            resources.write_set(set, scene, targets);
+        }
+        Ok(resources)
+    }
+
+    /// What was asked for.
+    #[must_use]
+    pub fn sizes(&self) -> &ResourceSizes {
+        &self.sizes
+    }
+
+    /// The list of sub-sample locations at `index`.
+    pub(crate) fn set(&self, index: usize) -> Option<&SampleSet> {
+        self.sets.get(index)
+    }
+}

@@ -1,0 +1,128 @@
+//! What a frame records of its memory beside its passes: uploads, clearing, counters and the background.
+
+use super::{Resources, SampleSet};
+use crate::passes::{Counter, FrameUniform};
+use crate::vulkan::{Buffer, Recorder};
+use ash::vk;
+
+impl Resources {
+    /// Copies the locations to the device, once.
+    pub fn record_upload(&self, recorder: &Recorder<'_>) {
+        for set in &self.sets {
+            set.upload.record(recorder);
+        }
+        recorder.barrier();
+    }
+
+    /// Begins work on a region: its uniform block, cleared counters and tiles, bound sets.
+    pub(crate) fn record_begin(
+        &self,
+        recorder: &Recorder<'_>,
+        set: &SampleSet,
+        uniform: &FrameUniform,
+    ) {
+        recorder.barrier();
+        // SAFETY: the recorder's contract; the block is below the 65,536 bytes that an inline update can have.
+        unsafe {
+            recorder.device().cmd_update_buffer(
+                recorder.raw(),
+                set.uniform.raw,
+                0,
+                bytemuck::bytes_of(uniform),
+            )
+        };
+        recorder.clear(&self.counters);
+        recorder.clear(&self.tiles);
+        recorder.barrier();
+        // SAFETY: the recorder's contract; the set matches the layout of all pipelines.
+        unsafe {
+            recorder.device().cmd_bind_descriptor_sets(
+                recorder.raw(),
+                vk::PipelineBindPoint::COMPUTE,
+                self.layout.pipeline,
+                0,
+                &[set.descriptor()],
+                &[],
+            );
+        }
+    }
+
+    /// Sets counters, where the host knows what other frames detect.
+    pub(crate) fn record_counters(&self, recorder: &Recorder<'_>, values: &[(Counter, u32)]) {
+        for (counter, value) in values {
+            // SAFETY: the recorder's contract; the counter lies in the buffer.
+            unsafe {
+                recorder.device().cmd_fill_buffer(
+                    recorder.raw(),
+                    self.counters.raw,
+                    4 * *counter as u64,
+                    4,
+                    *value,
+                )
+            };
+        }
+        recorder.barrier();
+    }
+
+    /// Copies the counters to slot `slot` of a read-back buffer.
+    pub(crate) fn record_keep_counters(&self, recorder: &Recorder<'_>, to: &Buffer, slot: u64) {
+        let size = Counter::BYTES;
+        let region = [vk::BufferCopy::default().dst_offset(slot * size).size(size)];
+        // SAFETY: the recorder's contract; callers have sized the buffer for the slot.
+        unsafe {
+            recorder
+                .device()
+                .cmd_copy_buffer(recorder.raw(), self.counters.raw, to.raw, &region)
+        };
+    }
+
+    /// Puts the first `pixels` pixels that the box filter made in the place of those that it made them of.
+    pub(crate) fn record_keep_filtered(&self, recorder: &Recorder<'_>, pixels: u32) {
+        let region = [vk::BufferCopy::default().size(16 * u64::from(pixels))];
+        // SAFETY: the recorder's contract; both buffers hold the pixels of a region.
+        unsafe {
+            recorder.device().cmd_copy_buffer(
+                recorder.raw(),
+                self.filtered.buffer.raw,
+                self.color.buffer.raw,
+                &region,
+            )
+        };
+        recorder.barrier();
+    }
+
+    /// Fills the first `pixels` pixels with the background, premultiplied as in the output, and its display code.
+    pub(crate) fn record_background(
+        &self,
+        recorder: &Recorder<'_>,
+        pixels: u32,
+        background: [f32; 4],
+        code: u32,
+    ) {
+        /// Pixels written inline; the rest is copied from what is there, twice as much each time.
+        const SEED: u64 = 4096;
+        let (device, raw) = (recorder.device(), recorder.raw());
+        let (color, display) = (self.color.buffer.raw, self.display.buffer.raw);
+        let total = u64::from(pixels);
+        // SAFETY: the recorder's contract; the seed has the 65,536 bytes that an inline update can have, sizes are
+        // multiples of 4, and each copy reads what the copies before it wrote and writes past it.
+        unsafe {
+            device.cmd_fill_buffer(raw, display, 0, vk::WHOLE_SIZE, code);
+            if background == [0.0; 4] {
+                device.cmd_fill_buffer(raw, color, 0, vk::WHOLE_SIZE, 0);
+            } else {
+                let mut filled = SEED.min(total);
+                let seed = vec![background; filled as usize];
+                device.cmd_update_buffer(raw, color, 0, bytemuck::cast_slice(&seed));
+                while filled < total {
+                    recorder.barrier();
+                    let size = filled.min(total - filled) * 16;
+                    let part = [vk::BufferCopy::default().dst_offset(filled * 16).size(size)];
+                    device.cmd_copy_buffer(raw, color, color, &part);
+                    filled = (2 * filled).min(total);
+                }
+            }
+        }
+        recorder.barrier();
+    }
+}

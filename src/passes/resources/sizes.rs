@@ -1,0 +1,92 @@
+//! How much room a frame needs.
+
+use crate::passes::SiteSizes;
+
+/// How much room a frame needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ResourceSizes {
+    /// Largest region, in pixels.
+    pub region: [u32; 2],
+    /// Sites of a region, where cells are these instead of pixels.
+    pub sites: Option<SiteSizes>,
+    /// Pairs of a triangle and a tile of all rounds.
+    pub pair_capacity: u32,
+    /// Candidates of all lists of a round.
+    pub list_capacity: u32,
+    /// Visibility records of a round; 0 where no cell is ever sampled.
+    pub record_capacity: u32,
+    /// Pixels of a region after the box filter; 0 without one.
+    pub filtered: u32,
+    /// Whether attributes are asked for.
+    pub attributes: bool,
+    /// Bytes of a region encoded for a host's image; 0 without one.
+    pub encoded: u64,
+}
+
+impl ResourceSizes {
+    /// Bytes of a pair.
+    pub const PAIR_BYTES: u64 = 16;
+    /// Bytes of a candidate.
+    pub const CANDIDATE_BYTES: u64 = 64;
+    /// Bytes of the work lists for a tile or group of sites: six lists of up to four entries.
+    pub const WORK_BYTES: u64 = 96;
+
+    /// Bytes of the largest storage buffer.
+    #[must_use]
+    pub fn largest_storage(&self) -> u64 {
+        let colors = self.colors() * 16;
+        let records = u64::from(self.record_capacity) * 16;
+        let candidates = u64::from(self.list_capacity) * Self::CANDIDATE_BYTES;
+        let attributes = if self.attributes { 2 * colors } else { 0 };
+        let pairs = u64::from(self.pair_capacity) * Self::PAIR_BYTES;
+        let work = self.work_owners() * Self::WORK_BYTES;
+        [attributes, colors, records, candidates, pairs, work]
+            .into_iter()
+            .fold(0, u64::max)
+    }
+
+    /// Pixels of a region.
+    #[must_use]
+    pub fn pixels(&self) -> u32 {
+        self.region[0] * self.region[1]
+    }
+
+    /// Colours of a region.
+    #[must_use]
+    pub fn colors(&self) -> u64 {
+        self.sites
+            .map_or(u64::from(self.pixels()), |sites| u64::from(sites.sites))
+    }
+
+    /// Owners of cells: tiles or, where there are more, groups of sites.
+    pub(super) fn work_owners(&self) -> u64 {
+        let groups = self.sites.map_or(0, |sites| sites.groups);
+        self.tiles().max(groups).into()
+    }
+
+    /// Tiles of 8 x 4 pixels of a region.
+    #[must_use]
+    pub fn tiles(&self) -> u32 {
+        self.region[0].div_ceil(8) * self.region[1].div_ceil(4)
+    }
+
+    /// About how many bytes [`super::Resources`] of this size take, for a scene of `triangles` triangles.
+    #[must_use]
+    pub fn bytes(&self, triangles: u64) -> u64 {
+        let pixels = self.colors();
+        let tiles = u64::from(self.tiles());
+        let records = u64::from(self.record_capacity);
+        pixels * (16 + 4 + 4 + 4)
+            + tiles * 20
+            + self.work_owners() * (8 + Self::WORK_BYTES)
+            + u64::from(self.list_capacity) * Self::CANDIDATE_BYTES
+            + u64::from(self.pair_capacity) * Self::PAIR_BYTES
+            + records * 40
+            + records.max(pixels) * 4
+            + triangles * 4
+            + u64::from(self.filtered) * 16
+            + if self.attributes { pixels * 32 } else { 0 }
+            + self.encoded
+            + self.sites.map_or(0, |sites| sites.bytes(tiles))
+    }
+}

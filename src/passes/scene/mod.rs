@@ -1,0 +1,232 @@
+//! A posed scene on the device.
+
+mod alpha_atlas;
+mod bins;
+mod light;
+mod material;
+mod texture;
+mod texture_set;
+mod triangles;
+
+pub use bins::ShadeFeatures;
+pub use light::LightFeatures;
+
+use super::FrameLayout;
+use super::pool::DescriptorPool;
+use super::upload::{Upload, Uploader};
+use crate::scene::{AlphaMode, DrawClass, Pose, Scene};
+use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, Recorder, VulkanError};
+use alpha_atlas::AlphaAtlas;
+use ash::vk;
+use bins::{Bins, MaterialBin};
+use glam::DVec3;
+use light::GpuLight;
+use material::GpuMaterial;
+use std::borrow::Cow;
+use texture::{DeviceSampler, Texture};
+use texture_set::TextureSet;
+use triangles::{Run, Triangles};
+
+/// A posed scene on the device.
+pub struct GpuScene {
+    pub(super) positions: BufferView,
+    pub(super) triangles: BufferView,
+    pub(super) normals: BufferView,
+    pub(super) tangents: BufferView,
+    pub(super) uvs: BufferView,
+    pub(super) colors: BufferView,
+    pub(super) clip: BufferView,
+    pub(super) materials: BufferView,
+    pub(super) lights: Buffer,
+    pub(super) alpha_atlas: BufferView,
+    pub(super) bins: Vec<MaterialBin>,
+    runs: Vec<Run>,
+    vertex_count: u32,
+    triangle_count: u32,
+    first_mask: u32,
+    first_blend: u32,
+    has_glossy: bool,
+    light_features: LightFeatures,
+    origin: DVec3,
+    textures: Vec<Texture>,
+    _samplers: Vec<DeviceSampler>,
+    _pool: Option<DescriptorPool>,
+    uploads: Vec<Upload>,
+}
+
+/// A stream or, where it is empty, `count` vectors of one value.
+fn or_filled(stream: &[[f32; 4]], value: f32, count: usize) -> Cow<'_, [[f32; 4]]> {
+    if stream.is_empty() {
+        Cow::Owned(vec![[value; 4]; count])
+    } else {
+        Cow::Borrowed(stream)
+    }
+}
+
+impl GpuScene {
+    /// Allocates and fills everything; copies that need the device wait for [`GpuScene::record_upload`].
+    ///
+    /// # Errors
+    /// If memory runs out or the scene passes a limit of the device.
+    pub fn new(
+        layout: &FrameLayout,
+        memory: &Memory,
+        scene: &Scene,
+        pose: &Pose,
+    ) -> Result<Self, VulkanError> {
+        let geometry = &pose.geometry;
+        let mut textures = TextureSet::new(memory);
+        let bins = Bins::new(scene, geometry, &mut textures)?;
+        let triangles = Triangles::new(scene, geometry, &bins);
+        let mut atlas = AlphaAtlas::new();
+        let materials: Vec<GpuMaterial> = scene
+            .materials
+            .iter()
+            .map(|m| GpuMaterial::new(m, atlas.place(scene, m)))
+            .collect();
+        let lights: Vec<GpuLight> = pose
+            .lights
+            .iter()
+            .map(|light| GpuLight::new(light, geometry.origin))
+            .collect();
+        // The alpha test reads both streams whether or not the scene has them.
+        let has_mask = scene
+            .materials
+            .iter()
+            .any(|m| matches!(m.alpha_mode, AlphaMode::Mask { .. }));
+        let filled = if has_mask {
+            geometry.positions.len()
+        } else {
+            0
+        };
+        let colors = or_filled(&geometry.streams.colors, 1.0, filled);
+        let uvs = or_filled(&geometry.streams.uvs, 0.0, filled);
+
+        let float4 = vk::Format::R32G32B32A32_SFLOAT;
+        let uint4 = vk::Format::R32G32B32A32_UINT;
+        let clip_usage =
+            vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | vk::BufferUsageFlags::STORAGE_TEXEL_BUFFER;
+        let (bins, pool) = bins.allocate(layout, &textures)?;
+        let mut uploader = Uploader::new(memory);
+        Ok(Self {
+            positions: uploader.vectors("positions", &geometry.positions, 1.0)?,
+            triangles: uploader.texels("triangles", uint4, &triangles.words)?,
+            normals: uploader.vectors("normals", &geometry.streams.normals, 0.0)?,
+            tangents: uploader.texels("tangents", float4, &geometry.streams.tangents)?,
+            uvs: uploader.texels("texture coordinates", float4, &uvs)?,
+            colors: uploader.texels("vertex colours", float4, &colors)?,
+            clip: memory.texel_buffer(
+                "clip-space vertices",
+                geometry.positions.len() as u64,
+                float4,
+                clip_usage,
+                MemoryUse::Device,
+            )?,
+            materials: uploader.texels(
+                "materials",
+                uint4,
+                bytemuck::cast_slice::<_, [u32; 4]>(&materials),
+            )?,
+            lights: uploader.storage("lights", bytemuck::cast_slice(&lights))?,
+            alpha_atlas: uploader.texels("alpha atlas", vk::Format::R32_UINT, &atlas.words)?,
+            bins,
+            vertex_count: geometry.positions.len() as u32,
+            triangle_count: triangles.words.len() as u32,
+            first_mask: triangles.first_of(DrawClass::Mask),
+            first_blend: triangles.first_of(DrawClass::Blend),
+            has_glossy: triangles.has_glossy,
+            light_features: LightFeatures::of(&pose.lights),
+            origin: geometry.origin,
+            runs: triangles.runs,
+            textures: textures.textures,
+            _samplers: textures
+                .samplers
+                .into_iter()
+                .map(|(_, sampler)| sampler)
+                .collect(),
+            _pool: pool,
+            uploads: uploader.uploads,
+        })
+    }
+
+    /// Records the copies to the device; the first frame does so.
+    pub fn record_upload(&self, recorder: &Recorder<'_>) {
+        for upload in &self.uploads {
+            upload.record(recorder);
+        }
+        for texture in &self.textures {
+            texture.record_upload(recorder);
+        }
+        recorder.barrier();
+    }
+
+    /// Frees what uploads needed, once the first frame is done.
+    pub fn discard_uploads(&mut self) {
+        self.uploads.clear();
+        self.textures.iter_mut().for_each(Texture::discard_upload);
+    }
+
+    /// Number of vertices.
+    #[must_use]
+    pub fn vertex_count(&self) -> u32 {
+        self.vertex_count
+    }
+
+    /// Number of triangles.
+    #[must_use]
+    pub fn triangle_count(&self) -> u32 {
+        self.triangle_count
+    }
+
+    /// Index of the first MASK triangle, or the number of triangles that come before where there is none.
+    #[must_use]
+    pub fn first_mask(&self) -> u32 {
+        self.first_mask
+    }
+
+    /// Index of the first BLEND triangle, or the number of triangles.
+    #[must_use]
+    pub fn first_blend(&self) -> u32 {
+        self.first_blend
+    }
+
+    /// Whether any triangle is alpha-tested.
+    #[must_use]
+    pub fn has_mask(&self) -> bool {
+        self.first_mask < self.first_blend
+    }
+
+    /// Whether any triangle is composited.
+    #[must_use]
+    pub fn has_blend(&self) -> bool {
+        self.first_blend < self.triangle_count
+    }
+
+    /// Whether a material asks for several shading points in a pixel.
+    #[must_use]
+    pub fn has_glossy(&self) -> bool {
+        self.has_glossy
+    }
+
+    /// Number of material bins, at least 1.
+    #[must_use]
+    pub fn bin_count(&self) -> u32 {
+        (self.bins.len() as u32).max(1)
+    }
+
+    /// The scene's lights.
+    #[must_use]
+    pub fn light_features(&self) -> LightFeatures {
+        self.light_features
+    }
+
+    /// World position that device positions are relative to.
+    #[must_use]
+    pub fn origin(&self) -> DVec3 {
+        self.origin
+    }
+
+    pub(super) fn runs(&self) -> &[Run] {
+        &self.runs
+    }
+}

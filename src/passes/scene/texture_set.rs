@@ -1,0 +1,120 @@
+//! The images and samplers of a scene, each made once.
+
+use super::texture::{DeviceSampler, Texture};
+use crate::passes::FrameLayout;
+use crate::scene::{Image as SceneImage, Sampler, Scene};
+use crate::vulkan::{Memory, VulkanError};
+use ash::vk;
+use std::collections::HashMap;
+
+/// Indices of an image and a sampler in a [`TextureSet`].
+pub(super) type TextureIndex = (usize, usize);
+
+/// Images and samplers made so far.
+pub(super) struct TextureSet<'a> {
+    memory: &'a Memory,
+    pub(super) textures: Vec<Texture>,
+    known: HashMap<(u32, bool), usize>,
+    pub(super) samplers: Vec<(Sampler, DeviceSampler)>,
+    white: Option<usize>,
+}
+
+impl<'a> TextureSet<'a> {
+    pub(super) fn new(memory: &'a Memory) -> Self {
+        Self {
+            memory,
+            textures: Vec::new(),
+            known: HashMap::new(),
+            samplers: Vec::new(),
+            white: None,
+        }
+    }
+
+    /// A texture of the scene, `srgb` for colours; `None` where the scene has no such texture.
+    pub(super) fn get(
+        &mut self,
+        scene: &Scene,
+        texture: u32,
+        srgb: bool,
+    ) -> Result<Option<TextureIndex>, VulkanError> {
+        let Some(texture) = scene.textures.get(texture as usize) else {
+            return Ok(None);
+        };
+        let Some(image) = scene.images.get(texture.image as usize) else {
+            return Ok(None);
+        };
+        let index = match self.known.get(&(texture.image, srgb)) {
+            Some(index) => *index,
+            None => {
+                self.textures.push(Texture::new(self.memory, image, srgb)?);
+                self.known
+                    .insert((texture.image, srgb), self.textures.len() - 1);
+                self.textures.len() - 1
+            }
+        };
+        Ok(Some((index, self.sampler(texture.sampler)?)))
+    }
+
+    fn sampler(&mut self, sampler: Sampler) -> Result<usize, VulkanError> {
+        if let Some(index) = self
+            .samplers
+            .iter()
+            .position(|(known, _)| *known == sampler)
+        {
+            return Ok(index);
+        }
+        self.samplers
+            .push((sampler, DeviceSampler::new(self.memory.gpu(), &sampler)?));
+        Ok(self.samplers.len() - 1)
+    }
+
+    /// A texel for bindings that the specialised shader does not read.
+    pub(super) fn unused(&mut self) -> Result<TextureIndex, VulkanError> {
+        let index = match self.white {
+            Some(index) => index,
+            None => {
+                let texel = SceneImage {
+                    width: 1,
+                    height: 1,
+                    pixels: vec![255; 4],
+                };
+                self.textures
+                    .push(Texture::new(self.memory, &texel, false)?);
+                self.textures.len() - 1
+            }
+        };
+        self.white = Some(index);
+        Ok((index, self.sampler(Sampler::default())?))
+    }
+
+    /// Writes textures to the bindings of a set, in their order.
+    pub(super) fn write(
+        &self,
+        layout: &FrameLayout,
+        set: vk::DescriptorSet,
+        textures: &[TextureIndex],
+    ) {
+        let infos: Vec<[vk::DescriptorImageInfo; 1]> = textures
+            .iter()
+            .filter_map(|(image, sampler)| {
+                Some([vk::DescriptorImageInfo::default()
+                    .image_view(self.textures.get(*image)?.image.view)
+                    .sampler(self.samplers.get(*sampler)?.1.raw)
+                    .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)])
+            })
+            .collect();
+        let writes: Vec<_> = infos
+            .iter()
+            .enumerate()
+            .map(|(binding, info)| {
+                vk::WriteDescriptorSet::default()
+                    .dst_set(set)
+                    .dst_binding(binding as u32)
+                    .descriptor_type(vk::DescriptorType::COMBINED_IMAGE_SAMPLER)
+                    .image_info(info)
+            })
+            .collect();
+        // SAFETY: the set was just allocated; images and samplers live as long as the scene that holds the set.
+        unsafe { layout.gpu.device.update_descriptor_sets(&writes, &[]) };
+    }
+}

@@ -1,0 +1,32 @@
+//! Colours and their transforms as the shaders take them.
+
+use super::{Reference, Settings};
+use crate::reference::srgb;
+use crate::vulkan::Constants;
+
+impl Settings {
+    /// The background as linear, premultiplied RGBA.
+    pub(super) fn background_rgba(&self) -> [f32; 4] {
+        self.background.map_or([0.0; 4], |[r, g, b]| [r, g, b, 1.0])
+    }
+
+    /// The constants of `shaders/include/color.glsl`.
+    pub(super) fn color_constants(&self) -> Constants {
+        let tonemap = self.reference == Reference::Display && self.tonemapped_detection;
+        Constants::new()
+            .flag(30, tonemap)
+            .flag(31, self.tonemapped_detection)
+    }
+}
+
+/// The 8-bit sRGB codes of a premultiplied colour, as `display_code` of `shaders/include/color.glsl` packs them.
+pub(super) fn display_code(color: [f32; 4]) -> u32 {
+    let [r, g, b, a] = color.map(f64::from);
+    let rgb = [r, g, b].map(srgb::encode_u8);
+    u32::from_le_bytes([
+        rgb[0],
+        rgb[1],
+        rgb[2],
+        (a.clamp(0.0, 1.0) * 255.0).round() as u8,
+    ])
+}

@@ -1,0 +1,112 @@
+//! Copies of a region's colours to their place in the target.
+
+use super::recording::Recording;
+use super::target::{COPIED_TO, Target};
+use crate::render::plan::Region;
+use crate::vulkan::Recorder;
+use ash::vk;
+
+impl Recording<'_> {
+    /// Copies what the region owns to its place in the target.
+    pub(super) fn deliver(&self, recorder: &Recorder<'_>, region: &Region) {
+        let resources = self.resources;
+        let color = resources.color.buffer.handle();
+        match self.target {
+            Target::Buffer { colors, attributes } => {
+                self.copy_rows(recorder, region, color, *colors, 16);
+                if let (Some(to), Some(_)) = (attributes, &self.passes.attributes) {
+                    let from = resources.attributes.handle();
+                    self.copy_rows(recorder, region, from, *to, 32);
+                }
+            }
+            Target::Image { image, .. } => {
+                let (from, bytes) = if self.passes.encode.is_some() {
+                    let sizes = &self.plan.sizes;
+                    let bytes = sizes.encoded / u64::from(sizes.pixels()).max(1);
+                    (resources.encoded.handle(), bytes)
+                } else {
+                    (color, 16)
+                };
+                copy_to_image(recorder, region, from, *image, bytes);
+            }
+        }
+    }
+
+    /// Copies what the region owns, of `bytes` a pixel, to its place in a buffer of the whole image.
+    fn copy_rows(
+        &self,
+        recorder: &Recorder<'_>,
+        region: &Region,
+        from: vk::Buffer,
+        to: vk::Buffer,
+        bytes: u64,
+    ) {
+        let [width, height] = region.size().map(u64::from);
+        let [left, top] = region.low.map(u64::from);
+        let image_row = u64::from(self.settings.size[0]);
+        let rows: Vec<_> = (0..height)
+            .map(|y| {
+                vk::BufferCopy::default()
+                    .src_offset((first_owned(region) + y * row(region)) * bytes)
+                    .dst_offset(((top + y) * image_row + left) * bytes)
+                    .size(width * bytes)
+            })
+            .collect();
+        // SAFETY: the recorder's contract; the rows lie in both buffers, which have room for the region and the image.
+        unsafe {
+            recorder
+                .device()
+                .cmd_copy_buffer(recorder.raw(), from, to, &rows)
+        };
+    }
+}
+
+/// Pixels of a row of a region in memory.
+fn row(region: &Region) -> u64 {
+    u64::from(region.outer()[0])
+}
+
+/// Index in memory of the first pixel that a region owns.
+fn first_owned(region: &Region) -> u64 {
+    u64::from(region.halo[1]) * row(region) + u64::from(region.halo[0])
+}
+
+/// Copies what the region owns, of `bytes` a pixel, to its place in an image.
+fn copy_to_image(
+    recorder: &Recorder<'_>,
+    region: &Region,
+    from: vk::Buffer,
+    to: vk::Image,
+    bytes: u64,
+) {
+    let [width, height] = region.size();
+    let copy = [vk::BufferImageCopy::default()
+        .buffer_offset(first_owned(region) * bytes)
+        .buffer_row_length(row(region) as u32)
+        .image_subresource(vk::ImageSubresourceLayers {
+            aspect_mask: vk::ImageAspectFlags::COLOR,
+            mip_level: 0,
+            base_array_layer: 0,
+            layer_count: 1,
+        })
+        .image_offset(vk::Offset3D {
+            x: region.low[0] as i32,
+            y: region.low[1] as i32,
+            z: 0,
+        })
+        .image_extent(vk::Extent3D {
+            width,
+            height,
+            depth: 1,
+        })];
+    // SAFETY: the recorder's contract; the buffer holds the region, the host vouches for its image.
+    unsafe {
+        recorder.device().cmd_copy_buffer_to_image(
+            recorder.raw(),
+            from,
+            to,
+            COPIED_TO.layout,
+            &copy,
+        )
+    };
+}

@@ -1,0 +1,157 @@
+//! One frame: its passes and memory, made once and recorded again and again.
+
+mod delivery;
+mod outcome;
+mod passes;
+mod recording;
+mod target;
+mod uniform;
+
+pub use target::{ImageState, Target};
+
+use super::plan::{Effort, Plan};
+use super::renderer::PreparedScene;
+use super::{RenderError, Settings};
+use crate::camera::Camera;
+use crate::passes::{Counter, Encoding, FrameLayout, Locations, RasterTargets, Resources, Sample};
+use crate::sampling::Pattern;
+use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings};
+use ash::vk;
+use passes::{Passes, raster_samples};
+use recording::Recording;
+use std::sync::Arc;
+
+/// Pipelines and memory for frames of one scene, size and method.
+pub struct Frame {
+    settings: Settings,
+    plan: Plan,
+    passes: Passes,
+    targets: RasterTargets,
+    resources: Resources,
+    counters: Buffer,
+    timings: Timings,
+    memory: Memory,
+    uploaded: bool,
+}
+
+impl Frame {
+    pub(super) fn new(
+        layout: &Arc<FrameLayout>,
+        prepared: &PreparedScene,
+        settings: &Settings,
+        encoding: Option<Encoding>,
+        effort: Effort,
+    ) -> Result<Self, RenderError> {
+        let scene = &prepared.gpu_scene;
+        let gpu = prepared.memory.gpu().clone();
+        let taken = prepared.memory_bytes();
+        let plan = Plan::new(settings, scene, gpu.limits(), encoding, effort, taken)?;
+        let memory = Memory::new(
+            gpu.clone(),
+            settings.max_memory.map(|limit| limit.saturating_sub(taken)),
+        );
+        let [width, height] = plan.sizes.region;
+        let targets = RasterTargets::new(
+            &memory,
+            width,
+            height,
+            raster_samples(settings),
+            scene.has_blend(),
+        )?;
+        let mut locations = settings.locations()?;
+        let sample_count = locations.len() as u32;
+        locations.extend(Pattern::Sobol.offsets(Sample::PROBES)?);
+        let centre = Locations {
+            all: &[[0.0, 0.0]],
+            count: 1,
+        };
+        let locations = Locations {
+            all: &locations,
+            count: sample_count,
+        };
+        let resources = Resources::new(
+            layout,
+            &memory,
+            scene,
+            &targets,
+            plan.sizes,
+            &[centre, locations],
+        )?;
+        let passes = Passes::new(layout, scene, settings, &plan, encoding)?;
+        let regions = plan.regions.len() as u64;
+        let marks = regions as u32 * (16 + 2 * (4 + 8 * plan.rounds)) + 8;
+        Ok(Self {
+            passes,
+            targets,
+            resources,
+            counters: memory.buffer(
+                "counter read-back",
+                regions * 2 * Counter::BYTES,
+                vk::BufferUsageFlags::TRANSFER_DST,
+                MemoryUse::Readback,
+            )?,
+            timings: Timings::new(&gpu, marks)?,
+            settings: settings.clone(),
+            plan,
+            memory,
+            uploaded: false,
+        })
+    }
+
+    /// The settings it was prepared with.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// What it was planned for.
+    pub(super) fn effort(&self) -> Effort {
+        self.plan.effort
+    }
+
+    /// Whether [`Effort::with_doubled_lists`] makes any difference.
+    pub(super) fn lists_can_grow(&self) -> bool {
+        self.plan.lists_can_grow && self.settings.max_memory.is_none()
+    }
+
+    /// Bytes of device memory that it takes.
+    #[must_use]
+    pub fn memory_bytes(&self) -> u64 {
+        self.memory.used()
+    }
+
+    /// Records a frame. It submits nothing, waits for nothing and allocates nothing.
+    ///
+    /// # Safety
+    /// - `commands` is being recorded, outside of a render pass, for the device and queue family of the renderer.
+    /// - `scene` is the one that the frame was prepared with and its upload was recorded before.
+    /// - The commands of this frame's last recording are done: its memory is used again.
+    /// - The target's handles are alive, of the frame's size, and as [`Target`] says.
+    pub unsafe fn record(
+        &mut self,
+        scene: &PreparedScene,
+        camera: &Camera,
+        commands: vk::CommandBuffer,
+        target: &Target,
+    ) {
+        let gpu = self.memory.gpu().clone();
+        // SAFETY: passed on to the caller.
+        let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
+        if !self.uploaded {
+            self.resources.record_upload(&recorder);
+            self.uploaded = true;
+        }
+        let recording = Recording {
+            settings: &self.settings,
+            plan: &self.plan,
+            passes: &self.passes,
+            targets: &self.targets,
+            resources: &self.resources,
+            counters: &self.counters,
+            scene: &scene.gpu_scene,
+            camera,
+            target,
+        };
+        recording.record(&mut recorder);
+    }
+}

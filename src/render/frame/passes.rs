@@ -1,0 +1,144 @@
+//! The passes that a frame's settings ask for.
+
+use crate::passes::{
+    Attributes, BoxFilter, DetectMode, Encode, Encoding, FrameLayout, GpuScene, Multisample,
+    Raster, Resolve, Shade, ShadeSource, Sort, Spans, Transform,
+};
+use crate::render::engine::{Engine, EngineKind};
+use crate::render::plan::Plan;
+use crate::render::{Detection, Method, RenderError, Settings};
+use ash::vk;
+use std::sync::Arc;
+
+/// What shades the centres of pixels.
+pub(super) struct PixelShading {
+    pub spans: Spans,
+    pub shade: Shade,
+}
+
+/// What turns the device's multisampling into colours.
+pub(super) struct Multisampling {
+    pub multisample: Multisample,
+    pub sort: Sort,
+    pub shade: Arc<Shade>,
+    pub resolve: Resolve,
+}
+
+/// The pipelines of a frame, in the order in which they run.
+pub(super) struct Passes {
+    pub transform: Transform,
+    pub raster: Raster,
+    pub pixels: Option<PixelShading>,
+    pub multisampling: Option<Multisampling>,
+    pub blended: Option<Engine>,
+    pub superpixels: Option<Engine>,
+    pub attributes: Option<Attributes>,
+    pub box_filter: Option<BoxFilter>,
+    pub encode: Option<Encode>,
+}
+
+/// Samples a pixel that the rasterizer draws with.
+pub(super) fn raster_samples(settings: &Settings) -> vk::SampleCountFlags {
+    if settings.method == Method::Msaa {
+        vk::SampleCountFlags::from_raw(settings.samples)
+    } else {
+        vk::SampleCountFlags::TYPE_1
+    }
+}
+
+impl Passes {
+    /// Makes the pipelines; `encoding` is that of a host's image.
+    ///
+    /// # Errors
+    /// If the driver refuses one.
+    pub fn new(
+        layout: &Arc<FrameLayout>,
+        scene: &GpuScene,
+        settings: &Settings,
+        plan: &Plan,
+        encoding: Option<Encoding>,
+    ) -> Result<Self, RenderError> {
+        let output = settings.color_constants();
+        let one_bin = scene.bin_count() == 1;
+        let multisampled = settings.method == Method::Msaa;
+        let antialiased = settings.method == Method::Superpixel;
+        let display_codes = antialiased
+            && settings.detection != Detection::Exact
+            && settings.detection != Detection::Every;
+        let pixels = (!multisampled)
+            .then(|| -> Result<_, RenderError> {
+                let source = ShadeSource::Pixels { display_codes };
+                Ok(PixelShading {
+                    spans: Spans::new(layout, one_bin)?,
+                    shade: Shade::new(layout, scene, source, &output)?,
+                })
+            })
+            .transpose()?;
+        let shading = (scene.has_blend() || antialiased || multisampled)
+            .then(|| Engine::shading(layout, scene, &output))
+            .transpose()?;
+        let engine = |wanted: bool, kind: EngineKind| {
+            shading
+                .as_ref()
+                .filter(|_| wanted)
+                .map(|shade| Engine::new(layout, scene, settings, plan, shade, &output, &kind))
+                .transpose()
+        };
+        let blended = engine(
+            scene.has_blend(),
+            EngineKind {
+                mode: DetectMode::Blended,
+                thin: false,
+                multisampled,
+                samples: if multisampled { settings.samples } else { 1 },
+                display_codes,
+            },
+        )?;
+        let superpixels = engine(
+            antialiased,
+            EngineKind {
+                mode: match settings.detection {
+                    Detection::Contrast => DetectMode::Contrast,
+                    Detection::Exact => DetectMode::Exact,
+                    Detection::Colour => DetectMode::Colour,
+                    Detection::Every => DetectMode::Every,
+                },
+                thin: settings.thin && settings.detection != Detection::Every,
+                multisampled: false,
+                samples: settings.samples,
+                display_codes: false,
+            },
+        )?;
+        let multisampling = shading
+            .as_ref()
+            .filter(|_| multisampled)
+            .map(|shade| -> Result<_, RenderError> {
+                Ok(Multisampling {
+                    multisample: Multisample::new(layout)?,
+                    sort: Sort::new(layout, one_bin)?,
+                    shade: shade.clone(),
+                    resolve: Resolve::for_multisample(layout, settings.samples, false, &output)?,
+                })
+            })
+            .transpose()?;
+        Ok(Self {
+            transform: Transform::new(layout)?,
+            raster: Raster::new(layout, raster_samples(settings), scene.has_mask())?,
+            pixels,
+            multisampling,
+            blended,
+            superpixels,
+            attributes: settings
+                .attributes
+                .then(|| Attributes::new(layout, antialiased))
+                .transpose()?,
+            box_filter: (settings.side() > 1)
+                .then(|| BoxFilter::new(layout))
+                .transpose()?,
+            encode: encoding
+                .filter(|e| *e != Encoding::Rgba32Float)
+                .map(|e| Encode::new(layout, e))
+                .transpose()?,
+        })
+    }
+}

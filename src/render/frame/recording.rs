@@ -1,0 +1,122 @@
+//! The order in which a frame's passes are recorded, region by region.
+
+use super::passes::{Multisampling, Passes, PixelShading};
+use super::target::Target;
+use crate::camera::Camera;
+use crate::passes::{GpuScene, RasterTargets, Resources};
+use crate::render::Settings;
+use crate::render::color::display_code;
+use crate::render::engine::record_shading;
+use crate::render::plan::{Plan, Region};
+use crate::vulkan::{Buffer, Recorder};
+
+/// Descriptor set with one sample at the pixel's centre.
+const CENTRE: usize = 0;
+/// Descriptor set with the method's sample locations.
+const LOCATIONS: usize = 1;
+
+/// One recording of a frame: the frame's parts, borrowed apart from its timings, and what it shows where.
+pub(super) struct Recording<'a> {
+    pub settings: &'a Settings,
+    pub plan: &'a Plan,
+    pub passes: &'a Passes,
+    pub targets: &'a RasterTargets,
+    pub resources: &'a Resources,
+    pub counters: &'a Buffer,
+    pub scene: &'a GpuScene,
+    pub camera: &'a Camera,
+    pub target: &'a Target,
+}
+
+impl Recording<'_> {
+    pub fn record(&self, recorder: &mut Recorder<'_>) {
+        self.target.record_begin(recorder);
+        recorder.begin();
+        for (index, region) in self.plan.regions.iter().enumerate() {
+            self.record_region(recorder, index, region);
+        }
+        self.target.record_end(recorder);
+    }
+
+    fn record_region(&self, recorder: &mut Recorder<'_>, index: usize, region: &Region) {
+        let (passes, resources, scene) = (self.passes, self.resources, self.scene);
+        let (Some(centre), Some(locations)) = (resources.set(CENTRE), resources.set(LOCATIONS))
+        else {
+            return;
+        };
+        let main = if passes.multisampling.is_some() {
+            locations
+        } else {
+            centre
+        };
+        let whole = self.uniform(region, main.count(), false);
+        let [width, height] = whole.size;
+        let pixels = width * height;
+        let side = self.settings.side();
+        let filtered = pixels / (side * side);
+        let tiles = whole.tiles[0] * whole.tiles[1];
+
+        resources.record_begin(recorder, main, &whole);
+        if index == 0 {
+            passes.transform.record(recorder, scene.vertex_count());
+            recorder.mark("transform");
+        }
+        passes.raster.record(
+            recorder,
+            main.descriptor(),
+            scene,
+            self.targets,
+            [width, height],
+        );
+        recorder.mark("raster");
+        if let Some(PixelShading { spans, shade }) = &passes.pixels {
+            let background = whole.background;
+            resources.record_background(recorder, pixels, background, display_code(background));
+            recorder.mark("background");
+            spans.record(recorder, &resources.bins, [width, height]);
+            recorder.mark("spans");
+            shade.record(recorder, scene, &resources.arguments);
+            recorder.mark("shade");
+        }
+        if let Some(Multisampling {
+            multisample,
+            sort,
+            shade,
+            resolve,
+        }) = &passes.multisampling
+        {
+            multisample.record(recorder, tiles);
+            recorder.mark("multisample");
+            record_shading(recorder, scene, resources, sort, shade);
+            resolve.record(recorder, &resources.arguments);
+            recorder.mark("resolve");
+        }
+        if let Some(engine) = &passes.blended {
+            resources.record_begin(recorder, main, &whole);
+            engine.record(recorder, scene, resources, tiles, self.plan.rounds);
+            resources.record_keep_counters(recorder, self.counters, 2 * index as u64);
+        }
+        if let Some(engine) = &passes.superpixels {
+            let owned = self.uniform(region, locations.count(), true);
+            resources.record_begin(recorder, locations, &owned);
+            engine.record(recorder, scene, resources, tiles, self.plan.rounds);
+            resources.record_keep_counters(recorder, self.counters, 2 * index as u64 + 1);
+        }
+        if let Some(attributes) = &passes.attributes {
+            attributes.record(recorder, filtered);
+            recorder.mark("attributes");
+        }
+        if let Some(filter) = &passes.box_filter {
+            filter.record(recorder, filtered, side);
+            resources.record_keep_filtered(recorder, filtered);
+            recorder.mark("box_filter");
+        }
+        if let Some(encode) = &passes.encode {
+            encode.record(recorder, pixels);
+            recorder.mark("encode");
+        }
+        self.deliver(recorder, region);
+        recorder.barrier();
+        recorder.mark("copy");
+    }
+}

@@ -1,0 +1,89 @@
+//! The uniform block of a region of an image.
+
+use super::recording::Recording;
+use crate::camera::{Camera, Projection};
+use crate::passes::FrameUniform;
+use crate::render::Footprint;
+use crate::render::plan::Region;
+
+impl Recording<'_> {
+    /// The uniform block of a region and of cells of so many samples; with `owned`, only pixels that the region owns
+    /// become cells.
+    pub(super) fn uniform(&self, region: &Region, samples: u32, owned: bool) -> FrameUniform {
+        let (scene, camera) = (self.scene, self.camera);
+        let side = self.settings.side();
+        let scale = f64::from(side);
+        let [image_width, image_height] =
+            self.settings.size.map(|pixels| f64::from(pixels) * scale);
+        let [width, height] = region.outer().map(|pixels| pixels * side);
+        let corner = [0, 1].map(|axis| f64::from(region.low[axis] - region.halo[axis]) * scale);
+        let left_top = [
+            corner[0] - 0.5 * image_width,
+            corner[1] - 0.5 * image_height,
+        ];
+        let to_device = [2.0 / f64::from(width), 2.0 / f64::from(height)];
+        let low = [region.halo[0] * side, region.halo[1] * side];
+        let [own_width, own_height] = region.size().map(|pixels| pixels * side);
+        let (interior_low, interior_high) = if owned {
+            (low, [low[0] + own_width, low[1] + own_height])
+        } else {
+            ([0, 0], [width, height])
+        };
+        let eye = (camera.eye - scene.origin()).as_vec3();
+        let direction = camera.direction().as_vec3();
+        let parallel = if camera.is_orthographic() { 1.0 } else { 0.0 };
+        FrameUniform {
+            transform: camera
+                .pixel_matrix(scene.origin(), image_width, image_height)
+                .as_mat4()
+                .to_cols_array(),
+            eye: [eye.x, eye.y, eye.z, 1.0],
+            view_direction: [direction.x, direction.y, direction.z, parallel],
+            background: self.settings.background_rgba(),
+            raster_scale: to_device.map(|scale| scale as f32),
+            raster_offset: [0, 1].map(|axis| (-left_top[axis] * to_device[axis] - 1.0) as f32),
+            origin: left_top.map(|position| (position + 0.5) as f32),
+            size: [width, height],
+            tiles: [width.div_ceil(8), height.div_ceil(4)],
+            interior_low,
+            interior_high,
+            gap: gap(camera, image_height),
+            vertex_count: scene.vertex_count(),
+            triangle_count: scene.triangle_count(),
+            first_mask: scene.first_mask(),
+            first_blend: scene.first_blend(),
+            sample_count: samples,
+            pair_capacity: self.plan.sizes.pair_capacity,
+            list_capacity: self.plan.sizes.list_capacity,
+            record_capacity: self.plan.sizes.record_capacity,
+            bin_count: scene.bin_count(),
+            light_count: scene.light_features().count,
+            contrast: u32::from(self.settings.contrast),
+            exposure: self.settings.exposure.exp2(),
+            footprint: match self.settings.footprint {
+                Footprint::Pixel => side as f32,
+                Footprint::Sample => 1.0,
+            },
+            reach: 0.5,
+            group_count: 0,
+        }
+    }
+}
+
+/// Factor on a depth, and constant, by which a surface nearer by a pixel's width has a larger depth.
+fn gap(camera: &Camera, image_height: f64) -> [f32; 2] {
+    match camera.projection {
+        // Depth is near / distance, so that a relative difference is one of distances.
+        Projection::Perspective { fov, .. } => {
+            [(2.0 * (0.5 * fov).tan() / image_height) as f32, 0.0]
+        }
+        Projection::Orthographic {
+            half_height,
+            near,
+            far,
+        } => [
+            0.0,
+            (2.0 * half_height / image_height / (far - near)) as f32,
+        ],
+    }
+}
