@@ -9,6 +9,8 @@ uint farther(uint node) {
     return next < node ? next : ~0u;
 }
 
+uint trips = 0u;            // of loops over chains, by this invocation
+
 // The surfaces of a chain, from the record of the nearest one on.
 vec4 composite(uint node) {
     vec3 light = vec3(0.0);
@@ -19,7 +21,9 @@ vec4 composite(uint node) {
         light += through * layer.a * layer.rgb;
         through *= 1.0 - layer.a;
         node = farther(node);
+        trips++;
     }
+    trips += 2u;
     return to_output(vec4(light + through * frame.background.rgb, 1.0 - through * (1.0 - frame.background.a)));
 }
 
