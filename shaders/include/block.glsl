@@ -33,7 +33,8 @@ Candidate nearby;
 float nearby_covered;
 uint nearby_count;
 
-// What CHAINED samples need: runs of LANES candidates among which BLEND ones may show, a bit each; those beyond share one.
+// What CHAINED samples need: runs of LANES candidates among which BLEND ones may show, a bit each; those from the 32nd on
+// share one.
 uint blend_batches;
 
 uint trips;                 // of loops, by this invocation

@@ -1,9 +1,9 @@
 // CHAINED records of the samples of a block: the opaque surfaces that they see, then the BLEND layers before these, in
 // exact order of depth.
 //
-// Samples that see the same surfaces, from the farthest one on, share their records: a surface is a node that links to
-// the one behind it, and nodes are shaded, at the centroid of the samples that share them. They form a tree: each layer
-// parts those who share a node into who sees the same triangle next. Leaves say how many samples end at which node.
+// Samples that see the same surfaces, from the farthest one on, share their records. A surface's record is a node that
+// links to the one behind it; it is shaded at the centroid of the samples that share it. Each layer parts those of a node
+// by the triangle that they see next, so that nodes form a tree. Leaves say how many samples end at which node.
 // Where samples are shaded apart (EACH), none share.
 #ifndef LAYERS_GLSL
 #define LAYERS_GLSL
@@ -15,7 +15,7 @@ uint node[ROWS];            // of the nearest surface so far; ~0: background
 float next_depth[ROWS];     // the next surface to the front; ID 0: none
 uint next_id[ROWS];
 
-// The samples of all that are `left`, a bit a row, that part from them with the first one.
+// Samples that share the node and the next surface of the first one (BY_PART: and, where that is glossy, the part).
 struct Group {
     uint node, next_id;
     uint rows;
@@ -23,6 +23,7 @@ struct Group {
     vec2 sum;               // of their locations
 };
 
+// The group of the first of the samples that are `left`, a bit a row.
 Group first_group(uint left) {
     uvec3 key = uvec3(0u);
     [[unroll]] for (int g = ROWS - 1; g >= 0; g--)
