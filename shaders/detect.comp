@@ -1,6 +1,7 @@
 // detect: which pixels are superpixels, one bit a pixel in a word a tile of 8 x 4 pixels.
 // A pixel is one if any of its 8 neighbours shows another triangle (opaque or the nearest BLEND one) in a
-// contrasting colour, by display-encoded 8-bit codes. Twin: src/reference/detect.rs.
+// contrasting colour, by display-encoded 8-bit codes; an UNEVEN triangle needs no other one to contrast with.
+// Twin: src/reference/detect.rs.
 // Reads: ids, blend_ids, display, marks. Writes: masks, COUNTER_SUPERPIXELS, COUNTER_TILES.
 // An invocation takes a tile: it keeps rows in registers and compares every pair of neighbours once.
 #version 460
@@ -43,8 +44,9 @@ bool contrasting(uint a, uint b) {
 bool differs(uint id_a, uint id_b, uint blend_a, uint blend_b, uint color_a, uint color_b, int alpha_a, int alpha_b) {
     bool other = id_a != id_b || (HAS_BLEND && blend_a != blend_b);
     if (MODE == EXACT) return other;
-    bool contrast = contrasting(color_a, color_b) || (TRANSPARENT && abs(alpha_a - alpha_b) > int(frame.contrast));
-    return MODE == COLOUR ? contrast : other && contrast;
+    bool contrast = contrasting(color_a, color_b) || (TRANSPARENT && abs((alpha_a | 1) - (alpha_b | 1)) > int(frame.contrast));
+    bool uneven = ((alpha_a | alpha_b) & 1) != 0;
+    return MODE == COLOUR ? contrast : (other || uneven) && contrast;
 }
 
 void main() {

@@ -35,13 +35,14 @@ void main() {
     id = id > frame.first_blend ? 0u : id;
     uvec4 at = texelFetch(sites, int(2u * site));
     vec2 p = tile_center(ivec2(split(at.z, frame.tiles.x))) + uintBitsToFloat(at.xy);
-    ivec3 v = ivec3(texelFetch(triangles, int(max(id, 1u) - 1u)).xyz);
+    uvec4 indices = texelFetch(triangles, int(max(id, 1u) - 1u));
+    ivec3 v = ivec3(indices.xyz);
     Barycentric w = barycentric(texelFetch(clip, v.x), texelFetch(clip, v.y), texelFetch(clip, v.z), p);
     mat3 world = mat3(texelFetch(positions, v.x).xyz, texelFetch(positions, v.y).xyz, texelFetch(positions, v.z).xyz);
     float distance_ = dot(world * w.at - frame.eye.xyz, frame.view_direction.xyz);
     vec3 n = mat3(texelFetch(normals, v.x).xyz, texelFetch(normals, v.y).xyz, texelFetch(normals, v.z).xyz) * w.at;
     n *= inversesqrt(max(dot(n, n), 1e-30));
     bool hit = id != 0u;
-    attributes_out[2u * site] = uvec4(floatBitsToUint(hit ? distance_ : 0.0), id, blend_id, display_code(c));
+    attributes_out[2u * site] = uvec4(floatBitsToUint(hit ? distance_ : 0.0), id, blend_id, display_code(c, hit && uneven(indices.w)));
     attributes_out[2u * site + 1u] = uvec4(floatBitsToUint(hit ? n : vec3(0.0)), 0u);
 }

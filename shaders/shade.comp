@@ -28,6 +28,8 @@ layout(constant_id = 9) const bool UNLIT = false;
 layout(constant_id = 10) const bool PUNCTUAL = false;   // the scene has lights
 layout(constant_id = 11) const bool LOCAL_LIGHTS = false; // point or spot lights among them
 layout(constant_id = 12) const bool BLENDED = false;    // opacity is used
+layout(constant_id = 13) const bool PACKED_OCCLUSION = false;   // in the red channel of the metallic-roughness texture
+layout(constant_id = 14) const bool ONE_UV_TRANSFORM = false;   // and UV set, for all textures
 
 layout(set = 1, binding = 0) uniform sampler2D base_color_texture;
 layout(set = 1, binding = 1) uniform sampler2D metallic_roughness_texture;
@@ -43,7 +45,8 @@ const float STUDIO_AMBIENT = 0.06;
 struct Corners { vec4 a, b, c; };       // both UV sets of the three vertices
 
 vec4 read(sampler2D image, uint use, uint m, Corners corners, Barycentric w) {
-    vec4 row_u = material_vector(m, MATERIAL_UV_ROWS + 2u * use), row_v = material_vector(m, MATERIAL_UV_ROWS + 2u * use + 1u);
+    uint rows = MATERIAL_UV_ROWS + (ONE_UV_TRANSFORM ? 0u : 2u * use);
+    vec4 row_u = material_vector(m, rows), row_v = material_vector(m, rows + 1u);
     mat3x2 uv = row_u.w != 0.0 ? mat3x2(corners.a.zw, corners.b.zw, corners.c.zw) : mat3x2(corners.a.xy, corners.b.xy, corners.c.xy);
     mat2 linear = mat2(row_u.x, row_v.x, row_u.y, row_v.y);
     vec2 at = linear * (uv * w.at) + vec2(row_u.z, row_v.z);
@@ -137,11 +140,12 @@ void main() {
         normal = turned < 0.0 ? safe_normalize(normal - to_eye * turned, normal) : normal;
 
         vec4 emissive_metallic = material_vector(m, MATERIAL_EMISSIVE_METALLIC), factors = material_vector(m, MATERIAL_FACTORS);
-        float metallic = emissive_metallic.w, roughness = factors.x;
+        float metallic = emissive_metallic.w, roughness = factors.x, occlusion = 1.0;
         if (METALLIC_ROUGHNESS_TEXTURE) {
             vec4 mr = read(metallic_roughness_texture, 1u, m, corners, w);
             roughness *= mr.g;
             metallic *= mr.b;
+            if (PACKED_OCCLUSION) occlusion = mr.r;
         }
         roughness = clamp(roughness, 0.04, 1.0);
 
@@ -152,9 +156,8 @@ void main() {
         s.alpha = roughness * roughness;
         s.emissive = emissive_metallic.rgb;
         if (EMISSIVE_TEXTURE) s.emissive *= read(emissive_texture, 4u, m, corners, w).rgb;
-        s.occlusion = 1.0;
-        if (OCCLUSION_TEXTURE)
-            s.occlusion = 1.0 + factors.z * (read(occlusion_texture, 3u, m, corners, w).r - 1.0);
+        if (OCCLUSION_TEXTURE) occlusion = read(occlusion_texture, 3u, m, corners, w).r;
+        s.occlusion = 1.0 + factors.z * (occlusion - 1.0);
 
         float n_v = max(dot(normal, to_eye), 1e-4);
         vec2 split = environment_brdf(roughness, n_v);
@@ -189,7 +192,7 @@ void main() {
     if (PIXELS) {
         vec4 c = to_output(vec4(radiance, 1.0));
         if (mine) color[source] = c;
-        if (DISPLAY_CODES && mine) display_out[source] = display_code(c);
+        if (DISPLAY_CODES && mine) display_out[source] = display_code(c, id != 0u && uneven(indices.w));
     } else {
         shaded_out[source] = vec4(radiance, BLENDED && id > frame.first_blend ? clamp(base.a, 0.0, 1.0) : 1.0);
     }

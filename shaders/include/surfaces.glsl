@@ -16,7 +16,7 @@ struct Surface {
 
 // Parts of a block: at most as many runs of neighbouring samples as there are invocations.
 const uint PARTS_A_ROW = LANES > PART ? LANES / PART : 1u, ROWS_A_PART = PART > LANES ? PART / LANES : 1u;
-const uint PART_LANES = PART < LANES ? PART : LANES;
+const uint PART_LANES = PART < LANES ? PART : LANES, PART_ROWS = ROWS_A_PART < uint(ROWS) ? uint(ROWS) / ROWS_A_PART : 1u;
 
 // The part of a sample.
 uint part_number(int g) {
@@ -40,40 +40,30 @@ Surface surface_after(uint seen) {
     return r;
 }
 
-struct Part { uint samples; vec2 sum; };
+struct Part { float samples; vec2 sum; };
 
-// What each part sees of a triangle; an invocation holds a part.
+// What each part sees of a triangle. A part is held by the first of its invocations here: rows are summed over the
+// invocations of a part and shared out among them at once, each step halving the rows that an invocation holds.
 Part part_of(uint wanted) {
     uint lane = gl_SubgroupInvocationID;
-    Part r = Part(0u, vec2(0.0));
-    uint first = lane % PARTS_A_ROW * PART;
-    uint seen = 0u;
-    vec2 sum = vec2(0.0);
-    [[unroll]] for (int g = 0; g < ROWS; g++) {
-        bool same = id[g] == wanted;
-        seen += uint(bitCount(bitfieldExtract(subgroupBallot(same).x, int(first), int(PART_LANES))));
-        sum += same ? offset[g] : vec2(0.0);
-        if ((uint(g) + 1u) % ROWS_A_PART == 0u) {
-            if (PARTS_A_ROW == 1u) {
-                sum = vec2(lanes_add(sum.x), lanes_add(sum.y));
-            } else {
-                [[unroll]] for (uint step = 1u; step < PART_LANES; step *= 2u)
-                    sum += vec2(subgroupShuffleXor(sum.x, step), subgroupShuffleXor(sum.y, step));
-                sum = vec2(subgroupShuffle(sum.x, first), subgroupShuffle(sum.y, first));
-            }
-            bool mine = lane / PARTS_A_ROW == uint(g) / ROWS_A_PART;
-            r.samples = mine ? seen : r.samples;
-            r.sum = mine ? sum : r.sum;
-            seen = 0u;
-            sum = vec2(0.0);
+    vec3 sums[ROWS];
+    [[unroll]] for (int r = 0; r < ROWS; r++) sums[r] = vec3(0.0);
+    [[unroll]] for (int g = 0; g < ROWS; g++)
+        sums[uint(g) / ROWS_A_PART] += id[g] == wanted ? vec3(offset[g], 1.0) : vec3(0.0);
+    [[unroll]] for (uint stage = 0u; stage < 5u; stage++) {
+        uint step = PART_LANES >> (stage + 1u), rows = PART_ROWS >> (stage + 1u);
+        bool upper = (lane & step) != 0u;
+        [[unroll]] for (uint r = 0u; r < ROWS; r++) {
+            if (step == 0u || r >= max(rows, 1u)) continue;
+            vec3 keep = rows > 0u && upper ? sums[r + rows] : sums[r], give = rows > 0u && !upper ? sums[r + rows] : sums[r];
+            sums[r] = keep + vec3(subgroupShuffleXor(give.x, step), subgroupShuffleXor(give.y, step), subgroupShuffleXor(give.z, step));
         }
     }
-    return r;
+    return Part(lane % (PART_LANES / PART_ROWS) == 0u ? sums[0].z : 0.0, sums[0].xy);
 }
 
-// Whether a triangle's light may change within a pixel.
-bool glossy(uint of) {
-    return (texelFetch(triangles, int(max(of, 1u) - 1u)).w >> 30 & 1u) != 0u;
+bool uneven_triangle(uint of) {
+    return uneven(texelFetch(triangles, int(max(of, 1u) - 1u)).w);
 }
 
 // The surfaces of a block, ascending by ID; an invocation holds one.
@@ -174,7 +164,7 @@ uvec2 record_surfaces(Cell cell, uint owner, out bool settled) {
     Surfaces held = surfaces_of(cell);
     float weight = weigh(held, cell.samples, settled);
     bool holds = lane < held.count;
-    bool several = BY_PART && holds && glossy(held.id);
+    bool several = BY_PART && holds && uneven_triangle(held.id);
     bool single = holds && !several;
     trips += 2u * held.count;
     uint beyond = held.count - min(held.count, LANES);
@@ -203,12 +193,11 @@ uvec2 record_surfaces(Cell cell, uint owner, out bool settled) {
             uint holder = pending != 0u ? uint(findLSB(pending)) : 0u;
             uint current = pending != 0u ? subgroupShuffle(held.id, holder) : ~0u;
             Part part = part_of(current);
-            uint present = subgroupBallot(part.samples != 0u).x;
-            float n = float(part.samples);
-            float value = n * subgroupShuffle(each, holder);
-            if (fits && part.samples != 0u)
+            uint present = subgroupBallot(part.samples != 0.0).x;
+            float value = part.samples * subgroupShuffle(each, holder);
+            if (fits && part.samples != 0.0)
                 records_out[slot + uint(bitCount(present & ((1u << lane) - 1u)))] =
-                    uvec4(owner, current, pack_location(part.sum / n), floatBitsToUint(value));
+                    uvec4(owner, current, pack_location(part.sum / part.samples), floatBitsToUint(value));
             slot += uint(bitCount(present));
             pending &= pending - 1u;
         } while (pending != 0u);

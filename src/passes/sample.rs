@@ -49,7 +49,7 @@ pub struct SampleOptions {
 pub enum RecordRate {
     /// One.
     Triangle,
-    /// One for each run of 8 to 32 samples, an eighth of those of a cell where that lies between.
+    /// One for each sixteenth of the samples of a cell, but at least 8 of them and at most those of a block.
     Part,
     /// One for each sample.
     Sample,
@@ -112,6 +112,8 @@ fn kernel(kernels: &Kernels, rows: u32) -> (u32, &'static [u8]) {
 impl Sample {
     /// Samples of the first of two runs; their locations follow those of the cell.
     pub const PROBES: u32 = 64;
+    /// Up to so many samples of a cell, one run takes less time than two.
+    const ONE_RUN: u32 = 256;
     /// Samples that a block aims at: one has more only where as few as that leave invocations idle.
     const BLOCK: u32 = 64;
 
@@ -132,7 +134,7 @@ impl Sample {
                 .flag(3, mask)
                 .with(4, list as u32)
                 .with(5, run as u32)
-                .flag(6, options.records == RecordRate::Part)
+                .flag(6, options.by_part(run, rows * lanes))
                 .flag(7, options.measures(list, run))
                 .with(8, options.part_samples(run))
                 .flag(9, options.apart);
@@ -212,7 +214,7 @@ impl Sample {
     #[must_use]
     pub fn parts(&self) -> u32 {
         match self.options.records {
-            RecordRate::Part => self.block / self.options.part_samples(Run::Whole),
+            RecordRate::Part => (self.block / self.options.part_samples(Run::Whole)).max(1),
             RecordRate::Triangle | RecordRate::Sample => 1,
         }
     }
@@ -253,19 +255,24 @@ impl SampleOptions {
         self.exact_areas && self.records != RecordRate::Sample && at_once && listed
     }
 
-    /// Samples of a part, where records are made by part: an eighth of those that a cell takes, within bounds.
+    /// Whether a run makes records by part; where a part holds a block, there is no telling.
+    fn by_part(&self, run: Run, block: u32) -> bool {
+        self.records == RecordRate::Part && self.part_samples(run) < block
+    }
+
+    /// Samples of a part: a sixteenth of those that a cell takes, but at least 8.
     fn part_samples(&self, run: Run) -> u32 {
         let samples = if run == Run::Probe {
             Sample::PROBES
         } else {
             self.samples
         };
-        (samples / 8).next_power_of_two().clamp(8, 32)
+        (samples / 16).next_power_of_two().max(8)
     }
 
     /// Whether a first run of few samples finds the cells that need no more.
     #[must_use]
     pub fn probes(&self) -> bool {
-        self.exact_areas && self.records != RecordRate::Sample && self.samples > Sample::PROBES
+        self.exact_areas && self.records != RecordRate::Sample && self.samples > Sample::ONE_RUN
     }
 }

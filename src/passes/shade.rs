@@ -74,7 +74,9 @@ impl Shade {
                     constants.flag(id, read)
                 })
                 .flag(8, features.vertex_colors)
-                .flag(9, features.unlit);
+                .flag(9, features.unlit)
+                .flag(13, features.packed_occlusion)
+                .flag(14, features.one_uv_transform);
             pipelines.push(layout.compute(spirv::SHADE, &constants, None)?);
             known.insert(features, pipelines.len() - 1);
             bins.push(pipelines.len() - 1);

@@ -1,6 +1,7 @@
 //! Colours and their transforms as the shaders take them.
 
 use super::{Reference, Settings};
+use crate::reference::detect::UNEVEN;
 use crate::reference::srgb;
 use crate::vulkan::Constants;
 
@@ -19,14 +20,10 @@ impl Settings {
     }
 }
 
-/// The 8-bit sRGB codes of a premultiplied colour, as `display_code` of `shaders/include/color.glsl` packs them.
+/// What detection compares of a background, as `display_code` of `shaders/include/color.glsl` packs it.
 pub(super) fn display_code(color: [f32; 4]) -> u32 {
     let [r, g, b, a] = color.map(f64::from);
     let rgb = [r, g, b].map(srgb::encode_u8);
-    u32::from_le_bytes([
-        rgb[0],
-        rgb[1],
-        rgb[2],
-        (a.clamp(0.0, 1.0) * 255.0).round() as u8,
-    ])
+    let alpha = (a.clamp(0.0, 1.0) * 255.0).round() as u8;
+    u32::from_le_bytes([rgb[0], rgb[1], rgb[2], alpha]) & !UNEVEN
 }

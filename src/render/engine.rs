@@ -149,7 +149,7 @@ impl Engine {
 /// How many records the settings' shading asks for.
 pub(super) fn record_rate(settings: &Settings, scene: &GpuScene) -> RecordRate {
     match settings.shading {
-        Shading::Part if scene.has_glossy() => RecordRate::Part,
+        Shading::Part if scene.has_uneven() => RecordRate::Part,
         Shading::Triangle | Shading::Part => RecordRate::Triangle,
         Shading::Sample => RecordRate::Sample,
     }

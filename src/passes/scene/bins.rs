@@ -4,7 +4,7 @@ use super::material::texture_uses;
 use super::texture_set::{TextureIndex, TextureSet};
 use crate::passes::FrameLayout;
 use crate::passes::pool::DescriptorPool;
-use crate::scene::{Geometry, Material, Scene};
+use crate::scene::{Geometry, Material, Scene, TextureUse};
 use crate::vulkan::VulkanError;
 use ash::vk;
 use std::collections::HashMap;
@@ -18,6 +18,10 @@ pub struct ShadeFeatures {
     pub vertex_colors: bool,
     /// The base colour is the result.
     pub unlit: bool,
+    /// Occlusion is the red channel of the metallic-roughness texture, and needs no reading of its own.
+    pub packed_occlusion: bool,
+    /// All textures are read at the same coordinates.
+    pub one_uv_transform: bool,
 }
 
 /// Materials that are shaded by one dispatch: same pipeline, same textures.
@@ -36,6 +40,10 @@ struct BinKey {
 /// Largest number of materials and of material bins, by the bits of a triangle's last word.
 const MATERIAL_LIMIT: usize = 1 << 16;
 const BIN_LIMIT: usize = 1 << 14;
+
+/// Places among the five textures.
+const METALLIC_ROUGHNESS: usize = 1;
+const OCCLUSION: usize = 3;
 
 /// The bin of each material in use, and what each bin is.
 pub(super) struct Bins {
@@ -132,10 +140,24 @@ fn bin_key(
             None => None,
         };
     }
+    let place = |used: Option<TextureUse>| used.map(|used| (used.uv_set, used.transform));
+    let places = texture_uses(material).map(place);
+    let packed_occlusion = found[OCCLUSION].is_some()
+        && found[OCCLUSION] == found[METALLIC_ROUGHNESS]
+        && places[OCCLUSION] == places[METALLIC_ROUGHNESS];
+    if packed_occlusion {
+        found[OCCLUSION] = None;
+    }
     let features = ShadeFeatures {
         textures: found.map(|texture| texture.is_some()),
         vertex_colors: has_colors,
         unlit: material.unlit,
+        packed_occlusion,
+        one_uv_transform: places[0].is_some()
+            && places
+                .iter()
+                .flatten()
+                .all(|place| places[0] == Some(*place)),
     };
     let mut textures_of = [TextureIndex::default(); 5];
     for (index, found) in textures_of.iter_mut().zip(found) {

@@ -1,6 +1,6 @@
 //! Materials as the shaders read them.
 
-use crate::scene::{AlphaMode, Material, TextureTransform, TextureUse};
+use crate::scene::{AlphaMode, Filter, Material, Sampler, Scene, TextureTransform, TextureUse};
 
 /// The vectors of `shaders/include/material.glsl`.
 #[repr(C)]
@@ -61,11 +61,23 @@ impl GpuMaterial {
 /// Largest roughness at which the light that a surface reflects changes within a pixel.
 const GLOSSY_ROUGHNESS: f32 = 0.6;
 
-/// Whether light may change so quickly over a material's surface that one shading point in a pixel is too few.
-pub(super) fn glossy(material: &Material) -> bool {
+/// Whether light or paint may change so quickly over a material's surface that one shading point in a pixel is too few:
+/// it is glossy, or has a texture that its sampler does not filter over a pixel.
+pub(super) fn uneven(scene: &Scene, material: &Material) -> bool {
     let textured =
         material.normal_texture.is_some() || material.metallic_roughness_texture.is_some();
-    !material.unlit && (textured || material.roughness < GLOSSY_ROUGHNESS)
+    let glossy = !material.unlit && (textured || material.roughness < GLOSSY_ROUGHNESS);
+    glossy
+        || texture_uses(material)
+            .into_iter()
+            .flatten()
+            .filter_map(|used| scene.textures.get(used.texture as usize))
+            .any(|texture| steps(&texture.sampler))
+}
+
+/// Whether neighbouring pixels may see texels that do not blend into each other.
+fn steps(sampler: &Sampler) -> bool {
+    sampler.mip.is_none() || [sampler.min, sampler.mag].contains(&Filter::Nearest)
 }
 
 #[cfg(test)]

@@ -45,7 +45,7 @@ pub struct GpuScene {
     triangle_count: u32,
     first_mask: u32,
     first_blend: u32,
-    has_glossy: bool,
+    has_uneven: bool,
     light_features: LightFeatures,
     origin: DVec3,
     textures: Vec<Texture>,
@@ -134,7 +134,7 @@ impl GpuScene {
             triangle_count: triangles.words.len() as u32,
             first_mask: triangles.first_of(DrawClass::Mask),
             first_blend: triangles.first_of(DrawClass::Blend),
-            has_glossy: triangles.has_glossy,
+            has_uneven: triangles.has_uneven,
             light_features: LightFeatures::of(&pose.lights),
             origin: geometry.origin,
             runs: triangles.runs,
@@ -204,8 +204,8 @@ impl GpuScene {
 
     /// Whether a material asks for several shading points in a pixel.
     #[must_use]
-    pub fn has_glossy(&self) -> bool {
-        self.has_glossy
+    pub fn has_uneven(&self) -> bool {
+        self.has_uneven
     }
 
     /// Number of material bins, at least 1.

@@ -1,7 +1,7 @@
 //! Triangles as the shaders read them: corners, and a word of material, bin and flags.
 
 use super::bins::Bins;
-use super::material::glossy;
+use super::material::uneven;
 use crate::passes::raster::double_sided;
 use crate::scene::{DrawClass, Geometry, Scene};
 
@@ -15,7 +15,7 @@ pub(in crate::passes) struct Run {
 
 /// The bits of a triangle's last word: 16 of its material, 14 of its bin, and flags.
 const BIN_SHIFT: u32 = 16;
-const GLOSSY_BIT: u32 = 1 << 30;
+const UNEVEN_BIT: u32 = 1 << 30;
 const DOUBLE_SIDED_BIT: u32 = 1 << 31;
 
 /// A triangle's vertices in their order, beginning with the one whose position comes first. Duplicates of a triangle that
@@ -45,25 +45,25 @@ pub(super) struct Triangles {
     pub(super) words: Vec<[u32; 4]>,
     pub(super) runs: Vec<Run>,
     /// Whether a material in use asks for several shading points in a pixel.
-    pub(super) has_glossy: bool,
+    pub(super) has_uneven: bool,
 }
 
 impl Triangles {
     pub(super) fn new(scene: &Scene, geometry: &Geometry, bins: &Bins) -> Self {
         let mut last_words = vec![0_u32; geometry.triangles.len()];
         let mut runs: Vec<Run> = Vec::new();
-        let mut has_glossy = false;
+        let mut has_uneven = false;
         for draw in &geometry.draws {
-            let is_glossy = scene
+            let is_uneven = scene
                 .materials
                 .get(draw.material as usize)
-                .is_some_and(glossy);
-            has_glossy |= is_glossy;
+                .is_some_and(|material| uneven(scene, material));
+            has_uneven |= is_uneven;
             let flag = |bit: u32, set: bool| if set { bit } else { 0 };
             let word = draw.material
                 | bins.of(draw.material) << BIN_SHIFT
                 | flag(DOUBLE_SIDED_BIT, double_sided(draw.class))
-                | flag(GLOSSY_BIT, is_glossy);
+                | flag(UNEVEN_BIT, is_uneven);
             let first = draw.first_triangle as usize;
             last_words[first..first + draw.triangle_count as usize].fill(word);
             match runs.last_mut() {
@@ -87,7 +87,7 @@ impl Triangles {
         Self {
             words,
             runs,
-            has_glossy,
+            has_uneven,
         }
     }
 
