@@ -16,18 +16,23 @@ void main() {
     uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
     if (i >= min(counters[COUNTER_RECORDS], frame.record_capacity)) return;
     uvec4 record = texelFetch(records, int(i));
-    // Layers are reached from the first record of their point.
-    if ((record.x & POINT_FIRST) == 0u) return;
-    uint site = record.x & ~POINT_FIRST, id = record.y;
-    vec4 c = composite(i);
+    if ((record.x & POINT_VALUE) == 0u) return;
+    uint site = record.x & POINT_SITE;
+    // A leaf is no surface itself.
+    uint nearest = record.y != 0u ? i : farther(i);
+    bool hits = nearest != ~0u;
+    nearest = hits ? nearest : i;
+    vec4 c = hits ? composite(nearest) : frame.background;
     color[site] = c;
 
-    uint blend_id = 0u, node = record.w;
-    while (node != ~0u) {
-        uvec4 layer = texelFetch(records, int(node));
-        blend_id = layer.y;
-        node = layer.w;
+    uint seen = texelFetch(records, int(nearest)).y, blend_id = seen > frame.first_blend ? seen : 0u;
+    uint last = nearest, next = farther(last);
+    while (next != ~0u) {
+        last = next;
+        next = farther(last);
     }
+    uint id = texelFetch(records, int(last)).y;
+    id = id > frame.first_blend ? 0u : id;
     uvec4 at = texelFetch(sites, int(2u * site));
     vec2 p = tile_center(ivec2(split(at.z, frame.tiles.x))) + uintBitsToFloat(at.xy);
     uvec4 indices = texelFetch(triangles, int(max(id, 1u) - 1u));

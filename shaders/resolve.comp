@@ -2,7 +2,7 @@
 // Sub-samples are tone-mapped one by one, then averaged in linear light; alpha is coverage.
 // Reads: tile_lists, tiles, masks, headers, records, shaded. Writes: color and, where asked, display.
 // SITES: the cells of a group, into the colours of their sites.
-// CHAINED records are layers over an opaque surface, composited per sample from the farthest to the nearest.
+// CHAINED records are layers over an opaque surface, composited from those of the header on: leaves of their chains.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -16,6 +16,8 @@ layout(constant_id = 3) const bool CHAINED = false;
 layout(constant_id = 4) const uint LIST = 0u;
 layout(constant_id = 5) const bool DISPLAY_CODES = false;
 layout(constant_id = 6) const bool PROBED = false;      // cells that are not marked have one block
+// Mesa's CPU driver ends all loops of an invocation after 65,535 trips in all; chains that take more are reported instead.
+const uint MOST_TRIPS = 50000u;
 
 void write(uvec2 pixel, vec4 c) {
     if (SITES) {
@@ -42,42 +44,28 @@ void main() {
     uint blocks = (frame.sample_count + BLOCK - 1u) / BLOCK;
     float share = 1.0 / float(frame.sample_count);
 
-    if (CHAINED) {
-        // A cell at a time, an invocation a sample.
-        uint cell = entry_part(entry) * LANES, last = min(cell + LANES, SITES ? site_group.z : bitCount(word));
-        uint bits = bit_of_cell(word, cell, lane);
-        while (cell < last) {
-            uint bit = subgroupShuffle(bits, cell % LANES);
-            vec4 sum = vec4(0.0);
-            for (uint block = 0u; block < blocks; block++) {
-                uvec2 h = headers[min(first_header + cell * blocks + block, frame.record_capacity - 1u)];
-                for (uint s = lane; s < h.y; s += LANES)
-                    if (h.x + s < frame.record_capacity) sum += composite(h.x + s);
-            }
-            sum = vec4(lanes_add(sum.x), lanes_add(sum.y), lanes_add(sum.z), lanes_add(sum.w)) * share;
-            if (subgroupElect()) write(SITES ? uvec2(site_group.y + cell, 0u) : corner + uvec2(bit & 7u, bit >> 3), sum);
-            cell++;
+    // An invocation a cell.
+    uint first = entry_part(entry) * LANES, cell = first + lane;
+    uint bit = SITES ? lane : bit_of_cell(word, first, lane);
+    bool mine = cell < (SITES ? site_group.z : bitCount(word));
+    vec4 sum = vec4(0.0);
+    float covered = 0.0;
+    uint filled = PROBED && (marks[owner] >> bit & 1u) == 0u ? 1u : blocks;
+    uint block = 0u;
+    do {
+        uvec2 h = mine ? headers[min(first_header + cell * blocks + block, frame.record_capacity - 1u)] : uvec2(0u);
+        for (uint r = 0u; r < h.y; r++) {
+            uint at = h.x + r;
+            uvec4 record = texelFetch(records, int(at));
+            uint nearest = CHAINED ? farther(at) : at;
+            bool seen = CHAINED ? nearest != ~0u : record.y != 0u;
+            float weight = seen ? uintBitsToFloat(CHAINED ? record.z : record.w) : 0.0;
+            vec4 c = CHAINED ? composite(nearest) : to_output(vec4(texelFetch(shaded, int(at)).rgb, 1.0));
+            sum += seen ? weight * c : vec4(0.0);
+            covered += weight;
         }
-    } else {
-        // An invocation a cell.
-        uint first = entry_part(entry) * LANES, cell = first + lane;
-        uint bit = SITES ? lane : bit_of_cell(word, first, lane);
-        bool mine = cell < (SITES ? site_group.z : bitCount(word));
-        vec4 sum = vec4(0.0);
-        float covered = 0.0;
-        uint filled = PROBED && (marks[owner] >> bit & 1u) == 0u ? 1u : blocks;
-        uint block = 0u;
-        do {
-            uvec2 h = mine ? headers[min(first_header + cell * blocks + block, frame.record_capacity - 1u)] : uvec2(0u);
-            for (uint r = 0u; r < h.y; r++) {
-                float weight = uintBitsToFloat(texelFetch(records, int(h.x + r)).w);
-                uint id = texelFetch(records, int(h.x + r)).y;
-                weight = id == 0u ? 0.0 : weight;
-                sum += id == 0u ? vec4(0.0) : weight * to_output(vec4(texelFetch(shaded, int(h.x + r)).rgb, 1.0));
-                covered += weight;
-            }
-        } while (++block < filled);
-        sum = (sum + frame.background * (float(frame.sample_count) - covered)) * share;
-        if (mine) write(SITES ? uvec2(site_group.y + cell, 0u) : corner + uvec2(bit & 7u, bit >> 3), sum);
-    }
+    } while (++block < filled);
+    sum = (sum + frame.background * (float(frame.sample_count) - covered)) * share;
+    if (CHAINED && trips > MOST_TRIPS) atomicAdd(counters[COUNTER_STALLED], 1u);
+    if (mine) write(SITES ? uvec2(site_group.y + cell, 0u) : corner + uvec2(bit & 7u, bit >> 3), sum);
 }

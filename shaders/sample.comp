@@ -17,11 +17,12 @@
 // Record: pixel (x | y << 16), triangle ID, location relative to the pixel's centre (2 x 16 bits, 2^-16 pixels), and
 //   merged: weight as a float, in samples; one record a visible triangle and block, at the centroid of its samples there
 //           (BY_PART: and part of it; PER_SAMPLE: one a sample, at its location);
-//   CHAINED: index of the next nearer BLEND layer of the sample, or ~0; the first records of a block are its
-//           samples' opaque surfaces (ID 0: background).
-// Where cells are SITES, the first word of a record is its site; POINTS make a record a sample, of location 0.
+//   CHAINED: index of the record of the surface behind it, or ~0 for background; a leaf has ID 0, its weight in the
+//           place of a location, and the index of its samples' nearest surface (include/layers.glsl).
+// Records link to those before them. Where cells are SITES, the first word of a record is its site; POINTS make a record
+// a sample, of location 0.
 // OCCLUDERS know their triangle and depth: another one that is nearer is recorded, or else background.
-// Header of a cell's block: first record, number of records (CHAINED: of samples).
+// Header of a cell's block: first record, number of records (CHAINED: leaves).
 //
 // Loops are do-while with guarded bodies: on lavapipe a branch skips nothing and other loops run once too often.
 #version 460

@@ -12,10 +12,13 @@
 layout(local_size_x_id = 0) in;
 layout(constant_id = 2) const uint BLOCK = 64u;             // samples of a header
 layout(constant_id = 3) const bool PER_SAMPLE = false;
-layout(constant_id = 4) const uint LAYERS = 4u;             // BLEND layers a sample that a tile is admitted with
+layout(constant_id = 4) const uint LAYERS = 4u;             // BLEND layers of a chain that a tile is admitted with
 layout(constant_id = 5) const uint PARTS = 1u;              // records of a triangle in a block
 layout(constant_id = 6) const uint SUBGROUPS_FIRST = 1u;    // that `sample` gives an entry, where it may PROBE it
 layout(constant_id = 7) const uint SUBGROUPS = 1u;          // and where it takes all samples
+// Different chains of layers that a block is admitted with, too; most need less than half of these records. Both grow
+// where a frame found too few.
+const uint CHAINS = PARTS > 4u ? LAYERS * PARTS / 2u : LAYERS * 2u;
 
 void main() {
     uint lane = gl_SubgroupInvocationID;
@@ -47,8 +50,9 @@ void main() {
         bool listed = busy && (t.w & TILE_OVERFLOW) == 0u;
         bool blend = (t.w & TILE_HAS_BLEND) != 0u, mask_ = (t.w & TILE_HAS_MASK) != 0u;
         uint candidates_ = listed ? t.x : frame.triangle_count;
+        uint chains = PER_SAMPLE || POINTS ? samples : min(cells * blocks * CHAINS, samples);
         uint record_need = blend || (!listed && frame.first_blend < frame.triangle_count)
-            ? samples * (1u + min(candidates_, LAYERS))
+            ? chains * (2u + min(candidates_, LAYERS))
             : PER_SAMPLE ? samples : cells * min(blocks * min(PARTS * candidates_, BLOCK), frame.sample_count);
         uint list_need = listed ? t.x : 0u, header_need = cells * blocks;
         uint list_first = list_used + subgroupExclusiveAdd(list_need);

@@ -87,10 +87,10 @@ void main() {
         id = record.y;
         vec2 location = vec2(ivec2(record.z << 16, record.z) >> 16) * (1.0 / 65536.0);
         if (SITES) {
-            site = record.x & ~POINT_FIRST;
+            site = record.x & POINT_SITE;
             uvec4 at = texelFetch(sites, int(2u * site));
             // BLEND layers lie before the surface that shadows are known of.
-            shadows = POINTS && (record.x & POINT_FIRST) != 0u ? at.w : 0u;
+            shadows = POINTS && (record.x & POINT_OPAQUE) != 0u ? at.w : 0u;
             p = tile_center(ivec2(split(at.z, frame.tiles.x))) + uintBitsToFloat(at.xy) + site_jacobian(site) * location;
         } else {
             p = frame.origin + vec2(record.x & 0xffffu, record.x >> 16) + location;
@@ -194,6 +194,6 @@ void main() {
         if (mine) color[source] = c;
         if (DISPLAY_CODES && mine) display_out[source] = display_code(c, id != 0u && uneven(indices.w));
     } else {
-        shaded_out[source] = vec4(radiance, BLENDED ? clamp(base.a, 0.0, 1.0) : 1.0);
+        shaded_out[source] = vec4(radiance, BLENDED && id > frame.first_blend ? clamp(base.a, 0.0, 1.0) : 1.0);
     }
 }

@@ -33,6 +33,10 @@ Candidate nearby;
 float nearby_covered;
 uint nearby_count;
 
+// What CHAINED samples need: runs of LANES candidates among which BLEND ones may show, a bit each; those from the 32nd on
+// share one.
+uint blend_batches;
+
 uint trips;                 // of loops, by this invocation
 
 uint sample_of(int g) {
@@ -65,6 +69,12 @@ void load_offsets(uint first, uint last) {
     high = vec2(lanes_max(high.x), lanes_max(high.y));
     block_middle = 0.5 * (low + high);
     block_reach = 0.5 * (high - low) + ROUNDING;
+}
+
+// The rectangle of a cell's samples that are in the block.
+void rectangle_of_block(Cell cell, out vec2 middle, out vec2 half_side) {
+    middle = cell.at + cell.pixel * block_middle;
+    half_side = abs(cell.pixel[0]) * block_reach.x + abs(cell.pixel[1]) * block_reach.y + (SITES ? ROUNDING * cell.half_side : vec2(0.0));
 }
 
 // Moves the samples to a cell, where they have seen nothing yet.
@@ -176,12 +186,10 @@ void show_masked(Cell cell, Candidate t, bool some) {
 void show_candidates(Cell cell) {
     vec2 middle = cell.at, half_side = cell.half_side;
     // Areas count all triangles near the cell, in any order of candidates.
-    if (!POINTS && !EXACT_AREAS) {
-        middle += cell.pixel * block_middle;
-        half_side = abs(cell.pixel[0]) * block_reach.x + abs(cell.pixel[1]) * block_reach.y + (SITES ? ROUNDING * cell.half_side : vec2(0.0));
-    }
+    if (!POINTS && !EXACT_AREAS) rectangle_of_block(cell, middle, half_side);
     uint batches = max((cell.entries + LANES - 1u) / LANES, 1u), batch = 0u;
     float hidden = cell.hidden;
+    blend_batches = 0u;
     do {
         uint entry = batch * LANES + gl_SubgroupInvocationID;
         Candidate k = entry_of(cell, entry);
@@ -190,7 +198,8 @@ void show_candidates(Cell cell) {
         if (!EXACT_AREAS) hidden = max(hidden, lanes_max(exists ? test.hides : 0.0));
         bool blend = k.id > frame.first_blend;
         bool masked = HAS_MASK && k.id > frame.first_mask && !blend;
-        bool touches = exists && test.touches && !blend && test.near >= hidden;
+        bool shows = exists && test.touches && test.near >= hidden, touches = shows && !blend;
+        blend_batches |= subgroupAny(shows && blend) ? 1u << min(batch, 31u) : 0u;
         trips += 3u + uint(bitCount(subgroupBallot(touches).x));
         uint pending = subgroupBallot(touches && !masked).x;
         do {

@@ -1,21 +1,30 @@
-// BLEND layers over an opaque surface.
+// BLEND layers over an opaque surface or the background.
 #ifndef COMPOSITE_GLSL
 #define COMPOSITE_GLSL
 
-// One sample's layers, from its opaque surface on.
+// What a record links to, or ~0. Links go to records that come before: nothing else is followed, so that chains end even
+// where a record found no room, and what is there is left from another round.
+uint farther(uint node) {
+    uint next = texelFetch(records, int(node)).w;
+    return next < node ? next : ~0u;
+}
+
+uint trips = 0u;            // of loops over chains, by this invocation
+
+// The surfaces of a chain, from the record of the nearest one on.
 vec4 composite(uint node) {
-    uvec4 record = texelFetch(records, int(node));
-    bool background = record.y == 0u;
-    vec4 c = background ? frame.background : texelFetch(shaded, int(node));
-    bool untouched = background && record.w == ~0u;
-    vec4 flat_background = c;
-    while (record.w != ~0u) {
-        node = record.w;
-        record = texelFetch(records, int(node));
+    vec3 light = vec3(0.0);
+    float through = 1.0;
+    // Not do-while: llvmpipe lets invocations that have left see what later trips make of variables of its body.
+    while (node != ~0u) {
         vec4 layer = texelFetch(shaded, int(node));
-        c = vec4(layer.rgb * layer.a, layer.a) + c * (1.0 - layer.a);
+        light += through * layer.a * layer.rgb;
+        through *= 1.0 - layer.a;
+        node = farther(node);
+        trips++;
     }
-    return untouched ? flat_background : to_output(c);
+    trips += 2u;
+    return to_output(vec4(light + through * frame.background.rgb, 1.0 - through * (1.0 - frame.background.a)));
 }
 
 #endif

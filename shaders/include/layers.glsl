@@ -1,79 +1,190 @@
-// CHAINED records of the samples of a block: each one's opaque surface, then its BLEND layers to the front.
+// CHAINED records of the samples of a block: the opaque surfaces that they see, then the BLEND layers before these, in
+// exact order of depth.
+//
+// Samples that see the same surfaces, from the farthest one on, share their records. A surface's record is a node that
+// links to the one behind it; it is shaded at the centroid of the samples that share it. Each layer parts those of a node
+// by the triangle that they see next, so that nodes form a tree. Leaves say how many samples end at which node.
+// Where samples are shaded apart (EACH), none share.
 #ifndef LAYERS_GLSL
 #define LAYERS_GLSL
+#include "surfaces.glsl"
 
-// Returns the first record and their number.
-uvec2 record_layers(Cell cell, uint owner) {
-    uint base = 0u;
-    if (subgroupElect()) base = atomicAdd(counters[COUNTER_RECORDS], cell.samples);
-    base = subgroupBroadcastFirst(base);
-    uint lost = base + cell.samples > frame.record_capacity ? 1u : 0u;
-    uint node[ROWS];
-    bool live[ROWS];
+const bool EACH = PER_SAMPLE || POINTS;
+
+uint node[ROWS];            // of the nearest surface so far; ~0: background
+float next_depth[ROWS];     // the next surface to the front; ID 0: none
+uint next_id[ROWS];
+
+// Samples that share the node and the next surface of the first one (BY_PART: and, where that is uneven, the part).
+struct Group {
+    uint node, next_id;
+    uint rows;
+    float samples;
+    vec2 sum;               // of their locations
+};
+
+// The group of the first of the samples that are `left`, a bit a row.
+Group first_group(uint left) {
+    uvec3 key = uvec3(0u);
+    [[unroll]] for (int g = ROWS - 1; g >= 0; g--)
+        key = (left >> g & 1u) != 0u ? uvec3(node[g], next_id[g], part_number(g)) : key;
+    uint some = subgroupBallot(left != 0u).x, holder = some != 0u ? uint(findLSB(some)) : 0u;
+    key = uvec3(subgroupShuffle(key.x, holder), subgroupShuffle(key.y, holder), subgroupShuffle(key.z, holder));
+    bool by_part = BY_PART && key.y != 0u && uneven_triangle(key.y);
+    Group r = Group(key.x, key.y, 0u, 0.0, vec2(0.0));
     [[unroll]] for (int g = 0; g < ROWS; g++) {
-        live[g] = sample_of(g) < cell.samples;
-        node[g] = base + sample_of(g);
+        bool same = (left >> g & 1u) != 0u && node[g] == key.x && next_id[g] == key.y && (!by_part || part_number(g) == key.z);
+        r.rows |= same ? 1u << g : 0u;
+        r.sum += same ? offset[g] : vec2(0.0);
     }
-    uint batches = max((cell.entries + LANES - 1u) / LANES, 1u);
-    uint first_record = POINTS ? POINT_FIRST : 0u;
-    // Layers from the farthest to the nearest: each round finds the next one in front.
+    r.samples = lanes_add(float(bitCount(r.rows)));
+    r.sum = vec2(lanes_add(r.sum.x), lanes_add(r.sum.y));
+    return r;
+}
+
+// Moves the samples to nodes of their next surfaces. Returns whether there was room for these.
+bool add_nodes(uint owner, uint samples) {
+    uint lane = gl_SubgroupInvocationID, left = 0u;
+    [[unroll]] for (int g = 0; g < ROWS; g++) left |= sample_of(g) < samples && next_id[g] != 0u ? 1u << g : 0u;
+    bool fits = true;
+    if (EACH) {
+        uint mine = uint(bitCount(left)), before = subgroupExclusiveAdd(mine);
+        uint slot = allocate_records(subgroupAdd(mine), fits) + before;
+        [[unroll]] for (int g = 0; g < ROWS; g++) {
+            bool moves = (left >> g & 1u) != 0u;
+            if (moves && fits) records_out[slot] = uvec4(POINTS ? owner + sample_of(g) : owner, next_id[g], pack_location(offset[g]), node[g]);
+            node[g] = moves ? slot : node[g];
+            slot += moves ? 1u : 0u;
+        }
+        return fits;
+    }
+    do {
+        uint count = 0u, before = left;
+        uvec4 held;             // by the invocation of a group's number
+        uint number[ROWS];
+        do {
+            Group s = first_group(left);
+            bool mine = lane == count;
+            held = mine ? uvec4(owner, s.next_id, pack_location(s.sum / max(s.samples, 1.0)), s.node) : held;
+            [[unroll]] for (int g = 0; g < ROWS; g++) number[g] = (s.rows >> g & 1u) != 0u ? count : number[g];
+            left &= ~s.rows;
+            count += s.samples > 0.0 ? 1u : 0u;
+        } while (count < LANES && subgroupAny(left != 0u));
+        trips += count + 2u;
+        bool room;
+        uint base = allocate_records(count, room);
+        if (room && lane < count) records_out[base + lane] = held;
+        [[unroll]] for (int g = 0; g < ROWS; g++) node[g] = ((before & ~left) >> g & 1u) != 0u ? base + number[g] : node[g];
+        fits = fits && room;
+    } while (subgroupAny(left != 0u));
+    return fits;
+}
+
+// Returns the first leaf and their number. Samples that see nothing but background have none, unless they are EACH's.
+uvec2 add_leaves(uint owner, uint samples, bool complete) {
+    uint lane = gl_SubgroupInvocationID;
+    bool fits;
+    if (EACH) {
+        uint base = allocate_records(complete ? samples : 0u, fits);
+        fits = fits && complete;
+        [[unroll]] for (int g = 0; g < ROWS; g++) {
+            uint s = sample_of(g);
+            if (fits && s < samples)
+                records_out[base + s] = uvec4(POINTS ? owner + s | POINT_VALUE : owner, 0u, floatBitsToUint(1.0), node[g]);
+        }
+        return uvec2(base, fits ? samples : 0u);
+    }
+    uint left = 0u, beyond = 0u, count = 0u;
+    [[unroll]] for (int g = 0; g < ROWS; g++) {
+        next_id[g] = 0u;
+        left |= sample_of(g) < samples && node[g] != ~0u ? 1u << g : 0u;
+    }
+    uvec4 held;
+    do {
+        Group s = first_group(left);
+        held = lane == count ? uvec4(owner, 0u, floatBitsToUint(s.samples), s.node) : held;
+        left &= ~s.rows;
+        count += s.samples > 0.0 ? 1u : 0u;
+        beyond = count <= LANES ? left : beyond;
+    } while (subgroupAny(left != 0u));
+    uint base = allocate_records(complete ? count : 0u, fits);
+    fits = fits && complete;
+    if (fits && lane < count) records_out[base + lane] = held;
+    // Those beyond the invocations' room to hold them, one by one.
+    uint stored = LANES;
+    do {
+        Group s = first_group(beyond);
+        if (fits && stored < count && subgroupElect()) records_out[base + stored] = uvec4(owner, 0u, floatBitsToUint(s.samples), s.node);
+        beyond &= ~s.rows;
+    } while (++stored < count);
+    trips += 2u * count;
+    return uvec2(base, fits ? count : 0u);
+}
+
+// Finds each sample's next BLEND layer in front of what it has seen, and moves there. Returns whether there may be more.
+bool find_layers(Cell cell) {
+    uint ahead[ROWS];
+    float behind = 3.4e38;      // what lies farther hides from all samples
+    [[unroll]] for (int g = 0; g < ROWS; g++) {
+        next_depth[g] = 3.4e38;
+        next_id[g] = 0u;
+        ahead[g] = 0u;
+        behind = min(behind, depth[g]);
+    }
+    behind = max(lanes_min(behind), cell.hidden);
+    vec2 middle = cell.at, half_side = cell.half_side;
+    if (!POINTS) rectangle_of_block(cell, middle, half_side);
+    uint batches = (cell.entries + LANES - 1u) / LANES, left = blend_batches;
+    uint batch = left != 0u ? uint(findLSB(left)) : 0u;
+    do {
+        uint entry = batch * LANES + gl_SubgroupInvocationID;
+        Candidate k = entry_of(cell, entry);
+        RectangleTest test = test_rectangle(k, middle, half_side, HAS_MASK);
+        bool touches = left != 0u && entry < cell.entries && test.touches && k.id > frame.first_blend && test.near >= behind;
+        uint pending = subgroupBallot(touches).x;
+        trips += 2u + uint(bitCount(pending));
+        do {
+            bool some = pending != 0u;
+            Candidate t = shuffle_candidate(k, some ? uint(findLSB(pending)) : 0u);
+            pending &= pending - 1u;
+            vec3 least = some ? thresholds(t) : vec3(3.4e38);
+            [[unroll]] for (int g = 0; g < ROWS; g++) {
+                float d;
+                bool there = covers(t, least, position_of(cell, g), d) && d > 0.0;
+                bool in_front = there && (d > depth[g] || (id[g] != 0u && d == depth[g] && t.id < id[g]));
+                bool nearest = d < next_depth[g] || (d == next_depth[g] && t.id > next_id[g]);
+                ahead[g] += in_front ? 1u : 0u;
+                next_depth[g] = in_front && nearest ? d : next_depth[g];
+                next_id[g] = in_front && nearest ? t.id : next_id[g];
+            }
+        } while (pending != 0u);
+        // The last bit stands for all batches from there on.
+        left &= batch < 31u ? left - 1u : batch + 1u < batches ? ~0u : 0u;
+        batch = batch < 31u && left != 0u ? uint(findLSB(left)) : batch + 1u;
+    } while (left != 0u);
+    uint most = 0u;
+    [[unroll]] for (int g = 0; g < ROWS; g++) {
+        depth[g] = next_id[g] != 0u ? next_depth[g] : depth[g];
+        id[g] = next_id[g] != 0u ? next_id[g] : id[g];
+        most = max(most, ahead[g]);
+    }
+    return subgroupAny(most > 1u);
+}
+
+// Returns the first leaf and their number.
+uvec2 record_layers(Cell cell, uint owner) {
+    [[unroll]] for (int g = 0; g < ROWS; g++) {
+        node[g] = ~0u;
+        next_id[g] = id[g];
+    }
+    bool fits = add_nodes(owner | (POINTS ? POINT_OPAQUE : 0u), cell.samples);
     bool more;
     do {
-        float next_depth[ROWS];
-        uint next_id[ROWS];
-        [[unroll]] for (int g = 0; g < ROWS; g++) { next_depth[g] = 3.4e38; next_id[g] = 0u; }
-        uint batch = 0u;
-        do {
-            uint entry = batch * LANES + gl_SubgroupInvocationID;
-            Candidate k = entry_of(cell, entry);
-            RectangleTest test = test_rectangle(k, cell.at, cell.half_side, HAS_MASK);
-            bool touches = entry < cell.entries && test.touches && k.id > frame.first_blend && test.near >= cell.hidden;
-            uint pending = subgroupBallot(touches).x;
-            trips += 2u + uint(bitCount(pending));
-            do {
-                bool some = pending != 0u;
-                Candidate t = shuffle_candidate(k, some ? uint(findLSB(pending)) : 0u);
-                pending &= pending - 1u;
-                vec3 least = some ? thresholds(t) : vec3(3.4e38);
-                [[unroll]] for (int g = 0; g < ROWS; g++) {
-                    float d;
-                    bool there = covers(t, least, position_of(cell, g), d) && d > 0.0;
-                    bool in_front = id[g] == 0u ? d > depth[g] : d > depth[g] || (d == depth[g] && t.id < id[g]);
-                    bool nearest = d < next_depth[g] || (d == next_depth[g] && t.id > next_id[g]);
-                    bool next = there && in_front && nearest;
-                    next_depth[g] = next ? d : next_depth[g];
-                    next_id[g] = next ? t.id : next_id[g];
-                }
-            } while (pending != 0u);
-        } while (++batch < batches);
-
-        uint found = 0u;
-        [[unroll]] for (int g = 0; g < ROWS; g++) found += live[g] && next_id[g] != 0u ? 1u : 0u;
-        uint before = subgroupExclusiveAdd(found), total = subgroupAdd(found);
-        uint layer = 0u;
-        if (subgroupElect() && total != 0u) layer = atomicAdd(counters[COUNTER_RECORDS], total);
-        layer = subgroupBroadcastFirst(layer);
-        bool full = layer + total > frame.record_capacity;
-        lost += full && total != 0u ? 1u : 0u;
-        uint slot = layer + before;
-        more = false;
-        [[unroll]] for (int g = 0; g < ROWS; g++) {
-            bool extends = live[g] && next_id[g] != 0u && !full;
-            if (live[g] && node[g] < frame.record_capacity)
-                records_out[node[g]] = uvec4((POINTS ? owner + sample_of(g) : owner) | first_record, id[g], pack_location(offset[g]), extends ? slot : ~0u);
-            node[g] = extends ? slot : node[g];
-            slot += extends ? 1u : 0u;
-            depth[g] = extends ? next_depth[g] : depth[g];
-            id[g] = extends ? next_id[g] : id[g];
-            live[g] = extends;
-            more = more || extends;
-        }
-        more = subgroupAny(more);
-        first_record = 0u;
+        more = find_layers(cell);
+        fits = add_nodes(owner, cell.samples) && fits;
     } while (more && trips <= MOST_TRIPS);
     if (subgroupElect() && more) atomicAdd(counters[COUNTER_STALLED], 1u);
-    if (subgroupElect() && lost != 0u) atomicAdd(counters[COUNTER_UNFINISHED], 1u);
-    return uvec2(base, cell.samples);
+    return add_leaves(owner, cell.samples, fits);
 }
 
 #endif

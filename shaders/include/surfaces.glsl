@@ -18,6 +18,11 @@ struct Surface {
 const uint PARTS_A_ROW = LANES > PART ? LANES / PART : 1u, ROWS_A_PART = PART > LANES ? PART / LANES : 1u;
 const uint PART_LANES = PART < LANES ? PART : LANES, PART_ROWS = ROWS_A_PART < uint(ROWS) ? uint(ROWS) / ROWS_A_PART : 1u;
 
+// The part of a sample.
+uint part_number(int g) {
+    return PARTS_A_ROW > 1u ? uint(g) * PARTS_A_ROW + gl_SubgroupInvocationID / PART_LANES : uint(g) / ROWS_A_PART;
+}
+
 // The triangle with the least ID above `seen`.
 Surface surface_after(uint seen) {
     Surface r = Surface(~0u, 0.0, vec2(0.0), 0u);
@@ -27,8 +32,7 @@ Surface surface_after(uint seen) {
         bool same = id[g] == r.id;
         r.samples += same ? 1.0 : 0.0;
         r.sum += same ? offset[g] : vec2(0.0);
-        uint part = PARTS_A_ROW > 1u ? uint(g) * PARTS_A_ROW + gl_SubgroupInvocationID / PART_LANES : uint(g) / ROWS_A_PART;
-        if (BY_PART) r.parts |= same ? 1u << part : 0u;
+        if (BY_PART) r.parts |= same ? 1u << part_number(g) : 0u;
     }
     r.samples = lanes_add(r.samples);
     r.sum = vec2(lanes_add(r.sum.x), lanes_add(r.sum.y));
@@ -148,7 +152,7 @@ uvec2 record_samples(Cell cell, uint owner) {
     [[unroll]] for (int g = 0; g < ROWS; g++) {
         uint s = sample_of(g);
         if (fits && s < cell.samples)
-            records_out[base + s] = POINTS ? uvec4((owner + s) | POINT_FIRST, id[g], 0u, ~0u)
+            records_out[base + s] = POINTS ? uvec4((owner + s) | POINT_OPAQUE | POINT_VALUE, id[g], 0u, ~0u)
                 : uvec4(owner, id[g], pack_location(offset[g]), floatBitsToUint(1.0));
     }
     return uvec2(base, fits ? cell.samples : 0u);

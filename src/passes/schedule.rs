@@ -10,8 +10,8 @@ pub struct Schedule {
 }
 
 impl Schedule {
-    /// Makes the pipeline for what `sample` writes; `layers` is the number of BLEND layers a sample that tiles
-    /// are admitted with.
+    /// Makes the pipeline for what `sample` writes. Tiles are admitted with `layers` BLEND layers a chain and twice as
+    /// many chains a block, or more where these are shaded by part.
     ///
     /// # Errors
     /// If the driver refuses it.

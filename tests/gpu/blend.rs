@@ -1,14 +1,16 @@
 //! BLEND surfaces, composited per sample in exact order of depth, against a sum over the twin's surfaces.
 
-use gpc::render::{Method, Settings};
+use gpc::render::{Headless, Method, Rendered, Settings, Shading};
 use gpc::sampling::Pattern;
-use gpc::scene::AlphaMode;
+use gpc::scene::{AlphaMode, Material};
 
 use crate::meshes::Random;
 use crate::stage::{Stage, centre, everywhere, flat, on_gpu, once, seen_at};
 use crate::twin::Twin;
 
 const SIZE: [u32; 2] = [48, 40];
+/// Of [`deep`].
+const PANES: usize = 12;
 
 /// Panes that cross each other, through and before an opaque wall with a hole in it.
 pub fn panes() -> Stage {
@@ -49,6 +51,53 @@ pub fn panes() -> Stage {
     stage
 }
 
+/// A wall, and panes before and through it that all cross each other: most samples see another chain of layers than
+/// their neighbours. Every other pane is glossy where they are `lit`.
+fn deep(lit: bool) -> Stage {
+    let mut random = Random::new(3);
+    let mut channel = || random.below(65) as f32 / 64.0;
+    let mut materials = vec![flat([0.5, 0.25, 0.125, 1.0], AlphaMode::Opaque)];
+    materials.extend((0..PANES).map(|pane| Material {
+        unlit: !lit,
+        roughness: if pane % 2 == 0 { 0.5 } else { 1.0 },
+        ..flat([channel(), channel(), channel(), 0.125], AlphaMode::Blend)
+    }));
+    let mut stage = Stage::new(materials);
+    let mut random = Random::new(4);
+    for material in 0..=PANES {
+        let mut corner = |x: f64, y: f64| {
+            let far = if material == 0 {
+                6.0
+            } else {
+                random.range(2.0, 7.0)
+            };
+            let place = [x * random.range(18.0, 26.0), y * random.range(15.0, 22.0)];
+            seen_at(place, far, SIZE[1])
+        };
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+        stage.add_quad(material, corners.map(|(x, y)| corner(x, y)));
+    }
+    stage
+}
+
+/// Small panes over nothing, many of them in each pixel.
+fn confetti() -> Stage {
+    let mut random = Random::new(5);
+    let mut stage = Stage::new(
+        (0..4)
+            .map(|i| flat([1.0, 0.25 * i as f32, 0.5, 0.25], AlphaMode::Blend))
+            .collect(),
+    );
+    for index in 0..600 {
+        let middle = SIZE.map(|side| random.range(-0.5, 0.5) * f64::from(side));
+        let far = random.range(1.0, 9.0);
+        let corners =
+            [0; 3].map(|_| seen_at(middle.map(|at| at + random.range(-3.0, 3.0)), far, SIZE[1]));
+        stage.add(index % 4, corners);
+    }
+    stage
+}
+
 /// What one sample sees over a background, premultiplied, and whether rounding may change it. BLEND surfaces come
 /// first in the search, from the nearest on.
 fn composite(
@@ -83,11 +132,62 @@ fn composite(
     (color, contested)
 }
 
+/// How far two images are apart at the most, in any channel of any pixel.
+fn distance(first: &Rendered, second: &Rendered) -> f32 {
+    assert_eq!(first.colors.len(), second.colors.len());
+    let channels = |image: &Rendered| image.colors.clone().into_iter().flatten();
+    let pairs = channels(first).zip(channels(second));
+    pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
+}
+
+/// Records that samples share hold what each would see: unlit surfaces look the same wherever they are shaded, lit ones
+/// nearly so.
+#[test]
+fn shared_layers_are_those_of_each_sample() {
+    on_gpu(|gpu| {
+        for (name, stage, samples, tolerance) in [
+            ("panes", panes(), 64, 1e-5),
+            ("panes", panes(), 37, 1e-5),
+            ("panes", panes(), 256, 1e-5),
+            ("deep", deep(false), 64, 1e-5),
+            ("lit", deep(true), 64, 5e-3),
+            ("confetti", confetti(), 64, 1e-5),
+        ] {
+            for background in [None, Some([0.25, 0.5, 0.125])] {
+                let shaded = |gpu: &mut Headless, shading| {
+                    let settings = Settings {
+                        shading,
+                        background,
+                        ..everywhere(SIZE, Pattern::Sobol, samples)
+                    };
+                    stage.render(gpu, &settings)
+                };
+                let each = shaded(gpu, Shading::Sample);
+                for shading in [Shading::Triangle, Shading::Part] {
+                    let shared = shaded(gpu, shading);
+                    let apart = distance(&each, &shared);
+                    assert!(
+                        apart < tolerance,
+                        "{name}, {samples} samples, {shading:?}: {apart}"
+                    );
+                    let [fewer, all] = [&shared, &each].map(|image| image.statistics.records);
+                    assert!(fewer < all, "{name}, {shading:?}: {fewer} of {all} records");
+                }
+            }
+        }
+    });
+}
+
 #[test]
 fn panes_are_composited_from_the_farthest_to_the_nearest() {
+    for stage in [panes(), deep(false)] {
+        assert_is_the_twins(&stage);
+    }
+}
+
+fn assert_is_the_twins(stage: &Stage) {
+    let twin = Twin::new(stage, SIZE);
     on_gpu(|gpu| {
-        let stage = panes();
-        let twin = Twin::new(&stage, SIZE);
         let none = Settings {
             method: Method::None,
             ..once(SIZE)
@@ -120,7 +220,7 @@ fn panes_are_composited_from_the_farthest_to_the_nearest() {
                 let mut contested = 0.0;
                 for offset in &offsets {
                     let sample = [0, 1].map(|axis| middle[axis] + f64::from(offset[axis]));
-                    let (color, doubtful) = composite(&stage, &twin, pixel, sample, back);
+                    let (color, doubtful) = composite(stage, &twin, pixel, sample, back);
                     sum = [0, 1, 2, 3].map(|i| sum[i] + color[i] / offsets.len() as f64);
                     contested += f64::from(u8::from(doubtful)) / offsets.len() as f64;
                 }

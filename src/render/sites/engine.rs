@@ -21,7 +21,7 @@ use std::sync::Arc;
 
 /// Sites of a cell that are sampled once each, at the least; a subgroup may hold more.
 const POINTS_IN_CELL: u32 = 16;
-/// BLEND layers a sample that tiles are admitted with.
+/// BLEND layers of a chain, and half the chains of a block, that tiles are admitted with.
 const LAYERS: u32 = 4;
 
 /// What makes values of records.

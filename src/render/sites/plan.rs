@@ -85,7 +85,7 @@ fn sizes(
     let group_count = cell_count.min(cell_count / in_group + tiles);
     let samples = u64::from(settings.samples);
     let records = match cells {
-        Cells::Points if scene.has_blend() => 3 * most,
+        Cells::Points if scene.has_blend() => 4 * most,
         Cells::Points | Cells::Occluders => most,
         _ if settings.shading == Shading::Sample || scene.has_blend() => most * samples.min(64),
         _ => most * (6 * samples.div_ceil(64)).min(samples).max(2),
