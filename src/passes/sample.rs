@@ -36,6 +36,8 @@ pub struct SampleOptions {
     pub records: RecordRate,
     /// Whether triangles that are seen whole weigh the exact area of their part of a cell.
     pub exact_areas: bool,
+    /// Whether a first run of few samples finds the cells that need no more, where there are many to take.
+    pub probes: bool,
     /// Whether a subgroup takes a block of one cell, for lists that are too long to take several.
     pub apart: bool,
     /// Whether the scene has MASK triangles.
@@ -112,8 +114,6 @@ fn kernel(kernels: &Kernels, rows: u32) -> (u32, &'static [u8]) {
 impl Sample {
     /// Samples of the first of two runs; their locations follow those of the cell.
     pub const PROBES: u32 = 64;
-    /// Up to so many samples of a cell, one run takes less time than two.
-    const ONE_RUN: u32 = 256;
     /// Samples that a block aims at: one has more only where as few as that leave invocations idle.
     const BLOCK: u32 = 64;
 
@@ -265,9 +265,12 @@ impl SampleOptions {
         (self.samples / 16).next_power_of_two().max(8)
     }
 
-    /// Whether a first run of few samples finds the cells that need no more.
+    /// Whether there is a first run.
     #[must_use]
     pub fn probes(&self) -> bool {
-        self.exact_areas && self.records != RecordRate::Sample && self.samples > Sample::ONE_RUN
+        self.probes
+            && self.exact_areas
+            && self.records != RecordRate::Sample
+            && self.samples > Sample::PROBES
     }
 }

@@ -54,6 +54,7 @@ impl Engine {
                 samples: kind.samples,
                 records: record_rate(settings, scene),
                 exact_areas: settings.coverage == Coverage::Area && kind.samples > 1,
+                probes: can_settle(settings, scene),
                 apart: plan.effort.apart,
                 has_mask: scene.has_mask(),
                 has_blend: scene.has_blend(),
@@ -153,6 +154,11 @@ pub(super) fn record_rate(settings: &Settings, scene: &GpuScene) -> RecordRate {
         Shading::Triangle | Shading::Part => RecordRate::Triangle,
         Shading::Sample => RecordRate::Sample,
     }
+}
+
+/// Whether few samples may settle superpixels: not those of uneven triangles, which are shaded in many places.
+pub(super) fn can_settle(settings: &Settings, scene: &GpuScene) -> bool {
+    settings.shading != Shading::Part || !scene.is_mostly_uneven()
 }
 
 /// Sorts and shades the records of a round.

@@ -34,9 +34,9 @@ pub enum Detection {
 /// How the coverage of a triangle in a superpixel is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
-    /// Exactly where the triangle is seen whole, and by samples elsewhere. Of more than 256 samples, superpixels that
-    /// few settle take no more; between 64 and 256, to find them takes longer than to take all samples, and counting
-    /// those is about as good.
+    /// Exactly where the triangle is seen whole, and by samples elsewhere. Superpixels that 64 samples settle take no
+    /// more; where most triangles are shaded in several parts of a pixel, which takes all samples, areas are measured
+    /// up to 64 samples only.
     Area,
     /// By counting samples.
     Samples,

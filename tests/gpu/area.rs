@@ -41,12 +41,12 @@ fn tolerance(area: f64) -> f64 {
     }
 }
 
-/// Before nothing, by the samples of one block and by the first run of many.
+/// Before nothing, whatever the number of samples asked for.
 #[test]
 fn a_triangle_covers_its_area() {
     on_gpu(|gpu| {
         let mut random = Random::new(11);
-        for samples in [64, 512, 1024] {
+        for samples in [64, 256, 1024] {
             for _ in 0..6 {
                 let corners = [(); 3].map(|()| place(&mut random));
                 let mut stage = Stage::new(vec![flat([1.0; 4], AlphaMode::Opaque)]);

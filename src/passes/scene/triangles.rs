@@ -44,21 +44,21 @@ pub(super) struct Triangles {
     /// Corners and last word of each.
     pub(super) words: Vec<[u32; 4]>,
     pub(super) runs: Vec<Run>,
-    /// Whether a material in use asks for several shading points in a pixel.
-    pub(super) has_uneven: bool,
+    /// How many ask for several shading points in a pixel.
+    pub(super) uneven: u32,
 }
 
 impl Triangles {
     pub(super) fn new(scene: &Scene, geometry: &Geometry, bins: &Bins) -> Self {
         let mut last_words = vec![0_u32; geometry.triangles.len()];
         let mut runs: Vec<Run> = Vec::new();
-        let mut has_uneven = false;
+        let mut uneven_count = 0;
         for draw in &geometry.draws {
             let is_uneven = scene
                 .materials
                 .get(draw.material as usize)
                 .is_some_and(|material| uneven(scene, material));
-            has_uneven |= is_uneven;
+            uneven_count += if is_uneven { draw.triangle_count } else { 0 };
             let flag = |bit: u32, set: bool| if set { bit } else { 0 };
             let word = draw.material
                 | bins.of(draw.material) << BIN_SHIFT
@@ -87,7 +87,7 @@ impl Triangles {
         Self {
             words,
             runs,
-            has_uneven,
+            uneven: uneven_count,
         }
     }
 

@@ -8,7 +8,7 @@ use crate::passes::{
     RasterTargets, RecordRate, Resolve, ResourceSizes, Resources, Sample, SampleOptions, Schedule,
     Setup, Shade, ShadeSource, SiteData, Sort, Transform,
 };
-use crate::render::engine::{record_rate, record_shading};
+use crate::render::engine::{can_settle, record_rate, record_shading};
 use crate::render::plan::Effort;
 use crate::render::renderer::PreparedScene;
 use crate::render::statistics::Shortfall;
@@ -101,6 +101,7 @@ impl SiteEngine {
                 record_rate(settings, scene)
             },
             exact_areas: settings.coverage == Coverage::Area && settings.samples > 1 && !points,
+            probes: can_settle(settings, scene),
             apart,
             has_mask: scene.has_mask(),
             has_blend: scene.has_blend(),
