@@ -19,6 +19,8 @@ layout(constant_id = 7) const uint SUBGROUPS = 1u;          // and where it take
 // Different chains of layers that a block is admitted with, too; most need less than half of these records. Both grow
 // where a frame found too few.
 const uint CHAINS = PARTS > 4u ? LAYERS * PARTS / 2u : LAYERS * 2u;
+// Records of a block that it is admitted with where a cell has several: these are small, and see few triangles.
+const uint CROWD = LAYERS * 4u;
 
 void main() {
     uint lane = gl_SubgroupInvocationID;
@@ -53,7 +55,7 @@ void main() {
         uint chains = PER_SAMPLE || POINTS ? samples : min(cells * blocks * CHAINS, samples);
         uint record_need = blend || (!listed && frame.first_blend < frame.triangle_count)
             ? chains * (2u + min(candidates_, LAYERS))
-            : PER_SAMPLE ? samples : cells * min(blocks * min(PARTS * candidates_, BLOCK), frame.sample_count);
+            : PER_SAMPLE ? samples : min(cells * blocks * min(PARTS * candidates_, blocks == 1u ? BLOCK : CROWD), samples);
         uint list_need = listed ? t.x : 0u, header_need = cells * blocks;
         uint list_first = list_used + subgroupExclusiveAdd(list_need);
         uint record_end = records_used + subgroupInclusiveAdd(record_need);

@@ -40,7 +40,8 @@ pub(super) struct Plan {
     pub sizes: ResourceSizes,
     /// Rounds of lists and records recorded for each region.
     pub rounds: u32,
-    /// BLEND layers of a chain, and half the chains of a block, that tiles are admitted with.
+    /// BLEND layers of a chain, half the chains of a block, and a quarter of the records of one of several blocks, that
+    /// tiles are admitted with.
     pub layers: u32,
     /// What it was planned for.
     pub effort: Effort,
