@@ -2,11 +2,11 @@
 
 use gpc::reference::detect::{Frame, Mode, UNEVEN, superpixels};
 use gpc::reference::srgb::{decode_u8, encode};
-use gpc::render::{Detection, Headless, Method, Reference, Rendered, Settings};
-use gpc::scene::AlphaMode;
+use gpc::render::{Detection, Headless, Method, Reference, Rendered, Settings, Shading};
+use gpc::scene::{AlphaMode, Filter, Image, Sampler};
 
 use crate::meshes::{Depths, Random, delaunay};
-use crate::stage::{Stage, flat, ids, on_gpu, once, seen_at};
+use crate::stage::{Stage, flat, ids, on_gpu, once, seen_at, textured};
 
 const SIZES: [[u32; 2]; 3] = [[64, 64], [37, 23], [8, 4]];
 const CONTRAST: u8 = 12;
@@ -270,5 +270,63 @@ fn an_image_without_edges_has_no_superpixels() {
             "{statistics:?}"
         );
         assert_eq!((statistics.busy_tiles, statistics.records), (0, 0));
+    });
+}
+
+/// Stripes painted on a surface of one triangle, by a texture with such a filter.
+fn stripes(size: [u32; 2], filter: Filter) -> Stage {
+    let mut stage = Stage::new(vec![textured(AlphaMode::Opaque)]);
+    stage.texture = Some((
+        Image {
+            width: 2,
+            height: 1,
+            pixels: vec![0, 0, 0, 255, 255, 255, 255, 255],
+        },
+        Sampler {
+            mag: filter,
+            min: filter,
+            mip: Some(Filter::Linear),
+            ..Sampler::default()
+        },
+    ));
+    let corners = [[-90.0, -80.0], [95.0, -85.0], [5.0, 120.0]];
+    stage.add(0, corners.map(|place| seen_at(place, 1.0, size[1])));
+    stage.triangles[0].uvs = [[0.0, 0.0], [12.4, 3.6], [6.8, 13.2]];
+    stage
+}
+
+/// Texels that do not blend into each other alias amid a triangle, and are shaded in parts; others are filtered enough.
+#[test]
+fn unfiltered_paint_makes_superpixels() {
+    on_gpu(|gpu| {
+        let size = [64, 48];
+        let stage = stripes(size, Filter::Nearest);
+        let error = |rendered: &Rendered, truth: &Rendered| {
+            let pairs = rendered.colors.iter().zip(&truth.colors);
+            pairs
+                .map(|(a, b)| f64::from(a[0] - b[0]).powi(2))
+                .sum::<f64>()
+        };
+        let with = |method, samples| Settings {
+            method,
+            samples,
+            contrast: CONTRAST,
+            ..once(size)
+        };
+        let truth = stage.render(gpu, &with(Method::Ssaa, 1024));
+        let aliased = stage.render(gpu, &with(Method::None, 1));
+        let settings = Settings {
+            detection: Detection::Contrast,
+            shading: Shading::Part,
+            ..with(Method::Superpixel, 64)
+        };
+        let smooth = stage.render(gpu, &settings);
+        let found = smooth.statistics.superpixels;
+        assert!((300..3000).contains(&found), "{found}");
+        let [before, after] = [&aliased, &smooth].map(|rendered| error(rendered, &truth));
+        assert!(after * 20.0 < before, "{after} of {before}");
+
+        let filtered = stripes(size, Filter::Linear).render(gpu, &settings);
+        assert_eq!(filtered.statistics.superpixels, 0);
     });
 }

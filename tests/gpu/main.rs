@@ -15,6 +15,7 @@ mod meshes;
 mod methods;
 mod partition;
 mod scenes;
+mod shade;
 mod sites;
 mod stage;
 mod ties;

@@ -1,0 +1,79 @@
+//! Shading with what a material leaves out left out, against shading that leaves nothing out.
+
+use gpc::render::{Method, Settings};
+use gpc::scene::{AlphaMode, Image, Material, Sampler, Texture, TextureTransform, TextureUse};
+
+use crate::meshes::Random;
+use crate::stage::{Stage, camera, flat, on_gpu, once, seen_at};
+
+const SIZE: [u32; 2] = [48, 32];
+
+fn read(texture: u32, scale: f32) -> Option<TextureUse> {
+    Some(TextureUse {
+        texture,
+        uv_set: 0,
+        transform: TextureTransform([[scale, 0.0, 0.0], [0.0, scale, 0.0]]),
+    })
+}
+
+/// A surface of a lit material whose textures are all of one noise.
+fn lit(material: Material) -> Stage {
+    let mut random = Random::new(3);
+    let mut stage = Stage::new(vec![Material {
+        unlit: false,
+        metallic: 0.7,
+        ..material
+    }]);
+    stage.texture = Some((
+        Image {
+            width: 16,
+            height: 16,
+            pixels: (0..16 * 16 * 4).map(|_| random.below(256) as u8).collect(),
+        },
+        Sampler::default(),
+    ));
+    let corners = [[-50.0, -40.0], [-45.0, 45.0], [50.0, 38.0], [47.0, -43.0]];
+    stage.add_quad(0, corners.map(|place| seen_at(place, 1.0, SIZE[1])));
+    for triangle in &mut stage.triangles {
+        triangle.uvs = triangle.corners.map(|[x, y, _]| [x, y]);
+    }
+    stage
+}
+
+/// Occlusion in the texture of metallic and roughness is read with these; in a copy of it, or at other coordinates, on
+/// its own.
+#[test]
+fn packed_occlusion_is_occlusion() {
+    on_gpu(|gpu| {
+        let material = |occlusion| Material {
+            base_color_texture: read(0, 1.0),
+            metallic_roughness_texture: read(0, 1.0),
+            occlusion_texture: occlusion,
+            ..flat([0.9, 0.8, 0.7, 1.0], AlphaMode::Opaque)
+        };
+        let mut shaded = |occlusion| {
+            let stage = lit(material(occlusion));
+            let (mut scene, pose) = stage.build();
+            let copy = scene.images[0].clone();
+            scene.images.push(copy);
+            scene.textures.push(Texture {
+                image: 1,
+                sampler: Sampler::default(),
+            });
+            let prepared = gpu.upload(&scene, &pose, None).unwrap();
+            let settings = Settings {
+                method: Method::None,
+                ..once(SIZE)
+            };
+            let mut frame = gpu.prepare(&prepared, &settings).unwrap();
+            let rendered = gpu.render(&prepared, &mut frame, &camera()).unwrap();
+            rendered.colors
+        };
+        let packed = shaded(read(0, 1.0));
+        assert_eq!(packed, shaded(read(1, 1.0)));
+        let elsewhere = shaded(read(0, 1.5));
+        assert_eq!(elsewhere, shaded(read(1, 1.5)));
+        assert_ne!(packed, elsewhere);
+        assert_ne!(packed, shaded(None));
+    });
+}
