@@ -16,8 +16,6 @@ layout(constant_id = 3) const bool CHAINED = false;
 layout(constant_id = 4) const uint LIST = 0u;
 layout(constant_id = 5) const bool DISPLAY_CODES = false;
 layout(constant_id = 6) const bool PROBED = false;      // cells that are not marked have one block
-// Mesa's CPU driver ends all loops of an invocation after 65,535 trips in all; chains that take more are reported instead.
-const uint MOST_TRIPS = 50000u;
 
 void write(uvec2 pixel, vec4 c) {
     if (SITES) {

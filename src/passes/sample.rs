@@ -36,8 +36,8 @@ pub struct SampleOptions {
     pub records: RecordRate,
     /// Whether triangles that are seen whole weigh the exact area of their part of a cell.
     pub exact_areas: bool,
-    /// Whether a first run of few samples finds the cells that need no more, where there are many to take.
-    pub probes: bool,
+    /// Whether few samples may settle a cell, so that a first run of few is worth while where there are many to take.
+    pub can_settle: bool,
     /// Whether a subgroup takes a block of one cell, for lists that are too long to take several.
     pub apart: bool,
     /// Whether the scene has MASK triangles.
@@ -268,7 +268,7 @@ impl SampleOptions {
     /// Whether there is a first run.
     #[must_use]
     pub fn probes(&self) -> bool {
-        self.probes
+        self.can_settle
             && self.exact_areas
             && self.records != RecordRate::Sample
             && self.samples > Sample::PROBES

@@ -54,7 +54,7 @@ impl Engine {
                 samples: kind.samples,
                 records: record_rate(settings, scene),
                 exact_areas: settings.coverage == Coverage::Area && kind.samples > 1,
-                probes: can_settle(settings, scene),
+                can_settle: can_settle(settings, scene),
                 apart: plan.effort.apart,
                 has_mask: scene.has_mask(),
                 has_blend: scene.has_blend(),

@@ -72,6 +72,27 @@ impl VulkanError {
         matches!(self, Self::DeviceLost | Self::OutOfMemory { .. })
     }
 
+    /// Refuses to need more of something than the device can address.
+    ///
+    /// # Errors
+    /// [`VulkanError::TooLarge`] if `needed` passes `limit`.
+    pub(crate) fn check_limit(
+        what: &str,
+        needed: u64,
+        unit: &'static str,
+        limit: u64,
+    ) -> Result<(), Self> {
+        if needed > limit {
+            return Err(Self::TooLarge {
+                what: what.to_owned(),
+                needed,
+                unit,
+                limit,
+            });
+        }
+        Ok(())
+    }
+
     /// Turns a result of `call` into an error.
     pub(crate) fn of(call: &'static str) -> impl FnOnce(vk::Result) -> Self {
         move |result| match result {

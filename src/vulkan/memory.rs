@@ -131,14 +131,7 @@ impl Memory {
         location: MemoryUse,
     ) -> Result<Buffer, VulkanError> {
         let limit = self.gpu.limits().max_storage_bytes;
-        if size > limit {
-            return Err(VulkanError::TooLarge {
-                what: name.to_owned(),
-                needed: size,
-                unit: "bytes",
-                limit,
-            });
-        }
+        VulkanError::check_limit(name, size, "bytes", limit)?;
         self.buffer(name, size, usage, location)
     }
 
@@ -172,14 +165,7 @@ impl Memory {
         location: MemoryUse,
     ) -> Result<BufferView, VulkanError> {
         let limit = self.gpu.limits().max_texel_elements;
-        if elements > limit {
-            return Err(VulkanError::TooLarge {
-                what: name.to_owned(),
-                needed: elements,
-                unit: "elements",
-                limit,
-            });
-        }
+        VulkanError::check_limit(name, elements, "elements", limit)?;
         let bytes = match format {
             vk::Format::R32G32B32A32_SFLOAT | vk::Format::R32G32B32A32_UINT => 16,
             vk::Format::R32G32_SFLOAT => 8,

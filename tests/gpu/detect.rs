@@ -321,10 +321,23 @@ fn unfiltered_paint_makes_superpixels() {
             ..with(Method::Superpixel, 64)
         };
         let smooth = stage.render(gpu, &settings);
-        let found = smooth.statistics.superpixels;
-        assert!((300..3000).contains(&found), "{found}");
+        let marked = smooth.statistics.superpixels;
+        assert!((300..3000).contains(&marked), "{marked}");
         let [before, after] = [&aliased, &smooth].map(|rendered| error(rendered, &truth));
         assert!(after * 3.0 < before, "{after} of {before}");
+
+        let (codes, doubtful) = codes(&aliased);
+        assert!(!doubtful.contains(&true));
+        let ids = ids(&aliased);
+        let flagged: Vec<u32> = ids
+            .iter()
+            .zip(codes)
+            .map(|(&id, code)| if id == 0 { code } else { code | UNEVEN })
+            .collect();
+        let blend = vec![0; ids.len()];
+        let mode = Mode::Contrast(CONTRAST);
+        let expected = expected(size, &ids, &blend, &flagged, mode);
+        assert!(found(gpu, &stage, &once(size), Detection::Contrast) == expected);
 
         let filtered = stripes(size, Filter::Linear).render(gpu, &settings);
         assert_eq!(filtered.statistics.superpixels, 0);

@@ -114,15 +114,7 @@ impl Bins {
 }
 
 fn check(found: usize, unit: &'static str, limit: usize) -> Result<(), VulkanError> {
-    if found > limit {
-        return Err(VulkanError::TooLarge {
-            what: "the scene".to_owned(),
-            needed: found as u64,
-            unit,
-            limit: limit as u64,
-        });
-    }
-    Ok(())
+    VulkanError::check_limit("the scene", found as u64, unit, limit as u64)
 }
 
 fn bin_key(

@@ -20,14 +20,7 @@ impl Texture {
     ) -> Result<Self, VulkanError> {
         let limit = u64::from(memory.gpu().limits().max_image_side);
         let side = u64::from(source.width.max(source.height));
-        if side > limit {
-            return Err(VulkanError::TooLarge {
-                what: "a texture's side".to_owned(),
-                needed: side,
-                unit: "texels",
-                limit,
-            });
-        }
+        VulkanError::check_limit("a texture's side", side, "texels", limit)?;
         let info = vk::ImageCreateInfo::default()
             .image_type(vk::ImageType::TYPE_2D)
             .format(if srgb {

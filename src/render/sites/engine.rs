@@ -101,7 +101,7 @@ impl SiteEngine {
                 record_rate(settings, scene)
             },
             exact_areas: settings.coverage == Coverage::Area && settings.samples > 1 && !points,
-            probes: can_settle(settings, scene),
+            can_settle: can_settle(settings, scene),
             apart,
             has_mask: scene.has_mask(),
             has_blend: scene.has_blend(),
