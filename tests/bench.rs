@@ -5,13 +5,16 @@ mod cli_support;
 
 use cli_support::{asset, files, gpc};
 use glam::DVec2;
-use gpc::bench::{Growth, Looks, Variant, VariantContender, VariantError, Yardstick, brute_force};
+use gpc::bench::stress::stage::{Stage, camera, seen_at, textured};
+use gpc::bench::{
+    Growth, Looks, Random, Variant, VariantContender, VariantError, Yardstick, brute_force,
+};
 use gpc::camera::{Camera, Orbit, Projection};
 use gpc::output::Picture;
 use gpc::render::{
     Footprint, Headless, HeadlessOptions, Method, PreparedScene, RenderError, Settings,
 };
-use gpc::scene::{PoseRequest, Scene};
+use gpc::scene::{AlphaMode, Image, PoseRequest, Sampler, Scene};
 use serde_json::Value;
 use std::path::Path;
 
@@ -103,6 +106,56 @@ fn the_reference_lies_beyond_supersampling() {
         "{errors:?}"
     );
     assert!(errors[2] > 0.0, "the grid was not moved");
+}
+
+/// Textures read for smaller and smaller samples come to the truth; those read for whole pixels come to another image.
+#[test]
+fn only_textures_read_for_samples_come_to_the_truth() {
+    let mut random = Random::new(7);
+    let mut painted = Stage::new(vec![textured(AlphaMode::Opaque)]);
+    painted.texture = Some((
+        Image {
+            width: SIZE,
+            height: SIZE,
+            pixels: (0..SIZE * SIZE * 4)
+                .map(|_| random.below(256) as u8)
+                .collect(),
+        },
+        Sampler::default(),
+    ));
+    let half = f64::from(SIZE);
+    let corners = [[-half, -half], [-half, half], [half, half], [half, -half]];
+    painted.add_quad(0, corners.map(|place| seen_at(place, 1.0, SIZE)));
+    for triangle in &mut painted.triangles {
+        // A texel is two thirds of a pixel.
+        triangle.uvs = triangle.corners.map(|[x, y, _]| [0.75 * x, 0.75 * y]);
+    }
+    let (scene, pose) = painted.build();
+    let mut headless = Headless::new(&HeadlessOptions::default()).unwrap();
+    let prepared = headless.upload(&scene, &pose, None).unwrap();
+    let with = |footprint, samples| Settings {
+        footprint,
+        ..settings(Method::Ssaa, samples)
+    };
+    let [truth, geometry] = [Footprint::Sample, Footprint::Pixel].map(|footprint| {
+        let settings = with(footprint, 1);
+        brute_force(&mut headless, &prepared, &camera(), &settings, 1024, || {}).unwrap()
+    });
+    let mut error = |footprint, samples| {
+        let mut frame = headless
+            .prepare(&prepared, &with(footprint, samples))
+            .unwrap();
+        let image = headless.render(&prepared, &mut frame, &camera()).unwrap();
+        rmse(&image.colors, &truth)
+    };
+    let errors = [4, 16, 64].map(|samples| error(Footprint::Sample, samples));
+    assert!(errors.is_sorted_by(|a, b| *a > 2.0 * b), "{errors:?}");
+    let blurred = error(Footprint::Pixel, 1024);
+    let apart = rmse(&truth, &geometry);
+    assert!(
+        (blurred / apart - 1.0).abs() < 0.05 && apart > 5.0 * errors[2],
+        "{blurred} {apart} {errors:?}"
+    );
 }
 
 #[test]
@@ -228,7 +281,7 @@ fn bench(folder: &Path) -> Value {
         "512",
         "--repeat",
         "2",
-        "--sample-footprint",
+        "--geometry",
         "--cache",
         "cache",
         "--out",
@@ -245,6 +298,18 @@ fn number(value: &Value, path: &str) -> f64 {
         .pointer(path)
         .and_then(Value::as_f64)
         .unwrap_or_else(|| panic!("no {path} in {value}"))
+}
+
+/// The summary of a run without textures.
+fn results_of_untextured(results: &Value) -> &Value {
+    let [summary] = results["summary"].as_array().unwrap().as_slice() else {
+        panic!("{}", results["summary"]);
+    };
+    assert_eq!(
+        (&summary["textured"], &summary["scenes"]),
+        (&false.into(), &1.into())
+    );
+    summary
 }
 
 #[test]
@@ -293,11 +358,22 @@ fn measures_every_method_that_there_is_and_keeps_the_reference() {
         let removed = number(row, "/accuracy/removed");
         assert!((shares - (1.0 - removed)).abs() < 1e-9, "{row}");
         // The letters have no textures.
-        let rmse = number(row, "/accuracy/rmse");
-        assert_eq!(number(row, "/rmse_sample_footprint"), rmse);
+        assert_eq!(row["geometry"], row["accuracy"]);
     }
-    assert_eq!(number(scene, "/texture_filtering"), 0.0);
     assert!(scene["reference_seconds"].is_number());
+    let kept = files(&folder.path().join("cache"));
+    assert_eq!(
+        kept.len(),
+        2,
+        "the truth and a reference for geometry alone: {kept:?}"
+    );
+    assert_eq!(scene["textured"], false);
+    let summary = results_of_untextured(&first);
+    assert_eq!(summary["at"].as_array().unwrap().len(), 2);
+    assert_eq!(
+        summary["at"][0]["rmse_ratio"],
+        summary["at"][0]["geometry_ratio"]
+    );
 
     let again = bench(folder.path());
     let scene = &again["scenes"][0];
@@ -344,7 +420,7 @@ fn writes_a_report_that_needs_no_other_file() {
     let csv = std::fs::read_to_string(out.join("results.csv")).unwrap();
     let columns: Vec<_> = csv.lines().map(|line| line.split(',').count()).collect();
     let rows = results["scenes"][0]["rows"].as_array().unwrap().len();
-    assert_eq!(columns, vec![27; rows + 1]);
+    assert_eq!(columns, vec![29; rows + 1]);
 }
 
 #[test]

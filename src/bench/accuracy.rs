@@ -5,7 +5,7 @@ use crate::output::{DecodedImage, Picture};
 use serde::Serialize;
 
 /// Distance of an image from the reference. Colours count, alpha does not: the images are opaque.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Accuracy {
     /// Root of the mean squared difference of the linear values of 0 to 1.
     pub rmse_linear: f64,

@@ -19,7 +19,7 @@ pub use accuracy::{Accuracy, Yardstick};
 pub use cache::{Cache, Fingerprint};
 pub use causes::{Cause, LOOKS, Looks, Split};
 pub use growth::{Growth, Step};
-pub use reference::{GRID_SAMPLES, MAX_REFERENCE_SAMPLES, brute_force};
+pub use reference::{GRID_SAMPLES, MAX_REFERENCE_SAMPLES, TRUTH_SIDE, brute_force};
 pub use spread::Spread;
 pub use timing::{Contender, Cost, PassCost, take_turns};
 pub use variants::{Variant, VariantContender, VariantCost, VariantError};

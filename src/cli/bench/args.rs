@@ -12,8 +12,9 @@ use std::time::Duration;
 ///
 /// Every scene is rendered as by `gpc render`, before a light grey background, by every method at every number of
 /// samples that it can have: once to warm up and then R times, the methods taking turns. Each image is held against
-/// brute force at thousands of samples a pixel, which is kept on disk for the next run. With --variants, other
-/// sampling sets than the pixels of an image are timed too; with --growth, scenes made for it show what grows with what;
+/// the truth: brute force at thousands of samples a pixel that read textures at a 64th of its side, which is kept on disk
+/// for the next run. With --geometry, the methods are also measured with textures read for a whole pixel, against a
+/// reference that does so too, so that they differ by geometry alone. With --variants, other sampling sets than the pixels of an image are timed too; with --growth, scenes made for it show what grows with what;
 /// with --stress, geometry that is hard on a rasterizer shows what holds. DIR then holds results.json, results.csv and
 /// report.html, and variants.csv with --variants, written anew after each scene.
 #[derive(Args)]
@@ -43,9 +44,9 @@ pub struct BenchArgs {
     /// Samples a pixel of the reference, a multiple of 256
     #[arg(long, value_name = "N", default_value_t = 4096, value_parser = reference_samples)]
     pub reference: u32,
-    /// Also against a second reference, whose texture levels follow the footprint of its samples instead of the pixel's
+    /// Measure geometry alone too: every method, and a reference of its own, reading textures for a whole pixel
     #[arg(long)]
-    pub sample_footprint: bool,
+    pub geometry: bool,
     /// Time also against the number of triangles, of pixels, of superpixels and of layers, in scenes made for it
     #[arg(long)]
     pub growth: bool,

@@ -1,6 +1,7 @@
 //! `gpc bench`.
 
 mod args;
+mod front;
 mod gallery;
 mod growth;
 mod html;

@@ -2,7 +2,7 @@
 
 use super::BenchArgs;
 use super::machine::{self, Machine};
-use super::summary::AtSamples;
+use super::summary::Summary;
 use crate::cli::render::Antialiasing;
 use gpc::bench::stress::Finding;
 use gpc::bench::{Accuracy, Cost, Split, Spread, VariantCost};
@@ -19,11 +19,12 @@ pub struct Results {
     pub device: String,
     pub driver: String,
     pub size: [u32; 2],
-    /// Samples a pixel of the reference.
+    /// Samples a pixel of the truth, and of the reference for geometry alone.
     pub reference_samples: u32,
     pub repeat: u32,
     pub budget_seconds: f64,
-    pub summary: Vec<AtSamples>,
+    /// Medians, of textured and of untextured scenes apart.
+    pub summary: Vec<Summary>,
     pub scenes: Vec<SceneResults>,
     /// Time of the camera's variants, scene by scene.
     pub variants: Vec<SceneVariants>,
@@ -105,11 +106,10 @@ pub struct SceneResults {
     pub name: String,
     pub file: String,
     pub triangles: u64,
-    /// Seconds that the reference took to render; `None` if it came from the cache.
+    /// Whether a material of something drawn has a texture.
+    pub textured: bool,
+    /// Seconds that the truth took to render; `None` if it came from the cache.
     pub reference_seconds: Option<f64>,
-    /// RMSE of the reference against the second reference, whose texture levels follow the footprint of its samples:
-    /// what filtering textures for whole pixels leaves, whatever the number of samples.
-    pub texture_filtering: Option<f64>,
     /// What was left out, and why.
     pub notes: Vec<String>,
     pub rows: Vec<Row>,
@@ -128,11 +128,12 @@ pub struct Row {
     pub superpixel_fraction: f64,
     /// Triangles in the lists of tiles.
     pub candidates: u64,
+    /// Against the truth.
     pub accuracy: Accuracy,
+    /// With textures read for a whole pixel, against a reference that reads them so, where that was wanted.
+    pub geometry: Option<Accuracy>,
     /// The error that is left by cause, where superpixels were measured.
     pub left: Option<Split>,
-    /// RMSE against the second reference, as a display shows it.
-    pub rmse_sample_footprint: Option<f64>,
 }
 
 impl Results {

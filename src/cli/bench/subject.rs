@@ -6,12 +6,12 @@ use super::progress::Progress;
 use super::results::{Row, SceneResults};
 use crate::cli::input;
 use crate::cli::render::{Antialiasing, CameraArgs, choose_views};
-use gpc::bench::{self, Cache, Cause, Contender, Fingerprint, Looks, Yardstick};
+use gpc::bench::{self, Accuracy, Cache, Cause, Contender, Fingerprint, Looks, Yardstick};
 use gpc::camera::Camera;
 use gpc::output::{DecodedImage, Picture};
 use gpc::reference::srgb;
 use gpc::render::{Footprint, Headless, PreparedScene, RenderError, Rendered, Settings};
-use gpc::scene::{Geometry, PoseRequest};
+use gpc::scene::{Geometry, PoseRequest, Scene};
 use std::path::Path;
 use std::time::Instant;
 
@@ -31,6 +31,7 @@ pub(super) struct Subject {
     pub prepared: PreparedScene,
     geometry: Geometry,
     pub camera: Camera,
+    textured: bool,
 }
 
 /// A method that takes part, with what is known of it before it is timed.
@@ -52,11 +53,7 @@ impl Bench<'_> {
         let one_sample = Picture::new(settings.size, &one_sample.colors)?;
         let reference = Picture::new(settings.size, &reference)?;
         let yardstick = Yardstick::new(&reference, &one_sample)?;
-        let finer = self.finer_reference(&subject, &settings, &one_sample)?;
-        let texture_filtering = match &finer {
-            Some(finer) => Some(finer.measure(&reference)?.rmse),
-            None => None,
-        };
+        let geometry = self.geometry_yardstick(&subject, &one_sample)?;
         let looks = self.looks(&subject)?;
 
         let shown = self.shown_samples();
@@ -89,15 +86,15 @@ impl Bench<'_> {
                         / rendered.colors.len() as f64,
                     candidates: statistics.candidates,
                     accuracy: yardstick.measure(&picture)?,
+                    geometry: match &geometry {
+                        Some(geometry) => Some(self.geometry(&subject, geometry, method, samples)?),
+                        None => None,
+                    },
                     left: match &looks {
                         Some(looks) => {
                             let causes = self.causes(&subject, looks, method, samples)?;
                             Some(yardstick.split(&picture, &causes)?)
                         }
-                        None => None,
-                    },
-                    rmse_sample_footprint: match &finer {
-                        Some(finer) => Some(finer.measure(&picture)?.rmse),
                         None => None,
                     },
                 },
@@ -108,8 +105,8 @@ impl Bench<'_> {
             name,
             file: path.display().to_string(),
             triangles,
+            textured: subject.textured,
             reference_seconds,
-            texture_filtering,
             notes: notes.lines(),
             rows: self.time(&subject, entries)?,
         };
@@ -128,6 +125,7 @@ impl Bench<'_> {
         };
         Ok(Subject {
             prepared: self.headless.upload(&loaded.scene, &pose, None)?,
+            textured: shows_textures(&loaded.scene, &pose.geometry),
             geometry: pose.geometry,
             camera: view.camera,
         })
@@ -147,23 +145,32 @@ impl Bench<'_> {
         counts.max_by_key(|samples| (*samples == Settings::DEFAULT_SAMPLES, *samples))
     }
 
-    /// Measures against the second reference, if that is wanted.
-    fn finer_reference(
+    /// What geometry alone is measured against, if that is wanted. One sample a pixel is the same image either way.
+    fn geometry_yardstick(
         &mut self,
         subject: &Subject,
-        settings: &Settings,
         one_sample: &Picture<'_>,
     ) -> anyhow::Result<Option<Yardstick>> {
-        if !self.args.sample_footprint {
+        if !self.args.geometry {
             return Ok(None);
         }
-        let settings = Settings {
-            footprint: Footprint::Sample,
-            ..settings.clone()
-        };
-        let (finer, _) = self.reference(subject, &settings)?;
-        let finer = Picture::new(settings.size, &finer)?;
-        Ok(Some(Yardstick::new(&finer, one_sample)?))
+        let settings = for_whole_pixels(self.settings(Antialiasing::None, 1));
+        let (reference, _) = self.reference(subject, &settings)?;
+        let reference = Picture::new(settings.size, &reference)?;
+        Ok(Some(Yardstick::new(&reference, one_sample)?))
+    }
+
+    /// How exact a method is by geometry alone.
+    fn geometry(
+        &mut self,
+        subject: &Subject,
+        yardstick: &Yardstick,
+        method: Antialiasing,
+        samples: u32,
+    ) -> anyhow::Result<Accuracy> {
+        let settings = for_whole_pixels(self.settings(method, samples));
+        let (_, rendered) = self.warm_up(subject, &settings)?;
+        Ok(yardstick.measure(&Picture::new(rendered.size, &rendered.colors)?)?)
     }
 
     /// Looks into pixels, if superpixels are measured.
@@ -290,6 +297,15 @@ impl Bench<'_> {
     }
 }
 
+/// Whether a material of something drawn has a texture.
+fn shows_textures(scene: &Scene, geometry: &Geometry) -> bool {
+    geometry
+        .draws
+        .iter()
+        .filter_map(|draw| scene.materials.get(draw.material as usize))
+        .any(|material| material.textures().next().is_some())
+}
+
 impl Subject {
     pub fn triangles(&self) -> u64 {
         self.geometry.triangles.len() as u64
@@ -304,6 +320,14 @@ pub fn settings(method: Antialiasing, samples: u32, [width, height]: [u32; 2]) -
         contrast: Settings::default_contrast(samples),
         background: Some(BACKGROUND.map(|value| srgb::decode(value) as f32)),
         ..Settings::new(width, height)
+    }
+}
+
+/// The same with textures read for a whole pixel, whatever the number of samples.
+fn for_whole_pixels(settings: Settings) -> Settings {
+    Settings {
+        footprint: Footprint::Pixel,
+        ..settings
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::axis::{self, Axis, points};
 use super::short;
+use crate::cli::bench::front::{error, front, time};
 use crate::cli::bench::results::{Row, SceneResults};
 use crate::cli::render::Antialiasing;
 use std::fmt::Write;
@@ -41,7 +42,10 @@ pub fn chart(scene: &SceneResults) -> String {
     };
     let names = ["time of a frame on the device, ms", "RMSE"];
     axis::grid(&mut svg, &frame, [&x, &y], names);
-    let front: Vec<Place> = front(&drawn).into_iter().map(place).collect();
+    let front: Vec<Place> = front(drawn.iter().copied())
+        .into_iter()
+        .map(place)
+        .collect();
     let _ = write!(
         svg,
         "<polyline class=\"front\" points=\"{}\"/>",
@@ -78,31 +82,6 @@ pub fn chart(scene: &SceneResults) -> String {
         at + 36.0
     );
     svg
-}
-
-fn time(row: &Row) -> f64 {
-    row.cost.gpu_ms.median
-}
-
-fn error(row: &Row) -> f64 {
-    row.accuracy.rmse
-}
-
-/// The rows that none beats in both time and error, by time.
-fn front<'a>(rows: &[&'a Row]) -> Vec<&'a Row> {
-    let mut sorted = rows.to_vec();
-    sorted.sort_by(|a, b| {
-        time(a)
-            .total_cmp(&time(b))
-            .then(error(a).total_cmp(&error(b)))
-    });
-    let mut least = f64::INFINITY;
-    sorted.retain(|row| {
-        let better = error(row) < least;
-        least = least.min(error(row));
-        better
-    });
-    sorted
 }
 
 fn mark(svg: &mut String, row: &Row, x: f64, y: f64) {

@@ -34,7 +34,7 @@ pub fn page(results: &Results, galleries: &[Gallery]) -> String {
          device's own multisampling and full supersampling, measured in one run of <code>gpc bench</code>.</p>\n\
          <dl class=\"facts\"><div><dt>Device</dt><dd>{device}<br><small>{driver}</small></dd></div>\
          <div><dt>Machine</dt><dd>{cpu}<br><small>{threads} threads, {os}</small></dd></div>\
-         <div><dt>Image</dt><dd>{width} × {height}<br><small>reference: {reference} samples a pixel</small></dd></div>\
+         <div><dt>Image</dt><dd>{width} × {height}<br><small>truth: {reference} samples a pixel</small></dd></div>\
          <div><dt>Run</dt><dd>{date}<br><small>gpc {version}, medians of up to {repeat} frames</small></dd></div></dl>\n\
          </header>\n<main>\n{summary}{sections}{variants}{growth}{stress}{method}</main>\n\
          </body>\n</html>\n",
@@ -60,9 +60,13 @@ fn summary(results: &Results) -> String {
     if results.scenes.is_empty() {
         return String::new();
     }
+    let summary: String = results
+        .summary
+        .iter()
+        .map(|of| tables::summary(of) + &tables::reach(of))
+        .collect();
     format!(
-        "<section>\n<h2>All scenes</h2>\n{}{}</section>\n",
-        tables::summary(&results.summary),
+        "<section>\n<h2>All scenes</h2>\n{summary}{}</section>\n",
         tables::by_scene(&results.scenes)
     )
 }
@@ -76,9 +80,12 @@ fn method(results: &Results) -> String {
          compile shaders during it; then the methods take turns, a frame each, so that a machine that slows down slows \
          all of them down. A method stops when its frames have taken {budget} s, but not before one was timed: the \
          column <i>frames</i> has their number, <i>±</i> the distance from the fastest to the slowest.</li>\n\
-         <li><b>The reference</b> is brute force at {reference} samples a pixel: 16 × 16 supersampling, again and again \
-         with the grid moved to another point of an Owen-scrambled Sobol set within its own cell. Texture levels are \
-         chosen for the footprint of an output pixel in it as in every method.</li>\n\
+         <li><b>The truth</b>, against which all errors are, is brute force at {reference} samples a pixel: 16 × 16 \
+         supersampling, again and again with the grid moved to another point of an Owen-scrambled Sobol set within its \
+         own cell. It reads textures, and the alpha of cut-outs, at a 64th of a pixel's side, so that it is the mean over \
+         each pixel of the scene as it is. Supersampling reads them for its own samples, as renderers elsewhere do; one \
+         sample and multisampling read them for the pixel. <b>Geometry alone</b> has textures read for a whole pixel in \
+         every method and in a reference of its own: it says nothing of how sharp they are.</li>\n\
          <li><b>RMSE, PSNR, max</b> and <b>removed</b> are of sRGB-encoded values of 0 to 1, as a display shows them; \
          <i>linear</i> of linear light. <i>Removed</i> is the share of the squared error of one sample a pixel that is \
          gone. <i>Needless</i> is the share of pixels that were right with one sample, within 1/255, and are further \

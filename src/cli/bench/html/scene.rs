@@ -12,7 +12,7 @@ pub fn section(scene: &SceneResults, gallery: &Gallery) -> String {
     format!(
         "<section>\n<h2>{name}</h2>\n<p class=\"note\">{triangles} triangles{notes}</p>\n\
          <div class=\"two\"><div>{curves}</div><div class=\"overview\">{overview}</div></div>\n{parts}\
-         {left}{filtering}<h3>Where the time goes</h3>\n{bars}\
+         {left}{geometry}<h3>Where the time goes</h3>\n{bars}\
          <details><summary>Figures</summary>{figures}</details>\n\
          <details><summary>Time by pass</summary>{passes}</details>\n</section>\n",
         name = escape(&scene.name),
@@ -20,7 +20,7 @@ pub fn section(scene: &SceneResults, gallery: &Gallery) -> String {
         notes = escape(&notes),
         curves = curves::chart(scene),
         left = tables::left(scene),
-        filtering = tables::texture_filtering(scene),
+        geometry = tables::geometry(scene),
         bars = bars::chart(scene),
         figures = tables::figures(scene),
         passes = tables::passes(scene),

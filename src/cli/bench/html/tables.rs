@@ -2,59 +2,107 @@
 
 use super::{escape, short, times};
 use crate::cli::bench::results::{Row, SceneResults};
-use crate::cli::bench::summary::{self, AtSamples};
-use crate::cli::bench::table::decibels;
+use crate::cli::bench::summary::{self, AtSamples, Ratio, Reach, Summary};
+use crate::cli::bench::table::{decibels, share};
 
-/// Ratios over all scenes.
-pub fn summary(summary: &[AtSamples]) -> String {
+/// Ratios over all scenes of a kind.
+pub fn summary(summary: &Summary) -> String {
+    let ratio = |ratio: &Option<Ratio>| match ratio {
+        None => "<td>–</td><td>–</td>".to_owned(),
+        Some(ratio) => format!(
+            "<td>{}</td><td>{}× <small>{}</small></td>",
+            times(Some(ratio.median)),
+            short(ratio.worst),
+            escape(&ratio.worst_scene)
+        ),
+    };
     let row = |at: &AtSamples| {
-        let worst = at.worst_rmse_ratio.as_ref().map_or_else(
-            || "–".to_owned(),
-            |(scene, ratio)| format!("{}× <small>{}</small>", short(*ratio), escape(scene)),
-        );
         format!(
-            "<tr><th>{}</th><td class=\"key\">{}</td><td>{}</td><td>{}</td><td>{worst}</td><td>{}</td></tr>",
+            "<tr><th>{}</th><td class=\"key\">{}</td><td>{}</td>{}{}<td>{}</td></tr>",
             at.samples,
             times(at.speedup),
             times(at.over_none),
-            times(at.rmse_ratio),
+            ratio(&at.rmse_ratio),
+            ratio(&at.geometry_ratio),
             at.removed.map_or_else(|| "–".to_owned(), percent),
         )
     };
     table(
         "<th>samples</th><th>faster than supersampling</th><th>time over one sample's</th>\
-         <th>RMSE over supersampling's</th><th>at worst</th><th>error removed</th>",
-        summary.iter().map(row),
-        "Superpixels at equal numbers of samples; medians over the scenes.",
+         <th>RMSE over supersampling's</th><th>at worst</th><th>geometry alone</th><th>at worst</th>\
+         <th>error removed</th>",
+        summary.at.iter().map(row),
+        &format!(
+            "Superpixels at equal numbers of samples; medians of {}.",
+            summary.about()
+        ),
     )
 }
 
+/// How soon superpixels reach an error, scene by scene; empty where that was not measured.
+pub fn reach(summary: &Summary) -> String {
+    let row = |reach: &Reach| {
+        let scenes: Vec<_> = reach
+            .scenes
+            .iter()
+            .map(|(scene, found)| format!("{} {}", escape(scene), share(*found)))
+            .collect();
+        format!(
+            "<tr><th>{}</th><td class=\"key\">{}</td><td class=\"name long\">{}</td></tr>",
+            reach.samples,
+            share(reach.share),
+            scenes.join(", ")
+        )
+    };
+    if summary.reach.is_empty() {
+        return String::new();
+    }
+    table(
+        "<th>samples</th><th>median</th><th class=\"name\">scenes</th>",
+        summary.reach.iter().map(row),
+        "The share of supersampling's time in which superpixels reach its error, along their curve; <i>never</i> where \
+         no number of samples that was measured does.",
+    )
+}
+
+/// A ratio of a scene at a number of samples.
+type SceneRatio = fn(&SceneResults, u32) -> Option<f64>;
+
 /// Ratios scene by scene, with a column for each number of samples.
 pub fn by_scene(scenes: &[SceneResults]) -> String {
-    let counts: Vec<_> = summary::summarize(scenes)
+    let counts = summary::counts(scenes);
+    let ratios: [(&str, SceneRatio); 4] = [
+        ("faster than supersampling", summary::speedup),
+        ("time over one sample's", summary::over_none),
+        ("RMSE over supersampling's", summary::rmse_ratio),
+        ("of geometry alone", summary::geometry_ratio),
+    ];
+    // Geometry alone is not always measured.
+    let measured = |(_, ratio): &&(&str, SceneRatio)| {
+        let pairs = scenes
+            .iter()
+            .flat_map(|s| counts.iter().map(move |c| (s, *c)));
+        pairs
+            .into_iter()
+            .any(|(scene, count)| ratio(scene, count).is_some())
+    };
+    let ratios: Vec<_> = ratios.iter().filter(measured).collect();
+    let head: String = ratios
         .iter()
-        .map(|at| at.samples)
+        .map(|(what, _)| {
+            format!(
+                "<th colspan=\"{}\" class=\"group\">{what}</th>",
+                counts.len()
+            )
+        })
         .collect();
-    let head: String = [
-        "faster than supersampling",
-        "time over one sample's",
-        "RMSE over supersampling's",
-    ]
-    .iter()
-    .map(|what| {
-        format!(
-            "<th colspan=\"{}\" class=\"group\">{what}</th>",
-            counts.len()
-        )
-    })
-    .collect();
     let numbers: String = counts
         .iter()
         .enumerate()
         .map(|(index, count)| format!("<th{}>{count}</th>", group(index)))
         .collect();
     let row = |scene: &SceneResults| {
-        let cells = |ratio: fn(&SceneResults, u32) -> Option<f64>| -> String {
+        let cells = |ratio: SceneRatio| -> String {
             let cell = |(index, count): (usize, &u32)| {
                 format!("<td{}>{}</td>", group(index), times(ratio(scene, *count)))
             };
@@ -65,19 +113,18 @@ pub fn by_scene(scenes: &[SceneResults]) -> String {
             .iter()
             .map(|row| row.superpixel_fraction)
             .fold(0.0, f64::max);
+        let cells: String = ratios.iter().map(|(_, ratio)| cells(*ratio)).collect();
         format!(
-            "<tr><th class=\"name\">{}</th><td>{}</td>{}{}{}</tr>",
+            "<tr><th class=\"name\">{}</th><td>{}</td>{cells}</tr>",
             escape(&scene.name),
             percent(superpixels),
-            cells(summary::speedup),
-            cells(summary::over_none),
-            cells(summary::rmse_ratio),
         )
     };
     table(
         &format!(
             "<th rowspan=\"2\" class=\"name\">scene</th><th rowspan=\"2\">superpixels</th>{head}</tr>\
-             <tr>{numbers}{numbers}{numbers}"
+             <tr>{}",
+            numbers.repeat(ratios.len())
         ),
         scenes.iter().map(row),
         "",
@@ -162,26 +209,33 @@ pub fn left(scene: &SceneResults) -> String {
     format!("<h3>What is left of the error</h3>\n{table}")
 }
 
-/// Errors against the second reference; empty where that was not rendered.
-pub fn texture_filtering(scene: &SceneResults) -> String {
-    let Some(reference) = scene.texture_filtering else {
+/// Errors of geometry alone; empty where that was not measured.
+pub fn geometry(scene: &SceneResults) -> String {
+    let rows: Vec<_> = scene
+        .rows
+        .iter()
+        .filter_map(|row| {
+            let geometry = row.geometry?;
+            Some(format!(
+                "<tr><th class=\"name\">{}</th><td>{}</td><td>{:.5}</td><td>{}</td><td>{:.4}</td><td>{}</td></tr>",
+                row.method,
+                row.samples,
+                geometry.rmse,
+                decibels(geometry.psnr),
+                geometry.flip,
+                percent(geometry.removed),
+            ))
+        })
+        .collect();
+    if rows.is_empty() {
         return String::new();
-    };
-    let cells = scene.rows.iter().filter_map(|row| {
-        let rmse = row.rmse_sample_footprint?;
-        Some((format!("{}<br>{}", row.method, row.samples), rmse))
-    });
-    let (heads, values): (String, String) = [("reference".to_owned(), reference)]
-        .into_iter()
-        .chain(cells)
-        .map(|(head, rmse)| (format!("<th>{head}</th>"), format!("<td>{rmse:.5}</td>")))
-        .unzip();
+    }
     let table = table(
-        &heads,
-        [format!("<tr>{values}</tr>")].into_iter(),
-        "RMSE against a second reference, whose texture levels follow the footprint of its samples.",
+        "<th class=\"name\">method</th><th>N</th><th>RMSE</th><th>PSNR</th><th>FLIP</th><th>removed</th>",
+        rows.into_iter(),
+        "Textures read for a whole pixel, in the methods and in a reference of their own.",
     );
-    format!("<h3>What filtering textures for pixels leaves</h3>\n{table}")
+    format!("<h3>Geometry alone</h3>\n{table}")
 }
 
 /// Medians of the passes' times, with a column for each method and number of samples.
