@@ -357,6 +357,21 @@ fn measures_every_method_that_there_is_and_keeps_the_reference() {
         let shares: f64 = left.values().map(|share| share.as_f64().unwrap()).sum();
         let removed = number(row, "/accuracy/removed");
         assert!((shares - (1.0 - removed)).abs() < 1e-9, "{row}");
+        if row["method"] == "superpixel" {
+            let within = |names: &[&str]| -> f64 {
+                let path = |name: &&str| number(row, &format!("/left_within/{name}"));
+                names.iter().map(path).sum()
+            };
+            let split = number(row, "/left/superpixels");
+            let edges = within(&["superpixel_edges"]);
+            let sum = edges + within(&["superpixel_texture", "superpixel_light"]);
+            assert!((sum - split).abs() < 1e-9, "{row}");
+            let sum = within(&["inside_texture", "inside_light"]);
+            assert!((sum - number(row, "/left/inside")).abs() < 1e-9, "{row}");
+            assert!(edges > 0.5 * split, "letters are edges: {row}");
+        } else {
+            assert!(row["left_within"].is_null(), "{row}");
+        }
         // The letters have no textures.
         assert_eq!(row["geometry"], row["accuracy"]);
     }
@@ -364,8 +379,8 @@ fn measures_every_method_that_there_is_and_keeps_the_reference() {
     let kept = files(&folder.path().join("cache"));
     assert_eq!(
         kept.len(),
-        2,
-        "the truth and a reference for geometry alone: {kept:?}"
+        3,
+        "the truth, which is that of light alone, that of paint alone, and a reference for geometry alone: {kept:?}"
     );
     assert_eq!(scene["textured"], false);
     let summary = results_of_untextured(&first);
@@ -420,7 +435,7 @@ fn writes_a_report_that_needs_no_other_file() {
     let csv = std::fs::read_to_string(out.join("results.csv")).unwrap();
     let columns: Vec<_> = csv.lines().map(|line| line.split(',').count()).collect();
     let rows = results["scenes"][0]["rows"].as_array().unwrap().len();
-    assert_eq!(columns, vec![29; rows + 1]);
+    assert_eq!(columns, vec![34; rows + 1]);
 }
 
 #[test]

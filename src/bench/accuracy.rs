@@ -112,6 +112,30 @@ impl Yardstick {
     }
 }
 
+/// Each pixel's squared error, summed over its colours.
+///
+/// # Errors
+/// [`CompareError::Size`] if the sizes differ.
+pub(super) fn squares(
+    reference: &DecodedImage,
+    image: &DecodedImage,
+) -> Result<Vec<f64>, CompareError> {
+    if reference.size != image.size {
+        return Err(CompareError::Size {
+            first: reference.size,
+            second: image.size,
+        });
+    }
+    let square = |(a, b): (&[f32; 4], &[f32; 4])| {
+        let pairs = a.iter().zip(b).take(3);
+        pairs
+            .map(|(a, b)| (f64::from(*a) - f64::from(*b)).powi(2))
+            .sum()
+    };
+    let pairs = reference.pixels.iter().zip(&image.pixels);
+    Ok(pairs.map(square).collect())
+}
+
 fn rmse(a: &[[f32; 4]], b: &[[f32; 4]]) -> f64 {
     let sum: f64 = a
         .iter()

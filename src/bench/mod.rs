@@ -7,10 +7,12 @@
 mod accuracy;
 mod cache;
 mod causes;
+mod faults;
 mod growth;
 mod reference;
 mod spread;
 pub mod stress;
+mod stripped;
 mod timing;
 mod variants;
 
@@ -18,8 +20,10 @@ pub use crate::random::Random;
 pub use accuracy::{Accuracy, Yardstick};
 pub use cache::{Cache, Fingerprint};
 pub use causes::{Cause, LOOKS, Looks, Split};
+pub use faults::{Fault, FaultError, Half, Suspects, Within};
 pub use growth::{Growth, Step};
 pub use reference::{GRID_SAMPLES, MAX_REFERENCE_SAMPLES, TRUTH_SIDE, brute_force};
 pub use spread::Spread;
+pub use stripped::Stripped;
 pub use timing::{Contender, Cost, PassCost, take_turns};
 pub use variants::{Variant, VariantContender, VariantCost, VariantError};

@@ -1,7 +1,7 @@
 //! Pictures for the report, as data URIs.
 
 use super::pictures::{ErrorMap, Window, colors, small_jpeg};
-use gpc::bench::Yardstick;
+use gpc::bench::{Cause, Fault, Yardstick};
 use gpc::output::DecodedImage;
 
 /// The pictures of one scene.
@@ -10,6 +10,17 @@ pub struct Gallery {
     pub overview: Vec<Version>,
     /// Parts that are enlarged.
     pub parts: Vec<Part>,
+}
+
+/// An image of superpixels, and why its pixels err.
+pub struct Shown {
+    /// Samples a superpixel.
+    pub samples: u32,
+    pub image: DecodedImage,
+    /// Pixel by pixel.
+    pub causes: Vec<Cause>,
+    /// Pixel by pixel.
+    pub faults: Vec<Option<Fault>>,
 }
 
 /// A picture and its caption.
@@ -21,21 +32,18 @@ pub struct Version {
 /// A part of the image in several versions.
 pub struct Part {
     /// What it is an example of.
-    pub title: &'static str,
+    pub title: String,
     pub window: Window,
     pub versions: Vec<Version>,
 }
 
 impl Gallery {
-    /// Draws the pictures; `superpixels` is an image and its samples a superpixel.
-    pub fn new(
-        yardstick: &Yardstick,
-        superpixels: Option<&(u32, DecodedImage)>,
-    ) -> anyhow::Result<Self> {
+    /// Draws the pictures.
+    pub fn new(yardstick: &Yardstick, superpixels: Option<&Shown>) -> anyhow::Result<Self> {
         let reference = yardstick.reference();
         let mut images = vec![("one sample".to_owned(), yardstick.one_sample())];
-        if let Some((samples, image)) = superpixels {
-            images.push((format!("superpixel {samples}"), image));
+        if let Some(shown) = superpixels {
+            images.push((format!("superpixel {}", shown.samples), &shown.image));
         }
         let images: Vec<_> = images
             .into_iter()
@@ -46,7 +54,7 @@ impl Gallery {
             })
             .collect();
         let mut overview = vec![version(
-            "reference",
+            "truth",
             small_jpeg(reference.size, &colors(reference))?,
         )];
         for Method { name, errors, .. } in &images {
@@ -54,11 +62,15 @@ impl Gallery {
             overview.push(version(&format!("error of {name}"), picture));
         }
         let mut parts = Vec::new();
-        for (worst, title) in images.iter().zip([
-            "Where one sample a pixel errs most",
-            "Where superpixels err most",
-        ]) {
+        for (index, worst) in images.iter().enumerate() {
             let window = worst.errors.worst_window();
+            let title = match superpixels {
+                Some(shown) if index > 0 => format!(
+                    "Where superpixels err most: {}",
+                    shown.blame(&worst.errors, window)
+                ),
+                _ => "Where one sample a pixel errs most".to_owned(),
+            };
             parts.push(Part {
                 title,
                 versions: versions(window, reference, &images)?,
@@ -66,6 +78,50 @@ impl Gallery {
             });
         }
         Ok(Self { overview, parts })
+    }
+}
+
+impl Shown {
+    /// What the squared error in a window is due to, the largest share first.
+    fn blame(&self, errors: &ErrorMap, window: Window) -> String {
+        let mut shares: Vec<(&str, f64)> = Vec::new();
+        for (pixel, square) in errors.squares(window) {
+            let cause = self.causes.get(pixel).copied();
+            let name = reason(cause, self.faults.get(pixel).copied().flatten());
+            match shares.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, share)) => *share += square,
+                None => shares.push((name, square)),
+            }
+        }
+        let whole: f64 = shares.iter().map(|(_, share)| share).sum();
+        if whole <= 0.0 {
+            return "nowhere".to_owned();
+        }
+        shares.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let named: Vec<_> = shares
+            .iter()
+            .map(|(name, share)| (name, 100.0 * share / whole))
+            .filter(|(_, percent)| *percent >= LEAST_PERCENT)
+            .map(|(name, percent)| format!("{name} {percent:.0} %"))
+            .collect();
+        named.join(", ")
+    }
+}
+
+/// Smaller shares of a window's error are not named.
+const LEAST_PERCENT: f64 = 5.0;
+
+/// A cause and a fault in words.
+fn reason(cause: Option<Cause>, fault: Option<Fault>) -> &'static str {
+    match (cause, fault) {
+        (Some(Cause::Superpixel), Some(Fault::Edges)) => "edges in superpixels",
+        (Some(Cause::Superpixel), Some(Fault::Texture)) => "texture in superpixels",
+        (Some(Cause::Superpixel), Some(Fault::Light)) => "light in superpixels",
+        (Some(Cause::Inside), Some(Fault::Light)) => "light amid one triangle",
+        (Some(Cause::Inside), Some(_)) => "texture amid one triangle",
+        (Some(Cause::BelowThreshold), _) => "edges below the threshold",
+        (Some(Cause::Unseen), _) => "features no centre saw",
+        (Some(Cause::Superpixel | Cause::Inside) | None, _) => "unknown",
     }
 }
 
@@ -82,7 +138,7 @@ fn versions(
     images: &[Method<'_>],
 ) -> anyhow::Result<Vec<Version>> {
     let size = reference.size;
-    let mut versions = vec![version("reference", window.png(size, &colors(reference))?)];
+    let mut versions = vec![version("truth", window.png(size, &colors(reference))?)];
     for Method { name, image, .. } in images {
         versions.push(version(name, window.png(size, &colors(image))?));
     }

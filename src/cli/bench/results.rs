@@ -5,7 +5,7 @@ use super::machine::{self, Machine};
 use super::summary::Summary;
 use crate::cli::render::Antialiasing;
 use gpc::bench::stress::Finding;
-use gpc::bench::{Accuracy, Cost, Split, Spread, VariantCost};
+use gpc::bench::{Accuracy, Cost, Split, Spread, VariantCost, Within};
 use gpc::vulkan::Limits;
 use serde::Serialize;
 
@@ -134,6 +134,8 @@ pub struct Row {
     pub geometry: Option<Accuracy>,
     /// The error that is left by cause, where superpixels were measured.
     pub left: Option<Split>,
+    /// What of it is the fault of edges, of texture and of light, for superpixels.
+    pub left_within: Option<Within>,
 }
 
 impl Results {

@@ -214,6 +214,7 @@ mod tests {
             },
             geometry: None,
             left: None,
+            left_within: None,
         };
         SceneResults {
             name: name.to_owned(),

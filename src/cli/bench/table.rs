@@ -3,6 +3,7 @@
 use super::results::{Row, SceneResults};
 use super::summary::{Ratio, Summary};
 use crate::cli::print;
+use gpc::bench::Within;
 use std::fmt::Write;
 
 /// Prints what was measured of a scene.
@@ -34,17 +35,30 @@ fn print_left(scene: &SceneResults) -> anyhow::Result<()> {
         if index == 0 {
             print::line("  left of one sample's squared error:")?;
             print::line(
-                "  method       N  in superpixels  below threshold   unseen  inside one triangle",
+                "  method       N  in superpixels (edges, texture, light)  below threshold   unseen  one triangle (texture, light)",
             )?;
         }
+        let shares = |faults: &[f64]| {
+            let shares: Vec<_> = faults
+                .iter()
+                .map(|share| format!("{:.2}", 100.0 * share))
+                .collect();
+            format!("({})", shares.join(", "))
+        };
+        let [superpixels, inside] = match row.left_within.as_ref().map(within) {
+            Some(faults) => [shares(&faults[..3]), shares(&faults[3..])],
+            None => [const { String::new() }; 2],
+        };
         print::line(&format!(
-            "  {:<10} {:>4} {:>13.2} % {:>14.2} % {:>6.2} % {:>18.2} %",
+            "  {:<10} {:>4} {:>7.2} % {:>29} {:>14.2} % {:>6.2} % {:>7.2} % {:>20}",
             row.method.to_string(),
             row.samples,
             100.0 * left.superpixels,
+            superpixels,
             100.0 * left.below_threshold,
             100.0 * left.unseen,
             100.0 * left.inside,
+            inside,
         ))?;
     }
     Ok(())
@@ -152,7 +166,7 @@ pub fn decibels(psnr: Option<f64>) -> String {
 
 const COLUMNS: &str = "scene,triangles,textured,method,samples,frames,gpu_ms_median,gpu_ms_min,gpu_ms_spread,wall_ms_median,\
     wall_ms_min,wall_ms_spread,memory_bytes,superpixel_fraction,candidates,rmse_linear,psnr_linear,rmse,psnr,max,flip,\
-    removed,needless,left_superpixels,left_below_threshold,left_unseen,left_inside,geometry_rmse,geometry_flip";
+    removed,needless,left_superpixels,left_below_threshold,left_unseen,left_inside,left_superpixel_edges,left_superpixel_texture,left_superpixel_light,left_inside_texture,left_inside_light,geometry_rmse,geometry_flip";
 
 /// All rows of all scenes, without the times of passes (RFC 4180, but with bare line feeds).
 pub fn csv(scenes: &[SceneResults]) -> String {
@@ -163,7 +177,7 @@ pub fn csv(scenes: &[SceneResults]) -> String {
             // Writing to a string can't fail.
             let _ = writeln!(
                 text,
-                "\"{}\",{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
+                "\"{}\",{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}",
                 scene.name.replace('"', "\"\""),
                 scene.triangles,
                 scene.textured,
@@ -188,6 +202,7 @@ pub fn csv(scenes: &[SceneResults]) -> String {
                 accuracy.removed,
                 accuracy.needless,
                 left(row),
+                left_within(row),
                 optional(row.geometry.map(|geometry| geometry.rmse)),
                 optional(row.geometry.map(|geometry| geometry.flip)),
             );
@@ -208,6 +223,24 @@ fn left(row: &Row) -> String {
     });
     let shares = shares.map_or([None; 4], |shares| shares.map(Some));
     shares.map(optional).join(",")
+}
+
+/// The five shares of what is left within superpixels and one triangle; empty where they were not measured.
+fn left_within(row: &Row) -> String {
+    let shares = row.left_within.as_ref().map(within);
+    let shares = shares.map_or([None; 5], |shares| shares.map(Some));
+    shares.map(optional).join(",")
+}
+
+/// In superpixels by edges, texture and light, and amid one triangle by texture and light.
+pub fn within(within: &Within) -> [f64; 5] {
+    [
+        within.superpixel_edges,
+        within.superpixel_texture,
+        within.superpixel_light,
+        within.inside_texture,
+        within.inside_light,
+    ]
 }
 
 /// A number, or nothing.

@@ -89,9 +89,12 @@ fn method(results: &Results) -> String {
          <li><b>RMSE, PSNR, max</b> and <b>removed</b> are of sRGB-encoded values of 0 to 1, as a display shows them; \
          <i>linear</i> of linear light. <i>Removed</i> is the share of the squared error of one sample a pixel that is \
          gone. <i>Needless</i> is the share of pixels that were right with one sample, within 1/255, and are further \
-         off than that now. <i>Left</i> is told by where it is: in superpixels; in other pixels beside which a centre sees \
-         another triangle, of too little contrast; in other pixels that hold a triangle or a gap that no centre of the \
-         3 × 3 around saw, of 64 looks; and in those of one triangle. <b>FLIP</b> is the mean of the error map of Andersson et al. (2020).</li>\n\
+         off than that now. <i>Left</i> is told by where it is: in superpixels; in other pixels of several triangles, \
+         of too little contrast; in other pixels that hold a triangle or a gap that no centre of the 3 × 3 around saw, of \
+         64 looks; and in those of one triangle. In superpixels of several triangles it is put down to <i>edges</i> where at \
+         least half of it stays when every sample is shaded; elsewhere, and amid one triangle, to <i>texture</i> or \
+         <i>light</i>, whichever errs more at that pixel alone, against a truth of its own: paint alone (every material \
+         unlit) or light alone (the mean of its colours in place of each base colour texture). <b>FLIP</b> is the mean of the error map of Andersson et al. (2020).</li>\n\
          <li><b>Error maps</b> run from black (no error) to light yellow (an error of {brightest} and above), as the \
          square root of the error.</li>\n</ul>\n</section>\n",
         budget = results.budget_seconds,

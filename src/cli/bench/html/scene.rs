@@ -36,7 +36,9 @@ fn part(part: &Part) -> String {
         .collect();
     format!(
         "<h3>{} <small>{} × {} pixels at ({x}, {y})</small></h3>\n<div class=\"parts\">{versions}</div>\n",
-        part.title, part.window.size[0], part.window.size[1]
+        escape(&part.title),
+        part.window.size[0],
+        part.window.size[1]
     )
 }
 

@@ -3,7 +3,7 @@
 use super::{escape, short, times};
 use crate::cli::bench::results::{Row, SceneResults};
 use crate::cli::bench::summary::{self, AtSamples, Ratio, Reach, Summary};
-use crate::cli::bench::table::{decibels, share};
+use crate::cli::bench::table::{decibels, share, within};
 
 /// Ratios over all scenes of a kind.
 pub fn summary(summary: &Summary) -> String {
@@ -179,21 +179,31 @@ pub fn left(scene: &SceneResults) -> String {
         .iter()
         .filter_map(|row| {
             let left = row.left?;
+            let faults = row.left_within.as_ref().map(within);
+            let faults = faults.map_or([None; 5], |faults| faults.map(Some));
+            let [edges, texture, light, inside_texture, inside_light] = faults;
             let shares = [
-                left.superpixels,
-                left.below_threshold,
-                left.unseen,
-                left.inside,
+                Some(left.superpixels),
+                edges,
+                texture,
+                light,
+                Some(left.below_threshold),
+                Some(left.unseen),
+                Some(left.inside),
+                inside_texture,
+                inside_light,
+                Some(left.superpixels + left.below_threshold + left.unseen + left.inside),
             ];
             let cells: String = shares
                 .iter()
-                .map(|share| format!("<td>{:.2} %</td>", 100.0 * share))
+                .map(|share| match share {
+                    Some(share) => format!("<td>{:.2} %</td>", 100.0 * share),
+                    None => "<td></td>".to_owned(),
+                })
                 .collect();
             Some(format!(
-                "<tr><th class=\"name\">{}</th><td>{}</td>{cells}<td>{:.2} %</td></tr>",
-                row.method,
-                row.samples,
-                100.0 * shares.iter().sum::<f64>(),
+                "<tr><th class=\"name\">{}</th><td>{}</td>{cells}</tr>",
+                row.method, row.samples,
             ))
         })
         .collect();
@@ -201,8 +211,9 @@ pub fn left(scene: &SceneResults) -> String {
         return String::new();
     }
     let table = table(
-        "<th class=\"name\">method</th><th>N</th><th>in superpixels</th><th>below the threshold</th>\
-         <th>a feature no centre saw</th><th>inside one triangle</th><th>all</th>",
+        "<th class=\"name\">method</th><th>N</th><th>in superpixels</th><th>edges</th><th>texture</th><th>light</th>\
+         <th>below the threshold</th><th>a feature no centre saw</th><th>amid one triangle</th><th>texture</th>\
+         <th>light</th><th>all</th>",
         rows.into_iter(),
         "Squared error by the kind of pixel that it is in, in shares of the squared error of one sample a pixel.",
     );
