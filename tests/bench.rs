@@ -547,3 +547,71 @@ fn a_variant_that_a_camera_can_not_have_says_why() {
         Err(VariantError::Panorama(_))
     ));
 }
+
+/// Each method in motion, and superpixels beside supersampling of as many samples.
+#[test]
+fn motion_is_measured_against_the_truth_of_each_frame() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = asset("letters.glb");
+    let arguments = "--size 64x64 --methods none --reference 256 --repeat 1 --motion=48x32 --cache cache --out out";
+    let all: Vec<_> = ["bench", &scene]
+        .into_iter()
+        .chain(arguments.split(' '))
+        .collect();
+    let run = gpc(folder.path(), &all).ok();
+    let out = folder.path().join("out");
+    let results = std::fs::read(out.join("results.json")).unwrap();
+    let results: Value = serde_json::from_slice(&results).unwrap();
+    let moved = &results["motion"][0];
+    assert_eq!(
+        (&moved["name"], &moved["textured"]),
+        (&"letters".into(), &false.into())
+    );
+    assert_eq!(moved["size"], serde_json::json!([48, 32]));
+    let rows = moved["rows"].as_array().unwrap();
+    for motion in ["pan", "turn"] {
+        let find = |method: &str, samples: u32| {
+            let mine = |row: &&Value| {
+                row["motion"] == motion && row["method"] == method && row["samples"] == samples
+            };
+            rows.iter()
+                .find(mine)
+                .unwrap_or_else(|| panic!("no {method} {samples}"))
+        };
+        let cells = [("none", 1), ("msaa", 4), ("ssaa", 16), ("ssaa", 64)];
+        for of in ["rmse", "flicker"] {
+            let values =
+                cells.map(|(method, samples)| number(find(method, samples), &format!("/{of}")));
+            assert!(
+                values.is_sorted_by(|a, b| *a > 1.4 * b),
+                "{motion} {of} {values:?}"
+            );
+            let none = values[0];
+            for samples in [16, 64] {
+                let superpixel = number(find("superpixel", samples), &format!("/{of}"));
+                assert!(
+                    0.0 < superpixel && superpixel < 0.3 * none,
+                    "{motion} {of} {superpixel}"
+                );
+            }
+        }
+        // What errs in every frame alike does not flicker.
+        for row in rows {
+            assert!(
+                number(row, "/flicker") <= number(row, "/rmse") * 1.05,
+                "{row}"
+            );
+        }
+    }
+    let summary = results["motion_summary"].as_array().unwrap();
+    assert_eq!(
+        summary.iter().map(|at| &at["samples"]).collect::<Vec<_>>(),
+        [16, 64]
+    );
+    let csv = std::fs::read_to_string(out.join("motion.csv")).unwrap();
+    let columns: Vec<_> = csv.lines().map(|line| line.split(',').count()).collect();
+    assert_eq!(columns, vec![9; rows.len() + 1]);
+    let page = std::fs::read_to_string(out.join("report.html")).unwrap();
+    let printed = String::from_utf8(run.stdout).unwrap();
+    assert!(page.contains("<h2>Motion</h2>") && printed.contains("in motion"));
+}

@@ -120,20 +120,30 @@ pub(super) fn squares(
     reference: &DecodedImage,
     image: &DecodedImage,
 ) -> Result<Vec<f64>, CompareError> {
+    let errors = differences(reference, image)?;
+    let square = |errors: [f64; 3]| errors.iter().map(|error| error * error).sum();
+    Ok(errors.into_iter().map(square).collect())
+}
+
+/// By how much each pixel's colours are above the reference's.
+///
+/// # Errors
+/// [`CompareError::Size`] if the sizes differ.
+pub(super) fn differences(
+    reference: &DecodedImage,
+    image: &DecodedImage,
+) -> Result<Vec<[f64; 3]>, CompareError> {
     if reference.size != image.size {
         return Err(CompareError::Size {
             first: reference.size,
             second: image.size,
         });
     }
-    let square = |(a, b): (&[f32; 4], &[f32; 4])| {
-        let pairs = a.iter().zip(b).take(3);
-        pairs
-            .map(|(a, b)| (f64::from(*a) - f64::from(*b)).powi(2))
-            .sum()
+    let difference = |(a, b): (&[f32; 4], &[f32; 4])| {
+        [0, 1, 2].map(|channel| f64::from(b[channel]) - f64::from(a[channel]))
     };
     let pairs = reference.pixels.iter().zip(&image.pixels);
-    Ok(pairs.map(square).collect())
+    Ok(pairs.map(difference).collect())
 }
 
 fn rmse(a: &[[f32; 4]], b: &[[f32; 4]]) -> f64 {

@@ -14,9 +14,9 @@ use std::time::Duration;
 /// samples that it can have: once to warm up and then R times, the methods taking turns. Each image is held against
 /// the truth: brute force at thousands of samples a pixel that read textures at a 64th of its side, which is kept on disk
 /// for the next run. With --geometry, the methods are also measured with textures read for a whole pixel, against a
-/// reference that does so too, so that they differ by geometry alone. With --variants, other sampling sets than the pixels of an image are timed too; with --growth, scenes made for it show what grows with what;
+/// reference that does so too, so that they differ by geometry alone. With --motion, sequences show what flickers. With --variants, other sampling sets than the pixels of an image are timed too; with --growth, scenes made for it show what grows with what;
 /// with --stress, geometry that is hard on a rasterizer shows what holds. DIR then holds results.json, results.csv and
-/// report.html, and variants.csv with --variants, written anew after each scene.
+/// report.html, motion.csv with --motion and variants.csv with --variants, written anew after each scene.
 #[derive(Args)]
 pub struct BenchArgs {
     /// .glb or .gltf files
@@ -54,6 +54,11 @@ pub struct BenchArgs {
     /// beside the raster pass, a sample and in all
     #[arg(long)]
     pub variants: bool,
+    /// Measure the scenes in motion too, in images of this size [320x180 where none is given]: panned by fractions of a
+    /// pixel and turned slowly, 16 frames each, the error of each frame against its own truth and how much it flickers
+    #[arg(long, value_name = "WxH", num_args = 0..=1, require_equals = true, default_missing_value = "320x180",
+        value_parser = values::size)]
+    pub motion: Option<[u32; 2]>,
     /// Run the stress suite too: what must hold of images whatever the geometry
     #[arg(long)]
     pub stress: bool,

@@ -7,6 +7,7 @@ mod growth;
 mod html;
 mod machine;
 mod measure;
+mod motion;
 mod pictures;
 mod progress;
 mod results;
@@ -43,7 +44,12 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
     let curves = if args.growth { Growth::ALL.len() } else { 0 };
     let checks = if args.stress { Check::ALL.len() } else { 0 };
     let timed = if args.variants { args.scenes.len() } else { 0 };
-    let parts = args.scenes.len() + timed + curves + checks;
+    let moved = if args.motion.is_some() {
+        args.scenes.len()
+    } else {
+        0
+    };
+    let parts = args.scenes.len() + moved + timed + curves + checks;
     let mut bench = Bench {
         headless: Headless::new(&HeadlessOptions {
             device: args.device.clone(),
@@ -63,6 +69,15 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
         // Again after each scene, so that what was measured survives a failure.
         results.summary = summary::summarize(&results.scenes);
         write(&args.out, &results, &galleries)?;
+    }
+    if let Some(size) = args.motion {
+        for path in &args.scenes {
+            let scene = bench.motion(path, size)?;
+            bench.progress.suspend(|| motion::print(&scene))?;
+            results.motion.push(scene);
+            results.motion_summary = motion::summarize(&results.motion);
+            write(&args.out, &results, &galleries)?;
+        }
     }
     if args.variants {
         for path in &args.scenes {
@@ -90,6 +105,7 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
     }
     bench.progress.finish();
     table::print_summary(&results.summary)?;
+    motion::print_summary(&results.motion_summary)?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -99,6 +115,9 @@ fn write(folder: &Path, results: &Results, galleries: &[gallery::Gallery]) -> an
         ("results.csv", table::csv(&results.scenes)),
         ("report.html", html::page(results, galleries)),
     ];
+    if !results.motion.is_empty() {
+        files.push(("motion.csv", motion::csv(&results.motion)));
+    }
     if !results.variants.is_empty() {
         files.push(("variants.csv", variants::csv(&results.variants)));
     }

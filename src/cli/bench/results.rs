@@ -2,10 +2,11 @@
 
 use super::BenchArgs;
 use super::machine::{self, Machine};
+use super::motion::MotionRatio;
 use super::summary::Summary;
 use crate::cli::render::Antialiasing;
 use gpc::bench::stress::Finding;
-use gpc::bench::{Accuracy, Cost, Split, Spread, VariantCost, Within};
+use gpc::bench::{Accuracy, Cost, Motion, Split, Spread, Steadiness, VariantCost, Within};
 use gpc::vulkan::Limits;
 use serde::Serialize;
 
@@ -26,12 +27,38 @@ pub struct Results {
     /// Medians, of textured and of untextured scenes apart.
     pub summary: Vec<Summary>,
     pub scenes: Vec<SceneResults>,
+    /// Superpixels in motion over supersampling.
+    pub motion_summary: Vec<MotionRatio>,
+    /// Errors in motion, scene by scene.
+    pub motion: Vec<SceneMotion>,
     /// Time of the camera's variants, scene by scene.
     pub variants: Vec<SceneVariants>,
     /// Time against the size of things.
     pub growth: Vec<Curve>,
     /// What the stress suite found.
     pub stress: Vec<Stress>,
+}
+
+/// How exact and steady methods are in motion on one scene.
+#[derive(Serialize)]
+pub struct SceneMotion {
+    pub name: String,
+    /// Whether a material of something drawn has a texture.
+    pub textured: bool,
+    pub size: [u32; 2],
+    pub rows: Vec<MotionRow>,
+    /// What was left out, and why.
+    pub notes: Vec<String>,
+}
+
+/// One method in one motion.
+#[derive(Serialize)]
+pub struct MotionRow {
+    pub motion: Motion,
+    pub method: Antialiasing,
+    pub samples: u32,
+    #[serde(flatten)]
+    pub steadiness: Steadiness,
 }
 
 /// What the variants of the camera cost on one scene.
@@ -152,6 +179,8 @@ impl Results {
             budget_seconds: args.budget,
             summary: Vec::new(),
             scenes: Vec::new(),
+            motion_summary: Vec::new(),
+            motion: Vec::new(),
             variants: Vec::new(),
             growth: Vec::new(),
             stress: Vec::new(),
@@ -177,6 +206,16 @@ impl Point {
     pub fn ms(&self, method: Antialiasing) -> Option<f64> {
         let time = self.times.iter().find(|time| time.method == method)?;
         Some(time.gpu_ms.median)
+    }
+}
+
+impl SceneMotion {
+    /// The row of a motion under a method at a number of samples.
+    pub fn row(&self, motion: Motion, method: Antialiasing, samples: u32) -> Option<&MotionRow> {
+        let wanted = |row: &&MotionRow| {
+            row.motion == motion && row.method == method && row.samples == samples
+        };
+        self.rows.iter().find(wanted)
     }
 }
 

@@ -141,15 +141,24 @@ impl Ratio {
         scenes: &[&SceneResults],
         ratio: impl Fn(&SceneResults) -> Option<f64>,
     ) -> Option<Self> {
-        let ratios = || {
-            let each = |scene: &&SceneResults| Some((ratio(scene)?, scene.name.clone()));
-            scenes.iter().filter_map(each)
-        };
-        let (worst, worst_scene) = ratios().max_by(|a, b| a.0.total_cmp(&b.0))?;
+        Self::of(
+            scenes
+                .iter()
+                .filter_map(|scene| Some((scene.name.clone(), ratio(scene)?, 1.0))),
+        )
+    }
+
+    /// Of named pairs of an error above and one below; those of none below are left out.
+    pub fn of(pairs: impl IntoIterator<Item = (String, f64, f64)>) -> Option<Self> {
+        let ratios: Vec<_> = pairs
+            .into_iter()
+            .filter_map(|(name, above, below)| Some((ratio(above, below)?, name)))
+            .collect();
+        let (worst, worst_scene) = ratios.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
         Some(Self {
-            median: median(ratios().map(|(ratio, _)| ratio))?,
-            worst,
-            worst_scene,
+            median: median(ratios.iter().map(|(ratio, _)| *ratio))?,
+            worst: *worst,
+            worst_scene: worst_scene.clone(),
         })
     }
 }

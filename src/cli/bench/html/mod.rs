@@ -4,6 +4,7 @@ mod axis;
 mod bars;
 mod curves;
 mod growth;
+mod motion;
 mod scene;
 mod stress;
 mod tables;
@@ -36,7 +37,7 @@ pub fn page(results: &Results, galleries: &[Gallery]) -> String {
          <div><dt>Machine</dt><dd>{cpu}<br><small>{threads} threads, {os}</small></dd></div>\
          <div><dt>Image</dt><dd>{width} × {height}<br><small>truth: {reference} samples a pixel</small></dd></div>\
          <div><dt>Run</dt><dd>{date}<br><small>gpc {version}, medians of up to {repeat} frames</small></dd></div></dl>\n\
-         </header>\n<main>\n{summary}{sections}{variants}{growth}{stress}{method}</main>\n\
+         </header>\n<main>\n{summary}{sections}{motion}{variants}{growth}{stress}{method}</main>\n\
          </body>\n</html>\n",
         device = escape(&results.device),
         driver = escape(&results.driver),
@@ -48,6 +49,7 @@ pub fn page(results: &Results, galleries: &[Gallery]) -> String {
         version = results.version,
         repeat = results.repeat,
         summary = summary(results),
+        motion = motion::section(&results.motion, &results.motion_summary),
         variants = variants::section(&results.variants),
         growth = growth::section(&results.growth),
         stress = stress::section(&results.stress),
