@@ -16,8 +16,11 @@ pub fn error(row: &Row) -> f64 {
     row.accuracy.rmse
 }
 
-/// The rows that none beats in both time and error, by time: their Pareto front.
-pub fn front<'a>(rows: impl IntoIterator<Item = &'a Row>) -> Vec<&'a Row> {
+/// The rows that none beats in both time and an error, by time: their Pareto front.
+pub fn front<'a>(
+    rows: impl IntoIterator<Item = &'a Row>,
+    error: impl Fn(&Row) -> f64,
+) -> Vec<&'a Row> {
     let mut sorted: Vec<_> = rows.into_iter().collect();
     sorted.sort_by(|a, b| {
         time(a)
@@ -38,7 +41,8 @@ pub fn front<'a>(rows: impl IntoIterator<Item = &'a Row>) -> Vec<&'a Row> {
 pub fn time_to_error(scene: &SceneResults, samples: u32) -> Option<Option<f64>> {
     let goal = scene.row(Antialiasing::Ssaa, samples)?;
     let rows = scene.rows.iter();
-    let points: Vec<_> = front(rows.filter(|row| row.method == Antialiasing::Superpixel))
+    let superpixels = rows.filter(|row| row.method == Antialiasing::Superpixel);
+    let points: Vec<_> = front(superpixels, error)
         .into_iter()
         .map(|row| [time(row), error(row)])
         .collect();

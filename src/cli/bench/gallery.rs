@@ -1,6 +1,7 @@
 //! Pictures for the report, as data URIs.
 
 use super::pictures::{ErrorMap, Window, colors, small_jpeg};
+use super::split::reason;
 use gpc::bench::{Cause, Fault, Yardstick};
 use gpc::output::DecodedImage;
 
@@ -110,20 +111,6 @@ impl Shown {
 
 /// Smaller shares of a window's error are not named.
 const LEAST_PERCENT: f64 = 5.0;
-
-/// A cause and a fault in words.
-fn reason(cause: Option<Cause>, fault: Option<Fault>) -> &'static str {
-    match (cause, fault) {
-        (Some(Cause::Superpixel), Some(Fault::Edges)) => "edges in superpixels",
-        (Some(Cause::Superpixel), Some(Fault::Texture)) => "texture in superpixels",
-        (Some(Cause::Superpixel), Some(Fault::Light)) => "light in superpixels",
-        (Some(Cause::Inside), Some(Fault::Light)) => "light amid one triangle",
-        (Some(Cause::Inside), Some(_)) => "texture amid one triangle",
-        (Some(Cause::BelowThreshold), _) => "edges below the threshold",
-        (Some(Cause::Unseen), _) => "features no centre saw",
-        (Some(Cause::Superpixel | Cause::Inside) | None, _) => "unknown",
-    }
-}
 
 /// The image of a method.
 struct Method<'a> {

@@ -109,3 +109,43 @@ impl Splitter {
         })
     }
 }
+
+/// A cause and a fault in words.
+pub fn reason(cause: Option<Cause>, fault: Option<Fault>) -> &'static str {
+    match (cause, fault) {
+        (Some(Cause::Superpixel), Some(Fault::Edges)) => "edges in superpixels",
+        (Some(Cause::Superpixel), Some(Fault::Texture)) => "texture in superpixels",
+        (Some(Cause::Superpixel), Some(Fault::Light)) => "light in superpixels",
+        (Some(Cause::Inside), Some(Fault::Light)) => "light amid one triangle",
+        (Some(Cause::Inside), Some(_)) => "texture amid one triangle",
+        (Some(Cause::BelowThreshold), _) => "edges below the threshold",
+        (Some(Cause::Unseen), _) => "features no centre saw",
+        (Some(Cause::Superpixel | Cause::Inside) | None, _) => "unknown",
+    }
+}
+
+/// All that superpixels leave by what it is due to, in words and as shares of the squared error of one sample a pixel.
+pub fn shares(left: &Split, within: &Within) -> [(&'static str, f64); 7] {
+    [
+        (
+            Cause::Superpixel,
+            Some(Fault::Edges),
+            within.superpixel_edges,
+        ),
+        (
+            Cause::Superpixel,
+            Some(Fault::Texture),
+            within.superpixel_texture,
+        ),
+        (
+            Cause::Superpixel,
+            Some(Fault::Light),
+            within.superpixel_light,
+        ),
+        (Cause::BelowThreshold, None, left.below_threshold),
+        (Cause::Unseen, None, left.unseen),
+        (Cause::Inside, Some(Fault::Texture), within.inside_texture),
+        (Cause::Inside, Some(Fault::Light), within.inside_light),
+    ]
+    .map(|(cause, fault, share)| (reason(Some(cause), fault), share))
+}

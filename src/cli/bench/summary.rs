@@ -2,8 +2,10 @@
 
 use super::front::{TARGETS, time_to_error};
 use super::results::{Row, SceneResults};
+use super::split::shares;
 use crate::cli::render::Antialiasing;
 use gpc::bench::Spread;
+use gpc::render::Settings;
 use serde::Serialize;
 
 /// What is said of the scenes with textures, or of those without.
@@ -31,7 +33,9 @@ pub struct AtSamples {
     pub over_none: Option<f64>,
     /// RMSE with superpixels over that of supersampling, against the truth and as a display shows it.
     pub rmse_ratio: Option<Ratio>,
-    /// The same of geometry alone.
+    /// The same of FLIP.
+    pub flip_ratio: Option<Ratio>,
+    /// RMSE over that of supersampling, of geometry alone.
     pub geometry_ratio: Option<Ratio>,
     /// Median share of the aliasing error removed.
     pub removed: Option<f64>,
@@ -115,6 +119,7 @@ fn at(scenes: &[&SceneResults], samples: u32) -> AtSamples {
         speedup: each(&|scene| speedup(scene, samples)),
         over_none: each(&|scene| over_none(scene, samples)),
         rmse_ratio: Ratio::over(scenes, |scene| rmse_ratio(scene, samples)),
+        flip_ratio: Ratio::over(scenes, |scene| flip_ratio(scene, samples)),
         geometry_ratio: Ratio::over(scenes, |scene| geometry_ratio(scene, samples)),
         removed: each(&row),
     }
@@ -184,7 +189,30 @@ pub fn rmse_ratio(scene: &SceneResults, samples: u32) -> Option<f64> {
     ratio(superpixel.accuracy.rmse, ssaa.accuracy.rmse)
 }
 
-/// The same of geometry alone.
+/// FLIP with superpixels over that of supersampling.
+fn flip_ratio(scene: &SceneResults, samples: u32) -> Option<f64> {
+    let superpixel = scene.row(Antialiasing::Superpixel, samples)?;
+    let ssaa = scene.row(Antialiasing::Ssaa, samples)?;
+    ratio(superpixel.accuracy.flip, ssaa.accuracy.flip)
+}
+
+/// What most of the squared error is due to that superpixels leave at the default number of samples, or else at the most
+/// that were measured; and the share of it.
+pub fn most_of_what_is_left(scene: &SceneResults) -> Option<(&'static str, f64)> {
+    let superpixels = |row: &&Row| row.method == Antialiasing::Superpixel;
+    let row = scene
+        .rows
+        .iter()
+        .filter(superpixels)
+        .max_by_key(|row| (row.samples == Settings::DEFAULT_SAMPLES, row.samples))?;
+    let (left, within) = (row.left?, row.left_within?);
+    let causes = shares(&left, &within);
+    let whole: f64 = causes.iter().map(|(_, share)| share).sum();
+    let (name, share) = causes.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some((name, ratio(share, whole)?))
+}
+
+/// RMSE over that of supersampling, of geometry alone.
 pub fn geometry_ratio(scene: &SceneResults, samples: u32) -> Option<f64> {
     let superpixel = scene.row(Antialiasing::Superpixel, samples)?;
     let ssaa = scene.row(Antialiasing::Ssaa, samples)?;

@@ -114,29 +114,31 @@ pub fn print_summary(summary: &[Summary]) -> anyhow::Result<()> {
     for of in summary {
         print::line(&format!("\nsuperpixel, medians of {}:", of.about()))?;
         print::line(
-            "     N  scenes  ssaa/superpixel  superpixel/none  RMSE over ssaa's  worst  geometry alone  worst  removed",
+            "     N  scenes  RMSE over ssaa's  worst   FLIP  worst  geometry alone  worst  removed  ssaa/superpixel  superpixel/none",
         )?;
         for at in &of.at {
             let median = |ratio: &Option<Ratio>| times(ratio.as_ref().map(|ratio| ratio.median));
             let worst = |ratio: &Option<Ratio>| times(ratio.as_ref().map(|ratio| ratio.worst));
             print::line(&format!(
-                "  {:>4}  {:>6}  {:>15}  {:>15}  {:>16}  {:>5}  {:>14}  {:>5}  {:>7}",
+                "  {:>4}  {:>6}  {:>16}  {:>5}  {:>5}  {:>5}  {:>14}  {:>5}  {:>7}  {:>15}  {:>15}",
                 at.samples,
                 at.scenes,
-                times(at.speedup),
-                times(at.over_none),
                 median(&at.rmse_ratio),
                 worst(&at.rmse_ratio),
+                median(&at.flip_ratio),
+                worst(&at.flip_ratio),
                 median(&at.geometry_ratio),
                 worst(&at.geometry_ratio),
                 at.removed
                     .map_or_else(|| "-".to_owned(), |share| format!("{:.1} %", 100.0 * share)),
+                times(at.speedup),
+                times(at.over_none),
             ))?;
         }
         for reach in &of.reach {
             let never = reach.scenes.iter().filter(|(_, share)| share.is_none());
             print::line(&format!(
-                "  ssaa {}'s error in {} of its time, never on {} of {}",
+                "  share of its time until ssaa {}'s error: {} (never on {} of {})",
                 reach.samples,
                 share(reach.share),
                 never.count(),

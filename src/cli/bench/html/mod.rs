@@ -62,15 +62,25 @@ fn summary(results: &Results) -> String {
     if results.scenes.is_empty() {
         return String::new();
     }
-    let summary: String = results
+    let tables: String = results
         .summary
         .iter()
-        .map(|of| tables::summary(of) + &tables::reach(of))
+        .map(|of| {
+            let scenes: Vec<_> = results
+                .scenes
+                .iter()
+                .filter(|scene| scene.textured == of.textured)
+                .collect();
+            format!(
+                "<h3>{}</h3>\n{}{}{}",
+                of.about(),
+                tables::summary(of),
+                tables::reach(of),
+                tables::by_scene(&scenes)
+            )
+        })
         .collect();
-    format!(
-        "<section>\n<h2>All scenes</h2>\n{summary}{}</section>\n",
-        tables::by_scene(&results.scenes)
-    )
+    format!("<section>\n<h2>All scenes</h2>\n{tables}</section>\n")
 }
 
 /// How the numbers came about.
@@ -111,6 +121,12 @@ fn escape(text: &str) -> String {
         .replace('<', "&lt;")
         .replace('>', "&gt;")
         .replace('"', "&quot;")
+}
+
+/// A scene's name as the place in the page that links to it lead to.
+fn anchor(name: &str) -> String {
+    let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '-' };
+    name.chars().map(plain).collect()
 }
 
 /// A whole number with its thousands apart.

@@ -1,16 +1,17 @@
 //! Tables of the report.
 
-use super::{escape, short, times};
+use super::{anchor, escape, short, times};
+use crate::cli::bench::front::{TARGETS, time_to_error};
 use crate::cli::bench::results::{Row, SceneResults};
 use crate::cli::bench::summary::{self, AtSamples, Ratio, Reach, Summary};
 use crate::cli::bench::table::{decibels, share, within};
 
 /// Ratios over all scenes of a kind.
 pub fn summary(summary: &Summary) -> String {
-    let ratio = |ratio: &Option<Ratio>| match ratio {
+    let ratio = |ratio: &Option<Ratio>, class: &str| match ratio {
         None => "<td>–</td><td>–</td>".to_owned(),
         Some(ratio) => format!(
-            "<td>{}</td><td>{}× <small>{}</small></td>",
+            "<td{class}>{}</td><td>{}× <small>{}</small></td>",
             times(Some(ratio.median)),
             short(ratio.worst),
             escape(&ratio.worst_scene)
@@ -18,113 +19,126 @@ pub fn summary(summary: &Summary) -> String {
     };
     let row = |at: &AtSamples| {
         format!(
-            "<tr><th>{}</th><td class=\"key\">{}</td><td>{}</td>{}{}<td>{}</td></tr>",
+            "<tr><th>{}</th>{}{}{}<td>{}</td><td class=\"key\">{}</td><td>{}</td></tr>",
             at.samples,
+            ratio(&at.rmse_ratio, " class=\"key\""),
+            ratio(&at.flip_ratio, ""),
+            ratio(&at.geometry_ratio, ""),
+            at.removed.map_or_else(|| "–".to_owned(), percent),
             times(at.speedup),
             times(at.over_none),
-            ratio(&at.rmse_ratio),
-            ratio(&at.geometry_ratio),
-            at.removed.map_or_else(|| "–".to_owned(), percent),
         )
     };
     table(
-        "<th>samples</th><th>faster than supersampling</th><th>time over one sample's</th>\
-         <th>RMSE over supersampling's</th><th>at worst</th><th>geometry alone</th><th>at worst</th>\
-         <th>error removed</th>",
+        "<th>samples</th><th>RMSE over supersampling's</th><th>at worst</th><th>FLIP</th><th>at worst</th>\
+         <th>RMSE of geometry alone</th><th>at worst</th><th>error removed</th><th>faster than supersampling</th>\
+         <th>time over one sample's</th>",
         summary.at.iter().map(row),
-        &format!(
-            "Superpixels at equal numbers of samples; medians of {}.",
-            summary.about()
-        ),
+        "Superpixels beside supersampling of as many samples; medians of the scenes.",
     )
 }
 
-/// How soon superpixels reach an error, scene by scene; empty where that was not measured.
+/// How soon superpixels reach an error; empty where that was not measured.
 pub fn reach(summary: &Summary) -> String {
     let row = |reach: &Reach| {
-        let scenes: Vec<_> = reach
-            .scenes
-            .iter()
-            .map(|(scene, found)| format!("{} {}", escape(scene), share(*found)))
-            .collect();
+        let never = reach.scenes.iter().filter(|(_, share)| share.is_none());
         format!(
-            "<tr><th>{}</th><td class=\"key\">{}</td><td class=\"name long\">{}</td></tr>",
+            "<tr><th>{}</th><td class=\"key\">{}</td><td>{} of {}</td></tr>",
             reach.samples,
             share(reach.share),
-            scenes.join(", ")
+            never.count(),
+            reach.scenes.len()
         )
     };
     if summary.reach.is_empty() {
         return String::new();
     }
     table(
-        "<th>samples</th><th>median</th><th class=\"name\">scenes</th>",
+        "<th>samples</th><th>share of its time</th><th>never</th>",
         summary.reach.iter().map(row),
-        "The share of supersampling's time in which superpixels reach its error, along their curve; <i>never</i> where \
-         no number of samples that was measured does.",
+        "The share of supersampling's time in which superpixels reach its error, along their curve; medians of the scenes.",
     )
 }
 
-/// A ratio of a scene at a number of samples.
-type SceneRatio = fn(&SceneResults, u32) -> Option<f64>;
+/// A figure of a scene at a number of samples, as a cell says it.
+type Cell = fn(&SceneResults, u32) -> Option<String>;
 
-/// Ratios scene by scene, with a column for each number of samples.
-pub fn by_scene(scenes: &[SceneResults]) -> String {
-    let counts = summary::counts(scenes);
-    let ratios: [(&str, SceneRatio); 4] = [
-        ("faster than supersampling", summary::speedup),
-        ("time over one sample's", summary::over_none),
-        ("RMSE over supersampling's", summary::rmse_ratio),
-        ("of geometry alone", summary::geometry_ratio),
+/// Figures scene by scene, with a column for each number of samples.
+pub fn by_scene(scenes: &[&SceneResults]) -> String {
+    let counts = summary::counts(scenes.iter().copied());
+    let figures: [(&str, &[u32], Cell); 5] = [
+        ("RMSE over supersampling's", &counts, |scene, samples| {
+            summary::rmse_ratio(scene, samples).map(|ratio| times(Some(ratio)))
+        }),
+        ("of geometry alone", &counts, |scene, samples| {
+            summary::geometry_ratio(scene, samples).map(|ratio| times(Some(ratio)))
+        }),
+        ("faster than supersampling", &counts, |scene, samples| {
+            summary::speedup(scene, samples).map(|ratio| times(Some(ratio)))
+        }),
+        ("time over one sample's", &counts, |scene, samples| {
+            summary::over_none(scene, samples).map(|ratio| times(Some(ratio)))
+        }),
+        (
+            "its error in a share of its time",
+            &TARGETS,
+            |scene, samples| time_to_error(scene, samples).map(share),
+        ),
     ];
-    // Geometry alone is not always measured.
-    let measured = |(_, ratio): &&(&str, SceneRatio)| {
-        let pairs = scenes
-            .iter()
-            .flat_map(|s| counts.iter().map(move |c| (s, *c)));
-        pairs
-            .into_iter()
-            .any(|(scene, count)| ratio(scene, count).is_some())
-    };
-    let ratios: Vec<_> = ratios.iter().filter(measured).collect();
-    let head: String = ratios
+    // Not everything is always measured.
+    let figures: Vec<_> = figures
         .iter()
-        .map(|(what, _)| {
+        .filter(|(_, counts, cell)| {
+            let mut each = scenes
+                .iter()
+                .flat_map(|s| counts.iter().map(move |c| (s, c)));
+            each.any(|(scene, count)| cell(scene, *count).is_some())
+        })
+        .collect();
+    let head: String = figures
+        .iter()
+        .map(|(what, counts, _)| {
             format!(
                 "<th colspan=\"{}\" class=\"group\">{what}</th>",
                 counts.len()
             )
         })
         .collect();
-    let numbers: String = counts
+    let numbers: String = figures
         .iter()
-        .enumerate()
+        .flat_map(|(_, counts, _)| counts.iter().enumerate())
         .map(|(index, count)| format!("<th{}>{count}</th>", group(index)))
         .collect();
-    let row = |scene: &SceneResults| {
-        let cells = |ratio: SceneRatio| -> String {
-            let cell = |(index, count): (usize, &u32)| {
-                format!("<td{}>{}</td>", group(index), times(ratio(scene, *count)))
-            };
-            counts.iter().enumerate().map(cell).collect()
-        };
+    let row = |scene: &&SceneResults| {
+        let cells: String = figures
+            .iter()
+            .flat_map(|(_, counts, cell)| {
+                counts.iter().enumerate().map(|(index, count)| {
+                    let text = cell(scene, *count).unwrap_or_else(|| "–".to_owned());
+                    format!("<td{}>{text}</td>", group(index))
+                })
+            })
+            .collect();
         let superpixels = scene
             .rows
             .iter()
             .map(|row| row.superpixel_fraction)
             .fold(0.0, f64::max);
-        let cells: String = ratios.iter().map(|(_, ratio)| cells(*ratio)).collect();
+        let most = summary::most_of_what_is_left(scene)
+            .map_or_else(String::new, |(cause, share)| {
+                format!("{cause}, {}", percent(share))
+            });
         format!(
-            "<tr><th class=\"name\">{}</th><td>{}</td>{cells}</tr>",
+            "<tr><th class=\"name\"><a href=\"#{}\">{}</a></th><td>{}</td>{cells}<td class=\"name\">{most}</td></tr>",
+            anchor(&scene.name),
             escape(&scene.name),
             percent(superpixels),
         )
     };
     table(
         &format!(
-            "<th rowspan=\"2\" class=\"name\">scene</th><th rowspan=\"2\">superpixels</th>{head}</tr>\
-             <tr>{}",
-            numbers.repeat(ratios.len())
+            "<th rowspan=\"2\" class=\"name\">scene</th><th rowspan=\"2\">superpixels</th>{head}\
+             <th rowspan=\"2\" class=\"name\">most of what is left</th></tr><tr>{numbers}"
         ),
         scenes.iter().map(row),
         "",
