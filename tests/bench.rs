@@ -5,16 +5,13 @@ mod cli_support;
 
 use cli_support::{asset, files, gpc};
 use glam::DVec2;
-use gpc::bench::stress::stage::{Stage, camera, seen_at, textured};
-use gpc::bench::{
-    Growth, Looks, Random, Variant, VariantContender, VariantError, Yardstick, brute_force,
-};
+use gpc::bench::{Growth, Looks, Variant, VariantContender, VariantError, Yardstick, brute_force};
 use gpc::camera::{Camera, Orbit, Projection};
 use gpc::output::Picture;
 use gpc::render::{
     Footprint, Headless, HeadlessOptions, Method, PreparedScene, RenderError, Settings,
 };
-use gpc::scene::{AlphaMode, Image, PoseRequest, Sampler, Scene};
+use gpc::scene::{PoseRequest, Scene};
 use serde_json::Value;
 use std::path::Path;
 
@@ -106,56 +103,6 @@ fn the_reference_lies_beyond_supersampling() {
         "{errors:?}"
     );
     assert!(errors[2] > 0.0, "the grid was not moved");
-}
-
-/// Textures read for smaller and smaller samples come to the truth; those read for whole pixels come to another image.
-#[test]
-fn only_textures_read_for_samples_come_to_the_truth() {
-    let mut random = Random::new(7);
-    let mut painted = Stage::new(vec![textured(AlphaMode::Opaque)]);
-    painted.texture = Some((
-        Image {
-            width: SIZE,
-            height: SIZE,
-            pixels: (0..SIZE * SIZE * 4)
-                .map(|_| random.below(256) as u8)
-                .collect(),
-        },
-        Sampler::default(),
-    ));
-    let half = f64::from(SIZE);
-    let corners = [[-half, -half], [-half, half], [half, half], [half, -half]];
-    painted.add_quad(0, corners.map(|place| seen_at(place, 1.0, SIZE)));
-    for triangle in &mut painted.triangles {
-        // A texel is two thirds of a pixel.
-        triangle.uvs = triangle.corners.map(|[x, y, _]| [0.75 * x, 0.75 * y]);
-    }
-    let (scene, pose) = painted.build();
-    let mut headless = Headless::new(&HeadlessOptions::default()).unwrap();
-    let prepared = headless.upload(&scene, &pose, None).unwrap();
-    let with = |footprint, samples| Settings {
-        footprint,
-        ..settings(Method::Ssaa, samples)
-    };
-    let [truth, geometry] = [Footprint::Sample, Footprint::Pixel].map(|footprint| {
-        let settings = with(footprint, 1);
-        brute_force(&mut headless, &prepared, &camera(), &settings, 1024, || {}).unwrap()
-    });
-    let mut error = |footprint, samples| {
-        let mut frame = headless
-            .prepare(&prepared, &with(footprint, samples))
-            .unwrap();
-        let image = headless.render(&prepared, &mut frame, &camera()).unwrap();
-        rmse(&image.colors, &truth)
-    };
-    let errors = [4, 16, 64].map(|samples| error(Footprint::Sample, samples));
-    assert!(errors.is_sorted_by(|a, b| *a > 2.0 * b), "{errors:?}");
-    let blurred = error(Footprint::Pixel, 1024);
-    let apart = rmse(&truth, &geometry);
-    assert!(
-        (blurred / apart - 1.0).abs() < 0.05 && apart > 5.0 * errors[2],
-        "{blurred} {apart} {errors:?}"
-    );
 }
 
 #[test]
