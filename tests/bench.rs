@@ -361,6 +361,9 @@ fn writes_a_report_that_needs_no_other_file() {
         "data:image/jpeg;base64,",
         "letters",
         "superpixel 16",
+        "error of ssaa 16",
+        "Where superpixels err most: edges in superpixels",
+        "most of what is left",
     ] {
         assert!(page.contains(part), "{part}");
     }

@@ -39,42 +39,44 @@ pub struct Part {
 }
 
 impl Gallery {
-    /// Draws the pictures.
-    pub fn new(yardstick: &Yardstick, superpixels: Option<&Shown>) -> anyhow::Result<Self> {
-        let reference = yardstick.reference();
-        let mut images = vec![("one sample".to_owned(), yardstick.one_sample())];
+    /// Draws the pictures; `ssaa` is supersampling of as many samples as the superpixels have.
+    pub fn new(
+        yardstick: &Yardstick,
+        ssaa: Option<&DecodedImage>,
+        superpixels: Option<&Shown>,
+    ) -> anyhow::Result<Self> {
+        let truth = yardstick.reference();
+        let method = |name: String, image| Method {
+            errors: ErrorMap::new(truth, image),
+            name,
+            image,
+        };
+        let mut images = vec![method("one sample".to_owned(), yardstick.one_sample())];
+        let mut worst = vec![(0, "Where one sample a pixel errs most".to_owned())];
         if let Some(shown) = superpixels {
-            images.push((format!("superpixel {}", shown.samples), &shown.image));
+            if let Some(ssaa) = ssaa {
+                images.push(method(format!("ssaa {}", shown.samples), ssaa));
+            }
+            let superpixels = method(format!("superpixel {}", shown.samples), &shown.image);
+            let window = superpixels.errors.worst_window();
+            let blame = shown.blame(&superpixels.errors, window);
+            worst.push((images.len(), format!("Where superpixels err most: {blame}")));
+            images.push(superpixels);
         }
-        let images: Vec<_> = images
-            .into_iter()
-            .map(|(name, image)| Method {
-                errors: ErrorMap::new(reference, image),
-                name,
-                image,
-            })
-            .collect();
-        let mut overview = vec![version(
-            "truth",
-            small_jpeg(reference.size, &colors(reference))?,
-        )];
+        let mut overview = vec![version("truth", small_jpeg(truth.size, &colors(truth))?)];
         for Method { name, errors, .. } in &images {
-            let picture = small_jpeg(reference.size, &errors.colors())?;
+            let picture = small_jpeg(truth.size, &errors.colors())?;
             overview.push(version(&format!("error of {name}"), picture));
         }
         let mut parts = Vec::new();
-        for (index, worst) in images.iter().enumerate() {
-            let window = worst.errors.worst_window();
-            let title = match superpixels {
-                Some(shown) if index > 0 => format!(
-                    "Where superpixels err most: {}",
-                    shown.blame(&worst.errors, window)
-                ),
-                _ => "Where one sample a pixel errs most".to_owned(),
+        for (index, title) in worst {
+            let Some(method) = images.get(index) else {
+                continue;
             };
+            let window = method.errors.worst_window();
             parts.push(Part {
                 title,
-                versions: versions(window, reference, &images)?,
+                versions: versions(window, truth, &images)?,
                 window,
             });
         }

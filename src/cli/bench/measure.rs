@@ -39,6 +39,7 @@ impl Bench<'_> {
 
         let mut notes = Notes::default();
         let mut entries = Vec::new();
+        let mut ssaa = None;
         let mut superpixels = None;
         for (method, samples) in self.args.cells() {
             self.progress
@@ -80,6 +81,9 @@ impl Bench<'_> {
                 },
                 contender,
             });
+            if (method, Some(samples)) == (Antialiasing::Ssaa, shown) {
+                ssaa = Some(DecodedImage::from(&picture));
+            }
             if let Some(pieces) = pieces
                 && (method, Some(samples)) == (Antialiasing::Superpixel, shown)
             {
@@ -100,7 +104,7 @@ impl Bench<'_> {
             notes: notes.lines(),
             rows: self.time(&subject, entries)?,
         };
-        let gallery = Gallery::new(&yardstick, superpixels.as_ref())?;
+        let gallery = Gallery::new(&yardstick, ssaa.as_ref(), superpixels.as_ref())?;
         Ok((scene, gallery))
     }
 
