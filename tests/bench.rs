@@ -503,8 +503,8 @@ fn a_variant_that_a_camera_can_not_have_says_why() {
 fn motion_is_measured_against_the_truth_of_each_frame() {
     let folder = tempfile::tempdir().unwrap();
     let scene = asset("letters.glb");
-    let arguments = "--size 64x64 --methods none --reference 256 --repeat 1 --motion=48x32 --cache cache --out out";
-    let all: Vec<_> = ["bench", &scene]
+    let arguments = "--motion-size 48x32 --cache cache --out out";
+    let all: Vec<_> = ["bench", "--motion", &scene]
         .into_iter()
         .chain(arguments.split(' '))
         .collect();

@@ -20,7 +20,7 @@ use std::time::Duration;
 #[derive(Args)]
 pub struct BenchArgs {
     /// .glb or .gltf files
-    #[arg(value_name = "SCENE", required_unless_present_any = ["growth", "stress"])]
+    #[arg(value_name = "SCENE", required_unless_present_any = ["motion", "growth", "stress"])]
     pub scenes: Vec<PathBuf>,
     /// Folder for the results
     #[arg(short, long, value_name = "DIR")]
@@ -54,11 +54,13 @@ pub struct BenchArgs {
     /// beside the raster pass, a sample and in all
     #[arg(long)]
     pub variants: bool,
-    /// Measure the scenes in motion too, in images of this size [320x180 where none is given]: panned by fractions of a
-    /// pixel and turned slowly, 16 frames each, the error of each frame against its own truth and how much it flickers
-    #[arg(long, value_name = "WxH", num_args = 0..=1, require_equals = true, default_missing_value = "320x180",
-        value_parser = values::size)]
-    pub motion: Option<[u32; 2]>,
+    /// Measure these files in motion: panned by fractions of a pixel and turned slowly, 16 frames each, the error of each
+    /// frame against its own truth and how much it flickers
+    #[arg(long, value_name = "SCENE", num_args = 1..)]
+    pub motion: Vec<PathBuf>,
+    /// Width and height of images in motion
+    #[arg(long, value_name = "WxH", default_value = "320x180", value_parser = values::size)]
+    pub motion_size: [u32; 2],
     /// Run the stress suite too: what must hold of images whatever the geometry
     #[arg(long)]
     pub stress: bool,

@@ -33,7 +33,8 @@ use std::process::ExitCode;
 use subject::Bench;
 
 pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
-    if args.scenes.iter().any(|path| input::is_standard(path)) {
+    let mut files = args.scenes.iter().chain(&args.motion);
+    if files.any(|path| input::is_standard(path)) {
         exit::usage!("a benchmark reads its scenes from files, not from standard input");
     }
     let Some(cache) = args.cache.clone().or_else(Cache::default_folder) else {
@@ -44,11 +45,7 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
     let curves = if args.growth { Growth::ALL.len() } else { 0 };
     let checks = if args.stress { Check::ALL.len() } else { 0 };
     let timed = if args.variants { args.scenes.len() } else { 0 };
-    let moved = if args.motion.is_some() {
-        args.scenes.len()
-    } else {
-        0
-    };
+    let moved = args.motion.len();
     let parts = args.scenes.len() + moved + timed + curves + checks;
     let mut bench = Bench {
         headless: Headless::new(&HeadlessOptions {
@@ -70,14 +67,12 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
         results.summary = summary::summarize(&results.scenes);
         write(&args.out, &results, &galleries)?;
     }
-    if let Some(size) = args.motion {
-        for path in &args.scenes {
-            let scene = bench.motion(path, size)?;
-            bench.progress.suspend(|| motion::print(&scene))?;
-            results.motion.push(scene);
-            results.motion_summary = motion::summarize(&results.motion);
-            write(&args.out, &results, &galleries)?;
-        }
+    for path in &args.motion {
+        let scene = bench.motion(path, args.motion_size)?;
+        bench.progress.suspend(|| motion::print(&scene))?;
+        results.motion.push(scene);
+        results.motion_summary = motion::summarize(&results.motion);
+        write(&args.out, &results, &galleries)?;
     }
     if args.variants {
         for path in &args.scenes {
