@@ -41,7 +41,7 @@ pub struct BenchArgs {
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "4,16,64,256,1024",
         value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES)))]
     samples: Vec<u32>,
-    /// Samples a pixel of the reference, a multiple of 256
+    /// Samples a pixel of the truth, a multiple of 256
     #[arg(long, value_name = "N", default_value_t = 4096, value_parser = reference_samples)]
     pub reference: u32,
     /// Measure geometry alone too: every method, and a reference of its own, reading textures for a whole pixel
