@@ -12,7 +12,7 @@
 // area of its part of the cell; what is left is shared by the others in proportion to their samples. Small areas are
 // left to samples: to trust those that happen to be met would lose those that are not. With many samples
 // to take, a first run PROBEs each cell with few: where at most one surface is left to share, that is exact, and only
-// the REST takes all samples (and what is UNEVEN, to be shaded at).
+// the REST takes all samples (and what is HIGH_FREQUENCY, to be shaded at).
 //
 // Record: pixel (x | y << 16), triangle ID, place in the pixel (include/place.glsl), and
 //   merged: weight as a float, in samples; one record a visible triangle and block, at the centroid of its samples there

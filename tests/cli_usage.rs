@@ -26,8 +26,8 @@ fn wrong_usage_exits_with_2_and_names_what_can_be_had() {
             &["sobol", "lattice", "grid"],
         ),
         (
-            &["-o", "a.png", "--detect", "edges"],
-            &["contrast", "exact", "colour"],
+            &["-o", "a.png", "--detect", "colour"],
+            &["contrast", "edges", "exact"],
         ),
         (&["-o", "a.png", "--contrast", "256"], &["256"]),
         (&["-o", "a.png", "--eye", "1,2"], &["X,Y,Z"]),

@@ -46,7 +46,7 @@ layout(set = 0, binding = 0) uniform Frame {
 // On CPU devices a texel buffer is the quicker one to read and a storage buffer the quicker one to write, so that what
 // passes hand on is bound as both.
 layout(set = 0, binding = 1) uniform textureBuffer positions;
-layout(set = 0, binding = 2) uniform utextureBuffer triangles;   // vertex indices; material | bin << 16 | UNEVEN << 30 | double-sided << 31
+layout(set = 0, binding = 2) uniform utextureBuffer triangles;   // vertex indices; material | bin << 16 | HIGH_FREQUENCY << 30 | double-sided << 31
 layout(set = 0, binding = 3) uniform textureBuffer normals;
 layout(set = 0, binding = 4) uniform textureBuffer tangents;
 layout(set = 0, binding = 5) uniform textureBuffer uvs;
@@ -102,7 +102,7 @@ uvec2 split(uint n, uint width) {
 }
 
 // Whether light or paint may change within a pixel on a triangle, by its last word.
-bool uneven(uint word) {
+bool high_frequency(uint word) {
     return (word >> 30 & 1u) != 0u;
 }
 

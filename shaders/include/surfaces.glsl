@@ -98,8 +98,8 @@ uvec2 merge_bits(uvec2 bits, uint merges) {
     return merges >= 2u ? (bits | bits >> 2) & 0x11111111u : bits;
 }
 
-bool uneven_triangle(uint of) {
-    return uneven(texelFetch(triangles, int(max(of, 1u) - 1u)).w);
+bool high_frequency_triangle(uint of) {
+    return high_frequency(texelFetch(triangles, int(max(of, 1u) - 1u)).w);
 }
 
 // The surfaces of a block, ascending by ID; an invocation holds one.
@@ -201,7 +201,7 @@ uvec2 record_surfaces(Cell cell, uint owner, out bool settled) {
     float weight = weigh(held, cell.samples, settled);
     bool holds = lane < held.count;
     uint merges = 0u;
-    bool several = BY_PART && holds && uneven_triangle(held.id);
+    bool several = BY_PART && holds && high_frequency_triangle(held.id);
     if (BY_PART && !SITES) {
         merges = merges_of(variation_of(cell.member), held.id);
         several = several && merges < 3u;

@@ -1,4 +1,5 @@
-// How much the colours of a surface vary around a superpixel, as far as the centres of its pixel and of the 8 around it tell.
+// How much the colours of a triangle vary around a superpixel, as far as the centres of its pixel and of the 8 around it
+// tell, and so in how many parts of the pixel it is shaded. Twin: src/reference/variation.rs.
 #ifndef VARIATION_GLSL
 #define VARIATION_GLSL
 
@@ -23,7 +24,7 @@ float variation_range(uint codes[9], uint among) {
         low = some ? min(low, color) : low;
         high = some ? max(high, color) : high;
     }
-    vec3 range = 255.0 * (high - low);
+    vec3 range = round(255.0 * (high - low));
     return max(range.r, max(range.g, range.b));
 }
 
@@ -36,7 +37,7 @@ uint variation_merges(float range) {
 Variation variation_around(uvec2 pixel) {
     uint ids_[9], materials_[9], codes[9];
     [[unroll]] for (uint i = 0u; i < 9u; i++) {
-        uint place = i == 0u ? 4u : i <= 4u ? i - 1u : i;      // the pixel itself comes first
+        uint place = i == 0u ? 4u : i <= 4u ? i - 1u : i;      // the pixel's own comes first
         ivec2 there = ivec2(pixel) + ivec2(place % 3u, place / 3u) - 1;
         bool exists = all(greaterThanEqual(there, ivec2(0))) && all(lessThan(there, ivec2(frame.size)));
         there = exists ? there : ivec2(min(pixel, frame.size - 1u));

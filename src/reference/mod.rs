@@ -12,4 +12,5 @@ pub mod edge;
 mod exact;
 pub mod srgb;
 pub mod tonemap;
+pub mod variation;
 pub mod visibility;

@@ -1,6 +1,6 @@
 //! Colours and their transforms as the shaders take them.
 
-use super::{Footprint, Reference, Settings};
+use super::{Reference, Settings};
 use crate::reference::srgb;
 use crate::vulkan::Constants;
 
@@ -14,10 +14,7 @@ impl Settings {
     pub(super) fn color_constants(&self) -> Constants {
         let tonemap = self.reference == Reference::Display && self.tonemapped_detection;
         Constants::new()
-            .flag(
-                15,
-                self.footprint == Footprint::Sample && self.method == super::Method::Superpixel,
-            )
+            .flag(15, self.filters_boxes())
             .flag(30, tonemap)
             .flag(31, self.tonemapped_detection)
     }

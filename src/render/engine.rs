@@ -150,15 +150,16 @@ impl Engine {
 /// How many records the settings' shading asks for.
 pub(super) fn record_rate(settings: &Settings, scene: &GpuScene) -> RecordRate {
     match settings.shading {
-        Shading::Part if scene.has_uneven() => RecordRate::Part,
+        Shading::Part if scene.has_high_frequency() => RecordRate::Part,
         Shading::Triangle | Shading::Part => RecordRate::Triangle,
         Shading::Sample => RecordRate::Sample,
     }
 }
 
-/// Whether few samples may settle superpixels: not those of uneven triangles, which are shaded in many places.
+/// Whether few samples may settle superpixels: not those of high-frequency triangles, which are
+/// shaded in many places.
 pub(super) fn can_settle(settings: &Settings, scene: &GpuScene) -> bool {
-    settings.shading != Shading::Part || !scene.is_mostly_uneven()
+    settings.shading != Shading::Part || !scene.is_mostly_high_frequency()
 }
 
 /// Sorts and shades the records of a round.

@@ -2,6 +2,10 @@
 
 use super::{Footprint, Method, Settings};
 
+/// Side of the square that alpha is filtered over before it is tested, in distances between samples. What a test makes of
+/// filtered alpha is not the filtered outcome of tests, so that the finest is best: leaves keep their holes and tips.
+const ALPHA_SIDE: f32 = 0.125;
+
 /// Sides of these squares.
 pub(super) struct Footprints {
     /// At the centre of a pixel, in pixels of the region.
@@ -16,24 +20,25 @@ pub(super) struct Footprints {
 impl Footprints {
     /// Those of cells of so many samples.
     pub fn new(settings: &Settings, samples: u32) -> Self {
-        let env = |name: &str, or: f32| {
-            std::env::var(name)
-                .ok()
-                .and_then(|v| v.parse().ok())
-                .unwrap_or(or)
-        };
         let everywhere = |side: f32| Self {
             centre: side,
             place: side,
             sample: side,
         };
+        // The distance between samples.
+        let sample = 1.0 / (samples as f32).sqrt();
         match settings.footprint {
             Footprint::Pixel => everywhere(settings.side() as f32),
             Footprint::Side(side) => everywhere(side * settings.side() as f32),
+            Footprint::Sample if settings.shades_samples() => Self {
+                centre: 0.5,
+                place: sample,
+                sample: if samples > 1 { sample } else { ALPHA_SIDE },
+            },
             Footprint::Sample if settings.method == Method::Superpixel => Self {
                 centre: 1.0,
                 place: 1.0,
-                sample: env("K_SAMPLE", 0.125) / (samples as f32).sqrt(),
+                sample: ALPHA_SIDE * sample,
             },
             Footprint::Sample => everywhere(1.0),
         }

@@ -1,8 +1,9 @@
 //! How an image is worked through in parts: each region fits the device's limits and the memory allowed.
 
+use super::engine::record_rate;
 use super::statistics::Shortfall;
 use super::{Method, RenderError, Settings, Shading};
-use crate::passes::{Encoding, GpuScene, ResourceSizes};
+use crate::passes::{Encoding, GpuScene, RecordRate, ResourceSizes};
 use crate::vulkan::Limits;
 
 /// A part of the image, in output pixels.
@@ -213,6 +214,7 @@ impl Plan {
         let triangles = u64::from(scene.triangle_count());
         let pairs = (triangles * 4 + tiles * 16).clamp(1 << 14, MOST_PAIRS);
         let candidates = (triangles * 3 + tiles * 8).clamp(1 << 14, MOST_CANDIDATES);
+        let by_part = detects && record_rate(settings, scene) == RecordRate::Part;
         let filtered = if side > 1 {
             pixels / u64::from(side * side)
         } else {
@@ -233,7 +235,8 @@ impl Plan {
         Self {
             regions,
             sizes,
-            rounds: effort.rounds_for(settings.samples),
+            // Tiles whose triangles are shaded in parts reserve room for all of these, and use a third of it.
+            rounds: effort.rounds_for(settings.samples) * if by_part { 2 } else { 1 },
             layers: effort.layers,
             effort,
             lists_can_grow: u64::from(sizes.pair_capacity)

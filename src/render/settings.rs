@@ -35,7 +35,7 @@ pub enum Detection {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
     /// Exactly where the triangle is seen whole, and by samples elsewhere. Superpixels that 64 samples settle take no
-    /// more; where most triangles are shaded in several parts of a pixel, which takes all samples, areas are measured
+    /// more; where most triangles may be shaded in several parts of a pixel, which takes all samples, areas are measured
     /// up to 64 samples only.
     Area,
     /// By counting samples.
@@ -47,8 +47,8 @@ pub enum Coverage {
 pub enum Shading {
     /// Once a visible triangle and block of 64 samples, at the centroid of what is seen of it.
     Triangle,
-    /// Once a visible triangle, but in each of many parts of the pixel where light or paint may change within it: in 8
-    /// parts at 64 samples, and in 16 from 128 on.
+    /// Once a visible triangle, but where the colours around it vary in up to 16 parts of the pixel, at 256 samples in up
+    /// to 64.
     Part,
     /// Once a sub-sample.
     Sample,
@@ -137,7 +137,11 @@ impl Settings {
     /// no superpixels.
     #[must_use]
     pub fn default_contrast(samples: u32) -> u8 {
-        if samples < 128 { 8 } else { 6 }
+        match samples {
+            0..128 => 8,
+            128..512 => 3,
+            _ => 2,
+        }
     }
 
     /// Superpixel antialiasing with the defaults, at a size.
@@ -162,6 +166,20 @@ impl Settings {
             shadows: Shadows::None,
             max_memory: None,
         }
+    }
+
+    /// Whether superpixels are shaded as brute force is: each sample with the texture levels of the samples' distance.
+    pub(crate) fn shades_samples(&self) -> bool {
+        self.method == Method::Superpixel
+            && self.footprint == Footprint::Sample
+            && self.shading == Shading::Sample
+    }
+
+    /// Whether textures are filtered by boxes: over what each shading place stands for, along both of its axes.
+    pub(crate) fn filters_boxes(&self) -> bool {
+        self.method == Method::Superpixel
+            && self.footprint == Footprint::Sample
+            && self.shading != Shading::Sample
     }
 
     /// Side of a pixel's grid under supersampling, otherwise 1.

@@ -2,7 +2,7 @@
 
 use gpc::reference::detect::{Frame, Mode, superpixels};
 use gpc::reference::srgb::{decode_u8, encode};
-use gpc::render::{Detection, Headless, Method, Reference, Rendered, Settings, Shading};
+use gpc::render::{Detection, Footprint, Headless, Method, Reference, Rendered, Settings, Shading};
 use gpc::scene::{AlphaMode, Filter, Image, Sampler};
 
 use crate::meshes::{Depths, Random, delaunay};
@@ -185,7 +185,7 @@ fn black_contrasts_with_a_transparent_background() {
         stage.add(0, corners.map(|place| seen_at(place, 1.0, size[1])));
         let exact = found(gpu, &stage, &once(size), Detection::Exact);
         assert!(exact.contains(&true));
-        for detection in [Detection::Contrast, Detection::Colour] {
+        for detection in [Detection::Contrast, Detection::Edges] {
             assert!(
                 found(gpu, &stage, &once(size), detection) == exact,
                 "{detection:?}"
@@ -292,12 +292,11 @@ fn stripes(size: [u32; 2], filter: Filter) -> Stage {
     stage
 }
 
-/// Texels that do not blend into each other alias amid a triangle, and are shaded in parts; others are filtered enough.
+/// Paint makes superpixels amid a triangle where it contrasts, and is shaded in parts there; edges alone find none of it.
 #[test]
-fn unfiltered_paint_makes_superpixels() {
+fn paint_makes_superpixels() {
     on_gpu(|gpu| {
         let size = [64, 48];
-        let stage = stripes(size, Filter::Nearest);
         let error = |rendered: &Rendered, truth: &Rendered| {
             let pairs = rendered.colors.iter().zip(&truth.colors);
             pairs
@@ -308,35 +307,42 @@ fn unfiltered_paint_makes_superpixels() {
             method,
             samples,
             contrast: CONTRAST,
+            footprint: Footprint::Pixel,
             ..once(size)
         };
-        let truth = stage.render(gpu, &with(Method::Ssaa, 1024));
-        let aliased = stage.render(gpu, &with(Method::None, 1));
-        let settings = Settings {
-            detection: Detection::Contrast,
-            shading: Shading::Part,
-            ..with(Method::Superpixel, 64)
-        };
-        let smooth = stage.render(gpu, &settings);
-        let marked = smooth.statistics.superpixels;
-        assert!((300..3000).contains(&marked), "{marked}");
-        let [before, after] = [&aliased, &smooth].map(|rendered| error(rendered, &truth));
-        assert!(after * 3.0 < before, "{after} of {before}");
+        for filter in [Filter::Nearest, Filter::Linear] {
+            let stage = stripes(size, filter);
+            let truth = stage.render(gpu, &with(Method::Ssaa, 1024));
+            let aliased = stage.render(gpu, &with(Method::None, 1));
+            let settings = Settings {
+                detection: Detection::Contrast,
+                shading: Shading::Part,
+                ..with(Method::Superpixel, 64)
+            };
+            let smooth = stage.render(gpu, &settings);
+            let marked = smooth.statistics.superpixels;
+            assert!(marked > 300, "{filter:?}: {marked}");
+            let [before, after] = [&aliased, &smooth].map(|rendered| error(rendered, &truth));
+            assert!(after * 3.0 < before, "{filter:?}: {after} of {before}");
 
-        let (codes, doubtful) = codes(&aliased);
-        assert!(!doubtful.contains(&true));
-        let ids = ids(&aliased);
-        let flagged: Vec<u32> = ids
-            .iter()
-            .zip(codes)
-            .map(|(&id, code)| if id == 0 { code } else { code | UNEVEN })
-            .collect();
-        let blend = vec![0; ids.len()];
-        let mode = Mode::Contrast(CONTRAST);
-        let expected = expected(size, &ids, &blend, &flagged, mode);
-        assert!(found(gpu, &stage, &once(size), Detection::Contrast) == expected);
-
-        let filtered = stripes(size, Filter::Linear).render(gpu, &settings);
-        assert_eq!(filtered.statistics.superpixels, 0);
+            let (codes, doubtful) = codes(&aliased);
+            let ids = ids(&aliased);
+            let blend = vec![0; ids.len()];
+            let settings = with(Method::Superpixel, 4);
+            for mode in [Mode::Contrast(CONTRAST), Mode::Edges(CONTRAST)] {
+                let detection = if mode == Mode::Contrast(CONTRAST) {
+                    Detection::Contrast
+                } else {
+                    Detection::Edges
+                };
+                let expected = expected(size, &ids, &blend, &codes, mode);
+                let found = found(gpu, &stage, &settings, detection);
+                let excuse = |pixel| near(&doubtful, size, pixel);
+                assert!(
+                    (0..found.len()).all(|pixel| found[pixel] == expected[pixel] || excuse(pixel)),
+                    "{filter:?}, {mode:?}"
+                );
+            }
+        }
     });
 }

@@ -20,4 +20,5 @@ mod sites;
 mod stage;
 mod ties;
 mod twin;
+mod variation;
 mod visibility;

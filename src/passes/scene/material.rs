@@ -1,6 +1,6 @@
 //! Materials as the shaders read them.
 
-use crate::scene::{AlphaMode, Filter, Material, Sampler, Scene, TextureTransform, TextureUse};
+use crate::scene::{AlphaMode, Material, TextureTransform, TextureUse};
 
 /// The vectors of `shaders/include/material.glsl`.
 #[repr(C)]
@@ -58,23 +58,14 @@ impl GpuMaterial {
     }
 }
 
-/// Largest roughness at which the light that a surface reflects changes within a pixel.
+/// Largest roughness at which the light that an untextured surface reflects changes within a pixel.
 const GLOSSY_ROUGHNESS: f32 = 0.6;
 
-/// Whether light or paint may change so quickly over a material's surface that one shading point in a pixel is too few:
-/// it is glossy, or has a texture that its sampler does not filter over a pixel.
-pub(super) fn uneven(scene: &Scene, material: &Material) -> bool {
+/// Whether light or paint may change so quickly over a material's surface that one shading place in a pixel is too few: it
+/// is textured or glossy.
+pub(super) fn high_frequency(material: &Material) -> bool {
     let glossy = !material.unlit && material.roughness < GLOSSY_ROUGHNESS;
-    let _ = (scene, steps);
-    glossy
-        || texture_uses(material)
-            .into_iter()
-            .any(|used| used.is_some())
-}
-
-/// Whether neighbouring pixels may see texels that do not blend into each other.
-fn steps(sampler: &Sampler) -> bool {
-    sampler.mip.is_none() || [sampler.min, sampler.mag].contains(&Filter::Nearest)
+    glossy || texture_uses(material).iter().any(Option::is_some)
 }
 
 #[cfg(test)]

@@ -45,7 +45,7 @@ pub struct GpuScene {
     triangle_count: u32,
     first_mask: u32,
     first_blend: u32,
-    uneven_triangles: u32,
+    high_frequency_triangles: u32,
     light_features: LightFeatures,
     origin: DVec3,
     textures: Vec<Texture>,
@@ -134,7 +134,7 @@ impl GpuScene {
             triangle_count: triangles.words.len() as u32,
             first_mask: triangles.first_of(DrawClass::Mask),
             first_blend: triangles.first_of(DrawClass::Blend),
-            uneven_triangles: triangles.uneven,
+            high_frequency_triangles: triangles.high_frequency,
             light_features: LightFeatures::of(&pose.lights),
             origin: geometry.origin,
             runs: triangles.runs,
@@ -202,16 +202,16 @@ impl GpuScene {
         self.first_blend < self.triangle_count
     }
 
-    /// Whether a triangle asks for several shading points in a pixel.
+    /// Whether a triangle may ask for several shading places in a pixel.
     #[must_use]
-    pub fn has_uneven(&self) -> bool {
-        self.uneven_triangles > 0
+    pub fn has_high_frequency(&self) -> bool {
+        self.high_frequency_triangles > 0
     }
 
     /// Whether most triangles do.
     #[must_use]
-    pub fn is_mostly_uneven(&self) -> bool {
-        self.uneven_triangles > self.triangle_count / 2
+    pub fn is_mostly_high_frequency(&self) -> bool {
+        self.high_frequency_triangles > self.triangle_count / 2
     }
 
     /// Number of material bins, at least 1.

@@ -1,7 +1,7 @@
 //! Triangles as the shaders read them: corners, and a word of material, bin and flags.
 
 use super::bins::Bins;
-use super::material::uneven;
+use super::material::high_frequency;
 use crate::passes::raster::double_sided;
 use crate::scene::{DrawClass, Geometry, Scene};
 
@@ -15,7 +15,7 @@ pub(in crate::passes) struct Run {
 
 /// The bits of a triangle's last word: 16 of its material, 14 of its bin, and flags.
 const BIN_SHIFT: u32 = 16;
-const UNEVEN_BIT: u32 = 1 << 30;
+const HIGH_FREQUENCY_BIT: u32 = 1 << 30;
 const DOUBLE_SIDED_BIT: u32 = 1 << 31;
 
 /// A triangle's vertices in their order, beginning with the one whose position comes first. Duplicates of a triangle that
@@ -44,26 +44,30 @@ pub(super) struct Triangles {
     /// Corners and last word of each.
     pub(super) words: Vec<[u32; 4]>,
     pub(super) runs: Vec<Run>,
-    /// How many ask for several shading points in a pixel.
-    pub(super) uneven: u32,
+    /// How many may ask for several shading places in a pixel.
+    pub(super) high_frequency: u32,
 }
 
 impl Triangles {
     pub(super) fn new(scene: &Scene, geometry: &Geometry, bins: &Bins) -> Self {
         let mut last_words = vec![0_u32; geometry.triangles.len()];
         let mut runs: Vec<Run> = Vec::new();
-        let mut uneven_count = 0;
+        let mut high_frequency_count = 0;
         for draw in &geometry.draws {
-            let is_uneven = scene
+            let is_high_frequency = scene
                 .materials
                 .get(draw.material as usize)
-                .is_some_and(|material| uneven(scene, material));
-            uneven_count += if is_uneven { draw.triangle_count } else { 0 };
+                .is_some_and(high_frequency);
+            high_frequency_count += if is_high_frequency {
+                draw.triangle_count
+            } else {
+                0
+            };
             let flag = |bit: u32, set: bool| if set { bit } else { 0 };
             let word = draw.material
                 | bins.of(draw.material) << BIN_SHIFT
                 | flag(DOUBLE_SIDED_BIT, double_sided(draw.class))
-                | flag(UNEVEN_BIT, is_uneven);
+                | flag(HIGH_FREQUENCY_BIT, is_high_frequency);
             let first = draw.first_triangle as usize;
             last_words[first..first + draw.triangle_count as usize].fill(word);
             match runs.last_mut() {
@@ -87,7 +91,7 @@ impl Triangles {
         Self {
             words,
             runs,
-            uneven: uneven_count,
+            high_frequency: high_frequency_count,
         }
     }
 

@@ -2,9 +2,9 @@
 
 use crate::passes::{
     Attributes, BoxFilter, DetectMode, Encode, Encoding, FrameLayout, GpuScene, Multisample,
-    Raster, Resolve, Shade, ShadeSource, Sort, Spans, Transform,
+    Raster, RecordRate, Resolve, Shade, ShadeSource, Sort, Spans, Transform,
 };
-use crate::render::engine::{Engine, EngineKind};
+use crate::render::engine::{Engine, EngineKind, record_rate};
 use crate::render::plan::Plan;
 use crate::render::{Detection, Method, RenderError, Settings};
 use ash::vk;
@@ -62,9 +62,9 @@ impl Passes {
         let one_bin = scene.bin_count() == 1;
         let multisampled = settings.method == Method::Msaa;
         let antialiased = settings.method == Method::Superpixel;
-        let display_codes = antialiased
-            && settings.detection != Detection::Exact
-            && settings.detection != Detection::Every;
+        let compares = !matches!(settings.detection, Detection::Exact | Detection::Every);
+        let by_part = record_rate(settings, scene) == RecordRate::Part;
+        let display_codes = antialiased && (compares || by_part);
         let pixels = (!multisampled)
             .then(|| -> Result<_, RenderError> {
                 let source = ShadeSource::Pixels { display_codes };

@@ -109,8 +109,17 @@ fn superpixels_of_pixels_are_the_antialiased_image() {
                 let sites = gpu
                     .sample_superpixels(&prepared, &pinhole(SIZE), &planar(SIZE), &settings)
                     .unwrap();
-                let pairs = image.colors.iter().zip(&sites.values);
-                let differ = pairs.filter(|(a, b)| a != b).count();
+                let pairs = || image.colors.iter().zip(&sites.values);
+                if shading == S::Part {
+                    // Sites have no neighbours to tell what is alike, and are shaded in all parts.
+                    let sum = |value: &dyn Fn([f32; 4], [f32; 4]) -> f32| -> f32 {
+                        pairs().map(|(a, b)| value(*a, *b)).sum()
+                    };
+                    let apart = sum(&|a, b| (a[1] - b[1]).abs()) / sum(&|a, _| a[1].abs());
+                    assert!(apart < 0.01, "{name}, {samples} samples: {apart}");
+                    continue;
+                }
+                let differ = pairs().filter(|(a, b)| a != b).count();
                 assert_eq!(differ, 0, "{name}, {samples} samples");
                 let counts =
                     |statistics: &Statistics| (statistics.superpixels, statistics.resampled);

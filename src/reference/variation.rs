@@ -1,0 +1,73 @@
+//! In how many parts of a superpixel a triangle is shaded, from the colours that pixels' centres see around it.
+
+/// What the centres of a pixel and of the 8 around it see, in the order of rows from the upper left one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Neighbourhood {
+    /// IDs of triangles, 0 for none and outside of the image.
+    pub ids: [u32; 9],
+    /// Colours as they will be displayed: red, green and blue code values.
+    pub colours: [[u8; 3]; 9],
+}
+
+/// The pixel itself.
+const CENTRE: usize = 4;
+
+/// How often two neighbouring parts of a cell are merged into one before `triangle` is shaded in them; 3 is all into one.
+///
+/// Around the pixel, two triangles are looked at: that of its centre, and the first other one. Where 4 centres or more
+/// see the triangle and their colours differ by at most a quarter of the threshold of contrast, it is shaded once.
+/// Otherwise the colours of its material count, where 3 centres or more see it: shaded once if they differ by at most the
+/// threshold, in parts merged twice up to its double, once up to its fourfold, and not merged above. A triangle that is
+/// neither of the two and not of their materials is shaded in all parts.
+#[must_use]
+pub fn merges(
+    around: &Neighbourhood,
+    material_of: impl Fn(u32) -> u32,
+    triangle: u32,
+    contrast: u8,
+) -> u32 {
+    let contrast = u32::from(contrast);
+    let own = around.ids[CENTRE];
+    let other = around
+        .ids
+        .into_iter()
+        .find(|id| *id != 0 && *id != own)
+        .unwrap_or(0);
+    let material = |id: u32| (id != 0).then(|| material_of(id));
+    let known = [own, other];
+    if known.contains(&triangle) {
+        let seen = |id: u32| id == triangle;
+        if count(around, seen) >= 4 && 4 * range(around, seen) <= contrast {
+            return 3;
+        }
+    } else if !known.map(material).contains(&material(triangle)) {
+        return 0;
+    }
+    let seen = |id: u32| material(id) == material(triangle);
+    if count(around, seen) < 3 {
+        return 0;
+    }
+    match range(around, seen) {
+        range if range <= contrast => 3,
+        range if range <= 2 * contrast => 2,
+        range if range <= 4 * contrast => 1,
+        _ => 0,
+    }
+}
+
+fn count(around: &Neighbourhood, seen: impl Fn(u32) -> bool) -> usize {
+    around.ids.iter().filter(|id| seen(**id)).count()
+}
+
+/// The widest difference of a channel among centres that see what is asked for.
+fn range(around: &Neighbourhood, seen: impl Fn(u32) -> bool) -> u32 {
+    let channel = |channel: usize| {
+        let codes = around.ids.iter().zip(&around.colours);
+        let codes = codes.filter(|(id, _)| seen(**id)).map(|(_, c)| c[channel]);
+        let (low, high) = codes.fold((u8::MAX, 0), |(low, high), code| {
+            (low.min(code), high.max(code))
+        });
+        u32::from(high.saturating_sub(low))
+    };
+    (0..3).map(channel).max().unwrap_or(0)
+}

@@ -1,0 +1,117 @@
+//! In how many parts superpixels are shaded, against the CPU's decision: each place is a visibility record.
+
+use crate::meshes::Random;
+use crate::stage::{Stage, on_gpu, once, seen_at, textured};
+use gpc::reference::srgb::encode;
+use gpc::reference::variation::{Neighbourhood, merges};
+use gpc::render::{Coverage, Detection, Method, Rendered, Settings, Shading};
+use gpc::scene::{AlphaMode, Filter, Image, Sampler};
+
+const SIZE: [u32; 2] = [32, 24];
+const CONTRAST: u8 = 8;
+const SAMPLES: u32 = 64;
+/// Parts of a superpixel of so many samples that is not merged.
+const PARTS: u64 = 16;
+
+/// A texture of a texel a pixel: patches of even, slightly uneven, uneven and wild grey.
+fn patches(seed: u64) -> Image {
+    let mut random = Random::new(seed);
+    let [width, height] = SIZE;
+    let mut pixels = Vec::new();
+    for y in 0..height {
+        for x in 0..width {
+            let spread = [1, 3, 9, 17, 33, 90][((x / 6 + y / 6) % 6) as usize];
+            let grey = 80 + random.below(spread) as u8;
+            pixels.extend([grey, grey, grey, 255]);
+        }
+    }
+    Image {
+        width,
+        height,
+        pixels,
+    }
+}
+
+/// The image in two triangles that meet along the border between two columns of pixels, of the same material or of two.
+fn stage(seed: u64, materials: usize) -> Stage {
+    let mut stage = Stage::new(vec![textured(AlphaMode::Opaque); materials]);
+    stage.texture = Some((
+        patches(seed),
+        Sampler {
+            mag: Filter::Nearest,
+            min: Filter::Nearest,
+            mip: None,
+            ..Sampler::default()
+        },
+    ));
+    let [width, height] = SIZE.map(f64::from);
+    let at = |x: f64, y: f64| seen_at([x, y], 1.0, SIZE[1]);
+    let uv = |x: f64, y: f64| [(x / width + 0.5) as f32, (y / height + 0.5) as f32];
+    for (material, side) in [(0, -1.0), (materials - 1, 1.0)] {
+        let corners = [[0.0, -60.0], [side * 90.0, 0.0], [0.0, 60.0]];
+        let corners = if side > 0.0 {
+            corners
+        } else {
+            [corners[0], corners[2], corners[1]]
+        };
+        stage.add(material, corners.map(|[x, y]| at(x, y)));
+        if let Some(triangle) = stage.triangles.last_mut() {
+            triangle.uvs = corners.map(|[x, y]| uv(x, y));
+        }
+    }
+    stage
+}
+
+/// What the centres around a pixel see.
+fn around(rendered: &Rendered, x: i64, y: i64) -> Neighbourhood {
+    let [width, height] = SIZE.map(i64::from);
+    let mut found = Neighbourhood {
+        ids: [0; 9],
+        colours: [[0; 3]; 9],
+    };
+    for place in 0..9 {
+        let (nx, ny) = (x + place % 3 - 1, y + place / 3 - 1);
+        if (0..width).contains(&nx) && (0..height).contains(&ny) {
+            let pixel = (ny * width + nx) as usize;
+            found.ids[place as usize] = rendered.attributes[pixel].id;
+            let [r, g, b, _] = rendered.colors[pixel].map(f64::from);
+            found.colours[place as usize] = [r, g, b].map(|v| (255.0 * encode(v)).round() as u8);
+        }
+    }
+    found
+}
+
+#[test]
+fn places_are_as_many_as_the_twin_says() {
+    on_gpu(|gpu| {
+        let mut seen = [0; 4];
+        for (seed, materials) in [(1, 1), (2, 2), (3, 1)] {
+            let stage = stage(seed, materials);
+            let base = stage.render(gpu, &once(SIZE));
+            let settings = Settings {
+                method: Method::Superpixel,
+                detection: Detection::Every,
+                shading: Shading::Part,
+                coverage: Coverage::Samples,
+                samples: SAMPLES,
+                contrast: CONTRAST,
+                ..once(SIZE)
+            };
+            let statistics = stage.render(gpu, &settings).statistics;
+            let material = |id: u32| if materials == 1 { 0 } else { id };
+            let mut expected = 0;
+            for y in 0..i64::from(SIZE[1]) {
+                for x in 0..i64::from(SIZE[0]) {
+                    let around = around(&base, x, y);
+                    let own = around.ids[4];
+                    assert!(own != 0);
+                    let merged = merges(&around, material, own, CONTRAST);
+                    seen[merged as usize] += 1;
+                    expected += if merged == 3 { 1 } else { PARTS >> merged };
+                }
+            }
+            assert_eq!(statistics.records, expected, "{materials} materials");
+        }
+        assert!(seen.iter().all(|count| *count > 20), "{seen:?}");
+    });
+}
