@@ -123,7 +123,7 @@ fn broken_looks_are_warnings() {
     for place in [
         "/materials/0/normalTexture/index",
         "/materials/0/occlusionTexture",
-        "/materials/1",
+        "/materials/1/alphaMode",
         "/images/1",
         "/textures/1",
         "/meshes/0/primitives/0/material",

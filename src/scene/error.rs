@@ -106,6 +106,12 @@ impl Fault {
         }
     }
 
+    /// The fault, and what follows from it.
+    #[must_use]
+    pub fn but(self, consequence: &str) -> Self {
+        Self::new(self.place, format!("{}; {consequence}", self.reason))
+    }
+
     pub fn into_error(self, file: &str) -> SceneError {
         SceneError::Malformed {
             file: file.to_owned(),

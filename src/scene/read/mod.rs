@@ -12,12 +12,12 @@ mod camera;
 mod container;
 mod image;
 mod instance;
-mod json;
 mod light;
 mod limits;
 mod material;
 mod mesh;
 mod meshopt;
+mod model;
 mod node;
 mod primitive;
 mod skin;
@@ -30,11 +30,13 @@ mod vertex;
 
 use std::path::Path;
 
+use gltf::json::{self, Index};
+
 use accessor::Accessor;
 use buffer::Buffers;
-use json::Item;
 use limits::Budget;
 pub use limits::MAX_ELEMENTS;
+use model::Model;
 
 use super::{
     Loaded, Scene, SceneError,
@@ -44,18 +46,16 @@ use super::{
 
 /// What every reader needs.
 struct Context<'a> {
-    root: Item<'a>,
-    accessors: Vec<Item<'a>>,
+    model: &'a Model,
     buffers: Buffers<'a>,
     budget: Budget,
     warnings: Warnings,
 }
 
 impl Context<'_> {
-    /// The accessor whose index `item` is.
-    fn accessor(&self, item: &Item<'_>) -> Result<Accessor<'_>, Fault> {
-        let index = item.as_index("accessors", self.accessors.len())?;
-        Accessor::new(&self.accessors[index], &self.buffers)
+    /// The accessor `index`, referred to at the place `from`.
+    fn accessor(&self, index: Index<json::Accessor>, from: &str) -> Result<Accessor<'_>, Fault> {
+        Accessor::new(self.model, index, from, &self.buffers)
     }
 
     fn warn(&mut self, fault: &Fault) {
@@ -64,8 +64,8 @@ impl Context<'_> {
 
     /// Turns an error into a warning that says what follows from it.
     fn tolerate<T>(&mut self, result: Result<Option<T>, Fault>, consequence: &str) -> Option<T> {
-        result.unwrap_or_else(|Fault { place, reason }| {
-            self.warn(&Fault::new(place, format!("{reason}; {consequence}")));
+        result.unwrap_or_else(|fault| {
+            self.warn(&fault.but(consequence));
             None
         })
     }
@@ -76,50 +76,45 @@ impl Context<'_> {
 pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, SceneError> {
     let container = container::open(bytes, file)?;
     let malformed = |fault: Fault| fault.into_error(file);
-    let root = Item::root(&container.json);
+    let mut value = container.json;
+    model::settle(&mut value, "");
     let mut warnings = Warnings::new(file);
     // First, for a file of another version looks malformed throughout.
-    let asset = asset::read(&root, file, &mut warnings)?;
+    let asset = asset::read(&value, file)?;
+    let mut model = Model::new(value, asset, &mut warnings).map_err(malformed)?;
+    asset::check_extensions(&model.root, file, &mut warnings)?;
     let mut context = Context {
-        accessors: root.objects("accessors").map_err(malformed)?,
-        buffers: Buffers::new(&root, container.binary, base).map_err(malformed)?,
+        model: &model,
+        buffers: Buffers::new(&model, container.binary, base),
         budget: Budget::default(),
         warnings,
-        root,
     };
     let mut scene = read_scene(&mut context).map_err(malformed)?;
-    scene.document.asset = asset;
+    let warnings = context.warnings.into_vec();
+    // Data URIs are large, and nothing refers to them any more.
+    model.root.buffers.clear();
+    model.root.images.clear();
+    scene.document.root = model.root;
     scene.document.file = file.to_owned();
-    Ok(Loaded {
-        scene,
-        warnings: context.warnings.into_vec(),
-    })
+    Ok(Loaded { scene, warnings })
 }
 
 fn read_scene(context: &mut Context<'_>) -> Result<Scene, Fault> {
-    let cameras = camera::read_all(context)?;
-    let lights = light::read_all(context)?;
-    let counts = node::Counts {
-        nodes: context.root.objects("nodes")?.len(),
-        meshes: context.root.objects("meshes")?.len(),
-        skins: context.root.objects("skins")?.len(),
-        cameras: cameras.len(),
-        lights: lights.len(),
-    };
-    let (nodes, order) = node::read_nodes(context, counts)?;
-    let (scenes, default_scene) = node::read_scenes(context, &nodes)?;
-    let mut materials = material::read_all(context)?;
-    let (textures, images) = texture::resolve(context, &mut materials)?;
-    let meshes = mesh::read_all(context, &nodes, &materials)?;
-    let skins = skin::read_all(context, &nodes)?;
-    skin::check_joints(&nodes, &meshes, &skins)?;
-    let animations = animation::read_all(context, &nodes)?;
+    let cameras = camera::read_all(context);
+    let lights = light::read_all(context);
+    let (nodes, order) = node::read_nodes(context)?;
+    let default_scene = node::check_scenes(context, &nodes)?;
+    let mut materials = material::read_all(context);
+    let (textures, images) = texture::resolve(context, &mut materials);
+    let meshes = mesh::read_all(context, &materials)?;
+    let skins = skin::read_all(context)?;
+    skin::check_joints(&context.model.root.nodes, &meshes, &skins)?;
+    let animations = animation::read_all(context, &nodes);
     Ok(Scene {
         materials,
         textures,
         images,
         document: Document {
-            scenes,
             default_scene,
             nodes,
             order,
