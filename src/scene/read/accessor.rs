@@ -15,6 +15,7 @@ use gltf::json::{
 use super::{
     buffer::{Buffers, View},
     model::Model,
+    packed::Stream,
 };
 use crate::scene::error::Fault;
 
@@ -144,6 +145,30 @@ impl<'b> Accessor<'b> {
             elements: elements.transpose()?,
             sparse: sparse.transpose()?,
             place,
+        })
+    }
+
+    /// Values that were decoded in the place of the accessor at `place`.
+    pub fn of_stream(stream: &'b Stream, normalized: bool, place: &str) -> Result<Self, Fault> {
+        let size = stream.component.size() * stream.components;
+        if stream.count == 0 || stream.bytes.len() != stream.count * size {
+            return Err(Fault::new(
+                place,
+                "there are no values in the compressed data",
+            ));
+        }
+        Ok(Self {
+            count: stream.count,
+            component: stream.component,
+            components: stream.components,
+            normalized,
+            elements: Some(Elements {
+                bytes: &stream.bytes,
+                stride: size,
+                size,
+            }),
+            sparse: None,
+            place: place.to_owned(),
         })
     }
 

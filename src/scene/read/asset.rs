@@ -9,16 +9,19 @@ use crate::scene::{
     error::{Fault, Warnings},
 };
 
-/// The extensions that are implemented.
-const SUPPORTED: [&str; 8] = [
-    "EXT_mesh_gpu_instancing",
-    "EXT_meshopt_compression",
-    "EXT_texture_webp",
-    "KHR_lights_punctual",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_unlit",
-    "KHR_mesh_quantization",
-    "KHR_texture_transform",
+/// The extensions that are implemented, some by an optional feature.
+const SUPPORTED: [(&str, bool); 11] = [
+    ("EXT_mesh_gpu_instancing", true),
+    ("EXT_meshopt_compression", true),
+    ("EXT_texture_webp", true),
+    ("KHR_draco_mesh_compression", cfg!(feature = "draco")),
+    ("KHR_lights_punctual", true),
+    ("KHR_materials_emissive_strength", true),
+    ("KHR_materials_unlit", true),
+    ("KHR_mesh_quantization", true),
+    ("KHR_meshopt_compression", true),
+    ("KHR_texture_basisu", cfg!(feature = "basisu")),
+    ("KHR_texture_transform", true),
 ];
 
 /// Extensions without which a file looks different; others that are not supported are metadata, or
@@ -74,7 +77,7 @@ pub fn check_extensions(
     file: &str,
     warnings: &mut Warnings,
 ) -> Result<(), SceneError> {
-    let supported = |name: &str| SUPPORTED.contains(&name);
+    let supported = |name: &str| SUPPORTED.contains(&(name, true));
     if let Some(name) = root
         .extensions_required
         .iter()

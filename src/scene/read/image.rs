@@ -7,7 +7,7 @@ use std::{
 };
 
 use gltf::json::{self, Index};
-use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
+use image::{DynamicImage, ImageFormat, ImageReader, Limits};
 use rayon::prelude::*;
 
 use super::{Context, buffer::Buffers, model::Model, uri};
@@ -78,9 +78,13 @@ impl Images {
     /// Checks an image's header against the limits.
     fn admit<'b>(&mut self, bytes: Cow<'b, [u8]>) -> Result<Encoded<'b>, String> {
         let format = sniff(&bytes)?;
-        let (width, height) = ImageReader::with_format(Cursor::new(&bytes), format)
-            .into_dimensions()
-            .map_err(|error| format!("cannot be decoded: {error}"))?;
+        let (width, height) = match format {
+            Format::Picture(format) => ImageReader::with_format(Cursor::new(&bytes), format)
+                .into_dimensions()
+                .map_err(|error| format!("cannot be decoded: {error}"))?,
+            #[cfg(feature = "basisu")]
+            Format::Basis => super::basis::dimensions(&bytes)?,
+        };
         let texels = u64::from(width) * u64::from(height);
         let size = format!("{width} x {height} texels");
         if texels == 0 || width > MAX_SIDE || height > MAX_SIDE {
@@ -95,7 +99,11 @@ impl Images {
             ));
         }
         self.texels += texels;
-        Ok(Encoded { bytes, format })
+        Ok(Encoded {
+            bytes,
+            format,
+            size: (width, height),
+        })
     }
 
     /// Where image `index` is among the decoded ones.
@@ -127,27 +135,67 @@ fn fetch<'b>(
     Ok((bytes, place))
 }
 
+/// How an image is encoded.
+#[derive(Clone, Copy)]
+enum Format {
+    /// PNG, JPEG or WebP.
+    Picture(ImageFormat),
+    /// KTX2 of Basis Universal.
+    #[cfg(feature = "basisu")]
+    Basis,
+}
+
 /// The format by content; the declared type and the file's extension are often wrong.
-fn sniff(bytes: &[u8]) -> Result<ImageFormat, String> {
+fn sniff(bytes: &[u8]) -> Result<Format, String> {
     match image::guess_format(bytes) {
-        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP)) => Ok(format),
-        _ if bytes.starts_with(b"\xABKTX 20\xBB") => {
-            Err("KTX2 images are not supported; convert them to PNG, JPEG or WebP".to_owned())
+        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP)) => {
+            Ok(Format::Picture(format))
         }
-        _ => Err("is neither PNG, JPEG nor WebP".to_owned()),
+        #[cfg(feature = "basisu")]
+        _ if bytes.starts_with(KTX2) => Ok(Format::Basis),
+        #[cfg(not(feature = "basisu"))]
+        _ if bytes.starts_with(KTX2) => Err(
+            "is a KTX2 image, for which the feature `basisu` is needed; convert it to PNG, JPEG or \
+             WebP"
+                .to_owned(),
+        ),
+        _ => Err("is neither PNG, JPEG, WebP nor KTX2".to_owned()),
     }
 }
+
+/// First bytes of a KTX2 file.
+const KTX2: &[u8] = b"\xABKTX 20\xBB";
 
 /// An image whose header was found acceptable.
 struct Encoded<'b> {
     bytes: Cow<'b, [u8]>,
-    format: ImageFormat,
+    format: Format,
+    size: (u32, u32),
 }
 
 impl Encoded<'_> {
     fn decode(&self) -> Result<Image, String> {
+        let pixels = match self.format {
+            Format::Picture(format) => self.decode_picture(format)?,
+            #[cfg(feature = "basisu")]
+            Format::Basis => super::basis::decode(&self.bytes)?,
+        };
+        let (width, height) = self.size;
+        if pixels.len() as u64 != 4 * u64::from(width) * u64::from(height) {
+            return Err(format!(
+                "is not of the {width} x {height} texels that its header states"
+            ));
+        }
+        Ok(Image {
+            width,
+            height,
+            pixels,
+        })
+    }
+
+    fn decode_picture(&self, format: ImageFormat) -> Result<Vec<u8>, String> {
         let failed = |error: image::ImageError| format!("cannot be decoded: {error}");
-        let mut reader = ImageReader::with_format(Cursor::new(&self.bytes), self.format);
+        let mut reader = ImageReader::with_format(Cursor::new(&self.bytes), format);
         let mut limits = Limits::default();
         limits.max_image_width = Some(MAX_SIDE);
         limits.max_image_height = Some(MAX_SIDE);
@@ -155,15 +203,7 @@ impl Encoded<'_> {
         limits.max_alloc = Some(16 * u64::from(MAX_SIDE) * u64::from(MAX_SIDE));
         reader.limits(limits);
         let decoder = reader.into_decoder().map_err(failed)?;
-        let (width, height) = decoder.dimensions();
-        let pixels = DynamicImage::from_decoder(decoder)
-            .map_err(failed)?
-            .into_rgba8()
-            .into_raw();
-        Ok(Image {
-            width,
-            height,
-            pixels,
-        })
+        let pixels = DynamicImage::from_decoder(decoder).map_err(failed)?;
+        Ok(pixels.into_rgba8().into_raw())
     }
 }

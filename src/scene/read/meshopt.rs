@@ -1,8 +1,9 @@
-//! Buffer views compressed with `EXT_meshopt_compression`.
+//! Buffer views compressed with `KHR_meshopt_compression` or, by its older name,
+//! `EXT_meshopt_compression`.
 
 use meshopt::{
-    decode_filter_exp, decode_filter_oct, decode_filter_quat, decode_index_buffer,
-    decode_index_sequence, decode_vertex_buffer,
+    decode_filter_color, decode_filter_exp, decode_filter_oct, decode_filter_quat,
+    decode_index_buffer, decode_index_sequence, decode_vertex_buffer,
 };
 
 use gltf::json::{Buffer, Index, validation::USize64};
@@ -31,7 +32,12 @@ pub fn find(
     others: Option<&Map<String, Value>>,
     place: &str,
 ) -> Result<Option<(Compressed, String)>, Fault> {
-    model::extension(others, "EXT_meshopt_compression", place)
+    // The second is the first one's ratified name.
+    let old = model::extension(others, "EXT_meshopt_compression", place)?;
+    match old {
+        None => model::extension(others, "KHR_meshopt_compression", place),
+        found => Ok(found),
+    }
 }
 
 /// Most bytes that one encoded byte can stand for. Attributes: a block of up to 256 elements has at
@@ -115,6 +121,16 @@ fn apply_filter(
         ("OCTAHEDRAL", 8) => {
             let mut values: Vec<[i16; 4]> = bytemuck::pod_collect_to_vec(&bytes);
             decode_filter_oct(&mut values);
+            Ok(to_bytes(values))
+        }
+        ("COLOR", 4) => {
+            let mut values: Vec<[u8; 4]> = bytemuck::pod_collect_to_vec(&bytes);
+            decode_filter_color(&mut values);
+            Ok(to_bytes(values))
+        }
+        ("COLOR", 8) => {
+            let mut values: Vec<[u16; 4]> = bytemuck::pod_collect_to_vec(&bytes);
+            decode_filter_color(&mut values);
             Ok(to_bytes(values))
         }
         ("QUATERNION", 8) => {

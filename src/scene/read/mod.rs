@@ -7,9 +7,13 @@
 mod accessor;
 mod animation;
 mod asset;
+#[cfg(feature = "basisu")]
+mod basis;
 mod buffer;
 mod camera;
 mod container;
+#[cfg(feature = "draco")]
+mod draco;
 mod image;
 mod instance;
 mod light;
@@ -19,6 +23,7 @@ mod mesh;
 mod meshopt;
 mod model;
 mod node;
+mod packed;
 mod primitive;
 mod skin;
 mod surface;

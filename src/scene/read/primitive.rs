@@ -8,6 +8,8 @@ use gltf::json::{
     validation::Checked,
 };
 
+#[cfg(feature = "draco")]
+use super::draco::read as unpack;
 use super::{
     Context,
     accessor::Accessor,
@@ -49,20 +51,31 @@ pub fn read(
         notes.push(Fault::new(attributes, reason));
         return Ok(Outcome::Nothing);
     };
-    let positions = context.accessor(positions, &format!("{attributes}/POSITION"))?;
+    let positions = context.accessor(positions, &format!("{attributes}/POSITION"));
+    let packed = match (unpack(item, place, context), &positions) {
+        // What the file offers to those that cannot decode it.
+        (Err(fault), Ok(positions)) if !positions.is_void() => {
+            notes.push(fault.but("the uncompressed data are used"));
+            None
+        }
+        (packed, _) => packed?,
+    };
+    let reader = vertex::Reader {
+        primitive: item,
+        place,
+        packed: packed.as_ref(),
+        context,
+        count: 1,
+    };
+    let positions = match reader.packed(Semantic::Positions) {
+        Some(positions) => positions?,
+        None => positions?,
+    };
     let positions = positions.expect_components(&[3])?;
-    let others = item
-        .extensions
-        .as_ref()
-        .map(|extensions| &extensions.others);
-    let draco = others.is_some_and(|others| others.contains_key("KHR_draco_mesh_compression"));
-    if positions.is_void() && draco {
-        return Err(Fault::new(
-            place,
-            "is compressed with KHR_draco_mesh_compression, which is not supported; decode it with \
-             `gltf-transform copy IN OUT`",
-        ));
-    }
+    let reader = vertex::Reader {
+        count: positions.count,
+        ..reader
+    };
     // The last material is glTF's default, which no index of the file refers to.
     let default_material = materials.len().saturating_sub(1);
     let material_index = match context
@@ -79,8 +92,7 @@ pub fn read(
     };
     let material = materials.get(material_index).cloned().unwrap_or_default();
 
-    let Some((mut triangles, mut sources)) =
-        read_triangles(item, place, context, mode, &positions, notes)?
+    let Some((mut triangles, mut sources)) = read_triangles(&reader, mode, &positions, notes)?
     else {
         return Ok(Outcome::Nothing);
     };
@@ -91,12 +103,6 @@ pub fn read(
         .budget
         .add_vertices(most * (1 + targets.len() as u64), place)?;
 
-    let reader = vertex::Reader {
-        primitive: item,
-        place,
-        context,
-        count: positions.count,
-    };
     let normals = reader.attribute(Semantic::Normals, &[3], &vertex::SIGNED, notes);
     let mut normals: Vec<[f32; 3]> =
         normals.map_or_else(Vec::new, |accessor| gather(&accessor, &sources));
@@ -143,12 +149,39 @@ pub fn read(
     Ok(Outcome::Drawn(Box::new(primitive)))
 }
 
+/// Refuses compressed primitives.
+#[cfg(not(feature = "draco"))]
+fn unpack(
+    item: &mesh::Primitive,
+    place: &str,
+    _: &Context<'_>,
+) -> Result<Option<super::packed::Packed>, Fault> {
+    if !is_compressed(item) {
+        return Ok(None);
+    }
+    Err(Fault::new(
+        place,
+        "is compressed with KHR_draco_mesh_compression, for which the feature `draco` is needed; \
+         decode it with `gltf-transform copy IN OUT`",
+    ))
+}
+
+fn is_compressed(item: &mesh::Primitive) -> bool {
+    let extensions = item.extensions.as_ref();
+    extensions.is_some_and(|e| e.others.contains_key("KHR_draco_mesh_compression"))
+}
+
 /// How many triangles `item` will be read to at most, found without reading them; 0 where that will
 /// fail.
 pub fn claimed_triangles(item: &mesh::Primitive, context: &Context<'_>) -> u64 {
     let defining = item
         .indices
         .or_else(|| attribute_of(item, Semantic::Positions));
+    if is_compressed(item) {
+        // Its accessors need no data to say how many come out.
+        let accessor = defining.and_then(|index| context.model.root.get(index));
+        return accessor.map_or(0, |accessor| accessor.count.0 / 3);
+    }
     let accessor = defining.map(|index| context.accessor(index, ""));
     match (item.mode, accessor) {
         (Checked::Valid(mode), Some(Ok(accessor))) if accessor.check_justified().is_ok() => {
@@ -171,20 +204,25 @@ type Triangles = Vec<[u32; 3]>;
 
 /// Triangles that can be drawn, and the vertices of the file that they refer to.
 fn read_triangles(
-    item: &mesh::Primitive,
-    place: &str,
-    context: &Context<'_>,
+    reader: &vertex::Reader<'_, '_>,
     mode: Mode,
     positions: &Accessor<'_>,
     notes: &mut Vec<Fault>,
 ) -> Result<Option<(Triangles, Vec<u32>)>, Fault> {
-    let indices = item.indices.map(|index| {
-        context
-            .accessor(index, &format!("{place}/indices"))?
-            .expect_components(&[1])?
-            .expect_type(&[ComponentType::U8, ComponentType::U16, ComponentType::U32])
+    let (item, place) = (reader.primitive, reader.place);
+    let indices = match reader.packed {
+        Some(packed) => Some(Accessor::of_stream(&packed.indices, false, place)),
+        None => item.indices.map(|index| {
+            let accessor = reader.context.accessor(index, &format!("{place}/indices"));
+            accessor?.expect_components(&[1])
+        }),
+    };
+    let indices = indices.transpose()?.map(|indices| {
+        indices.expect_type(&[ComponentType::U8, ComponentType::U16, ComponentType::U32])
     });
     let indices = indices.transpose()?;
+    // What is decoded is a list, whatever it was encoded from.
+    let mode = reader.packed.map_or(mode, |_| Mode::Triangles);
     let defining = indices.as_ref().unwrap_or(positions);
     defining.check_justified()?;
     let count = defining.count;

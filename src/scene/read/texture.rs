@@ -1,4 +1,5 @@
-//! Textures and samplers (glTF 2.0, sections 3.8.1 to 3.8.4) with `EXT_texture_webp`.
+//! Textures and samplers (glTF 2.0, sections 3.8.1 to 3.8.4) with `KHR_texture_basisu` and
+//! `EXT_texture_webp`.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -18,7 +19,7 @@ use crate::scene::{
 };
 
 /// Extensions that give a texture another image, the best first.
-const SOURCES: [&str; 1] = ["EXT_texture_webp"];
+const SOURCES: [&str; 2] = ["KHR_texture_basisu", "EXT_texture_webp"];
 
 /// The extension object.
 #[derive(serde::Deserialize)]

@@ -10,7 +10,7 @@ use gltf::json::{
     validation::Checked,
 };
 
-use super::{Context, accessor::Accessor, primitive::gather};
+use super::{Context, accessor::Accessor, packed::Packed, primitive::gather};
 use crate::scene::{
     document::{Influences, Target},
     error::Fault,
@@ -41,6 +41,8 @@ pub struct Reader<'r, 'a> {
     pub primitive: &'r mesh::Primitive,
     /// Where it is.
     pub place: &'r str,
+    /// Where it is compressed, what came out.
+    pub packed: Option<&'r Packed>,
     /// The document.
     pub context: &'r Context<'a>,
     /// Number of positions, which the others have to match.
@@ -50,13 +52,13 @@ pub struct Reader<'r, 'a> {
 impl<'r> Reader<'r, '_> {
     fn read(
         &self,
-        index: Index<json::Accessor>,
+        accessor: Result<Accessor<'r>, Fault>,
         place: String,
         components: &[usize],
         types: &[ComponentType],
         notes: &mut Vec<Fault>,
     ) -> Option<Accessor<'r>> {
-        let accessor = self.context.accessor(index, &place).and_then(|accessor| {
+        let accessor = accessor.and_then(|accessor| {
             accessor
                 .expect_components(components)?
                 .expect_type(types)?
@@ -65,6 +67,17 @@ impl<'r> Reader<'r, '_> {
         accessor
             .map_err(|fault| notes.push(Fault::new(place, format!("is left out, for {fault}"))))
             .ok()
+    }
+
+    /// An attribute that was decoded, if it was.
+    pub fn packed(&self, semantic: Semantic) -> Option<Result<Accessor<'r>, Fault>> {
+        let name = semantic.to_string();
+        let stream = self.packed?.attributes.get(&name)?;
+        let described = attribute_of(self.primitive, semantic);
+        let described = described.and_then(|index| self.context.model.root.get(index));
+        let normalized = described.is_some_and(|accessor| accessor.normalized);
+        let place = format!("{}/attributes/{name}", self.place);
+        Some(Accessor::of_stream(stream, normalized, &place))
     }
 
     /// An attribute, if the primitive has it.
@@ -76,8 +89,11 @@ impl<'r> Reader<'r, '_> {
         notes: &mut Vec<Fault>,
     ) -> Option<Accessor<'r>> {
         let place = format!("{}/attributes/{}", self.place, semantic.to_string());
-        let index = attribute_of(self.primitive, semantic)?;
-        self.read(index, place, components, types, notes)
+        let index = attribute_of(self.primitive, semantic.clone())?;
+        let accessor = self
+            .packed(semantic)
+            .unwrap_or_else(|| self.context.accessor(index, &place));
+        self.read(accessor, place, components, types, notes)
     }
 
     /// Both UV sets, if `material` has textures.
@@ -180,7 +196,8 @@ impl<'r> Reader<'r, '_> {
             .map(|(i, item)| {
                 let mut stream = |name: &str, index: Option<Index<json::Accessor>>, types: &[_]| {
                     let place = format!("{}/targets/{i}/{name}", self.place);
-                    let accessor = self.read(index?, place, &[3], types, notes)?;
+                    let accessor = self.context.accessor(index?, &place);
+                    let accessor = self.read(accessor, place, &[3], types, notes)?;
                     let mut displacements: Vec<[f32; 3]> = gather(&accessor, sources);
                     for x in displacements.as_flattened_mut() {
                         if !x.is_finite() {
