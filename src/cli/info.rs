@@ -59,7 +59,7 @@ fn text(info: &SceneInfo) -> String {
     let animations = info.animations.iter();
     let images = info.images.iter();
     [
-        format!("glTF {} by {generator}", info.version),
+        format!("{} {} by {generator}", info.format, info.version),
         format!(
             "scenes      {}",
             numbered(info.scenes.names.iter().map(name).collect())

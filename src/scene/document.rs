@@ -17,6 +17,8 @@ use super::{light::Light, view::SceneProjection};
 pub struct Document {
     /// File name, for messages.
     pub file: String,
+    /// What the file is.
+    pub format: &'static str,
     /// Names, references and the hierarchy; without buffers and images.
     pub root: Root,
     /// The scene that is drawn unless another is asked for.

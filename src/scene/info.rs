@@ -7,7 +7,9 @@ use super::{AlphaMode, Scene, document, pose, view::SceneProjection};
 /// What a file holds.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SceneInfo {
-    /// glTF version that the file declares.
+    /// `glTF`, `OBJ`, `STL` or `PLY`.
+    pub format: &'static str,
+    /// glTF version that the file declares; empty for the other formats.
     pub version: String,
     /// Program that wrote the file.
     pub generator: Option<String>,
@@ -124,6 +126,7 @@ pub(super) fn summarize(scene: &Scene) -> SceneInfo {
         } += 1;
     }
     SceneInfo {
+        format: document.format,
         version: root.asset.version.clone(),
         generator: root.asset.generator.clone(),
         scenes: SceneNames {

@@ -1,4 +1,4 @@
-//! The scene: what a glTF 2.0 file holds, and its triangles in the pose of one moment.
+//! The scene: what a file holds, and its triangles in the pose of one moment.
 //!
 //! Nothing here knows of Vulkan. [`Scene::load`] reads a file; [`Scene::pose`] flattens one of its
 //! scenes into world-space [`Geometry`] that a renderer uploads.
@@ -15,7 +15,11 @@
 //! # Ok::<(), gpc::scene::SceneError>(())
 //! ```
 //!
-//! Supported extensions: `KHR_lights_punctual`, `KHR_materials_emissive_strength`,
+//! OBJ, STL and PLY files are read, too: their triangles, normals and base colours. Those formats
+//! have no unit, no axis that is up and no light; what they have is taken as it is.
+//!
+//! Supported extensions: `KHR_draco_mesh_compression` and `KHR_texture_basisu` (by the features
+//! `draco` and `basisu`, on by default), `KHR_meshopt_compression`, `KHR_lights_punctual`, `KHR_materials_emissive_strength`,
 //! `KHR_materials_unlit`, `KHR_mesh_quantization`, `KHR_texture_transform`,
 //! `EXT_mesh_gpu_instancing`, `EXT_meshopt_compression`, `EXT_texture_webp`. A file that requires
 //! another one is refused.
@@ -65,10 +69,10 @@ pub struct Loaded {
 }
 
 impl Scene {
-    /// Reads a `.glb` or `.gltf` file, told apart by content. Relative URIs start from its folder.
+    /// Reads a glTF, OBJ, STL or PLY file, told apart by content. Relative URIs start from its folder.
     ///
     /// # Errors
-    /// If the file cannot be read, is not glTF 2.0, requires an extension that is not supported, or
+    /// If the file cannot be read, is none of these, is glTF other than 2.0, requires an extension that is not supported, or
     /// if anything that has to be drawn is broken: see [`SceneError`].
     pub fn load(path: &Path) -> Result<Loaded, SceneError> {
         let file = path.display().to_string();
@@ -79,7 +83,7 @@ impl Scene {
         Self::from_slice(&bytes, &file, path.parent())
     }
 
-    /// Reads the bytes of a `.glb` or `.gltf` file. Messages call it `name`; relative URIs start
+    /// Reads the bytes of a glTF, OBJ, STL or PLY file. Messages call it `name`; relative URIs start
     /// from the folder `base`, without which they are errors where they are needed.
     ///
     /// # Errors

@@ -106,6 +106,13 @@ impl Images {
         })
     }
 
+    /// Decodes an image that is none of a document's; where it is among the decoded ones.
+    pub fn add(&mut self, bytes: Cow<'_, [u8]>) -> Result<u32, String> {
+        let image = self.admit(bytes)?.decode()?;
+        self.decoded.push(image);
+        Ok(self.decoded.len() as u32 - 1)
+    }
+
     /// Where image `index` is among the decoded ones.
     pub fn place(&self, index: usize) -> Option<u32> {
         self.places.get(&index).copied().flatten()

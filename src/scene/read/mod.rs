@@ -1,4 +1,4 @@
-//! Reads glTF 2.0.
+//! Reads glTF 2.0, and what other formats have of triangles and base colours.
 //!
 //! Faults in what a scene's geometry is made of are errors; faults in how it looks, moves or is
 //! looked at become warnings, and the element is left out or takes its defaults. Unused buffers,
@@ -23,9 +23,13 @@ mod mesh;
 mod meshopt;
 mod model;
 mod node;
+mod obj;
 mod packed;
+mod ply;
 mod primitive;
+mod shape;
 mod skin;
+mod stl;
 mod surface;
 mod tangent;
 mod texture;
@@ -76,9 +80,23 @@ impl Context<'_> {
     }
 }
 
-/// Reads a scene from the bytes of a file; `file` is what messages call it, and relative URIs start
-/// from `base`.
+/// Reads a scene from the bytes of a file, whose format is told by its content; `file` is what
+/// messages call it, and relative URIs start from `base`.
 pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, SceneError> {
+    if container::is_glb(bytes) {
+        read_gltf(bytes, file, base)
+    } else if stl::is_stl(bytes) {
+        stl::read(bytes, file)
+    } else if ply::is_ply(bytes) {
+        ply::read(bytes, file)
+    } else if obj::is_obj(bytes) {
+        obj::read(bytes, file, base)
+    } else {
+        read_gltf(bytes, file, base)
+    }
+}
+
+fn read_gltf(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, SceneError> {
     let container = container::open(bytes, file)?;
     let malformed = |fault: Fault| fault.into_error(file);
     let mut value = container.json;
@@ -101,6 +119,7 @@ pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, Sce
     model.root.images.clear();
     scene.document.root = model.root;
     scene.document.file = file.to_owned();
+    scene.document.format = "glTF";
     Ok(Loaded { scene, warnings })
 }
 
