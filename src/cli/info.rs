@@ -69,6 +69,10 @@ fn text(info: &SceneInfo) -> String {
             info.triangles, info.primitives, info.meshes, info.nodes
         ),
         format!(
+            "variants    {}",
+            numbered(info.variants.iter().map(|v| format!("\"{v}\"")).collect())
+        ),
+        format!(
             "materials   {} opaque, {} mask, {} blend",
             info.materials.opaque, info.materials.mask, info.materials.blend
         ),

@@ -8,6 +8,7 @@ use glam::{DAffine3, DQuat, DVec3};
 use gltf::json::{
     Root,
     animation::{Interpolation, Property},
+    extensions::scene::khr_materials_variants::Variant,
 };
 
 use super::{light::Light, view::SceneProjection};
@@ -35,6 +36,19 @@ pub struct Document {
     pub cameras: Vec<Option<SceneProjection>>,
     /// At the origin and along -Z; `None` where a light is unusable.
     pub lights: Vec<Option<Light>>,
+}
+
+impl Document {
+    /// Names of the variants of the file's materials.
+    pub fn variants(&self) -> impl Iterator<Item = &str> {
+        variants(&self.root)
+    }
+}
+
+/// Names of the variants of materials (`KHR_materials_variants`).
+pub fn variants(root: &Root) -> impl Iterator<Item = &str> {
+    let variants: &[Variant] = root.as_ref();
+    variants.iter().map(|variant| variant.name.as_str())
 }
 
 /// Where a node is relative to its parent.
@@ -75,6 +89,8 @@ pub struct Node {
     pub transform: Transform,
     /// `EXT_mesh_gpu_instancing`: transforms relative to the node.
     pub instances: Option<Arc<[DAffine3]>>,
+    /// `KHR_node_visibility`, that of its ancestors included; does not concern cameras.
+    pub visible: bool,
 }
 
 /// Triangles of one material with only the vertices that they use.

@@ -30,6 +30,8 @@ pub struct SceneInfo {
     pub triangles: u64,
     /// Materials by alpha mode.
     pub materials: AlphaModes,
+    /// Variants of the materials, of which one can be asked for.
+    pub variants: Vec<String>,
     /// Number of textures that materials use.
     pub textures: usize,
     /// Images that textures use.
@@ -110,6 +112,9 @@ pub(super) fn summarize(scene: &Scene) -> SceneInfo {
                 },
             });
         }
+        if !document.nodes[index].visible {
+            continue;
+        }
         let copies = pose::copies(document, index) as u64;
         for primitive in pose::primitives_of(document, node) {
             primitives += 1;
@@ -148,6 +153,7 @@ pub(super) fn summarize(scene: &Scene) -> SceneInfo {
         primitives,
         triangles,
         materials,
+        variants: document.variants().map(str::to_owned).collect(),
         textures: scene.textures.len(),
         images: scene
             .images
@@ -158,6 +164,7 @@ pub(super) fn summarize(scene: &Scene) -> SceneInfo {
             })
             .collect(),
         lights: nodes()
+            .filter(|&(index, _)| document.nodes[index].visible)
             .filter_map(|(_, node)| pose::light_of(document, node))
             .count(),
         skins: root.skins.len(),

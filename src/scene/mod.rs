@@ -20,7 +20,8 @@
 //!
 //! Supported extensions: `KHR_draco_mesh_compression` and `KHR_texture_basisu` (by the features
 //! `draco` and `basisu`, on by default), `KHR_meshopt_compression`, `KHR_lights_punctual`, `KHR_materials_emissive_strength`,
-//! `KHR_materials_unlit`, `KHR_mesh_quantization`, `KHR_texture_transform`,
+//! `KHR_materials_pbrSpecularGlossiness` (converted, with a warning), `KHR_materials_unlit`,
+//! `KHR_materials_variants`, `KHR_mesh_quantization`, `KHR_node_visibility`, `KHR_texture_transform`,
 //! `EXT_mesh_gpu_instancing`, `EXT_meshopt_compression`, `EXT_texture_webp`. A file that requires
 //! another one is refused.
 
@@ -76,11 +77,17 @@ impl Scene {
     /// if anything that has to be drawn is broken: see [`SceneError`].
     pub fn load(path: &Path) -> Result<Loaded, SceneError> {
         let file = path.display().to_string();
-        let bytes = std::fs::read(path).map_err(|source| SceneError::Read {
-            file: file.clone(),
-            source: Arc::new(source),
-        })?;
-        Self::from_slice(&bytes, &file, path.parent())
+        Self::from_slice(&read_file(path)?, &file, path.parent())
+    }
+
+    /// As [`load`](Self::load), with the materials of the `variant` of that name
+    /// (`KHR_materials_variants`).
+    ///
+    /// # Errors
+    /// As [`load`](Self::load), and if the file has no such variant.
+    pub fn load_variant(path: &Path, variant: &str) -> Result<Loaded, SceneError> {
+        let file = path.display().to_string();
+        read::read(&read_file(path)?, &file, path.parent(), Some(variant))
     }
 
     /// Reads the bytes of a glTF, OBJ, STL or PLY file. Messages call it `name`; relative URIs start
@@ -89,7 +96,21 @@ impl Scene {
     /// # Errors
     /// As [`load`](Self::load).
     pub fn from_slice(bytes: &[u8], name: &str, base: Option<&Path>) -> Result<Loaded, SceneError> {
-        read::read(bytes, name, base)
+        read::read(bytes, name, base, None)
+    }
+
+    /// As [`from_slice`](Self::from_slice), with the materials of the `variant` of that name
+    /// (`KHR_materials_variants`).
+    ///
+    /// # Errors
+    /// As [`load_variant`](Self::load_variant).
+    pub fn variant_from_slice(
+        bytes: &[u8],
+        name: &str,
+        base: Option<&Path>,
+        variant: &str,
+    ) -> Result<Loaded, SceneError> {
+        read::read(bytes, name, base, Some(variant))
     }
 
     /// A scene without a file and without textures, for [`Geometry`] made by other means; glTF's default material is
@@ -118,4 +139,11 @@ impl Scene {
     pub fn info(&self) -> SceneInfo {
         info::summarize(self)
     }
+}
+
+fn read_file(path: &Path) -> Result<Vec<u8>, SceneError> {
+    std::fs::read(path).map_err(|source| SceneError::Read {
+        file: path.display().to_string(),
+        source: Arc::new(source),
+    })
 }

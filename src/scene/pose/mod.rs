@@ -74,7 +74,8 @@ pub(super) fn pose(scene: &Scene, request: &PoseRequest) -> Result<Pose, SceneEr
             ));
             continue;
         }
-        if let Some(light) = light_of(document, node) {
+        let visible = document.nodes[index].visible;
+        if let Some(light) = light_of(document, node).filter(|_| visible) {
             lights.push(place_light(light, world));
         }
         if let Some((name, projection)) = camera_of(document, node) {
@@ -91,7 +92,9 @@ pub(super) fn pose(scene: &Scene, request: &PoseRequest) -> Result<Pose, SceneEr
                 )),
             }
         }
-        placements.extend(Placement::of_node(document, index, node, &state));
+        if visible {
+            placements.extend(Placement::of_node(document, index, node, &state));
+        }
     }
     let geometry = assemble::assemble(scene, &placements, &mut warnings)?;
     if geometry.triangles.is_empty() {

@@ -10,23 +10,26 @@ use crate::scene::{
 };
 
 /// The extensions that are implemented, some by an optional feature.
-const SUPPORTED: [(&str, bool); 11] = [
+const SUPPORTED: [(&str, bool); 14] = [
     ("EXT_mesh_gpu_instancing", true),
     ("EXT_meshopt_compression", true),
     ("EXT_texture_webp", true),
     ("KHR_draco_mesh_compression", cfg!(feature = "draco")),
     ("KHR_lights_punctual", true),
     ("KHR_materials_emissive_strength", true),
+    ("KHR_materials_pbrSpecularGlossiness", true),
     ("KHR_materials_unlit", true),
+    ("KHR_materials_variants", true),
     ("KHR_mesh_quantization", true),
     ("KHR_meshopt_compression", true),
+    ("KHR_node_visibility", true),
     ("KHR_texture_basisu", cfg!(feature = "basisu")),
     ("KHR_texture_transform", true),
 ];
 
 /// Extensions without which a file looks different; others that are not supported are metadata, or
 /// have a fallback that looks the same.
-const VISIBLE: [&str; 16] = [
+const VISIBLE: [&str; 14] = [
     "EXT_lights_image_based",
     "KHR_animation_pointer",
     "KHR_materials_anisotropy",
@@ -35,14 +38,12 @@ const VISIBLE: [&str; 16] = [
     "KHR_materials_dispersion",
     "KHR_materials_ior",
     "KHR_materials_iridescence",
-    "KHR_materials_pbrSpecularGlossiness",
     "KHR_materials_sheen",
     "KHR_materials_specular",
     "KHR_materials_subsurface",
     "KHR_materials_transmission",
     "KHR_materials_volume",
     "KHR_materials_volume_scatter",
-    "KHR_node_visibility",
 ];
 
 /// Reads `asset`; refuses another version of glTF.
@@ -112,9 +113,6 @@ fn way_out(name: &str) -> String {
         "KHR_draco_mesh_compression" => "decode it with `gltf-transform copy IN OUT`".to_owned(),
         "KHR_texture_basisu" => {
             "convert its textures with `gltf-transform ktxdecompress IN OUT`".to_owned()
-        }
-        "KHR_materials_pbrSpecularGlossiness" => {
-            "convert it with `gltf-transform metalrough IN OUT`".to_owned()
         }
         _ => format!("export the scene without {name}"),
     }

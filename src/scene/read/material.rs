@@ -1,5 +1,5 @@
-//! Materials (glTF 2.0, section 3.9) with `KHR_materials_unlit`, `KHR_materials_emissive_strength`
-//! and `KHR_texture_transform`.
+//! Materials (glTF 2.0, section 3.9) with `KHR_materials_unlit`, `KHR_materials_emissive_strength`,
+//! `KHR_texture_transform` and, converted, `KHR_materials_pbrSpecularGlossiness`.
 
 use gltf::json::{
     self, Index, extensions,
@@ -74,12 +74,26 @@ fn read(item: &json::Material, place: &str, context: &mut Context<'_>) -> Result
         material.occlusion_texture = texture(Some(info), "occlusionTexture");
         material.occlusion_strength = unit(occlusion.strength.0);
     }
-    let mut strength = 1.0;
+    let (mut strength, mut converted) = (1.0, false);
     if let Some(extensions) = &item.extensions {
         material.unlit = extensions.unlit.is_some();
+        if let Some(old) = &extensions.pbr_specular_glossiness {
+            let place = "extensions/KHR_materials_pbrSpecularGlossiness/diffuseTexture";
+            material.base_color_texture = texture(old.diffuse_texture.clone(), place);
+            material.metallic_roughness_texture = None;
+            convert(old, &mut material);
+            converted = true;
+        }
         if let Some(extension) = &extensions.emissive_strength {
             strength = extension.emissive_strength.0.max(0.0);
         }
+    }
+    if converted {
+        let reason = "is approximated: the base colour is the diffuse one, metalness and roughness \
+                      follow from the factors, and the specularGlossinessTexture is ignored; convert \
+                      it with `gltf-transform metalrough IN OUT` for more";
+        let place = format!("{place}/extensions/KHR_materials_pbrSpecularGlossiness");
+        context.warn(&Fault::new(place, reason));
     }
     // The factor is at most 1, so that a finite strength leaves the product finite.
     material.emissive = item.emissive_factor.0.map(|x| unit(x) * strength);
@@ -94,6 +108,46 @@ fn read(item: &json::Material, place: &str, context: &mut Context<'_>) -> Result
         Mode::Blend => AlphaMode::Blend,
     };
     Ok(material)
+}
+
+/// Metallic-roughness for a material of `KHR_materials_pbrSpecularGlossiness`, as Khronos' example of
+/// a conversion does it for factors. With textures, these say nothing of any one place, and the
+/// material is taken for a dielectric.
+fn convert(old: &extensions::material::PbrSpecularGlossiness, material: &mut Material) {
+    /// Reflectance of a dielectric at normal incidence.
+    const DIELECTRIC: f32 = 0.04;
+    const LEAST: f32 = 1e-6;
+    let unit = |x: f32| x.clamp(0.0, 1.0);
+    let [r, g, b, alpha] = old.diffuse_factor.0.map(unit);
+    let specular = old.specular_factor.0.map(unit);
+    material.base_color = [r, g, b, alpha];
+    material.metallic = 0.0;
+    material.roughness = 1.0 - unit(old.glossiness_factor.0);
+    if old.diffuse_texture.is_some() || old.specular_glossiness_texture.is_some() {
+        return;
+    }
+    let brightness = |[r, g, b]: [f32; 3]| (0.299 * r * r + 0.587 * g * g + 0.114 * b * b).sqrt();
+    let (diffuse, shine) = (brightness([r, g, b]), brightness(specular));
+    let strongest = specular.into_iter().fold(0.0, f32::max);
+    let kept = (1.0 - strongest) / (1.0 - DIELECTRIC);
+    // The metalness at which diffuse and specular colour both come out: a root of a parabola.
+    let metallic = if shine < DIELECTRIC {
+        0.0
+    } else {
+        let b = diffuse * kept + shine - 2.0 * DIELECTRIC;
+        let root = (b * b - 4.0 * DIELECTRIC * (DIELECTRIC - shine))
+            .max(0.0)
+            .sqrt();
+        unit((root - b) / (2.0 * DIELECTRIC))
+    };
+    let of_diffuse = kept / (1.0 - metallic).max(LEAST);
+    for (channel, shine) in material.base_color.iter_mut().zip(specular) {
+        let from_specular = (shine - DIELECTRIC * (1.0 - metallic)) / metallic.max(LEAST);
+        let from_diffuse = *channel * of_diffuse;
+        let metal = metallic * metallic;
+        *channel = unit(from_diffuse + (from_specular - from_diffuse) * metal);
+    }
+    material.metallic = metallic;
 }
 
 /// A texture in the form that `gltf` gives to all but two; of the extensions of these it knows none.

@@ -49,13 +49,15 @@ use model::Model;
 
 use super::{
     Loaded, Scene, SceneError,
-    document::Document,
+    document::{Document, variants},
     error::{Fault, Warnings},
 };
 
 /// What every reader needs.
 struct Context<'a> {
     model: &'a Model,
+    /// Which variant of the materials is drawn.
+    variant: Option<u32>,
     buffers: Buffers<'a>,
     budget: Budget,
     warnings: Warnings,
@@ -81,22 +83,60 @@ impl Context<'_> {
 }
 
 /// Reads a scene from the bytes of a file, whose format is told by its content; `file` is what
-/// messages call it, and relative URIs start from `base`.
-pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, SceneError> {
+/// messages call it, relative URIs start from `base`, and the materials are those of the `variant`
+/// of that name.
+pub fn read(
+    bytes: &[u8],
+    file: &str,
+    base: Option<&Path>,
+    variant: Option<&str>,
+) -> Result<Loaded, SceneError> {
     if container::is_glb(bytes) {
-        read_gltf(bytes, file, base)
-    } else if stl::is_stl(bytes) {
-        stl::read(bytes, file)
-    } else if ply::is_ply(bytes) {
-        ply::read(bytes, file)
-    } else if obj::is_obj(bytes) {
-        obj::read(bytes, file, base)
-    } else {
-        read_gltf(bytes, file, base)
+        return read_gltf(bytes, file, base, variant);
     }
+    let loaded = if stl::is_stl(bytes) {
+        stl::read(bytes, file)?
+    } else if ply::is_ply(bytes) {
+        ply::read(bytes, file)?
+    } else if obj::is_obj(bytes) {
+        obj::read(bytes, file, base)?
+    } else {
+        return read_gltf(bytes, file, base, variant);
+    };
+    find_variant(&loaded.scene.document.root, variant, file)?;
+    Ok(loaded)
 }
 
-fn read_gltf(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, SceneError> {
+/// The index of the variant of that name.
+fn find_variant(
+    root: &json::Root,
+    variant: Option<&str>,
+    file: &str,
+) -> Result<Option<u32>, SceneError> {
+    let Some(asked) = variant else {
+        return Ok(None);
+    };
+    let index = variants(root).position(|name| name == asked);
+    let index = index.ok_or_else(|| {
+        let names: Vec<String> = variants(root).map(|name| format!("\"{name}\"")).collect();
+        SceneError::NoSuchVariant {
+            file: file.to_owned(),
+            asked: asked.to_owned(),
+            known: match names.is_empty() {
+                true => "the file has none".to_owned(),
+                false => format!("the file has {}", names.join(", ")),
+            },
+        }
+    })?;
+    Ok(Some(index as u32))
+}
+
+fn read_gltf(
+    bytes: &[u8],
+    file: &str,
+    base: Option<&Path>,
+    variant: Option<&str>,
+) -> Result<Loaded, SceneError> {
     let container = container::open(bytes, file)?;
     let malformed = |fault: Fault| fault.into_error(file);
     let mut value = container.json;
@@ -108,6 +148,7 @@ fn read_gltf(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, Sc
     asset::check_extensions(&model.root, file, &mut warnings)?;
     let mut context = Context {
         model: &model,
+        variant: find_variant(&model.root, variant, file)?,
         buffers: Buffers::new(&model, container.binary, base),
         budget: Budget::default(),
         warnings,

@@ -10,7 +10,7 @@ use gltf::json::{
     Accessor, Animation, Asset, Buffer, Camera, Image, Index, Material, Mesh, Node, Path, Root,
     Scene, Skin, Texture,
     buffer::View,
-    extensions::scene::khr_lights_punctual::Light,
+    extensions::scene::{khr_lights_punctual::Light, khr_materials_variants::Variant},
     root::Get,
     texture::Sampler,
     validation::{Checked, Error, Validate},
@@ -48,17 +48,20 @@ elements! {
     Image, "/images", [];
     Light, "/extensions/KHR_lights_punctual/lights", [];
     Material, "/materials", [
+        "extensions/KHR_materials_pbrSpecularGlossiness",
         "normalTexture", "occlusionTexture", "emissiveTexture",
         "pbrMetallicRoughness/baseColorTexture", "pbrMetallicRoughness/metallicRoughnessTexture"
     ];
     Mesh, "/meshes", [
-        "weights", "primitives/*/attributes/*", "primitives/*/material", "primitives/*/targets/*/*"
+        "weights", "primitives/*/attributes/*", "primitives/*/material", "primitives/*/targets/*/*",
+        "primitives/*/extensions/KHR_materials_variants"
     ];
     Node, "/nodes", ["camera", "weights", "extensions/KHR_lights_punctual"];
     Sampler, "/samplers", [];
     Scene, "/scenes", [];
     Skin, "/skins", [];
     Texture, "/textures", ["sampler"];
+    Variant, "/extensions/KHR_materials_variants/variants", [];
 }
 
 /// What has to be read for a primitive to be drawn at all.
@@ -83,6 +86,7 @@ impl Model {
             warnings,
         };
         let lights: Vec<Light> = lists.read()?;
+        let variants: Vec<Variant> = lists.read()?;
         let mut root = Root {
             accessors: lists.read()?,
             animations: lists.read()?,
@@ -113,6 +117,7 @@ impl Model {
             None
         });
         *root.as_mut() = lights;
+        *root.as_mut() = variants;
         let broken = lists.broken;
         Ok(Self {
             root,
@@ -366,7 +371,7 @@ pub fn is_nothing<T>(index: Index<T>) -> bool {
 fn stand_in() -> Value {
     json!({
         "componentType": 0, "count": 0, "type": "", "byteLength": 0, "buffer": NOTHING,
-        "channels": [], "samplers": [], "primitives": [], "nodes": [], "joints": [],
+        "channels": [], "samplers": [], "primitives": [], "nodes": [], "joints": [], "name": "",
     })
 }
 

@@ -3,7 +3,7 @@
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use gltf::json;
 
-use super::{Context, instance};
+use super::{Context, instance, model};
 use crate::scene::{
     document::{Node, Parts, Transform},
     error::Fault,
@@ -30,7 +30,19 @@ pub fn read_nodes(context: &mut Context<'_>) -> Result<(Vec<Node>, Vec<usize>), 
         }
     }
     let order = order(&nodes, &model.root.nodes)?;
+    for &index in &order {
+        let hidden = nodes[index]
+            .parent
+            .is_some_and(|parent| !nodes[parent].visible);
+        nodes[index].visible &= !hidden;
+    }
     Ok((nodes, order))
+}
+
+/// The extension object `KHR_node_visibility`.
+#[derive(serde::Deserialize)]
+struct Visibility {
+    visible: Option<bool>,
 }
 
 /// Parents before children. With one parent each, a node that no root leads to is on a cycle, or
@@ -70,7 +82,7 @@ fn read_node(item: &json::Node, place: &str, context: &mut Context<'_>) -> Resul
     model.check(&item.skin, &format!("{place}/skin"))?;
     let camera = model.check(&item.camera, &format!("{place}/camera"));
     context.tolerate(camera.map(Some), "the node has no camera");
-    let mut instances = None;
+    let (mut instances, mut visible) = (None, true);
     if let Some(extensions) = &item.extensions {
         let light = extensions
             .khr_lights_punctual
@@ -81,6 +93,9 @@ fn read_node(item: &json::Node, place: &str, context: &mut Context<'_>) -> Resul
             &format!("{place}/extensions/KHR_lights_punctual/light"),
         );
         context.tolerate(light.map(Some), "the node has no light");
+        let visibility = model::extension(Some(&extensions.others), "KHR_node_visibility", place);
+        let visibility = context.tolerate(visibility, "the node is visible");
+        visible = visibility.is_none_or(|(Visibility { visible }, _)| visible.unwrap_or(true));
         if item.mesh.is_some() {
             instances = instance::read(&extensions.others, place, context)?;
         }
@@ -95,6 +110,7 @@ fn read_node(item: &json::Node, place: &str, context: &mut Context<'_>) -> Resul
         parent: None,
         transform: read_transform(item, place, context)?,
         instances,
+        visible,
     })
 }
 

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use gltf::json::{
+    self, Index,
     accessor::ComponentType,
     mesh::{self, Mode, Semantic},
     validation::Checked,
@@ -78,13 +79,9 @@ pub fn read(
     };
     // The last material is glTF's default, which no index of the file refers to.
     let default_material = materials.len().saturating_sub(1);
-    let material_index = match context
-        .model
-        .check(&item.material, &format!("{place}/material"))
-    {
-        Ok(()) => item
-            .material
-            .map_or(default_material, |index| index.value()),
+    let (chosen, material_place) = choose_material(item, place, context);
+    let material_index = match context.model.check(&chosen, &material_place) {
+        Ok(()) => chosen.map_or(default_material, |index| index.value()),
         Err(fault) => {
             notes.push(fault);
             default_material
@@ -169,6 +166,25 @@ fn unpack(
 fn is_compressed(item: &mesh::Primitive) -> bool {
     let extensions = item.extensions.as_ref();
     extensions.is_some_and(|e| e.others.contains_key("KHR_draco_mesh_compression"))
+}
+
+/// The material of the variant that is drawn, or else the primitive's own; and the place that says so.
+fn choose_material(
+    item: &mesh::Primitive,
+    place: &str,
+    context: &Context<'_>,
+) -> (Option<Index<json::Material>>, String) {
+    let extensions = item.extensions.as_ref();
+    let variants = extensions.and_then(|e| e.khr_materials_variants.as_ref());
+    let mappings = variants.map_or(&[][..], |variants| &variants.mappings);
+    let mapped = |wanted: u32| mappings.iter().position(|m| m.variants.contains(&wanted));
+    match context.variant.and_then(mapped) {
+        Some(i) => {
+            let place = format!("{place}/extensions/KHR_materials_variants/mappings/{i}/material");
+            (Some(Index::new(mappings[i].material)), place)
+        }
+        None => (item.material, format!("{place}/material")),
+    }
 }
 
 /// How many triangles `item` will be read to at most, found without reading them; 0 where that will

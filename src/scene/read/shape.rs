@@ -107,6 +107,7 @@ impl Drawing {
                     ..Parts::default()
                 }),
                 instances: None,
+                visible: true,
             });
             roots.push(root.push(json::Node {
                 mesh: Some(mesh),
