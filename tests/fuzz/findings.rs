@@ -1,0 +1,1 @@
+//! What runs of the fuzzer found, as it was found.
