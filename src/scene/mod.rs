@@ -33,6 +33,7 @@ mod light;
 mod material;
 mod pose;
 mod read;
+mod surface;
 mod view;
 
 use std::{path::Path, sync::Arc};

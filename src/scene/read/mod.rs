@@ -30,10 +30,7 @@ mod primitive;
 mod shape;
 mod skin;
 mod stl;
-mod surface;
-mod tangent;
 mod texture;
-mod triangles;
 mod uri;
 mod vertex;
 

@@ -14,10 +14,14 @@ use super::draco::read as unpack;
 use super::{
     Context,
     accessor::Accessor,
-    surface, tangent, triangles,
     vertex::{self, attribute_of},
 };
-use crate::scene::{document::Primitive, error::Fault, material::Material};
+use crate::scene::{
+    document::Primitive,
+    error::Fault,
+    material::Material,
+    surface::{normals::mend_normals, tangent, triangles},
+};
 
 /// What became of a primitive.
 pub enum Outcome {
@@ -104,7 +108,7 @@ pub fn read(
     let mut normals: Vec<[f32; 3]> =
         normals.map_or_else(Vec::new, |accessor| gather(&accessor, &sources));
     let shape = gather(&positions, &sources);
-    match surface::mend_normals(&triangles, &shape, &mut normals) {
+    match mend_normals(&triangles, &shape, &mut normals) {
         0 => {}
         mended => notes.push(Fault::new(
             attributes,

@@ -2,12 +2,13 @@
 
 use gltf::json::{self, Index};
 
-use super::{limits::Budget, surface, triangles};
+use super::limits::Budget;
 use crate::scene::{
     Loaded, Scene, SceneError,
     document::{Document, Node, Parts, Primitive, Transform},
     error::{Fault, Warnings},
     material::{Image, Material, Texture},
+    surface::{normals::mend_normals, triangles},
 };
 use glam::DVec3;
 
@@ -168,7 +169,7 @@ impl Shape {
             true => pick(&self.normals, &sources),
             false => Vec::new(),
         };
-        let mended = surface::mend_normals(&self.triangles, &positions, &mut normals);
+        let mended = mend_normals(&self.triangles, &positions, &mut normals);
         if mended > 0 {
             let reason =
                 format!("{mended} of the normals are unusable and replaced by those of the faces");
