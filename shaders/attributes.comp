@@ -12,7 +12,7 @@ layout(std430, set = 0, binding = 36) writeonly buffer AttributesOut { uvec4 att
 void main() {
     uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
     // Under supersampling, what the grid's middle sees of an output pixel.
-    uint side = uint(frame.footprint);
+    uint side = frame.side;
     uvec2 size = frame.size / side;
     if (i >= size.x * size.y) return;
     uvec2 pixel = split(i, size.x) * side + side / 2u;

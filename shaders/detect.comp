@@ -1,6 +1,6 @@
 // detect: which pixels are superpixels, one bit a pixel in a word a tile of 8 x 4 pixels.
-// A pixel is one if any of its 8 neighbours shows another triangle (opaque or the nearest BLEND one) in a
-// contrasting colour, by display-encoded 8-bit codes; an UNEVEN triangle needs no other one to contrast with.
+// A pixel is one if any of its 8 neighbours shows a contrasting colour, by display-encoded 8-bit codes; EDGES asks for
+// another triangle there (opaque or the nearest BLEND one) as well, EXACT for that alone.
 // Twin: src/reference/detect.rs.
 // Reads: ids, blend_ids, display, marks. Writes: masks, COUNTER_SUPERPIXELS, COUNTER_TILES.
 // An invocation takes a tile: it keeps rows in registers and compares every pair of neighbours once.
@@ -10,7 +10,7 @@
 layout(local_size_x = 64) in;
 
 layout(constant_id = 0) const uint MODE = 0u;
-const uint CONTRAST = 0u, EXACT = 1u, COLOUR = 2u, BLENDED = 3u, EVERY = 4u;
+const uint CONTRAST = 0u, EDGES = 1u, EXACT = 2u, BLENDED = 3u, EVERY = 4u;
 layout(constant_id = 1) const bool HAS_BLEND = false;
 layout(constant_id = 2) const bool THIN = false;    // pixels that `thin` marked are superpixels too; some, if they lie amid a triangle
 layout(constant_id = 3) const bool TRANSPARENT = false;  // colours differ in alpha too
@@ -44,9 +44,8 @@ bool contrasting(uint a, uint b) {
 bool differs(uint id_a, uint id_b, uint blend_a, uint blend_b, uint color_a, uint color_b, int alpha_a, int alpha_b) {
     bool other = id_a != id_b || (HAS_BLEND && blend_a != blend_b);
     if (MODE == EXACT) return other;
-    bool contrast = contrasting(color_a, color_b) || (TRANSPARENT && abs((alpha_a | 1) - (alpha_b | 1)) > int(frame.contrast));
-    bool uneven = ((alpha_a | alpha_b) & 1) != 0;
-    return MODE == COLOUR ? contrast : (other || uneven) && contrast;
+    bool contrast = contrasting(color_a, color_b) || (TRANSPARENT && abs(alpha_a - alpha_b) > int(frame.contrast));
+    return contrast && (MODE == CONTRAST || other);
 }
 
 void main() {

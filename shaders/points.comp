@@ -43,6 +43,6 @@ void main() {
     vec3 n = mat3(texelFetch(normals, v.x).xyz, texelFetch(normals, v.y).xyz, texelFetch(normals, v.z).xyz) * w.at;
     n *= inversesqrt(max(dot(n, n), 1e-30));
     bool hit = id != 0u;
-    attributes_out[2u * site] = uvec4(floatBitsToUint(hit ? distance_ : 0.0), id, blend_id, display_code(c, hit && uneven(indices.w)));
+    attributes_out[2u * site] = uvec4(floatBitsToUint(hit ? distance_ : 0.0), id, blend_id, display_code(c));
     attributes_out[2u * site + 1u] = uvec4(floatBitsToUint(hit ? n : vec3(0.0)), 0u);
 }

@@ -26,7 +26,7 @@ void write(uvec2 pixel, vec4 c) {
     if (any(greaterThanEqual(pixel, frame.size))) return;
     uint at = pixel.y * frame.size.x + pixel.x;
     color[at] = c;
-    if (DISPLAY_CODES) display_out[at] = display_code(c, false);
+    if (DISPLAY_CODES) display_out[at] = display_code(c);
 }
 
 void main() {

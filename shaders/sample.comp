@@ -14,11 +14,11 @@
 // to take, a first run PROBEs each cell with few: where at most one surface is left to share, that is exact, and only
 // the REST takes all samples (and what is UNEVEN, to be shaded at).
 //
-// Record: pixel (x | y << 16), triangle ID, location relative to the pixel's centre (2 x 16 bits, 2^-16 pixels), and
+// Record: pixel (x | y << 16), triangle ID, place in the pixel (include/place.glsl), and
 //   merged: weight as a float, in samples; one record a visible triangle and block, at the centroid of its samples there
 //           (BY_PART: and part of it; PER_SAMPLE: one a sample, at its location);
 //   CHAINED: index of the record of the surface behind it, or ~0 for background; a leaf has ID 0, its weight in the
-//           place of a location, and the index of its samples' nearest surface (include/layers.glsl).
+//           stead of a place, and the index of its samples' nearest surface (include/layers.glsl).
 // Records link to those before them. Where cells are SITES, the first word of a record is its site; POINTS make a record
 // a sample, of location 0.
 // OCCLUDERS know their triangle and depth: another one that is nearer is recorded, or else background.

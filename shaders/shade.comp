@@ -2,7 +2,7 @@
 // Sources: PIXELS (the centres of the pixels of a span, by the IDs of raster) or visibility records at their location
 // in a pixel or in the cell of a site (SITES), whose Jacobian then sets the footprint.
 // Reads: shade_order, ids or records, clip, the geometry, textures. Writes: color and display, or shaded.
-// Linear light throughout. Texture levels follow the footprint of an output pixel, whatever the sampling rate.
+// Linear light throughout.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -13,6 +13,7 @@
 #include "include/studio.glsl"
 #include "include/tiles.glsl"
 #include "include/sites.glsl"
+#include "include/place.glsl"
 layout(local_size_x = 64) in;
 
 layout(constant_id = 0) const bool PIXELS = false;
@@ -30,6 +31,7 @@ layout(constant_id = 11) const bool LOCAL_LIGHTS = false; // point or spot light
 layout(constant_id = 12) const bool BLENDED = false;    // opacity is used
 layout(constant_id = 13) const bool PACKED_OCCLUSION = false;   // in the red channel of the metallic-roughness texture
 layout(constant_id = 14) const bool ONE_UV_TRANSFORM = false;   // and UV set, for all textures
+layout(constant_id = 15) const bool PLACES = false;     // the footprint follows what a record stands for
 
 layout(set = 1, binding = 0) uniform sampler2D base_color_texture;
 layout(set = 1, binding = 1) uniform sampler2D metallic_roughness_texture;
@@ -50,7 +52,7 @@ vec4 read(sampler2D image, uint use, uint m, Corners corners, Barycentric w) {
     mat3x2 uv = row_u.w != 0.0 ? mat3x2(corners.a.zw, corners.b.zw, corners.c.zw) : mat3x2(corners.a.xy, corners.b.xy, corners.c.xy);
     mat2 linear = mat2(row_u.x, row_v.x, row_u.y, row_v.y);
     vec2 at = linear * (uv * w.at) + vec2(row_u.z, row_v.z);
-    return textureGrad(image, at, linear * (uv * w.dx) * frame.footprint, linear * (uv * w.dy) * frame.footprint);
+    return textureGrad(image, at, linear * (uv * w.dx), linear * (uv * w.dy));
 }
 
 vec3 safe_normalize(vec3 v, vec3 otherwise) {
@@ -74,6 +76,7 @@ void main() {
     uint id;
     vec2 p;
     bool mine = true;
+    float side = frame.footprint;       // of the square that textures are filtered over
     uint site = 0u, shadows = 0u;       // a bit for each light that the surface lies in the shadow of
     if (PIXELS) {
         uint columns = (frame.size.x + 7u) / 8u;
@@ -85,7 +88,8 @@ void main() {
     } else {
         uvec4 record = texelFetch(records, int(source));
         id = record.y;
-        vec2 location = vec2(ivec2(record.z << 16, record.z) >> 16) * (1.0 / 65536.0);
+        vec2 location = place_location(record.z);
+        side = frame.place_footprint * (PLACES ? place_side(record.z) : 1.0);
         if (SITES) {
             site = record.x & POINT_SITE;
             uvec4 at = texelFetch(sites, int(2u * site));
@@ -107,6 +111,8 @@ void main() {
         w.dx = change[0];
         w.dy = change[1];
     }
+    w.dx *= side;
+    w.dy *= side;
 
     Corners corners;
     if (BASE_COLOR_TEXTURE || METALLIC_ROUGHNESS_TEXTURE || NORMAL_TEXTURE || OCCLUSION_TEXTURE || EMISSIVE_TEXTURE)
@@ -125,12 +131,12 @@ void main() {
         vec3 to_eye = frame.view_direction.w != 0.0 ? -frame.view_direction.xyz : safe_normalize(frame.eye.xyz - position, -frame.view_direction.xyz);
 
         vec3 normal = mat3(texelFetch(normals, v.x).xyz, texelFetch(normals, v.y).xyz, texelFetch(normals, v.z).xyz) * w.at;
-        float side = w.facing ? 1.0 : -1.0;
-        normal = safe_normalize(normal, to_eye * side) * side;
+        float facing = w.facing ? 1.0 : -1.0;
+        normal = safe_normalize(normal, to_eye * facing) * facing;
         if (NORMAL_TEXTURE) {
             vec4 tangent = mat3x4(texelFetch(tangents, v.x), texelFetch(tangents, v.y), texelFetch(tangents, v.z)) * w.at;
-            vec3 t = safe_normalize(tangent.xyz, vec3(0.0)) * side;
-            vec3 b = cross(normal, t) * (tangent.w < 0.0 ? -1.0 : 1.0) * side;
+            vec3 t = safe_normalize(tangent.xyz, vec3(0.0)) * facing;
+            vec3 b = cross(normal, t) * (tangent.w < 0.0 ? -1.0 : 1.0) * facing;
             vec3 n = read(normal_texture, 2u, m, corners, w).xyz * 2.0 - 1.0;
             n.xy *= material_vector(m, MATERIAL_FACTORS).y;
             normal = safe_normalize(t * n.x + b * n.y + normal * n.z, normal);
@@ -192,7 +198,7 @@ void main() {
     if (PIXELS) {
         vec4 c = to_output(vec4(radiance, 1.0));
         if (mine) color[source] = c;
-        if (DISPLAY_CODES && mine) display_out[source] = display_code(c, id != 0u && uneven(indices.w));
+        if (DISPLAY_CODES && mine) display_out[source] = display_code(c);
     } else {
         shaded_out[source] = vec4(radiance, BLENDED && id > frame.first_blend ? clamp(base.a, 0.0, 1.0) : 1.0);
     }

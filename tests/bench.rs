@@ -148,7 +148,7 @@ fn unseen_wires_are_not_missed() {
     assert!(without > 1.3 * with, "{without} without thin, {with} with");
 }
 
-/// Textures filtered for samples are another picture, and nobody can ask for that and for attributes.
+/// Textures filtered for samples are another picture, and nobody can ask for more than a pixel.
 #[test]
 fn textures_follow_the_footprint_asked_for() {
     let (mut headless, scene, camera) = stage("foliage.glb");
@@ -164,11 +164,11 @@ fn textures_follow_the_footprint_asked_for() {
     assert!(apart > 1e-3, "{apart}");
     let [_, sample] = settings;
     let asked = Settings {
-        attributes: true,
+        footprint: Footprint::Side(2.0),
         ..sample
     };
     let refused = headless.prepare(&scene, &asked);
-    assert!(matches!(refused, Err(RenderError::SampleAttributes)));
+    assert!(matches!(refused, Err(RenderError::Footprint(_))));
 }
 
 /// The scenes of the curves are what they say.

@@ -27,7 +27,7 @@ struct AlphaTest {
     float cutoff;
 };
 
-// The test of triangle `t` around `center`; its mipmap level is that of an output pixel at `at`, relative to it, whose
+// The test of triangle `t` around `center`; its mipmap level is that of a parallelogram at `at`, relative to it, whose
 // sides are the columns of `pixel`.
 AlphaTest alpha_test(uint t, vec2 center, vec2 at, mat2 pixel) {
     uvec4 indices = texelFetch(triangles, int(t));
@@ -56,9 +56,8 @@ AlphaTest alpha_test(uint t, vec2 center, vec2 at, mat2 pixel) {
     r.flags = atlas.w;
     float w = 1.0 / dot(r.weight, vec3(at, 1.0));
     vec2 uv = vec2(dot(r.u, vec3(at, 1.0)), dot(r.v, vec3(at, 1.0))) * w;
-    float scale = w * frame.footprint;
     mat2 slope = mat2(vec2(r.u.x, r.v.x) - uv * r.weight.x, vec2(r.u.y, r.v.y) - uv * r.weight.y) * pixel;
-    vec2 dx = slope[0] * scale * vec2(size), dy = slope[1] * scale * vec2(size);
+    vec2 dx = slope[0] * w * vec2(size), dy = slope[1] * w * vec2(size);
     float level = 0.5 * log2(clamp(max(dot(dx, dx), dot(dy, dy)), 1e-30, 1e30));
     r.nearest = (r.flags & (level <= 0.0 ? ALPHA_NEAREST_MAG : ALPHA_NEAREST_MIN)) != 0u;
     level = (r.flags & ALPHA_NO_MIP) != 0u ? 0.0 : clamp(level, 0.0, float(levels - 1u));

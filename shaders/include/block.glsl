@@ -4,6 +4,7 @@
 // and candidates are tested against the block's rectangle before its samples.
 #ifndef BLOCK_GLSL
 #define BLOCK_GLSL
+#include "place.glsl"
 
 const uint BLOCK = ROWS * LANES;                        // samples of one
 
@@ -124,10 +125,10 @@ void hold_nearby(Candidate t, bool some, float covered) {
     nearby_count += some ? 1u : 0u;
 }
 
-// A sample's offset in units of 2^-16 pixels.
-uint pack_location(vec2 offset) {
-    ivec2 q = clamp(ivec2(round(offset * 65536.0)), ivec2(-32768), ivec2(32767));
-    return uint(q.x & 0xffff) | uint(q.y) << 16;
+// The place that stands for some samples of a cell.
+uint place_of(vec2 sum_of_offsets, float samples) {
+    float all = float(RUN == PROBE ? PROBES : frame.sample_count);
+    return pack_place(sum_of_offsets / max(samples, 1.0), max(samples, 1.0) / all);
 }
 
 bool wins(float d, uint by, int g) {
@@ -152,7 +153,7 @@ void show_opaque(Cell cell, Candidate t, bool some) {
 // The alpha test is dear, and goes to rows that may see the triangle.
 void show_masked(Cell cell, Candidate t, bool some) {
     vec3 least = some ? thresholds(t) : vec3(3.4e38);
-    AlphaTest alpha = alpha_test(t.id - 1u, cell.center, cell.at, cell.pixel);
+    AlphaTest alpha = alpha_test(t.id - 1u, cell.center, cell.at, frame.sample_footprint * cell.pixel);
     uint rows = 0u;
     [[unroll]] for (int g = 0; g < ROWS; g++) {
         float d;
@@ -173,7 +174,7 @@ void show_masked(Cell cell, Candidate t, bool some) {
         }
         float d;
         bool there = covers(t, least, p, d) && row < ROWS && (!OCCLUDERS || t.id != own_there);
-        if (POINTS) alpha = alpha_test(t.id - 1u, cell.center, p, pixel_of(cell, row));
+        if (POINTS) alpha = alpha_test(t.id - 1u, cell.center, p, frame.sample_footprint * pixel_of(cell, row));
         bool seen = there && (d > depth_there || (d == depth_there && t.id < id_there)) && alpha_passes(alpha, p);
         [[unroll]] for (int g = 0; g < ROWS; g++) {
             depth[g] = seen && row == g ? d : depth[g];

@@ -32,9 +32,8 @@ vec4 to_output(vec4 c) {
     return TONEMAP ? tonemap(c) : c;
 }
 
-// What detection compares of a colour in the output: 8-bit sRGB codes, and alpha, whose lowest bit says instead whether
-// the surface is UNEVEN.
-uint display_code(vec4 c, bool uneven) {
+// What detection compares of a colour in the output: 8-bit sRGB codes, and alpha.
+uint display_code(vec4 c) {
     c = TONEMAP_CODES && !TONEMAP ? tonemap(c) : c;
-    return bitfieldInsert(packUnorm4x8(vec4(srgb_encode(c.rgb), c.a)), uneven ? 1u : 0u, 24, 1);
+    return packUnorm4x8(vec4(srgb_encode(c.rgb), c.a));
 }

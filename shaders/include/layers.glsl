@@ -52,7 +52,7 @@ bool add_nodes(uint owner, uint samples) {
         uint slot = allocate_records(subgroupAdd(mine), fits) + before;
         [[unroll]] for (int g = 0; g < ROWS; g++) {
             bool moves = (left >> g & 1u) != 0u;
-            if (moves && fits) records_out[slot] = uvec4(POINTS ? owner + sample_of(g) : owner, next_id[g], pack_location(offset[g]), node[g]);
+            if (moves && fits) records_out[slot] = uvec4(POINTS ? owner + sample_of(g) : owner, next_id[g], POINTS ? 0u : place_of(offset[g], 1.0), node[g]);
             node[g] = moves ? slot : node[g];
             slot += moves ? 1u : 0u;
         }
@@ -65,7 +65,7 @@ bool add_nodes(uint owner, uint samples) {
         do {
             Group s = first_group(left);
             bool mine = lane == count;
-            held = mine ? uvec4(owner, s.next_id, pack_location(s.sum / max(s.samples, 1.0)), s.node) : held;
+            held = mine ? uvec4(owner, s.next_id, place_of(s.sum, s.samples), s.node) : held;
             [[unroll]] for (int g = 0; g < ROWS; g++) number[g] = (s.rows >> g & 1u) != 0u ? count : number[g];
             left &= ~s.rows;
             count += s.samples > 0.0 ? 1u : 0u;

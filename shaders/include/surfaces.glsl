@@ -70,7 +70,7 @@ bool uneven_triangle(uint of) {
 struct Surfaces {
     uint count;             // may be more than there are invocations
     uint id;
-    uint location;
+    uint place;
     float samples;
     uint parts;
     int area;
@@ -88,7 +88,7 @@ Surfaces surfaces_of(Cell cell) {
         Surface s = surface_after(seen);
         bool some = s.id != ~0u, mine = some && r.count == lane;
         r.id = mine ? s.id : r.id;
-        r.location = mine ? pack_location(s.sum / s.samples) : r.location;
+        r.place = mine ? place_of(s.sum, s.samples) : r.place;
         r.samples = mine ? s.samples : r.samples;
         r.parts = mine ? s.parts : r.parts;
         if (EXACT_AREAS) {
@@ -153,7 +153,7 @@ uvec2 record_samples(Cell cell, uint owner) {
         uint s = sample_of(g);
         if (fits && s < cell.samples)
             records_out[base + s] = POINTS ? uvec4((owner + s) | POINT_OPAQUE | POINT_VALUE, id[g], 0u, ~0u)
-                : uvec4(owner, id[g], pack_location(offset[g]), floatBitsToUint(1.0));
+                : uvec4(owner, id[g], place_of(offset[g], 1.0), floatBitsToUint(1.0));
     }
     return uvec2(base, fits ? cell.samples : 0u);
 }
@@ -178,13 +178,13 @@ uvec2 record_surfaces(Cell cell, uint owner, out bool settled) {
     // Surfaces of one record: all at once, and those beyond the invocations' room one by one.
     uvec4 singles = subgroupBallot(single);
     if (fits && single)
-        records_out[base + subgroupBallotExclusiveBitCount(singles)] = uvec4(owner, held.id, held.location, floatBitsToUint(weight));
+        records_out[base + subgroupBallotExclusiveBitCount(singles)] = uvec4(owner, held.id, held.place, floatBitsToUint(weight));
     uint slot = base + subgroupBallotBitCount(singles);
     uint seen = subgroupMax(held.id), stored = 0u;
     do {
         Surface s = surface_after(seen);
         if (fits && stored < beyond && subgroupElect())
-            records_out[slot] = uvec4(owner, s.id, pack_location(s.sum / s.samples), floatBitsToUint(s.samples));
+            records_out[slot] = uvec4(owner, s.id, place_of(s.sum, s.samples), floatBitsToUint(s.samples));
         slot += stored < beyond ? 1u : 0u;
         seen = s.id;
     } while (++stored < beyond);
@@ -199,7 +199,7 @@ uvec2 record_surfaces(Cell cell, uint owner, out bool settled) {
             float value = part.samples * subgroupShuffle(each, holder);
             if (fits && part.samples != 0.0)
                 records_out[slot + uint(bitCount(present & ((1u << lane) - 1u)))] =
-                    uvec4(owner, current, pack_location(part.sum / part.samples), floatBitsToUint(value));
+                    uvec4(owner, current, place_of(part.sum, part.samples), floatBitsToUint(value));
             slot += uint(bitCount(present));
             pending &= pending - 1u;
         } while (pending != 0u);

@@ -7,12 +7,12 @@ use std::sync::Arc;
 /// What makes a pixel a superpixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DetectMode {
-    /// A neighbour with another triangle and a contrasting colour.
+    /// A neighbour with a contrasting colour.
     Contrast,
+    /// A neighbour with another triangle and a contrasting colour.
+    Edges,
     /// A neighbour with another triangle.
     Exact,
-    /// A neighbour with a contrasting colour.
-    Colour,
     /// A BLEND triangle at its centre.
     Blended,
     /// Every pixel is one.

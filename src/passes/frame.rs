@@ -30,6 +30,9 @@ pub struct FrameUniform {
     pub contrast: u32,
     pub exposure: f32,
     pub footprint: f32,
+    pub place_footprint: f32,
+    pub sample_footprint: f32,
+    pub side: u32,
     pub reach: f32,
     pub group_count: u32,
 }
@@ -99,6 +102,9 @@ mod tests {
             contrast,
             exposure,
             footprint,
+            place_footprint,
+            sample_footprint,
+            side,
             reach,
             group_count
         );

@@ -1,10 +1,9 @@
 //! Which pixels alias: the superpixels.
 //!
-//! A pixel is a superpixel if any of its 8 neighbours inside the image shows another surface and differs in colour. Two
-//! pixels show different surfaces if the IDs of their nearest opaque triangles differ or those of their nearest
-//! blended triangles do. On an uneven surface, whose light or paint may change within a pixel (a glossy one, or one with
-//! a texture that is not filtered), another colour is enough. Colours are compared as they will be displayed, channel by channel, alpha included, since
-//! alpha alone tells a black object from a transparent background.
+//! A pixel is a superpixel if any of its 8 neighbours inside the image differs in colour; by the rule of the sources, only
+//! if that neighbour shows another surface as well. Two pixels show different surfaces if the IDs of their nearest opaque
+//! triangles differ or those of their nearest blended triangles do. Colours are compared as they will be displayed,
+//! channel by channel, alpha included, since alpha alone tells a black object from a transparent background.
 
 use thiserror::Error;
 
@@ -14,19 +13,16 @@ pub const TILE_WIDTH: u32 = 8;
 /// Height of a tile of the mask in pixels.
 pub const TILE_HEIGHT: u32 = 4;
 
-/// The bit of a colour that marks an uneven surface.
-pub const UNEVEN: u32 = 1 << 24;
-
 /// What makes two neighbours contrast. Thresholds are in 8-bit code values of the displayed colour: a channel must
 /// differ by more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
-    /// Another colour, and another surface or an uneven one.
+    /// Another colour, whatever the surfaces.
     Contrast(u8),
+    /// Another surface in another colour.
+    Edges(u8),
     /// Another surface, whatever the colours.
     Exact,
-    /// Another colour, whatever the surfaces.
-    Colour(u8),
 }
 
 /// An image as detection reads it, row by row from the top left.
@@ -56,7 +52,7 @@ pub struct PlaneError {
 impl<'a> Frame<'a> {
     /// An image of `width` x `height` pixels: the ID of the nearest opaque or masked triangle of each, that of the
     /// nearest blended triangle (0 where there is none), and the displayed colour as RGBA, 8 bits each, red in the
-    /// lowest; the lowest bit of alpha is not compared, and says whether the surface is uneven.
+    /// lowest.
     ///
     /// # Errors
     /// One of the slices is not as long as the image has pixels.
@@ -93,18 +89,15 @@ impl<'a> Frame<'a> {
     /// Whether two pixels, given by their places in the planes, contrast.
     fn contrast(&self, a: usize, b: usize, mode: Mode) -> bool {
         let surface = || self.ids[a] != self.ids[b] || self.blend_ids[a] != self.blend_ids[b];
-        let uneven = || (self.colours[a] | self.colours[b]) & UNEVEN != 0;
         let colour = |threshold: u8| {
-            let channels = (self.colours[a] | UNEVEN)
-                .to_le_bytes()
-                .into_iter()
-                .zip((self.colours[b] | UNEVEN).to_le_bytes());
-            channels.into_iter().any(|(a, b)| a.abs_diff(b) > threshold)
+            let channels = self.colours[a].to_le_bytes().into_iter();
+            let mut pairs = channels.zip(self.colours[b].to_le_bytes());
+            pairs.any(|(a, b)| a.abs_diff(b) > threshold)
         };
         match mode {
-            Mode::Contrast(threshold) => (surface() || uneven()) && colour(threshold),
+            Mode::Contrast(threshold) => colour(threshold),
+            Mode::Edges(threshold) => surface() && colour(threshold),
             Mode::Exact => surface(),
-            Mode::Colour(threshold) => colour(threshold),
         }
     }
 }

@@ -1,7 +1,6 @@
 //! Colours and their transforms as the shaders take them.
 
-use super::{Reference, Settings};
-use crate::reference::detect::UNEVEN;
+use super::{Footprint, Reference, Settings};
 use crate::reference::srgb;
 use crate::vulkan::Constants;
 
@@ -11,10 +10,11 @@ impl Settings {
         self.background.map_or([0.0; 4], |[r, g, b]| [r, g, b, 1.0])
     }
 
-    /// The constants of `shaders/include/color.glsl`.
+    /// The constants of `shaders/include/color.glsl`, and of `shaders/shade.comp` what is the same for all materials.
     pub(super) fn color_constants(&self) -> Constants {
         let tonemap = self.reference == Reference::Display && self.tonemapped_detection;
         Constants::new()
+            .flag(15, self.footprint == Footprint::Sample)
             .flag(30, tonemap)
             .flag(31, self.tonemapped_detection)
     }
@@ -25,5 +25,5 @@ pub(super) fn display_code(color: [f32; 4]) -> u32 {
     let [r, g, b, a] = color.map(f64::from);
     let rgb = [r, g, b].map(srgb::encode_u8);
     let alpha = (a.clamp(0.0, 1.0) * 255.0).round() as u8;
-    u32::from_le_bytes([rgb[0], rgb[1], rgb[2], alpha]) & !UNEVEN
+    u32::from_le_bytes([rgb[0], rgb[1], rgb[2], alpha])
 }

@@ -53,11 +53,9 @@ pub enum RenderError {
     /// Multisampling has several IDs a pixel.
     #[error("msaa has no one depth, ID or normal a pixel; ask another method for them")]
     Attributes,
-    /// Attributes are those of an output pixel.
-    #[error(
-        "attributes can't be had with texture levels chosen for samples; choose them for pixels"
-    )]
-    SampleAttributes,
+    /// Texture levels can't be chosen for a footprint of that side.
+    #[error("texture levels for a square of {0} pixels: its side must be above 0 and at most 1")]
+    Footprint(f32),
     /// The image has no pixels or too many.
     #[error("an image of {width} x {height} pixels: each side must be from 1 to {limit}")]
     Size {
@@ -108,7 +106,7 @@ impl RenderError {
                 | Self::FrameShadows
                 | Self::ShadowLights { .. }
                 | Self::Attributes
-                | Self::SampleAttributes
+                | Self::Footprint(_)
                 | Self::Size { .. }
         )
     }

@@ -5,6 +5,7 @@
 mod color;
 mod engine;
 mod error;
+mod footprint;
 mod frame;
 mod headless;
 mod plan;

@@ -21,12 +21,12 @@ pub enum Method {
 /// What makes a pixel a superpixel: see [`crate::passes::DetectMode`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Detection {
-    /// A contrasting colour beside it, of another triangle, or where light or paint may change within a pixel.
+    /// A contrasting colour beside it, of another triangle or of the same one.
     Contrast,
+    /// Another triangle in a contrasting colour beside it: the rule of the sources.
+    Edges,
     /// Another triangle beside it.
     Exact,
-    /// A contrasting colour beside it.
-    Colour,
     /// Every pixel is one; to measure with.
     Every,
 }
@@ -54,13 +54,19 @@ pub enum Shading {
     Sample,
 }
 
-/// What texture levels are chosen for under supersampling; all other methods choose them for the output pixel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// The part of the image that texture levels, those of MASK alpha included, are chosen for. [`Method::None`] and
+/// [`Method::Msaa`] choose them for the output pixel with either of the first two.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Footprint {
-    /// The output pixel, whatever the number of samples.
-    Pixel,
-    /// The sample: the k-th part of the pixel's side of k x k samples. Attributes can't be had then.
+    /// What each shading place stands for: the k-th part of the pixel's side under supersampling by k x k samples; in
+    /// superpixels the triangle's share of the pixel that is shaded there. The more samples, the sharper the textures,
+    /// and the image converges to the scene as it is.
     Sample,
+    /// The output pixel, whatever the number of samples: the image converges to one of textures that are filtered twice.
+    /// Methods then differ by geometry alone.
+    Pixel,
+    /// A square of this side, in output pixels, above 0 and at most 1, wherever it is shaded. References are made so.
+    Side(f32),
 }
 
 /// Whether surfaces keep the light from others.
@@ -115,7 +121,7 @@ pub struct Settings {
     pub tonemapped_detection: bool,
     /// Whether depth, ID, normal and sampling of every pixel are wanted too.
     pub attributes: bool,
-    /// What texture levels are chosen for under supersampling.
+    /// What texture levels are chosen for.
     pub footprint: Footprint,
     /// Whether surfaces keep the light from others.
     pub shadows: Shadows,
@@ -152,7 +158,7 @@ impl Settings {
             reference: Reference::Display,
             tonemapped_detection: true,
             attributes: false,
-            footprint: Footprint::Pixel,
+            footprint: Footprint::Sample,
             shadows: Shadows::None,
             max_memory: None,
         }
@@ -180,6 +186,11 @@ impl Settings {
     /// Checks what does not depend on the scene.
     pub(crate) fn check(&self, limits: &Limits) -> Result<(), RenderError> {
         const LARGEST_SIDE: u32 = 65_535;
+        if let Footprint::Side(side) = self.footprint
+            && !(side > 0.0 && side <= 1.0)
+        {
+            return Err(RenderError::Footprint(side));
+        }
         let [width, height] = self.size;
         if !(1..=LARGEST_SIDE).contains(&width) || !(1..=LARGEST_SIDE).contains(&height) {
             return Err(RenderError::Size {
@@ -201,9 +212,6 @@ impl Settings {
                 refuse("superpixel", "1 to 1024".to_owned())
             }
             Method::Superpixel => self.locations().map(|_| ()),
-            Method::Ssaa if self.attributes && self.footprint == Footprint::Sample => {
-                Err(RenderError::SampleAttributes)
-            }
             Method::Ssaa => {
                 let side = self.samples.isqrt();
                 if side == 0 || side > 32 || side * side != self.samples {

@@ -1,6 +1,6 @@
 //! Detection on the device against the CPU's, pixel by pixel.
 
-use gpc::reference::detect::{Frame, Mode, UNEVEN, superpixels};
+use gpc::reference::detect::{Frame, Mode, superpixels};
 use gpc::reference::srgb::{decode_u8, encode};
 use gpc::render::{Detection, Headless, Method, Reference, Rendered, Settings, Shading};
 use gpc::scene::{AlphaMode, Filter, Image, Sampler};
@@ -63,10 +63,7 @@ fn codes(rendered: &Rendered) -> (Vec<u32>, Vec<bool>) {
         let exact = [r, g, b].map(|v| 255.0 * encode(f64::from(v)));
         let exact = [exact[0], exact[1], exact[2], 255.0 * f64::from(a)];
         let doubtful = exact.iter().any(|v| (v - v.floor() - 0.5).abs() < 0.01);
-        (
-            u32::from_le_bytes(exact.map(|v| v.round() as u8)) & !UNEVEN,
-            doubtful,
-        )
+        (u32::from_le_bytes(exact.map(|v| v.round() as u8)), doubtful)
     });
     each.unzip()
 }
@@ -93,9 +90,9 @@ fn near(marks: &[bool], size: [u32; 2], pixel: usize) -> bool {
 }
 
 const MODES: [(Detection, Mode); 3] = [
-    (Detection::Contrast, Mode::Contrast(CONTRAST)),
+    (Detection::Edges, Mode::Edges(CONTRAST)),
     (Detection::Exact, Mode::Exact),
-    (Detection::Colour, Mode::Colour(CONTRAST)),
+    (Detection::Contrast, Mode::Contrast(CONTRAST)),
 ];
 
 /// Every colour is a code value, so that there is nothing to round: the masks are the same.

@@ -1,6 +1,6 @@
 //! Detection against its definition, pixel by pixel.
 
-use gpc::reference::detect::{Frame, Mode, PlaneError, UNEVEN, superpixels};
+use gpc::reference::detect::{Frame, Mode, PlaneError, superpixels};
 
 use crate::meshes::Random;
 
@@ -23,8 +23,7 @@ impl Image {
             ids: plane(&|r| (r.below(5) == 0).into()),
             blend_ids: plane(&|r| if r.below(9) == 0 { 3 } else { 0 }),
             colours: plane(&|r| {
-                let uneven = if r.below(12) == 0 { UNEVEN } else { 0 };
-                (0x8080_8080 | uneven)
+                0x8080_8080
                     + if r.below(4) == 0 {
                         (r.below(25) as u32) << (8 * r.below(4))
                     } else {
@@ -63,22 +62,18 @@ impl Image {
                 let there = at(nx, ny);
                 let other = self.ids[here] != self.ids[there]
                     || self.blend_ids[here] != self.blend_ids[there];
-                let uneven = [here, there].map(|pixel| self.colours[pixel] & UNEVEN != 0);
                 let largest = (0..4)
                     .map(|channel| {
-                        let code = |pixel: usize| {
-                            i64::from((self.colours[pixel] | UNEVEN) >> (8 * channel) & 255)
-                        };
+                        let code =
+                            |pixel: usize| i64::from(self.colours[pixel] >> (8 * channel) & 255);
                         (code(here) - code(there)).abs()
                     })
                     .max()
                     .unwrap();
                 match mode {
-                    Mode::Contrast(threshold) => {
-                        (other || uneven.contains(&true)) && largest > i64::from(threshold)
-                    }
+                    Mode::Contrast(threshold) => largest > i64::from(threshold),
+                    Mode::Edges(threshold) => other && largest > i64::from(threshold),
                     Mode::Exact => other,
-                    Mode::Colour(threshold) => largest > i64::from(threshold),
                 }
             })
     }
@@ -92,7 +87,7 @@ fn mask_is_the_definition() {
         Mode::Contrast(12),
         Mode::Contrast(255),
         Mode::Exact,
-        Mode::Colour(12),
+        Mode::Edges(12),
     ];
     let mut found = [[0_u32; 2]; 5];
     for (width, height) in [
@@ -145,19 +140,17 @@ fn threshold_must_be_exceeded() {
 }
 
 #[test]
-fn an_uneven_surface_contrasts_with_itself() {
-    let mask = |ids: [u32; 2], flag: u32, mode| {
-        let colours = [0xFE00_0000 | flag, 0xFE00_0020 | flag];
+fn one_surface_contrasts_with_itself_unless_edges_are_asked_for() {
+    let mask = |ids: [u32; 2], mode| {
+        let colours = [0xFF00_0000, 0xFF00_0020];
         let frame = Frame::new(2, 1, &ids, &[0, 0], &colours).unwrap();
         superpixels(&frame, mode)
     };
-    assert_eq!(mask([1, 1], 0, Mode::Contrast(12)), [0]);
-    assert_eq!(mask([1, 1], UNEVEN, Mode::Contrast(12)), [3]);
-    assert_eq!(mask([1, 1], UNEVEN, Mode::Contrast(32)), [0]);
-    assert_eq!(mask([1, 1], UNEVEN, Mode::Exact), [0]);
-    // The bit itself is no contrast.
-    let frame = Frame::new(2, 1, &[1, 2], &[0, 0], &[0xFE00_0000, 0xFF00_0000]).unwrap();
-    assert_eq!(superpixels(&frame, Mode::Contrast(0)), [0]);
+    assert_eq!(mask([1, 1], Mode::Contrast(12)), [3]);
+    assert_eq!(mask([1, 1], Mode::Contrast(32)), [0]);
+    assert_eq!(mask([1, 1], Mode::Edges(12)), [0]);
+    assert_eq!(mask([1, 2], Mode::Edges(12)), [3]);
+    assert_eq!(mask([1, 1], Mode::Exact), [0]);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use crate::cli::report::ReportArgs;
 use crate::cli::values;
 use clap::{Args, ValueEnum};
 use glam::DVec3;
-use gpc::render::{Coverage, Detection, Method, Settings, Shading, Shadows};
+use gpc::render::{Coverage, Detection, Footprint, Method, Settings, Shading, Shadows};
 use gpc::sampling::Pattern;
 use serde::Serialize;
 use std::fmt;
@@ -54,8 +54,8 @@ pub struct SamplingArgs {
     /// [default: 8; 6 from 128 samples on]
     #[arg(long, value_name = "T")]
     contrast: Option<u8>,
-    /// What makes a pixel a superpixel: a neighbour in a contrasting colour, of another triangle or on a glossy or
-    /// unfiltered one; any other triangle; or any contrasting colour
+    /// What makes a pixel a superpixel: a neighbour in a contrasting colour; one that also shows another triangle; or
+    /// any neighbour that shows another triangle
     #[arg(long, default_value = "contrast")]
     pub detect: Detect,
     /// Where a superpixel's samples lie: sobol, lattice, korobov, grid or rotated
@@ -64,6 +64,10 @@ pub struct SamplingArgs {
     /// How samples become coverage: the exact area of triangles that are seen whole, or counts of samples alone
     #[arg(long, default_value = "area")]
     pub coverage: CoverageRule,
+    /// What texture levels are chosen for: the part of a pixel that a shading place stands for, or the whole pixel. none
+    /// and msaa have the pixel's at either
+    #[arg(long, default_value = "sample")]
+    pub footprint: TextureFootprint,
     /// Shade a superpixel once for each visible triangle, several times for glossy or unfiltered ones, or once a sample
     #[arg(long, default_value = "part")]
     pub shading: ShadingRate,
@@ -183,21 +187,37 @@ impl fmt::Display for Antialiasing {
     }
 }
 
+/// Values of `--footprint`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum TextureFootprint {
+    Sample,
+    Pixel,
+}
+
+impl TextureFootprint {
+    pub fn footprint(self) -> Footprint {
+        match self {
+            Self::Sample => Footprint::Sample,
+            Self::Pixel => Footprint::Pixel,
+        }
+    }
+}
+
 /// Values of `--detect`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum Detect {
     Contrast,
+    Edges,
     Exact,
-    #[value(alias = "color")]
-    Colour,
 }
 
 impl Detect {
     pub fn detection(self) -> Detection {
         match self {
             Self::Contrast => Detection::Contrast,
+            Self::Edges => Detection::Edges,
             Self::Exact => Detection::Exact,
-            Self::Colour => Detection::Colour,
         }
     }
 }

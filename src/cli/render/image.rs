@@ -85,6 +85,7 @@ impl ImageArgs {
             coverage: self.sampling.coverage.coverage(),
             shading: self.sampling.shading.shading(),
             detection: self.sampling.detect.detection(),
+            footprint: self.sampling.footprint.footprint(),
             contrast: self.sampling.contrast(),
             background: match self.background {
                 Background::Transparent => None,

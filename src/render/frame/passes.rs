@@ -99,8 +99,8 @@ impl Passes {
             EngineKind {
                 mode: match settings.detection {
                     Detection::Contrast => DetectMode::Contrast,
+                    Detection::Edges => DetectMode::Edges,
                     Detection::Exact => DetectMode::Exact,
-                    Detection::Colour => DetectMode::Colour,
                     Detection::Every => DetectMode::Every,
                 },
                 thin: settings.thin && settings.detection != Detection::Every,

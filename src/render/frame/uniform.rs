@@ -3,7 +3,7 @@
 use super::recording::Recording;
 use crate::camera::{Camera, Projection};
 use crate::passes::FrameUniform;
-use crate::render::Footprint;
+use crate::render::footprint::Footprints;
 use crate::render::plan::Region;
 
 impl Recording<'_> {
@@ -32,6 +32,7 @@ impl Recording<'_> {
         let eye = (camera.eye - scene.origin()).as_vec3();
         let direction = camera.direction().as_vec3();
         let parallel = if camera.is_orthographic() { 1.0 } else { 0.0 };
+        let footprints = Footprints::new(self.settings, samples);
         FrameUniform {
             transform: camera
                 .pixel_matrix(scene.origin(), image_width, image_height)
@@ -60,10 +61,10 @@ impl Recording<'_> {
             light_count: scene.light_features().count,
             contrast: u32::from(self.settings.contrast),
             exposure: self.settings.exposure.exp2(),
-            footprint: match self.settings.footprint {
-                Footprint::Pixel => side as f32,
-                Footprint::Sample => 1.0,
-            },
+            footprint: footprints.centre,
+            place_footprint: footprints.place,
+            sample_footprint: footprints.sample,
+            side,
             reach: 0.5,
             group_count: 0,
         }

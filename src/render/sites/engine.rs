@@ -9,6 +9,7 @@ use crate::passes::{
     Setup, Shade, ShadeSource, SiteData, Sort, Transform,
 };
 use crate::render::engine::{can_settle, record_rate, record_shading};
+use crate::render::footprint::Footprints;
 use crate::render::plan::Effort;
 use crate::render::renderer::PreparedScene;
 use crate::render::statistics::Shortfall;
@@ -310,6 +311,9 @@ impl SiteEngine {
             .map_or(pinhole.direction(), |to_centre| -to_centre)
             .as_vec3();
         let parallel = if pinhole.is_parallel() { 1.0 } else { 0.0 };
+        let points = matches!(self.finish, Finish::Points(_));
+        let samples = self.sample.options().samples;
+        let footprints = Footprints::new(&self.settings, if points { 1 } else { samples });
         FrameUniform {
             transform: pinhole
                 .pixel_matrix(scene.origin(), DVec2::from_array(middle))
@@ -325,14 +329,17 @@ impl SiteEngine {
             triangle_count: scene.triangle_count(),
             first_mask: scene.first_mask(),
             first_blend: scene.first_blend(),
-            sample_count: self.sample.options().samples,
+            sample_count: samples,
             pair_capacity: self.resources.sizes().pair_capacity,
             list_capacity: self.resources.sizes().list_capacity,
             record_capacity: self.resources.sizes().record_capacity,
             bin_count: scene.bin_count(),
             light_count: scene.light_features().count,
             exposure: self.settings.exposure.exp2(),
-            footprint: 1.0,
+            footprint: footprints.centre,
+            place_footprint: footprints.place,
+            sample_footprint: footprints.sample,
+            side: 1,
             reach: window.reach as f32,
             group_count: data.groups.len() as u32,
             ..FrameUniform::default()

@@ -167,7 +167,7 @@ impl Cells {
         let [width, height] = settings.size;
         let mode = match settings.detection {
             Detection::Contrast => detect::Mode::Contrast(settings.contrast),
-            Detection::Colour => detect::Mode::Colour(settings.contrast),
+            Detection::Edges => detect::Mode::Edges(settings.contrast),
             Detection::Exact | Detection::Every => detect::Mode::Exact,
         };
         let ids: Vec<u32> = self.attributes.iter().map(|seen| seen.id).collect();
