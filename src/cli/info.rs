@@ -54,12 +54,19 @@ fn text(info: &SceneInfo) -> String {
         let items = items.iter().enumerate();
         list(items.map(|(i, item)| format!("{i} {item}")).collect())
     };
-    let generator = info.generator.as_deref().unwrap_or("an unnamed program");
+    // Other formats have neither a version nor a generator.
+    let origin = match (info.version.as_str(), info.generator.as_deref()) {
+        ("", _) => info.format.to_owned(),
+        (version, generator) => {
+            let generator = generator.unwrap_or("an unnamed program");
+            format!("{} {version} by {generator}", info.format)
+        }
+    };
     let cameras = info.cameras.iter();
     let animations = info.animations.iter();
     let images = info.images.iter();
     [
-        format!("{} {} by {generator}", info.format, info.version),
+        origin,
         format!(
             "scenes      {}",
             numbered(info.scenes.names.iter().map(name).collect())
