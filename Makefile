@@ -6,9 +6,9 @@ CARGO ?= cargo
 # VK_ICD_FILENAMES or VK_DRIVER_FILES comes first. Looked up by the shell, after it has been installed.
 LAVAPIPE = ls /usr/share/vulkan/icd.d/lvp_icd*.json /etc/vulkan/icd.d/lvp_icd*.json 2>/dev/null | paste -sd :
 
-# Options of `gpc bench`. These take less than half an hour on two cores without a GPU; its own defaults (BENCH=) take
+# Options of `gpc bench`. These take about half an hour on two cores without a GPU; its own defaults (BENCH=) take
 # hours there.
-BENCH ?= --size 960x540 --samples 4,16,64,256 --reference 1024 --budget 8
+BENCH ?= --size 480x270 --samples 4,16,64,256 --reference 1024 --budget 4
 
 .PHONY: help demo test bench lint shaders check-shaders assets
 

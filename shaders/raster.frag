@@ -17,7 +17,7 @@ layout(location = 0) out uint id;
 void main() {
 #ifdef MASKED
     vec2 p = frame.origin + floor(gl_FragCoord.xy);
-    if (!alpha_passes(alpha_test(triangle_id - 1u, p, vec2(0.0), mat2(frame.footprint)), vec2(0.0))) discard;
+    if (!alpha_passes(alpha_test(triangle_id - 1u, p, vec2(0.0), mat2(frame.sample_footprint)), vec2(0.0))) discard;
 #endif
 #ifdef BYTES
     id = unpackUnorm4x8(triangle_id);

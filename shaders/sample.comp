@@ -106,6 +106,9 @@ void main() {
         my_half = square.zw;
         my_sites = texelFetch(site_cells, at + 1).xy;
     }
+#ifndef CHAINED
+    if (BY_PART && !SITES) my_variation = variation_around(uvec2(tile_at) * uvec2(8u, 4u) + uvec2(my_bit & 7u, my_bit >> 3));
+#endif
     vec2 cell_at = vec2(subgroupShuffle(my_at.x, 0u), subgroupShuffle(my_at.y, 0u));
     vec2 cell_half = vec2(subgroupShuffle(my_half.x, 0u), subgroupShuffle(my_half.y, 0u));
     float my_hidden = 0.0;          // nothing farther than this shows in the cell

@@ -31,7 +31,7 @@ layout(constant_id = 11) const bool LOCAL_LIGHTS = false; // point or spot light
 layout(constant_id = 12) const bool BLENDED = false;    // opacity is used
 layout(constant_id = 13) const bool PACKED_OCCLUSION = false;   // in the red channel of the metallic-roughness texture
 layout(constant_id = 14) const bool ONE_UV_TRANSFORM = false;   // and UV set, for all textures
-layout(constant_id = 15) const bool PLACES = false;     // the footprint follows what a record stands for
+layout(constant_id = 15) const bool BOX_FILTER = false; // textures are filtered over the square that a place stands for, along both of its axes
 
 layout(set = 1, binding = 0) uniform sampler2D base_color_texture;
 layout(set = 1, binding = 1) uniform sampler2D metallic_roughness_texture;
@@ -44,6 +44,11 @@ layout(push_constant) uniform Push { uint bin; } push;
 // Light left of the studio in a scene with lights of its own, so that what faces away from them shows.
 const float STUDIO_AMBIENT = 0.06;
 
+// Places along the longer axis of a footprint that a texture is read at, at the most.
+const float MOST_PROBES = 8.0;
+// Width of the texels, over that of a box, whose trilinear filter has the variance of the box: root of 1/3.
+const float LEVEL_WIDTH = 0.57735;
+
 struct Corners { vec4 a, b, c; };       // both UV sets of the three vertices
 
 vec4 read(sampler2D image, uint use, uint m, Corners corners, Barycentric w) {
@@ -52,7 +57,25 @@ vec4 read(sampler2D image, uint use, uint m, Corners corners, Barycentric w) {
     mat3x2 uv = row_u.w != 0.0 ? mat3x2(corners.a.zw, corners.b.zw, corners.c.zw) : mat3x2(corners.a.xy, corners.b.xy, corners.c.xy);
     mat2 linear = mat2(row_u.x, row_v.x, row_u.y, row_v.y);
     vec2 at = linear * (uv * w.at) + vec2(row_u.z, row_v.z);
-    return textureGrad(image, at, linear * (uv * w.dx), linear * (uv * w.dy));
+    vec2 dx = linear * (uv * w.dx), dy = linear * (uv * w.dy);
+    if (!BOX_FILTER) return textureGrad(image, at, dx, dy);
+    vec2 size = vec2(textureSize(image, 0));
+    vec2 tx = dx * size, ty = dy * size;
+    float square_x = dot(tx, tx), square_y = dot(ty, ty);
+    float longest = sqrt(max(square_x, square_y));
+    float across = abs(tx.x * ty.y - tx.y * ty.x) / max(longest, 1e-20);
+    float wanted = clamp(ceil(longest / max(across, 1.0) - 0.25), 1.0, MOST_PROBES);
+    vec2 step_ = (square_x > square_y ? dx : dy) / wanted;
+    float level = log2(max(across, longest / wanted) * LEVEL_WIDTH);
+    vec2 first = at - step_ * (0.5 * wanted - 0.5);
+    vec4 sum = vec4(0.0);
+    float probe = 0.0;
+    do {
+        vec4 texel = textureLod(image, first + probe * step_, level);
+        sum += probe < wanted ? texel : vec4(0.0);
+        probe += 1.0;
+    } while (subgroupAny(probe < wanted));
+    return sum / wanted;
 }
 
 vec3 safe_normalize(vec3 v, vec3 otherwise) {
@@ -89,7 +112,7 @@ void main() {
         uvec4 record = texelFetch(records, int(source));
         id = record.y;
         vec2 location = place_location(record.z);
-        side = frame.place_footprint * (PLACES ? place_side(record.z) : 1.0);
+        side = frame.place_footprint * (BOX_FILTER ? place_side(record.z) : 1.0);
         if (SITES) {
             site = record.x & POINT_SITE;
             uvec4 at = texelFetch(sites, int(2u * site));

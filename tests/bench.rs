@@ -228,7 +228,7 @@ fn bench(folder: &Path) -> Value {
         "512",
         "--repeat",
         "2",
-        "--sample-footprint",
+        "--geometry",
         "--cache",
         "cache",
         "--out",
@@ -245,6 +245,18 @@ fn number(value: &Value, path: &str) -> f64 {
         .pointer(path)
         .and_then(Value::as_f64)
         .unwrap_or_else(|| panic!("no {path} in {value}"))
+}
+
+/// The summary of a run without textures.
+fn results_of_untextured(results: &Value) -> &Value {
+    let [summary] = results["summary"].as_array().unwrap().as_slice() else {
+        panic!("{}", results["summary"]);
+    };
+    assert_eq!(
+        (&summary["textured"], &summary["scenes"]),
+        (&false.into(), &1.into())
+    );
+    summary
 }
 
 #[test]
@@ -292,12 +304,38 @@ fn measures_every_method_that_there_is_and_keeps_the_reference() {
         let shares: f64 = left.values().map(|share| share.as_f64().unwrap()).sum();
         let removed = number(row, "/accuracy/removed");
         assert!((shares - (1.0 - removed)).abs() < 1e-9, "{row}");
+        if row["method"] == "superpixel" {
+            let within = |names: &[&str]| -> f64 {
+                let path = |name: &&str| number(row, &format!("/left_within/{name}"));
+                names.iter().map(path).sum()
+            };
+            let split = number(row, "/left/superpixels");
+            let edges = within(&["superpixel_edges"]);
+            let sum = edges + within(&["superpixel_texture", "superpixel_light"]);
+            assert!((sum - split).abs() < 1e-9, "{row}");
+            let sum = within(&["inside_texture", "inside_light"]);
+            assert!((sum - number(row, "/left/inside")).abs() < 1e-9, "{row}");
+            assert!(edges > 0.5 * split, "letters are edges: {row}");
+        } else {
+            assert!(row["left_within"].is_null(), "{row}");
+        }
         // The letters have no textures.
-        let rmse = number(row, "/accuracy/rmse");
-        assert_eq!(number(row, "/rmse_sample_footprint"), rmse);
+        assert_eq!(row["geometry"], row["accuracy"]);
     }
-    assert_eq!(number(scene, "/texture_filtering"), 0.0);
     assert!(scene["reference_seconds"].is_number());
+    let kept = files(&folder.path().join("cache"));
+    assert_eq!(
+        kept.len(),
+        3,
+        "the truth, which is that of light alone, that of paint alone, and a reference for geometry alone: {kept:?}"
+    );
+    assert_eq!(scene["textured"], false);
+    let summary = results_of_untextured(&first);
+    assert_eq!(summary["at"].as_array().unwrap().len(), 2);
+    assert_eq!(
+        summary["at"][0]["rmse_ratio"],
+        summary["at"][0]["geometry_ratio"]
+    );
 
     let again = bench(folder.path());
     let scene = &again["scenes"][0];
@@ -323,6 +361,9 @@ fn writes_a_report_that_needs_no_other_file() {
         "data:image/jpeg;base64,",
         "letters",
         "superpixel 16",
+        "error of ssaa 16",
+        "Where superpixels err most: edges in superpixels",
+        "most of what is left",
     ] {
         assert!(page.contains(part), "{part}");
     }
@@ -344,7 +385,7 @@ fn writes_a_report_that_needs_no_other_file() {
     let csv = std::fs::read_to_string(out.join("results.csv")).unwrap();
     let columns: Vec<_> = csv.lines().map(|line| line.split(',').count()).collect();
     let rows = results["scenes"][0]["rows"].as_array().unwrap().len();
-    assert_eq!(columns, vec![27; rows + 1]);
+    assert_eq!(columns, vec![34; rows + 1]);
 }
 
 #[test]
@@ -455,4 +496,72 @@ fn a_variant_that_a_camera_can_not_have_says_why() {
         warm_up(Variant::Rig),
         Err(VariantError::Panorama(_))
     ));
+}
+
+/// Each method in motion, and superpixels beside supersampling of as many samples.
+#[test]
+fn motion_is_measured_against_the_truth_of_each_frame() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = asset("letters.glb");
+    let arguments = "--motion-size 48x32 --cache cache --out out";
+    let all: Vec<_> = ["bench", "--motion", &scene]
+        .into_iter()
+        .chain(arguments.split(' '))
+        .collect();
+    let run = gpc(folder.path(), &all).ok();
+    let out = folder.path().join("out");
+    let results = std::fs::read(out.join("results.json")).unwrap();
+    let results: Value = serde_json::from_slice(&results).unwrap();
+    let moved = &results["motion"][0];
+    assert_eq!(
+        (&moved["name"], &moved["textured"]),
+        (&"letters".into(), &false.into())
+    );
+    assert_eq!(moved["size"], serde_json::json!([48, 32]));
+    let rows = moved["rows"].as_array().unwrap();
+    for motion in ["pan", "turn"] {
+        let find = |method: &str, samples: u32| {
+            let mine = |row: &&Value| {
+                row["motion"] == motion && row["method"] == method && row["samples"] == samples
+            };
+            rows.iter()
+                .find(mine)
+                .unwrap_or_else(|| panic!("no {method} {samples}"))
+        };
+        let cells = [("none", 1), ("msaa", 4), ("ssaa", 16), ("ssaa", 64)];
+        for of in ["rmse", "flicker"] {
+            let values =
+                cells.map(|(method, samples)| number(find(method, samples), &format!("/{of}")));
+            assert!(
+                values.is_sorted_by(|a, b| *a > 1.4 * b),
+                "{motion} {of} {values:?}"
+            );
+            let none = values[0];
+            for samples in [16, 64] {
+                let superpixel = number(find("superpixel", samples), &format!("/{of}"));
+                assert!(
+                    0.0 < superpixel && superpixel < 0.3 * none,
+                    "{motion} {of} {superpixel}"
+                );
+            }
+        }
+        // What errs in every frame alike does not flicker.
+        for row in rows {
+            assert!(
+                number(row, "/flicker") <= number(row, "/rmse") * 1.05,
+                "{row}"
+            );
+        }
+    }
+    let summary = results["motion_summary"].as_array().unwrap();
+    assert_eq!(
+        summary.iter().map(|at| &at["samples"]).collect::<Vec<_>>(),
+        [16, 64]
+    );
+    let csv = std::fs::read_to_string(out.join("motion.csv")).unwrap();
+    let columns: Vec<_> = csv.lines().map(|line| line.split(',').count()).collect();
+    assert_eq!(columns, vec![9; rows.len() + 1]);
+    let page = std::fs::read_to_string(out.join("report.html")).unwrap();
+    let printed = String::from_utf8(run.stdout).unwrap();
+    assert!(page.contains("<h2>Motion</h2>") && printed.contains("in motion"));
 }

@@ -16,9 +16,16 @@ for scene in \
     DutchShip/dutch_ship_medium_1k.gltf \
     FlightHelmet/FlightHelmet.gltf \
     LowpolyCity/scene.gltf \
-    SauerbratenZdm2/zdm2.glb \
     ToyCar/ToyCar.gltf \
     DeskFanAnimated/vintageFan_animated.gltf \
+    CesiumMan/CesiumMan.glb \
+    SpecularTest/SpecularTest.glb \
+    NormalTangentTest/NormalTangentTest.glb \
+    TextureSettingsTest/TextureSettingsTest.glb \
+    TennisRacquet/TennisRacquet.gltf \
+    Suzanne/Suzanne.gltf \
+    DiffuseTransmissionPlant/DiffuseTransmissionPlant.glb \
+    SauerbratenZdm2/zdm2.glb \
     MetalRoughSpheresNoTextures/MetalRoughSpheresNoTextures.glb; do
     if [ -f "$shared/$scene" ]; then
         scenes+=("$shared/$scene")

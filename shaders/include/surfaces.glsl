@@ -2,6 +2,7 @@
 #ifndef SURFACES_GLSL
 #define SURFACES_GLSL
 #include "area.glsl"
+#include "variation.glsl"
 
 const float FEWEST = 6.0;                               // samples that an area to be trusted is worth
 const float AGREEMENT = 0.1;                            // of areas and samples, in cells
@@ -11,7 +12,7 @@ struct Surface {
     uint id;                // ~0: no other triangle
     float samples;
     vec2 sum;               // of their locations
-    uint parts;             // BY_PART: a bit for each that sees it
+    uvec2 parts;            // BY_PART: a bit for each that sees it
 };
 
 // Parts of a block: at most as many runs of neighbouring samples as there are invocations.
@@ -23,30 +24,36 @@ uint part_number(int g) {
     return PARTS_A_ROW > 1u ? uint(g) * PARTS_A_ROW + gl_SubgroupInvocationID / PART_LANES : uint(g) / ROWS_A_PART;
 }
 
+uvec2 part_bit(int g) {
+    uint n = part_number(g);
+    return uvec2(n < 32u ? 1u << n : 0u, n < 32u ? 0u : 1u << (n - 32u));
+}
+
 // The triangle with the least ID above `seen`.
 Surface surface_after(uint seen) {
-    Surface r = Surface(~0u, 0.0, vec2(0.0), 0u);
+    Surface r = Surface(~0u, 0.0, vec2(0.0), uvec2(0u));
     [[unroll]] for (int g = 0; g < ROWS; g++) r.id = min(r.id, id[g] > seen ? id[g] : ~0u);
     r.id = lanes_min(r.id);
     [[unroll]] for (int g = 0; g < ROWS; g++) {
         bool same = id[g] == r.id;
         r.samples += same ? 1.0 : 0.0;
         r.sum += same ? offset[g] : vec2(0.0);
-        if (BY_PART) r.parts |= same ? 1u << part_number(g) : 0u;
+        if (BY_PART) r.parts |= same ? part_bit(g) : uvec2(0u);
     }
     r.samples = lanes_add(r.samples);
     r.sum = vec2(lanes_add(r.sum.x), lanes_add(r.sum.y));
-    if (BY_PART) r.parts = lanes_or(r.parts);
+    if (BY_PART) r.parts = uvec2(lanes_or(r.parts.x), lanes_or(r.parts.y));
     return r;
 }
 
-struct Part { float samples; vec2 sum; };
+// Parts that an invocation holds.
+const uint PARTS_HELD = PART_ROWS > PART_LANES ? PART_ROWS / PART_LANES : 1u;
 
-// What each part sees of a triangle. A part is held by the first of its invocations here: rows are summed over the
-// invocations of a part and shared out among them at once, each step halving the rows that an invocation holds.
-Part part_of(uint wanted) {
+// What each part sees of a triangle: the sum of the locations of its samples, and their number. Rows are summed over the
+// invocations of a part and shared out among them at once, each step halving the rows that an invocation holds, until it
+// holds PARTS_HELD of them, or shares one with others of which the first holds it.
+void parts_of(uint wanted, out vec3 sums[ROWS]) {
     uint lane = gl_SubgroupInvocationID;
-    vec3 sums[ROWS];
     [[unroll]] for (int r = 0; r < ROWS; r++) sums[r] = vec3(0.0);
     [[unroll]] for (int g = 0; g < ROWS; g++)
         sums[uint(g) / ROWS_A_PART] += id[g] == wanted ? vec3(offset[g], 1.0) : vec3(0.0);
@@ -59,7 +66,36 @@ Part part_of(uint wanted) {
             sums[r] = keep + vec3(subgroupShuffleXor(give.x, step), subgroupShuffleXor(give.y, step), subgroupShuffleXor(give.z, step));
         }
     }
-    return Part(lane % (PART_LANES / PART_ROWS) == 0u ? sums[0].z : 0.0, sums[0].xy);
+    const uint SHARING = PART_LANES > PART_ROWS ? PART_LANES / PART_ROWS : 1u;
+    if (lane % SHARING != 0u) sums[0] = vec3(0.0);
+}
+
+// Merges neighbouring parts `merges` times, at most twice: those of neighbouring invocations, then those that an
+// invocation holds.
+void merge_parts(inout vec3 parts[ROWS], uint merges) {
+    uint lane = gl_SubgroupInvocationID;
+    [[unroll]] for (uint m = 0u; m < 2u; m++) {
+        uint step = PART_LANES << m;
+        bool merge = m < merges;
+        if (step < LANES) {
+            [[unroll]] for (uint r = 0u; r < PARTS_HELD; r++) {
+                vec3 other = vec3(subgroupShuffleXor(parts[r].x, step), subgroupShuffleXor(parts[r].y, step), subgroupShuffleXor(parts[r].z, step));
+                vec3 both = (lane & step) == 0u ? parts[r] + other : vec3(0.0);
+                parts[r] = merge ? both : parts[r];
+            }
+        } else {
+            [[unroll]] for (uint r = 0u; r + 1u < PARTS_HELD; r += 2u) {
+                vec3 both = parts[r] + parts[r + 1u];
+                parts[r] = merge ? both : parts[r];
+                parts[r + 1u] = merge ? vec3(0.0) : parts[r + 1u];
+            }
+        }
+    }
+}
+
+uvec2 merge_bits(uvec2 bits, uint merges) {
+    bits = merges >= 1u ? (bits | bits >> 1) & 0x55555555u : bits;
+    return merges >= 2u ? (bits | bits >> 2) & 0x11111111u : bits;
 }
 
 bool uneven_triangle(uint of) {
@@ -72,14 +108,14 @@ struct Surfaces {
     uint id;
     uint place;
     float samples;
-    uint parts;
+    uvec2 parts;
     int area;
     bool whole;             // it loses no sample that it covers, so that its area is exact
 };
 
 Surfaces surfaces_of(Cell cell) {
     uint lane = gl_SubgroupInvocationID;
-    Surfaces r = Surfaces(0u, 0u, 0u, 0.0, 0u, 0, false);
+    Surfaces r = Surfaces(0u, 0u, 0u, 0.0, uvec2(0u), 0, false);
     float left = 0.0;
     [[unroll]] for (int g = 0; g < ROWS; g++) left += id[g] != 0u ? 1.0 : 0.0;
     left = lanes_add(left);
@@ -164,13 +200,19 @@ uvec2 record_surfaces(Cell cell, uint owner, out bool settled) {
     Surfaces held = surfaces_of(cell);
     float weight = weigh(held, cell.samples, settled);
     bool holds = lane < held.count;
+    uint merges = 0u;
     bool several = BY_PART && holds && uneven_triangle(held.id);
+    if (BY_PART && !SITES) {
+        merges = merges_of(variation_of(cell.member), held.id);
+        several = several && merges < 3u;
+    }
+    held.parts = merge_bits(held.parts, merges);
     bool single = holds && !several;
     // What is shaded in many places takes all samples to choose them from.
     settled = settled && (RUN != PROBE || !subgroupAny(several));
     trips += 2u * held.count;
     uint beyond = held.count - min(held.count, LANES);
-    uint used = beyond + lanes_add(several ? uint(bitCount(held.parts)) : single ? 1u : 0u);
+    uint used = beyond + lanes_add(several ? uint(bitCount(held.parts.x) + bitCount(held.parts.y)) : single ? 1u : 0u);
     bool fits;
     uint base = allocate_records(settled ? used : 0u, fits);
     fits = fits && settled;
@@ -194,13 +236,18 @@ uvec2 record_surfaces(Cell cell, uint owner, out bool settled) {
         do {
             uint holder = pending != 0u ? uint(findLSB(pending)) : 0u;
             uint current = pending != 0u ? subgroupShuffle(held.id, holder) : ~0u;
-            Part part = part_of(current);
-            uint present = subgroupBallot(part.samples != 0.0).x;
-            float value = part.samples * subgroupShuffle(each, holder);
-            if (fits && part.samples != 0.0)
-                records_out[slot + uint(bitCount(present & ((1u << lane) - 1u)))] =
-                    uvec4(owner, current, place_of(part.sum, part.samples), floatBitsToUint(value));
-            slot += uint(bitCount(present));
+            float weight_each = subgroupShuffle(each, holder);
+            vec3 parts[ROWS];
+            parts_of(current, parts);
+            merge_parts(parts, subgroupShuffle(merges, holder));
+            [[unroll]] for (uint held_ = 0u; held_ < PARTS_HELD; held_++) {
+                vec3 part = parts[held_];
+                uint present = subgroupBallot(part.z != 0.0).x;
+                if (fits && part.z != 0.0)
+                    records_out[slot + uint(bitCount(present & ((1u << lane) - 1u)))] =
+                        uvec4(owner, current, place_of(part.xy, part.z), floatBitsToUint(part.z * weight_each));
+                slot += uint(bitCount(present));
+            }
             pending &= pending - 1u;
         } while (pending != 0u);
     }

@@ -5,7 +5,7 @@ use crate::output::{DecodedImage, Picture};
 use serde::Serialize;
 
 /// Distance of an image from the reference. Colours count, alpha does not: the images are opaque.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Accuracy {
     /// Root of the mean squared difference of the linear values of 0 to 1.
     pub rmse_linear: f64,
@@ -110,6 +110,40 @@ impl Yardstick {
             .count();
         count as f64 / self.shown.pixels.len() as f64
     }
+}
+
+/// Each pixel's squared error, summed over its colours.
+///
+/// # Errors
+/// [`CompareError::Size`] if the sizes differ.
+pub(super) fn squares(
+    reference: &DecodedImage,
+    image: &DecodedImage,
+) -> Result<Vec<f64>, CompareError> {
+    let errors = differences(reference, image)?;
+    let square = |errors: [f64; 3]| errors.iter().map(|error| error * error).sum();
+    Ok(errors.into_iter().map(square).collect())
+}
+
+/// By how much each pixel's colours are above the reference's.
+///
+/// # Errors
+/// [`CompareError::Size`] if the sizes differ.
+pub(super) fn differences(
+    reference: &DecodedImage,
+    image: &DecodedImage,
+) -> Result<Vec<[f64; 3]>, CompareError> {
+    if reference.size != image.size {
+        return Err(CompareError::Size {
+            first: reference.size,
+            second: image.size,
+        });
+    }
+    let difference = |(a, b): (&[f32; 4], &[f32; 4])| {
+        [0, 1, 2].map(|channel| f64::from(b[channel]) - f64::from(a[channel]))
+    };
+    let pairs = reference.pixels.iter().zip(&image.pixels);
+    Ok(pairs.map(difference).collect())
 }
 
 fn rmse(a: &[[f32; 4]], b: &[[f32; 4]]) -> f64 {

@@ -1,8 +1,9 @@
 //! References on disk, since brute force takes minutes.
 
+use super::reference::of_reference;
 use crate::camera::Camera;
 use crate::output::{self, Format, OutputError, Picture};
-use crate::render::{Headless, Method, PreparedScene, RenderError, Settings};
+use crate::render::{Headless, PreparedScene, RenderError, Settings};
 use crate::scene::Geometry;
 use std::collections::hash_map::DefaultHasher;
 use std::hash::{Hash, Hasher};
@@ -13,8 +14,8 @@ const PROBE_SAMPLES: u32 = 16;
 
 /// A hash of everything that a reference depends on.
 ///
-/// Geometry and camera count bit by bit. Materials, textures, lights, shaders, and the code between them and the device
-/// count by what they show: every bit of the image at 16 samples a pixel. Hence neither a change of a shader nor one of
+/// Geometry, camera and footprint count bit by bit. Materials, textures, lights, shaders, and the code between them and the device
+/// count by what they show: every bit of the image at 16 samples a pixel, textures read as in the reference. Hence neither a change of a shader nor one of
 /// a file makes references stale that would be the same, and none passes by that changes what is seen. Another release
 /// of Rust may hash differently; references are then rendered again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,12 +34,7 @@ impl Fingerprint {
         settings: &Settings,
         samples: u32,
     ) -> Result<Self, RenderError> {
-        let probe = Settings {
-            method: Method::Ssaa,
-            samples: PROBE_SAMPLES,
-            attributes: false,
-            ..settings.clone()
-        };
+        let probe = of_reference(settings, PROBE_SAMPLES);
         let mut frame = headless.prepare(scene, &probe)?;
         let image = headless.render(scene, &mut frame, camera)?;
         let limits = headless.gpu().limits();
@@ -46,8 +42,8 @@ impl Fingerprint {
         let [x, y, z] = geometry.origin.to_array().map(f64::to_bits);
         (x, y, z, image.size, samples).hash(&mut hasher);
         (&limits.device_name, &limits.driver).hash(&mut hasher);
-        // `f64`'s debug format is exact.
-        format!("{camera:?}").hash(&mut hasher);
+        // The debug format of floats is exact.
+        format!("{camera:?} {:?}", probe.footprint).hash(&mut hasher);
         hasher.write(bytemuck::cast_slice(&geometry.positions));
         hasher.write(bytemuck::cast_slice(&geometry.triangles));
         hasher.write(bytemuck::cast_slice(&image.colors));

@@ -1,6 +1,7 @@
 //! Why pixels err: what antialiasing left, by what it could know of a pixel.
 
 use super::Yardstick;
+use super::accuracy::squares;
 use crate::camera::Camera;
 use crate::compare::CompareError;
 use crate::output::{DecodedImage, Picture};
@@ -21,7 +22,8 @@ const SEED: u32 = 2;
 pub enum Cause {
     /// It is a superpixel: the number of samples and how often they are shaded.
     Superpixel,
-    /// It is none although a neighbour's centre sees another triangle, for their colours are too much alike.
+    /// It is none although it holds several triangles, which it or its neighbours' centres see, for their colours are too
+    /// much alike.
     BelowThreshold,
     /// It is none, and holds a triangle (or a gap between triangles) that no centre of the 3 x 3 pixels around it saw.
     Unseen,
@@ -49,6 +51,7 @@ pub struct Split {
 #[derive(Clone, Debug)]
 pub struct Looks {
     unseen: Vec<bool>,
+    several: Vec<bool>,
 }
 
 impl Looks {
@@ -67,6 +70,7 @@ impl Looks {
         let mut frame = headless.prepare(scene, &with_attributes(settings, Method::None))?;
         let centres = headless.render(scene, &mut frame, camera)?.attributes;
         let mut unseen = vec![false; centres.len()];
+        let mut several = unseen.clone();
         let size = DVec2::from(settings.size.map(f64::from));
         for place in owen_sobol(LOOKS, SEED) {
             let camera = Camera {
@@ -78,9 +82,17 @@ impl Looks {
                 *unseen =
                     *unseen || !around(&centres, settings.size, pixel).any(|id| id == looked.id);
             }
+            for (several, (centre, looked)) in several.iter_mut().zip(centres.iter().zip(&seen)) {
+                *several = *several || centre.id != looked.id;
+            }
             progress();
         }
-        Ok(Self { unseen })
+        Ok(Self { unseen, several })
+    }
+
+    /// Whether a pixel holds more than one triangle, or a triangle and background.
+    pub(super) fn holds_several(&self, pixel: usize) -> bool {
+        self.several.get(pixel).copied().unwrap_or_default()
     }
 
     /// Each pixel's cause under superpixel antialiasing with these settings, rows from the top. Scene, camera and size
@@ -97,7 +109,20 @@ impl Looks {
     ) -> Result<Vec<Cause>, RenderError> {
         let mut frame = headless.prepare(scene, &with_attributes(settings, Method::Superpixel))?;
         let centres = headless.render(scene, &mut frame, camera)?.attributes;
-        Ok(classify(&centres, &self.unseen, settings.size))
+        Ok(self.classify(&centres))
+    }
+}
+
+impl Looks {
+    fn classify(&self, centres: &[PixelAttributes]) -> Vec<Cause> {
+        let holds = self.unseen.iter().zip(&self.several);
+        let cause = |(centre, holds): (&PixelAttributes, (&bool, &bool))| match holds {
+            _ if centre.superpixel != 0 => Cause::Superpixel,
+            (true, _) => Cause::Unseen,
+            (false, true) => Cause::BelowThreshold,
+            (false, false) => Cause::Inside,
+        };
+        centres.iter().zip(holds).map(cause).collect()
     }
 }
 
@@ -109,21 +134,6 @@ fn with_attributes(settings: &Settings, method: Method) -> Settings {
         attributes: true,
         ..settings.clone()
     }
-}
-
-fn classify(centres: &[PixelAttributes], unseen: &[bool], size: [u32; 2]) -> Vec<Cause> {
-    let cause = |(pixel, (centre, unseen)): (usize, (&PixelAttributes, &bool))| {
-        if centre.superpixel != 0 {
-            Cause::Superpixel
-        } else if *unseen {
-            Cause::Unseen
-        } else if around(centres, size, pixel).any(|id| id != centre.id) {
-            Cause::BelowThreshold
-        } else {
-            Cause::Inside
-        }
-    };
-    centres.iter().zip(unseen).enumerate().map(cause).collect()
 }
 
 /// IDs at the centres of a pixel and those around it.
@@ -149,25 +159,11 @@ impl Yardstick {
     /// # Errors
     /// [`CompareError::Size`] if the image has not the reference's size.
     pub fn split(&self, picture: &Picture<'_>, causes: &[Cause]) -> Result<Split, CompareError> {
-        let image = DecodedImage::from(picture);
-        if image.size != self.reference().size {
-            return Err(CompareError::Size {
-                first: self.reference().size,
-                second: image.size,
-            });
-        }
-        let square = |image: &DecodedImage, pixel: usize| -> f64 {
-            let of = |image: &DecodedImage| image.pixels.get(pixel).copied().unwrap_or_default();
-            let pairs = of(self.reference()).into_iter().zip(of(image)).take(3);
-            pairs
-                .map(|(a, b)| (f64::from(a) - f64::from(b)).powi(2))
-                .sum()
-        };
+        let errors = squares(self.reference(), &DecodedImage::from(picture))?;
+        let whole: f64 = squares(self.reference(), self.one_sample())?.iter().sum();
         let mut split = Split::default();
-        let mut whole = 0.0;
-        for (pixel, cause) in causes.iter().enumerate() {
-            whole += square(self.one_sample(), pixel);
-            *split.of_mut(*cause) += square(&image, pixel);
+        for (error, cause) in errors.iter().zip(causes) {
+            *split.of_mut(*cause) += error;
         }
         if whole == 0.0 {
             return Ok(Split::default());
@@ -199,27 +195,24 @@ mod tests {
 
     #[test]
     fn each_cause_is_told_from_the_others() {
-        // A superpixel, two triangles side by side twice, one of them over something unseen, and one triangle.
-        let ids = [1, 1, 2, 2, 2, 2];
-        let centres: Vec<_> = ids
-            .iter()
-            .enumerate()
-            .map(|(pixel, &id)| PixelAttributes {
-                id,
+        // A superpixel, a pixel of one triangle, one of two that neighbours see, and one of an unseen one.
+        let centres: Vec<_> = (0..4)
+            .map(|pixel| PixelAttributes {
                 superpixel: u32::from(pixel == 0),
                 ..PixelAttributes::default()
             })
             .collect();
-        let unseen = [true, false, true, false, false, true];
+        let looks = Looks {
+            unseen: vec![true, false, false, true],
+            several: vec![true, false, true, true],
+        };
         let expected = [
             Cause::Superpixel,
+            Cause::Inside,
             Cause::BelowThreshold,
             Cause::Unseen,
-            Cause::Inside,
-            Cause::Inside,
-            Cause::Unseen,
         ];
-        assert_eq!(classify(&centres, &unseen, [6, 1]), expected);
+        assert_eq!(looks.classify(&centres), expected);
     }
 
     #[test]

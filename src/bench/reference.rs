@@ -1,7 +1,7 @@
 //! The reference: brute force at thousands of samples a pixel.
 
 use crate::camera::Camera;
-use crate::render::{Headless, Method, PreparedScene, RenderError, Settings};
+use crate::render::{Footprint, Headless, Method, PreparedScene, RenderError, Settings};
 use crate::sampling::owen_sobol;
 use glam::DVec2;
 
@@ -14,6 +14,10 @@ pub const GRID_SAMPLES: u32 = SIDE * SIDE;
 /// Most samples a pixel of a reference.
 pub const MAX_REFERENCE_SAMPLES: u32 = 1024 * GRID_SAMPLES;
 
+/// Side in output pixels of the squares that textures are read over in the truth: that of a sample's cell at 4,096
+/// samples.
+pub const TRUTH_SIDE: f32 = 1.0 / 64.0;
+
 /// Scrambling of the shifts. It is not the one of the superpixels' pattern, which would then meet its own samples.
 const SEED: u32 = 1;
 
@@ -21,8 +25,12 @@ const SEED: u32 = 1;
 /// to another point of an Owen-scrambled Sobol set within its own cell, and the mean of all. A finer grid alone would
 /// err on edges along an axis and favour methods whose samples lie in grids.
 ///
-/// Of `settings`, all that concerns sampling is replaced. Texture levels are those of the output pixel's footprint, as
-/// in every method. `progress` is called after each rendering. The result holds rows from the top of what
+/// Of `settings`, all that concerns sampling is replaced, and [`Footprint::Sample`] becomes a square of [`TRUTH_SIDE`]:
+/// textures and the alpha of MASK materials are read so sharply that the image is *the truth*, the mean over each pixel of
+/// the scene as it is. [`Footprint::Pixel`] stays: that reference filters textures as if every sample were a pixel, and
+/// against it methods at the same footprint differ by geometry alone.
+///
+/// `progress` is called after each rendering. The result holds rows from the top of what
 /// [`Rendered::colors`](crate::render::Rendered::colors) holds.
 ///
 /// # Errors
@@ -45,12 +53,7 @@ pub fn brute_force(
             possible: format!("the multiples of {GRID_SAMPLES} up to {MAX_REFERENCE_SAMPLES}"),
         });
     }
-    let settings = Settings {
-        method: Method::Ssaa,
-        samples: GRID_SAMPLES,
-        attributes: false,
-        ..settings.clone()
-    };
+    let settings = of_reference(settings, GRID_SAMPLES);
     let size = DVec2::from(settings.size.map(f64::from));
     let mut frame = headless.prepare(scene, &settings)?;
     let shifts = owen_sobol(samples / GRID_SAMPLES, SEED);
@@ -76,4 +79,18 @@ pub fn brute_force(
         .into_iter()
         .map(|sum| sum.map(|value| (value * weight) as f32))
         .collect())
+}
+
+/// What a rendering of `samples` samples a pixel for a reference is made with.
+pub(super) fn of_reference(settings: &Settings, samples: u32) -> Settings {
+    Settings {
+        method: Method::Ssaa,
+        samples,
+        attributes: false,
+        footprint: match settings.footprint {
+            Footprint::Sample => Footprint::Side(TRUTH_SIDE),
+            asked => asked,
+        },
+        ..settings.clone()
+    }
 }

@@ -24,7 +24,7 @@ pub use rig::{Rig, RigError};
 pub use site::Site;
 
 use crate::scene::{SceneCamera, SceneProjection};
-use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
+use glam::{DMat3, DMat4, DQuat, DVec2, DVec3, DVec4};
 
 /// How a camera projects.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -138,6 +138,17 @@ impl Camera {
             axes: camera.axes,
             projection,
             shift: DVec2::ZERO,
+        }
+    }
+
+    /// The camera turned about the vertical axis through a point, by degrees counter-clockwise as seen from above.
+    #[must_use]
+    pub fn turned(&self, point: DVec3, degrees: f64) -> Self {
+        let turn = DQuat::from_rotation_y(degrees.to_radians());
+        Self {
+            eye: point + turn * (self.eye - point),
+            axes: DMat3::from_quat(turn) * self.axes,
+            ..*self
         }
     }
 

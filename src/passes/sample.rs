@@ -260,9 +260,10 @@ impl SampleOptions {
         self.records == RecordRate::Part && (run == Run::Probe || self.part_samples() < block)
     }
 
-    /// Samples of a part: a sixteenth of those that a cell takes, but at least 8.
+    /// Samples of a part: there are up to 16 parts, and beyond 64 samples up to 64, of four samples at the least.
     fn part_samples(&self) -> u32 {
-        (self.samples / 16).next_power_of_two().max(8)
+        let few = (self.samples / 16).clamp(1, 4);
+        (self.samples / 64).max(few).next_power_of_two()
     }
 
     /// Whether there is a first run.

@@ -14,7 +14,10 @@ impl Settings {
     pub(super) fn color_constants(&self) -> Constants {
         let tonemap = self.reference == Reference::Display && self.tonemapped_detection;
         Constants::new()
-            .flag(15, self.footprint == Footprint::Sample)
+            .flag(
+                15,
+                self.footprint == Footprint::Sample && self.method == super::Method::Superpixel,
+            )
             .flag(30, tonemap)
             .flag(31, self.tonemapped_detection)
     }

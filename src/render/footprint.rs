@@ -31,9 +31,9 @@ impl Footprints {
             Footprint::Pixel => everywhere(settings.side() as f32),
             Footprint::Side(side) => everywhere(side * settings.side() as f32),
             Footprint::Sample if settings.method == Method::Superpixel => Self {
-                centre: env("K_CENTRE", 0.5),
-                place: env("K_PLACE", 0.5),
-                sample: env("K_SAMPLE", 0.5) / (samples as f32).sqrt(),
+                centre: 1.0,
+                place: 1.0,
+                sample: env("K_SAMPLE", 0.125) / (samples as f32).sqrt(),
             },
             Footprint::Sample => everywhere(1.0),
         }

@@ -12,14 +12,15 @@ use std::time::Duration;
 ///
 /// Every scene is rendered as by `gpc render`, before a light grey background, by every method at every number of
 /// samples that it can have: once to warm up and then R times, the methods taking turns. Each image is held against
-/// brute force at thousands of samples a pixel, which is kept on disk for the next run. With --variants, other
-/// sampling sets than the pixels of an image are timed too; with --growth, scenes made for it show what grows with what;
+/// the truth: brute force at thousands of samples a pixel that read textures at a 64th of its side, which is kept on disk
+/// for the next run. With --geometry, the methods are also measured with textures read for a whole pixel, against a
+/// reference that does so too, so that they differ by geometry alone. With --motion, sequences show what flickers. With --variants, other sampling sets than the pixels of an image are timed too; with --growth, scenes made for it show what grows with what;
 /// with --stress, geometry that is hard on a rasterizer shows what holds. DIR then holds results.json, results.csv and
-/// report.html, and variants.csv with --variants, written anew after each scene.
+/// report.html, motion.csv with --motion and variants.csv with --variants, written anew after each scene.
 #[derive(Args)]
 pub struct BenchArgs {
     /// .glb or .gltf files
-    #[arg(value_name = "SCENE", required_unless_present_any = ["growth", "stress"])]
+    #[arg(value_name = "SCENE", required_unless_present_any = ["motion", "growth", "stress"])]
     pub scenes: Vec<PathBuf>,
     /// Folder for the results
     #[arg(short, long, value_name = "DIR")]
@@ -40,12 +41,12 @@ pub struct BenchArgs {
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "4,16,64,256,1024",
         value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES)))]
     samples: Vec<u32>,
-    /// Samples a pixel of the reference, a multiple of 256
+    /// Samples a pixel of the truth, a multiple of 256
     #[arg(long, value_name = "N", default_value_t = 4096, value_parser = reference_samples)]
     pub reference: u32,
-    /// Also against a second reference, whose texture levels follow the footprint of its samples instead of the pixel's
+    /// Measure geometry alone too: every method, and a reference of its own, reading textures for a whole pixel
     #[arg(long)]
-    pub sample_footprint: bool,
+    pub geometry: bool,
     /// Time also against the number of triangles, of pixels, of superpixels and of layers, in scenes made for it
     #[arg(long)]
     pub growth: bool,
@@ -53,6 +54,13 @@ pub struct BenchArgs {
     /// beside the raster pass, a sample and in all
     #[arg(long)]
     pub variants: bool,
+    /// Measure these files in motion: panned by fractions of a pixel and turned slowly, 16 frames each, the error of each
+    /// frame against its own truth and how much it flickers
+    #[arg(long, value_name = "SCENE", num_args = 1..)]
+    pub motion: Vec<PathBuf>,
+    /// Width and height of images in motion
+    #[arg(long, value_name = "WxH", default_value = "320x180", value_parser = values::size)]
+    pub motion_size: [u32; 2],
     /// Run the stress suite too: what must hold of images whatever the geometry
     #[arg(long)]
     pub stress: bool,

@@ -1,7 +1,8 @@
 //! Pictures for the report, as data URIs.
 
 use super::pictures::{ErrorMap, Window, colors, small_jpeg};
-use gpc::bench::Yardstick;
+use super::split::reason;
+use gpc::bench::{Cause, Fault, Yardstick};
 use gpc::output::DecodedImage;
 
 /// The pictures of one scene.
@@ -10,6 +11,17 @@ pub struct Gallery {
     pub overview: Vec<Version>,
     /// Parts that are enlarged.
     pub parts: Vec<Part>,
+}
+
+/// An image of superpixels, and why its pixels err.
+pub struct Shown {
+    /// Samples a superpixel.
+    pub samples: u32,
+    pub image: DecodedImage,
+    /// Pixel by pixel.
+    pub causes: Vec<Cause>,
+    /// Pixel by pixel.
+    pub faults: Vec<Option<Fault>>,
 }
 
 /// A picture and its caption.
@@ -21,53 +33,86 @@ pub struct Version {
 /// A part of the image in several versions.
 pub struct Part {
     /// What it is an example of.
-    pub title: &'static str,
+    pub title: String,
     pub window: Window,
     pub versions: Vec<Version>,
 }
 
 impl Gallery {
-    /// Draws the pictures; `superpixels` is an image and its samples a superpixel.
+    /// Draws the pictures; `ssaa` is supersampling of as many samples as the superpixels have.
     pub fn new(
         yardstick: &Yardstick,
-        superpixels: Option<&(u32, DecodedImage)>,
+        ssaa: Option<&DecodedImage>,
+        superpixels: Option<&Shown>,
     ) -> anyhow::Result<Self> {
-        let reference = yardstick.reference();
-        let mut images = vec![("one sample".to_owned(), yardstick.one_sample())];
-        if let Some((samples, image)) = superpixels {
-            images.push((format!("superpixel {samples}"), image));
+        let truth = yardstick.reference();
+        let method = |name: String, image| Method {
+            errors: ErrorMap::new(truth, image),
+            name,
+            image,
+        };
+        let mut images = vec![method("one sample".to_owned(), yardstick.one_sample())];
+        let mut worst = vec![(0, "Where one sample a pixel errs most".to_owned())];
+        if let Some(shown) = superpixels {
+            if let Some(ssaa) = ssaa {
+                images.push(method(format!("ssaa {}", shown.samples), ssaa));
+            }
+            let superpixels = method(format!("superpixel {}", shown.samples), &shown.image);
+            let window = superpixels.errors.worst_window();
+            let blame = shown.blame(&superpixels.errors, window);
+            worst.push((images.len(), format!("Where superpixels err most: {blame}")));
+            images.push(superpixels);
         }
-        let images: Vec<_> = images
-            .into_iter()
-            .map(|(name, image)| Method {
-                errors: ErrorMap::new(reference, image),
-                name,
-                image,
-            })
-            .collect();
-        let mut overview = vec![version(
-            "reference",
-            small_jpeg(reference.size, &colors(reference))?,
-        )];
+        let mut overview = vec![version("truth", small_jpeg(truth.size, &colors(truth))?)];
         for Method { name, errors, .. } in &images {
-            let picture = small_jpeg(reference.size, &errors.colors())?;
+            let picture = small_jpeg(truth.size, &errors.colors())?;
             overview.push(version(&format!("error of {name}"), picture));
         }
         let mut parts = Vec::new();
-        for (worst, title) in images.iter().zip([
-            "Where one sample a pixel errs most",
-            "Where superpixels err most",
-        ]) {
-            let window = worst.errors.worst_window();
+        for (index, title) in worst {
+            let Some(method) = images.get(index) else {
+                continue;
+            };
+            let window = method.errors.worst_window();
             parts.push(Part {
                 title,
-                versions: versions(window, reference, &images)?,
+                versions: versions(window, truth, &images)?,
                 window,
             });
         }
         Ok(Self { overview, parts })
     }
 }
+
+impl Shown {
+    /// What the squared error in a window is due to, the largest share first.
+    fn blame(&self, errors: &ErrorMap, window: Window) -> String {
+        let mut shares: Vec<(&str, f64)> = Vec::new();
+        for (pixel, square) in errors.squares(window) {
+            let cause = self.causes.get(pixel).copied();
+            let name = reason(cause, self.faults.get(pixel).copied().flatten());
+            match shares.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, share)) => *share += square,
+                None => shares.push((name, square)),
+            }
+        }
+        let whole: f64 = shares.iter().map(|(_, share)| share).sum();
+        if whole <= 0.0 {
+            return "nowhere".to_owned();
+        }
+        shares.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let named: Vec<_> = shares
+            .iter()
+            .map(|(name, share)| (name, 100.0 * share / whole))
+            .filter(|(_, percent)| *percent >= LEAST_PERCENT)
+            .map(|(name, percent)| format!("{name} {percent:.0} %"))
+            .collect();
+        named.join(", ")
+    }
+}
+
+/// Smaller shares of a window's error are not named.
+const LEAST_PERCENT: f64 = 5.0;
 
 /// The image of a method.
 struct Method<'a> {
@@ -82,7 +127,7 @@ fn versions(
     images: &[Method<'_>],
 ) -> anyhow::Result<Vec<Version>> {
     let size = reference.size;
-    let mut versions = vec![version("reference", window.png(size, &colors(reference))?)];
+    let mut versions = vec![version("truth", window.png(size, &colors(reference))?)];
     for Method { name, image, .. } in images {
         versions.push(version(name, window.png(size, &colors(image))?));
     }

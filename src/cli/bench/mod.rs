@@ -1,13 +1,17 @@
 //! `gpc bench`.
 
 mod args;
+mod front;
 mod gallery;
 mod growth;
 mod html;
 mod machine;
+mod measure;
+mod motion;
 mod pictures;
 mod progress;
 mod results;
+mod split;
 mod stress;
 mod subject;
 mod summary;
@@ -29,7 +33,8 @@ use std::process::ExitCode;
 use subject::Bench;
 
 pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
-    if args.scenes.iter().any(|path| input::is_standard(path)) {
+    let mut files = args.scenes.iter().chain(&args.motion);
+    if files.any(|path| input::is_standard(path)) {
         exit::usage!("a benchmark reads its scenes from files, not from standard input");
     }
     let Some(cache) = args.cache.clone().or_else(Cache::default_folder) else {
@@ -40,7 +45,8 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
     let curves = if args.growth { Growth::ALL.len() } else { 0 };
     let checks = if args.stress { Check::ALL.len() } else { 0 };
     let timed = if args.variants { args.scenes.len() } else { 0 };
-    let parts = args.scenes.len() + timed + curves + checks;
+    let moved = args.motion.len();
+    let parts = args.scenes.len() + moved + timed + curves + checks;
     let mut bench = Bench {
         headless: Headless::new(&HeadlessOptions {
             device: args.device.clone(),
@@ -59,6 +65,13 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
         galleries.push(gallery);
         // Again after each scene, so that what was measured survives a failure.
         results.summary = summary::summarize(&results.scenes);
+        write(&args.out, &results, &galleries)?;
+    }
+    for path in &args.motion {
+        let scene = bench.motion(path, args.motion_size)?;
+        bench.progress.suspend(|| motion::print(&scene))?;
+        results.motion.push(scene);
+        results.motion_summary = motion::summarize(&results.motion);
         write(&args.out, &results, &galleries)?;
     }
     if args.variants {
@@ -87,6 +100,7 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
     }
     bench.progress.finish();
     table::print_summary(&results.summary)?;
+    motion::print_summary(&results.motion_summary)?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -96,6 +110,9 @@ fn write(folder: &Path, results: &Results, galleries: &[gallery::Gallery]) -> an
         ("results.csv", table::csv(&results.scenes)),
         ("report.html", html::page(results, galleries)),
     ];
+    if !results.motion.is_empty() {
+        files.push(("motion.csv", motion::csv(&results.motion)));
+    }
     if !results.variants.is_empty() {
         files.push(("variants.csv", variants::csv(&results.variants)));
     }

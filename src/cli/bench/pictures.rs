@@ -74,6 +74,12 @@ impl ErrorMap {
         self.errors.iter().map(color).collect()
     }
 
+    /// The pixels of a window by index, and their squared errors.
+    pub fn squares(&self, window: Window) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let pixels = window.rows(self.size[0]).flatten();
+        pixels.filter_map(|pixel| Some((pixel, f64::from(*self.errors.get(pixel)?).powi(2))))
+    }
+
     /// The window with the largest squared error.
     pub fn worst_window(&self) -> Window {
         let [width, height] = self.size;

@@ -2,10 +2,11 @@
 
 use super::BenchArgs;
 use super::machine::{self, Machine};
-use super::summary::AtSamples;
+use super::motion::MotionRatio;
+use super::summary::Summary;
 use crate::cli::render::Antialiasing;
 use gpc::bench::stress::Finding;
-use gpc::bench::{Accuracy, Cost, Split, Spread, VariantCost};
+use gpc::bench::{Accuracy, Cost, Motion, Split, Spread, Steadiness, VariantCost, Within};
 use gpc::vulkan::Limits;
 use serde::Serialize;
 
@@ -19,18 +20,45 @@ pub struct Results {
     pub device: String,
     pub driver: String,
     pub size: [u32; 2],
-    /// Samples a pixel of the reference.
+    /// Samples a pixel of the truth, and of the reference for geometry alone.
     pub reference_samples: u32,
     pub repeat: u32,
     pub budget_seconds: f64,
-    pub summary: Vec<AtSamples>,
+    /// Medians, of textured and of untextured scenes apart.
+    pub summary: Vec<Summary>,
     pub scenes: Vec<SceneResults>,
+    /// Superpixels in motion over supersampling.
+    pub motion_summary: Vec<MotionRatio>,
+    /// Errors in motion, scene by scene.
+    pub motion: Vec<SceneMotion>,
     /// Time of the camera's variants, scene by scene.
     pub variants: Vec<SceneVariants>,
     /// Time against the size of things.
     pub growth: Vec<Curve>,
     /// What the stress suite found.
     pub stress: Vec<Stress>,
+}
+
+/// How exact and steady methods are in motion on one scene.
+#[derive(Serialize)]
+pub struct SceneMotion {
+    pub name: String,
+    /// Whether a material of something drawn has a texture.
+    pub textured: bool,
+    pub size: [u32; 2],
+    pub rows: Vec<MotionRow>,
+    /// What was left out, and why.
+    pub notes: Vec<String>,
+}
+
+/// One method in one motion.
+#[derive(Serialize)]
+pub struct MotionRow {
+    pub motion: Motion,
+    pub method: Antialiasing,
+    pub samples: u32,
+    #[serde(flatten)]
+    pub steadiness: Steadiness,
 }
 
 /// What the variants of the camera cost on one scene.
@@ -105,11 +133,10 @@ pub struct SceneResults {
     pub name: String,
     pub file: String,
     pub triangles: u64,
-    /// Seconds that the reference took to render; `None` if it came from the cache.
+    /// Whether a material of something drawn has a texture.
+    pub textured: bool,
+    /// Seconds that the truth took to render; `None` if it came from the cache.
     pub reference_seconds: Option<f64>,
-    /// RMSE of the reference against the second reference, whose texture levels follow the footprint of its samples:
-    /// what filtering textures for whole pixels leaves, whatever the number of samples.
-    pub texture_filtering: Option<f64>,
     /// What was left out, and why.
     pub notes: Vec<String>,
     pub rows: Vec<Row>,
@@ -128,11 +155,14 @@ pub struct Row {
     pub superpixel_fraction: f64,
     /// Triangles in the lists of tiles.
     pub candidates: u64,
+    /// Against the truth.
     pub accuracy: Accuracy,
+    /// With textures read for a whole pixel, against a reference that reads them so, where that was wanted.
+    pub geometry: Option<Accuracy>,
     /// The error that is left by cause, where superpixels were measured.
     pub left: Option<Split>,
-    /// RMSE against the second reference, as a display shows it.
-    pub rmse_sample_footprint: Option<f64>,
+    /// What of it is the fault of edges, of texture and of light, for superpixels.
+    pub left_within: Option<Within>,
 }
 
 impl Results {
@@ -149,6 +179,8 @@ impl Results {
             budget_seconds: args.budget,
             summary: Vec::new(),
             scenes: Vec::new(),
+            motion_summary: Vec::new(),
+            motion: Vec::new(),
             variants: Vec::new(),
             growth: Vec::new(),
             stress: Vec::new(),
@@ -174,6 +206,16 @@ impl Point {
     pub fn ms(&self, method: Antialiasing) -> Option<f64> {
         let time = self.times.iter().find(|time| time.method == method)?;
         Some(time.gpu_ms.median)
+    }
+}
+
+impl SceneMotion {
+    /// The row of a motion under a method at a number of samples.
+    pub fn row(&self, motion: Motion, method: Antialiasing, samples: u32) -> Option<&MotionRow> {
+        let wanted = |row: &&MotionRow| {
+            row.motion == motion && row.method == method && row.samples == samples
+        };
+        self.rows.iter().find(wanted)
     }
 }
 

@@ -1,17 +1,15 @@
-//! One scene, measured.
+//! A scene on the device, and its references.
 
 use super::BenchArgs;
-use super::gallery::Gallery;
 use super::progress::Progress;
-use super::results::{Row, SceneResults};
 use crate::cli::input;
-use crate::cli::render::{Antialiasing, CameraArgs, choose_views};
-use gpc::bench::{self, Cache, Cause, Contender, Fingerprint, Looks, Yardstick};
+use crate::cli::render::{Antialiasing, CameraArgs, View, choose_views};
+use gpc::bench::{self, Cache, Contender, Fingerprint};
 use gpc::camera::Camera;
-use gpc::output::{DecodedImage, Picture};
+use gpc::output::Picture;
 use gpc::reference::srgb;
-use gpc::render::{Footprint, Headless, PreparedScene, RenderError, Rendered, Settings};
-use gpc::scene::{Geometry, PoseRequest};
+use gpc::render::{Headless, PreparedScene, RenderError, Rendered, Settings};
+use gpc::scene::{Geometry, Pose, PoseRequest, Scene};
 use std::path::Path;
 use std::time::Instant;
 
@@ -26,200 +24,67 @@ pub struct Bench<'a> {
     pub progress: Progress,
 }
 
-/// A scene on the device.
+/// A scene on the device, and what it was made from.
 pub(super) struct Subject {
     pub prepared: PreparedScene,
-    geometry: Geometry,
-    pub camera: Camera,
+    pub scene: Scene,
+    pub pose: Pose,
+    pub view: View,
 }
 
-/// A method that takes part, with what is known of it before it is timed.
-struct Entry {
-    contender: Contender,
-    row: Row,
+/// A reference in the making.
+pub(super) struct Wanted<'a> {
+    pub prepared: &'a PreparedScene,
+    pub geometry: &'a Geometry,
+    pub camera: &'a Camera,
+    pub settings: &'a Settings,
+    /// Samples a pixel.
+    pub samples: u32,
+    /// What it is, for the bar of progress.
+    pub name: &'a str,
 }
 
 impl Bench<'_> {
-    /// Measures the scene of a file.
-    pub fn measure(&mut self, path: &Path) -> anyhow::Result<(SceneResults, Gallery)> {
-        let name = name(path);
-        self.progress.begin(&name);
-        let subject = self.upload(path)?;
-        let settings = self.settings(Antialiasing::None, 1);
-        let (reference, reference_seconds) = self.reference(&subject, &settings)?;
-        let (_, one_sample) = self.warm_up(&subject, &settings)?;
-        let triangles = one_sample.statistics.triangles.total;
-        let one_sample = Picture::new(settings.size, &one_sample.colors)?;
-        let reference = Picture::new(settings.size, &reference)?;
-        let yardstick = Yardstick::new(&reference, &one_sample)?;
-        let finer = self.finer_reference(&subject, &settings, &one_sample)?;
-        let texture_filtering = match &finer {
-            Some(finer) => Some(finer.measure(&reference)?.rmse),
-            None => None,
-        };
-        let looks = self.looks(&subject)?;
-
-        let shown = self.shown_samples();
-        let mut notes = Notes::default();
-        let mut entries = Vec::new();
-        let mut superpixels = None;
-        for (method, samples) in self.args.cells() {
-            self.progress
-                .say(&format!("{method} {samples}, warming up"));
-            let (contender, rendered) =
-                match self.warm_up(&subject, &self.settings(method, samples)) {
-                    Err(RenderError::Samples { possible, .. }) => {
-                        notes.leave_out(method, samples, possible);
-                        continue;
-                    }
-                    done => done?,
-                };
-            let picture = Picture::new(rendered.size, &rendered.colors)?;
-            if (method, Some(samples)) == (Antialiasing::Superpixel, shown) {
-                superpixels = Some((samples, DecodedImage::from(&picture)));
-            }
-            let statistics = &rendered.statistics;
-            entries.push(Entry {
-                row: Row {
-                    method,
-                    samples,
-                    cost: contender.cost(),
-                    memory_bytes: statistics.memory_bytes,
-                    superpixel_fraction: statistics.superpixels as f64
-                        / rendered.colors.len() as f64,
-                    candidates: statistics.candidates,
-                    accuracy: yardstick.measure(&picture)?,
-                    left: match &looks {
-                        Some(looks) => {
-                            let causes = self.causes(&subject, looks, method, samples)?;
-                            Some(yardstick.split(&picture, &causes)?)
-                        }
-                        None => None,
-                    },
-                    rmse_sample_footprint: match &finer {
-                        Some(finer) => Some(finer.measure(&picture)?.rmse),
-                        None => None,
-                    },
-                },
-                contender,
-            });
-        }
-        let scene = SceneResults {
-            name,
-            file: path.display().to_string(),
-            triangles,
-            reference_seconds,
-            texture_filtering,
-            notes: notes.lines(),
-            rows: self.time(&subject, entries)?,
-        };
-        let gallery = Gallery::new(&yardstick, superpixels.as_ref())?;
-        Ok((scene, gallery))
-    }
-
-    /// Puts the scene of a file on the device.
-    pub(super) fn upload(&mut self, path: &Path) -> anyhow::Result<Subject> {
+    /// Puts the scene of a file on the device, to be seen in images of that size.
+    pub(super) fn upload(&mut self, path: &Path, size: [u32; 2]) -> anyhow::Result<Subject> {
         let loaded = input::load(path)?;
         let pose = loaded.scene.pose(&PoseRequest::default())?;
-        let [width, height] = self.args.size.map(f64::from);
+        let [width, height] = size.map(f64::from);
         let views = choose_views(&CameraArgs::default(), &pose, width / height)?;
-        let Some(view) = views.first() else {
+        let Some(view) = views.into_iter().next() else {
             anyhow::bail!("{}: there is no camera to see it with", path.display());
         };
         Ok(Subject {
             prepared: self.headless.upload(&loaded.scene, &pose, None)?,
-            geometry: pose.geometry,
-            camera: view.camera,
+            scene: loaded.scene,
+            pose,
+            view,
         })
     }
 
-    fn settings(&self, method: Antialiasing, samples: u32) -> Settings {
+    pub(super) fn settings(&self, method: Antialiasing, samples: u32) -> Settings {
         settings(method, samples, self.args.size)
     }
 
-    /// Samples of the superpixels that the report shows: the default number, or else the most there are.
-    fn shown_samples(&self) -> Option<u32> {
-        let cells = self.args.cells();
-        let counts = cells
-            .iter()
-            .filter(|(method, _)| *method == Antialiasing::Superpixel)
-            .map(|(_, samples)| *samples);
-        counts.max_by_key(|samples| (*samples == Settings::DEFAULT_SAMPLES, *samples))
-    }
-
-    /// Measures against the second reference, if that is wanted.
-    fn finer_reference(
+    /// A reference, and how many seconds it took unless it was there already.
+    pub(super) fn reference(
         &mut self,
-        subject: &Subject,
-        settings: &Settings,
-        one_sample: &Picture<'_>,
-    ) -> anyhow::Result<Option<Yardstick>> {
-        if !self.args.sample_footprint {
-            return Ok(None);
-        }
-        let settings = Settings {
-            footprint: Footprint::Sample,
-            ..settings.clone()
-        };
-        let (finer, _) = self.reference(subject, &settings)?;
-        let finer = Picture::new(settings.size, &finer)?;
-        Ok(Some(Yardstick::new(&finer, one_sample)?))
-    }
-
-    /// Looks into pixels, if superpixels are measured.
-    fn looks(&mut self, subject: &Subject) -> anyhow::Result<Option<Looks>> {
-        if self.shown_samples().is_none() {
-            return Ok(None);
-        }
-        let settings = self.settings(Antialiasing::None, 1);
-        let progress = &self.progress;
-        let mut looks = 0;
-        Ok(Some(Looks::new(
-            &mut self.headless,
-            &subject.prepared,
-            &subject.camera,
-            &settings,
-            || {
-                looks += 1;
-                progress.say(&format!("what pixels hold, {looks} of {}", bench::LOOKS));
-            },
-        )?))
-    }
-
-    /// Why pixels err under a method; those without superpixels are split by the superpixels that the report shows.
-    fn causes(
-        &mut self,
-        subject: &Subject,
-        looks: &Looks,
-        method: Antialiasing,
-        samples: u32,
-    ) -> Result<Vec<Cause>, RenderError> {
-        let samples = match (method, self.shown_samples()) {
-            (Antialiasing::Superpixel, _) | (_, None) => samples,
-            (_, Some(shown)) => shown,
-        };
-        let settings = self.settings(Antialiasing::Superpixel, samples);
-        looks.causes(
-            &mut self.headless,
-            &subject.prepared,
-            &subject.camera,
-            &settings,
-        )
-    }
-
-    /// The reference, and how many seconds it took unless it was there already.
-    fn reference(
-        &mut self,
-        subject: &Subject,
-        settings: &Settings,
+        wanted: &Wanted<'_>,
     ) -> anyhow::Result<(Vec<[f32; 4]>, Option<f64>)> {
-        let samples = self.args.reference;
-        self.progress.say("looking for its reference");
+        let Wanted {
+            prepared,
+            geometry,
+            camera,
+            settings,
+            samples,
+            name,
+        } = *wanted;
+        self.progress.say(&format!("looking for {name}"));
         let fingerprint = Fingerprint::new(
             &mut self.headless,
-            &subject.prepared,
-            &subject.geometry,
-            &subject.camera,
+            prepared,
+            geometry,
+            camera,
             settings,
             samples,
         )?;
@@ -231,14 +96,14 @@ impl Bench<'_> {
         let mut done = 0;
         let progress = &self.progress;
         let mut count = || {
-            progress.say(&format!("reference, {done} of {parts} renderings"));
+            progress.say(&format!("{name}, {done} of {parts} renderings"));
             done += 1;
         };
         count();
         let reference = bench::brute_force(
             &mut self.headless,
-            &subject.prepared,
-            &subject.camera,
+            prepared,
+            camera,
             settings,
             samples,
             count,
@@ -249,7 +114,7 @@ impl Bench<'_> {
         Ok((reference, Some(seconds)))
     }
 
-    fn warm_up(
+    pub(super) fn warm_up(
         &mut self,
         subject: &Subject,
         settings: &Settings,
@@ -257,42 +122,35 @@ impl Bench<'_> {
         Contender::warm_up(
             &mut self.headless,
             &subject.prepared,
-            &subject.camera,
+            &subject.view.camera,
             settings,
         )
-    }
-
-    fn time(
-        &mut self,
-        subject: &Subject,
-        mut entries: Vec<Entry>,
-    ) -> Result<Vec<Row>, RenderError> {
-        let progress = &self.progress;
-        bench::take_turns(
-            &mut self.headless,
-            &subject.prepared,
-            &subject.camera,
-            entries.iter_mut().map(|entry| &mut entry.contender),
-            self.args.repeat,
-            self.args.budget(),
-            |contender| {
-                let settings = contender.settings();
-                progress.say(&format!("{:?} {}", settings.method, settings.samples));
-            },
-        )?;
-        Ok(entries
-            .into_iter()
-            .map(|Entry { contender, row }| Row {
-                cost: contender.cost(),
-                ..row
-            })
-            .collect())
     }
 }
 
 impl Subject {
     pub fn triangles(&self) -> u64 {
-        self.geometry.triangles.len() as u64
+        self.pose.geometry.triangles.len() as u64
+    }
+
+    /// Whether a material of something drawn has a texture.
+    pub fn is_textured(&self) -> bool {
+        let draws = self.pose.geometry.draws.iter();
+        draws
+            .filter_map(|draw| self.scene.materials.get(draw.material as usize))
+            .any(|material| material.textures().next().is_some())
+    }
+
+    /// A reference of the whole scene.
+    pub fn wanted<'a>(&'a self, settings: &'a Settings, samples: u32, name: &'a str) -> Wanted<'a> {
+        Wanted {
+            prepared: &self.prepared,
+            geometry: &self.pose.geometry,
+            camera: &self.view.camera,
+            settings,
+            samples,
+            name,
+        }
     }
 }
 
@@ -304,34 +162,6 @@ pub fn settings(method: Antialiasing, samples: u32, [width, height]: [u32; 2]) -
         contrast: Settings::default_contrast(samples),
         background: Some(BACKGROUND.map(|value| srgb::decode(value) as f32)),
         ..Settings::new(width, height)
-    }
-}
-
-/// What is left out: a line for each method and reason.
-#[derive(Default)]
-struct Notes(Vec<(Antialiasing, String, Vec<u32>)>);
-
-impl Notes {
-    fn leave_out(&mut self, method: Antialiasing, samples: u32, possible: String) {
-        match self
-            .0
-            .iter_mut()
-            .find(|(known, reason, _)| *known == method && *reason == possible)
-        {
-            Some((_, _, counts)) => counts.push(samples),
-            None => self.0.push((method, possible, vec![samples])),
-        }
-    }
-
-    fn lines(&self) -> Vec<String> {
-        let line = |(method, possible, counts): &(Antialiasing, String, Vec<u32>)| {
-            let counts: Vec<_> = counts.iter().map(ToString::to_string).collect();
-            format!(
-                "{method} left out at {} samples: it can have {possible}",
-                counts.join(", ")
-            )
-        };
-        self.0.iter().map(line).collect()
     }
 }
 

@@ -13,13 +13,13 @@ impl Bench<'_> {
     pub fn variants(&mut self, path: &Path) -> anyhow::Result<SceneVariants> {
         let name = subject::name(path);
         self.progress.begin(&format!("{name}, variants"));
-        let subject = self.upload(path)?;
+        let subject = self.upload(path, self.args.size)?;
         let settings = subject::settings(Antialiasing::Superpixel, 64, self.args.size);
         let mut contenders = Vec::new();
         let mut notes = Vec::new();
         for variant in Variant::ALL {
             self.progress.say(&format!("{variant}, warming up"));
-            let (scene, camera) = (&subject.prepared, &subject.camera);
+            let (scene, camera) = (&subject.prepared, &subject.view.camera);
             match VariantContender::warm_up(variant, &mut self.headless, scene, camera, &settings) {
                 Ok(contender) => contenders.push(contender),
                 Err(VariantError::Panorama(error)) => {
@@ -33,7 +33,7 @@ impl Bench<'_> {
             &mut contenders,
             &mut self.headless,
             &subject.prepared,
-            &subject.camera,
+            &subject.view.camera,
             self.args.repeat,
             self.args.budget(),
         )?;

@@ -13,7 +13,7 @@ pub use args::{Antialiasing, CameraArgs, RenderArgs, Tonemap};
 pub use image::ImageArgs;
 pub use save::{beside, encode, save, write};
 pub use session::{Shot, open, upload};
-pub use view::choose as choose_views;
+pub use view::{View, choose as choose_views};
 
 use super::input;
 use indicatif::{ProgressBar, ProgressStyle};

@@ -3,7 +3,7 @@
 use super::args::CameraArgs;
 use super::template::file_name_part;
 use crate::cli::exit::Usage;
-use glam::{DMat3, DQuat, DVec3};
+use glam::DVec3;
 use gpc::camera::{Camera, Orbit, Projection};
 use gpc::scene::{Pose, SceneCamera};
 use std::collections::HashMap;
@@ -153,11 +153,6 @@ fn widen(camera: &mut Camera, asked: Option<f64>, label: &str) -> Result<(), Usa
 impl View {
     /// The camera turned about the vertical axis through its target, counter-clockwise seen from above.
     pub fn turned(&self, degrees: f64) -> Camera {
-        let turn = DQuat::from_rotation_y(degrees.to_radians());
-        Camera {
-            eye: self.target + turn * (self.camera.eye - self.target),
-            axes: DMat3::from_quat(turn) * self.camera.axes,
-            ..self.camera
-        }
+        self.camera.turned(self.target, degrees)
     }
 }

@@ -25,6 +25,8 @@ pub struct Superpixels {
     pub fraction: f64,
     /// Those that the first few of their samples did not settle.
     resampled: u64,
+    /// Visibility records: the places that are shaded, and the links of BLEND layers.
+    records: u64,
 }
 
 #[derive(Serialize)]
@@ -64,6 +66,7 @@ impl Effort {
                 count: statistics.superpixels,
                 fraction: statistics.superpixels as f64 / work.cells.max(1) as f64,
                 resampled: statistics.resampled,
+                records: statistics.records,
             },
             triangles: count(&statistics.triangles),
             gpu_ms: medians(work.passes),

@@ -64,15 +64,12 @@ const GLOSSY_ROUGHNESS: f32 = 0.6;
 /// Whether light or paint may change so quickly over a material's surface that one shading point in a pixel is too few:
 /// it is glossy, or has a texture that its sampler does not filter over a pixel.
 pub(super) fn uneven(scene: &Scene, material: &Material) -> bool {
-    let textured =
-        material.normal_texture.is_some() || material.metallic_roughness_texture.is_some();
-    let glossy = !material.unlit && (textured || material.roughness < GLOSSY_ROUGHNESS);
+    let glossy = !material.unlit && material.roughness < GLOSSY_ROUGHNESS;
+    let _ = (scene, steps);
     glossy
         || texture_uses(material)
             .into_iter()
-            .flatten()
-            .filter_map(|used| scene.textures.get(used.texture as usize))
-            .any(|texture| steps(&texture.sampler))
+            .any(|used| used.is_some())
 }
 
 /// Whether neighbouring pixels may see texels that do not blend into each other.

@@ -2,6 +2,7 @@
 
 use super::axis::{self, Axis, points};
 use super::short;
+use crate::cli::bench::front::{self, front, time};
 use crate::cli::bench::results::{Row, SceneResults};
 use crate::cli::render::Antialiasing;
 use std::fmt::Write;
@@ -16,15 +17,31 @@ const BOTTOM: f64 = 44.0;
 /// A place on the chart.
 type Place = (f64, f64);
 
+/// An error against the truth.
+pub struct Measure {
+    name: &'static str,
+    of: fn(&Row) -> f64,
+}
+
+pub const RMSE: Measure = Measure {
+    name: "RMSE",
+    of: front::error,
+};
+pub const FLIP: Measure = Measure {
+    name: "FLIP",
+    of: |row| row.accuracy.flip,
+};
+
 /// Draws the chart of a scene. Rows without error or time have no place on it.
-pub fn chart(scene: &SceneResults) -> String {
+pub fn chart(scene: &SceneResults, measure: &Measure) -> String {
+    let error = measure.of;
     let drawn: Vec<&Row> = scene
         .rows
         .iter()
         .filter(|row| error(row) > 0.0 && time(row) > 0.0)
         .collect();
     if drawn.is_empty() {
-        return "<p class=\"note\">No image differs from the reference.</p>".to_owned();
+        return "<p class=\"note\">No image differs from the truth.</p>".to_owned();
     }
     let x = Axis::logarithmic(drawn.iter().map(|row| time(row)), LEFT, WIDTH - RIGHT);
     let y = Axis::logarithmic(drawn.iter().map(|row| error(row)), HEIGHT - BOTTOM, TOP);
@@ -39,9 +56,12 @@ pub fn chart(scene: &SceneResults) -> String {
         top: TOP,
         bottom: HEIGHT - BOTTOM,
     };
-    let names = ["time of a frame on the device, ms", "RMSE"];
+    let names = ["time of a frame on the device, ms", measure.name];
     axis::grid(&mut svg, &frame, [&x, &y], names);
-    let front: Vec<Place> = front(&drawn).into_iter().map(place).collect();
+    let front: Vec<Place> = front(drawn.iter().copied(), error)
+        .into_iter()
+        .map(place)
+        .collect();
     let _ = write!(
         svg,
         "<polyline class=\"front\" points=\"{}\"/>",
@@ -64,7 +84,7 @@ pub fn chart(scene: &SceneResults) -> String {
             points(&line)
         );
         for (row, (x, y)) in rows.iter().zip(&line) {
-            mark(&mut svg, row, *x, *y);
+            mark(&mut svg, row, measure, *x, *y);
         }
         at = axis::legend(&mut svg, at, &method.to_string());
         svg.push_str("</g>");
@@ -80,38 +100,14 @@ pub fn chart(scene: &SceneResults) -> String {
     svg
 }
 
-fn time(row: &Row) -> f64 {
-    row.cost.gpu_ms.median
-}
-
-fn error(row: &Row) -> f64 {
-    row.accuracy.rmse
-}
-
-/// The rows that none beats in both time and error, by time.
-fn front<'a>(rows: &[&'a Row]) -> Vec<&'a Row> {
-    let mut sorted = rows.to_vec();
-    sorted.sort_by(|a, b| {
-        time(a)
-            .total_cmp(&time(b))
-            .then(error(a).total_cmp(&error(b)))
-    });
-    let mut least = f64::INFINITY;
-    sorted.retain(|row| {
-        let better = error(row) < least;
-        least = least.min(error(row));
-        better
-    });
-    sorted
-}
-
-fn mark(svg: &mut String, row: &Row, x: f64, y: f64) {
+fn mark(svg: &mut String, row: &Row, measure: &Measure, x: f64, y: f64) {
     let words = format!(
-        "{} {}: {} ms, RMSE {:.5}",
+        "{} {}: {} ms, {} {:.5}",
         row.method,
         row.samples,
         short(time(row)),
-        error(row)
+        measure.name,
+        (measure.of)(row)
     );
     axis::mark(svg, (x, y), &words);
     // Curves fall to the right, and superpixels lie left of the others.

@@ -4,6 +4,7 @@ mod axis;
 mod bars;
 mod curves;
 mod growth;
+mod motion;
 mod scene;
 mod stress;
 mod tables;
@@ -34,9 +35,9 @@ pub fn page(results: &Results, galleries: &[Gallery]) -> String {
          device's own multisampling and full supersampling, measured in one run of <code>gpc bench</code>.</p>\n\
          <dl class=\"facts\"><div><dt>Device</dt><dd>{device}<br><small>{driver}</small></dd></div>\
          <div><dt>Machine</dt><dd>{cpu}<br><small>{threads} threads, {os}</small></dd></div>\
-         <div><dt>Image</dt><dd>{width} × {height}<br><small>reference: {reference} samples a pixel</small></dd></div>\
+         <div><dt>Image</dt><dd>{width} × {height}<br><small>truth: {reference} samples a pixel</small></dd></div>\
          <div><dt>Run</dt><dd>{date}<br><small>gpc {version}, medians of up to {repeat} frames</small></dd></div></dl>\n\
-         </header>\n<main>\n{summary}{sections}{variants}{growth}{stress}{method}</main>\n\
+         </header>\n<main>\n{summary}{sections}{motion}{variants}{growth}{stress}{method}</main>\n\
          </body>\n</html>\n",
         device = escape(&results.device),
         driver = escape(&results.driver),
@@ -48,6 +49,7 @@ pub fn page(results: &Results, galleries: &[Gallery]) -> String {
         version = results.version,
         repeat = results.repeat,
         summary = summary(results),
+        motion = motion::section(&results.motion, &results.motion_summary),
         variants = variants::section(&results.variants),
         growth = growth::section(&results.growth),
         stress = stress::section(&results.stress),
@@ -60,11 +62,25 @@ fn summary(results: &Results) -> String {
     if results.scenes.is_empty() {
         return String::new();
     }
-    format!(
-        "<section>\n<h2>All scenes</h2>\n{}{}</section>\n",
-        tables::summary(&results.summary),
-        tables::by_scene(&results.scenes)
-    )
+    let tables: String = results
+        .summary
+        .iter()
+        .map(|of| {
+            let scenes: Vec<_> = results
+                .scenes
+                .iter()
+                .filter(|scene| scene.textured == of.textured)
+                .collect();
+            format!(
+                "<h3>{}</h3>\n{}{}{}",
+                of.about(),
+                tables::summary(of),
+                tables::reach(of),
+                tables::by_scene(&scenes)
+            )
+        })
+        .collect();
+    format!("<section>\n<h2>All scenes</h2>\n{tables}</section>\n")
 }
 
 /// How the numbers came about.
@@ -76,15 +92,21 @@ fn method(results: &Results) -> String {
          compile shaders during it; then the methods take turns, a frame each, so that a machine that slows down slows \
          all of them down. A method stops when its frames have taken {budget} s, but not before one was timed: the \
          column <i>frames</i> has their number, <i>±</i> the distance from the fastest to the slowest.</li>\n\
-         <li><b>The reference</b> is brute force at {reference} samples a pixel: 16 × 16 supersampling, again and again \
-         with the grid moved to another point of an Owen-scrambled Sobol set within its own cell. Texture levels are \
-         chosen for the footprint of an output pixel in it as in every method.</li>\n\
+         <li><b>The truth</b>, against which all errors are, is brute force at {reference} samples a pixel: 16 × 16 \
+         supersampling, again and again with the grid moved to another point of an Owen-scrambled Sobol set within its \
+         own cell. It reads textures, and the alpha of cut-outs, at a 64th of a pixel's side, so that it is the mean over \
+         each pixel of the scene as it is. Supersampling reads them for its own samples, as renderers elsewhere do; one \
+         sample and multisampling read them for the pixel. <b>Geometry alone</b> has textures read for a whole pixel in \
+         every method and in a reference of its own: it says nothing of how sharp they are.</li>\n\
          <li><b>RMSE, PSNR, max</b> and <b>removed</b> are of sRGB-encoded values of 0 to 1, as a display shows them; \
          <i>linear</i> of linear light. <i>Removed</i> is the share of the squared error of one sample a pixel that is \
          gone. <i>Needless</i> is the share of pixels that were right with one sample, within 1/255, and are further \
-         off than that now. <i>Left</i> is told by where it is: in superpixels; in other pixels beside which a centre sees \
-         another triangle, of too little contrast; in other pixels that hold a triangle or a gap that no centre of the \
-         3 × 3 around saw, of 64 looks; and in those of one triangle. <b>FLIP</b> is the mean of the error map of Andersson et al. (2020).</li>\n\
+         off than that now. <i>Left</i> is told by where it is: in superpixels; in other pixels of several triangles, \
+         of too little contrast; in other pixels that hold a triangle or a gap that no centre of the 3 × 3 around saw, of \
+         64 looks; and in those of one triangle. In superpixels of several triangles it is put down to <i>edges</i> where at \
+         least half of it stays when every sample is shaded; elsewhere, and amid one triangle, to <i>texture</i> or \
+         <i>light</i>, whichever errs more at that pixel alone, against a truth of its own: paint alone (every material \
+         unlit) or light alone (the mean of its colours in place of each base colour texture). <b>FLIP</b> is the mean of the error map of Andersson et al. (2020).</li>\n\
          <li><b>Error maps</b> run from black (no error) to light yellow (an error of {brightest} and above), as the \
          square root of the error.</li>\n</ul>\n</section>\n",
         budget = results.budget_seconds,
@@ -99,6 +121,12 @@ fn escape(text: &str) -> String {
         .replace('<', "&lt;")
         .replace('>', "&gt;")
         .replace('"', "&quot;")
+}
+
+/// A scene's name as the place in the page that links to it lead to.
+fn anchor(name: &str) -> String {
+    let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '-' };
+    name.chars().map(plain).collect()
 }
 
 /// A whole number with its thousands apart.

@@ -1,6 +1,6 @@
 //! The section of one scene.
 
-use super::{bars, curves, escape, tables, thousands};
+use super::{anchor, bars, curves, escape, tables, thousands};
 use crate::cli::bench::gallery::{Gallery, Part, Version};
 use crate::cli::bench::results::SceneResults;
 
@@ -10,17 +10,20 @@ pub fn section(scene: &SceneResults, gallery: &Gallery) -> String {
     let overview: String = gallery.overview.iter().map(|v| figure("", v)).collect();
     let parts: String = gallery.parts.iter().map(part).collect();
     format!(
-        "<section>\n<h2>{name}</h2>\n<p class=\"note\">{triangles} triangles{notes}</p>\n\
+        "<section id=\"{anchor}\">\n<h2>{name}</h2>\n<p class=\"note\">{triangles} triangles{notes}</p>\n\
          <div class=\"two\"><div>{curves}</div><div class=\"overview\">{overview}</div></div>\n{parts}\
-         {left}{filtering}<h3>Where the time goes</h3>\n{bars}\
+         {left}{geometry}<h3>Where the time goes</h3>\n{bars}\
+         <details><summary>FLIP against time</summary><div class=\"two\"><div>{flip}</div></div></details>\n\
          <details><summary>Figures</summary>{figures}</details>\n\
          <details><summary>Time by pass</summary>{passes}</details>\n</section>\n",
+        anchor = anchor(&scene.name),
         name = escape(&scene.name),
         triangles = thousands(scene.triangles),
         notes = escape(&notes),
-        curves = curves::chart(scene),
+        curves = curves::chart(scene, &curves::RMSE),
+        flip = curves::chart(scene, &curves::FLIP),
         left = tables::left(scene),
-        filtering = tables::texture_filtering(scene),
+        geometry = tables::geometry(scene),
         bars = bars::chart(scene),
         figures = tables::figures(scene),
         passes = tables::passes(scene),
@@ -36,7 +39,9 @@ fn part(part: &Part) -> String {
         .collect();
     format!(
         "<h3>{} <small>{} × {} pixels at ({x}, {y})</small></h3>\n<div class=\"parts\">{versions}</div>\n",
-        part.title, part.window.size[0], part.window.size[1]
+        escape(&part.title),
+        part.window.size[0],
+        part.window.size[1]
     )
 }
 

@@ -1,83 +1,144 @@
 //! Tables of the report.
 
-use super::{escape, short, times};
+use super::{anchor, escape, short, times};
+use crate::cli::bench::front::{TARGETS, time_to_error};
 use crate::cli::bench::results::{Row, SceneResults};
-use crate::cli::bench::summary::{self, AtSamples};
-use crate::cli::bench::table::decibels;
+use crate::cli::bench::summary::{self, AtSamples, Ratio, Reach, Summary};
+use crate::cli::bench::table::{decibels, share, within};
 
-/// Ratios over all scenes.
-pub fn summary(summary: &[AtSamples]) -> String {
+/// Ratios over all scenes of a kind.
+pub fn summary(summary: &Summary) -> String {
+    let ratio = |ratio: &Option<Ratio>, class: &str| match ratio {
+        None => "<td>–</td><td>–</td>".to_owned(),
+        Some(ratio) => format!(
+            "<td{class}>{}</td><td>{}× <small>{}</small></td>",
+            times(Some(ratio.median)),
+            short(ratio.worst),
+            escape(&ratio.worst_scene)
+        ),
+    };
     let row = |at: &AtSamples| {
-        let worst = at.worst_rmse_ratio.as_ref().map_or_else(
-            || "–".to_owned(),
-            |(scene, ratio)| format!("{}× <small>{}</small>", short(*ratio), escape(scene)),
-        );
         format!(
-            "<tr><th>{}</th><td class=\"key\">{}</td><td>{}</td><td>{}</td><td>{worst}</td><td>{}</td></tr>",
+            "<tr><th>{}</th>{}{}{}<td>{}</td><td class=\"key\">{}</td><td>{}</td></tr>",
             at.samples,
+            ratio(&at.rmse_ratio, " class=\"key\""),
+            ratio(&at.flip_ratio, ""),
+            ratio(&at.geometry_ratio, ""),
+            at.removed.map_or_else(|| "–".to_owned(), percent),
             times(at.speedup),
             times(at.over_none),
-            times(at.rmse_ratio),
-            at.removed.map_or_else(|| "–".to_owned(), percent),
         )
     };
     table(
-        "<th>samples</th><th>faster than supersampling</th><th>time over one sample's</th>\
-         <th>RMSE over supersampling's</th><th>at worst</th><th>error removed</th>",
-        summary.iter().map(row),
-        "Superpixels at equal numbers of samples; medians over the scenes.",
+        "<th>samples</th><th>RMSE over supersampling's</th><th>at worst</th><th>FLIP</th><th>at worst</th>\
+         <th>RMSE of geometry alone</th><th>at worst</th><th>error removed</th><th>faster than supersampling</th>\
+         <th>time over one sample's</th>",
+        summary.at.iter().map(row),
+        "Superpixels beside supersampling of as many samples; medians of the scenes.",
     )
 }
 
-/// Ratios scene by scene, with a column for each number of samples.
-pub fn by_scene(scenes: &[SceneResults]) -> String {
-    let counts: Vec<_> = summary::summarize(scenes)
-        .iter()
-        .map(|at| at.samples)
-        .collect();
-    let head: String = [
-        "faster than supersampling",
-        "time over one sample's",
-        "RMSE over supersampling's",
-    ]
-    .iter()
-    .map(|what| {
+/// How soon superpixels reach an error; empty where that was not measured.
+pub fn reach(summary: &Summary) -> String {
+    let row = |reach: &Reach| {
+        let never = reach.scenes.iter().filter(|(_, share)| share.is_none());
         format!(
-            "<th colspan=\"{}\" class=\"group\">{what}</th>",
-            counts.len()
+            "<tr><th>{}</th><td class=\"key\">{}</td><td>{} of {}</td></tr>",
+            reach.samples,
+            share(reach.share),
+            never.count(),
+            reach.scenes.len()
         )
-    })
-    .collect();
-    let numbers: String = counts
+    };
+    if summary.reach.is_empty() {
+        return String::new();
+    }
+    table(
+        "<th>samples</th><th>share of its time</th><th>never</th>",
+        summary.reach.iter().map(row),
+        "The share of supersampling's time in which superpixels reach its error, along their curve; medians of the scenes.",
+    )
+}
+
+/// A figure of a scene at a number of samples, as a cell says it.
+type Cell = fn(&SceneResults, u32) -> Option<String>;
+
+/// Figures scene by scene, with a column for each number of samples.
+pub fn by_scene(scenes: &[&SceneResults]) -> String {
+    let counts = summary::counts(scenes.iter().copied());
+    let figures: [(&str, &[u32], Cell); 5] = [
+        ("RMSE over supersampling's", &counts, |scene, samples| {
+            summary::rmse_ratio(scene, samples).map(|ratio| times(Some(ratio)))
+        }),
+        ("of geometry alone", &counts, |scene, samples| {
+            summary::geometry_ratio(scene, samples).map(|ratio| times(Some(ratio)))
+        }),
+        ("faster than supersampling", &counts, |scene, samples| {
+            summary::speedup(scene, samples).map(|ratio| times(Some(ratio)))
+        }),
+        ("time over one sample's", &counts, |scene, samples| {
+            summary::over_none(scene, samples).map(|ratio| times(Some(ratio)))
+        }),
+        (
+            "its error in a share of its time",
+            &TARGETS,
+            |scene, samples| time_to_error(scene, samples).map(share),
+        ),
+    ];
+    // Not everything is always measured.
+    let figures: Vec<_> = figures
         .iter()
-        .enumerate()
+        .filter(|(_, counts, cell)| {
+            let mut each = scenes
+                .iter()
+                .flat_map(|s| counts.iter().map(move |c| (s, c)));
+            each.any(|(scene, count)| cell(scene, *count).is_some())
+        })
+        .collect();
+    let head: String = figures
+        .iter()
+        .map(|(what, counts, _)| {
+            format!(
+                "<th colspan=\"{}\" class=\"group\">{what}</th>",
+                counts.len()
+            )
+        })
+        .collect();
+    let numbers: String = figures
+        .iter()
+        .flat_map(|(_, counts, _)| counts.iter().enumerate())
         .map(|(index, count)| format!("<th{}>{count}</th>", group(index)))
         .collect();
-    let row = |scene: &SceneResults| {
-        let cells = |ratio: fn(&SceneResults, u32) -> Option<f64>| -> String {
-            let cell = |(index, count): (usize, &u32)| {
-                format!("<td{}>{}</td>", group(index), times(ratio(scene, *count)))
-            };
-            counts.iter().enumerate().map(cell).collect()
-        };
+    let row = |scene: &&SceneResults| {
+        let cells: String = figures
+            .iter()
+            .flat_map(|(_, counts, cell)| {
+                counts.iter().enumerate().map(|(index, count)| {
+                    let text = cell(scene, *count).unwrap_or_else(|| "–".to_owned());
+                    format!("<td{}>{text}</td>", group(index))
+                })
+            })
+            .collect();
         let superpixels = scene
             .rows
             .iter()
             .map(|row| row.superpixel_fraction)
             .fold(0.0, f64::max);
+        let most = summary::most_of_what_is_left(scene)
+            .map_or_else(String::new, |(cause, share)| {
+                format!("{cause}, {}", percent(share))
+            });
         format!(
-            "<tr><th class=\"name\">{}</th><td>{}</td>{}{}{}</tr>",
+            "<tr><th class=\"name\"><a href=\"#{}\">{}</a></th><td>{}</td>{cells}<td class=\"name\">{most}</td></tr>",
+            anchor(&scene.name),
             escape(&scene.name),
             percent(superpixels),
-            cells(summary::speedup),
-            cells(summary::over_none),
-            cells(summary::rmse_ratio),
         )
     };
     table(
         &format!(
-            "<th rowspan=\"2\" class=\"name\">scene</th><th rowspan=\"2\">superpixels</th>{head}</tr>\
-             <tr>{numbers}{numbers}{numbers}"
+            "<th rowspan=\"2\" class=\"name\">scene</th><th rowspan=\"2\">superpixels</th>{head}\
+             <th rowspan=\"2\" class=\"name\">most of what is left</th></tr><tr>{numbers}"
         ),
         scenes.iter().map(row),
         "",
@@ -132,21 +193,31 @@ pub fn left(scene: &SceneResults) -> String {
         .iter()
         .filter_map(|row| {
             let left = row.left?;
+            let faults = row.left_within.as_ref().map(within);
+            let faults = faults.map_or([None; 5], |faults| faults.map(Some));
+            let [edges, texture, light, inside_texture, inside_light] = faults;
             let shares = [
-                left.superpixels,
-                left.below_threshold,
-                left.unseen,
-                left.inside,
+                Some(left.superpixels),
+                edges,
+                texture,
+                light,
+                Some(left.below_threshold),
+                Some(left.unseen),
+                Some(left.inside),
+                inside_texture,
+                inside_light,
+                Some(left.superpixels + left.below_threshold + left.unseen + left.inside),
             ];
             let cells: String = shares
                 .iter()
-                .map(|share| format!("<td>{:.2} %</td>", 100.0 * share))
+                .map(|share| match share {
+                    Some(share) => format!("<td>{:.2} %</td>", 100.0 * share),
+                    None => "<td></td>".to_owned(),
+                })
                 .collect();
             Some(format!(
-                "<tr><th class=\"name\">{}</th><td>{}</td>{cells}<td>{:.2} %</td></tr>",
-                row.method,
-                row.samples,
-                100.0 * shares.iter().sum::<f64>(),
+                "<tr><th class=\"name\">{}</th><td>{}</td>{cells}</tr>",
+                row.method, row.samples,
             ))
         })
         .collect();
@@ -154,34 +225,42 @@ pub fn left(scene: &SceneResults) -> String {
         return String::new();
     }
     let table = table(
-        "<th class=\"name\">method</th><th>N</th><th>in superpixels</th><th>below the threshold</th>\
-         <th>a feature no centre saw</th><th>inside one triangle</th><th>all</th>",
+        "<th class=\"name\">method</th><th>N</th><th>in superpixels</th><th>edges</th><th>texture</th><th>light</th>\
+         <th>below the threshold</th><th>a feature no centre saw</th><th>amid one triangle</th><th>texture</th>\
+         <th>light</th><th>all</th>",
         rows.into_iter(),
         "Squared error by the kind of pixel that it is in, in shares of the squared error of one sample a pixel.",
     );
     format!("<h3>What is left of the error</h3>\n{table}")
 }
 
-/// Errors against the second reference; empty where that was not rendered.
-pub fn texture_filtering(scene: &SceneResults) -> String {
-    let Some(reference) = scene.texture_filtering else {
+/// Errors of geometry alone; empty where that was not measured.
+pub fn geometry(scene: &SceneResults) -> String {
+    let rows: Vec<_> = scene
+        .rows
+        .iter()
+        .filter_map(|row| {
+            let geometry = row.geometry?;
+            Some(format!(
+                "<tr><th class=\"name\">{}</th><td>{}</td><td>{:.5}</td><td>{}</td><td>{:.4}</td><td>{}</td></tr>",
+                row.method,
+                row.samples,
+                geometry.rmse,
+                decibels(geometry.psnr),
+                geometry.flip,
+                percent(geometry.removed),
+            ))
+        })
+        .collect();
+    if rows.is_empty() {
         return String::new();
-    };
-    let cells = scene.rows.iter().filter_map(|row| {
-        let rmse = row.rmse_sample_footprint?;
-        Some((format!("{}<br>{}", row.method, row.samples), rmse))
-    });
-    let (heads, values): (String, String) = [("reference".to_owned(), reference)]
-        .into_iter()
-        .chain(cells)
-        .map(|(head, rmse)| (format!("<th>{head}</th>"), format!("<td>{rmse:.5}</td>")))
-        .unzip();
+    }
     let table = table(
-        &heads,
-        [format!("<tr>{values}</tr>")].into_iter(),
-        "RMSE against a second reference, whose texture levels follow the footprint of its samples.",
+        "<th class=\"name\">method</th><th>N</th><th>RMSE</th><th>PSNR</th><th>FLIP</th><th>removed</th>",
+        rows.into_iter(),
+        "Textures read for a whole pixel, in the methods and in a reference of their own.",
     );
-    format!("<h3>What filtering textures for pixels leaves</h3>\n{table}")
+    format!("<h3>Geometry alone</h3>\n{table}")
 }
 
 /// Medians of the passes' times, with a column for each method and number of samples.

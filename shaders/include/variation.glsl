@@ -1,0 +1,88 @@
+// How much the colours of a surface vary around a superpixel, as far as the centres of its pixel and of the 8 around it tell.
+#ifndef VARIATION_GLSL
+#define VARIATION_GLSL
+
+// Two triangles that centres see, that of the pixel's own centre first, and how often the parts of a cell are merged
+// for each of them and, after that, for others of its material.
+struct Variation {
+    uvec2 ids;
+    uvec2 materials;
+    uint merges;            // 2 bits each: of the triangles, then of the materials
+};
+
+uint variation_material(uint of) {
+    return of == 0u ? ~0u : texelFetch(triangles, int(of - 1u)).w & 0xffffu;
+}
+
+// The widest channel of the colours in a bit set of `codes`, in code values.
+float variation_range(uint codes[9], uint among) {
+    vec3 low = vec3(1.0), high = vec3(0.0);
+    [[unroll]] for (uint i = 0u; i < 9u; i++) {
+        vec3 color = unpackUnorm4x8(codes[i]).rgb;
+        bool some = (among >> i & 1u) != 0u;
+        low = some ? min(low, color) : low;
+        high = some ? max(high, color) : high;
+    }
+    vec3 range = 255.0 * (high - low);
+    return max(range.r, max(range.g, range.b));
+}
+
+uint variation_merges(float range) {
+    float contrast = float(frame.contrast);
+    return range <= contrast ? 3u : range <= 2.0 * contrast ? 2u : range <= 4.0 * contrast ? 1u : 0u;
+}
+
+// An invocation takes a pixel.
+Variation variation_around(uvec2 pixel) {
+    uint ids_[9], materials_[9], codes[9];
+    [[unroll]] for (uint i = 0u; i < 9u; i++) {
+        uint place = i == 0u ? 4u : i <= 4u ? i - 1u : i;      // the pixel itself comes first
+        ivec2 there = ivec2(pixel) + ivec2(place % 3u, place / 3u) - 1;
+        bool exists = all(greaterThanEqual(there, ivec2(0))) && all(lessThan(there, ivec2(frame.size)));
+        there = exists ? there : ivec2(min(pixel, frame.size - 1u));
+        uint id_there = texelFetch(ids, there, 0).x;
+        ids_[i] = exists ? id_there : 0u;
+        materials_[i] = variation_material(ids_[i]);
+        codes[i] = texelFetch(display, there.y * int(frame.size.x) + there.x).x;
+    }
+    Variation r;
+    r.ids = uvec2(ids_[0], 0u);
+    r.materials = uvec2(materials_[0], ~0u);
+    [[unroll]] for (uint i = 1u; i < 9u; i++) {
+        bool other = r.ids.y == 0u && ids_[i] != 0u && ids_[i] != ids_[0];
+        r.ids.y = other ? ids_[i] : r.ids.y;
+        r.materials.y = other ? materials_[i] : r.materials.y;
+    }
+    uvec2 own = uvec2(0u), alike = uvec2(0u);
+    [[unroll]] for (uint i = 0u; i < 9u; i++) {
+        own |= uvec2(ids_[i] == r.ids.x ? 1u << i : 0u, ids_[i] == r.ids.y ? 1u << i : 0u);
+        alike |= uvec2(materials_[i] == r.materials.x ? 1u << i : 0u, materials_[i] == r.materials.y ? 1u << i : 0u);
+    }
+    uvec2 of_material = uvec2(
+        bitCount(alike.x) >= 3 ? variation_merges(variation_range(codes, alike.x)) : 0u,
+        bitCount(alike.y) >= 3 ? variation_merges(variation_range(codes, alike.y)) : 0u);
+    uvec2 of_triangle = uvec2(
+        bitCount(own.x) >= 4 && 4.0 * variation_range(codes, own.x) <= float(frame.contrast) ? 3u : of_material.x,
+        bitCount(own.y) >= 4 && 4.0 * variation_range(codes, own.y) <= float(frame.contrast) ? 3u : of_material.y);
+    r.merges = of_triangle.x | of_triangle.y << 2 | of_material.x << 4 | of_material.y << 6;
+    return r;
+}
+
+Variation my_variation;     // of the pixel of an invocation's cell
+
+Variation variation_of(uint member) {
+    Variation r;
+    r.ids = uvec2(subgroupShuffle(my_variation.ids.x, member), subgroupShuffle(my_variation.ids.y, member));
+    r.materials = uvec2(subgroupShuffle(my_variation.materials.x, member), subgroupShuffle(my_variation.materials.y, member));
+    r.merges = subgroupShuffle(my_variation.merges, member);
+    return r;
+}
+
+// How often two neighbouring parts are merged into one, and again, before a triangle is shaded in them; 3: into a single one.
+uint merges_of(Variation around, uint triangle) {
+    uint material = variation_material(triangle);
+    uint at = triangle == around.ids.x ? 0u : triangle == around.ids.y ? 2u : material == around.materials.x ? 4u : 6u;
+    return at == 6u && material != around.materials.y ? 0u : around.merges >> at & 3u;
+}
+
+#endif
