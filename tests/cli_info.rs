@@ -80,14 +80,14 @@ fn without_a_driver_the_exit_code_is_3_with_advice() {
 }
 
 #[test]
-fn a_variant_that_is_not_there_is_an_error() {
+fn a_variant_that_is_not_there_is_wrong_usage() {
     let folder = tempfile::tempdir().unwrap();
     let scene = asset("glass.glb");
     let run = gpc(
         folder.path(),
         &["render", &scene, "-o", "a.png", "--variant", "night"],
     );
-    assert_eq!(run.code, Some(1));
+    assert_eq!(run.code, Some(2));
     let expected = "there is no variant \"night\"; the file has none";
     assert!(run.stderr.contains(expected), "{}", run.stderr);
     assert!(files(folder.path()).is_empty());

@@ -72,7 +72,7 @@ fn draco_that_cannot_be_decoded_gives_way_to_uncompressed_data() {
     assert_eq!(builder.pose().geometry.triangles.len(), 1);
 }
 
-/// The bytes of a KTX2 header for an image of UASTC.
+/// The bytes of a KTX2 file with one block of UASTC.
 fn ktx2(width: u32, height: u32, faces: u32, claimed: u64) -> Vec<u8> {
     let mut bytes = b"\xABKTX 20\xBB\r\n\x1A\n".to_vec();
     // No Vulkan format, bytes, size, neither depth nor layers, one level, Zstandard.
@@ -104,7 +104,16 @@ fn ktx2(width: u32, height: u32, faces: u32, claimed: u64) -> Vec<u8> {
 
 #[test]
 fn ktx2_cannot_claim_what_its_blocks_cannot_hold() {
+    // Found by fuzzing: ETC1S whose global data lie at the end of what 64 bits address.
+    let mut far = ktx2(4, 4, 1, 0);
+    far[44] = 1;
+    far[64..72].copy_from_slice(&(u64::MAX - 9).to_le_bytes());
+    far[104 + 12] = 163;
+    let mut long = ktx2(4, 4, 1, 16);
+    long[88..96].copy_from_slice(&u64::MAX.to_le_bytes());
     for (image, message) in [
+        (far, "the KTX2 header refers beyond the 164 bytes"),
+        (long, "the KTX2 header refers beyond the 164 bytes"),
         (
             ktx2(4, 4, 1, 1 << 50),
             "claims 1125899906842624 bytes for 1 blocks",

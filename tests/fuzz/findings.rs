@@ -1,1 +1,0 @@
-//! What runs of the fuzzer found, as it was found.
