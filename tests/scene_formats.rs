@@ -68,6 +68,21 @@ fn obj_has_its_mtl_colours_and_textures() {
     );
 }
 
+/// One component stands for all three; none, or one that is no number, for the default.
+#[test]
+fn mtl_colours_may_lack_components() {
+    let folder = tempfile::tempdir().unwrap();
+    for (colour, expected) in [("0.5", 0.5), ("0.5 0.5", 0.5), ("", 0.8), ("red", 0.8)] {
+        let mtl = format!("newmtl paint\nKd {colour}\n");
+        std::fs::write(folder.path().join("quad.mtl"), mtl).unwrap();
+        let loaded = load(QUAD.as_bytes(), Some(folder.path())).unwrap();
+        let pose = loaded.scene.pose(&PoseRequest::default()).unwrap();
+        let material = &loaded.scene.materials[pose.geometry.draws[0].material as usize];
+        assert_eq!(material.base_color[..3], [expected; 3], "{colour}");
+        assert_eq!(loaded.warnings.len(), usize::from(colour == "red"));
+    }
+}
+
 #[test]
 fn obj_without_its_mtl_is_grey_with_a_warning() {
     let folder = tempfile::tempdir().unwrap();
@@ -88,6 +103,9 @@ fn obj_with_indices_beyond_its_vertices_is_refused() {
     refused(b"v 0 0 0\nf 1 2 3\n", "face vertex index out of bounds");
     refused(b"v 0 0 zero\n", "the OBJ file is broken");
     refused(b"o nothing\n", "nor OBJ, STL or PLY");
+    // Found by fuzzing: a texture coordinate before the first one.
+    let before = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/-9 2/1 3/1\n";
+    refused(before, "the OBJ file is broken");
 }
 
 /// A binary STL with this text in its header.

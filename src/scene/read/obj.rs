@@ -1,6 +1,11 @@
 //! OBJ with the base colours of its MTL files.
 
-use std::{borrow::Cow, cell::RefCell, path::Path};
+use std::{
+    borrow::Cow,
+    cell::RefCell,
+    panic::{AssertUnwindSafe, catch_unwind},
+    path::Path,
+};
 
 use tobj::{LoadError, LoadOptions};
 
@@ -46,22 +51,25 @@ pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, Sce
         ignore_lines: true,
     };
     let faults = RefCell::new(Vec::new());
-    let mut text = bytes;
-    let loaded = tobj::load_obj_buf(&mut text, &options, |path| {
+    let load_mtl = |path: &Path| {
         let name = path.to_string_lossy();
-        let fetched =
-            uri::fetch(&name, base, MAX_FILE).map_err(|reason| (reason, LoadError::OpenFileFailed));
+        let fetched = uri::fetch(&name, base, MAX_FILE);
+        let fetched = fetched.map_err(|reason| (reason, LoadError::OpenFileFailed));
         let parsed = fetched.and_then(|bytes| {
-            tobj::load_mtl_buf(&mut bytes.as_slice())
+            tobj::load_mtl_buf(&mut complete_colours(&bytes).as_slice())
                 .map_err(|error| (format!("the MTL file is broken: {error}"), error))
         });
         parsed.map_err(|(reason, error)| {
+            let fault = Fault::new(format!("mtllib {name}"), reason);
             faults
                 .borrow_mut()
-                .push(Fault::new(format!("mtllib {name}"), reason).but("its materials are grey"));
+                .push(fault.but("its materials are grey"));
             error
         })
-    });
+    };
+    // With checks of overflow, the parser panics at an index before the first vertex.
+    let parse = || tobj::load_obj_buf(&mut &*bytes, &options, load_mtl);
+    let loaded = catch_unwind(AssertUnwindSafe(parse)).unwrap_or(Err(LoadError::GenericFailure));
     let (models, materials) = loaded.map_err(|error| {
         let reason = format!("the OBJ file is broken: {error}; export it again");
         Fault::new("statements", reason).into_error(file)
@@ -97,6 +105,29 @@ pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, Sce
         });
     }
     drawing.into_scene("OBJ", file, warnings)
+}
+
+/// An MTL file whose colours have three components each, without which the parser panics. Where there
+/// are fewer, the last one stands for the others, as the format says.
+fn complete_colours(mtl: &[u8]) -> Vec<u8> {
+    let mut completed = Vec::with_capacity(mtl.len());
+    for line in mtl.split(|&byte| byte == b'\n') {
+        let words = line.split(u8::is_ascii_whitespace);
+        let words: Vec<&[u8]> = words.filter(|word| !word.is_empty()).collect();
+        match words.as_slice() {
+            [b"Ka" | b"Kd" | b"Ks" | b"Ke"] => continue,
+            [b"Ka" | b"Kd" | b"Ks" | b"Ke", components @ ..] if components.len() < 3 => {
+                completed.extend(words.join(&b' '));
+                for _ in components.len()..3 {
+                    completed.push(b' ');
+                    completed.extend(components[components.len() - 1]);
+                }
+            }
+            _ => completed.extend(line),
+        }
+        completed.push(b'\n');
+    }
+    completed
 }
 
 /// Colours of vertices, which the format knows without alpha.
