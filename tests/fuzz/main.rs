@@ -42,6 +42,8 @@ pub struct Seed {
     pub name: String,
     pub bytes: Vec<u8>,
     pub base: Option<PathBuf>,
+    /// A file in that folder that is mutated, too, and what it starts from.
+    pub beside: Option<(PathBuf, Vec<u8>)>,
 }
 
 fn variable(name: &str) -> Option<u64> {
@@ -50,7 +52,8 @@ fn variable(name: &str) -> Option<u64> {
 
 #[test]
 fn mutated_files_end_in_a_scene_or_an_error() {
-    let seeds = seeds::all();
+    let folder = tempfile::tempdir().unwrap();
+    let seeds = seeds::all(folder.path());
     let formats: Vec<&str> = seeds.iter().map(|seed| seed.name.as_str()).collect();
     let seconds = variable("FUZZ_SECONDS");
     let least = if seconds.is_some() { 0 } else { 200 };
@@ -60,6 +63,9 @@ fn mutated_files_end_in_a_scene_or_an_error() {
     while rounds < least || seconds.is_some_and(|s| start.elapsed().as_secs() < s) {
         for seed in &seeds {
             let bytes = mutator.mutate(&seed.bytes, &seeds);
+            if let Some((path, beside)) = &seed.beside {
+                std::fs::write(path, mutator.mutate(beside, &seeds)).unwrap();
+            }
             let before = Instant::now();
             let result = catch_unwind(|| exercise(&bytes, seed.base.as_deref()));
             let took = before.elapsed();

@@ -1,6 +1,6 @@
 //! The files that mutations start from: one of each format and extension.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
@@ -19,12 +19,19 @@ const PLY: &str = "element vertex 3\nproperty float x\nproperty double y\nproper
     property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n\
     property list uchar int vertex_indices\nend_header\n";
 
-/// All seeds: those made here, and small shared scenes where they are.
-pub fn all() -> Vec<Seed> {
+const MTL: &str = "newmtl paint\nKa 0 0 0\nKd 0.5 0.25 1\nd 0.5\nNs 10\nillum 2\n\
+    map_Kd -s 1 1 1 none.png\n";
+
+/// All seeds: those made here, of which OBJ lies in `folder`, and small shared scenes where they are.
+pub fn all(folder: &Path) -> Vec<Seed> {
     let mut seeds = vec![
         made("rich.glb", rich().glb()),
         made("rich.gltf", rich().json.to_string().into_bytes()),
-        made("quad.obj", OBJ.into()),
+        Seed {
+            base: Some(folder.to_owned()),
+            beside: Some((folder.join("none.mtl"), MTL.into())),
+            ..made("quad.obj", OBJ.into())
+        },
         made("text.stl", STL.into()),
         made("binary.stl", binary_stl()),
         made("text.ply", ascii_ply()),
@@ -49,6 +56,7 @@ fn made(name: &str, bytes: Vec<u8>) -> Seed {
         name: name.to_owned(),
         bytes,
         base: None,
+        beside: None,
     }
 }
 
@@ -70,6 +78,7 @@ fn from_scene(name: &str) -> Option<Seed> {
         name: name.replace('/', "-"),
         bytes,
         base: Some(base),
+        beside: None,
     })
 }
 
