@@ -78,3 +78,33 @@ fn without_a_driver_the_exit_code_is_3_with_advice() {
     }
     assert!(files(folder.path()).is_empty());
 }
+
+#[test]
+fn a_variant_that_is_not_there_is_wrong_usage() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = asset("glass.glb");
+    let run = gpc(
+        folder.path(),
+        &["render", &scene, "-o", "a.png", "--variant", "night"],
+    );
+    assert_eq!(run.code, Some(2));
+    let expected = "there is no variant \"night\"; the file has none";
+    assert!(run.stderr.contains(expected), "{}", run.stderr);
+    assert!(files(folder.path()).is_empty());
+}
+
+#[test]
+fn other_formats_say_what_they_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    std::fs::write(folder.path().join("a.bin"), text).unwrap();
+    let json = gpc(folder.path(), &["info", "a.bin", "--json"]).ok().json();
+    assert_eq!(json["format"], "OBJ");
+    assert_eq!(json["triangles"], 1);
+    let said = gpc(folder.path(), &["info", "a.bin"]).ok().stdout;
+    assert!(
+        said.starts_with(b"OBJ\n"),
+        "{}",
+        String::from_utf8_lossy(&said)
+    );
+}

@@ -30,7 +30,7 @@ fn accessors_cannot_claim_what_is_not_there() {
         ),
         (
             json!({"count": 4_000_000_000_u32, "bufferView": null}),
-            "found null",
+            "/accessors/0: claims 4000000000 elements, but has no buffer view",
         ),
         (json!({"byteOffset": u64::MAX}), "reach beyond"),
         (
@@ -39,7 +39,7 @@ fn accessors_cannot_claim_what_is_not_there() {
         ),
         (
             json!({"type": "VEC9"}),
-            "/accessors/0/type: \"VEC9\" is no accessor type",
+            "/accessors/0/type: \"VEC9\" is no valid type",
         ),
         (
             json!({"componentType": 5124}),

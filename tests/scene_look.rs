@@ -7,7 +7,7 @@ use gpc::scene::{
     AlphaMode, Filter, LightKind, Material, Sampler, Scene, SceneError, SceneProjection, Wrap,
 };
 use scene_builder::{Builder, png};
-use serde_json::json;
+use serde_json::{Value, json};
 
 #[test]
 fn materials_read_all_their_fields() {
@@ -123,7 +123,7 @@ fn broken_looks_are_warnings() {
     for place in [
         "/materials/0/normalTexture/index",
         "/materials/0/occlusionTexture",
-        "/materials/1",
+        "/materials/1/alphaMode",
         "/images/1",
         "/textures/1",
         "/meshes/0/primitives/0/material",
@@ -312,11 +312,11 @@ fn cameras_are_placed_without_scale() {
 #[test]
 fn required_extensions_are_refused_by_name_and_optional_ones_mentioned() {
     let mut builder = Builder::new();
-    builder.json["extensionsRequired"] =
-        json!(["KHR_mesh_quantization", "KHR_draco_mesh_compression"]);
+    builder.json["extensionsRequired"] = json!(["KHR_mesh_quantization", "KHR_gaussian_splatting"]);
     let error = builder.load().unwrap_err();
-    assert!(matches!(&error, SceneError::Extension { name, .. } if name.contains("draco")));
-    assert!(error.to_string().contains("gltf-transform copy"), "{error}");
+    assert!(matches!(&error, SceneError::Extension { name, .. } if name.contains("splatting")));
+    let way_out = "export the scene without KHR_gaussian_splatting";
+    assert!(error.to_string().contains(way_out), "{error}");
 
     let mut builder = Builder::new();
     builder.json["extensionsUsed"] = json!(["KHR_materials_sheen", "KHR_xmp_json_ld"]);
@@ -361,4 +361,97 @@ fn relative_files_need_a_folder() {
         .unwrap()
         .scene;
     assert_eq!(scene.info().triangles, 1);
+}
+
+#[test]
+fn hidden_nodes_have_neither_meshes_nor_lights() {
+    let mut builder = Builder::new();
+    let hidden = json!({"KHR_node_visibility": {"visible": false}});
+    let light = json!({"KHR_lights_punctual": {"light": 0}, "KHR_node_visibility": {}});
+    builder.json["extensions"] = json!({"KHR_lights_punctual": {"lights": [{"type": "point"}]}});
+    builder.triangle(json!({"extensions": {"KHR_node_visibility": {"visible": true}}}));
+    builder.triangle(json!({"camera": 0}));
+    builder.push("nodes", json!({"extensions": light}));
+    builder.push("nodes", json!({"children": [1, 2], "extensions": hidden}));
+    builder.push("nodes", json!({"extensions": light}));
+    builder.push(
+        "cameras",
+        json!({"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}),
+    );
+    let scene = builder.load().unwrap().scene;
+    let pose = scene.pose(&Default::default()).unwrap();
+    assert_eq!(pose.geometry.triangles.len(), 1);
+    assert_eq!((pose.lights.len(), pose.cameras.len()), (1, 1));
+    let info = scene.info();
+    assert_eq!((info.triangles, info.lights), (1, 1));
+}
+
+#[test]
+fn variants_choose_the_materials() {
+    let mut builder = Builder::new();
+    for name in ["plain", "red", "blue"] {
+        builder.push("materials", json!({"name": name}));
+    }
+    builder.triangle(json!({}));
+    let variants = json!([{"name": "day"}, {"name": "night"}, {"name": "never"}]);
+    builder.json["extensions"] = json!({"KHR_materials_variants": {"variants": variants}});
+    builder.json["meshes"][0]["primitives"][0]["material"] = 0.into();
+    builder.json["meshes"][0]["primitives"][0]["extensions"] = json!({"KHR_materials_variants": {
+        "mappings": [{"material": 1, "variants": [0]}, {"material": 2, "variants": [1]}],
+    }});
+    let bytes = builder.glb();
+    let material = |loaded: gpc::scene::Loaded| {
+        let pose = loaded.scene.pose(&Default::default()).unwrap();
+        let index = pose.geometry.draws[0].material as usize;
+        loaded.scene.materials[index].name.clone().unwrap()
+    };
+    let chosen = |variant| Scene::variant_from_slice(&bytes, "test.glb", None, variant);
+    assert_eq!(material(builder.load().unwrap()), "plain");
+    assert_eq!(material(chosen("day").unwrap()), "red");
+    assert_eq!(material(chosen("night").unwrap()), "blue");
+    assert_eq!(material(chosen("never").unwrap()), "plain");
+    let error = chosen("dusk").unwrap_err().to_string();
+    let expected = "there is no variant \"dusk\"; the file has \"day\", \"night\", \"never\"";
+    assert!(error.contains(expected), "{error}");
+    let info = builder.load().unwrap().scene.info();
+    assert_eq!(info.variants, ["day", "night", "never"]);
+}
+
+#[test]
+fn specular_glossiness_is_converted_with_a_warning() {
+    let converted = |extension: Value| {
+        let mut builder = Builder::new();
+        builder.json["extensionsRequired"] = json!(["KHR_materials_pbrSpecularGlossiness"]);
+        let extensions = json!({"KHR_materials_pbrSpecularGlossiness": extension});
+        builder.push("materials", json!({"extensions": extensions}));
+        builder.triangle(json!({}));
+        let loaded = builder.load().unwrap();
+        let place = "/materials/0/extensions/KHR_materials_pbrSpecularGlossiness: is approximated";
+        assert!(
+            loaded.warnings.iter().any(|w| w.contains(place)),
+            "{:?}",
+            loaded.warnings
+        );
+        loaded.scene.materials[0].clone()
+    };
+    let close = |a: [f32; 4], b: [f32; 4]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-4);
+    // A dielectric as glTF has it: diffuse light is what the surface does not reflect.
+    let plastic = converted(json!({
+        "diffuseFactor": [0.5, 0.25, 0.125, 0.5], "specularFactor": [0.04, 0.04, 0.04],
+        "glossinessFactor": 0.75,
+    }));
+    assert!(
+        close(plastic.base_color, [0.5, 0.25, 0.125, 0.5]),
+        "{plastic:?}"
+    );
+    assert!(
+        plastic.metallic < 1e-4 && plastic.roughness == 0.25,
+        "{plastic:?}"
+    );
+    // A metal reflects in its colour, and has no diffuse light.
+    let gold = converted(json!({
+        "diffuseFactor": [0, 0, 0, 1], "specularFactor": [1.0, 0.8, 0.3],
+    }));
+    assert!(close(gold.base_color, [1.0, 0.8, 0.3, 1.0]), "{gold:?}");
+    assert!(gold.metallic > 0.9999 && gold.roughness == 0.0, "{gold:?}");
 }

@@ -65,7 +65,9 @@ fn of_vulkan(error: &VulkanError) -> u8 {
 
 fn of_scene(error: &SceneError) -> u8 {
     match error {
-        SceneError::NoSuchScene { .. } | SceneError::NoSuchAnimation { .. } => USAGE,
+        SceneError::NoSuchScene { .. }
+        | SceneError::NoSuchAnimation { .. }
+        | SceneError::NoSuchVariant { .. } => USAGE,
         _ => FAILURE,
     }
 }

@@ -54,12 +54,19 @@ fn text(info: &SceneInfo) -> String {
         let items = items.iter().enumerate();
         list(items.map(|(i, item)| format!("{i} {item}")).collect())
     };
-    let generator = info.generator.as_deref().unwrap_or("an unnamed program");
+    // Other formats have neither a version nor a generator.
+    let origin = match (info.version.as_str(), info.generator.as_deref()) {
+        ("", _) => info.format.to_owned(),
+        (version, generator) => {
+            let generator = generator.unwrap_or("an unnamed program");
+            format!("{} {version} by {generator}", info.format)
+        }
+    };
     let cameras = info.cameras.iter();
     let animations = info.animations.iter();
     let images = info.images.iter();
     [
-        format!("glTF {} by {generator}", info.version),
+        origin,
         format!(
             "scenes      {}",
             numbered(info.scenes.names.iter().map(name).collect())
@@ -67,6 +74,10 @@ fn text(info: &SceneInfo) -> String {
         format!(
             "geometry    {} triangles in {} primitives, {} meshes, {} nodes",
             info.triangles, info.primitives, info.meshes, info.nodes
+        ),
+        format!(
+            "variants    {}",
+            numbered(info.variants.iter().map(|v| format!("\"{v}\"")).collect())
         ),
         format!(
             "materials   {} opaque, {} mask, {} blend",

@@ -12,19 +12,27 @@ pub fn is_standard(path: &Path) -> bool {
 
 /// Loads a scene; `-` is standard input, whose relative URIs start from the working folder.
 pub fn load(path: &Path) -> anyhow::Result<Loaded> {
+    load_variant(path, None)
+}
+
+/// Loads a scene with the materials of a variant.
+pub fn load_variant(path: &Path, variant: Option<&str>) -> anyhow::Result<Loaded> {
     if !is_standard(path) {
-        return Ok(Scene::load(path)?);
+        return Ok(match variant {
+            Some(variant) => Scene::load_variant(path, variant)?,
+            None => Scene::load(path)?,
+        });
     }
     let mut bytes = Vec::new();
     std::io::stdin()
         .lock()
         .read_to_end(&mut bytes)
         .context("standard input can't be read")?;
-    Ok(Scene::from_slice(
-        &bytes,
-        "standard input",
-        Some(Path::new(".")),
-    )?)
+    let (name, base) = ("standard input", Some(Path::new(".")));
+    Ok(match variant {
+        Some(variant) => Scene::variant_from_slice(&bytes, name, base, variant)?,
+        None => Scene::from_slice(&bytes, name, base)?,
+    })
 }
 
 /// The scene's name for file names: its file's without the extension.

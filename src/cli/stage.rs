@@ -23,7 +23,7 @@ pub struct Stage {
 impl Stage {
     /// Loads a scene, poses it and puts it on the device.
     pub fn open(path: &Path, image: &ImageArgs, settings: Settings) -> anyhow::Result<Self> {
-        let loaded = input::load(path)?;
+        let loaded = input::load_variant(path, image.camera.variant.as_deref())?;
         let pose = image.pose(&loaded, image.camera.time)?;
         let warnings: Vec<_> = loaded
             .warnings

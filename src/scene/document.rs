@@ -1,48 +1,54 @@
-//! What a glTF file holds, decoded and checked: every index is in range, every number finite unless
-//! said otherwise. [`Scene::pose`](super::Scene::pose) works on this alone.
+//! A file's description as `gltf` has it, and what was decoded and checked by it: every index is in
+//! range but for those of cameras and lights, every number finite unless said otherwise.
+//! [`Scene::pose`](super::Scene::pose) works on this alone.
 
 use std::sync::Arc;
 
 use glam::{DAffine3, DQuat, DVec3};
+use gltf::json::{
+    Root,
+    animation::{Interpolation, Property},
+    extensions::scene::khr_materials_variants::Variant,
+};
 
-use super::{light::LightKind, view::SceneProjection};
+use super::{light::Light, view::SceneProjection};
 
 /// The document of a [`Scene`](super::Scene).
 #[derive(Clone, Debug, Default)]
 pub struct Document {
     /// File name, for messages.
     pub file: String,
-    pub asset: Asset,
-    pub scenes: Vec<SceneEntry>,
+    /// What the file is.
+    pub format: &'static str,
+    /// Names, references and the hierarchy; without buffers and images.
+    pub root: Root,
     /// The scene that is drawn unless another is asked for.
     pub default_scene: Option<usize>,
     pub nodes: Vec<Node>,
     /// All nodes, parents before children.
     pub order: Vec<usize>,
-    /// Empty where no node refers to the mesh.
-    pub meshes: Vec<Mesh>,
+    /// Of every mesh; none where no node refers to it.
+    pub meshes: Vec<Vec<Primitive>>,
     pub skins: Vec<Skin>,
-    pub animations: Vec<Animation>,
+    /// Of every animation.
+    pub animations: Vec<Vec<Channel>>,
     /// `None` where a camera is unusable.
-    pub cameras: Vec<Option<Camera>>,
-    /// `None` where a light is unusable.
-    pub lights: Vec<Option<LightSource>>,
+    pub cameras: Vec<Option<SceneProjection>>,
+    /// At the origin and along -Z; `None` where a light is unusable.
+    pub lights: Vec<Option<Light>>,
 }
 
-/// What the file says about itself.
-#[derive(Clone, Debug, Default)]
-pub struct Asset {
-    pub version: String,
-    pub generator: Option<String>,
-    pub extensions_used: Vec<String>,
-    pub extensions_required: Vec<String>,
+impl Document {
+    /// Names of the variants of the file's materials.
+    pub fn variants(&self) -> impl Iterator<Item = &str> {
+        variants(&self.root)
+    }
 }
 
-/// One of the file's scenes.
-#[derive(Clone, Debug)]
-pub struct SceneEntry {
-    pub name: Option<String>,
-    pub roots: Vec<usize>,
+/// Names of the variants of materials (`KHR_materials_variants`).
+pub fn variants(root: &Root) -> impl Iterator<Item = &str> {
+    let variants: &[Variant] = root.as_ref();
+    variants.iter().map(|variant| variant.name.as_str())
 }
 
 /// Where a node is relative to its parent.
@@ -76,27 +82,15 @@ impl Parts {
     }
 }
 
+/// What a node's description lacks.
 #[derive(Clone, Debug)]
 pub struct Node {
-    pub name: Option<String>,
     pub parent: Option<usize>,
-    pub children: Vec<usize>,
     pub transform: Transform,
-    pub mesh: Option<usize>,
-    pub skin: Option<usize>,
-    pub camera: Option<usize>,
-    pub light: Option<usize>,
-    /// Morph weights that replace the mesh's.
-    pub weights: Option<Vec<f64>>,
     /// `EXT_mesh_gpu_instancing`: transforms relative to the node.
     pub instances: Option<Arc<[DAffine3]>>,
-}
-
-#[derive(Clone, Debug, Default)]
-pub struct Mesh {
-    pub primitives: Vec<Primitive>,
-    /// Default morph weights.
-    pub weights: Vec<f64>,
+    /// `KHR_node_visibility`, that of its ancestors included; does not concern cameras.
+    pub visible: bool,
 }
 
 /// Triangles of one material with only the vertices that they use.
@@ -151,25 +145,17 @@ pub struct Skin {
     pub inverse_bind: Vec<DAffine3>,
 }
 
-#[derive(Clone, Debug)]
-pub struct Animation {
-    pub name: Option<String>,
-    pub channels: Vec<Channel>,
-}
-
-impl Animation {
-    /// Time of the last keyframe in seconds.
-    pub fn duration(&self) -> f64 {
-        let ends = self.channels.iter().filter_map(|c| c.times.last());
-        ends.fold(0.0, |longest, &end| longest.max(f64::from(end)))
-    }
+/// Time of the last keyframe in seconds.
+pub fn duration(channels: &[Channel]) -> f64 {
+    let ends = channels.iter().filter_map(|c| c.times.last());
+    ends.fold(0.0, |longest, &end| longest.max(f64::from(end)))
 }
 
 /// Keyframes of one property of one node.
 #[derive(Clone, Debug)]
 pub struct Channel {
     pub node: usize,
-    pub path: Path,
+    pub path: Property,
     pub interpolation: Interpolation,
     /// Seconds, ascending, at least one.
     pub times: Arc<[f32]>,
@@ -178,34 +164,4 @@ pub struct Channel {
     pub values: Arc<[f32]>,
     /// Numbers a value.
     pub width: usize,
-}
-
-/// An animated property.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Path {
-    Translation,
-    Rotation,
-    Scale,
-    Weights,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Interpolation {
-    Step,
-    Linear,
-    CubicSpline,
-}
-
-#[derive(Clone, Debug)]
-pub struct Camera {
-    pub name: Option<String>,
-    pub projection: SceneProjection,
-}
-
-/// A light without a place.
-#[derive(Clone, Copy, Debug)]
-pub struct LightSource {
-    pub kind: LightKind,
-    pub color: [f32; 3],
-    pub range: Option<f32>,
 }

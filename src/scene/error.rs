@@ -73,6 +73,16 @@ pub enum SceneError {
         /// The animations that there are, in words.
         known: String,
     },
+    /// The request names a variant of the materials that the file lacks.
+    #[error("{file}: there is no variant \"{asked}\"; {known}")]
+    NoSuchVariant {
+        /// The file.
+        file: String,
+        /// Name asked for.
+        asked: String,
+        /// The variants that there are, in words.
+        known: String,
+    },
     /// The scene is larger than can be posed, most likely through repetition of a small file's content.
     #[error(
         "{file}: {count} {what} exceed the limit of {limit}; split the scene or draw fewer instances"
@@ -104,6 +114,12 @@ impl Fault {
             place: place.into(),
             reason: reason.into(),
         }
+    }
+
+    /// The fault, and what follows from it.
+    #[must_use]
+    pub fn but(self, consequence: &str) -> Self {
+        Self::new(self.place, format!("{}; {consequence}", self.reason))
     }
 
     pub fn into_error(self, file: &str) -> SceneError {

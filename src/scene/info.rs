@@ -2,12 +2,14 @@
 
 use serde::Serialize;
 
-use super::{AlphaMode, Scene, pose, view::SceneProjection};
+use super::{AlphaMode, Scene, document, pose, view::SceneProjection};
 
 /// What a file holds.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SceneInfo {
-    /// glTF version that the file declares.
+    /// `glTF`, `OBJ`, `STL` or `PLY`.
+    pub format: &'static str,
+    /// glTF version that the file declares; empty for the other formats.
     pub version: String,
     /// Program that wrote the file.
     pub generator: Option<String>,
@@ -28,6 +30,8 @@ pub struct SceneInfo {
     pub triangles: u64,
     /// Materials by alpha mode.
     pub materials: AlphaModes,
+    /// Variants of the materials, of which one can be asked for.
+    pub variants: Vec<String>,
     /// Number of textures that materials use.
     pub textures: usize,
     /// Images that textures use.
@@ -92,22 +96,26 @@ pub struct ImageInfo {
 
 pub(super) fn summarize(scene: &Scene) -> SceneInfo {
     let document = &scene.document;
+    let root = &document.root;
     let drawn = pose::drawn_nodes(document, document.default_scene);
-    let nodes = || drawn.iter().filter_map(|&i| document.nodes.get(i));
+    let nodes = || drawn.iter().filter_map(|&i| Some((i, root.nodes.get(i)?)));
 
     let mut cameras = Vec::new();
     let (mut primitives, mut triangles) = (0, 0);
-    for node in nodes() {
-        if let Some((name, camera)) = pose::camera_of(document, node) {
+    for (index, node) in nodes() {
+        if let Some((name, projection)) = pose::camera_of(document, node) {
             cameras.push(CameraInfo {
                 name,
-                kind: match camera.projection {
+                kind: match projection {
                     SceneProjection::Perspective { .. } => "perspective",
                     SceneProjection::Orthographic { .. } => "orthographic",
                 },
             });
         }
-        let copies = pose::copies(node) as u64;
+        if !document.nodes[index].visible {
+            continue;
+        }
+        let copies = pose::copies(document, index) as u64;
         for primitive in pose::primitives_of(document, node) {
             primitives += 1;
             triangles += copies * primitive.triangles.len() as u64;
@@ -123,26 +131,29 @@ pub(super) fn summarize(scene: &Scene) -> SceneInfo {
         } += 1;
     }
     SceneInfo {
-        version: document.asset.version.clone(),
-        generator: document.asset.generator.clone(),
+        format: document.format,
+        version: root.asset.version.clone(),
+        generator: root.asset.generator.clone(),
         scenes: SceneNames {
-            names: document.scenes.iter().map(|s| s.name.clone()).collect(),
+            names: root.scenes.iter().map(|s| s.name.clone()).collect(),
             default: document.default_scene,
         },
         cameras,
-        animations: document
+        animations: root
             .animations
             .iter()
-            .map(|animation| AnimationInfo {
+            .zip(&document.animations)
+            .map(|(animation, channels)| AnimationInfo {
                 name: animation.name.clone(),
-                duration: animation.duration(),
+                duration: document::duration(channels),
             })
             .collect(),
-        nodes: document.nodes.len(),
-        meshes: document.meshes.len(),
+        nodes: root.nodes.len(),
+        meshes: root.meshes.len(),
         primitives,
         triangles,
         materials,
+        variants: document.variants().map(str::to_owned).collect(),
         textures: scene.textures.len(),
         images: scene
             .images
@@ -153,10 +164,11 @@ pub(super) fn summarize(scene: &Scene) -> SceneInfo {
             })
             .collect(),
         lights: nodes()
-            .filter_map(|node| pose::light_of(document, node))
+            .filter(|&(index, _)| document.nodes[index].visible)
+            .filter_map(|(_, node)| pose::light_of(document, node))
             .count(),
-        skins: document.skins.len(),
-        extensions_used: document.asset.extensions_used.clone(),
-        extensions_required: document.asset.extensions_required.clone(),
+        skins: root.skins.len(),
+        extensions_used: root.extensions_used.clone(),
+        extensions_required: root.extensions_required.clone(),
     }
 }

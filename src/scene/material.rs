@@ -1,5 +1,7 @@
 //! Metallic-roughness materials, textures and images (glTF 2.0, section 3.9 and 3.8).
 
+pub use gltf::json::texture::{MagFilter as Filter, WrappingMode as Wrap};
+
 /// glTF's alpha modes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AlphaMode {
@@ -118,28 +120,8 @@ impl Material {
     }
 }
 
-/// Texel filter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Filter {
-    /// The nearest texel.
-    Nearest,
-    /// Linear interpolation.
-    Linear,
-}
-
-/// What lies outside of 0 to 1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Wrap {
-    /// The image again.
-    Repeat,
-    /// The image mirrored, and again.
-    MirroredRepeat,
-    /// The edge texel.
-    ClampToEdge,
-}
-
 /// glTF sampler state; the default is linear, trilinear and repeating.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sampler {
     /// Filter where a texel covers more than a pixel.
     pub mag: Filter,

@@ -1,4 +1,4 @@
-//! The scene: what a glTF 2.0 file holds, and its triangles in the pose of one moment.
+//! The scene: what a file holds, and its triangles in the pose of one moment.
 //!
 //! Nothing here knows of Vulkan. [`Scene::load`] reads a file; [`Scene::pose`] flattens one of its
 //! scenes into world-space [`Geometry`] that a renderer uploads.
@@ -15,8 +15,13 @@
 //! # Ok::<(), gpc::scene::SceneError>(())
 //! ```
 //!
-//! Supported extensions: `KHR_lights_punctual`, `KHR_materials_emissive_strength`,
-//! `KHR_materials_unlit`, `KHR_mesh_quantization`, `KHR_texture_transform`,
+//! OBJ, STL and PLY files are read, too: their triangles, normals and base colours. Those formats
+//! have no unit, no axis that is up and no light; what they have is taken as it is.
+//!
+//! Supported extensions: `KHR_draco_mesh_compression` and `KHR_texture_basisu` (by the features
+//! `draco` and `basisu`, on by default), `KHR_meshopt_compression`, `KHR_lights_punctual`, `KHR_materials_emissive_strength`,
+//! `KHR_materials_pbrSpecularGlossiness` (converted, with a warning), `KHR_materials_unlit`,
+//! `KHR_materials_variants`, `KHR_mesh_quantization`, `KHR_node_visibility`, `KHR_texture_transform`,
 //! `EXT_mesh_gpu_instancing`, `EXT_meshopt_compression`, `EXT_texture_webp`. A file that requires
 //! another one is refused.
 
@@ -28,6 +33,7 @@ mod light;
 mod material;
 mod pose;
 mod read;
+mod surface;
 mod view;
 
 use std::{path::Path, sync::Arc};
@@ -65,27 +71,47 @@ pub struct Loaded {
 }
 
 impl Scene {
-    /// Reads a `.glb` or `.gltf` file, told apart by content. Relative URIs start from its folder.
+    /// Reads a glTF, OBJ, STL or PLY file, told apart by content. Relative URIs start from its folder.
     ///
     /// # Errors
-    /// If the file cannot be read, is not glTF 2.0, requires an extension that is not supported, or
+    /// If the file cannot be read, is none of these, is glTF other than 2.0, requires an extension that is not supported, or
     /// if anything that has to be drawn is broken: see [`SceneError`].
     pub fn load(path: &Path) -> Result<Loaded, SceneError> {
         let file = path.display().to_string();
-        let bytes = std::fs::read(path).map_err(|source| SceneError::Read {
-            file: file.clone(),
-            source: Arc::new(source),
-        })?;
-        Self::from_slice(&bytes, &file, path.parent())
+        Self::from_slice(&read_file(path)?, &file, path.parent())
     }
 
-    /// Reads the bytes of a `.glb` or `.gltf` file. Messages call it `name`; relative URIs start
+    /// As [`load`](Self::load), with the materials of the `variant` of that name
+    /// (`KHR_materials_variants`).
+    ///
+    /// # Errors
+    /// As [`load`](Self::load), and if the file has no such variant.
+    pub fn load_variant(path: &Path, variant: &str) -> Result<Loaded, SceneError> {
+        let file = path.display().to_string();
+        read::read(&read_file(path)?, &file, path.parent(), Some(variant))
+    }
+
+    /// Reads the bytes of a glTF, OBJ, STL or PLY file. Messages call it `name`; relative URIs start
     /// from the folder `base`, without which they are errors where they are needed.
     ///
     /// # Errors
     /// As [`load`](Self::load).
     pub fn from_slice(bytes: &[u8], name: &str, base: Option<&Path>) -> Result<Loaded, SceneError> {
-        read::read(bytes, name, base)
+        read::read(bytes, name, base, None)
+    }
+
+    /// As [`from_slice`](Self::from_slice), with the materials of the `variant` of that name
+    /// (`KHR_materials_variants`).
+    ///
+    /// # Errors
+    /// As [`load_variant`](Self::load_variant).
+    pub fn variant_from_slice(
+        bytes: &[u8],
+        name: &str,
+        base: Option<&Path>,
+        variant: &str,
+    ) -> Result<Loaded, SceneError> {
+        read::read(bytes, name, base, Some(variant))
     }
 
     /// A scene without a file and without textures, for [`Geometry`] made by other means; glTF's default material is
@@ -114,4 +140,11 @@ impl Scene {
     pub fn info(&self) -> SceneInfo {
         info::summarize(self)
     }
+}
+
+fn read_file(path: &Path) -> Result<Vec<u8>, SceneError> {
+    std::fs::read(path).map_err(|source| SceneError::Read {
+        file: path.display().to_string(),
+        source: Arc::new(source),
+    })
 }

@@ -122,6 +122,9 @@ pub struct CameraArgs {
     /// Scene of the file by index [default: the file's own]
     #[arg(long, value_name = "N")]
     pub scene: Option<usize>,
+    /// Variant of the materials by name [default: none]
+    #[arg(long, value_name = "NAME")]
+    pub variant: Option<String>,
     /// Moment of the animation in seconds
     #[arg(long, value_name = "S", default_value_t = 0.0, value_parser = values::not_negative)]
     pub time: f64,

@@ -37,7 +37,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     let steps = sequence::steps(args)?;
     template.require("frame", "frames", steps.len())?;
 
-    let loaded = input::load(&args.scene)?;
+    let loaded = input::load_variant(&args.scene, image.camera.variant.as_deref())?;
     let mut warnings = Warnings::default();
     warnings.add(&loaded.warnings);
     let settings = image.settings(format);

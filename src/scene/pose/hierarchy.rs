@@ -1,9 +1,10 @@
 //! Where every node is at one moment.
 
 use glam::{DAffine3, DQuat, DVec3};
+use gltf::json::animation::Property;
 
 use super::keyframes;
-use crate::scene::document::{Animation, Document, Path, Transform};
+use crate::scene::document::{Channel, Document, Transform};
 
 /// The nodes at one moment.
 #[derive(Debug)]
@@ -15,13 +16,13 @@ pub struct State {
 }
 
 impl State {
-    pub fn new(document: &Document, animation: Option<&Animation>, time: f64) -> Self {
+    pub fn new(document: &Document, animation: &[Channel], time: f64) -> Self {
         let nodes = &document.nodes;
         let mut transforms: Vec<Transform> = nodes.iter().map(|node| node.transform).collect();
         let mut weights = vec![None; nodes.len()];
-        for channel in animation.iter().flat_map(|animation| &animation.channels) {
+        for channel in animation {
             let value = keyframes::sample(channel, time);
-            if channel.path == Path::Weights {
+            if channel.path == Property::MorphTargetWeights {
                 weights[channel.node] = Some(value);
                 continue;
             }
@@ -29,9 +30,11 @@ impl State {
                 continue;
             };
             match (channel.path, value.as_slice()) {
-                (Path::Translation, &[x, y, z]) => parts.translation = DVec3::new(x, y, z),
-                (Path::Scale, &[x, y, z]) => parts.scale = DVec3::new(x, y, z),
-                (Path::Rotation, &[x, y, z, w]) => parts.rotation = DQuat::from_xyzw(x, y, z, w),
+                (Property::Translation, &[x, y, z]) => parts.translation = DVec3::new(x, y, z),
+                (Property::Scale, &[x, y, z]) => parts.scale = DVec3::new(x, y, z),
+                (Property::Rotation, &[x, y, z, w]) => {
+                    parts.rotation = DQuat::from_xyzw(x, y, z, w)
+                }
                 _ => {}
             }
         }

@@ -1,29 +1,35 @@
 //! Animated values between keyframes (glTF 2.0, section 3.11 and appendix C).
 
 use glam::DQuat;
+use gltf::json::{
+    Animation,
+    animation::{Interpolation, Property},
+};
 
 use super::PoseRequest;
 use crate::scene::{
     SceneError,
-    document::{Animation, Channel, Document, Interpolation, Path},
+    document::{Channel, Document},
 };
 
-/// The animation that a request means, if any.
+/// The channels of the animation that a request means; none without one.
 pub fn choose<'d>(
     document: &'d Document,
     request: &PoseRequest,
-) -> Result<Option<&'d Animation>, SceneError> {
-    let animations = &document.animations;
+) -> Result<&'d [Channel], SceneError> {
+    let animations = &document.root.animations;
+    let channels = |index: usize| document.animations.get(index).map(Vec::as_slice);
     let Some(asked) = &request.animation else {
-        return Ok(animations.first().filter(|_| request.time > 0.0));
+        return Ok(channels(0)
+            .filter(|_| request.time > 0.0)
+            .unwrap_or_default());
     };
     let named = animations
         .iter()
-        .find(|animation| animation.name.as_deref() == Some(asked));
-    let numbered = || animations.get(asked.parse::<usize>().ok()?);
-    named
-        .or_else(numbered)
-        .map(Some)
+        .position(|animation| animation.name.as_ref() == Some(asked));
+    let index = named.or_else(|| asked.parse().ok());
+    index
+        .and_then(channels)
         .ok_or_else(|| SceneError::NoSuchAnimation {
             file: document.file.clone(),
             asked: asked.clone(),
@@ -64,7 +70,7 @@ pub fn sample(channel: &Channel, time: f64) -> Vec<f64> {
             _ => linear(channel, after - 1, fraction),
         }
     };
-    if channel.path == Path::Rotation {
+    if channel.path == Property::Rotation {
         normalize(&mut value);
     }
     value
@@ -91,7 +97,7 @@ fn keyframe(channel: &Channel, i: usize) -> Vec<f64> {
 
 fn linear(channel: &Channel, i: usize, fraction: f64) -> Vec<f64> {
     let (from, to) = (keyframe(channel, i), keyframe(channel, i + 1));
-    if channel.path == Path::Rotation {
+    if channel.path == Property::Rotation {
         let quaternion = |q: &[f64]| match *q {
             [x, y, z, w] => DQuat::from_xyzw(x, y, z, w).normalize(),
             _ => DQuat::IDENTITY,

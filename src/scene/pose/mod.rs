@@ -6,14 +6,15 @@ mod keyframes;
 mod placement;
 
 use glam::{DAffine3, DMat3, DVec3};
+use gltf::json::{Index, Node};
 
 use super::{
     Scene, SceneError,
-    document::{Camera, Document, LightSource, Node, Primitive},
+    document::{Document, Primitive},
     error::{Fault, Warnings},
     geometry::Geometry,
     light::Light,
-    view::SceneCamera,
+    view::{SceneCamera, SceneProjection},
 };
 use placement::Placement;
 
@@ -46,12 +47,12 @@ pub(super) fn pose(scene: &Scene, request: &PoseRequest) -> Result<Pose, SceneEr
     let document = &scene.document;
     let file = &document.file;
     if let Some(asked) = request.scene
-        && asked >= document.scenes.len()
+        && asked >= document.root.scenes.len()
     {
         return Err(SceneError::NoSuchScene {
             file: file.clone(),
             asked,
-            count: document.scenes.len(),
+            count: document.root.scenes.len(),
         });
     }
     let animation = keyframes::choose(document, request)?;
@@ -62,7 +63,8 @@ pub(super) fn pose(scene: &Scene, request: &PoseRequest) -> Result<Pose, SceneEr
     let mut placements = Vec::new();
     let (mut lights, mut cameras) = (Vec::new(), Vec::new());
     for index in drawn {
-        let (Some(node), Some(world)) = (document.nodes.get(index), state.world.get(index)) else {
+        let (Some(node), Some(world)) = (document.root.nodes.get(index), state.world.get(index))
+        else {
             continue;
         };
         if !world.is_finite() {
@@ -72,16 +74,17 @@ pub(super) fn pose(scene: &Scene, request: &PoseRequest) -> Result<Pose, SceneEr
             ));
             continue;
         }
-        if let Some(light) = light_of(document, node) {
+        let visible = document.nodes[index].visible;
+        if let Some(light) = light_of(document, node).filter(|_| visible) {
             lights.push(place_light(light, world));
         }
-        if let Some((name, camera)) = camera_of(document, node) {
+        if let Some((name, projection)) = camera_of(document, node) {
             match axes(world) {
                 Some(axes) => cameras.push(SceneCamera {
                     name,
                     eye: world.translation,
                     axes,
-                    projection: camera.projection,
+                    projection,
                 }),
                 None => warnings.push(&Fault::new(
                     format!("/nodes/{index}"),
@@ -89,7 +92,9 @@ pub(super) fn pose(scene: &Scene, request: &PoseRequest) -> Result<Pose, SceneEr
                 )),
             }
         }
-        placements.extend(Placement::of_node(document, index, node, &state));
+        if visible {
+            placements.extend(Placement::of_node(document, index, node, &state));
+        }
     }
     let geometry = assemble::assemble(scene, &placements, &mut warnings)?;
     if geometry.triangles.is_empty() {
@@ -109,61 +114,64 @@ pub(super) fn pose(scene: &Scene, request: &PoseRequest) -> Result<Pose, SceneEr
 
 /// The nodes of a scene depth first, each once; of all root nodes for `None`.
 pub(super) fn drawn_nodes(document: &Document, scene: Option<usize>) -> Vec<usize> {
-    let mut open: Vec<usize> = match scene.and_then(|index| document.scenes.get(index)) {
-        Some(scene) => scene.roots.clone(),
-        None => (0..document.nodes.len())
+    let nodes = &document.root.nodes;
+    let mut open: Vec<usize> = match scene.and_then(|index| document.root.scenes.get(index)) {
+        Some(scene) => scene.nodes.iter().map(Index::value).collect(),
+        None => (0..nodes.len())
             .filter(|&i| document.nodes[i].parent.is_none())
             .collect(),
     };
     open.reverse();
-    let mut seen = vec![false; document.nodes.len()];
+    let mut seen = vec![false; nodes.len()];
     let mut drawn = Vec::new();
     while let Some(index) = open.pop() {
         if std::mem::replace(&mut seen[index], true) {
             continue;
         }
         drawn.push(index);
-        open.extend(document.nodes[index].children.iter().rev());
+        let children = nodes[index].children.iter().flatten();
+        open.extend(children.rev().map(Index::value));
     }
     drawn
 }
 
-/// The camera of a node, and what it is called.
-pub(super) fn camera_of<'d>(
-    document: &'d Document,
+/// What the camera of a node is called, and its projection.
+pub(super) fn camera_of(
+    document: &Document,
     node: &Node,
-) -> Option<(Option<String>, &'d Camera)> {
-    let camera = document.cameras.get(node.camera?)?.as_ref()?;
-    Some((camera.name.clone().or_else(|| node.name.clone()), camera))
+) -> Option<(Option<String>, SceneProjection)> {
+    let index = node.camera?.value();
+    let projection = *document.cameras.get(index)?.as_ref()?;
+    let name = document.root.cameras.get(index)?.name.clone();
+    Some((name.or_else(|| node.name.clone()), projection))
 }
 
 /// The light of a node.
-pub(super) fn light_of<'d>(document: &'d Document, node: &Node) -> Option<&'d LightSource> {
-    document.lights.get(node.light?)?.as_ref()
+pub(super) fn light_of<'d>(document: &'d Document, node: &Node) -> Option<&'d Light> {
+    let extension = node.extensions.as_ref()?.khr_lights_punctual.as_ref()?;
+    document.lights.get(extension.light.value())?.as_ref()
 }
 
 /// The primitives of a node's mesh.
 pub(super) fn primitives_of<'d>(document: &'d Document, node: &Node) -> &'d [Primitive] {
-    let mesh = node.mesh.and_then(|mesh| document.meshes.get(mesh));
-    mesh.map_or(&[], |mesh| &mesh.primitives)
+    let mesh = node.mesh.and_then(|mesh| document.meshes.get(mesh.value()));
+    mesh.map_or(&[], Vec::as_slice)
 }
 
 /// How often a node's mesh is drawn. A skin gives its mesh a place by itself, so that instances of
 /// it would coincide.
-pub(super) fn copies(node: &Node) -> usize {
-    match &node.instances {
-        Some(instances) if node.skin.is_none() => instances.len(),
+pub(super) fn copies(document: &Document, index: usize) -> usize {
+    match &document.nodes[index].instances {
+        Some(instances) if document.root.nodes[index].skin.is_none() => instances.len(),
         _ => 1,
     }
 }
 
-fn place_light(light: &LightSource, world: &DAffine3) -> Light {
+fn place_light(light: &Light, world: &DAffine3) -> Light {
     Light {
-        kind: light.kind,
         position: world.translation,
         direction: -world.matrix3.z_axis.normalize_or(DVec3::Z),
-        color: light.color,
-        range: light.range,
+        ..*light
     }
 }
 

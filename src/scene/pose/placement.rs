@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3, Vec3};
+use gltf::json::Node;
 
 use super::{copies, hierarchy::State, primitives_of};
-use crate::scene::document::{Document, Node, Primitive, Target};
+use crate::scene::document::{Document, Primitive, Target};
 
 /// A primitive and its way into the world.
 #[derive(Clone, Debug)]
@@ -65,13 +66,12 @@ impl<'d> Placement<'d> {
         if primitives.is_empty() {
             return Vec::new();
         }
-        let mesh = node.mesh.and_then(|mesh| document.meshes.get(mesh));
-        let weights = state
-            .weights
-            .get(index)
-            .and_then(Option::as_deref)
-            .or(node.weights.as_deref())
-            .or(mesh.map(|mesh| mesh.weights.as_slice()))
+        let mesh = node.mesh.and_then(|mesh| document.root.get(mesh));
+        let wide = |weights: &Vec<f32>| weights.iter().copied().map(f64::from).collect();
+        let animated = state.weights.get(index).cloned().flatten();
+        let weights: Vec<f64> = animated
+            .or_else(|| node.weights.as_ref().map(wide))
+            .or_else(|| mesh?.weights.as_ref().map(wide))
             .unwrap_or_default();
         let targets: Vec<Arc<[_]>> = primitives
             .iter()
@@ -84,8 +84,11 @@ impl<'d> Placement<'d> {
         let skin = joint_matrices(document, node, state);
 
         let mut placements = Vec::new();
-        for copy in 0..copies(node) {
-            let instance = node.instances.as_ref().and_then(|i| i.get(copy));
+        for copy in 0..copies(document, index) {
+            let instance = document.nodes[index]
+                .instances
+                .as_ref()
+                .and_then(|i| i.get(copy));
             let rigid = Frame::new(world * instance.copied().unwrap_or_default());
             for (primitive, targets) in primitives.iter().zip(&targets) {
                 let (motion, mirrored) = match &skin {
@@ -193,7 +196,7 @@ fn unit(v: DVec3, otherwise: DVec3) -> [f32; 3] {
 /// Matrices of the joints of a node's skin. The node's own transform has no part in them, as the
 /// specification says.
 fn joint_matrices(document: &Document, node: &Node, state: &State) -> Option<Arc<[DAffine3]>> {
-    let skin = document.skins.get(node.skin?)?;
+    let skin = document.skins.get(node.skin?.value())?;
     let joints = skin.joints.iter().zip(&skin.inverse_bind);
     let matrices = joints.map(|(&joint, bind)| {
         let world = state.world.get(joint).copied().unwrap_or_default();

@@ -3,51 +3,21 @@
 //! Nothing is allocated for what an accessor merely claims: every element is checked to lie within
 //! its buffer view first, and an accessor without data is never expanded.
 
+use gltf::json::{
+    Index,
+    accessor::{
+        Accessor as Description, ComponentType, GenericComponentType, IndexComponentType,
+        sparse::Sparse as SparseDescription,
+    },
+    validation::USize64,
+};
+
 use super::{
     buffer::{Buffers, View},
-    json::Item,
+    model::Model,
+    packed::Stream,
 };
 use crate::scene::error::Fault;
-
-/// Type of one component.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Component {
-    /// 8 bits, signed.
-    I8,
-    /// 8 bits, unsigned.
-    U8,
-    /// 16 bits, signed.
-    I16,
-    /// 16 bits, unsigned.
-    U16,
-    /// 32 bits, unsigned.
-    U32,
-    /// 32 bits, floating point.
-    F32,
-}
-
-impl Component {
-    fn read(item: &Item<'_>) -> Result<Self, Fault> {
-        let item = item.require("componentType")?;
-        Ok(match item.as_usize()? {
-            5120 => Self::I8,
-            5121 => Self::U8,
-            5122 => Self::I16,
-            5123 => Self::U16,
-            5125 => Self::U32,
-            5126 => Self::F32,
-            other => return Err(item.fault(format!("{other} is no component type"))),
-        })
-    }
-
-    const fn size(self) -> usize {
-        match self {
-            Self::I8 | Self::U8 => 1,
-            Self::I16 | Self::U16 => 2,
-            Self::U32 | Self::F32 => 4,
-        }
-    }
-}
 
 /// Elements at equal distances.
 #[derive(Clone, Copy, Debug)]
@@ -60,17 +30,19 @@ struct Elements<'b> {
 impl<'b> Elements<'b> {
     /// `count` elements of `size` bytes from `offset` on, checked to lie within `view`.
     fn new(
-        item: &Item<'_>,
+        place: &str,
         view: View<'b>,
-        offset: usize,
+        offset: USize64,
         count: usize,
         size: usize,
     ) -> Result<Self, Fault> {
+        let offset = offset.0 as usize;
         let stride = view.stride.unwrap_or(size);
         if stride < size {
-            return Err(item.fault(format!(
-                "elements of {size} bytes do not fit the buffer view's stride of {stride}"
-            )));
+            return Err(Fault::new(
+                place,
+                format!("elements of {size} bytes do not fit the buffer view's stride of {stride}"),
+            ));
         }
         let end = count
             .saturating_sub(1)
@@ -82,11 +54,14 @@ impl<'b> Elements<'b> {
                 stride,
                 size,
             }),
-            None => Err(item.fault(format!(
-                "{count} elements of {size} bytes, {stride} apart, at {offset} reach beyond the \
+            None => Err(Fault::new(
+                place,
+                format!(
+                    "{count} elements of {size} bytes, {stride} apart, at {offset} reach beyond the \
                  {} bytes of the buffer view",
-                view.bytes.len()
-            ))),
+                    view.bytes.len()
+                ),
+            )),
         }
     }
 
@@ -112,7 +87,7 @@ pub struct Accessor<'b> {
     /// Number of elements, at least 1.
     pub count: usize,
     /// Type of the components.
-    pub component: Component,
+    pub component: ComponentType,
     /// Components of an element: 1 to 4, or 16.
     pub components: usize,
     normalized: bool,
@@ -123,42 +98,77 @@ pub struct Accessor<'b> {
 }
 
 impl<'b> Accessor<'b> {
-    /// Reads and checks the accessor `item`.
-    pub fn new(item: &Item<'_>, buffers: &'b Buffers<'_>) -> Result<Self, Fault> {
-        let component = Component::read(item)?;
-        let kind = item.require("type")?;
-        let components = match kind.as_str()? {
-            "SCALAR" => 1,
-            "VEC2" => 2,
-            "VEC3" => 3,
-            "VEC4" | "MAT2" => 4,
-            "MAT3" => 9,
-            "MAT4" => 16,
-            other => return Err(kind.fault(format!("\"{other}\" is no accessor type"))),
-        };
-        let count_item = item.require("count")?;
-        let count = count_item.as_usize()?;
-        if count == 0 || u32::try_from(count).is_err() {
-            return Err(count_item.fault(format!("{count} elements are too few or too many")));
+    /// Reads and checks the accessor `index`, referred to at the place `from`.
+    pub fn new(
+        model: &Model,
+        index: Index<Description>,
+        from: &str,
+        buffers: &'b Buffers<'_>,
+    ) -> Result<Self, Fault> {
+        let (item, place) = model.get(index, from)?;
+        let GenericComponentType(component) =
+            model.valid(&item.component_type, &format!("{place}/componentType"))?;
+        let components = model
+            .valid(&item.type_, &format!("{place}/type"))?
+            .multiplicity();
+        let count = item.count.0 as usize;
+        if count == 0 || u32::try_from(item.count.0).is_err() {
+            let reason = format!("{count} elements are too few or too many");
+            return Err(Fault::new(place + "/count", reason));
         }
         let size = component.size() * components;
-        let offset = item.usize_or("byteOffset", 0)?;
-        let elements = buffers
-            .view(item, "bufferView")?
-            .map(|view| Elements::new(item, view, offset, count, size))
-            .transpose()?;
-        let sparse = item
-            .get("sparse")
-            .map(|sparse| read_sparse(&sparse, buffers, count, size))
-            .transpose()?;
+        let elements = item.buffer_view.map(|view| {
+            let view = buffers.view(view, &format!("{place}/bufferView"))?;
+            Elements::new(
+                &place,
+                view,
+                item.byte_offset.unwrap_or_default(),
+                count,
+                size,
+            )
+        });
+        let sparse = item.sparse.as_ref().map(|sparse| {
+            read_sparse(
+                model,
+                sparse,
+                &format!("{place}/sparse"),
+                buffers,
+                count,
+                size,
+            )
+        });
         Ok(Self {
             count,
             component,
             components,
-            normalized: item.flag("normalized")?,
-            elements,
-            sparse,
-            place: item.place().to_owned(),
+            normalized: item.normalized,
+            elements: elements.transpose()?,
+            sparse: sparse.transpose()?,
+            place,
+        })
+    }
+
+    /// Values that were decoded in the place of the accessor at `place`.
+    pub fn of_stream(stream: &'b Stream, normalized: bool, place: &str) -> Result<Self, Fault> {
+        let size = stream.component.size() * stream.components;
+        if stream.count == 0 || stream.bytes.len() != stream.count * size {
+            return Err(Fault::new(
+                place,
+                "there are no values in the compressed data",
+            ));
+        }
+        Ok(Self {
+            count: stream.count,
+            component: stream.component,
+            components: stream.components,
+            normalized,
+            elements: Some(Elements {
+                bytes: &stream.bytes,
+                stride: size,
+                size,
+            }),
+            sparse: None,
+            place: place.to_owned(),
         })
     }
 
@@ -206,7 +216,7 @@ impl<'b> Accessor<'b> {
     }
 
     /// Fails unless the components have one of the `allowed` types.
-    pub fn expect_type(self, allowed: &[Component]) -> Result<Self, Fault> {
+    pub fn expect_type(self, allowed: &[ComponentType]) -> Result<Self, Fault> {
         if allowed.contains(&self.component) {
             Ok(self)
         } else {
@@ -255,16 +265,16 @@ impl<'b> Accessor<'b> {
         };
         let mut floats = [0.0; N];
         match self.component {
-            Component::F32 => each(bytes, &mut floats, f32::from_le_bytes),
-            Component::U32 => each(bytes, &mut floats, |b| u32::from_le_bytes(b) as f32),
-            Component::I8 => each(bytes, &mut floats, |[b]: [u8; 1]| {
+            ComponentType::F32 => each(bytes, &mut floats, f32::from_le_bytes),
+            ComponentType::U32 => each(bytes, &mut floats, |b| u32::from_le_bytes(b) as f32),
+            ComponentType::I8 => each(bytes, &mut floats, |[b]: [u8; 1]| {
                 scale(f32::from(b as i8), 127.0)
             }),
-            Component::U8 => each(bytes, &mut floats, |[b]: [u8; 1]| scale(b.into(), 255.0)),
-            Component::I16 => each(bytes, &mut floats, |b| {
+            ComponentType::U8 => each(bytes, &mut floats, |[b]: [u8; 1]| scale(b.into(), 255.0)),
+            ComponentType::I16 => each(bytes, &mut floats, |b| {
                 scale(i16::from_le_bytes(b).into(), 32_767.0)
             }),
-            Component::U16 => each(bytes, &mut floats, |b| {
+            ComponentType::U16 => each(bytes, &mut floats, |b| {
                 scale(u16::from_le_bytes(b).into(), 65_535.0)
             }),
         }
@@ -275,15 +285,7 @@ impl<'b> Accessor<'b> {
     /// integers, are 0.
     #[inline]
     pub fn integers<const N: usize>(&self, i: usize) -> [u32; N] {
-        let bytes = self.bytes(i);
-        let mut integers = [0; N];
-        match self.component {
-            Component::U8 => each(bytes, &mut integers, |[b]: [u8; 1]| b.into()),
-            Component::U16 => each(bytes, &mut integers, |b| u16::from_le_bytes(b).into()),
-            Component::U32 => each(bytes, &mut integers, u32::from_le_bytes),
-            Component::I8 | Component::I16 | Component::F32 => {}
-        }
-        integers
+        integers(self.component, self.bytes(i))
     }
 }
 
@@ -297,41 +299,50 @@ fn each<const SIZE: usize, T>(bytes: &[u8], out: &mut [T], decode: impl Fn([u8; 
 }
 
 fn read_sparse<'b>(
-    item: &Item<'_>,
+    model: &Model,
+    item: &SparseDescription,
+    place: &str,
     buffers: &'b Buffers<'_>,
     count: usize,
     size: usize,
 ) -> Result<Sparse<'b>, Fault> {
-    let replaced = item.require("count")?.as_usize()?;
-    let part = |key: &str, size: usize| {
-        let part = item.require(key)?;
-        let view = buffers
-            .view(&part, "bufferView")?
-            .ok_or_else(|| part.fault("lacks the required \"bufferView\""))?;
-        let offset = part.usize_or("byteOffset", 0)?;
-        Elements::new(&part, view, offset, replaced, size)
+    let replaced = item.count.0 as usize;
+    let part = |key: &str, view, offset, size| {
+        let place = format!("{place}/{key}");
+        let view = buffers.view(view, &format!("{place}/bufferView"))?;
+        Elements::new(&place, view, offset, replaced, size)
     };
-    let component = Component::read(&item.require("indices")?)?;
-    let indices = part("indices", component.size())?;
+    let (at, values) = (&item.indices, &item.values);
+    let IndexComponentType(component) = model.valid(
+        &at.component_type,
+        &format!("{place}/indices/componentType"),
+    )?;
+    let indices = part("indices", at.buffer_view, at.byte_offset, component.size())?;
     let indices: Vec<u32> = (0..replaced)
         .map(|i| {
-            let mut index = [0];
-            let bytes = indices.get(i);
-            match component {
-                Component::U8 => each(bytes, &mut index, |[b]: [u8; 1]| b.into()),
-                Component::U16 => each(bytes, &mut index, |b| u16::from_le_bytes(b).into()),
-                _ => each(bytes, &mut index, u32::from_le_bytes),
-            }
-            index[0]
+            let [index] = integers(component, indices.get(i));
+            index
         })
         .collect();
     if !indices.is_sorted_by(|a, b| a < b) || indices.last().is_some_and(|&i| i as usize >= count) {
-        return Err(item.fault(format!(
-            "the indices do not ascend strictly below the accessor's count of {count}"
-        )));
+        return Err(Fault::new(
+            place,
+            format!("the indices do not ascend strictly below the accessor's count of {count}"),
+        ));
     }
-    Ok(Sparse {
-        indices,
-        values: part("values", size)?,
-    })
+    let values = part("values", values.buffer_view, values.byte_offset, size)?;
+    Ok(Sparse { indices, values })
+}
+
+/// Unsigned integers; what is not one is 0.
+#[inline]
+fn integers<const N: usize>(component: ComponentType, bytes: &[u8]) -> [u32; N] {
+    let mut integers = [0; N];
+    match component {
+        ComponentType::U8 => each(bytes, &mut integers, |[b]: [u8; 1]| b.into()),
+        ComponentType::U16 => each(bytes, &mut integers, |b| u16::from_le_bytes(b).into()),
+        ComponentType::U32 => each(bytes, &mut integers, u32::from_le_bytes),
+        ComponentType::I8 | ComponentType::I16 | ComponentType::F32 => {}
+    }
+    integers
 }

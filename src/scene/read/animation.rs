@@ -2,105 +2,117 @@
 
 use std::{collections::HashMap, sync::Arc};
 
-use super::{
-    Context,
-    accessor::{Accessor, Component},
-    json::Item,
+use gltf::json::{
+    self,
+    accessor::ComponentType,
+    animation::{self, Interpolation, Property},
+    validation::Checked,
 };
+
+use super::{Context, accessor::Accessor, model};
 use crate::scene::{
-    document::{Animation, Channel, Interpolation, Node, Path, Transform},
+    document::{Channel, Node, Transform},
     error::Fault,
 };
 
 /// Numbers of accessors that were read already: samplers like to share them.
 type Cache = HashMap<String, Arc<[f32]>>;
 
-/// Reads all animations.
-pub fn read_all(context: &mut Context<'_>, nodes: &[Node]) -> Result<Vec<Animation>, Fault> {
+/// Reads the channels of all animations.
+pub fn read_all(context: &mut Context<'_>, nodes: &[Node]) -> Vec<Vec<Channel>> {
     let mut cache = Cache::new();
     let mut animations = Vec::new();
-    for item in context.root.objects("animations")? {
-        let parts = item
-            .objects("samplers")
-            .and_then(|samplers| Ok(Some((samplers, item.objects("channels")?))));
-        let (samplers, items) = context
-            .tolerate(parts, "the animation does nothing")
-            .unwrap_or_default();
+    for found in context.model.all::<json::Animation>() {
         let mut channels: Vec<Channel> = Vec::new();
-        for channel in items {
-            let read = read_channel(&channel, &samplers, context, nodes, &mut cache);
-            channels.extend(context.tolerate(read, "the channel is left out"));
+        let found = context.tolerate(found.map(Some), "the animation does nothing");
+        if let Some((item, place)) = found {
+            let all = item.channels.iter().enumerate();
+            for (i, channel) in all.filter(|(_, c)| !model::is_nothing(c.sampler)) {
+                let read = sampler_of(channel, i, item, &place).and_then(|(sampler, at)| {
+                    let target = format!("{place}/channels/{i}/target");
+                    read_channel(
+                        &channel.target,
+                        &target,
+                        sampler,
+                        &at,
+                        context,
+                        nodes,
+                        &mut cache,
+                    )
+                });
+                channels.extend(context.tolerate(read, "the channel is left out"));
+            }
         }
-        animations.push(Animation {
-            name: item.name(),
-            channels,
-        });
+        animations.push(channels);
     }
-    Ok(animations)
+    animations
+}
+
+/// The sampler of channel `i`, and its place.
+fn sampler_of<'i>(
+    channel: &animation::Channel,
+    i: usize,
+    item: &'i json::Animation,
+    place: &str,
+) -> Result<(&'i animation::Sampler, String), Fault> {
+    let index = channel.sampler.value();
+    let sampler = item.samplers.get(index).ok_or_else(|| {
+        let reason = format!("the animation has no samplers/{index}");
+        Fault::new(format!("{place}/channels/{i}/sampler"), reason)
+    })?;
+    Ok((sampler, format!("{place}/samplers/{index}")))
 }
 
 /// `None` where the channel has no node, or animates something that no node has; both are valid.
 fn read_channel(
-    item: &Item<'_>,
-    samplers: &[Item<'_>],
+    target: &animation::Target,
+    target_place: &str,
+    sampler: &animation::Sampler,
+    place: &str,
     context: &Context<'_>,
     nodes: &[Node],
     cache: &mut Cache,
 ) -> Result<Option<Channel>, Fault> {
-    let target = item.require("target")?;
-    let path = match target.text("path")? {
-        Some("translation") => Path::Translation,
-        Some("rotation") => Path::Rotation,
-        Some("scale") => Path::Scale,
-        Some("weights") => Path::Weights,
-        _ => return Ok(None),
-    };
-    let Some(index) = target.index("node", "nodes", nodes.len())? else {
+    let Checked::Valid(path) = target.path else {
         return Ok(None);
     };
-    if path != Path::Weights
-        && let Some(node) = nodes.get(index)
-        && matches!(node.transform, Transform::Matrix(_))
-    {
-        return Err(target.fault(format!(
-            "nodes/{index} has a matrix, so that its {path:?} cannot be animated"
-        )));
+    if model::is_nothing(target.node) {
+        return Ok(None);
     }
-    let sampler = item
-        .require("sampler")?
-        .as_index("samplers", samplers.len())?;
-    let Some(sampler) = samplers.get(sampler) else {
-        return Ok(None);
-    };
-    let interpolation = match sampler.text("interpolation")? {
-        None | Some("LINEAR") => Interpolation::Linear,
-        Some("STEP") => Interpolation::Step,
-        Some("CUBICSPLINE") => Interpolation::CubicSpline,
-        Some(other) => return Err(sampler.fault(format!("\"{other}\" is no interpolation"))),
-    };
+    let (model, node) = (context.model, target.node.value());
+    model.check(&target.node, &format!("{target_place}/node"))?;
+    if path != Property::MorphTargetWeights && matches!(nodes[node].transform, Transform::Matrix(_))
+    {
+        let reason = format!("nodes/{node} has a matrix, so that its {path:?} cannot be animated");
+        return Err(Fault::new(target_place, reason));
+    }
+    let interpolation = model.valid(&sampler.interpolation, &format!("{place}/interpolation"))?;
     let times = context
-        .accessor(&sampler.require("input")?)?
+        .accessor(sampler.input, &format!("{place}/input"))?
         .expect_components(&[1])?
-        .expect_type(&[Component::F32])?;
+        .expect_type(&[ComponentType::F32])?;
     let times = numbers(times, cache)?;
     if !times.is_sorted_by(|a, b| a < b) {
-        return Err(sampler.fault("the times of the keyframes do not ascend strictly"));
+        return Err(Fault::new(
+            place,
+            "the times of the keyframes do not ascend strictly",
+        ));
     }
 
     let components = match path {
-        Path::Translation | Path::Scale => 3,
-        Path::Rotation => 4,
-        Path::Weights => 1,
+        Property::Translation | Property::Scale => 3,
+        Property::Rotation => 4,
+        Property::MorphTargetWeights => 1,
     };
     let output = context
-        .accessor(&sampler.require("output")?)?
+        .accessor(sampler.output, &format!("{place}/output"))?
         .expect_components(&[components])?;
     let keyframes = match interpolation {
         Interpolation::CubicSpline => 3 * times.len(),
         Interpolation::Step | Interpolation::Linear => times.len(),
     };
     let per_keyframe = output.count / keyframes;
-    let expected = if path == Path::Weights {
+    let expected = if path == Property::MorphTargetWeights {
         per_keyframe >= 1
     } else {
         per_keyframe == 1
@@ -113,7 +125,7 @@ fn read_channel(
         )));
     }
     Ok(Some(Channel {
-        node: index,
+        node,
         path,
         interpolation,
         values: numbers(output.normalized(), cache)?,

@@ -2,16 +2,14 @@
 
 use std::{borrow::Cow, path::Path, sync::OnceLock};
 
-use super::{json::Item, meshopt, uri};
+use gltf::json::{Buffer, Index, buffer::View as Description, validation::USize64};
+
+use super::{meshopt, model::Model, uri};
 use crate::scene::error::Fault;
 
-const MESHOPT: &str = "EXT_meshopt_compression";
-
 /// All buffers and views of a document.
-#[derive(Debug)]
 pub struct Buffers<'a> {
-    buffers: Vec<Item<'a>>,
-    views: Vec<Item<'a>>,
+    model: &'a Model,
     binary: Option<&'a [u8]>,
     base: Option<&'a Path>,
     loaded: Vec<OnceLock<Result<Cow<'a, [u8]>, Fault>>>,
@@ -29,21 +27,19 @@ pub struct View<'b> {
 
 impl<'a> Buffers<'a> {
     /// `binary` is the GLB's chunk, `base` the folder that relative URIs start from.
-    pub fn new(
-        root: &Item<'a>,
-        binary: Option<&'a [u8]>,
-        base: Option<&'a Path>,
-    ) -> Result<Self, Fault> {
-        let buffers = root.objects("buffers")?;
-        let views = root.objects("bufferViews")?;
-        Ok(Self {
-            loaded: buffers.iter().map(|_| OnceLock::new()).collect(),
-            decoded: views.iter().map(|_| OnceLock::new()).collect(),
-            buffers,
-            views,
+    pub fn new(model: &'a Model, binary: Option<&'a [u8]>, base: Option<&'a Path>) -> Self {
+        Self {
+            loaded: model.root.buffers.iter().map(|_| OnceLock::new()).collect(),
+            decoded: model
+                .root
+                .buffer_views
+                .iter()
+                .map(|_| OnceLock::new())
+                .collect(),
+            model,
             binary,
             base,
-        })
+        }
     }
 
     /// Folder that relative URIs start from.
@@ -51,71 +47,87 @@ impl<'a> Buffers<'a> {
         self.base
     }
 
-    /// The view that the member `key` of `item` refers to; `None` where the member is absent.
-    pub fn view(&self, item: &Item<'_>, key: &str) -> Result<Option<View<'_>>, Fault> {
-        let Some(index) = item.index(key, "bufferViews", self.views.len())? else {
-            return Ok(None);
-        };
-        let (Some(view), Some(decoded)) = (self.views.get(index), self.decoded.get(index)) else {
-            return Ok(None);
-        };
-        let stride = view
-            .get("byteStride")
-            .map(|s| s.as_usize())
-            .transpose()?
-            .filter(|&s| s > 0);
-        let bytes = match view.extension(MESHOPT) {
-            Some(extension) => decoded
-                .get_or_init(|| meshopt::decode(&extension, self.range(&extension)?))
+    /// The view `index`, referred to at the place `from`.
+    pub fn view(&self, index: Index<Description>, from: &str) -> Result<View<'_>, Fault> {
+        let (view, place) = self.model.get(index, from)?;
+        let others = view
+            .extensions
+            .as_ref()
+            .map(|extensions| &extensions.others);
+        let compressed = meshopt::find(others, &place)?;
+        let bytes = match (compressed, self.decoded.get(index.value())) {
+            (Some((compressed, place)), Some(decoded)) => decoded
+                .get_or_init(|| {
+                    let (offset, length) = (compressed.byte_offset, compressed.byte_length);
+                    let bytes = self.range(compressed.buffer, offset, length, &place)?;
+                    meshopt::decode(&compressed, bytes, &place)
+                })
                 .as_deref()
                 .map_err(Clone::clone)?,
-            None => self.range(view)?,
+            _ => {
+                let offset = view.byte_offset.unwrap_or_default();
+                self.range(view.buffer, offset, view.byte_length, &place)?
+            }
         };
-        Ok(Some(View { bytes, stride }))
+        let stride = view.byte_stride.map(|stride| stride.0);
+        Ok(View {
+            bytes,
+            stride: stride.filter(|&stride| stride > 0),
+        })
     }
 
-    /// The bytes that `buffer`, `byteOffset` and `byteLength` of `item` select.
-    fn range(&self, item: &Item<'_>) -> Result<&[u8], Fault> {
-        let index = item
-            .require("buffer")?
-            .as_index("buffers", self.buffers.len())?;
-        let offset = item.usize_or("byteOffset", 0)?;
-        let length = item.require("byteLength")?.as_usize()?;
-        let bytes = self.buffer(index)?;
-        offset
+    /// `length` bytes at `offset` of a buffer, for what lies at `place`.
+    fn range(
+        &self,
+        buffer: Index<Buffer>,
+        offset: USize64,
+        length: USize64,
+        place: &str,
+    ) -> Result<&[u8], Fault> {
+        let (item, buffer_place) = self.model.get(buffer, &format!("{place}/buffer"))?;
+        let bytes = match self.loaded.get(buffer.value()) {
+            Some(slot) => slot
+                .get_or_init(|| self.load(item, &buffer_place, buffer.value()))
+                .as_deref()
+                .map_err(Clone::clone)?,
+            None => &[],
+        };
+        let (offset, length) = (offset.0, length.0);
+        let end = offset
             .checked_add(length)
-            .and_then(|end| bytes.get(offset..end))
+            .and_then(|end| usize::try_from(end).ok());
+        end.and_then(|end| bytes.get(offset as usize..end))
             .ok_or_else(|| {
-                item.fault(format!(
-                    "{length} bytes at {offset} reach beyond the {} bytes of buffers/{index}",
-                    bytes.len()
-                ))
+                let all = bytes.len();
+                Fault::new(
+                    place,
+                    format!(
+                        "{length} bytes at {offset} reach beyond the {all} bytes of {buffer_place}"
+                    ),
+                )
             })
     }
 
-    fn buffer(&self, index: usize) -> Result<&[u8], Fault> {
-        let (Some(item), Some(slot)) = (self.buffers.get(index), self.loaded.get(index)) else {
-            return Ok(&[]);
+    fn load(&self, item: &'a Buffer, place: &str, index: usize) -> Result<Cow<'a, [u8]>, Fault> {
+        let length = item.byte_length.0;
+        let mut bytes = match (&item.uri, self.binary) {
+            (Some(uri), _) => uri::fetch(uri, self.base, length)
+                .map(Cow::Owned)
+                .map_err(|reason| Fault::new(format!("{place}/uri"), reason))?,
+            (None, Some(binary)) if index == 0 => Cow::Borrowed(binary),
+            _ => {
+                return Err(Fault::new(
+                    place,
+                    "has neither a URI nor a GLB's binary chunk",
+                ));
+            }
         };
-        slot.get_or_init(|| self.load(item, index))
-            .as_deref()
-            .map_err(Clone::clone)
-    }
-
-    fn load(&self, item: &Item<'a>, index: usize) -> Result<Cow<'a, [u8]>, Fault> {
-        let length = item.require("byteLength")?.as_usize()?;
-        let Some(uri) = item.get("uri") else {
-            return match self.binary {
-                // The chunk may be padded, never shorter.
-                Some(binary) if index == 0 => {
-                    Ok(Cow::Borrowed(binary.get(..length).unwrap_or(binary)))
-                }
-                _ => Err(item.fault("has neither a URI nor a GLB's binary chunk")),
-            };
-        };
-        let mut bytes = uri::fetch(uri.as_str()?, self.base, length as u64)
-            .map_err(|reason| uri.fault(reason))?;
-        bytes.truncate(length);
-        Ok(Cow::Owned(bytes))
+        // The chunk may be padded.
+        let length = usize::try_from(length).unwrap_or(usize::MAX);
+        match &mut bytes {
+            Cow::Owned(bytes) => bytes.truncate(length),
+            Cow::Borrowed(bytes) => *bytes = bytes.get(..length).unwrap_or(bytes),
+        }
+        Ok(bytes)
     }
 }

@@ -2,68 +2,71 @@
 
 use std::f64::consts::PI;
 
-use super::{Context, json::Item};
-use crate::scene::{document::Camera, error::Fault, view::SceneProjection};
+use gltf::json::{
+    Camera,
+    camera::{Orthographic, Perspective, Type},
+};
+
+use super::{Context, model::Model};
+use crate::scene::{error::Fault, view::SceneProjection};
 
 /// Reads all cameras; `None` for those that cannot be used.
-pub fn read_all(context: &mut Context<'_>) -> Result<Vec<Option<Camera>>, Fault> {
-    let items = context.root.objects("cameras")?;
-    Ok(items
-        .iter()
-        .map(|item| context.tolerate(read(item).map(Some), "the camera is left out"))
-        .collect())
+pub fn read_all(context: &mut Context<'_>) -> Vec<Option<SceneProjection>> {
+    let model = context.model;
+    let read = model.all().map(|found| {
+        let (item, place) = found?;
+        read(item, &place, model).map(Some)
+    });
+    read.map(|read| context.tolerate(read, "the camera is left out"))
+        .collect()
 }
 
-fn read(item: &Item<'_>) -> Result<Camera, Fault> {
-    let kind = item.require("type")?;
-    let projection = match kind.as_str()? {
-        "perspective" => read_perspective(&item.require("perspective")?)?,
-        "orthographic" => read_orthographic(&item.require("orthographic")?)?,
-        other => return Err(kind.fault(format!("\"{other}\" is no camera type"))),
+fn read(item: &Camera, place: &str, model: &Model) -> Result<SceneProjection, Fault> {
+    let part = match model.valid(&item.type_, &format!("{place}/type"))? {
+        Type::Perspective => "perspective",
+        Type::Orthographic => "orthographic",
     };
-    Ok(Camera {
-        name: item.name(),
-        projection,
-    })
+    let projection = match (part, &item.perspective, &item.orthographic) {
+        ("perspective", Some(item), _) => perspective(item),
+        ("orthographic", _, Some(item)) => orthographic(item),
+        _ => return Err(Fault::new(place, format!("lacks the required \"{part}\""))),
+    };
+    projection.map_err(|reason| Fault::new(format!("{place}/{part}"), reason))
 }
 
-fn read_perspective(item: &Item<'_>) -> Result<SceneProjection, Fault> {
-    let yfov = item.require("yfov")?.as_f64()?;
+fn perspective(item: &Perspective) -> Result<SceneProjection, String> {
+    let (yfov, near, far) = (wide(item.yfov), wide(item.znear), item.zfar.map(wide));
     if !(yfov > 0.0 && yfov < PI) {
-        return Err(item.fault(format!(
+        return Err(format!(
             "a vertical field of view of {yfov} is not between 0 and pi"
-        )));
+        ));
     }
-    let near = item.require("znear")?.as_f64()?;
-    let far = item.get("zfar").map(|far| far.as_f64()).transpose()?;
     if near <= 0.0 || far.is_some_and(|far| far <= near) {
-        return Err(item.fault(format!(
-            "the planes {near} and {} are not positive and ascending",
-            far.unwrap_or(f64::INFINITY)
-        )));
+        let far = far.unwrap_or(f64::INFINITY);
+        return Err(format!(
+            "the planes {near} and {far} are not positive and ascending"
+        ));
     }
-    let aspect = item.get("aspectRatio").map(|a| a.as_f64()).transpose()?;
     Ok(SceneProjection::Perspective {
         yfov,
         // A ratio is advice only, so that a useless one is no reason to lose the camera.
-        aspect: aspect.filter(|&aspect| aspect > 0.0),
+        aspect: item.aspect_ratio.map(wide).filter(|&aspect| aspect > 0.0),
         near,
         far,
     })
 }
 
-fn read_orthographic(item: &Item<'_>) -> Result<SceneProjection, Fault> {
-    let number = |key: &str| item.require(key)?.as_f64();
+fn orthographic(item: &Orthographic) -> Result<SceneProjection, String> {
     // The specification discourages negative magnifications, but does not forbid them.
-    let (xmag, ymag) = (number("xmag")?.abs(), number("ymag")?.abs());
-    let (near, far) = (number("znear")?, number("zfar")?);
+    let (xmag, ymag) = (wide(item.xmag).abs(), wide(item.ymag).abs());
+    let (near, far) = (wide(item.znear), wide(item.zfar));
     if xmag == 0.0 || ymag == 0.0 {
-        return Err(item.fault("a magnification of 0 shows nothing"));
+        return Err("a magnification of 0 shows nothing".to_owned());
     }
     if near < 0.0 || far <= near {
-        return Err(item.fault(format!(
+        return Err(format!(
             "the planes {near} and {far} are not positive and ascending"
-        )));
+        ));
     }
     Ok(SceneProjection::Orthographic {
         xmag,
@@ -71,4 +74,9 @@ fn read_orthographic(item: &Item<'_>) -> Result<SceneProjection, Fault> {
         near,
         far,
     })
+}
+
+/// The double that the file most likely had: the shortest decimal that names the same float.
+fn wide(x: f32) -> f64 {
+    x.to_string().parse().unwrap_or(f64::from(x))
 }

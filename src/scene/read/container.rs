@@ -21,6 +21,11 @@ pub fn is_lfs_pointer(bytes: &[u8]) -> bool {
     bytes.starts_with(LFS_POINTER)
 }
 
+/// Whether `bytes` start as a GLB does.
+pub fn is_glb(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"glTF")
+}
+
 /// Tells GLB from JSON by content and takes it apart.
 pub fn open<'a>(bytes: &'a [u8], file: &str) -> Result<Container<'a>, SceneError> {
     let refuse = |reason: String| SceneError::NotGltf {
@@ -36,7 +41,7 @@ pub fn open<'a>(bytes: &'a [u8], file: &str) -> Result<Container<'a>, SceneError
                 .to_owned(),
         ));
     }
-    let (json, binary) = if bytes.starts_with(b"glTF") {
+    let (json, binary) = if is_glb(bytes) {
         split_glb(bytes, file)?
     } else {
         (bytes, None)
@@ -46,7 +51,7 @@ pub fn open<'a>(bytes: &'a [u8], file: &str) -> Result<Container<'a>, SceneError
         Some(b'{') => {}
         Some(_) => {
             return Err(refuse(
-                "is neither a GLB nor a glTF JSON document".to_owned(),
+                "is neither a GLB nor a glTF JSON document, nor OBJ, STL or PLY".to_owned(),
             ));
         }
         None => return Err(refuse("the JSON document is empty".to_owned())),

@@ -6,10 +6,11 @@ use std::{
     io::Cursor,
 };
 
-use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
+use gltf::json::{self, Index};
+use image::{DynamicImage, ImageFormat, ImageReader, Limits};
 use rayon::prelude::*;
 
-use super::{Context, buffer::Buffers, json::Item, uri};
+use super::{Context, buffer::Buffers, model::Model, uri};
 use crate::scene::{error::Fault, material::Image};
 
 /// Largest width and height.
@@ -24,29 +25,15 @@ const TEXELS_PER_BYTE: u64 = 1024;
 const MAX_FILE: u64 = 1 << 30;
 
 /// The document's images, of which those asked for are decoded.
-pub struct Images<'a> {
-    items: Vec<Item<'a>>,
+#[derive(Default)]
+pub struct Images {
     /// Index into `decoded` of every image that was tried.
     places: BTreeMap<usize, Option<u32>>,
     decoded: Vec<Image>,
     texels: u64,
 }
 
-impl<'a> Images<'a> {
-    pub fn new(root: &Item<'a>) -> Result<Self, Fault> {
-        Ok(Self {
-            items: root.objects("images")?,
-            places: BTreeMap::new(),
-            decoded: Vec::new(),
-            texels: 0,
-        })
-    }
-
-    /// Number of images in the document.
-    pub fn len(&self) -> usize {
-        self.items.len()
-    }
-
+impl Images {
     /// Decodes the images `wanted` that were not tried yet; failures become warnings.
     pub fn decode(&mut self, context: &mut Context<'_>, wanted: impl IntoIterator<Item = usize>) {
         let wanted: BTreeSet<usize> = wanted
@@ -57,19 +44,23 @@ impl<'a> Images<'a> {
         let mut faults = Vec::new();
         for index in wanted {
             self.places.insert(index, None);
-            let Some(item) = self.items.get(index).cloned() else {
-                continue;
-            };
-            let encoded = fetch(&item, &context.buffers).and_then(|bytes| self.admit(&item, bytes));
+            let encoded =
+                fetch(index, context.model, &context.buffers).and_then(|(bytes, place)| match self
+                    .admit(bytes)
+                {
+                    Ok(encoded) => Ok((index, encoded, place)),
+                    Err(reason) => Err(Fault::new(place, reason)),
+                });
             match encoded {
-                Ok(encoded) => accepted.push((index, item, encoded)),
+                Ok(encoded) => accepted.push(encoded),
                 Err(fault) => faults.push(fault),
             }
         }
         let decoded: Vec<_> = accepted
             .into_par_iter()
-            .map(|(index, item, encoded)| {
-                (index, encoded.decode().map_err(|reason| item.fault(reason)))
+            .map(|(index, encoded, place)| {
+                let fault = |reason| Fault::new(place, reason);
+                (index, encoded.decode().map_err(fault))
             })
             .collect();
         for (index, result) in decoded {
@@ -85,26 +76,41 @@ impl<'a> Images<'a> {
     }
 
     /// Checks an image's header against the limits.
-    fn admit<'b>(&mut self, item: &Item<'_>, bytes: Cow<'b, [u8]>) -> Result<Encoded<'b>, Fault> {
-        let format = sniff(&bytes).map_err(|reason| item.fault(reason))?;
-        let (width, height) = ImageReader::with_format(Cursor::new(&bytes), format)
-            .into_dimensions()
-            .map_err(|error| item.fault(format!("cannot be decoded: {error}")))?;
+    fn admit<'b>(&mut self, bytes: Cow<'b, [u8]>) -> Result<Encoded<'b>, String> {
+        let format = sniff(&bytes)?;
+        let (width, height) = match format {
+            Format::Picture(format) => ImageReader::with_format(Cursor::new(&bytes), format)
+                .into_dimensions()
+                .map_err(|error| format!("cannot be decoded: {error}"))?,
+            #[cfg(feature = "basisu")]
+            Format::Basis => super::basis::dimensions(&bytes)?,
+        };
         let texels = u64::from(width) * u64::from(height);
         let size = format!("{width} x {height} texels");
         if texels == 0 || width > MAX_SIDE || height > MAX_SIDE {
-            return Err(item.fault(format!("{size} are not within 1 to {MAX_SIDE} a side")));
+            return Err(format!("{size} are not within 1 to {MAX_SIDE} a side"));
         }
         if texels > FREE_TEXELS + TEXELS_PER_BYTE * bytes.len() as u64 {
-            return Err(item.fault(format!("claims {size}, but has {} bytes", bytes.len())));
+            return Err(format!("claims {size}, but has {} bytes", bytes.len()));
         }
         if self.texels + texels > MAX_TEXELS {
-            return Err(item.fault(format!(
+            return Err(format!(
                 "{size} exceed the limit of {MAX_TEXELS} texels for all images together"
-            )));
+            ));
         }
         self.texels += texels;
-        Ok(Encoded { bytes, format })
+        Ok(Encoded {
+            bytes,
+            format,
+            size: (width, height),
+        })
+    }
+
+    /// Decodes an image that is none of a document's; where it is among the decoded ones.
+    pub fn add(&mut self, bytes: Cow<'_, [u8]>) -> Result<u32, String> {
+        let image = self.admit(bytes)?.decode()?;
+        self.decoded.push(image);
+        Ok(self.decoded.len() as u32 - 1)
     }
 
     /// Where image `index` is among the decoded ones.
@@ -117,40 +123,86 @@ impl<'a> Images<'a> {
     }
 }
 
-/// The encoded bytes of the image `item`.
-fn fetch<'b>(item: &Item<'_>, buffers: &'b Buffers<'_>) -> Result<Cow<'b, [u8]>, Fault> {
-    if let Some(uri) = item.get("uri") {
-        return uri::fetch(uri.as_str()?, buffers.base(), MAX_FILE)
+/// The encoded bytes of an image, and its place.
+fn fetch<'b>(
+    index: usize,
+    model: &Model,
+    buffers: &'b Buffers<'_>,
+) -> Result<(Cow<'b, [u8]>, String), Fault> {
+    let (item, place) = model.get::<json::Image>(Index::new(index as u32), "/images")?;
+    let bytes = match (&item.uri, item.buffer_view) {
+        (Some(uri), _) => uri::fetch(uri, buffers.base(), MAX_FILE)
             .map(Cow::Owned)
-            .map_err(|reason| uri.fault(reason));
-    }
-    match buffers.view(item, "bufferView")? {
-        Some(view) => Ok(Cow::Borrowed(view.bytes)),
-        None => Err(item.fault("has neither a URI nor a buffer view")),
-    }
+            .map_err(|reason| Fault::new(format!("{place}/uri"), reason))?,
+        (None, Some(view)) => {
+            Cow::Borrowed(buffers.view(view, &format!("{place}/bufferView"))?.bytes)
+        }
+        _ => return Err(Fault::new(place, "has neither a URI nor a buffer view")),
+    };
+    Ok((bytes, place))
+}
+
+/// How an image is encoded.
+#[derive(Clone, Copy)]
+enum Format {
+    /// PNG, JPEG or WebP.
+    Picture(ImageFormat),
+    /// KTX2 of Basis Universal.
+    #[cfg(feature = "basisu")]
+    Basis,
 }
 
 /// The format by content; the declared type and the file's extension are often wrong.
-fn sniff(bytes: &[u8]) -> Result<ImageFormat, String> {
+fn sniff(bytes: &[u8]) -> Result<Format, String> {
     match image::guess_format(bytes) {
-        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP)) => Ok(format),
-        _ if bytes.starts_with(b"\xABKTX 20\xBB") => {
-            Err("KTX2 images are not supported; convert them to PNG, JPEG or WebP".to_owned())
+        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP)) => {
+            Ok(Format::Picture(format))
         }
-        _ => Err("is neither PNG, JPEG nor WebP".to_owned()),
+        #[cfg(feature = "basisu")]
+        _ if bytes.starts_with(KTX2) => Ok(Format::Basis),
+        #[cfg(not(feature = "basisu"))]
+        _ if bytes.starts_with(KTX2) => Err(
+            "is a KTX2 image, for which the feature `basisu` is needed; convert it to PNG, JPEG or \
+             WebP"
+                .to_owned(),
+        ),
+        _ => Err("is neither PNG, JPEG, WebP nor KTX2".to_owned()),
     }
 }
+
+/// First bytes of a KTX2 file.
+const KTX2: &[u8] = b"\xABKTX 20\xBB";
 
 /// An image whose header was found acceptable.
 struct Encoded<'b> {
     bytes: Cow<'b, [u8]>,
-    format: ImageFormat,
+    format: Format,
+    size: (u32, u32),
 }
 
 impl Encoded<'_> {
     fn decode(&self) -> Result<Image, String> {
+        let pixels = match self.format {
+            Format::Picture(format) => self.decode_picture(format)?,
+            #[cfg(feature = "basisu")]
+            Format::Basis => super::basis::decode(&self.bytes)?,
+        };
+        let (width, height) = self.size;
+        if pixels.len() as u64 != 4 * u64::from(width) * u64::from(height) {
+            return Err(format!(
+                "is not of the {width} x {height} texels that its header states"
+            ));
+        }
+        Ok(Image {
+            width,
+            height,
+            pixels,
+        })
+    }
+
+    fn decode_picture(&self, format: ImageFormat) -> Result<Vec<u8>, String> {
         let failed = |error: image::ImageError| format!("cannot be decoded: {error}");
-        let mut reader = ImageReader::with_format(Cursor::new(&self.bytes), self.format);
+        let mut reader = ImageReader::with_format(Cursor::new(&self.bytes), format);
         let mut limits = Limits::default();
         limits.max_image_width = Some(MAX_SIDE);
         limits.max_image_height = Some(MAX_SIDE);
@@ -158,15 +210,7 @@ impl Encoded<'_> {
         limits.max_alloc = Some(16 * u64::from(MAX_SIDE) * u64::from(MAX_SIDE));
         reader.limits(limits);
         let decoder = reader.into_decoder().map_err(failed)?;
-        let (width, height) = decoder.dimensions();
-        let pixels = DynamicImage::from_decoder(decoder)
-            .map_err(failed)?
-            .into_rgba8()
-            .into_raw();
-        Ok(Image {
-            width,
-            height,
-            pixels,
-        })
+        let pixels = DynamicImage::from_decoder(decoder).map_err(failed)?;
+        Ok(pixels.into_rgba8().into_raw())
     }
 }

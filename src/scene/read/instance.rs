@@ -1,52 +1,61 @@
 //! Instances of a node's mesh (`EXT_mesh_gpu_instancing`).
 
-use std::sync::Arc;
+use std::{collections::BTreeMap, sync::Arc};
 
 use glam::{DAffine3, DQuat, DVec3, Vec3, Vec4};
+use gltf::json::{self, Index, accessor::ComponentType};
+use serde_json::{Map, Value};
 
-use super::{
-    Context,
-    accessor::{Accessor, Component},
-    json::Item,
-};
+use super::{Context, accessor::Accessor, model};
 use crate::scene::{document::Parts, error::Fault};
 
-/// Reads the transforms of the extension object `extension`, relative to the node.
-pub fn read(extension: &Item<'_>, context: &mut Context<'_>) -> Result<Arc<[DAffine3]>, Fault> {
-    let attributes = extension.require("attributes")?;
-    let attribute = |name: &str, components: usize, types: &[Component]| {
-        attributes
-            .get(name)
-            .map(|item| {
-                context
-                    .accessor(&item)?
-                    .expect_components(&[components])?
-                    .expect_type(types)
-            })
-            .transpose()
+/// The extension object.
+#[derive(serde::Deserialize)]
+struct Instancing {
+    attributes: BTreeMap<String, Index<json::Accessor>>,
+}
+
+/// Reads the transforms relative to the node at `place`; `None` where it has no instances.
+pub fn read(
+    others: &Map<String, Value>,
+    place: &str,
+    context: &Context<'_>,
+) -> Result<Option<Arc<[DAffine3]>>, Fault> {
+    let found = model::extension(Some(others), "EXT_mesh_gpu_instancing", place)?;
+    let Some((Instancing { attributes }, place)) = found else {
+        return Ok(None);
     };
-    let floats = &[Component::F32];
+    let place = format!("{place}/attributes");
+    let attribute = |name: &str, components: usize, types: &[ComponentType]| {
+        let accessor = attributes.get(name).map(|&index| {
+            context
+                .accessor(index, &format!("{place}/{name}"))?
+                .expect_components(&[components])?
+                .expect_type(types)
+        });
+        accessor.transpose()
+    };
+    let floats = &[ComponentType::F32];
     let translation = attribute("TRANSLATION", 3, floats)?;
-    let rotation = attribute(
-        "ROTATION",
-        4,
-        &[Component::F32, Component::I8, Component::I16],
-    )?
-    .map(Accessor::normalized);
+    let fractions = &[ComponentType::F32, ComponentType::I8, ComponentType::I16];
+    let rotation = attribute("ROTATION", 4, fractions)?.map(Accessor::normalized);
     let scale = attribute("SCALE", 3, floats)?;
 
     let all = [&translation, &rotation, &scale];
     let mut counts = all.into_iter().flatten().map(|a| a.count);
+    let fault = |reason: String| Fault::new(place.clone(), reason);
     let count = counts
         .next()
-        .ok_or_else(|| attributes.fault("has none of TRANSLATION, ROTATION and SCALE"))?;
+        .ok_or_else(|| fault("has none of TRANSLATION, ROTATION and SCALE".to_owned()))?;
     if counts.any(|other| other != count) {
-        return Err(attributes.fault("the attributes differ in their number of elements"));
+        return Err(fault(
+            "the attributes differ in their number of elements".to_owned(),
+        ));
     }
     if !all.into_iter().flatten().any(|a| !a.is_void()) && count > 1 {
-        return Err(attributes.fault(format!("claims {count} instances without any data")));
+        return Err(fault(format!("claims {count} instances without any data")));
     }
-    context.budget.add_instances(count, attributes.place())?;
+    context.budget.add_instances(count, &place)?;
 
     let instances = (0..count).map(|i| {
         let mut parts = Parts::default();
@@ -65,7 +74,7 @@ pub fn read(extension: &Item<'_>, context: &mut Context<'_>) -> Result<Arc<[DAff
         }
         parts.affine()
     });
-    Ok(instances.collect())
+    Ok(Some(instances.collect()))
 }
 
 fn finite(v: [f32; 3], otherwise: DVec3) -> DVec3 {

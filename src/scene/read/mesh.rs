@@ -2,43 +2,38 @@
 
 use rayon::prelude::*;
 
+use gltf::json;
+
 use super::{
     Context,
-    json::Item,
     limits::MAX_ELEMENTS,
     primitive::{self, Outcome},
 };
-use crate::scene::{
-    document::{Mesh, Node},
-    error::Fault,
-    material::Material,
-};
+use crate::scene::{document::Primitive, error::Fault, material::Material};
 
-/// Reads the meshes of `nodes`, all primitives in parallel; the others stay empty.
+/// Reads the primitives of the meshes that nodes use, all in parallel; the others stay empty.
 pub fn read_all(
     context: &mut Context<'_>,
-    nodes: &[Node],
     materials: &[Material],
-) -> Result<Vec<Mesh>, Fault> {
-    let items = context.root.objects("meshes")?;
-    let mut used = vec![false; items.len()];
-    for mesh in nodes.iter().filter_map(|node| node.mesh) {
-        used[mesh] = true;
+) -> Result<Vec<Vec<Primitive>>, Fault> {
+    let root = &context.model.root;
+    let mut used = vec![false; root.meshes.len()];
+    for mesh in root.nodes.iter().filter_map(|node| node.mesh) {
+        used[mesh.value()] = true;
     }
-    let mut meshes = vec![Mesh::default(); items.len()];
-    let mut primitives: Vec<(usize, Item<'_>)> = Vec::new();
-    for (index, item) in items.iter().enumerate().filter(|&(i, _)| used[i]) {
-        primitives.extend(item.objects("primitives")?.into_iter().map(|p| (index, p)));
-        if let Some(weights) = item.get("weights") {
-            let weights = context.tolerate(weights.as_numbers().map(Some), "the weights are 0");
-            meshes[index].weights = weights.unwrap_or_default();
-        }
+    let mut meshes = vec![Vec::new(); root.meshes.len()];
+    let mut primitives = Vec::new();
+    let all = context.model.all::<json::Mesh>().enumerate();
+    for (index, found) in all.filter(|&(i, _)| used[i]) {
+        let (mesh, place) = found?;
+        let each = mesh.primitives.iter().enumerate();
+        primitives.extend(each.map(|(i, p)| (index, p, format!("{place}/primitives/{i}"))));
     }
 
     let shared = &*context;
     let triangles = primitives
         .iter()
-        .map(|(_, item)| primitive::claimed_triangles(item, shared))
+        .map(|(_, item, _)| primitive::claimed_triangles(item, shared))
         .fold(0, u64::saturating_add);
     if triangles > MAX_ELEMENTS {
         return Err(Fault::new(
@@ -48,9 +43,9 @@ pub fn read_all(
     }
     let read: Vec<_> = primitives
         .into_par_iter()
-        .map(|(mesh, item)| {
+        .map(|(mesh, item, place)| {
             let mut notes = Vec::new();
-            let outcome = primitive::read(&item, shared, materials, &mut notes);
+            let outcome = primitive::read(item, &place, shared, materials, &mut notes);
             (mesh, outcome, notes)
         })
         .collect();
@@ -58,7 +53,7 @@ pub fn read_all(
     for (mesh, outcome, notes) in read {
         context.warnings.extend(notes);
         match outcome? {
-            Outcome::Drawn(primitive) => meshes[mesh].primitives.push(*primitive),
+            Outcome::Drawn(primitive) => meshes[mesh].push(*primitive),
             Outcome::Points => points += 1,
             Outcome::Lines => lines += 1,
             Outcome::Nothing => {}

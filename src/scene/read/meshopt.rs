@@ -1,38 +1,75 @@
-//! Buffer views compressed with `EXT_meshopt_compression`.
+//! Buffer views compressed with `KHR_meshopt_compression` or, by its older name,
+//! `EXT_meshopt_compression`.
 
 use meshopt::{
-    decode_filter_exp, decode_filter_oct, decode_filter_quat, decode_index_buffer,
-    decode_index_sequence, decode_vertex_buffer,
+    decode_filter_color, decode_filter_exp, decode_filter_oct, decode_filter_quat,
+    decode_index_buffer, decode_index_sequence, decode_vertex_buffer,
 };
 
-use super::json::Item;
+use gltf::json::{Buffer, Index, validation::USize64};
+use serde_json::{Map, Value};
+
+use super::model;
 use crate::scene::error::Fault;
+
+/// The extension object.
+#[derive(serde::Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Compressed {
+    pub buffer: Index<Buffer>,
+    #[serde(default)]
+    pub byte_offset: USize64,
+    pub byte_length: USize64,
+    byte_stride: u32,
+    count: u64,
+    mode: String,
+    #[serde(default)]
+    filter: Option<String>,
+}
+
+/// The extension among those of a buffer view at `place`, and its own place.
+pub fn find(
+    others: Option<&Map<String, Value>>,
+    place: &str,
+) -> Result<Option<(Compressed, String)>, Fault> {
+    // The second is the first one's ratified name.
+    let old = model::extension(others, "EXT_meshopt_compression", place)?;
+    match old {
+        None => model::extension(others, "KHR_meshopt_compression", place),
+        found => Ok(found),
+    }
+}
 
 /// Most bytes that one encoded byte can stand for. Attributes: a block of up to 256 elements has at
 /// least a control byte for every 4 bytes of an element. Triangles: a byte for 3 indices of 4 bytes.
 /// Indices: a byte for each index of 4 bytes.
-const ATTRIBUTE_RATIO: usize = 1024;
-const TRIANGLE_RATIO: usize = 12;
-const INDEX_RATIO: usize = 4;
+const ATTRIBUTE_RATIO: u64 = 1024;
+const TRIANGLE_RATIO: u64 = 12;
+const INDEX_RATIO: u64 = 4;
 
-/// Decodes `encoded` as the extension object `extension` describes it.
-pub fn decode(extension: &Item<'_>, encoded: &[u8]) -> Result<Vec<u8>, Fault> {
-    let stride = extension.require("byteStride")?.as_usize()?;
-    let count = extension.require("count")?.as_usize()?;
-    let mode = extension.require("mode")?;
-    let ratio = match mode.as_str()? {
+/// Decodes `encoded` as the extension object `compressed` at `place` describes it.
+pub fn decode(compressed: &Compressed, encoded: &[u8], place: &str) -> Result<Vec<u8>, Fault> {
+    let (stride, count) = (compressed.byte_stride as usize, compressed.count);
+    let ratio = match compressed.mode.as_str() {
         "ATTRIBUTES" => ATTRIBUTE_RATIO,
         "TRIANGLES" => TRIANGLE_RATIO,
         "INDICES" => INDEX_RATIO,
-        other => return Err(mode.fault(format!("unknown compression mode \"{other}\""))),
+        other => {
+            let reason = format!("unknown compression mode \"{other}\"");
+            return Err(Fault::new(format!("{place}/mode"), reason));
+        }
     };
-    let justified = encoded.len().saturating_mul(ratio);
-    if count == 0 || count.checked_mul(stride).is_none_or(|n| n > justified) {
-        return Err(extension.fault(format!(
-            "{} bytes cannot hold {count} elements of {stride} bytes",
-            encoded.len()
-        )));
+    let justified = (encoded.len() as u64).saturating_mul(ratio);
+    if count == 0 || count.saturating_mul(stride as u64) > justified {
+        return Err(Fault::new(
+            place,
+            format!(
+                "{} bytes cannot hold {count} elements of {stride} bytes",
+                encoded.len()
+            ),
+        ));
     }
+    let count = count as usize;
     let bytes = match ratio {
         ATTRIBUTE_RATIO => decode_attributes(encoded, count, stride),
         TRIANGLE_RATIO if !count.is_multiple_of(3) => None,
@@ -55,16 +92,26 @@ pub fn decode(extension: &Item<'_>, encoded: &[u8]) -> Result<Vec<u8>, Fault> {
             _ => None,
         },
     };
-    let bytes = bytes.ok_or_else(|| extension.fault("the compressed data are broken"))?;
-    apply_filter(extension, bytes, stride)
+    let bytes = bytes.ok_or_else(|| Fault::new(place, "the compressed data are broken"))?;
+    apply_filter(
+        compressed.filter.as_deref().unwrap_or("NONE"),
+        bytes,
+        stride,
+        place,
+    )
 }
 
 fn to_bytes<T: bytemuck::NoUninit>(values: Vec<T>) -> Vec<u8> {
     bytemuck::cast_slice(&values).to_vec()
 }
 
-fn apply_filter(extension: &Item<'_>, bytes: Vec<u8>, stride: usize) -> Result<Vec<u8>, Fault> {
-    match (extension.text("filter")?.unwrap_or("NONE"), stride) {
+fn apply_filter(
+    filter: &str,
+    bytes: Vec<u8>,
+    stride: usize,
+    place: &str,
+) -> Result<Vec<u8>, Fault> {
+    match (filter, stride) {
         ("NONE", _) => Ok(bytes),
         ("OCTAHEDRAL", 4) => {
             let mut values: Vec<[i8; 4]> = bytemuck::pod_collect_to_vec(&bytes);
@@ -74,6 +121,16 @@ fn apply_filter(extension: &Item<'_>, bytes: Vec<u8>, stride: usize) -> Result<V
         ("OCTAHEDRAL", 8) => {
             let mut values: Vec<[i16; 4]> = bytemuck::pod_collect_to_vec(&bytes);
             decode_filter_oct(&mut values);
+            Ok(to_bytes(values))
+        }
+        ("COLOR", 4) => {
+            let mut values: Vec<[u8; 4]> = bytemuck::pod_collect_to_vec(&bytes);
+            decode_filter_color(&mut values);
+            Ok(to_bytes(values))
+        }
+        ("COLOR", 8) => {
+            let mut values: Vec<[u16; 4]> = bytemuck::pod_collect_to_vec(&bytes);
+            decode_filter_color(&mut values);
             Ok(to_bytes(values))
         }
         ("QUATERNION", 8) => {
@@ -87,9 +144,10 @@ fn apply_filter(extension: &Item<'_>, bytes: Vec<u8>, stride: usize) -> Result<V
             decode_filter_exp(&mut values);
             Ok(to_bytes(values))
         }
-        (filter, _) => Err(extension.fault(format!(
-            "no filter \"{filter}\" for elements of {stride} bytes"
-        ))),
+        (filter, _) => Err(Fault::new(
+            place,
+            format!("no filter \"{filter}\" for elements of {stride} bytes"),
+        )),
     }
 }
 

@@ -1,4 +1,4 @@
-//! Reads glTF 2.0.
+//! Reads glTF 2.0, and what other formats have of triangles and base colours.
 //!
 //! Faults in what a scene's geometry is made of are errors; faults in how it looks, moves or is
 //! looked at become warnings, and the element is left out or takes its defaults. Unused buffers,
@@ -7,55 +7,63 @@
 mod accessor;
 mod animation;
 mod asset;
+#[cfg(feature = "basisu")]
+mod basis;
 mod buffer;
 mod camera;
 mod container;
+#[cfg(feature = "draco")]
+mod draco;
 mod image;
 mod instance;
-mod json;
 mod light;
 mod limits;
 mod material;
 mod mesh;
 mod meshopt;
+mod model;
 mod node;
+mod obj;
+mod packed;
+mod ply;
 mod primitive;
+mod shape;
 mod skin;
-mod surface;
-mod tangent;
+mod stl;
 mod texture;
-mod triangles;
 mod uri;
 mod vertex;
 
 use std::path::Path;
 
+use gltf::json::{self, Index};
+
 use accessor::Accessor;
 use buffer::Buffers;
-use json::Item;
 use limits::Budget;
 pub use limits::MAX_ELEMENTS;
+use model::Model;
 
 use super::{
     Loaded, Scene, SceneError,
-    document::Document,
+    document::{Document, variants},
     error::{Fault, Warnings},
 };
 
 /// What every reader needs.
 struct Context<'a> {
-    root: Item<'a>,
-    accessors: Vec<Item<'a>>,
+    model: &'a Model,
+    /// Which variant of the materials is drawn.
+    variant: Option<u32>,
     buffers: Buffers<'a>,
     budget: Budget,
     warnings: Warnings,
 }
 
 impl Context<'_> {
-    /// The accessor whose index `item` is.
-    fn accessor(&self, item: &Item<'_>) -> Result<Accessor<'_>, Fault> {
-        let index = item.as_index("accessors", self.accessors.len())?;
-        Accessor::new(&self.accessors[index], &self.buffers)
+    /// The accessor `index`, referred to at the place `from`.
+    fn accessor(&self, index: Index<json::Accessor>, from: &str) -> Result<Accessor<'_>, Fault> {
+        Accessor::new(self.model, index, from, &self.buffers)
     }
 
     fn warn(&mut self, fault: &Fault) {
@@ -64,62 +72,111 @@ impl Context<'_> {
 
     /// Turns an error into a warning that says what follows from it.
     fn tolerate<T>(&mut self, result: Result<Option<T>, Fault>, consequence: &str) -> Option<T> {
-        result.unwrap_or_else(|Fault { place, reason }| {
-            self.warn(&Fault::new(place, format!("{reason}; {consequence}")));
+        result.unwrap_or_else(|fault| {
+            self.warn(&fault.but(consequence));
             None
         })
     }
 }
 
-/// Reads a scene from the bytes of a file; `file` is what messages call it, and relative URIs start
-/// from `base`.
-pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, SceneError> {
+/// Reads a scene from the bytes of a file, whose format is told by its content; `file` is what
+/// messages call it, relative URIs start from `base`, and the materials are those of the `variant`
+/// of that name.
+pub fn read(
+    bytes: &[u8],
+    file: &str,
+    base: Option<&Path>,
+    variant: Option<&str>,
+) -> Result<Loaded, SceneError> {
+    if container::is_glb(bytes) {
+        return read_gltf(bytes, file, base, variant);
+    }
+    let loaded = if stl::is_stl(bytes) {
+        stl::read(bytes, file)?
+    } else if ply::is_ply(bytes) {
+        ply::read(bytes, file)?
+    } else if obj::is_obj(bytes) {
+        obj::read(bytes, file, base)?
+    } else {
+        return read_gltf(bytes, file, base, variant);
+    };
+    find_variant(&loaded.scene.document.root, variant, file)?;
+    Ok(loaded)
+}
+
+/// The index of the variant of that name.
+fn find_variant(
+    root: &json::Root,
+    variant: Option<&str>,
+    file: &str,
+) -> Result<Option<u32>, SceneError> {
+    let Some(asked) = variant else {
+        return Ok(None);
+    };
+    let index = variants(root).position(|name| name == asked);
+    let index = index.ok_or_else(|| {
+        let names: Vec<String> = variants(root).map(|name| format!("\"{name}\"")).collect();
+        SceneError::NoSuchVariant {
+            file: file.to_owned(),
+            asked: asked.to_owned(),
+            known: match names.is_empty() {
+                true => "the file has none".to_owned(),
+                false => format!("the file has {}", names.join(", ")),
+            },
+        }
+    })?;
+    Ok(Some(index as u32))
+}
+
+fn read_gltf(
+    bytes: &[u8],
+    file: &str,
+    base: Option<&Path>,
+    variant: Option<&str>,
+) -> Result<Loaded, SceneError> {
     let container = container::open(bytes, file)?;
     let malformed = |fault: Fault| fault.into_error(file);
-    let root = Item::root(&container.json);
+    let mut value = container.json;
+    model::settle(&mut value, "");
     let mut warnings = Warnings::new(file);
     // First, for a file of another version looks malformed throughout.
-    let asset = asset::read(&root, file, &mut warnings)?;
+    let asset = asset::read(&value, file)?;
+    let mut model = Model::new(value, asset, &mut warnings).map_err(malformed)?;
+    asset::check_extensions(&model.root, file, &mut warnings)?;
     let mut context = Context {
-        accessors: root.objects("accessors").map_err(malformed)?,
-        buffers: Buffers::new(&root, container.binary, base).map_err(malformed)?,
+        model: &model,
+        variant: find_variant(&model.root, variant, file)?,
+        buffers: Buffers::new(&model, container.binary, base),
         budget: Budget::default(),
         warnings,
-        root,
     };
     let mut scene = read_scene(&mut context).map_err(malformed)?;
-    scene.document.asset = asset;
+    let warnings = context.warnings.into_vec();
+    // Data URIs are large, and nothing refers to them any more.
+    model.root.buffers.clear();
+    model.root.images.clear();
+    scene.document.root = model.root;
     scene.document.file = file.to_owned();
-    Ok(Loaded {
-        scene,
-        warnings: context.warnings.into_vec(),
-    })
+    scene.document.format = "glTF";
+    Ok(Loaded { scene, warnings })
 }
 
 fn read_scene(context: &mut Context<'_>) -> Result<Scene, Fault> {
-    let cameras = camera::read_all(context)?;
-    let lights = light::read_all(context)?;
-    let counts = node::Counts {
-        nodes: context.root.objects("nodes")?.len(),
-        meshes: context.root.objects("meshes")?.len(),
-        skins: context.root.objects("skins")?.len(),
-        cameras: cameras.len(),
-        lights: lights.len(),
-    };
-    let (nodes, order) = node::read_nodes(context, counts)?;
-    let (scenes, default_scene) = node::read_scenes(context, &nodes)?;
-    let mut materials = material::read_all(context)?;
-    let (textures, images) = texture::resolve(context, &mut materials)?;
-    let meshes = mesh::read_all(context, &nodes, &materials)?;
-    let skins = skin::read_all(context, &nodes)?;
-    skin::check_joints(&nodes, &meshes, &skins)?;
-    let animations = animation::read_all(context, &nodes)?;
+    let cameras = camera::read_all(context);
+    let lights = light::read_all(context);
+    let (nodes, order) = node::read_nodes(context)?;
+    let default_scene = node::check_scenes(context, &nodes)?;
+    let mut materials = material::read_all(context);
+    let (textures, images) = texture::resolve(context, &mut materials);
+    let meshes = mesh::read_all(context, &materials)?;
+    let skins = skin::read_all(context)?;
+    skin::check_joints(&context.model.root.nodes, &meshes, &skins)?;
+    let animations = animation::read_all(context, &nodes);
     Ok(Scene {
         materials,
         textures,
         images,
         document: Document {
-            scenes,
             default_scene,
             nodes,
             order,

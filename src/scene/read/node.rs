@@ -1,55 +1,64 @@
 //! Nodes, their hierarchy, and scenes (glTF 2.0, sections 3.5 and 5.25 to 5.28).
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
+use gltf::json;
 
-use super::{Context, instance, json::Item};
+use super::{Context, instance, model};
 use crate::scene::{
-    document::{Node, Parts, SceneEntry, Transform},
+    document::{Node, Parts, Transform},
     error::Fault,
 };
 
-/// Numbers of elements that nodes may refer to.
-#[derive(Clone, Copy, Debug)]
-pub struct Counts {
-    pub nodes: usize,
-    pub meshes: usize,
-    pub skins: usize,
-    pub cameras: usize,
-    pub lights: usize,
-}
-
 /// Reads all nodes, and their order: parents before children.
-pub fn read_nodes(
-    context: &mut Context<'_>,
-    counts: Counts,
-) -> Result<(Vec<Node>, Vec<usize>), Fault> {
-    let items = context.root.objects("nodes")?;
-    let mut nodes = items
-        .iter()
-        .map(|item| read_node(item, context, counts))
+pub fn read_nodes(context: &mut Context<'_>) -> Result<(Vec<Node>, Vec<usize>), Fault> {
+    let model = context.model;
+    let mut nodes = model
+        .all()
+        .map(|found| {
+            let (item, place) = found?;
+            read_node(item, &place, context)
+        })
         .collect::<Result<Vec<_>, Fault>>()?;
-    for parent in 0..nodes.len() {
-        for child in nodes[parent].children.clone() {
-            if let Some(other) = nodes[child].parent.replace(parent) {
+    for (parent, item) in model.root.nodes.iter().enumerate() {
+        for child in item.children.iter().flatten() {
+            if let Some(other) = nodes[child.value()].parent.replace(parent) {
                 return Err(Fault::new(
                     format!("/nodes/{parent}/children"),
-                    format!("node {child} is already a child of node {other}"),
+                    format!("node {} is already a child of node {other}", child.value()),
                 ));
             }
         }
     }
-    let order = order(&nodes)?;
+    let order = order(&nodes, &model.root.nodes)?;
+    for &index in &order {
+        let hidden = nodes[index]
+            .parent
+            .is_some_and(|parent| !nodes[parent].visible);
+        nodes[index].visible &= !hidden;
+    }
     Ok((nodes, order))
+}
+
+/// The extension object `KHR_node_visibility`.
+#[derive(serde::Deserialize)]
+struct Visibility {
+    visible: Option<bool>,
 }
 
 /// Parents before children. With one parent each, a node that no root leads to is on a cycle, or
 /// below one.
-fn order(nodes: &[Node]) -> Result<Vec<usize>, Fault> {
+fn order(nodes: &[Node], items: &[json::Node]) -> Result<Vec<usize>, Fault> {
     let roots = (0..nodes.len()).filter(|&i| nodes[i].parent.is_none());
     let mut order: Vec<usize> = roots.collect();
     let mut at = 0;
     while let Some(&node) = order.get(at) {
-        order.extend(&nodes[node].children);
+        order.extend(
+            items[node]
+                .children
+                .iter()
+                .flatten()
+                .map(json::Index::value),
+        );
         at += 1;
     }
     if order.len() == nodes.len() {
@@ -66,59 +75,59 @@ fn order(nodes: &[Node]) -> Result<Vec<usize>, Fault> {
     ))
 }
 
-fn read_node(item: &Item<'_>, context: &mut Context<'_>, counts: Counts) -> Result<Node, Fault> {
-    let children = item
-        .array("children")?
-        .iter()
-        .map(|child| child.as_index("nodes", counts.nodes))
-        .collect::<Result<_, _>>()?;
-    let mesh = item.index("mesh", "meshes", counts.meshes)?;
-    let skin = item.index("skin", "skins", counts.skins)?;
-    let light = match item.extension("KHR_lights_punctual") {
-        Some(extension) => context.tolerate(
-            extension.index("light", "lights", counts.lights),
-            "the node has no light",
-        ),
-        None => None,
-    };
-    let camera = context.tolerate(
-        item.index("camera", "cameras", counts.cameras),
-        "the node has no camera",
-    );
-    let weights = match item.get("weights") {
-        Some(weights) => {
-            context.tolerate(weights.as_numbers().map(Some), "the mesh's weights hold")
+fn read_node(item: &json::Node, place: &str, context: &mut Context<'_>) -> Result<Node, Fault> {
+    let model = context.model;
+    model.check(&item.children, &format!("{place}/children"))?;
+    model.check(&item.mesh, &format!("{place}/mesh"))?;
+    model.check(&item.skin, &format!("{place}/skin"))?;
+    let camera = model.check(&item.camera, &format!("{place}/camera"));
+    context.tolerate(camera.map(Some), "the node has no camera");
+    let (mut instances, mut visible) = (None, true);
+    if let Some(extensions) = &item.extensions {
+        let light = extensions
+            .khr_lights_punctual
+            .as_ref()
+            .map(|light| light.light);
+        let light = model.check(
+            &light,
+            &format!("{place}/extensions/KHR_lights_punctual/light"),
+        );
+        context.tolerate(light.map(Some), "the node has no light");
+        let visibility = model::extension(Some(&extensions.others), "KHR_node_visibility", place);
+        let visibility = context.tolerate(visibility, "the node is visible");
+        visible = visibility.is_none_or(|(Visibility { visible }, _)| visible.unwrap_or(true));
+        if item.mesh.is_some() {
+            instances = instance::read(&extensions.others, place, context)?;
         }
-        None => None,
-    };
-    let instances = match item.extension("EXT_mesh_gpu_instancing") {
-        Some(extension) if mesh.is_some() => Some(instance::read(&extension, context)?),
-        _ => None,
-    };
-    if skin.is_some() && instances.is_some() {
-        context.warn(&item.fault("a skin takes the place of the node's instances"));
+    }
+    if item.skin.is_some() && instances.is_some() {
+        context.warn(&Fault::new(
+            place,
+            "a skin takes the place of the node's instances",
+        ));
     }
     Ok(Node {
-        name: item.name(),
         parent: None,
-        children,
-        transform: read_transform(item, context)?,
-        mesh,
-        skin: skin.filter(|_| mesh.is_some()),
-        camera,
-        light,
-        weights,
+        transform: read_transform(item, place, context)?,
         instances,
+        visible,
     })
 }
 
-fn read_transform(item: &Item<'_>, context: &mut Context<'_>) -> Result<Transform, Fault> {
-    let parts = read_parts(item, context)?;
-    let Some(m) = item.numbers::<16>("matrix")? else {
-        return Ok(Transform::Parts(parts.unwrap_or_default()));
+fn read_transform(
+    item: &json::Node,
+    place: &str,
+    context: &mut Context<'_>,
+) -> Result<Transform, Fault> {
+    let parts = read_parts(place, context)?;
+    let Some(m) = context.model.numbers::<16>(&format!("{place}/matrix"))? else {
+        return Ok(Transform::Parts(parts));
     };
-    if parts.is_some() {
-        context.warn(&item.fault("has both a matrix and its parts; the matrix counts"));
+    if item.translation.is_some() || item.rotation.is_some() || item.scale.is_some() {
+        context.warn(&Fault::new(
+            place,
+            "has both a matrix and its parts; the matrix counts",
+        ));
     }
     let column = |c: usize| DVec3::new(m[4 * c], m[4 * c + 1], m[4 * c + 2]);
     Ok(Transform::Matrix(DAffine3 {
@@ -127,63 +136,54 @@ fn read_transform(item: &Item<'_>, context: &mut Context<'_>) -> Result<Transfor
     }))
 }
 
-/// `None` where the node has none of the parts.
-fn read_parts(item: &Item<'_>, context: &mut Context<'_>) -> Result<Option<Parts>, Fault> {
-    let translation = item.numbers::<3>("translation")?;
-    let rotation = item.numbers::<4>("rotation")?;
-    let scale = item.numbers::<3>("scale")?;
-    if translation.is_none() && rotation.is_none() && scale.is_none() {
-        return Ok(None);
-    }
+fn read_parts(place: &str, context: &mut Context<'_>) -> Result<Parts, Fault> {
     let mut parts = Parts::default();
-    if let Some(translation) = translation {
+    if let Some(translation) = context
+        .model
+        .numbers::<3>(&format!("{place}/translation"))?
+    {
         parts.translation = translation.into();
     }
-    if let Some(rotation) = rotation {
+    if let Some(rotation) = context.model.numbers::<4>(&format!("{place}/rotation"))? {
         let rotation = DQuat::from_array(rotation);
         let length = rotation.length();
         if length > 0.0 && length.is_finite() {
             parts.rotation = rotation / length;
         } else {
-            context.warn(&item.fault("the rotation has no direction and is left out"));
+            let reason = "the rotation has no direction and is left out";
+            context.warn(&Fault::new(place, reason));
         }
     }
-    if let Some(scale) = scale {
+    if let Some(scale) = context.model.numbers::<3>(&format!("{place}/scale"))? {
         parts.scale = scale.into();
     }
-    Ok(Some(parts))
+    Ok(parts)
 }
 
-/// Reads the scenes; `None` for the default where the file has none at all.
-pub fn read_scenes(
-    context: &mut Context<'_>,
-    nodes: &[Node],
-) -> Result<(Vec<SceneEntry>, Option<usize>), Fault> {
-    let mut scenes = Vec::new();
-    for item in context.root.objects("scenes")? {
-        let mut roots = Vec::new();
-        for root in item.array("nodes")? {
-            let node = root.as_index("nodes", nodes.len())?;
-            if nodes[node].parent.is_some() {
-                context.warn(&root.fault(format!("node {node} is not a root")));
+/// Checks the scenes; the one that is drawn unless another is asked for.
+pub fn check_scenes(context: &mut Context<'_>, nodes: &[Node]) -> Result<Option<usize>, Fault> {
+    let model = context.model;
+    for found in model.all::<json::Scene>() {
+        let (item, place) = found?;
+        let place = format!("{place}/nodes");
+        model.check(&item.nodes, &place)?;
+        for (i, root) in item.nodes.iter().map(json::Index::value).enumerate() {
+            if nodes[root].parent.is_some() {
+                let reason = format!("node {root} is not a root");
+                context.warn(&Fault::new(format!("{place}/{i}"), reason));
             }
-            roots.push(node);
         }
-        scenes.push(SceneEntry {
-            name: item.name(),
-            roots,
-        });
     }
-    let root = context.root.clone();
-    let default = match context.tolerate(
-        root.index("scene", "scenes", scenes.len()),
-        "the first is the default",
-    ) {
-        None if scenes.is_empty() => None,
-        chosen => Some(chosen.unwrap_or(0)),
-    };
-    if default.is_none() && !nodes.is_empty() {
-        context.warn(&root.fault("the file has no scenes; all its root nodes are drawn"));
+    if model.root.scenes.is_empty() {
+        if !nodes.is_empty() {
+            let reason = "the file has no scenes; all its root nodes are drawn";
+            context.warn(&Fault::new("/", reason));
+        }
+        return Ok(None);
     }
-    Ok((scenes, default))
+    let default = model
+        .check(&model.root.scene, "/scene")
+        .map(|()| model.root.scene);
+    let default = context.tolerate(default, "the first is the default");
+    Ok(Some(default.map_or(0, |scene| scene.value())))
 }

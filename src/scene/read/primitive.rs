@@ -2,15 +2,26 @@
 
 use rayon::prelude::*;
 
+use gltf::json::{
+    self, Index,
+    accessor::ComponentType,
+    mesh::{self, Mode, Semantic},
+    validation::Checked,
+};
+
+#[cfg(feature = "draco")]
+use super::draco::read as unpack;
 use super::{
     Context,
-    accessor::{Accessor, Component},
-    json::Item,
-    surface, tangent,
-    triangles::{self, Topology},
-    vertex,
+    accessor::Accessor,
+    vertex::{self, attribute_of},
 };
-use crate::scene::{document::Primitive, error::Fault, material::Material};
+use crate::scene::{
+    document::Primitive,
+    error::Fault,
+    material::Material,
+    surface::{normals::mend_normals, tangent, triangles},
+};
 
 /// What became of a primitive.
 pub enum Outcome {
@@ -24,70 +35,85 @@ pub enum Outcome {
     Nothing,
 }
 
-/// Reads the primitive `item`. What can be mended or left out is noted; what cannot is the error.
+/// Reads the primitive `item` at `place`. What can be mended or left out is noted; what cannot is the
+/// error.
 pub fn read(
-    item: &Item<'_>,
+    item: &mesh::Primitive,
+    place: &str,
     context: &Context<'_>,
     materials: &[Material],
     notes: &mut Vec<Fault>,
 ) -> Result<Outcome, Fault> {
-    let mode = item.usize_or("mode", TRIANGLES)?;
-    let Some(topology) = topology(mode) else {
-        return match mode {
-            0 => Ok(Outcome::Points),
-            1..=3 => Ok(Outcome::Lines),
-            _ => Err(item.fault(format!("{mode} is no primitive mode"))),
-        };
-    };
-    let attributes = item.require("attributes")?;
-    let Some(positions) = attributes.get("POSITION") else {
-        notes.push(attributes.fault("there is no POSITION; the primitive is left out"));
+    let mode = context.model.valid(&item.mode, &format!("{place}/mode"))?;
+    match mode {
+        Mode::Points => return Ok(Outcome::Points),
+        Mode::Lines | Mode::LineLoop | Mode::LineStrip => return Ok(Outcome::Lines),
+        Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan => {}
+    }
+    let attributes = format!("{place}/attributes");
+    let Some(positions) = attribute_of(item, Semantic::Positions) else {
+        let reason = "there is no POSITION; the primitive is left out";
+        notes.push(Fault::new(attributes, reason));
         return Ok(Outcome::Nothing);
     };
-    let positions = context.accessor(&positions)?.expect_components(&[3])?;
-    if positions.is_void() && item.extension("KHR_draco_mesh_compression").is_some() {
-        return Err(item.fault(
-            "is compressed with KHR_draco_mesh_compression, which is not supported; decode it with \
-             `gltf-transform copy IN OUT`",
-        ));
-    }
+    let positions = context.accessor(positions, &format!("{attributes}/POSITION"));
+    let packed = match (unpack(item, place, context), &positions) {
+        // What the file offers to those that cannot decode it.
+        (Err(fault), Ok(positions)) if !positions.is_void() => {
+            notes.push(fault.but("the uncompressed data are used"));
+            None
+        }
+        (packed, _) => packed?,
+    };
+    let reader = vertex::Reader {
+        primitive: item,
+        place,
+        packed: packed.as_ref(),
+        context,
+        count: 1,
+    };
+    let positions = match reader.packed(Semantic::Positions) {
+        Some(positions) => positions?,
+        None => positions?,
+    };
+    let positions = positions.expect_components(&[3])?;
+    let reader = vertex::Reader {
+        count: positions.count,
+        ..reader
+    };
     // The last material is glTF's default, which no index of the file refers to.
     let default_material = materials.len().saturating_sub(1);
-    let index = item.index("material", "materials", default_material);
-    let material_index = index
-        .unwrap_or_else(|fault| {
+    let (chosen, material_place) = choose_material(item, place, context);
+    let material_index = match context.model.check(&chosen, &material_place) {
+        Ok(()) => chosen.map_or(default_material, |index| index.value()),
+        Err(fault) => {
             notes.push(fault);
-            None
-        })
-        .unwrap_or(default_material);
+            default_material
+        }
+    };
     let material = materials.get(material_index).cloned().unwrap_or_default();
 
-    let Some((mut triangles, mut sources)) =
-        read_triangles(item, context, topology, &positions, notes)?
+    let Some((mut triangles, mut sources)) = read_triangles(&reader, mode, &positions, notes)?
     else {
         return Ok(Outcome::Nothing);
     };
-    let targets = item.objects("targets")?;
+    let targets = item.targets.as_deref().unwrap_or_default();
     // Without normals, which is known only later, no two triangles share a vertex.
     let most = sources.len().max(triangles.len() * 3) as u64;
     context
         .budget
-        .add_vertices(most * (1 + targets.len() as u64), item.place())?;
+        .add_vertices(most * (1 + targets.len() as u64), place)?;
 
-    let reader = vertex::Reader {
-        attributes: &attributes,
-        context,
-        count: positions.count,
-    };
-    let normals = reader.attribute("NORMAL", &[3], &vertex::SIGNED, notes);
+    let normals = reader.attribute(Semantic::Normals, &[3], &vertex::SIGNED, notes);
     let mut normals: Vec<[f32; 3]> =
         normals.map_or_else(Vec::new, |accessor| gather(&accessor, &sources));
     let shape = gather(&positions, &sources);
-    match surface::mend_normals(&triangles, &shape, &mut normals) {
+    match mend_normals(&triangles, &shape, &mut normals) {
         0 => {}
-        mended => notes.push(attributes.fault(format!(
-            "{mended} of the normals are unusable and replaced by those of the faces"
-        ))),
+        mended => notes.push(Fault::new(
+            attributes,
+            format!("{mended} of the normals are unusable and replaced by those of the faces"),
+        )),
     }
     let shape = if normals.is_empty() {
         sources = triangles
@@ -111,7 +137,7 @@ pub fn read(
         tangents: Vec::new(),
         uvs: reader.uvs(&material, &sources, notes),
         colors: reader.colors(&sources, notes),
-        targets: reader.targets(&targets, &sources, notes),
+        targets: reader.targets(targets, &sources, notes),
         influences: reader.influences(&sources, notes),
     };
     if let Some(used) = material.normal_texture {
@@ -124,31 +150,65 @@ pub fn read(
     Ok(Outcome::Drawn(Box::new(primitive)))
 }
 
-/// The default mode.
-const TRIANGLES: usize = 4;
+/// Refuses compressed primitives.
+#[cfg(not(feature = "draco"))]
+fn unpack(
+    item: &mesh::Primitive,
+    place: &str,
+    _: &Context<'_>,
+) -> Result<Option<super::packed::Packed>, Fault> {
+    if !is_compressed(item) {
+        return Ok(None);
+    }
+    Err(Fault::new(
+        place,
+        "is compressed with KHR_draco_mesh_compression, for which the feature `draco` is needed; \
+         decode it with `gltf-transform copy IN OUT`",
+    ))
+}
 
-fn topology(mode: usize) -> Option<Topology> {
-    match mode {
-        TRIANGLES => Some(Topology::List),
-        5 => Some(Topology::Strip),
-        6 => Some(Topology::Fan),
-        _ => None,
+fn is_compressed(item: &mesh::Primitive) -> bool {
+    let extensions = item.extensions.as_ref();
+    extensions.is_some_and(|e| e.others.contains_key("KHR_draco_mesh_compression"))
+}
+
+/// The material of the variant that is drawn, or else the primitive's own; and the place that says so.
+fn choose_material(
+    item: &mesh::Primitive,
+    place: &str,
+    context: &Context<'_>,
+) -> (Option<Index<json::Material>>, String) {
+    let extensions = item.extensions.as_ref();
+    let variants = extensions.and_then(|e| e.khr_materials_variants.as_ref());
+    let mappings = variants.map_or(&[][..], |variants| &variants.mappings);
+    let mapped = |wanted: u32| mappings.iter().position(|m| m.variants.contains(&wanted));
+    match context.variant.and_then(mapped) {
+        Some(i) => {
+            let place = format!("{place}/extensions/KHR_materials_variants/mappings/{i}/material");
+            (Some(Index::new(mappings[i].material)), place)
+        }
+        None => (item.material, format!("{place}/material")),
     }
 }
 
 /// How many triangles `item` will be read to at most, found without reading them; 0 where that will
 /// fail.
-pub fn claimed_triangles(item: &Item<'_>, context: &Context<'_>) -> u64 {
+pub fn claimed_triangles(item: &mesh::Primitive, context: &Context<'_>) -> u64 {
     let defining = item
-        .get("indices")
-        .or_else(|| item.get("attributes")?.get("POSITION"));
-    let mode = item.usize_or("mode", TRIANGLES).ok();
-    let number = |topology| {
-        let accessor = context.accessor(&defining?).ok()?;
-        accessor.check_justified().ok()?;
-        Some(triangles::number(topology, accessor.count) as u64)
-    };
-    mode.and_then(topology).and_then(number).unwrap_or(0)
+        .indices
+        .or_else(|| attribute_of(item, Semantic::Positions));
+    if is_compressed(item) {
+        // Its accessors need no data to say how many come out.
+        let accessor = defining.and_then(|index| context.model.root.get(index));
+        return accessor.map_or(0, |accessor| accessor.count.0 / 3);
+    }
+    let accessor = defining.map(|index| context.accessor(index, ""));
+    match (item.mode, accessor) {
+        (Checked::Valid(mode), Some(Ok(accessor))) if accessor.check_justified().is_ok() => {
+            triangles::number(mode, accessor.count) as u64
+        }
+        _ => 0,
+    }
 }
 
 /// The elements of `accessor` at `sources`.
@@ -164,35 +224,38 @@ type Triangles = Vec<[u32; 3]>;
 
 /// Triangles that can be drawn, and the vertices of the file that they refer to.
 fn read_triangles(
-    item: &Item<'_>,
-    context: &Context<'_>,
-    topology: Topology,
+    reader: &vertex::Reader<'_, '_>,
+    mode: Mode,
     positions: &Accessor<'_>,
     notes: &mut Vec<Fault>,
 ) -> Result<Option<(Triangles, Vec<u32>)>, Fault> {
-    let indices = match item.get("indices") {
-        Some(indices) => Some(
-            context
-                .accessor(&indices)?
-                .expect_components(&[1])?
-                .expect_type(&[Component::U8, Component::U16, Component::U32])?,
-        ),
-        None => None,
+    let (item, place) = (reader.primitive, reader.place);
+    let indices = match reader.packed {
+        Some(packed) => Some(Accessor::of_stream(&packed.indices, false, place)),
+        None => item.indices.map(|index| {
+            let accessor = reader.context.accessor(index, &format!("{place}/indices"));
+            accessor?.expect_components(&[1])
+        }),
     };
+    let indices = indices.transpose()?.map(|indices| {
+        indices.expect_type(&[ComponentType::U8, ComponentType::U16, ComponentType::U32])
+    });
+    let indices = indices.transpose()?;
+    // What is decoded is a list, whatever it was encoded from.
+    let mode = reader.packed.map_or(mode, |_| Mode::Triangles);
     let defining = indices.as_ref().unwrap_or(positions);
     defining.check_justified()?;
     let count = defining.count;
     let (mut triangles, left_over) = match &indices {
-        Some(indices) => triangles::assemble(topology, count, |i| {
+        Some(indices) => triangles::assemble(mode, count, |i| {
             let [index] = indices.integers(i);
             index
         }),
-        None => triangles::assemble(topology, count, |i| i as u32),
+        None => triangles::assemble(mode, count, |i| i as u32),
     };
     if left_over > 0 {
-        notes.push(item.fault(format!(
-            "{left_over} of {count} indices make no triangle and are left out"
-        )));
+        let reason = format!("{left_over} of {count} indices make no triangle and are left out");
+        notes.push(Fault::new(place, reason));
     }
 
     let all = triangles.len();
@@ -200,13 +263,16 @@ fn read_triangles(
     triangles.retain(|triangle| triangle.iter().all(|&v| v < bound));
     if triangles.len() < all {
         let beyond = all - triangles.len();
-        let place = item.get("indices").unwrap_or_else(|| item.clone());
+        let place = match item.indices {
+            Some(_) => format!("{place}/indices"),
+            None => place.to_owned(),
+        };
         let reason =
             format!("{beyond} of {all} triangles refer to vertices beyond the {bound} of POSITION");
         if triangles.is_empty() {
-            return Err(place.fault(reason));
+            return Err(Fault::new(place, reason));
         }
-        notes.push(place.fault(reason + " and are left out"));
+        notes.push(Fault::new(place, reason + " and are left out"));
     }
     let mut sources = triangles::compact(&mut triangles, positions.count);
 

@@ -4,39 +4,41 @@ use std::collections::BTreeSet;
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::{Context, accessor::Component, json::Item};
+use gltf::json::{self, Index, accessor::ComponentType};
+
+use super::Context;
 use crate::scene::{
-    document::{Mesh, Node, Skin},
+    document::{Primitive, Skin},
     error::Fault,
 };
 
 /// Reads the skins of the nodes that have a mesh; the others stay empty.
-pub fn read_all(context: &Context<'_>, nodes: &[Node]) -> Result<Vec<Skin>, Fault> {
-    let items = context.root.objects("skins")?;
-    let mut skins = vec![Skin::default(); items.len()];
-    let used: BTreeSet<usize> = nodes.iter().filter_map(|node| node.skin).collect();
+pub fn read_all(context: &Context<'_>) -> Result<Vec<Skin>, Fault> {
+    let root = &context.model.root;
+    let mut skins = vec![Skin::default(); root.skins.len()];
+    let nodes = root.nodes.iter().filter(|node| node.mesh.is_some());
+    let used: BTreeSet<usize> = nodes.filter_map(|node| Some(node.skin?.value())).collect();
     for index in used {
-        skins[index] = read(&items[index], context, nodes.len())?;
+        let (item, place) = context.model.get(Index::new(index as u32), "/skins")?;
+        skins[index] = read(item, &place, context)?;
     }
     Ok(skins)
 }
 
-fn read(item: &Item<'_>, context: &Context<'_>, nodes: usize) -> Result<Skin, Fault> {
-    let joints: Vec<usize> = item
-        .array("joints")?
-        .iter()
-        .map(|joint| joint.as_index("nodes", nodes))
-        .collect::<Result<_, _>>()?;
-    let Some(matrices) = item.get("inverseBindMatrices") else {
+fn read(item: &json::Skin, place: &str, context: &Context<'_>) -> Result<Skin, Fault> {
+    let model = context.model;
+    model.check(&item.joints, &format!("{place}/joints"))?;
+    let joints: Vec<usize> = item.joints.iter().map(Index::value).collect();
+    let Some(matrices) = item.inverse_bind_matrices else {
         return Ok(Skin {
             inverse_bind: vec![DAffine3::IDENTITY; joints.len()],
             joints,
         });
     };
     let matrices = context
-        .accessor(&matrices)?
+        .accessor(matrices, &format!("{place}/inverseBindMatrices"))?
         .expect_components(&[16])?
-        .expect_type(&[Component::F32])?
+        .expect_type(&[ComponentType::F32])?
         .expect_count(joints.len())?;
     let inverse_bind: Vec<DAffine3> = (0..joints.len())
         .map(|i| {
@@ -58,30 +60,28 @@ fn read(item: &Item<'_>, context: &Context<'_>, nodes: usize) -> Result<Skin, Fa
 }
 
 /// Checks that the skin of every node has the joints that its mesh's vertices ask for.
-pub fn check_joints(nodes: &[Node], meshes: &[Mesh], skins: &[Skin]) -> Result<(), Fault> {
-    let asked: Vec<Option<u16>> = meshes
-        .iter()
-        .map(|mesh| {
-            let sets = mesh.primitives.iter().flat_map(|p| &p.influences);
-            sets.flat_map(|set| set.joints.as_flattened())
-                .max()
-                .copied()
-        })
-        .collect();
+pub fn check_joints(
+    nodes: &[json::Node],
+    meshes: &[Vec<Primitive>],
+    skins: &[Skin],
+) -> Result<(), Fault> {
+    let asked = |primitives: &Vec<Primitive>| {
+        let sets = primitives.iter().flat_map(|p| &p.influences);
+        sets.flat_map(|set| set.joints.as_flattened())
+            .max()
+            .copied()
+    };
+    let asked: Vec<Option<u16>> = meshes.iter().map(asked).collect();
     for (index, node) in nodes.iter().enumerate() {
         let (Some(mesh), Some(skin)) = (node.mesh, node.skin) else {
             continue;
         };
-        let (Some(asked), Some(skin)) = (asked.get(mesh).copied().flatten(), skins.get(skin))
-        else {
-            continue;
-        };
-        if usize::from(asked) >= skin.joints.len() {
+        let (asked, joints) = (asked[mesh.value()], skins[skin.value()].joints.len());
+        if let Some(asked) = asked.filter(|&asked| usize::from(asked) >= joints) {
             return Err(Fault::new(
                 format!("/nodes/{index}/skin"),
                 format!(
-                    "the mesh's vertices refer to joint {asked}, but the skin has {} joints",
-                    skin.joints.len()
+                    "the mesh's vertices refer to joint {asked}, but the skin has {joints} joints"
                 ),
             ));
         }

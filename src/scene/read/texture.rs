@@ -1,65 +1,72 @@
-//! Textures and samplers (glTF 2.0, sections 3.8.1 to 3.8.4) with `EXT_texture_webp`.
+//! Textures and samplers (glTF 2.0, sections 3.8.1 to 3.8.4) with `KHR_texture_basisu` and
+//! `EXT_texture_webp`.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Context, image::Images, json::Item};
+use gltf::json::{
+    self, Index,
+    texture::{MagFilter, MinFilter},
+};
+
+use super::{
+    Context,
+    image::Images,
+    model::{self, Model},
+};
 use crate::scene::{
     error::Fault,
-    material::{Filter, Image, Material, Sampler, Texture, Wrap},
+    material::{Image, Material, Sampler, Texture},
 };
+
+/// Extensions that give a texture another image, the best first.
+const SOURCES: [&str; 2] = ["KHR_texture_basisu", "EXT_texture_webp"];
+
+/// The extension object.
+#[derive(serde::Deserialize)]
+struct Source {
+    source: Index<json::Image>,
+}
 
 /// Replaces the file's texture indices in `materials` by indices into the textures returned. Only
 /// what the materials use is decoded; a texture without a readable image is left out of them.
 pub fn resolve(
     context: &mut Context<'_>,
     materials: &mut [Material],
-) -> Result<(Vec<Texture>, Vec<Image>), Fault> {
-    let items = context.root.objects("textures")?;
-    let mut images = Images::new(&context.root)?;
-    let used: BTreeSet<u32> = materials
-        .iter()
-        .flat_map(Material::textures)
-        .map(|t| t.texture)
-        .collect();
-    let wanted: Vec<(u32, Wanted)> = used
-        .into_iter()
-        .filter_map(|index| {
-            let item = items.get(index as usize)?;
-            let wanted = read_texture(item, context, images.len());
-            Some((
+) -> (Vec<Texture>, Vec<Image>) {
+    let mut images = Images::default();
+    let uses = materials.iter().flat_map(Material::textures);
+    let used: BTreeSet<u32> = uses.map(|used| used.texture).collect();
+    let mut wanted = Vec::new();
+    for index in used {
+        let found = context.model.get(Index::new(index), "/textures").map(Some);
+        if let Some((item, place)) = context.tolerate(found, "the texture is left out") {
+            let sampler = read_sampler(item, &place, context.model).map(Some);
+            let sampler = context.tolerate(sampler, "the sampler takes the defaults");
+            wanted.push((
                 index,
-                context.tolerate(wanted.map(Some), "the texture is left out")?,
-            ))
-        })
-        .collect();
-
-    images.decode(context, wanted.iter().filter_map(|(_, w)| w.preferred()));
-    let failed = wanted
-        .iter()
-        .filter(|(_, w)| w.preferred().is_some_and(|i| images.place(i).is_none()));
-    let fallbacks: Vec<usize> = failed.filter_map(|(_, w)| w.fallback).collect();
-    images.decode(context, fallbacks);
+                sources(item, &place, context),
+                sampler.unwrap_or_default(),
+            ));
+        }
+    }
+    // The best of all textures at once, then what has to stand in for those that failed.
+    for rank in 0..=SOURCES.len() {
+        let failed = |sources: &Vec<usize>| !sources.iter().any(|&i| images.place(i).is_some());
+        let next = wanted.iter().filter(|(_, sources, _)| failed(sources));
+        let next: Vec<usize> = next.filter_map(|(_, s, _)| s.get(rank).copied()).collect();
+        images.decode(context, next);
+    }
 
     let mut textures = Vec::new();
     let mut places = BTreeMap::new();
-    for (index, wanted) in wanted {
-        let candidates = [wanted.webp, wanted.fallback];
-        let Some(image) = candidates
-            .into_iter()
-            .flatten()
-            .find_map(|i| images.place(i))
-        else {
-            context.warn(&Fault::new(
-                format!("/textures/{index}"),
-                "has no readable image and is left out",
-            ));
+    for (index, sources, sampler) in wanted {
+        let Some(image) = sources.into_iter().find_map(|i| images.place(i)) else {
+            let reason = "has no readable image and is left out";
+            context.warn(&Fault::new(format!("/textures/{index}"), reason));
             continue;
         };
         places.insert(index, textures.len() as u32);
-        textures.push(Texture {
-            image,
-            sampler: wanted.sampler,
-        });
+        textures.push(Texture { image, sampler });
     }
     for slot in materials.iter_mut().flat_map(Material::texture_slots) {
         *slot = slot.and_then(|mut used| {
@@ -67,79 +74,60 @@ pub fn resolve(
             Some(used)
         });
     }
-    Ok((textures, images.into_decoded()))
+    (textures, images.into_decoded())
 }
 
-/// A texture of the file: the images that it offers, best first, and its sampler.
-struct Wanted {
-    webp: Option<usize>,
-    fallback: Option<usize>,
-    sampler: Sampler,
-}
-
-impl Wanted {
-    fn preferred(&self) -> Option<usize> {
-        self.webp.or(self.fallback)
-    }
-}
-
-fn read_texture(
-    item: &Item<'_>,
-    context: &mut Context<'_>,
-    images: usize,
-) -> Result<Wanted, Fault> {
-    let webp = match item.extension("EXT_texture_webp") {
-        Some(extension) => context.tolerate(
-            extension.index("source", "images", images),
-            "the fallback is used",
-        ),
-        None => None,
-    };
-    let fallback = item.index("source", "images", images)?;
-    let samplers = context.root.objects("samplers")?;
-    let sampler = item
-        .index("sampler", "samplers", samplers.len())
-        .and_then(|index| {
-            let item = index.and_then(|index| samplers.get(index));
-            item.map(read_sampler).transpose()
+/// The images that a texture offers, best first.
+fn sources(item: &json::Texture, place: &str, context: &mut Context<'_>) -> Vec<usize> {
+    let others = item
+        .extensions
+        .as_ref()
+        .map(|extensions| &extensions.others);
+    let mut sources = Vec::new();
+    for name in SOURCES {
+        let source = model::extension::<Source>(others, name, place).and_then(|found| {
+            let Some((Source { source }, place)) = found else {
+                return Ok(None);
+            };
+            context.model.check(&source, &format!("{place}/source"))?;
+            Ok(Some(source.value()))
         });
-    Ok(Wanted {
-        webp,
-        fallback,
-        sampler: context
-            .tolerate(sampler, "the sampler takes the defaults")
-            .unwrap_or_default(),
-    })
+        sources.extend(context.tolerate(source, "the fallback is used"));
+    }
+    if !model::is_nothing(item.source) {
+        let source = context
+            .model
+            .check(&item.source, &format!("{place}/source"));
+        let source = source.map(|()| Some(item.source.value()));
+        sources.extend(context.tolerate(source, "the image is left out"));
+    }
+    sources
 }
 
-fn read_sampler(item: &Item<'_>) -> Result<Sampler, Fault> {
-    let code = |key: &str| item.get(key).map(|code| code.as_usize()).transpose();
-    let mut sampler = Sampler::default();
-    sampler.mag = match code("magFilter")? {
-        None => sampler.mag,
-        Some(9728) => Filter::Nearest,
-        Some(9729) => Filter::Linear,
-        Some(other) => return Err(item.fault(format!("{other} is no magnification filter"))),
+fn read_sampler(item: &json::Texture, place: &str, model: &Model) -> Result<Sampler, Fault> {
+    let Some(index) = item.sampler else {
+        return Ok(Sampler::default());
     };
-    (sampler.min, sampler.mip) = match code("minFilter")? {
-        None => (sampler.min, sampler.mip),
-        Some(9728) => (Filter::Nearest, None),
-        Some(9729) => (Filter::Linear, None),
-        Some(9984) => (Filter::Nearest, Some(Filter::Nearest)),
-        Some(9985) => (Filter::Linear, Some(Filter::Nearest)),
-        Some(9986) => (Filter::Nearest, Some(Filter::Linear)),
-        Some(9987) => (Filter::Linear, Some(Filter::Linear)),
-        Some(other) => return Err(item.fault(format!("{other} is no minification filter"))),
+    let (item, place) = model.get(index, &format!("{place}/sampler"))?;
+    let mut sampler = Sampler {
+        wrap_u: model.valid(&item.wrap_s, &format!("{place}/wrapS"))?,
+        wrap_v: model.valid(&item.wrap_t, &format!("{place}/wrapT"))?,
+        ..Sampler::default()
     };
-    let wrap = |key: &str| {
-        Ok(match code(key)? {
-            None | Some(10_497) => Wrap::Repeat,
-            Some(33_648) => Wrap::MirroredRepeat,
-            Some(33_071) => Wrap::ClampToEdge,
-            Some(other) => return Err(item.fault(format!("{other} is no wrapping mode"))),
-        })
-    };
-    sampler.wrap_u = wrap("wrapS")?;
-    sampler.wrap_v = wrap("wrapT")?;
+    if let Some(filter) = &item.mag_filter {
+        sampler.mag = model.valid(filter, &format!("{place}/magFilter"))?;
+    }
+    if let Some(filter) = &item.min_filter {
+        use MagFilter::{Linear, Nearest};
+        let filter = model.valid(filter, &format!("{place}/minFilter"))?;
+        (sampler.min, sampler.mip) = match filter {
+            MinFilter::Nearest => (Nearest, None),
+            MinFilter::Linear => (Linear, None),
+            MinFilter::NearestMipmapNearest => (Nearest, Some(Nearest)),
+            MinFilter::LinearMipmapNearest => (Linear, Some(Nearest)),
+            MinFilter::NearestMipmapLinear => (Nearest, Some(Linear)),
+            MinFilter::LinearMipmapLinear => (Linear, Some(Linear)),
+        };
+    }
     Ok(sampler)
 }

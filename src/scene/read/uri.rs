@@ -12,6 +12,7 @@ use base64::{
     alphabet::STANDARD,
     engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig},
 };
+use percent_encoding::percent_decode_str;
 
 use super::container::is_lfs_pointer;
 
@@ -55,7 +56,7 @@ fn decode_data(rest: &str) -> Result<Vec<u8>, String> {
     let (kind, data) = rest
         .split_once(',')
         .ok_or("the data URI has no comma before its data")?;
-    let data = percent_decode(data);
+    let data = Cow::from(percent_decode_str(data));
     if kind.ends_with(";base64") {
         BASE64
             .decode(&*data)
@@ -67,7 +68,7 @@ fn decode_data(rest: &str) -> Result<Vec<u8>, String> {
 
 /// The file of a relative reference: unescaped as the specification asks, else as it is written.
 fn locate(uri: &str, base: &Path) -> Result<PathBuf, String> {
-    let decoded = percent_decode(uri);
+    let decoded = Cow::from(percent_decode_str(uri));
     let decoded = std::str::from_utf8(&decoded)
         .map_err(|_| format!("\"{uri}\" is not UTF-8 when unescaped"))?;
     let relative = Path::new(decoded);
@@ -101,30 +102,6 @@ fn read_file(path: &Path, limit: u64) -> Result<Vec<u8>, String> {
         ));
     }
     Ok(bytes)
-}
-
-/// Replaces `%XX` by the byte that it stands for; anything else stays.
-fn percent_decode(text: &str) -> Cow<'_, [u8]> {
-    let bytes = text.as_bytes();
-    if !bytes.contains(&b'%') {
-        return Cow::Borrowed(bytes);
-    }
-    let digit = |at: usize| bytes.get(at).and_then(|&b| (b as char).to_digit(16));
-    let mut decoded = Vec::with_capacity(bytes.len());
-    let mut at = 0;
-    while let Some(&byte) = bytes.get(at) {
-        match (byte, digit(at + 1), digit(at + 2)) {
-            (b'%', Some(high), Some(low)) => {
-                decoded.push((high * 16 + low) as u8);
-                at += 3;
-            }
-            _ => {
-                decoded.push(byte);
-                at += 1;
-            }
-        }
-    }
-    Cow::Owned(decoded)
 }
 
 #[cfg(test)]

@@ -3,12 +3,14 @@
 
 use rayon::prelude::*;
 
-use super::{
-    Context,
-    accessor::{Accessor, Component},
-    json::Item,
-    primitive::gather,
+use gltf::json::{
+    self, Index,
+    accessor::ComponentType,
+    mesh::{self, MorphTarget, Semantic},
+    validation::Checked,
 };
+
+use super::{Context, accessor::Accessor, packed::Packed, primitive::gather};
 use crate::scene::{
     document::{Influences, Target},
     error::Fault,
@@ -16,59 +18,82 @@ use crate::scene::{
 };
 
 /// Types of normals, tangents and displacements, `KHR_mesh_quantization` included.
-pub const SIGNED: [Component; 3] = [Component::F32, Component::I8, Component::I16];
+pub const SIGNED: [ComponentType; 3] = [ComponentType::F32, ComponentType::I8, ComponentType::I16];
 /// Types of texture coordinates, `KHR_mesh_quantization` included.
-const ANY: [Component; 5] = [
-    Component::F32,
-    Component::I8,
-    Component::U8,
-    Component::I16,
-    Component::U16,
+const ANY: [ComponentType; 5] = [
+    ComponentType::F32,
+    ComponentType::I8,
+    ComponentType::U8,
+    ComponentType::I16,
+    ComponentType::U16,
 ];
 /// Types of colours and weights.
-const FRACTION: [Component; 3] = [Component::F32, Component::U8, Component::U16];
+const FRACTION: [ComponentType; 3] = [ComponentType::F32, ComponentType::U8, ComponentType::U16];
+
+/// The accessor of an attribute.
+pub fn attribute_of(item: &mesh::Primitive, semantic: Semantic) -> Option<Index<json::Accessor>> {
+    item.attributes.get(&Checked::Valid(semantic)).copied()
+}
 
 /// Reads the attributes of one primitive.
-pub struct Reader<'r, 'i, 'a> {
-    /// The primitive's attributes.
-    pub attributes: &'r Item<'i>,
+pub struct Reader<'r, 'a> {
+    /// The primitive.
+    pub primitive: &'r mesh::Primitive,
+    /// Where it is.
+    pub place: &'r str,
+    /// Where it is compressed, what came out.
+    pub packed: Option<&'r Packed>,
     /// The document.
     pub context: &'r Context<'a>,
     /// Number of positions, which the others have to match.
     pub count: usize,
 }
 
-impl<'r> Reader<'r, '_, '_> {
+impl<'r> Reader<'r, '_> {
     fn read(
         &self,
-        item: &Item<'_>,
+        accessor: Result<Accessor<'r>, Fault>,
+        place: String,
         components: &[usize],
-        types: &[Component],
+        types: &[ComponentType],
         notes: &mut Vec<Fault>,
     ) -> Option<Accessor<'r>> {
-        self.context
-            .accessor(item)
-            .and_then(|accessor| {
-                accessor
-                    .expect_components(components)?
-                    .expect_type(types)?
-                    .expect_count(self.count)
-            })
-            .map_err(|fault| {
-                notes.push(item.fault(format!("is left out, for {fault}")));
-            })
+        let accessor = accessor.and_then(|accessor| {
+            accessor
+                .expect_components(components)?
+                .expect_type(types)?
+                .expect_count(self.count)
+        });
+        accessor
+            .map_err(|fault| notes.push(Fault::new(place, format!("is left out, for {fault}"))))
             .ok()
     }
 
-    /// The attribute `name`, if the primitive has it.
+    /// An attribute that was decoded, if it was.
+    pub fn packed(&self, semantic: Semantic) -> Option<Result<Accessor<'r>, Fault>> {
+        let name = semantic.to_string();
+        let stream = self.packed?.attributes.get(&name)?;
+        let described = attribute_of(self.primitive, semantic);
+        let described = described.and_then(|index| self.context.model.root.get(index));
+        let normalized = described.is_some_and(|accessor| accessor.normalized);
+        let place = format!("{}/attributes/{name}", self.place);
+        Some(Accessor::of_stream(stream, normalized, &place))
+    }
+
+    /// An attribute, if the primitive has it.
     pub fn attribute(
         &self,
-        name: &str,
+        semantic: Semantic,
         components: &[usize],
-        types: &[Component],
+        types: &[ComponentType],
         notes: &mut Vec<Fault>,
     ) -> Option<Accessor<'r>> {
-        self.read(&self.attributes.get(name)?, components, types, notes)
+        let place = format!("{}/attributes/{}", self.place, semantic.to_string());
+        let index = attribute_of(self.primitive, semantic.clone())?;
+        let accessor = self
+            .packed(semantic)
+            .unwrap_or_else(|| self.context.accessor(index, &place));
+        self.read(accessor, place, components, types, notes)
     }
 
     /// Both UV sets, if `material` has textures.
@@ -87,21 +112,16 @@ impl<'r> Reader<'r, '_, '_> {
         if used == [false; 2] {
             return Vec::new();
         }
-        let mut set = |name: &str, used: bool| {
-            if !used {
-                return None;
-            }
-            let accessor = self.attribute(name, &[2], &ANY, notes);
+        let mut set = |set: u32| {
+            let accessor = self.attribute(Semantic::TexCoords(set), &[2], &ANY, notes);
             if accessor.is_none() {
-                notes.push(
-                    self.attributes
-                        .fault(format!("the material uses {name}, which is not there")),
-                );
+                let reason = format!("the material uses TEXCOORD_{set}, which is not there");
+                notes.push(Fault::new(format!("{}/attributes", self.place), reason));
             }
             accessor
         };
-        let first = set("TEXCOORD_0", used[0]);
-        let second = set("TEXCOORD_1", used[1]);
+        let first = used[0].then(|| set(0)).flatten();
+        let second = used[1].then(|| set(1)).flatten();
         let read = |accessor: &Option<Accessor<'_>>, source: u32| {
             let uv = accessor
                 .as_ref()
@@ -120,7 +140,7 @@ impl<'r> Reader<'r, '_, '_> {
 
     /// Vertex colours, opaque where they have no alpha; empty where there are none.
     pub fn colors(&self, sources: &[u32], notes: &mut Vec<Fault>) -> Vec<[f32; 4]> {
-        let Some(accessor) = self.attribute("COLOR_0", &[3, 4], &FRACTION, notes) else {
+        let Some(accessor) = self.attribute(Semantic::Colors(0), &[3, 4], &FRACTION, notes) else {
             return Vec::new();
         };
         let accessor = accessor.normalized();
@@ -150,7 +170,7 @@ impl<'r> Reader<'r, '_, '_> {
         if normals.is_empty() {
             return None;
         }
-        let accessor = self.attribute("TANGENT", &[4], &SIGNED, notes)?;
+        let accessor = self.attribute(Semantic::Tangents, &[4], &SIGNED, notes)?;
         let mut tangents: Vec<[f32; 4]> = gather(&accessor, sources);
         let usable =
             |t: &[f32; 4]| t.iter().all(|x| x.is_finite()) && t[..3].iter().any(|&x| x != 0.0);
@@ -167,15 +187,17 @@ impl<'r> Reader<'r, '_, '_> {
     /// Displacements of the morph targets `items`.
     pub fn targets(
         &self,
-        items: &[Item<'_>],
+        items: &[MorphTarget],
         sources: &[u32],
         notes: &mut Vec<Fault>,
     ) -> Vec<Target> {
-        items
-            .iter()
-            .map(|item| {
-                let mut stream = |name: &str, types: &[Component]| {
-                    let accessor = self.read(&item.get(name)?, &[3], types, notes)?;
+        let targets = items.iter().enumerate();
+        targets
+            .map(|(i, item)| {
+                let mut stream = |name: &str, index: Option<Index<json::Accessor>>, types: &[_]| {
+                    let place = format!("{}/targets/{i}/{name}", self.place);
+                    let accessor = self.context.accessor(index?, &place);
+                    let accessor = self.read(accessor, place, &[3], types, notes)?;
                     let mut displacements: Vec<[f32; 3]> = gather(&accessor, sources);
                     for x in displacements.as_flattened_mut() {
                         if !x.is_finite() {
@@ -185,9 +207,9 @@ impl<'r> Reader<'r, '_, '_> {
                     Some(displacements)
                 };
                 Target {
-                    positions: stream("POSITION", &ANY).unwrap_or_default(),
-                    normals: stream("NORMAL", &SIGNED).unwrap_or_default(),
-                    tangents: stream("TANGENT", &SIGNED).unwrap_or_default(),
+                    positions: stream("POSITION", item.positions, &ANY).unwrap_or_default(),
+                    normals: stream("NORMAL", item.normals, &SIGNED).unwrap_or_default(),
+                    tangents: stream("TANGENT", item.tangents, &SIGNED).unwrap_or_default(),
                 }
             })
             .collect()
@@ -197,14 +219,10 @@ impl<'r> Reader<'r, '_, '_> {
     pub fn influences(&self, sources: &[u32], notes: &mut Vec<Fault>) -> Vec<Influences> {
         let mut sets = Vec::new();
         loop {
-            let n = sets.len();
-            let joints = self.attribute(
-                &format!("JOINTS_{n}"),
-                &[4],
-                &[Component::U8, Component::U16],
-                notes,
-            );
-            let weights = self.attribute(&format!("WEIGHTS_{n}"), &[4], &FRACTION, notes);
+            let n = sets.len() as u32;
+            let types = [ComponentType::U8, ComponentType::U16];
+            let joints = self.attribute(Semantic::Joints(n), &[4], &types, notes);
+            let weights = self.attribute(Semantic::Weights(n), &[4], &FRACTION, notes);
             let (Some(joints), Some(weights)) = (joints, weights) else {
                 break;
             };

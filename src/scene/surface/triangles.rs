@@ -1,44 +1,35 @@
 //! Triangles of a primitive, whatever its topology (glTF 2.0, section 3.7.2.1).
 
+use gltf::json::mesh::Mode;
 use rayon::prelude::*;
 
-/// Topologies that have triangles.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Topology {
-    /// Every three indices are a triangle.
-    List,
-    /// Every index makes a triangle with the two before it.
-    Strip,
-    /// Every index makes a triangle with the one before it and the first.
-    Fan,
-}
-
-/// Number of triangles that `count` indices make.
-pub fn number(topology: Topology, count: usize) -> usize {
-    match topology {
-        Topology::List => count / 3,
-        Topology::Strip | Topology::Fan => count.saturating_sub(2),
+/// Number of triangles that `count` indices make; modes of points and lines make none.
+pub fn number(mode: Mode, count: usize) -> usize {
+    match mode {
+        Mode::Triangles => count / 3,
+        Mode::TriangleStrip | Mode::TriangleFan => count.saturating_sub(2),
+        Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip => 0,
     }
 }
 
 /// The triangles of `count` indices, and how many indices are left over.
 pub fn assemble(
-    topology: Topology,
+    mode: Mode,
     count: usize,
     index: impl Fn(usize) -> u32 + Sync,
 ) -> (Vec<[u32; 3]>, usize) {
-    let triangle = |t: usize| match topology {
-        Topology::List => [index(3 * t), index(3 * t + 1), index(3 * t + 2)],
+    let triangle = |t: usize| match mode {
+        Mode::Triangles => [index(3 * t), index(3 * t + 1), index(3 * t + 2)],
         // Every other triangle is turned, so that all wind alike.
-        Topology::Strip => [index(t), index(t + 1 + t % 2), index(t + 2 - t % 2)],
-        Topology::Fan => [index(t + 1), index(t + 2), index(0)],
+        Mode::TriangleStrip => [index(t), index(t + 1 + t % 2), index(t + 2 - t % 2)],
+        _ => [index(t + 1), index(t + 2), index(0)],
     };
-    let left_over = match topology {
-        Topology::List => count % 3,
-        Topology::Strip | Topology::Fan if count < 3 => count,
-        Topology::Strip | Topology::Fan => 0,
+    let left_over = match mode {
+        Mode::Triangles => count % 3,
+        _ if count < 3 => count,
+        _ => 0,
     };
-    let triangles = (0..number(topology, count))
+    let triangles = (0..number(mode, count))
         .into_par_iter()
         .with_min_len(16_384)
         .map(triangle)
@@ -84,14 +75,20 @@ mod tests {
 
     #[test]
     fn topologies_keep_the_winding() {
-        let assemble = |topology, count| assemble(topology, count, |i| i as u32);
-        assert_eq!(assemble(Topology::List, 7), (vec![[0, 1, 2], [3, 4, 5]], 1));
+        let assemble = |mode, count| assemble(mode, count, |i| i as u32);
         assert_eq!(
-            assemble(Topology::Strip, 5),
+            assemble(Mode::Triangles, 7),
+            (vec![[0, 1, 2], [3, 4, 5]], 1)
+        );
+        assert_eq!(
+            assemble(Mode::TriangleStrip, 5),
             (vec![[0, 1, 2], [1, 3, 2], [2, 3, 4]], 0)
         );
-        assert_eq!(assemble(Topology::Fan, 4), (vec![[1, 2, 0], [2, 3, 0]], 0));
-        assert_eq!(assemble(Topology::Fan, 2), (vec![], 2));
+        assert_eq!(
+            assemble(Mode::TriangleFan, 4),
+            (vec![[1, 2, 0], [2, 3, 0]], 0)
+        );
+        assert_eq!(assemble(Mode::TriangleFan, 2), (vec![], 2));
     }
 
     #[test]

@@ -1,0 +1,20 @@
+//! Any bytes through the reader of scenes: a scene or an error, never a panic.
+//!
+//! `cargo +nightly fuzz run scene CORPUS` with a folder of small scenes; URIs of files are not
+//! followed.
+
+#![no_main]
+
+use gpc::scene::{PoseRequest, Scene};
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| {
+    if let Ok(loaded) = Scene::from_slice(bytes, "fuzz", None) {
+        let request = PoseRequest {
+            time: 0.5,
+            ..PoseRequest::default()
+        };
+        // An error is as good as a pose.
+        let _ = loaded.scene.pose(&request);
+    }
+});

@@ -1,0 +1,64 @@
+//! KTX2 images of Basis Universal (`KHR_texture_basisu`): ETC1S and UASTC.
+
+use std::panic::catch_unwind;
+
+use basisu::{
+    DecodeFlags, Error, TargetFormat, Transcoder,
+    ktx2::{BasisFormat, Ktx2Header},
+};
+
+/// Width and height that the header states; an error where it is not what the extension allows.
+pub fn dimensions(bytes: &[u8]) -> Result<(u32, u32), String> {
+    let header = Ktx2Header::parse(bytes).ok_or(
+        "the KTX2 header is broken, or is not that of a 2D image of Basis Universal; encode it \
+         with `toktx --encode uastc`",
+    )?;
+    if !matches!(header.format, BasisFormat::Etc1s | BasisFormat::Uastc) {
+        return Err("is a KTX2 image of neither ETC1S nor UASTC".to_owned());
+    }
+    if header.face_count != 1 || header.layer_count > 1 {
+        return Err("is a KTX2 image of several layers or faces".to_owned());
+    }
+    // The transcoder adds offsets to lengths without a look at what comes out.
+    let global = (header.sgd_byte_offset, header.sgd_byte_length);
+    let levels = header.levels.iter();
+    let levels = levels.map(|level| (level.byte_offset, level.byte_length));
+    let within = |(offset, length): (u64, u64)| {
+        let end = offset.checked_add(length);
+        end.is_some_and(|end| end <= bytes.len() as u64)
+    };
+    if !levels.chain([global]).all(within) {
+        let all = bytes.len();
+        return Err(format!(
+            "the KTX2 header refers beyond the {all} bytes of the file"
+        ));
+    }
+    // It allocates what a level says that it is inflated to.
+    let blocks = u64::from(header.width.div_ceil(4)) * u64::from(header.height.div_ceil(4));
+    if let Some(level) = header.levels.first()
+        && level.uncompressed_byte_length > BYTES_A_BLOCK * blocks
+    {
+        let claimed = level.uncompressed_byte_length;
+        return Err(format!(
+            "claims {claimed} bytes for {blocks} blocks of 4 x 4 texels"
+        ));
+    }
+    Ok((header.width, header.height))
+}
+
+/// Bytes of a block of UASTC.
+const BYTES_A_BLOCK: u64 = 16;
+
+/// The texels of the full image, RGBA, of a file whose [`dimensions`] were found acceptable.
+pub fn decode(bytes: &[u8]) -> Result<Vec<u8>, String> {
+    let failed = |error: Error| format!("the KTX2 image cannot be decoded: {error:?}");
+    let transcode = || {
+        let transcoder = Transcoder::new(bytes).map_err(failed)?;
+        transcoder
+            .transcode(0, TargetFormat::Rgba32, DecodeFlags::NONE)
+            .map_err(failed)
+    };
+    // The transcoder is young: what it may still panic at is to cost one image, not the process.
+    catch_unwind(transcode)
+        .unwrap_or_else(|_| Err("the KTX2 image is broken: its transcoder gave up".to_owned()))
+}

@@ -1,0 +1,223 @@
+//! PLY: polygons with normals, texture coordinates and colours of vertices.
+
+use std::io::Cursor;
+
+use glam::DVec3;
+use ply_rs_bw::{
+    parser::{Parser, Reader},
+    ply::{ElementDef, Header, Property, PropertyAccess, PropertyAccessResult},
+};
+
+use super::shape::{Drawing, Shape, linear, plain};
+use crate::scene::{
+    Loaded, SceneError,
+    error::{Fault, Warnings},
+};
+
+/// Whether `bytes` are a PLY file.
+pub fn is_ply(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r")
+}
+
+/// Reads a PLY file.
+pub fn read(bytes: &[u8], file: &str) -> Result<Loaded, SceneError> {
+    let mut warnings = Warnings::new(file);
+    let drawing = decode(bytes, &mut warnings).map_err(|fault| fault.into_error(file))?;
+    drawing.into_scene("PLY", file, warnings)
+}
+
+fn decode(bytes: &[u8], warnings: &mut Warnings) -> Result<Drawing, Fault> {
+    let broken = |error: ply_rs_bw::parser::ParseError| {
+        let place = error
+            .line()
+            .map_or("header".to_owned(), |line| format!("line {line}"));
+        Fault::new(
+            place,
+            format!("the PLY file is broken: {error}; export it again"),
+        )
+    };
+    let mut reader = Reader::new(Cursor::new(bytes));
+    let header = Parser::<Vertex>::new()
+        .read_header(&mut reader)
+        .map_err(broken)?;
+    let (mut vertices, mut faces) = (Vec::new(), Vec::new());
+    for (name, element) in &header.elements {
+        check(element, bytes.len())?;
+        match name.as_str() {
+            "vertex" => {
+                vertices = elements::<Vertex>(&mut reader, element, &header).map_err(broken)?
+            }
+            "face" => faces = elements::<Face>(&mut reader, element, &header).map_err(broken)?,
+            _ => drop(elements::<Skipped>(&mut reader, element, &header).map_err(broken)?),
+        }
+    }
+    Ok(draw(&vertices, faces, &header, warnings))
+}
+
+/// Fails for an element that claims more than the file has, each of which takes a byte at least.
+fn check(element: &ElementDef, bytes: usize) -> Result<(), Fault> {
+    let ElementDef {
+        name,
+        count,
+        properties,
+        ..
+    } = element;
+    let place = format!("element {name}");
+    if *count > 0 && properties.is_empty() {
+        return Err(Fault::new(place, "has no properties"));
+    }
+    if *count > bytes {
+        let reason = format!("claims {count} elements, but the file has {bytes} bytes");
+        return Err(Fault::new(place, reason));
+    }
+    Ok(())
+}
+
+fn elements<E: PropertyAccess>(
+    reader: &mut Reader<Cursor<&[u8]>>,
+    element: &ElementDef,
+    header: &Header,
+) -> Result<Vec<E>, ply_rs_bw::parser::ParseError> {
+    Parser::<E>::new().read_payload_for_element(reader, element, header)
+}
+
+fn draw(
+    vertices: &[Vertex],
+    faces: Vec<Face>,
+    header: &Header,
+    warnings: &mut Warnings,
+) -> Drawing {
+    let has = |names: &[&str]| {
+        let element = header.elements.get("vertex");
+        let has = |name: &&str| element.is_some_and(|e| e.properties.contains_key(*name));
+        names.iter().all(has)
+    };
+    let finite = |v: &&Vertex| v.position.is_finite();
+    let origin = vertices
+        .iter()
+        .find(finite)
+        .map_or(DVec3::ZERO, |v| v.position);
+    let (mut triangles, mut short) = (Vec::new(), 0);
+    for Face { indices } in faces {
+        match indices.as_slice() {
+            [first, rest @ ..] if rest.len() >= 2 => {
+                triangles.extend(rest.windows(2).map(|edge| [*first, edge[0], edge[1]]));
+            }
+            _ => short += 1,
+        }
+    }
+    if short > 0 {
+        let reason =
+            format!("{short} faces have a negative index or fewer than 3 and are left out");
+        warnings.push(&Fault::new("element face", reason));
+    }
+    if triangles.is_empty() && !vertices.is_empty() {
+        let reason = format!(
+            "only faces are drawn; {} points are left out",
+            vertices.len()
+        );
+        warnings.push(&Fault::new("element vertex", reason));
+    }
+    let stream = |present: bool| if present { vertices } else { &[] }.iter();
+    let colored = has(&["red", "green", "blue"]);
+    let mut material = plain();
+    if colored {
+        material.base_color = [1.0; 4];
+    }
+    let shape = Shape {
+        triangles,
+        positions: vertices
+            .iter()
+            .map(|v| (v.position - origin).as_vec3().to_array())
+            .collect(),
+        normals: stream(has(&["nx", "ny", "nz"])).map(|v| v.normal).collect(),
+        colors: stream(colored).map(|v| v.color).collect(),
+        ..Shape::default()
+    };
+    Drawing {
+        shapes: vec![shape],
+        origin,
+        materials: vec![material],
+        ..Drawing::default()
+    }
+}
+
+/// A vertex in the making.
+struct Vertex {
+    position: DVec3,
+    normal: [f32; 3],
+    color: [f32; 4],
+}
+
+impl PropertyAccess for Vertex {
+    fn new() -> Self {
+        Self {
+            position: DVec3::ZERO,
+            normal: [0.0; 3],
+            color: [1.0; 4],
+        }
+    }
+
+    fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
+        let Some((value, most)) = number(&property) else {
+            return PropertyAccessResult::Ignored;
+        };
+        match name {
+            "x" => self.position.x = value,
+            "y" => self.position.y = value,
+            "z" => self.position.z = value,
+            "nx" => self.normal[0] = value as f32,
+            "ny" => self.normal[1] = value as f32,
+            "nz" => self.normal[2] = value as f32,
+            "red" => self.color[0] = linear(value / most),
+            "green" => self.color[1] = linear(value / most),
+            "blue" => self.color[2] = linear(value / most),
+            _ => return PropertyAccessResult::Ignored,
+        }
+        PropertyAccessResult::Set
+    }
+}
+
+/// A scalar's value, and what stands for 1 where it is a colour.
+fn number(property: &Property) -> Option<(f64, f64)> {
+    Some(match *property {
+        Property::Char(x) => (x.into(), 127.0),
+        Property::UChar(x) => (x.into(), 255.0),
+        Property::Short(x) => (x.into(), 32_767.0),
+        Property::UShort(x) => (x.into(), 65_535.0),
+        Property::Int(x) => (x.into(), 255.0),
+        Property::UInt(x) => (x.into(), 255.0),
+        Property::Float(x) => (x.into(), 1.0),
+        Property::Double(x) => (x, 1.0),
+        _ => return None,
+    })
+}
+
+/// A polygon; empty where an index is negative.
+#[derive(Default)]
+struct Face {
+    indices: Vec<u32>,
+}
+
+impl PropertyAccess for Face {
+    fn new() -> Self {
+        Self::default()
+    }
+
+    fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
+        if !matches!(name, "vertex_indices" | "vertex_index") {
+            return PropertyAccessResult::Ignored;
+        }
+        self.indices = property.to_u32_list().unwrap_or_default();
+        PropertyAccessResult::Set
+    }
+}
+
+/// An element that is not drawn.
+struct Skipped;
+
+impl PropertyAccess for Skipped {
+    fn new() -> Self {
+        Self
+    }
+}

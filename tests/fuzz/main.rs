@@ -1,0 +1,96 @@
+//! Mutated files through all readers: a scene or an error, never a panic, never a hang.
+//!
+//! `cargo test --test fuzz` runs a few thousand executions with fixed seeds; for longer runs, set
+//! `FUZZ_SECONDS`, and `FUZZ_SEED` for another sequence. What a run finds is written to the
+//! temporary folder, and becomes a test of the reader that it concerns. `fuzz/` is the same guided by
+//! coverage, which needs a nightly toolchain.
+
+mod mutate;
+#[path = "../scene_builder/mod.rs"]
+mod scene_builder;
+#[path = "../scene_support/mod.rs"]
+#[allow(dead_code)]
+mod scene_support;
+mod seeds;
+
+use std::{
+    panic::catch_unwind,
+    path::{Path, PathBuf},
+    time::{Duration, Instant},
+};
+
+use gpc::scene::{PoseRequest, Scene};
+use mutate::Mutator;
+
+/// Longest that a file of these sizes may take.
+const SLOWEST: Duration = Duration::from_secs(20);
+
+/// Loads and poses a file; whether it is drawable.
+pub fn exercise(bytes: &[u8], base: Option<&Path>) -> bool {
+    let Ok(loaded) = Scene::from_slice(bytes, "fuzz", base) else {
+        return false;
+    };
+    let request = PoseRequest {
+        time: 0.5,
+        ..PoseRequest::default()
+    };
+    loaded.scene.pose(&request).is_ok()
+}
+
+/// A file, and the folder that its URIs start from.
+pub struct Seed {
+    pub name: String,
+    pub bytes: Vec<u8>,
+    pub base: Option<PathBuf>,
+    /// A file in that folder that is mutated, too, and what it starts from.
+    pub beside: Option<(PathBuf, Vec<u8>)>,
+}
+
+fn variable(name: &str) -> Option<u64> {
+    std::env::var(name).ok()?.parse().ok()
+}
+
+#[test]
+fn mutated_files_end_in_a_scene_or_an_error() {
+    let folder = tempfile::tempdir().unwrap();
+    let seeds = seeds::all(folder.path());
+    let formats: Vec<&str> = seeds.iter().map(|seed| seed.name.as_str()).collect();
+    let seconds = variable("FUZZ_SECONDS");
+    let least = if seconds.is_some() { 0 } else { 200 };
+    let mut mutator = Mutator::new(variable("FUZZ_SEED").unwrap_or(1));
+    let start = Instant::now();
+    let (mut executions, mut drawn, mut rounds) = (0_u64, 0_u64, 0);
+    while rounds < least || seconds.is_some_and(|s| start.elapsed().as_secs() < s) {
+        for seed in &seeds {
+            let bytes = mutator.mutate(&seed.bytes, &seeds);
+            if let Some((path, beside)) = &seed.beside {
+                std::fs::write(path, mutator.mutate(beside, &seeds)).unwrap();
+            }
+            let before = Instant::now();
+            let result = catch_unwind(|| exercise(&bytes, seed.base.as_deref()));
+            let took = before.elapsed();
+            if result.is_err() || took > SLOWEST {
+                let path = std::env::temp_dir().join(format!("fuzz-{executions}-{}", seed.name));
+                std::fs::write(&path, &bytes).unwrap();
+                panic!(
+                    "{}: panics or takes {took:?}: {}",
+                    seed.name,
+                    path.display()
+                );
+            }
+            executions += 1;
+            drawn += u64::from(result.unwrap());
+        }
+        rounds += 1;
+    }
+    println!(
+        "{executions} executions of {} seeds in {:?}, {drawn} of them drawable: {formats:?}",
+        seeds.len(),
+        start.elapsed()
+    );
+    // A mutator that breaks every file, or none, tests nothing.
+    assert!(
+        executions == 0 || (drawn > executions / 50 && drawn < executions * 49 / 50),
+        "{drawn} of {executions} are drawable"
+    );
+}

@@ -1,0 +1,170 @@
+//! The files that mutations start from: one of each format and extension.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::json;
+
+use super::{
+    Seed,
+    mutate::glb,
+    scene_builder::{Builder, TRIANGLE},
+    scene_support::shared,
+};
+
+const OBJ: &str = "mtllib none.mtl\no quad\nv 0 0 0\nv 1 0 0 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\n\
+    vt 1 0\nvn 0 0 1\nusemtl paint\nf 1/1/1 2/2/1 3/1/1 4/2/1\nf -1 -2 -3\n";
+const STL: &str = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n\
+    vertex 0 1 0\nendloop\nendfacet\nendsolid\n";
+const PLY: &str = "element vertex 3\nproperty float x\nproperty double y\nproperty short z\n\
+    property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n\
+    property list uchar int vertex_indices\nend_header\n";
+
+const MTL: &str = "newmtl paint\nKa 0 0 0\nKd 0.5 0.25 1\nd 0.5\nNs 10\nillum 2\n\
+    map_Kd -s 1 1 1 none.png\n";
+
+/// All seeds: those made here, of which OBJ lies in `folder`, and small shared scenes where they are.
+pub fn all(folder: &Path) -> Vec<Seed> {
+    let mut seeds = vec![
+        made("rich.glb", rich().glb()),
+        made("rich.gltf", rich().json.to_string().into_bytes()),
+        Seed {
+            base: Some(folder.to_owned()),
+            beside: Some((folder.join("none.mtl"), MTL.into())),
+            ..made("quad.obj", OBJ.into())
+        },
+        made("text.stl", STL.into()),
+        made("binary.stl", binary_stl()),
+        made("text.ply", ascii_ply()),
+        made("binary.ply", binary_ply()),
+    ];
+    for name in [
+        "Box-Draco/Box.gltf",
+        "BoxMeshopt/BoxMeshopt.glb",
+        "CesiumBalloonKTX2/CesiumBalloonKTX2.glb",
+        "CesiumMilkTruck-Draco/CesiumMilkTruck.gltf",
+        "MorphPrimitivesTest/MorphPrimitivesTest.glb",
+        "SimpleSparseAccessor/SimpleSparseAccessor.gltf",
+        "WebpRequired/box-textured-separate.gltf",
+    ] {
+        seeds.extend(from_scene(name));
+    }
+    seeds
+}
+
+fn made(name: &str, bytes: Vec<u8>) -> Seed {
+    Seed {
+        name: name.to_owned(),
+        bytes,
+        base: None,
+        beside: None,
+    }
+}
+
+/// A shared scene, if it is there. A buffer beside it becomes part of the file, so that mutations
+/// reach what is compressed.
+fn from_scene(name: &str) -> Option<Seed> {
+    let path = shared("scenes")?.join(name);
+    let mut bytes = std::fs::read(&path).ok()?;
+    let base: PathBuf = path.parent()?.to_owned();
+    if name.ends_with(".gltf") {
+        let mut json: serde_json::Value = serde_json::from_slice(&bytes).ok()?;
+        let uri = json["buffers"][0]["uri"].as_str()?.to_owned();
+        if let Ok(binary) = std::fs::read(base.join(&uri)) {
+            json["buffers"][0].as_object_mut()?.remove("uri");
+            bytes = glb(json.to_string().as_bytes(), &binary);
+        }
+    }
+    Some(Seed {
+        name: name.replace('/', "-"),
+        bytes,
+        base: Some(base),
+        beside: None,
+    })
+}
+
+/// A scene of all parts that need no compression.
+fn rich() -> Builder {
+    let mut builder = Builder::new();
+    let positions = builder.floats(&TRIANGLE);
+    let uvs = builder.floats(&[[0., 1.], [1., 1.], [0., 0.]]);
+    let joints = builder.accessor("VEC4", 5121, &[0; 12], json!({}));
+    let weights = builder.floats(&[[1., 0., 0., 0.]; 3]);
+    let indices = builder.indices(&[0, 1, 2]);
+    let texture = builder.texture([1, 2, 3]);
+    let material = builder.push(
+        "materials",
+        json!({
+            "normalTexture": {"index": texture}, "alphaMode": "MASK",
+            "extensions": {"KHR_materials_pbrSpecularGlossiness": {"glossinessFactor": 0.5}},
+        }),
+    );
+    let node = builder.node_with(
+        json!({
+            "attributes": {"POSITION": positions, "TEXCOORD_0": uvs, "JOINTS_0": joints,
+                           "WEIGHTS_0": weights},
+            "indices": indices, "material": material, "targets": [{"POSITION": positions}],
+            "extensions": {"KHR_materials_variants": {"mappings": [
+                {"material": 0, "variants": [0]},
+            ]}},
+        }),
+        json!({"weights": [0.5], "camera": 0}),
+    );
+    builder.json["extensions"] = json!({
+        "KHR_lights_punctual": {"lights": [{"type": "spot", "spot": {"innerConeAngle": 0.1}}]},
+        "KHR_materials_variants": {"variants": [{"name": "day"}]},
+    });
+    builder.push(
+        "cameras",
+        json!({"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}),
+    );
+    builder.push("skins", json!({"joints": [1]}));
+    builder.json["nodes"][node]["skin"] = 0.into();
+    builder.push(
+        "nodes",
+        json!({
+            "translation": [1, 2, 3],
+            "extensions": {"KHR_lights_punctual": {"light": 0},
+                           "KHR_node_visibility": {"visible": true}},
+        }),
+    );
+    builder.push("scenes", json!({"nodes": [0, 1]}));
+    let (input, output) = (builder.floats(&[[0.], [1.]]), builder.floats(&[[0.; 3]; 2]));
+    builder.push(
+        "animations",
+        json!({
+            "channels": [{"sampler": 0, "target": {"node": 1, "path": "scale"}}],
+            "samplers": [{"input": input, "output": output}],
+        }),
+    );
+    builder
+}
+
+fn binary_stl() -> Vec<u8> {
+    let mut bytes = vec![b' '; 80];
+    bytes.extend(2_u32.to_le_bytes());
+    for _ in 0..2 {
+        bytes.extend([0; 12]);
+        let floats = TRIANGLE.as_flattened().iter();
+        bytes.extend(floats.flat_map(|x: &f32| x.to_le_bytes()));
+        bytes.extend([0, 0]);
+    }
+    bytes
+}
+
+fn ascii_ply() -> Vec<u8> {
+    let rows = "0 0 0 255 0 0\n1 0 0 0 255 0\n0 1 0 0 0 255\n3 0 1 2\n";
+    format!("ply\nformat ascii 1.0\n{PLY}{rows}").into_bytes()
+}
+
+fn binary_ply() -> Vec<u8> {
+    let mut bytes = format!("ply\nformat binary_little_endian 1.0\n{PLY}").into_bytes();
+    for [x, y, z] in TRIANGLE {
+        bytes.extend(x.to_le_bytes());
+        bytes.extend(f64::from(y).to_le_bytes());
+        bytes.extend((z as i16).to_le_bytes());
+        bytes.extend([255, 0, 188]);
+    }
+    bytes.push(3);
+    bytes.extend([0_i32, 1, 2].iter().flat_map(|i| i.to_le_bytes()));
+    bytes
+}

@@ -1,0 +1,251 @@
+//! OBJ, STL and PLY.
+
+use std::path::Path;
+
+use glam::DVec3;
+use gpc::scene::{AlphaMode, Loaded, Pose, PoseRequest, Scene, SceneError};
+
+fn load(bytes: &[u8], base: Option<&Path>) -> Result<Loaded, SceneError> {
+    Scene::from_slice(bytes, "test", base)
+}
+
+#[track_caller]
+fn pose(bytes: &[u8]) -> (Loaded, Pose) {
+    let loaded = load(bytes, None).unwrap();
+    let pose = loaded.scene.pose(&PoseRequest::default()).unwrap();
+    (loaded, pose)
+}
+
+#[track_caller]
+fn refused(bytes: &[u8], message: &str) {
+    let error = load(bytes, None).unwrap_err().to_string();
+    assert!(error.starts_with("test: "), "{error}");
+    assert!(error.contains(message), "{error}");
+}
+
+const QUAD: &str = "# a comment\nmtllib quad.mtl\no quad\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n\
+    vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl paint\nf 1/1 2/2 3/3 4/4\n";
+
+#[test]
+fn obj_has_its_mtl_colours_and_textures() {
+    let folder = tempfile::tempdir().unwrap();
+    let mtl = "newmtl paint\nKd 0.5 0.25 1\nd 0.5\nmap_Kd maps\\a b.png\n";
+    std::fs::write(folder.path().join("quad.mtl"), mtl).unwrap();
+    std::fs::create_dir(folder.path().join("maps")).unwrap();
+    let image = image::RgbaImage::from_pixel(2, 2, image::Rgba([1, 2, 3, 255]));
+    image.save(folder.path().join("maps/a b.png")).unwrap();
+    let loaded = load(QUAD.as_bytes(), Some(folder.path())).unwrap();
+    assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
+    let scene = &loaded.scene;
+    let paint = &scene.materials[0];
+    assert_eq!(paint.base_color, [0.5, 0.25, 1.0, 0.5]);
+    assert_eq!((paint.metallic, paint.alpha_mode), (0.0, AlphaMode::Blend));
+    let texture = scene.textures[paint.base_color_texture.unwrap().texture as usize];
+    assert_eq!(
+        scene.images[texture.image as usize].pixels[..4],
+        [1, 2, 3, 255]
+    );
+
+    let geometry = scene.pose(&PoseRequest::default()).unwrap().geometry;
+    assert_eq!(geometry.triangles.len(), 2);
+    assert_eq!(geometry.draws[0].material, 0);
+    assert!(
+        geometry
+            .streams
+            .normals
+            .iter()
+            .all(|n| *n == [0.0, 0.0, 1.0])
+    );
+    // OBJ counts v from the bottom of the image, glTF from its top.
+    for (position, uv) in geometry.positions.iter().zip(&geometry.streams.uvs) {
+        let [x, y] = [0, 1].map(|i| position[i] + geometry.origin[i] as f32);
+        assert_eq!([x, 1.0 - y], uv[..2]);
+    }
+    let info = serde_json::to_value(scene.info()).unwrap();
+    assert_eq!(
+        (&info["format"], &info["triangles"]),
+        (&"OBJ".into(), &2.into())
+    );
+}
+
+/// One component stands for all three; none, or one that is no number, for the default.
+#[test]
+fn mtl_colours_may_lack_components() {
+    let folder = tempfile::tempdir().unwrap();
+    for (colour, expected) in [("0.5", 0.5), ("0.5 0.5", 0.5), ("", 0.8), ("red", 0.8)] {
+        let mtl = format!("newmtl paint\nKd {colour}\n");
+        std::fs::write(folder.path().join("quad.mtl"), mtl).unwrap();
+        let loaded = load(QUAD.as_bytes(), Some(folder.path())).unwrap();
+        let pose = loaded.scene.pose(&PoseRequest::default()).unwrap();
+        let material = &loaded.scene.materials[pose.geometry.draws[0].material as usize];
+        assert_eq!(material.base_color[..3], [expected; 3], "{colour}");
+        assert_eq!(loaded.warnings.len(), usize::from(colour == "red"));
+    }
+}
+
+#[test]
+fn obj_without_its_mtl_is_grey_with_a_warning() {
+    let folder = tempfile::tempdir().unwrap();
+    for base in [None, Some(folder.path())] {
+        let loaded = load(QUAD.as_bytes(), base).unwrap();
+        let [warning] = loaded.warnings.as_slice() else {
+            panic!("{:?}", loaded.warnings);
+        };
+        assert!(warning.starts_with("test: mtllib quad.mtl: "), "{warning}");
+        let pose = loaded.scene.pose(&PoseRequest::default()).unwrap();
+        let material = &loaded.scene.materials[pose.geometry.draws[0].material as usize];
+        assert_eq!(material.base_color, [0.8, 0.8, 0.8, 1.0]);
+    }
+}
+
+#[test]
+fn obj_with_indices_beyond_its_vertices_is_refused() {
+    refused(b"v 0 0 0\nf 1 2 3\n", "face vertex index out of bounds");
+    refused(b"v 0 0 zero\n", "the OBJ file is broken");
+    refused(b"o nothing\n", "nor OBJ, STL or PLY");
+    // Found by fuzzing: a texture coordinate before the first one.
+    let before = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/-9 2/1 3/1\n";
+    refused(before, "the OBJ file is broken");
+}
+
+/// A binary STL with this text in its header.
+fn binary_stl(header: &str, triangles: &[[[f32; 3]; 3]]) -> Vec<u8> {
+    let mut bytes = header.as_bytes().to_vec();
+    bytes.resize(80, 0);
+    bytes.extend((triangles.len() as u32).to_le_bytes());
+    for triangle in triangles {
+        let normal_and_corners = [[[0.0; 3]].as_slice(), triangle].concat();
+        let floats = normal_and_corners.as_flattened().iter();
+        bytes.extend(floats.flat_map(|x| x.to_le_bytes()));
+        bytes.extend([0, 0]);
+    }
+    bytes
+}
+
+const CORNERS: [[f32; 3]; 3] = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]];
+
+#[test]
+fn stl_in_binary_and_as_text() {
+    let text = "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n\
+        endloop\nendfacet\nendsolid\n";
+    let named = text.replacen("solid", "solid a name", 1);
+    let binary = binary_stl("made by hand", &[CORNERS]);
+    let misleading = binary_stl("solid, says the header", &[CORNERS]);
+    for bytes in [text.as_bytes(), named.as_bytes(), &binary, &misleading] {
+        let (loaded, pose) = pose(bytes);
+        assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
+        assert_eq!(pose.geometry.triangles.len(), 1);
+        assert_eq!(pose.geometry.bounds().unwrap().1, DVec3::new(1.0, 1.0, 0.0));
+        assert!(loaded.scene.materials[0].double_sided);
+    }
+    refused(
+        b"solid x\nfacet normal 0 0 nought\n",
+        "the STL file is broken",
+    );
+    refused(&binary[..100], "nor OBJ, STL or PLY");
+}
+
+#[test]
+fn positions_that_are_not_finite_are_left_out() {
+    let broken = [CORNERS[0], CORNERS[1], [f32::NAN, 0.0, 0.0]];
+    let (loaded, pose) = pose(&binary_stl("", &[CORNERS, broken]));
+    assert_eq!(pose.geometry.triangles.len(), 1);
+    assert!(
+        loaded.warnings[0].contains("1 of 2 triangles"),
+        "{:?}",
+        loaded.warnings
+    );
+}
+
+/// A PLY header for this encoding, with a double x far from the origin.
+fn ply_header(format: &str, vertices: usize) -> String {
+    format!(
+        "ply\nformat {format} 1.0\nelement vertex {vertices}\nproperty double x\n\
+         property float y\nproperty float z\nproperty uchar red\nproperty uchar green\n\
+         property uchar blue\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    )
+}
+
+#[test]
+fn ply_in_all_encodings() {
+    let far = 6_378_137.25;
+    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0_f32]];
+    let mut ascii = ply_header("ascii", 4);
+    for [x, y] in corners {
+        ascii += &format!("{} {y} 0 255 0 188\n", far + f64::from(x));
+    }
+    ascii += "4 0 1 2 3\n";
+    let mut little = ply_header("binary_little_endian", 4).into_bytes();
+    let mut big = ply_header("binary_big_endian", 4).into_bytes();
+    for [x, y] in corners {
+        let x = far + f64::from(x);
+        little.extend(
+            [
+                &x.to_le_bytes()[..],
+                &y.to_le_bytes(),
+                &[0; 4],
+                &[255, 0, 188],
+            ]
+            .concat(),
+        );
+        big.extend(
+            [
+                &x.to_be_bytes()[..],
+                &y.to_be_bytes(),
+                &[0; 4],
+                &[255, 0, 188],
+            ]
+            .concat(),
+        );
+    }
+    little.push(4);
+    big.push(4);
+    for i in 0..4_i32 {
+        little.extend(i.to_le_bytes());
+        big.extend(i.to_be_bytes());
+    }
+    for bytes in [ascii.as_bytes(), &little, &big] {
+        let (loaded, pose) = pose(bytes);
+        assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
+        assert_eq!(pose.geometry.triangles.len(), 2);
+        let (low, high) = pose.geometry.bounds().unwrap();
+        assert_eq!(
+            (low, high),
+            (DVec3::new(far, 0., 0.), DVec3::new(far + 1.0, 1., 0.))
+        );
+        let [r, g, b, a] = pose.geometry.streams.colors[0];
+        assert_eq!((r, g, a), (1.0, 0.0, 1.0));
+        assert!((b - 0.5029).abs() < 1e-3, "{b}");
+    }
+}
+
+#[test]
+fn ply_cannot_claim_what_is_not_there() {
+    refused(
+        ply_header("ascii", 1 << 40).as_bytes(),
+        "element vertex: claims 1099511627776",
+    );
+    refused(
+        ply_header("binary_little_endian", 100).as_bytes(),
+        "the PLY file is broken",
+    );
+    let empty = "ply\nformat binary_little_endian 1.0\nelement nothing 1\nend_header\n";
+    refused(empty.as_bytes(), "element nothing: has no properties");
+    refused(b"ply\nformat ascii 1.0\n", "the PLY file is broken");
+    let long = b"ply\nformat binary_little_endian 1.0\nelement face 1\n\
+        property list uint int vertex_indices\nend_header\n\xFF\xFF\xFF\xFF";
+    refused(long, "the PLY file is broken");
+}
+
+#[test]
+fn points_of_ply_are_left_out_with_a_warning() {
+    let text = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n\
+        property float z\nend_header\n1 2 3\n";
+    let (loaded, pose) = pose(text.as_bytes());
+    assert!(pose.geometry.triangles.is_empty());
+    assert!(
+        loaded.warnings[0].contains("1 points are left out"),
+        "{:?}",
+        loaded.warnings
+    );
+}
