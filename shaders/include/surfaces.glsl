@@ -70,32 +70,25 @@ void parts_of(uint wanted, out vec3 sums[ROWS]) {
     if (lane % SHARING != 0u) sums[0] = vec3(0.0);
 }
 
-// Merges neighbouring parts `merges` times, at most twice: those of neighbouring invocations, then those that an
-// invocation holds.
-void merge_parts(inout vec3 parts[ROWS], uint merges) {
-    uint lane = gl_SubgroupInvocationID;
-    [[unroll]] for (uint m = 0u; m < 2u; m++) {
-        uint step = PART_LANES << m;
-        bool merge = m < merges;
-        if (step < LANES) {
-            [[unroll]] for (uint r = 0u; r < PARTS_HELD; r++) {
-                vec3 other = vec3(subgroupShuffleXor(parts[r].x, step), subgroupShuffleXor(parts[r].y, step), subgroupShuffleXor(parts[r].z, step));
-                vec3 both = (lane & step) == 0u ? parts[r] + other : vec3(0.0);
-                parts[r] = merge ? both : parts[r];
-            }
-        } else {
-            [[unroll]] for (uint r = 0u; r + 1u < PARTS_HELD; r += 2u) {
-                vec3 both = parts[r] + parts[r + 1u];
-                parts[r] = merge ? both : parts[r];
-                parts[r + 1u] = merge ? vec3(0.0) : parts[r + 1u];
-            }
+// Merges each part with a neighbour: one that the same invocation holds where it holds several, since on CPU devices
+// shuffles would cost as much as all else here, or that of another invocation.
+void merge_parts(inout vec3 parts[ROWS], bool merge) {
+    if (PARTS_HELD > 1u) {
+        [[unroll]] for (uint r = 0u; r + 1u < ROWS; r += 2u) {
+            parts[r] += merge ? parts[r + 1u] : vec3(0.0);
+            parts[r + 1u] = merge ? vec3(0.0) : parts[r + 1u];
         }
+    } else if (PART_LANES < LANES) {
+        vec3 other = vec3(subgroupShuffleXor(parts[0].x, PART_LANES), subgroupShuffleXor(parts[0].y, PART_LANES), subgroupShuffleXor(parts[0].z, PART_LANES));
+        bool keeps = (gl_SubgroupInvocationID & PART_LANES) == 0u;
+        parts[0] = merge ? (keeps ? parts[0] + other : vec3(0.0)) : parts[0];
     }
 }
 
-uvec2 merge_bits(uvec2 bits, uint merges) {
-    bits = merges >= 1u ? (bits | bits >> 1) & 0x55555555u : bits;
-    return merges >= 2u ? (bits | bits >> 2) & 0x11111111u : bits;
+// The parts that are left, by the bits of all.
+uvec2 merge_bits(uvec2 bits) {
+    if (PARTS_HELD > 1u) return PARTS_A_ROW > 1u ? (bits | bits >> 2) & 0x33333333u : (bits | bits >> 1) & 0x55555555u;
+    return PART_LANES < LANES ? (bits | bits >> 1) & 0x55555555u : bits;
 }
 
 bool high_frequency_triangle(uint of) {
@@ -200,13 +193,13 @@ uvec2 record_surfaces(Cell cell, uint owner, out bool settled) {
     Surfaces held = surfaces_of(cell);
     float weight = weigh(held, cell.samples, settled);
     bool holds = lane < held.count;
-    uint merges = 0u;
+    uint shaded_in = PARTS_ALL;
     bool several = BY_PART && holds && high_frequency_triangle(held.id);
     if (BY_PART && !SITES) {
-        merges = merges_of(variation_of(cell.member), held.id);
-        several = several && merges < 3u;
+        shaded_in = parts_around(variation_of(cell.member), held.id);
+        several = several && shaded_in != PARTS_ONE;
     }
-    held.parts = merge_bits(held.parts, merges);
+    held.parts = shaded_in == PARTS_MERGED ? merge_bits(held.parts) : held.parts;
     bool single = holds && !several;
     // What is shaded in many places takes all samples to choose them from.
     settled = settled && (RUN != PROBE || !subgroupAny(several));
@@ -239,9 +232,10 @@ uvec2 record_surfaces(Cell cell, uint owner, out bool settled) {
             float weight_each = subgroupShuffle(each, holder);
             vec3 parts[ROWS];
             parts_of(current, parts);
-            merge_parts(parts, subgroupShuffle(merges, holder));
-            [[unroll]] for (uint held_ = 0u; held_ < PARTS_HELD; held_++) {
-                vec3 part = parts[held_];
+            merge_parts(parts, subgroupShuffle(shaded_in, holder) == PARTS_MERGED);
+            [[unroll]] for (uint h = 0u; h < ROWS; h++) {
+                if (h >= PARTS_HELD) continue;
+                vec3 part = parts[h];
                 uint present = subgroupBallot(part.z != 0.0).x;
                 if (fits && part.z != 0.0)
                     records_out[slot + uint(bitCount(present & ((1u << lane) - 1u)))] =

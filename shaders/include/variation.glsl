@@ -3,12 +3,15 @@
 #ifndef VARIATION_GLSL
 #define VARIATION_GLSL
 
-// Two triangles that centres see, that of the pixel's own centre first, and how often the parts of a cell are merged
-// for each of them and, after that, for others of its material.
+// In which parts of a cell a triangle is shaded: in all, in these merged in pairs, or in one.
+const uint PARTS_ALL = 0u, PARTS_MERGED = 1u, PARTS_ONE = 2u;
+
+// Two triangles that centres see, that of the pixel's own centre first, and the parts for each of them and, after that,
+// for others of its material.
 struct Variation {
     uvec2 ids;
     uvec2 materials;
-    uint merges;            // 2 bits each: of the triangles, then of the materials
+    uint parts;             // 2 bits each: of the triangles, then of the materials
 };
 
 uint variation_material(uint of) {
@@ -28,9 +31,9 @@ float variation_range(uint codes[9], uint among) {
     return max(range.r, max(range.g, range.b));
 }
 
-uint variation_merges(float range) {
+uint variation_parts(float range) {
     float contrast = float(frame.contrast);
-    return range <= contrast ? 3u : range <= 2.0 * contrast ? 2u : range <= 4.0 * contrast ? 1u : 0u;
+    return range <= contrast ? PARTS_ONE : range <= 4.0 * contrast ? PARTS_MERGED : PARTS_ALL;
 }
 
 // An invocation takes a pixel.
@@ -60,12 +63,12 @@ Variation variation_around(uvec2 pixel) {
         alike |= uvec2(materials_[i] == r.materials.x ? 1u << i : 0u, materials_[i] == r.materials.y ? 1u << i : 0u);
     }
     uvec2 of_material = uvec2(
-        bitCount(alike.x) >= 3 ? variation_merges(variation_range(codes, alike.x)) : 0u,
-        bitCount(alike.y) >= 3 ? variation_merges(variation_range(codes, alike.y)) : 0u);
+        bitCount(alike.x) >= 3 ? variation_parts(variation_range(codes, alike.x)) : PARTS_ALL,
+        bitCount(alike.y) >= 3 ? variation_parts(variation_range(codes, alike.y)) : PARTS_ALL);
     uvec2 of_triangle = uvec2(
-        bitCount(own.x) >= 4 && 4.0 * variation_range(codes, own.x) <= float(frame.contrast) ? 3u : of_material.x,
-        bitCount(own.y) >= 4 && 4.0 * variation_range(codes, own.y) <= float(frame.contrast) ? 3u : of_material.y);
-    r.merges = of_triangle.x | of_triangle.y << 2 | of_material.x << 4 | of_material.y << 6;
+        bitCount(own.x) >= 4 && 4.0 * variation_range(codes, own.x) <= float(frame.contrast) ? PARTS_ONE : of_material.x,
+        bitCount(own.y) >= 4 && 4.0 * variation_range(codes, own.y) <= float(frame.contrast) ? PARTS_ONE : of_material.y);
+    r.parts = of_triangle.x | of_triangle.y << 2 | of_material.x << 4 | of_material.y << 6;
     return r;
 }
 
@@ -75,15 +78,15 @@ Variation variation_of(uint member) {
     Variation r;
     r.ids = uvec2(subgroupShuffle(my_variation.ids.x, member), subgroupShuffle(my_variation.ids.y, member));
     r.materials = uvec2(subgroupShuffle(my_variation.materials.x, member), subgroupShuffle(my_variation.materials.y, member));
-    r.merges = subgroupShuffle(my_variation.merges, member);
+    r.parts = subgroupShuffle(my_variation.parts, member);
     return r;
 }
 
-// How often two neighbouring parts are merged into one, and again, before a triangle is shaded in them; 3: into a single one.
-uint merges_of(Variation around, uint triangle) {
+// The parts that a triangle is shaded in.
+uint parts_around(Variation around, uint triangle) {
     uint material = variation_material(triangle);
     uint at = triangle == around.ids.x ? 0u : triangle == around.ids.y ? 2u : material == around.materials.x ? 4u : 6u;
-    return at == 6u && material != around.materials.y ? 0u : around.merges >> at & 3u;
+    return at == 6u && material != around.materials.y ? PARTS_ALL : around.parts >> at & 3u;
 }
 
 #endif

@@ -12,20 +12,31 @@ pub struct Neighbourhood {
 /// The pixel itself.
 const CENTRE: usize = 4;
 
-/// How often two neighbouring parts of a cell are merged into one before `triangle` is shaded in them; 3 is all into one.
+/// In which parts of a superpixel a triangle is shaded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parts {
+    /// In all that there are.
+    All,
+    /// In these, merged in pairs.
+    Merged,
+    /// In one.
+    One,
+}
+
+/// In which parts `triangle` is shaded.
 ///
 /// Around the pixel, two triangles are looked at: that of its centre, and the first other one. Where 4 centres or more
 /// see the triangle and their colours differ by at most a quarter of the threshold of contrast, it is shaded once.
-/// Otherwise the colours of its material count, where 3 centres or more see it: shaded once if they differ by at most the
-/// threshold, in parts merged twice up to its double, once up to its fourfold, and not merged above. A triangle that is
-/// neither of the two and not of their materials is shaded in all parts.
+/// Otherwise the colours of its material count, where 3 centres or more see it: it is shaded once if they differ by at most
+/// the threshold, and in merged parts if by at most four times that. A triangle that is neither of the two and not of
+/// their materials is shaded in all parts.
 #[must_use]
-pub fn merges(
+pub fn parts(
     around: &Neighbourhood,
     material_of: impl Fn(u32) -> u32,
     triangle: u32,
     contrast: u8,
-) -> u32 {
+) -> Parts {
     let contrast = u32::from(contrast);
     let own = around.ids[CENTRE];
     let other = around
@@ -38,20 +49,19 @@ pub fn merges(
     if known.contains(&triangle) {
         let seen = |id: u32| id == triangle;
         if count(around, seen) >= 4 && 4 * range(around, seen) <= contrast {
-            return 3;
+            return Parts::One;
         }
     } else if !known.map(material).contains(&material(triangle)) {
-        return 0;
+        return Parts::All;
     }
     let seen = |id: u32| material(id) == material(triangle);
     if count(around, seen) < 3 {
-        return 0;
+        return Parts::All;
     }
     match range(around, seen) {
-        range if range <= contrast => 3,
-        range if range <= 2 * contrast => 2,
-        range if range <= 4 * contrast => 1,
-        _ => 0,
+        range if range <= contrast => Parts::One,
+        range if range <= 4 * contrast => Parts::Merged,
+        _ => Parts::All,
     }
 }
 

@@ -3,14 +3,14 @@
 use crate::meshes::Random;
 use crate::stage::{Stage, on_gpu, once, seen_at, textured};
 use gpc::reference::srgb::encode;
-use gpc::reference::variation::{Neighbourhood, merges};
+use gpc::reference::variation::{Neighbourhood, Parts, parts};
 use gpc::render::{Coverage, Detection, Method, Rendered, Settings, Shading};
 use gpc::scene::{AlphaMode, Filter, Image, Sampler};
 
 const SIZE: [u32; 2] = [32, 24];
 const CONTRAST: u8 = 8;
 const SAMPLES: u32 = 64;
-/// Parts of a superpixel of so many samples that is not merged.
+/// Parts of a superpixel of so many samples.
 const PARTS: u64 = 16;
 
 /// A texture of a texel a pixel: patches of even, slightly uneven, uneven and wild grey.
@@ -84,7 +84,7 @@ fn around(rendered: &Rendered, x: i64, y: i64) -> Neighbourhood {
 #[test]
 fn places_are_as_many_as_the_twin_says() {
     on_gpu(|gpu| {
-        let mut seen = [0; 4];
+        let mut seen = [0; 3];
         for (seed, materials) in [(1, 1), (2, 2), (3, 1)] {
             let stage = stage(seed, materials);
             let base = stage.render(gpu, &once(SIZE));
@@ -105,9 +105,13 @@ fn places_are_as_many_as_the_twin_says() {
                     let around = around(&base, x, y);
                     let own = around.ids[4];
                     assert!(own != 0);
-                    let merged = merges(&around, material, own, CONTRAST);
-                    seen[merged as usize] += 1;
-                    expected += if merged == 3 { 1 } else { PARTS >> merged };
+                    let parts = parts(&around, material, own, CONTRAST);
+                    seen[parts as usize] += 1;
+                    expected += match parts {
+                        Parts::All => PARTS,
+                        Parts::Merged => PARTS / 2,
+                        Parts::One => 1,
+                    };
                 }
             }
             assert_eq!(statistics.records, expected, "{materials} materials");
