@@ -70,15 +70,18 @@ void parts_of(uint wanted, out vec3 sums[ROWS]) {
     if (lane % SHARING != 0u) sums[0] = vec3(0.0);
 }
 
-// Merges each part with a neighbour: one that the same invocation holds where it holds several, since on CPU devices
-// shuffles would cost as much as all else here, or that of another invocation.
+// Neighbouring parts are merged where an invocation holds both of them, since on CPU devices shuffles would cost as much as
+// all else here, or where they are held by other invocations. Parts of fewer samples are few as they are.
+const bool WITHIN = PARTS_HELD > 1u && PARTS_A_ROW <= 2u, ACROSS = PARTS_HELD == 1u && PART_LANES < LANES;
+
 void merge_parts(inout vec3 parts[ROWS], bool merge) {
-    if (PARTS_HELD > 1u) {
+    if (WITHIN) {
         [[unroll]] for (uint r = 0u; r + 1u < ROWS; r += 2u) {
             parts[r] += merge ? parts[r + 1u] : vec3(0.0);
             parts[r + 1u] = merge ? vec3(0.0) : parts[r + 1u];
         }
-    } else if (PART_LANES < LANES) {
+    }
+    if (ACROSS) {
         vec3 other = vec3(subgroupShuffleXor(parts[0].x, PART_LANES), subgroupShuffleXor(parts[0].y, PART_LANES), subgroupShuffleXor(parts[0].z, PART_LANES));
         bool keeps = (gl_SubgroupInvocationID & PART_LANES) == 0u;
         parts[0] = merge ? (keeps ? parts[0] + other : vec3(0.0)) : parts[0];
@@ -87,8 +90,8 @@ void merge_parts(inout vec3 parts[ROWS], bool merge) {
 
 // The parts that are left, by the bits of all.
 uvec2 merge_bits(uvec2 bits) {
-    if (PARTS_HELD > 1u) return PARTS_A_ROW > 1u ? (bits | bits >> 2) & 0x33333333u : (bits | bits >> 1) & 0x55555555u;
-    return PART_LANES < LANES ? (bits | bits >> 1) & 0x55555555u : bits;
+    if (WITHIN && PARTS_A_ROW == 2u) return (bits | bits >> 2) & 0x33333333u;
+    return WITHIN || ACROSS ? (bits | bits >> 1) & 0x55555555u : bits;
 }
 
 bool high_frequency_triangle(uint of) {

@@ -9,9 +9,17 @@ use gpc::scene::{AlphaMode, Filter, Image, Sampler};
 
 const SIZE: [u32; 2] = [32, 24];
 const CONTRAST: u8 = 8;
-const SAMPLES: u32 = 64;
-/// Parts of a superpixel of so many samples.
-const PARTS: u64 = 16;
+/// Samples of a block, each of which has parts of its own.
+const BLOCK: u32 = 64;
+/// Numbers of samples, the parts of a superpixel there, and how many are left where they are merged, which depends on the
+/// size of subgroups: these are those of 8 invocations.
+const RATES: [(u32, u64, u64); 5] = [
+    (4, 4, 2),
+    (16, 16, 16),
+    (64, 16, 8),
+    (256, 64, 32),
+    (1024, 64, 64),
+];
 
 /// A texture of a texel a pixel: patches of even, slightly uneven, uneven and wild grey.
 fn patches(seed: u64) -> Image {
@@ -81,6 +89,11 @@ fn around(rendered: &Rendered, x: i64, y: i64) -> Neighbourhood {
     found
 }
 
+fn mean(rendered: &Rendered) -> f64 {
+    let sum: f64 = rendered.colors.iter().map(|c| f64::from(c[1])).sum();
+    sum / rendered.colors.len() as f64
+}
+
 #[test]
 fn places_are_as_many_as_the_twin_says() {
     on_gpu(|gpu| {
@@ -88,33 +101,43 @@ fn places_are_as_many_as_the_twin_says() {
         for (seed, materials) in [(1, 1), (2, 2), (3, 1)] {
             let stage = stage(seed, materials);
             let base = stage.render(gpu, &once(SIZE));
-            let settings = Settings {
-                method: Method::Superpixel,
-                detection: Detection::Every,
-                shading: Shading::Part,
-                coverage: Coverage::Samples,
-                samples: SAMPLES,
-                contrast: CONTRAST,
-                ..once(SIZE)
-            };
-            let statistics = stage.render(gpu, &settings).statistics;
-            let material = |id: u32| if materials == 1 { 0 } else { id };
-            let mut expected = 0;
-            for y in 0..i64::from(SIZE[1]) {
-                for x in 0..i64::from(SIZE[0]) {
-                    let around = around(&base, x, y);
-                    let own = around.ids[4];
-                    assert!(own != 0);
-                    let parts = parts(&around, material, own, CONTRAST);
-                    seen[parts as usize] += 1;
-                    expected += match parts {
-                        Parts::All => PARTS,
-                        Parts::Merged => PARTS / 2,
-                        Parts::One => 1,
-                    };
+            for (samples, all, merged) in RATES {
+                let settings = |shading| Settings {
+                    method: Method::Superpixel,
+                    detection: Detection::Every,
+                    coverage: Coverage::Samples,
+                    contrast: CONTRAST,
+                    shading,
+                    samples,
+                    ..once(SIZE)
+                };
+                let rendered = stage.render(gpu, &settings(Shading::Part));
+                let material = |id: u32| if materials == 1 { 0 } else { id };
+                let mut expected = 0;
+                for y in 0..i64::from(SIZE[1]) {
+                    for x in 0..i64::from(SIZE[0]) {
+                        let around = around(&base, x, y);
+                        let own = around.ids[4];
+                        assert!(own != 0);
+                        let parts = parts(&around, material, own, CONTRAST);
+                        seen[parts as usize] += 1;
+                        expected += match parts {
+                            Parts::All => all,
+                            Parts::Merged => merged,
+                            Parts::One => u64::from(samples.div_ceil(BLOCK)),
+                        };
+                    }
                 }
+                let records = rendered.statistics.records;
+                assert_eq!(
+                    records, expected,
+                    "{materials} materials, {samples} samples"
+                );
+                // Nothing is lost or counted twice: texels are pixels, so that all places of a pixel see one colour.
+                let sampled = stage.render(gpu, &settings(Shading::Sample));
+                let apart = mean(&rendered) / mean(&sampled) - 1.0;
+                assert!(apart.abs() < 1e-4, "{samples} samples: {apart}");
             }
-            assert_eq!(statistics.records, expected, "{materials} materials");
         }
         assert!(seen.iter().all(|count| *count > 20), "{seen:?}");
     });
