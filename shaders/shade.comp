@@ -2,7 +2,8 @@
 // Sources: PIXELS (the centres of the pixels of a span, by the IDs of raster) or visibility records at their location
 // in a pixel or in the cell of a site (SITES), whose Jacobian then sets the footprint.
 // Reads: shade_order, ids or records, clip, the geometry, textures. Writes: color and display, or shaded.
-// Linear light throughout.
+// Linear light throughout. A texture is read once, at the level that its sampler chooses, or (BOX_FILTER) averaged over the
+// square that a place stands for: at several places along the longer side that the square has in the texture.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"

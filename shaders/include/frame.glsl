@@ -36,7 +36,7 @@ layout(set = 0, binding = 0) uniform Frame {
     uint contrast;          // code values; more than this is a contrast
     float exposure;         // factor on radiance
     float footprint;        // side of the square that textures are filtered over at a pixel's centre, in pixels of the region
-    float place_footprint;  // the same at the place of a visibility record, in pixels; PLACES: over the root of the record's share of a cell
+    float place_footprint;  // the same at the place of a visibility record, in pixels; BOX_FILTER: over the root of the record's share of a cell
     float sample_footprint; // the same where a sub-sample tests alpha, in pixels
     uint side;              // pixels of the region along an output pixel's side: k for k x k supersampling
     float reach;            // of samples around the centre of the pixel that owns their cell, in pixels; at least half a pixel

@@ -260,10 +260,10 @@ impl SampleOptions {
         self.records == RecordRate::Part && (run == Run::Probe || self.part_samples() < block)
     }
 
-    /// Samples of a part: there are up to 16 parts, and beyond 64 samples up to 64, of four samples at the least.
+    /// Samples of a part: there are 16 parts of up to 64 samples, 64 of 256 and 128 of 1,024.
     fn part_samples(&self) -> u32 {
         let few = (self.samples / 16).clamp(1, 4);
-        (self.samples / 64).max(few).next_power_of_two()
+        (self.samples / 128).max(few).next_power_of_two()
     }
 
     /// Whether there is a first run.

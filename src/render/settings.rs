@@ -48,7 +48,7 @@ pub enum Shading {
     /// Once a visible triangle and block of 64 samples, at the centroid of what is seen of it.
     Triangle,
     /// Once a visible triangle, but where the colours around it vary in up to 16 parts of the pixel, at 256 samples in up
-    /// to 64.
+    /// to 64, at 1,024 in up to 128.
     Part,
     /// Once a sub-sample.
     Sample,
@@ -137,11 +137,7 @@ impl Settings {
     /// no superpixels.
     #[must_use]
     pub fn default_contrast(samples: u32) -> u8 {
-        match samples {
-            0..128 => 8,
-            128..512 => 3,
-            _ => 2,
-        }
+        if samples < 128 { 8 } else { 2 }
     }
 
     /// Superpixel antialiasing with the defaults, at a size.

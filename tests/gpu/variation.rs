@@ -18,7 +18,7 @@ const RATES: [(u32, u64, u64); 5] = [
     (16, 16, 16),
     (64, 16, 8),
     (256, 64, 32),
-    (1024, 64, 64),
+    (1024, 128, 128),
 ];
 
 /// A texture of a texel a pixel: patches of even, slightly uneven, uneven and wild grey.

@@ -51,7 +51,7 @@ pub struct SamplingArgs {
     #[arg(long, value_name = "N")]
     samples: Option<u32>,
     /// Differences of neighbours above this are a contrast, in 8-bit sRGB code values
-    /// [default: 8; 3 from 128 samples on, 2 from 512]
+    /// [default: 8; 2 from 128 samples on]
     #[arg(long, value_name = "T")]
     contrast: Option<u8>,
     /// What makes a pixel a superpixel: a neighbour in a contrasting colour; one that also shows another triangle; or
@@ -68,7 +68,7 @@ pub struct SamplingArgs {
     /// and msaa have the pixel's at either
     #[arg(long, default_value = "sample")]
     pub footprint: TextureFootprint,
-    /// Shade a superpixel once for each visible triangle, in up to 16 or 64 parts where colours vary, or once a sample
+    /// Shade a superpixel once for each visible triangle, in up to 16 to 128 parts where colours vary, or once a sample
     #[arg(long, default_value = "part")]
     pub shading: ShadingRate,
 }
