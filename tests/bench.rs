@@ -2,8 +2,11 @@
 
 #[allow(dead_code)]
 mod cli_support;
+#[path = "common/difference.rs"]
+mod difference;
 
-use cli_support::{asset, files, gpc};
+use cli_support::{Run, asset, files, gpc};
+use difference::rmse;
 use glam::DVec2;
 use gpc::bench::{Growth, Looks, Variant, VariantContender, VariantError, Yardstick, brute_force};
 use gpc::camera::{Camera, Orbit, Projection};
@@ -34,13 +37,6 @@ fn settings(method: Method, samples: u32) -> Settings {
         background: Some([0.8; 3]),
         ..Settings::new(SIZE, SIZE)
     }
-}
-
-fn rmse(a: &[[f32; 4]], b: &[[f32; 4]]) -> f64 {
-    assert_eq!(a.len(), b.len());
-    let squares = a.as_flattened().iter().zip(b.as_flattened());
-    let sum: f64 = squares.map(|(a, b)| f64::from(a - b).powi(2)).sum();
-    (sum / (4 * a.len()) as f64).sqrt()
 }
 
 /// The film moved by whole pixels sees the same picture elsewhere.
@@ -412,20 +408,24 @@ fn wrong_use_is_told_before_anything_is_measured() {
     assert!(files(folder.path()).is_empty());
 }
 
+/// Runs `gpc bench` on scenes, with further arguments in one line that name `out` as its folder, and reads its results.
+fn measured(folder: &Path, scenes: &[&str], arguments: &str) -> (Run, Value) {
+    let mut all = vec!["bench"];
+    all.extend(scenes);
+    all.extend(arguments.split(' '));
+    let run = gpc(folder, &all).ok();
+    let results = std::fs::read(folder.join("out").join("results.json")).unwrap();
+    (run, serde_json::from_slice(&results).unwrap())
+}
+
 #[test]
 fn variants_of_the_camera_are_timed_beside_the_raster_pass() {
     let folder = tempfile::tempdir().unwrap();
     let scene = asset("letters.glb");
     let arguments =
         "--size 64x64 --methods none --reference 256 --repeat 2 --variants --cache cache --out out";
-    let all: Vec<_> = ["bench", &scene]
-        .into_iter()
-        .chain(arguments.split(' '))
-        .collect();
-    let run = gpc(folder.path(), &all).ok();
+    let (run, results) = measured(folder.path(), &[&scene], arguments);
     let out = folder.path().join("out");
-    let results = std::fs::read(out.join("results.json")).unwrap();
-    let results: Value = serde_json::from_slice(&results).unwrap();
     let timed = &results["variants"][0];
     assert_eq!(timed["name"], "letters");
     let rows = timed["rows"].as_array().unwrap();
@@ -504,14 +504,8 @@ fn motion_is_measured_against_the_truth_of_each_frame() {
     let folder = tempfile::tempdir().unwrap();
     let scene = asset("letters.glb");
     let arguments = "--motion-size 48x32 --cache cache --out out";
-    let all: Vec<_> = ["bench", "--motion", &scene]
-        .into_iter()
-        .chain(arguments.split(' '))
-        .collect();
-    let run = gpc(folder.path(), &all).ok();
+    let (run, results) = measured(folder.path(), &["--motion", &scene], arguments);
     let out = folder.path().join("out");
-    let results = std::fs::read(out.join("results.json")).unwrap();
-    let results: Value = serde_json::from_slice(&results).unwrap();
     let moved = &results["motion"][0];
     assert_eq!(
         (&moved["name"], &moved["textured"]),

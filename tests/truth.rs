@@ -1,5 +1,9 @@
 //! The truth of a textured scene, and whose fault it is to miss it.
 
+#[path = "common/difference.rs"]
+mod difference;
+
+use difference::rmse;
 use gpc::bench::stress::stage::{Stage, camera, flat, seen_at, textured};
 use gpc::bench::{Half, Looks, Random, Stripped, Suspects, Within, Yardstick, brute_force};
 use gpc::output::{DecodedImage, Picture};
@@ -66,13 +70,6 @@ fn reference(
 ) -> Vec<[f32; 4]> {
     let settings = settings(Method::None, 1, footprint);
     brute_force(headless, scene, &camera(), &settings, 1024, || {}).unwrap()
-}
-
-fn rmse(a: &[[f32; 4]], b: &[[f32; 4]]) -> f64 {
-    assert_eq!(a.len(), b.len());
-    let squares = a.as_flattened().iter().zip(b.as_flattened());
-    let sum: f64 = squares.map(|(a, b)| f64::from(a - b).powi(2)).sum();
-    (sum / (4 * a.len()) as f64).sqrt()
 }
 
 /// Textures read for smaller and smaller samples come to the truth; those read for whole pixels come to another image.

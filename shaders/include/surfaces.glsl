@@ -12,10 +12,10 @@ struct Surface {
     uint id;                // ~0: no other triangle
     float samples;
     vec2 sum;               // of their locations
-    uvec2 parts;            // BY_PART: a bit for each that sees it
+    uint parts;             // BY_PART: a bit for each that sees it
 };
 
-// Parts of a block: at most as many runs of neighbouring samples as there are invocations.
+// Parts of a block: runs of neighbouring samples, at most 32 of them (src/passes/sample.rs chooses their length).
 const uint PARTS_A_ROW = LANES > PART ? LANES / PART : 1u, ROWS_A_PART = PART > LANES ? PART / LANES : 1u;
 const uint PART_LANES = PART < LANES ? PART : LANES, PART_ROWS = ROWS_A_PART < uint(ROWS) ? uint(ROWS) / ROWS_A_PART : 1u;
 
@@ -24,25 +24,20 @@ uint part_number(int g) {
     return PARTS_A_ROW > 1u ? uint(g) * PARTS_A_ROW + gl_SubgroupInvocationID / PART_LANES : uint(g) / ROWS_A_PART;
 }
 
-uvec2 part_bit(int g) {
-    uint n = part_number(g);
-    return uvec2(n < 32u ? 1u << n : 0u, n < 32u ? 0u : 1u << (n - 32u));
-}
-
 // The triangle with the least ID above `seen`.
 Surface surface_after(uint seen) {
-    Surface r = Surface(~0u, 0.0, vec2(0.0), uvec2(0u));
+    Surface r = Surface(~0u, 0.0, vec2(0.0), 0u);
     [[unroll]] for (int g = 0; g < ROWS; g++) r.id = min(r.id, id[g] > seen ? id[g] : ~0u);
     r.id = lanes_min(r.id);
     [[unroll]] for (int g = 0; g < ROWS; g++) {
         bool same = id[g] == r.id;
         r.samples += same ? 1.0 : 0.0;
         r.sum += same ? offset[g] : vec2(0.0);
-        if (BY_PART) r.parts |= same ? part_bit(g) : uvec2(0u);
+        if (BY_PART) r.parts |= same ? 1u << part_number(g) : 0u;
     }
     r.samples = lanes_add(r.samples);
     r.sum = vec2(lanes_add(r.sum.x), lanes_add(r.sum.y));
-    if (BY_PART) r.parts = uvec2(lanes_or(r.parts.x), lanes_or(r.parts.y));
+    if (BY_PART) r.parts = lanes_or(r.parts);
     return r;
 }
 
@@ -89,7 +84,7 @@ void merge_parts(inout vec3 parts[ROWS], bool merge) {
 }
 
 // The parts that are left, by the bits of all.
-uvec2 merge_bits(uvec2 bits) {
+uint merge_bits(uint bits) {
     if (WITHIN && PARTS_A_ROW == 2u) return (bits | bits >> 2) & 0x33333333u;
     return WITHIN || ACROSS ? (bits | bits >> 1) & 0x55555555u : bits;
 }
@@ -104,14 +99,14 @@ struct Surfaces {
     uint id;
     uint place;
     float samples;
-    uvec2 parts;
+    uint parts;
     int area;
     bool whole;             // it loses no sample that it covers, so that its area is exact
 };
 
 Surfaces surfaces_of(Cell cell) {
     uint lane = gl_SubgroupInvocationID;
-    Surfaces r = Surfaces(0u, 0u, 0u, 0.0, uvec2(0u), 0, false);
+    Surfaces r = Surfaces(0u, 0u, 0u, 0.0, 0u, 0, false);
     float left = 0.0;
     [[unroll]] for (int g = 0; g < ROWS; g++) left += id[g] != 0u ? 1.0 : 0.0;
     left = lanes_add(left);
@@ -208,7 +203,7 @@ uvec2 record_surfaces(Cell cell, uint owner, out bool settled) {
     settled = settled && (RUN != PROBE || !subgroupAny(several));
     trips += 2u * held.count;
     uint beyond = held.count - min(held.count, LANES);
-    uint used = beyond + lanes_add(several ? uint(bitCount(held.parts.x) + bitCount(held.parts.y)) : single ? 1u : 0u);
+    uint used = beyond + lanes_add(several ? uint(bitCount(held.parts)) : single ? 1u : 0u);
     bool fits;
     uint base = allocate_records(settled ? used : 0u, fits);
     fits = fits && settled;

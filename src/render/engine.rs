@@ -156,8 +156,8 @@ pub(super) fn record_rate(settings: &Settings, scene: &GpuScene) -> RecordRate {
     }
 }
 
-/// Whether few samples may settle superpixels: not those of high-frequency triangles, which are
-/// shaded in many places.
+/// Whether few samples may settle superpixels: not those of high-frequency triangles, which are shaded
+/// in many places.
 pub(super) fn can_settle(settings: &Settings, scene: &GpuScene) -> bool {
     settings.shading != Shading::Part || !scene.is_mostly_high_frequency()
 }
