@@ -16,7 +16,7 @@ help:
 	@echo "make demo           build, render a scene without and with antialiasing into out/"
 	@echo "make test           run all tests, without a GPU"
 	@echo "make bench          measure cost and accuracy of all methods into out/bench; BENCH='...' are its options"
-	@echo "make lint           check formatting, clippy's advice and the documentation"
+	@echo "make lint           check formatting, clippy's advice for each set of features, and the documentation"
 	@echo "make shaders        compile shaders/ into shaders/spirv (builds shaderc: some 10 minutes once)"
 	@echo "make check-shaders  check that shaders/spirv is what shaders/ compiles to"
 	@echo "make assets         write the scenes in assets/ again"
@@ -39,6 +39,8 @@ lint:
 	@tools/setup.sh build
 	$(CARGO) fmt --check
 	$(CARGO) clippy --release --all-targets -- -D warnings
+	$(CARGO) clippy --release --no-default-features -- -D warnings
+	$(CARGO) clippy --release --no-default-features --features gltf -- -D warnings
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --release --no-deps
 
 # The build script does the work; `check` spares the crate's own code generation.

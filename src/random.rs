@@ -22,6 +22,7 @@ impl Random {
     }
 
     /// At least `low`, below `high`.
+    #[cfg(feature = "cli")]
     pub fn range(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
@@ -32,6 +33,7 @@ impl Random {
     }
 
     /// Puts items in a random order (Fisher and Yates).
+    #[cfg(feature = "cli")]
     pub fn shuffle<T>(&mut self, items: &mut [T]) {
         for last in (1..items.len()).rev() {
             items.swap(last, self.below(last as u64 + 1) as usize);
