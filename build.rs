@@ -15,7 +15,6 @@ type Variant = (
 );
 
 const VARIANTS: &[Variant] = &[
-    ("transform", "transform.comp", &[]),
     ("raster_vertex", "raster.vert", &[]),
     ("raster_opaque", "raster.frag", &[]),
     ("raster_masked", "raster.frag", &[("MASKED", "")]),

@@ -1,10 +1,11 @@
 // attributes: what the centre of a pixel sees besides its colour, where the caller asked for it.
-// Reads: ids, clip, triangles, normals, masks. Writes: two vectors a pixel, floats as bits:
+// Reads: ids, the geometry, masks. Writes: two vectors a pixel, floats as bits:
 // (distance along the view direction, ID, sub-samples, superpixel 0 or 1), (world normal, 0).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/barycentric.glsl"
+#include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool SUPERPIXELS = false;
 layout(std430, set = 0, binding = 36) writeonly buffer AttributesOut { uvec4 attributes_out[]; };
@@ -17,8 +18,9 @@ void main() {
     if (i >= size.x * size.y) return;
     uvec2 pixel = split(i, size.x) * side + side / 2u;
     uint id = texelFetch(ids, ivec2(pixel), 0).x;
-    ivec3 v = ivec3(texelFetch(triangles, int(max(id, 1u) - 1u)).xyz);
-    Barycentric w = barycentric(texelFetch(clip, v.x), texelFetch(clip, v.y), texelFetch(clip, v.z), frame.origin + vec2(pixel));
+    Triangle k = triangle_at(max(id, 1u) - 1u);
+    ivec3 v = k.vertices;
+    Barycentric w = barycentric(k.v0, k.v1, k.v2, frame.origin + vec2(pixel));
     mat3 world = mat3(texelFetch(positions, v.x).xyz, texelFetch(positions, v.y).xyz, texelFetch(positions, v.z).xyz);
     float distance_ = dot(world * w.at - frame.eye.xyz, frame.view_direction.xyz);
     vec3 n = mat3(texelFetch(normals, v.x).xyz, texelFetch(normals, v.y).xyz, texelFetch(normals, v.z).xyz) * w.at;

@@ -1,11 +1,12 @@
 // bin: survivors into pairs of a triangle and a tile, with the pair's rank in the tile's list.
-// Reads: triangles, clip, masks, survivors. Writes: pairs, tiles (lengths and flags), COUNTER_PAIRS.
+// Reads: the geometry, masks, survivors. Writes: pairs, tiles (lengths and flags), COUNTER_PAIRS.
 // The order of pairs and ranks varies from run to run; `sample` does not depend on it.
 // A pair that finds no room marks its tile: every triangle is then a candidate there.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/tiles.glsl"
+#include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 
 layout(constant_id = 0) const bool LARGE = false;   // a workgroup a triangle, not an invocation
@@ -14,9 +15,8 @@ void main() {
     uint i = LARGE ? gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u : gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
     if (i >= counters[LARGE ? COUNTER_LARGE : COUNTER_SURVIVORS]) return;
     uint t = survivors[LARGE ? frame.triangle_count - 1u - i : i];
-    uvec4 indices = texelFetch(triangles, int(t));
-    vec4 v0 = texelFetch(clip, int(indices.x)), v1 = texelFetch(clip, int(indices.y)), v2 = texelFetch(clip, int(indices.z));
-    Footprint f = footprint_of(v0, v1, v2);
+    Triangle corners = triangle_at(t);
+    Footprint f = footprint_of(corners.v0, corners.v1, corners.v2);
     uint flag = t >= frame.first_blend ? TILE_HAS_BLEND : t >= frame.first_mask ? TILE_HAS_MASK : 0u;
 
     ivec2 low = f.low / ivec2(8, 4), high = f.high / ivec2(8, 4);
@@ -31,7 +31,7 @@ void main() {
         bool touches = k < count && (masks[index] & footprint_mask(f, tile)) != 0u;
         if (LARGE) {
             // A pixel's centre is within (3.5, 1.5) of the tile's; a quarter more covers rounding.
-            Setup s = setup_triangle(v0, v1, v2, tile_center(tile), false);
+            Setup s = setup_triangle(corners.v0, corners.v1, corners.v2, tile_center(tile), false);
             vec3 reach = s.c + (3.75 + frame.reach) * abs(s.a) + (1.75 + frame.reach) * abs(s.b);
             touches = touches && !(min(reach.x, min(reach.y, reach.z)) < 0.0);
         }

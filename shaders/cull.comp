@@ -1,11 +1,12 @@
 // cull: keeps the triangles that can touch a superpixel; counts the others by reason. It errs towards keeping:
 // `setup` has the last word on what has area and faces the camera.
-// Reads: triangles, clip, masks. Writes: survivors (small from the front, large ones from the back), counters.
+// Reads: the geometry, masks. Writes: survivors (small from the front, large ones from the back), counters.
 // Small triangles go to one invocation each in `bin`, large ones to a workgroup each.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/tiles.glsl"
+#include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 
 const int SMALL_TILES = 16;
@@ -25,13 +26,12 @@ void main() {
     do {
         uint t = first + step_ * 64u;
         bool exists = t < frame.triangle_count;
-        uvec4 indices = texelFetch(triangles, int(min(t, frame.triangle_count - 1u)));
-        vec4 v0 = texelFetch(clip, int(indices.x)), v1 = texelFetch(clip, int(indices.y)), v2 = texelFetch(clip, int(indices.z));
-        Footprint f = footprint_of(v0, v1, v2);
+        Triangle k = triangle_at(min(t, frame.triangle_count - 1u));
+        Footprint f = footprint_of(k.v0, k.v1, k.v2);
         bool is_outside = exists && f.outside;
-        bool is_degenerate = exists && !is_outside && (v0 == v1 || v1 == v2 || v2 == v0);
-        bool is_backfacing = exists && !is_outside && !is_degenerate && (indices.w >> 31) == 0u
-            && surely_backfacing(v0, v1, v2, frame.origin);
+        bool is_degenerate = exists && !is_outside && (k.v0 == k.v1 || k.v1 == k.v2 || k.v2 == k.v0);
+        bool is_backfacing = exists && !is_outside && !is_degenerate && (k.word >> 31) == 0u
+            && surely_backfacing(k.v0, k.v1, k.v2, frame.origin);
         bool candidate = exists && !is_outside && !is_degenerate && !is_backfacing;
 
         ivec2 low = f.low / ivec2(8, 4), high = f.high / ivec2(8, 4);

@@ -1,5 +1,5 @@
 // points: what each site sees that is sampled once: its colour and attributes, from its visibility records.
-// Reads: records, shaded, clip, the geometry. Writes: color, and two vectors a site, floats as bits:
+// Reads: records, shaded, the geometry. Writes: color, and two vectors a site, floats as bits:
 // (distance along the view direction, ID, ID of the nearest BLEND layer, display code), (world normal, 0).
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -9,6 +9,7 @@
 #include "include/barycentric.glsl"
 #include "include/composite.glsl"
 #include "include/sites.glsl"
+#include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 36) writeonly buffer AttributesOut { uvec4 attributes_out[]; };
 
@@ -35,9 +36,9 @@ void main() {
     id = id > frame.first_blend ? 0u : id;
     uvec4 at = texelFetch(sites, int(2u * site));
     vec2 p = tile_center(ivec2(split(at.z, frame.tiles.x))) + uintBitsToFloat(at.xy);
-    uvec4 indices = texelFetch(triangles, int(max(id, 1u) - 1u));
-    ivec3 v = ivec3(indices.xyz);
-    Barycentric w = barycentric(texelFetch(clip, v.x), texelFetch(clip, v.y), texelFetch(clip, v.z), p);
+    Triangle k = triangle_at(max(id, 1u) - 1u);
+    ivec3 v = k.vertices;
+    Barycentric w = barycentric(k.v0, k.v1, k.v2, p);
     mat3 world = mat3(texelFetch(positions, v.x).xyz, texelFetch(positions, v.y).xyz, texelFetch(positions, v.z).xyz);
     float distance_ = dot(world * w.at - frame.eye.xyz, frame.view_direction.xyz);
     vec3 n = mat3(texelFetch(normals, v.x).xyz, texelFetch(normals, v.y).xyz, texelFetch(normals, v.z).xyz) * w.at;

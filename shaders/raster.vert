@@ -1,9 +1,10 @@
 // raster: pulls a triangle's vertices, so that the ID of a triangle is gl_VertexIndex / 3 (cheaper than
 // gl_PrimitiveID) and so that positions are those that `sample` sees.
-// Reads: triangles, clip.
+// Reads: triangles, positions.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
+#include "include/triangle.glsl"
 layout(location = 0) flat out uint triangle_id;
 
 void main() {
@@ -11,7 +12,7 @@ void main() {
     uint corner = uint(gl_VertexIndex) - 3u * t;
     uvec4 indices = texelFetch(triangles, int(t));
     uint v = corner == 0u ? indices.x : corner == 1u ? indices.y : indices.z;
-    vec4 p = texelFetch(clip, int(v));
+    vec4 p = to_clip(frame.transform, texelFetch(positions, int(v)).xyz);
     gl_Position = vec4(p.xy * frame.raster_scale + frame.raster_offset * p.w, p.zw);
     triangle_id = t + 1u;
 }

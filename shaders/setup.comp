@@ -1,10 +1,11 @@
 // setup: the triangle of each pair as edge functions and a depth plane around its tile's centre, in the tile's list.
-// Reads: pairs, triangles, clip, tiles. Writes: candidates, 4 vectors each:
+// Reads: pairs, the geometry, tiles. Writes: candidates, 4 vectors each:
 // (a0, b0, c0, a1), (b1, c1, a2, b2), (c2, depth x, depth y, depth at centre), (nearest, farthest depth, ID, 0).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/tiles.glsl"
+#include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 
 void main() {
@@ -13,10 +14,9 @@ void main() {
     uvec4 pair = texelFetch(pairs, int(i));
     uvec4 tile = tiles[pair.y];
     if ((tile.w & TILE_LISTED) == 0u) return;
-    uvec4 indices = texelFetch(triangles, int(pair.x));
-    vec4 v0 = texelFetch(clip, int(indices.x)), v1 = texelFetch(clip, int(indices.y)), v2 = texelFetch(clip, int(indices.z));
+    Triangle k = triangle_at(pair.x);
     vec2 center = tile_center(ivec2(split(pair.y, frame.tiles.x)));
-    Setup s = setup_triangle(v0, v1, v2, center, (indices.w >> 31) == 0u);
+    Setup s = setup_triangle(k.v0, k.v1, k.v2, center, (k.word >> 31) == 0u);
     // A triangle that does not show keeps its place and touches nothing.
     s.c = s.valid ? s.c : vec3(-3.4e38);
     int o = int(tile.y + pair.z) * 4;

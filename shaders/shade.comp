@@ -1,7 +1,7 @@
 // shade: the radiance of what raster or the sub-samples see, one dispatch a material bin.
 // Sources: PIXELS (the centres of the pixels of a span, by the IDs of raster) or visibility records at their location
 // in a pixel or in the cell of a site (SITES), whose Jacobian then sets the footprint.
-// Reads: shade_order, ids or records, clip, the geometry, textures. Writes: color and display, or shaded.
+// Reads: shade_order, ids or records, the geometry, textures. Writes: color and display, or shaded.
 // Linear light throughout. A texture is read once, at the level that its sampler chooses, or (BOX_FILTER) averaged over the
 // square that a place stands for: at several places along the longer side that the square has in the texture.
 #version 460
@@ -15,6 +15,7 @@
 #include "include/tiles.glsl"
 #include "include/sites.glsl"
 #include "include/place.glsl"
+#include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 
 layout(constant_id = 0) const bool PIXELS = false;
@@ -125,11 +126,11 @@ void main() {
         }
     }
 
-    uvec4 indices = texelFetch(triangles, int(max(id, 1u) - 1u));
-    ivec3 v = ivec3(indices.xyz);
-    uint m = indices.w & 0xffffu;
-    mine = mine && id != 0u && (ONE_BIN || (indices.w >> 16 & 0x3fffu) == push.bin);
-    Barycentric w = barycentric(texelFetch(clip, v.x), texelFetch(clip, v.y), texelFetch(clip, v.z), p);
+    Triangle k = triangle_at(max(id, 1u) - 1u);
+    ivec3 v = k.vertices;
+    uint m = k.word & 0xffffu;
+    mine = mine && id != 0u && (ONE_BIN || (k.word >> 16 & 0x3fffu) == push.bin);
+    Barycentric w = barycentric(k.v0, k.v1, k.v2, p);
     if (SITES) {
         mat2x3 change = mat2x3(w.dx, w.dy) * site_jacobian(site);
         w.dx = change[0];

@@ -1,7 +1,7 @@
 // thin: pixels that a thin triangle crosses unseen become superpixels, although no pixel centre saw it: a rope or wire
 // narrower than a pixel, the tip of a leaf. Runs twice: SELECT lists thin triangles, then each is walked along its
 // longer side, pixel by pixel.
-// Reads: triangles, clip, raster's depth, ids, blend_ids. Writes: marks, survivors (a scratch list here).
+// Reads: the geometry, raster's depth, ids, blend_ids. Writes: marks, survivors (a scratch list here).
 //
 // A pixel is marked where the triangle, all of it that lies there, is nearer than the surface at the pixel's centre by
 // more than a pixel's width. On a dense mesh each small triangle lies within its neighbours' surface, and marks nothing.
@@ -11,6 +11,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/tiles.glsl"
+#include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool SELECT = false;
 layout(constant_id = 1) const bool HAS_BLEND = false;
@@ -31,11 +32,10 @@ void select_thin() {
     do {
         uint t = first + step_ * 64u;
         bool exists = t < frame.triangle_count;
-        uvec4 indices = texelFetch(triangles, int(min(t, frame.triangle_count - 1u)));
-        vec4 v0 = texelFetch(clip, int(indices.x)), v1 = texelFetch(clip, int(indices.y)), v2 = texelFetch(clip, int(indices.z));
-        Footprint f = footprint_of(v0, v1, v2);
-        float height = height_of(v0.xy / v0.w, v1.xy / v1.w, v2.xy / v2.w);
-        bool hidden = (indices.w >> 31) == 0u && surely_backfacing(v0, v1, v2, frame.origin);
+        Triangle k = triangle_at(min(t, frame.triangle_count - 1u));
+        Footprint f = footprint_of(k.v0, k.v1, k.v2);
+        float height = height_of(k.v0.xy / k.v0.w, k.v1.xy / k.v1.w, k.v2.xy / k.v2.w);
+        bool hidden = (k.word >> 31) == 0u && surely_backfacing(k.v0, k.v1, k.v2, frame.origin);
         bool thin = exists && !f.outside && !f.unprojected && height < THIN && height > 0.0 && !hidden;
         uvec4 together = subgroupBallot(thin);
         uint base = 0u;
@@ -74,10 +74,8 @@ void walk() {
     uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
     if (i >= counters[COUNTER_THIN]) return;
     uint t = survivors[i];
-    uvec4 indices = texelFetch(triangles, int(t));
-    vec4 v0 = relative_to(texelFetch(clip, int(indices.x)), frame.origin);
-    vec4 v1 = relative_to(texelFetch(clip, int(indices.y)), frame.origin);
-    vec4 v2 = relative_to(texelFetch(clip, int(indices.z)), frame.origin);
+    Triangle k = triangle_at(t);
+    vec4 v0 = relative_to(k.v0, frame.origin), v1 = relative_to(k.v1, frame.origin), v2 = relative_to(k.v2, frame.origin);
     vec2 p0 = v0.xy / v0.w, p1 = v1.xy / v1.w, p2 = v2.xy / v2.w;
     float z0 = v0.z / v0.w, z1 = v1.z / v1.w, z2 = v2.z / v2.w;
     vec2 d1 = p1 - p0, d2 = p2 - p0;

@@ -8,6 +8,7 @@
 #ifndef ALPHA_GLSL
 #define ALPHA_GLSL
 #include "material.glsl"
+#include "triangle.glsl"
 
 #define ALPHA_TEXTURED 1u
 #define ALPHA_NEAREST_MAG 2u
@@ -30,10 +31,10 @@ struct AlphaTest {
 // The test of triangle `t` around `center`; its mipmap level is that of a parallelogram at `at`, relative to it, whose
 // sides are the columns of `pixel`.
 AlphaTest alpha_test(uint t, vec2 center, vec2 at, mat2 pixel) {
-    uvec4 indices = texelFetch(triangles, int(t));
-    ivec3 v = ivec3(indices.xyz);
-    uint m = indices.w & 0xffffu;
-    vec4 c0 = texelFetch(clip, v.x), c1 = texelFetch(clip, v.y), c2 = texelFetch(clip, v.z);
+    Triangle k = triangle_at(t);
+    ivec3 v = k.vertices;
+    uint m = k.word & 0xffffu;
+    vec4 c0 = k.v0, c1 = k.v1, c2 = k.v2;
     vec3 p0 = vec3(c0.xy - center * c0.w, c0.w), p1 = vec3(c1.xy - center * c1.w, c1.w), p2 = vec3(c2.xy - center * c2.w, c2.w);
     mat3 edges = mat3(cross(p1, p2), cross(p2, p0), cross(p0, p1));
 

@@ -2,6 +2,7 @@
 #ifndef CANDIDATE_GLSL
 #define CANDIDATE_GLSL
 #include "tiles.glsl"
+#include "triangle.glsl"
 
 const float OUTSIDE = 1.1754944e-38;                    // the least E of a sample off the owning side
 
@@ -10,10 +11,9 @@ struct Candidate { vec3 a, b, c, depth; float near, far; uint id; };
 Candidate load_candidate(uint first, uint index, vec2 center) {
     Candidate k;
 #ifdef UNLISTED
-    uvec4 indices = texelFetch(triangles, int(index));
-    vec4 v0 = texelFetch(clip, int(indices.x)), v1 = texelFetch(clip, int(indices.y)), v2 = texelFetch(clip, int(indices.z));
-    Setup s = setup_triangle(v0, v1, v2, center, (indices.w >> 31) == 0u);
-    bool usable = s.valid && !footprint_of(v0, v1, v2).outside;
+    Triangle t = triangle_at(index);
+    Setup s = setup_triangle(t.v0, t.v1, t.v2, center, (t.word >> 31) == 0u);
+    bool usable = s.valid && !footprint_of(t.v0, t.v1, t.v2).outside;
     k.a = s.a; k.b = s.b; k.c = usable ? s.c : vec3(-3.4e38);
     k.depth = s.depth; k.near = s.near; k.far = s.far; k.id = index + 1u;
 #else

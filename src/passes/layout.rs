@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The bindings of set 0.
-const BINDINGS: [(u32, vk::DescriptorType); 46] = {
+const BINDINGS: [(u32, vk::DescriptorType); 44] = {
     use vk::DescriptorType as T;
     [
         (0, T::UNIFORM_BUFFER),
@@ -20,8 +20,6 @@ const BINDINGS: [(u32, vk::DescriptorType); 46] = {
         (7, T::UNIFORM_TEXEL_BUFFER),
         (8, T::STORAGE_BUFFER),
         (9, T::UNIFORM_TEXEL_BUFFER),
-        (10, T::UNIFORM_TEXEL_BUFFER),
-        (11, T::STORAGE_TEXEL_BUFFER),
         (12, T::SAMPLED_IMAGE),
         (13, T::SAMPLED_IMAGE),
         (14, T::SAMPLED_IMAGE),

@@ -1,8 +1,8 @@
 //! The passes of a frame, one file each, named like their shaders in `shaders/`.
 //!
 //! ```text
-//! transform ─▶ raster ─▶ spans ─▶ shade ─▶ thin ─▶ detect ─▶ cull ─▶ bin ─▶ schedule ─▶ setup ─▶ sample ─▶ sort ─▶ shade ─▶ resolve
-//!                        └─ pixel centres ─┘                        └─────── a round, as often as memory needs it ───────┘
+//! raster ─▶ spans ─▶ shade ─▶ thin ─▶ detect ─▶ cull ─▶ bin ─▶ schedule ─▶ setup ─▶ sample ─▶ sort ─▶ shade ─▶ resolve
+//!            └─ pixel centres ─┘                        └─────── a round, as often as memory needs it ───────┘
 //! ```
 //! Every pass records into a caller's command buffer and reads what the pass before left on the device. They share the
 //! scene (`scene/`), the memory that they hand to each other (`resources/`), the layout of descriptors (`layout.rs`) and
@@ -33,7 +33,6 @@ mod sites;
 mod sort;
 mod spans;
 mod thin;
-mod transform;
 mod upload;
 
 /// The compiled shaders.
@@ -66,4 +65,3 @@ pub use sites::{Cells, SiteData, SiteSizes};
 pub use sort::Sort;
 pub use spans::Spans;
 pub use thin::Thin;
-pub use transform::Transform;

@@ -18,8 +18,6 @@ impl Resources {
             (6, &scene.colors),
             (7, &scene.materials),
             (9, &scene.alpha_atlas),
-            (10, &scene.clip),
-            (11, &scene.clip),
             (16, &self.display),
             (24, &self.candidates),
             (27, &self.records),

@@ -15,7 +15,7 @@ use super::FrameLayout;
 use super::pool::DescriptorPool;
 use super::upload::{Upload, Uploader};
 use crate::scene::{AlphaMode, DrawClass, Pose, Scene};
-use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, Recorder, VulkanError};
+use crate::vulkan::{Buffer, BufferView, Memory, Recorder, VulkanError};
 use alpha_atlas::AlphaAtlas;
 use ash::vk;
 use bins::{Bins, MaterialBin};
@@ -35,13 +35,11 @@ pub struct GpuScene {
     pub(super) tangents: BufferView,
     pub(super) uvs: BufferView,
     pub(super) colors: BufferView,
-    pub(super) clip: BufferView,
     pub(super) materials: BufferView,
     pub(super) lights: Buffer,
     pub(super) alpha_atlas: BufferView,
     pub(super) bins: Vec<MaterialBin>,
     runs: Vec<Run>,
-    vertex_count: u32,
     triangle_count: u32,
     first_mask: u32,
     first_blend: u32,
@@ -104,8 +102,6 @@ impl GpuScene {
 
         let float4 = vk::Format::R32G32B32A32_SFLOAT;
         let uint4 = vk::Format::R32G32B32A32_UINT;
-        let clip_usage =
-            vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | vk::BufferUsageFlags::STORAGE_TEXEL_BUFFER;
         let (bins, pool) = bins.allocate(layout, &textures)?;
         let mut uploader = Uploader::new(memory);
         Ok(Self {
@@ -115,13 +111,6 @@ impl GpuScene {
             tangents: uploader.texels("tangents", float4, &geometry.streams.tangents)?,
             uvs: uploader.texels("texture coordinates", float4, &uvs)?,
             colors: uploader.texels("vertex colours", float4, &colors)?,
-            clip: memory.texel_buffer(
-                "clip-space vertices",
-                geometry.positions.len() as u64,
-                float4,
-                clip_usage,
-                MemoryUse::Device,
-            )?,
             materials: uploader.texels(
                 "materials",
                 uint4,
@@ -130,7 +119,6 @@ impl GpuScene {
             lights: uploader.storage("lights", bytemuck::cast_slice(&lights))?,
             alpha_atlas: uploader.texels("alpha atlas", vk::Format::R32_UINT, &atlas.words)?,
             bins,
-            vertex_count: geometry.positions.len() as u32,
             triangle_count: triangles.words.len() as u32,
             first_mask: triangles.first_of(DrawClass::Mask),
             first_blend: triangles.first_of(DrawClass::Blend),
@@ -164,12 +152,6 @@ impl GpuScene {
     pub fn discard_uploads(&mut self) {
         self.uploads.clear();
         self.textures.iter_mut().for_each(Texture::discard_upload);
-    }
-
-    /// Number of vertices.
-    #[must_use]
-    pub fn vertex_count(&self) -> u32 {
-        self.vertex_count
     }
 
     /// Number of triangles.

@@ -2,7 +2,7 @@
 
 use crate::passes::{
     Attributes, BoxFilter, DetectMode, Encode, Encoding, FrameLayout, GpuScene, Multisample,
-    Raster, RecordRate, Resolve, Shade, ShadeSource, Sort, Spans, Transform,
+    Raster, RecordRate, Resolve, Shade, ShadeSource, Sort, Spans,
 };
 use crate::render::engine::{Engine, EngineKind, record_rate};
 use crate::render::plan::Plan;
@@ -26,7 +26,6 @@ pub(super) struct Multisampling {
 
 /// The pipelines of a frame, in the order in which they run.
 pub(super) struct Passes {
-    pub transform: Transform,
     pub raster: Raster,
     pub pixels: Option<PixelShading>,
     pub multisampling: Option<Multisampling>,
@@ -122,7 +121,6 @@ impl Passes {
             })
             .transpose()?;
         Ok(Self {
-            transform: Transform::new(layout)?,
             raster: Raster::new(layout, raster_samples(settings), scene.has_mask())?,
             pixels,
             multisampling,

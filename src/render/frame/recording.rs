@@ -57,10 +57,6 @@ impl Recording<'_> {
         let tiles = whole.tiles[0] * whole.tiles[1];
 
         resources.record_begin(recorder, main, &whole);
-        if index == 0 {
-            passes.transform.record(recorder, scene.vertex_count());
-            recorder.mark("transform");
-        }
         passes.raster.record(
             recorder,
             main.descriptor(),

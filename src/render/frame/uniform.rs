@@ -49,7 +49,6 @@ impl Recording<'_> {
             interior_low,
             interior_high,
             gap: gap(camera, image_height),
-            vertex_count: scene.vertex_count(),
             triangle_count: scene.triangle_count(),
             first_mask: scene.first_mask(),
             first_blend: scene.first_blend(),

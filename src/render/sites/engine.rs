@@ -6,7 +6,7 @@ use crate::camera::Pinhole;
 use crate::passes::{
     Bin, Cells, Counter, Cull, FrameLayout, FrameUniform, GpuScene, Groups, Locations, Points,
     RasterTargets, RecordRate, Resolve, ResourceSizes, Resources, Sample, SampleOptions, Schedule,
-    Setup, Shade, ShadeSource, SiteData, Sort, Transform,
+    Setup, Shade, ShadeSource, SiteData, Sort,
 };
 use crate::render::engine::{can_settle, record_rate, record_shading};
 use crate::render::footprint::Footprints;
@@ -36,7 +36,6 @@ pub(super) struct SiteEngine {
     settings: Settings,
     /// Rounds of lists and records recorded for a run.
     rounds: u32,
-    transform: Transform,
     cull: Cull,
     bin: Bin,
     schedule: Schedule,
@@ -140,7 +139,6 @@ impl SiteEngine {
         };
         Ok(Self {
             settings: settings.clone(),
-            transform: Transform::new(layout)?,
             cull: Cull::new(layout)?,
             bin: Bin::new(layout)?,
             schedule: Schedule::new(layout, &sample, LAYERS)?,
@@ -213,8 +211,6 @@ impl SiteEngine {
             recorder,
             &[(Counter::Superpixels, superpixels), (Counter::Tiles, tiles)],
         );
-        self.transform.record(recorder, scene.vertex_count());
-        recorder.mark("transform");
         self.cull.record(recorder, arguments);
         recorder.mark("cull");
         self.bin.record(recorder, arguments);
@@ -325,7 +321,6 @@ impl SiteEngine {
             origin: [0, 1].map(|axis| (window.low[axis] as f64 + 0.5 - middle[axis]) as f32),
             size: window.size(),
             tiles: window.tiles,
-            vertex_count: scene.vertex_count(),
             triangle_count: scene.triangle_count(),
             first_mask: scene.first_mask(),
             first_blend: scene.first_blend(),
