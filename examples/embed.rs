@@ -142,12 +142,11 @@ impl App {
         let target = OwnImage::new(self)?;
 
         self.submit(|commands| {
-            // SAFETY: the commands are waited for below, before anything they use is dropped; scene and frame
-            // belong together, and the image is as the target says.
+            // SAFETY: the commands are waited for below, before anything they use is dropped, and the
+            // image is as the target says.
             unsafe {
-                prepared.record_upload(&renderer, commands);
+                prepared.record_upload(commands);
                 frame.record(
-                    &prepared,
                     &camera,
                     commands,
                     &Target::Image {
@@ -170,7 +169,7 @@ impl App {
         })?;
 
         // The commands are done: figures can be read, and `frame` may be recorded again.
-        let statistics = frame.statistics(&prepared)?;
+        let statistics = frame.statistics()?;
         println!(
             "{} superpixels, {:.1} ms on the GPU",
             statistics.superpixels,

@@ -48,7 +48,7 @@ fn a_shift_of_the_film_moves_the_picture_the_other_way() {
         .unwrap();
     let mut render = |shift| {
         let camera = Camera { shift, ..camera };
-        headless.render(&scene, &mut frame, &camera).unwrap().colors
+        headless.render(&mut frame, &camera).unwrap().colors
     };
     let still = render(DVec2::ZERO);
     let moved = render(DVec2::new(2.0, 3.0) / f64::from(SIZE));
@@ -91,7 +91,7 @@ fn the_reference_lies_beyond_supersampling() {
     let errors = [1, 16, 256].map(|samples| {
         let settings = settings(Method::Ssaa, samples);
         let mut frame = headless.prepare(&scene, &settings).unwrap();
-        let image = headless.render(&scene, &mut frame, &camera).unwrap();
+        let image = headless.render(&mut frame, &camera).unwrap();
         rmse(&image.colors, &reference)
     });
     assert!(
@@ -122,7 +122,7 @@ fn unseen_wires_are_not_missed() {
     let reference = brute_force(&mut headless, &scene, &camera, &plain, 256, || {}).unwrap();
     let mut render = |settings: &Settings| {
         let mut frame = headless.prepare(&scene, settings).unwrap();
-        headless.render(&scene, &mut frame, &camera).unwrap().colors
+        headless.render(&mut frame, &camera).unwrap().colors
     };
     let one = render(&plain);
     let [with, without] = [true, false].map(|thin| Settings {
@@ -154,7 +154,7 @@ fn textures_follow_the_footprint_asked_for() {
     });
     let images = settings.clone().map(|settings| {
         let mut frame = headless.prepare(&scene, &settings).unwrap();
-        headless.render(&scene, &mut frame, &camera).unwrap().colors
+        headless.render(&mut frame, &camera).unwrap().colors
     });
     let apart = rmse(&images[0], &images[1]);
     assert!(apart > 1e-3, "{apart}");
@@ -182,9 +182,7 @@ fn what_grows_is_what_is_said_to() {
             ..Settings::new(size[0], size[1])
         };
         let mut frame = headless.prepare(&prepared, &settings).unwrap();
-        let image = headless
-            .render(&prepared, &mut frame, &step.camera)
-            .unwrap();
+        let image = headless.render(&mut frame, &step.camera).unwrap();
         let percent = 100.0 * image.statistics.superpixels as f64 / pixels;
         assert!(
             (percent - step.value).abs() < 2.0,

@@ -40,7 +40,7 @@ fn headless(width: u32, height: u32) -> Vec<[u8; 4]> {
         ..Settings::new(width, height)
     };
     let mut frame = headless.prepare(&prepared, &settings).unwrap();
-    let rendered = headless.render(&prepared, &mut frame, &camera).unwrap();
+    let rendered = headless.render(&mut frame, &camera).unwrap();
     assert!(rendered.statistics.superpixels > 0);
     assert_eq!(headless.validation_messages(), Vec::<String>::new());
     let code = |linear: f32| srgb::encode_u8(f64::from(linear));

@@ -57,10 +57,7 @@ fn settings(method: Method, samples: u32, footprint: Footprint) -> Settings {
 
 fn render(headless: &mut Headless, scene: &PreparedScene, settings: &Settings) -> Vec<[f32; 4]> {
     let mut frame = headless.prepare(scene, settings).unwrap();
-    headless
-        .render(scene, &mut frame, &camera())
-        .unwrap()
-        .colors
+    headless.render(&mut frame, &camera()).unwrap().colors
 }
 
 fn reference(

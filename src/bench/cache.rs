@@ -36,7 +36,7 @@ impl Fingerprint {
     ) -> Result<Self, RenderError> {
         let probe = of_reference(settings, PROBE_SAMPLES);
         let mut frame = headless.prepare(scene, &probe)?;
-        let image = headless.render(scene, &mut frame, camera)?;
+        let image = headless.render(&mut frame, camera)?;
         let limits = headless.gpu().limits();
         let mut hasher = DefaultHasher::new();
         let [x, y, z] = geometry.origin.to_array().map(f64::to_bits);

@@ -68,7 +68,7 @@ impl Looks {
         mut progress: impl FnMut(),
     ) -> Result<Self, RenderError> {
         let mut frame = headless.prepare(scene, &with_attributes(settings, Method::None))?;
-        let centres = headless.render(scene, &mut frame, camera)?.attributes;
+        let centres = headless.render(&mut frame, camera)?.attributes;
         let mut unseen = vec![false; centres.len()];
         let mut several = unseen.clone();
         let size = DVec2::from(settings.size.map(f64::from));
@@ -77,7 +77,7 @@ impl Looks {
                 shift: camera.shift + DVec2::from(place.map(f64::from)) / size,
                 ..*camera
             };
-            let seen = headless.render(scene, &mut frame, &camera)?.attributes;
+            let seen = headless.render(&mut frame, &camera)?.attributes;
             for (pixel, (unseen, looked)) in unseen.iter_mut().zip(&seen).enumerate() {
                 *unseen =
                     *unseen || !around(&centres, settings.size, pixel).any(|id| id == looked.id);
@@ -108,7 +108,7 @@ impl Looks {
         settings: &Settings,
     ) -> Result<Vec<Cause>, RenderError> {
         let mut frame = headless.prepare(scene, &with_attributes(settings, Method::Superpixel))?;
-        let centres = headless.render(scene, &mut frame, camera)?.attributes;
+        let centres = headless.render(&mut frame, camera)?.attributes;
         Ok(self.classify(&centres))
     }
 }

@@ -99,7 +99,7 @@ impl Suspects<'_> {
     ) -> Result<Vec<Option<Fault>>, FaultError> {
         let mut render = |scene: &PreparedScene, settings: &Settings| {
             let mut frame = headless.prepare(scene, settings)?;
-            let rendered = headless.render(scene, &mut frame, self.camera)?;
+            let rendered = headless.render(&mut frame, self.camera)?;
             let picture = Picture::new(rendered.size, &rendered.colors)?;
             Ok::<_, FaultError>(DecodedImage::from(&picture))
         };

@@ -65,7 +65,7 @@ pub fn brute_force(
             shift: camera.shift + moved,
             ..*camera
         };
-        let colors = headless.render(scene, &mut frame, &camera)?.colors;
+        let colors = headless.render(&mut frame, &camera)?.colors;
         sums.resize(colors.len(), [0.0; 4]);
         for (sum, color) in sums.iter_mut().zip(&colors) {
             for (sum, value) in sum.iter_mut().zip(color) {

@@ -51,7 +51,7 @@ impl Contender {
         settings: &Settings,
     ) -> Result<(Self, Rendered), RenderError> {
         let mut frame = headless.prepare(scene, settings)?;
-        let rendered = headless.render(scene, &mut frame, camera)?;
+        let rendered = headless.render(&mut frame, camera)?;
         let contender = Self {
             frame,
             frames: Vec::new(),
@@ -69,11 +69,10 @@ impl Contender {
     fn time_a_frame(
         &mut self,
         headless: &mut Headless,
-        scene: &PreparedScene,
         camera: &Camera,
     ) -> Result<(), RenderError> {
         let start = Instant::now();
-        let rendered = headless.render(scene, &mut self.frame, camera)?;
+        let rendered = headless.render(&mut self.frame, camera)?;
         let wall = start.elapsed();
         self.spent += wall;
         self.frames.push(Timed {
@@ -124,7 +123,6 @@ impl Contender {
 /// As [`Headless::render`].
 pub fn take_turns<'a>(
     headless: &mut Headless,
-    scene: &PreparedScene,
     camera: &Camera,
     contenders: impl IntoIterator<Item = &'a mut Contender>,
     repeat: u32,
@@ -136,7 +134,7 @@ pub fn take_turns<'a>(
         for contender in &mut contenders {
             if contender.goes_on(repeat, budget) {
                 progress(contender);
-                contender.time_a_frame(headless, scene, camera)?;
+                contender.time_a_frame(headless, camera)?;
             }
         }
     }

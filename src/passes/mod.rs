@@ -57,7 +57,7 @@ pub use raster::{Raster, RasterTargets};
 pub use resolve::Resolve;
 pub use resources::{Locations, ResourceSizes, Resources, SampleSet};
 pub use sample::{RecordRate, Sample, SampleOptions, TileList};
-pub use scene::GpuScene;
+pub use scene::{GpuScene, SceneUploads};
 pub use schedule::Schedule;
 pub use setup::Setup;
 pub use shade::{Shade, ShadeSource};

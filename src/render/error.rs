@@ -22,6 +22,15 @@ pub enum RenderError {
     /// A sampling location can't be used.
     #[error(transparent)]
     Site(#[from] SiteError),
+    /// The geometry contradicts itself.
+    #[error(transparent)]
+    Geometry(#[from] crate::scene::GeometryError),
+    /// A scene or frame was made for another device.
+    #[error("a scene or frame of one device was handed to another")]
+    OtherDevice,
+    /// A scene is not on the device yet.
+    #[error("the scene is not on the device: Headless::upload puts it there")]
+    NotUploaded,
     /// A camera makes no pinhole.
     #[error(transparent)]
     Pinhole(#[from] crate::camera::PinholeError),

@@ -4,6 +4,7 @@ use super::plan::Effort;
 use super::renderer::{PreparedScene, Renderer};
 use super::{Frame, RenderError, Settings, Statistics, Target};
 use crate::camera::Camera;
+use crate::passes::GpuScene;
 use crate::scene::{Pose, Scene};
 use crate::vulkan::{Buffer, Gpu, Instance, InstanceOptions, Memory, MemoryUse, VulkanError};
 use ash::vk;
@@ -39,7 +40,73 @@ pub struct Headless {
     pool: vk::CommandPool,
     commands: vk::CommandBuffer,
     fence: vk::Fence,
-    output: Option<(Buffer, Option<Buffer>)>,
+    output: Option<ReadBack>,
+}
+
+/// Memory that a frame's colours and attributes are copied to, for the host to read.
+struct ReadBack {
+    colors: Buffer,
+    attributes: Option<Buffer>,
+    memory: Memory,
+}
+
+fn pixel_count(settings: &Settings) -> u64 {
+    settings.size.map(u64::from).into_iter().product()
+}
+
+impl ReadBack {
+    const COLOR_BYTES: u64 = size_of::<[f32; 4]>() as u64;
+    const ATTRIBUTE_BYTES: u64 = size_of::<PixelAttributes>() as u64;
+
+    /// Bytes that an image takes.
+    fn bytes(settings: &Settings) -> u64 {
+        let attributes = if settings.attributes {
+            Self::ATTRIBUTE_BYTES
+        } else {
+            0
+        };
+        pixel_count(settings) * (Self::COLOR_BYTES + attributes)
+    }
+
+    /// What there is, where it has room for the frame's image, or else new memory.
+    fn for_frame(gpu: &Arc<Gpu>, frame: &Frame, known: Option<Self>) -> Result<Self, RenderError> {
+        let settings = frame.settings();
+        let pixels = pixel_count(settings);
+        let needs = [
+            pixels * Self::COLOR_BYTES,
+            if settings.attributes {
+                pixels * Self::ATTRIBUTE_BYTES
+            } else {
+                0
+            },
+        ];
+        let has_room = |known: &Self| {
+            let attributes = known.attributes.as_ref().map_or(0, Buffer::size);
+            let bounded = settings.max_memory.is_some();
+            known.colors.size() >= needs[0]
+                && attributes >= needs[1]
+                && !(bounded && known.colors.size() + attributes > Self::bytes(settings).max(32))
+        };
+        if let Some(known) = known.filter(has_room) {
+            return Ok(known);
+        }
+        let memory = Memory::new(gpu.clone(), None);
+        let make = |name, bytes| {
+            memory.buffer(
+                name,
+                bytes,
+                vk::BufferUsageFlags::TRANSFER_DST,
+                MemoryUse::Readback,
+            )
+        };
+        Ok(Self {
+            colors: make("colour read-back", needs[0])?,
+            attributes: (needs[1] > 0)
+                .then(|| make("attribute read-back", needs[1]))
+                .transpose()?,
+            memory,
+        })
+    }
 }
 
 /// What the centre of a pixel sees besides its colour; the layout is that of `shaders/attributes.comp`.
@@ -138,135 +205,103 @@ impl Headless {
     ) -> Result<PreparedScene, RenderError> {
         let mut prepared = self.renderer.prepare_scene(scene, pose, max_memory)?;
         // SAFETY: the commands are submitted and waited for while the scene is alive.
-        self.submit(|renderer, commands| unsafe { prepared.record_upload(renderer, commands) })?;
-        prepared.discard_uploads();
+        self.submit(|commands| unsafe { prepared.record_upload(commands) })?;
+        // SAFETY: the commands were waited for.
+        unsafe { prepared.discard_uploads() };
         Ok(prepared)
     }
 
     /// Makes the pipelines and memory for frames of a scene.
     ///
     /// # Errors
-    /// If the settings are impossible or memory runs out.
+    /// [`RenderError::OtherDevice`] for a scene of another device, [`RenderError::NotUploaded`] for one that this has not
+    /// put there; if the settings are impossible or memory runs out.
     pub fn prepare(
         &self,
         scene: &PreparedScene,
         settings: &Settings,
     ) -> Result<Frame, RenderError> {
-        self.renderer.prepare(scene, settings, None)
+        let beside = scene.casters_bytes() + ReadBack::bytes(settings);
+        let scene = &scene.gpu_scene;
+        self.check(scene)?;
+        self.renderer
+            .prepare_with(scene, settings, None, Effort::default(), beside)
     }
 
     /// Renders a frame and waits for it. Where its records outgrow its memory it is prepared again with more
     /// rounds, so that the image does not depend on how much there was.
     ///
     /// # Errors
-    /// If the device is lost, or records do not fit however often the work is split.
-    pub fn render(
-        &mut self,
-        scene: &PreparedScene,
-        frame: &mut Frame,
-        camera: &Camera,
-    ) -> Result<Rendered, RenderError> {
+    /// [`RenderError::OtherDevice`] for a frame of another device; if the device is lost, or records do not fit however
+    /// often the work is split.
+    pub fn render(&mut self, frame: &mut Frame, camera: &Camera) -> Result<Rendered, RenderError> {
         for _ in 0..RETRIES {
-            match self.render_once(scene, frame, camera) {
+            match self.render_once(frame, camera) {
                 Err(RenderError::Unfinished { cells }) => {
-                    let shortfall = frame.shortfall();
+                    let shortfall = frame.shortfall()?;
                     log::debug!("{cells} cells or tiles are left: {shortfall:?}");
-                    self.prepare_again(scene, frame, frame.effort().more(shortfall))?;
+                    self.prepare_again(frame, frame.effort().more(shortfall))?;
                 }
                 Ok(image) => {
                     // Tiles without a list made the image all the same, but slowly.
                     if image.statistics.unlisted_tiles > 0 && frame.lists_can_grow() {
-                        self.prepare_again(scene, frame, frame.effort().with_doubled_lists())?;
+                        self.prepare_again(frame, frame.effort().with_doubled_lists())?;
                     }
                     return Ok(image);
                 }
                 failed => return failed,
             }
         }
-        self.render_once(scene, frame, camera)
+        self.render_once(frame, camera)
     }
 
-    fn prepare_again(
-        &self,
-        scene: &PreparedScene,
-        frame: &mut Frame,
-        effort: Effort,
-    ) -> Result<(), RenderError> {
-        let settings = frame.settings().clone();
-        *frame = self.renderer.prepare_with(scene, &settings, None, effort)?;
+    /// Refuses a scene that commands of this device can't show.
+    pub(super) fn check(&self, scene: &GpuScene) -> Result<(), RenderError> {
+        self.renderer.check(scene)?;
+        if !scene.is_uploaded() {
+            return Err(RenderError::NotUploaded);
+        }
         Ok(())
     }
 
-    fn render_once(
-        &mut self,
-        scene: &PreparedScene,
-        frame: &mut Frame,
-        camera: &Camera,
-    ) -> Result<Rendered, RenderError> {
+    fn prepare_again(&self, frame: &mut Frame, effort: Effort) -> Result<(), RenderError> {
+        *frame = self.renderer.prepare_like(frame, effort)?;
+        Ok(())
+    }
+
+    fn render_once(&mut self, frame: &mut Frame, camera: &Camera) -> Result<Rendered, RenderError> {
+        self.check(frame.scene())?;
         let size = frame.settings().size;
-        let pixels = u64::from(size[0]) * u64::from(size[1]);
-        let wants_attributes = frame.settings().attributes;
-        let fits = |buffer: &Buffer, bytes: u64| buffer.size() >= bytes;
-        let reusable = self.output.as_ref().is_some_and(|(colors, attributes)| {
-            fits(colors, pixels * 16)
-                && (!wants_attributes || attributes.as_ref().is_some_and(|a| fits(a, pixels * 32)))
-        });
-        if !reusable {
-            self.output = None;
-            let memory = Memory::new(self.gpu.clone(), None);
-            let make = |name, bytes| {
-                memory.buffer(
-                    name,
-                    bytes,
-                    vk::BufferUsageFlags::TRANSFER_DST,
-                    MemoryUse::Readback,
-                )
-            };
-            let attributes = if wants_attributes {
-                Some(make("attribute read-back", pixels * 32)?)
-            } else {
-                None
-            };
-            self.output = Some((make("colour read-back", pixels * 16)?, attributes));
-        }
-        let Some((colors, attributes)) = self.output.take() else {
-            return Err(VulkanError::OutOfMemory {
-                what: "read-back".to_owned(),
-                bytes: pixels * 16,
-            }
-            .into());
-        };
+        let output = ReadBack::for_frame(&self.gpu, frame, self.output.take())?;
         let target = Target::Buffer {
-            colors: colors.handle(),
-            attributes: attributes.as_ref().map(Buffer::handle),
+            colors: output.colors.handle(),
+            attributes: output.attributes.as_ref().map(Buffer::handle),
         };
-        // SAFETY: the last submission was waited for; scene, frame and target outlive this one, which is waited for.
-        let submitted =
-            self.submit(|_, commands| unsafe { frame.record(scene, camera, commands, &target) });
+        // SAFETY: the last submission was waited for; frame and target outlive this one, which is waited for.
+        let submitted = self.submit(|commands| unsafe { frame.record(camera, commands, &target) });
         let rendered = submitted.and_then(|()| {
-            let statistics = frame.statistics(scene)?;
-            let count = pixels as usize;
-            let floats: &[[f32; 4]] = bytemuck::try_cast_slice(colors.bytes()).unwrap_or(&[]);
-            let seen: &[PixelAttributes] = attributes
-                .as_ref()
-                .filter(|_| wants_attributes)
-                .and_then(|a| bytemuck::try_cast_slice(a.bytes()).ok())
-                .unwrap_or(&[]);
+            let mut statistics = frame.statistics()?;
+            statistics.memory_bytes += output.memory.used();
+            let pixels = pixel_count(frame.settings()) as usize;
+            let attributes = match &output.attributes {
+                Some(attributes) if frame.settings().attributes => attributes.read(pixels)?,
+                _ => &[],
+            };
             Ok(Rendered {
                 size,
-                colors: floats.get(..count).unwrap_or(&[]).to_vec(),
-                attributes: seen.get(..count).unwrap_or(&[]).to_vec(),
+                colors: output.colors.read(pixels)?.to_vec(),
+                attributes: attributes.to_vec(),
                 statistics,
             })
         });
-        self.output = Some((colors, attributes));
+        self.output = Some(output);
         rendered
     }
 
     /// Records, submits and waits.
     pub(super) fn submit(
         &mut self,
-        record: impl FnOnce(&Renderer, vk::CommandBuffer),
+        record: impl FnOnce(vk::CommandBuffer),
     ) -> Result<(), RenderError> {
         let device = &self.gpu.device;
         // SAFETY: the command buffer and fence are ours and idle between calls; the queue is used by this thread alone.
@@ -276,7 +311,7 @@ impl Headless {
             device
                 .begin_command_buffer(self.commands, &begin)
                 .map_err(VulkanError::of("vkBeginCommandBuffer"))?;
-            record(&self.renderer, self.commands);
+            record(self.commands);
             make_visible_to_host(device, self.commands);
             device
                 .end_command_buffer(self.commands)

@@ -4,7 +4,7 @@ use super::frame::Frame;
 use super::plan::Effort;
 use super::sites::{Casters, Triangles};
 use super::{RenderError, Settings, Shadows};
-use crate::passes::{Encoding, FrameLayout, GpuScene};
+use crate::passes::{Encoding, FrameLayout, GpuScene, SceneUploads};
 use crate::scene::{Pose, Scene};
 use crate::vulkan::{Gpu, Host, Memory, Recorder, VulkanError};
 use ash::vk;
@@ -21,8 +21,9 @@ pub struct Renderer {
 
 /// A scene on the device.
 pub struct PreparedScene {
-    pub(super) gpu_scene: GpuScene,
-    pub(super) memory: Memory,
+    /// Shared with the frames that show it.
+    pub(super) gpu_scene: Arc<GpuScene>,
+    uploads: SceneUploads,
     /// For what the host looks for in images of sites.
     pub(super) triangles: Triangles,
     /// What casts shadows, where the scene was made ready for them.
@@ -33,11 +34,13 @@ impl PreparedScene {
     /// Bytes of device memory that it takes.
     #[must_use]
     pub fn memory_bytes(&self) -> u64 {
-        let casters = self
-            .casters
+        self.gpu_scene.memory_bytes() + self.casters_bytes()
+    }
+
+    pub(super) fn casters_bytes(&self) -> u64 {
+        self.casters
             .as_ref()
-            .map_or(0, |casters| casters.memory_bytes());
-        self.memory.used() + casters
+            .map_or(0, |casters| casters.memory_bytes())
     }
 
     /// Number of triangles.
@@ -49,17 +52,20 @@ impl PreparedScene {
     /// Records the copies of the scene to the device. Once, before the first frame that shows it.
     ///
     /// # Safety
-    /// - `commands` is being recorded for the device and queue family that the renderer was made with.
-    /// - The scene outlives the execution of the commands.
-    pub unsafe fn record_upload(&self, renderer: &Renderer, commands: vk::CommandBuffer) {
+    /// - `commands` is being recorded for the device and queue family of the renderer that prepared the scene.
+    /// - The scene outlives the execution of the commands, and [`Self::discard_uploads`] waits for it.
+    pub unsafe fn record_upload(&self, commands: vk::CommandBuffer) {
         // SAFETY: passed on to the caller.
-        let recorder = unsafe { Recorder::new(&renderer.gpu, commands, None) };
-        self.gpu_scene.record_upload(&recorder);
+        let recorder = unsafe { Recorder::new(self.gpu_scene.memory().gpu(), commands, None) };
+        self.uploads.record(&recorder, &self.gpu_scene);
     }
 
-    /// Frees the memory that the upload needed. Once the commands of [`Self::record_upload`] are done.
-    pub fn discard_uploads(&mut self) {
-        self.gpu_scene.discard_uploads();
+    /// Frees the memory that the upload needed.
+    ///
+    /// # Safety
+    /// The commands of [`Self::record_upload`] are done.
+    pub unsafe fn discard_uploads(&mut self) {
+        self.uploads = SceneUploads::default();
     }
 }
 
@@ -97,7 +103,8 @@ impl Renderer {
     /// Allocates a posed scene's memory on the device.
     ///
     /// # Errors
-    /// If memory runs out, `max_memory` bytes are passed, or the scene passes a limit of the device.
+    /// If memory runs out, `max_memory` bytes are passed, or the scene passes a limit of the device;
+    /// [`RenderError::Geometry`] if the geometry contradicts itself.
     pub fn prepare_scene(
         &self,
         scene: &Scene,
@@ -105,10 +112,11 @@ impl Renderer {
         max_memory: Option<u64>,
     ) -> Result<PreparedScene, RenderError> {
         let memory = Memory::new(self.gpu.clone(), max_memory);
-        let gpu_scene = GpuScene::new(&self.layout, &memory, scene, pose)?;
+        pose.geometry.check(scene.materials.len())?;
+        let (gpu_scene, uploads) = GpuScene::new(&self.layout, &memory, scene, pose)?;
         Ok(PreparedScene {
-            gpu_scene,
-            memory,
+            gpu_scene: Arc::new(gpu_scene),
+            uploads,
             triangles: Triangles::new(&pose.geometry),
             casters: None,
         })
@@ -118,14 +126,22 @@ impl Renderer {
     /// buffers of linear float RGBA.
     ///
     /// # Errors
-    /// If the settings are impossible, memory runs out, or the driver refuses something.
+    /// [`RenderError::OtherDevice`] for a scene of another renderer's device; if the settings are impossible, memory runs
+    /// out, or the driver refuses something.
     pub fn prepare(
         &self,
         scene: &PreparedScene,
         settings: &Settings,
         encoding: Option<Encoding>,
     ) -> Result<Frame, RenderError> {
-        self.prepare_with(scene, settings, encoding, Effort::default())
+        let beside = scene.casters_bytes();
+        self.prepare_with(
+            &scene.gpu_scene,
+            settings,
+            encoding,
+            Effort::default(),
+            beside,
+        )
     }
 
     /// Makes a frame like another one that ended as [`RenderError::Unfinished`], with more of what it lacked: rounds, memory for
@@ -133,31 +149,45 @@ impl Renderer {
     ///
     /// # Errors
     /// As for [`Self::prepare`].
-    pub fn prepare_again(
-        &self,
-        scene: &PreparedScene,
-        frame: &Frame,
-        encoding: Option<Encoding>,
-    ) -> Result<Frame, RenderError> {
-        self.prepare_with(
-            scene,
+    pub fn prepare_again(&self, frame: &Frame) -> Result<Frame, RenderError> {
+        self.prepare_like(frame, frame.effort().more(frame.shortfall()?))
+    }
+
+    /// Refuses a scene of another device.
+    pub(super) fn check(&self, scene: &GpuScene) -> Result<(), RenderError> {
+        if Arc::ptr_eq(scene.memory().gpu(), &self.gpu) {
+            Ok(())
+        } else {
+            Err(RenderError::OtherDevice)
+        }
+    }
+
+    pub(super) fn prepare_like(&self, frame: &Frame, effort: Effort) -> Result<Frame, RenderError> {
+        self.check(frame.scene())?;
+        Frame::new(
+            &self.layout,
+            frame.scene(),
             frame.settings(),
-            encoding,
-            frame.effort().more(frame.shortfall()),
+            frame.encoding(),
+            effort,
+            frame.beside(),
         )
     }
 
+    /// Of what the settings allow, `beside` bytes are kept free for others.
     pub(super) fn prepare_with(
         &self,
-        scene: &PreparedScene,
+        scene: &Arc<GpuScene>,
         settings: &Settings,
         encoding: Option<Encoding>,
         effort: Effort,
+        beside: u64,
     ) -> Result<Frame, RenderError> {
         if settings.shadows == Shadows::Exact {
             return Err(RenderError::FrameShadows);
         }
+        self.check(scene)?;
         settings.check(self.gpu.limits())?;
-        Frame::new(&self.layout, scene, settings, encoding, effort)
+        Frame::new(&self.layout, scene, settings, encoding, effort, beside)
     }
 }

@@ -55,7 +55,7 @@ pub struct Geometry {
     /// World position of the point that [`positions`](Self::positions) are relative to, so that a
     /// scene far from its origin keeps its precision.
     pub origin: DVec3,
-    /// Positions relative to [`origin`](Self::origin); finite.
+    /// Positions relative to [`origin`](Self::origin).
     pub positions: Vec<[f32; 3]>,
     /// The other attributes, one entry a vertex in each stream that is not empty.
     pub streams: VertexStreams,
@@ -65,7 +65,138 @@ pub struct Geometry {
     pub draws: Vec<Draw>,
 }
 
+/// Why a [`Geometry`] can't be drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum GeometryError {
+    /// A triangle refers to a vertex that there is none of.
+    #[error("triangle {triangle} has vertex {index}, and there are {vertices}")]
+    Index {
+        /// The first such triangle.
+        triangle: usize,
+        /// The index.
+        index: u32,
+        /// How many vertices there are.
+        vertices: usize,
+    },
+    /// A vertex stream is neither empty nor as long as the positions.
+    #[error("the stream of {stream} has {found} entries for {vertices} vertices")]
+    Stream {
+        /// The stream.
+        stream: &'static str,
+        /// Its length.
+        found: usize,
+        /// How many vertices there are.
+        vertices: usize,
+    },
+    /// Draws do not partition the triangles in their order.
+    #[error("draw {draw} has triangles from {first} on, and {expected} comes next of {triangles}")]
+    Draw {
+        /// The draw; their number if the triangles after the last are in none.
+        draw: usize,
+        /// Its first triangle.
+        first: u32,
+        /// The triangle that comes next.
+        expected: usize,
+        /// How many triangles there are.
+        triangles: usize,
+    },
+    /// A draw follows one of a later class.
+    #[error("draw {draw} is of class {class:?} and follows one of a later class")]
+    Order {
+        /// The draw.
+        draw: usize,
+        /// Its class.
+        class: DrawClass,
+    },
+    /// A draw has a material that there is none of.
+    #[error("draw {draw} has material {material}, and there are {materials}")]
+    Material {
+        /// The draw.
+        draw: usize,
+        /// Its material.
+        material: u32,
+        /// How many materials there are.
+        materials: usize,
+    },
+}
+
 impl Geometry {
+    /// Checks all that a renderer counts on, for a scene of so many materials. Positions that are not finite are none of
+    /// it: their triangles are not seen.
+    ///
+    /// # Errors
+    /// The first contradiction found.
+    pub fn check(&self, materials: usize) -> Result<(), GeometryError> {
+        let vertices = self.positions.len();
+        let VertexStreams {
+            normals,
+            tangents,
+            uvs,
+            colors,
+        } = &self.streams;
+        for (stream, found) in [
+            ("normals", normals.len()),
+            ("tangents", tangents.len()),
+            ("texture coordinates", uvs.len()),
+            ("colours", colors.len()),
+        ] {
+            // Normals alone may not be left out.
+            let may_be_empty = stream != "normals";
+            if found != vertices && !(may_be_empty && found == 0) {
+                return Err(GeometryError::Stream {
+                    stream,
+                    found,
+                    vertices,
+                });
+            }
+        }
+        for (triangle, corners) in self.triangles.iter().enumerate() {
+            if let Some(&index) = corners.iter().find(|index| **index as usize >= vertices) {
+                return Err(GeometryError::Index {
+                    triangle,
+                    index,
+                    vertices,
+                });
+            }
+        }
+        let triangles = self.triangles.len();
+        let (mut expected, mut class) = (0, DrawClass::Opaque);
+        for (draw, found) in self.draws.iter().enumerate() {
+            let end = expected + found.triangle_count as usize;
+            if found.first_triangle as usize != expected || end > triangles {
+                return Err(GeometryError::Draw {
+                    draw,
+                    first: found.first_triangle,
+                    expected,
+                    triangles,
+                });
+            }
+            if found.class < class {
+                return Err(GeometryError::Order {
+                    draw,
+                    class: found.class,
+                });
+            }
+            if found.material as usize >= materials {
+                return Err(GeometryError::Material {
+                    draw,
+                    material: found.material,
+                    materials,
+                });
+            }
+            (expected, class) = (end, found.class);
+        }
+        if expected != triangles {
+            return Err(GeometryError::Draw {
+                draw: self.draws.len(),
+                first: triangles as u32,
+                expected,
+                triangles,
+            });
+        }
+        Ok(())
+    }
+
     /// Smallest and largest corner of the axis-aligned box around all vertices that a triangle
     /// uses, in world space; `None` without triangles.
     #[must_use]

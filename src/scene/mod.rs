@@ -39,7 +39,7 @@ mod view;
 use std::{path::Path, sync::Arc};
 
 pub use error::SceneError;
-pub use geometry::{Draw, DrawClass, Geometry, VertexStreams};
+pub use geometry::{Draw, DrawClass, Geometry, GeometryError, VertexStreams};
 pub use info::{AlphaModes, AnimationInfo, CameraInfo, ImageInfo, SceneInfo, SceneNames};
 pub use light::{Light, LightKind};
 pub use material::{

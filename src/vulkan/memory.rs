@@ -18,11 +18,35 @@ pub enum MemoryUse {
     Readback,
 }
 
-/// Counts the bytes of what is made through it and refuses to pass a bound.
+/// Counts the bytes of what is made through it, until that is dropped, and refuses to pass a bound.
+#[derive(Clone)]
 pub struct Memory {
     gpu: Arc<Gpu>,
+    account: Arc<Account>,
+}
+
+struct Account {
     used: AtomicU64,
     limit: u64,
+}
+
+/// Memory of one buffer or image, freed and taken off the account when it is dropped.
+struct Block {
+    gpu: Arc<Gpu>,
+    account: Arc<Account>,
+    bytes: u64,
+    allocation: Option<Allocation>,
+}
+
+impl Drop for Block {
+    fn drop(&mut self) {
+        if let Some(allocation) = self.allocation.take() {
+            let _ = self
+                .gpu
+                .with_allocator(|allocator| allocator.free(allocation));
+        }
+        self.account.used.fetch_sub(self.bytes, Ordering::Relaxed);
+    }
 }
 
 impl Memory {
@@ -31,8 +55,10 @@ impl Memory {
     pub fn new(gpu: Arc<Gpu>, limit: Option<u64>) -> Self {
         Self {
             gpu,
-            used: AtomicU64::new(0),
-            limit: limit.unwrap_or(u64::MAX),
+            account: Arc::new(Account {
+                used: AtomicU64::new(0),
+                limit: limit.unwrap_or(u64::MAX),
+            }),
         }
     }
 
@@ -42,10 +68,10 @@ impl Memory {
         &self.gpu
     }
 
-    /// Bytes allocated through this account and not yet freed by dropping it.
+    /// Bytes allocated through this account and not yet freed.
     #[must_use]
     pub fn used(&self) -> u64 {
-        self.used.load(Ordering::Relaxed)
+        self.account.used.load(Ordering::Relaxed)
     }
 
     fn allocate(
@@ -54,14 +80,23 @@ impl Memory {
         requirements: vk::MemoryRequirements,
         location: MemoryUse,
         linear: bool,
-    ) -> Result<Allocation, VulkanError> {
+    ) -> Result<Block, VulkanError> {
         let refuse = || VulkanError::OutOfMemory {
             what: name.to_owned(),
             bytes: requirements.size,
         };
-        if self.used() + requirements.size > self.limit {
-            return Err(refuse());
-        }
+        let Account { used, limit } = &*self.account;
+        used.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |used| {
+            used.checked_add(requirements.size)
+                .filter(|sum| sum <= limit)
+        })
+        .map_err(|_| refuse())?;
+        let mut block = Block {
+            gpu: self.gpu.clone(),
+            account: self.account.clone(),
+            bytes: requirements.size,
+            allocation: None,
+        };
         let allocation = self
             .gpu
             .with_allocator(|allocator| {
@@ -79,8 +114,8 @@ impl Memory {
             })
             .ok_or_else(refuse)?
             .map_err(|_| refuse())?;
-        self.used.fetch_add(requirements.size, Ordering::Relaxed);
-        Ok(allocation)
+        block.allocation = Some(allocation);
+        Ok(block)
     }
 
     /// A buffer of at least `size` bytes (4 if 0 is asked for).
@@ -102,20 +137,22 @@ impl Memory {
         let mut buffer = Buffer {
             gpu: self.gpu.clone(),
             raw,
-            allocation: None,
+            block: None,
             size,
         };
         // SAFETY: the buffer was just made from this device.
         let requirements = unsafe { self.gpu.device.get_buffer_memory_requirements(raw) };
-        let allocation = self.allocate(name, requirements, location, true)?;
-        // SAFETY: the memory is unused, of a type the buffer takes, and bound once.
-        unsafe {
-            self.gpu
-                .device
-                .bind_buffer_memory(raw, allocation.memory(), allocation.offset())
+        let block = self.allocate(name, requirements, location, true)?;
+        if let Some(allocation) = &block.allocation {
+            // SAFETY: the memory is unused, of a type the buffer takes, and bound once.
+            unsafe {
+                self.gpu
+                    .device
+                    .bind_buffer_memory(raw, allocation.memory(), allocation.offset())
+            }
+            .map_err(VulkanError::of("vkBindBufferMemory"))?;
         }
-        .map_err(VulkanError::of("vkBindBufferMemory"))?;
-        buffer.allocation = Some(allocation);
+        buffer.block = Some(block);
         Ok(buffer)
     }
 
@@ -199,7 +236,7 @@ impl Memory {
             gpu: self.gpu.clone(),
             raw,
             view: vk::ImageView::null(),
-            allocation: None,
+            _block: None,
             extent: vk::Extent2D {
                 width: info.extent.width,
                 height: info.extent.height,
@@ -209,15 +246,17 @@ impl Memory {
         };
         // SAFETY: the image was just made from this device.
         let requirements = unsafe { self.gpu.device.get_image_memory_requirements(raw) };
-        let allocation = self.allocate(name, requirements, MemoryUse::Device, false)?;
-        // SAFETY: the memory is unused, of a type the image takes, and bound once.
-        unsafe {
-            self.gpu
-                .device
-                .bind_image_memory(raw, allocation.memory(), allocation.offset())
+        let block = self.allocate(name, requirements, MemoryUse::Device, false)?;
+        if let Some(allocation) = &block.allocation {
+            // SAFETY: the memory is unused, of a type the image takes, and bound once.
+            unsafe {
+                self.gpu
+                    .device
+                    .bind_image_memory(raw, allocation.memory(), allocation.offset())
+            }
+            .map_err(VulkanError::of("vkBindImageMemory"))?;
         }
-        .map_err(VulkanError::of("vkBindImageMemory"))?;
-        image.allocation = Some(allocation);
+        image._block = Some(block);
         let view = vk::ImageViewCreateInfo::default()
             .image(raw)
             .view_type(vk::ImageViewType::TYPE_2D)
@@ -234,7 +273,8 @@ impl Memory {
 pub struct Buffer {
     gpu: Arc<Gpu>,
     pub(crate) raw: vk::Buffer,
-    allocation: Option<Allocation>,
+    /// Freed after the handle is destroyed.
+    block: Option<Block>,
     size: u64,
 }
 
@@ -254,19 +294,33 @@ impl Buffer {
     /// The mapped bytes; empty for device memory that the host can't see.
     #[must_use]
     pub fn bytes(&self) -> &[u8] {
-        self.allocation
+        self.block
             .as_ref()
-            .and_then(Allocation::mapped_slice)
+            .and_then(|block| block.allocation.as_ref()?.mapped_slice())
             .and_then(|all| all.get(..self.size as usize))
             .unwrap_or(&[])
+    }
+
+    /// The first `count` values of a read-back.
+    ///
+    /// # Errors
+    /// [`VulkanError::Call`] if the driver did not map the buffer, or it holds fewer.
+    pub fn read<T: bytemuck::AnyBitPattern>(&self, count: usize) -> Result<&[T], VulkanError> {
+        self.bytes()
+            .get(..count * size_of::<T>())
+            .and_then(|bytes| bytemuck::try_cast_slice(bytes).ok())
+            .ok_or(VulkanError::Call {
+                call: "mapping a read-back",
+                result: vk::Result::ERROR_MEMORY_MAP_FAILED,
+            })
     }
 
     /// The mapped bytes, to be written before the device reads them.
     pub fn bytes_mut(&mut self) -> &mut [u8] {
         let size = self.size as usize;
-        self.allocation
+        self.block
             .as_mut()
-            .and_then(Allocation::mapped_slice_mut)
+            .and_then(|block| block.allocation.as_mut()?.mapped_slice_mut())
             .and_then(|all| all.get_mut(..size))
             .unwrap_or(&mut [])
     }
@@ -276,11 +330,6 @@ impl Drop for Buffer {
     fn drop(&mut self) {
         // SAFETY: owners drop a buffer only after the frames that use it are done.
         unsafe { self.gpu.device.destroy_buffer(self.raw, None) };
-        if let Some(allocation) = self.allocation.take() {
-            let _ = self
-                .gpu
-                .with_allocator(|allocator| allocator.free(allocation));
-        }
     }
 }
 
@@ -303,7 +352,8 @@ pub struct Image {
     gpu: Arc<Gpu>,
     pub(crate) raw: vk::Image,
     pub(crate) view: vk::ImageView,
-    allocation: Option<Allocation>,
+    /// Freed after the handles are destroyed.
+    _block: Option<Block>,
     /// Width and height of level 0.
     pub extent: vk::Extent2D,
     /// Number of mipmap levels.
@@ -330,11 +380,6 @@ impl Drop for Image {
         unsafe {
             self.gpu.device.destroy_image_view(self.view, None);
             self.gpu.device.destroy_image(self.raw, None);
-        }
-        if let Some(allocation) = self.allocation.take() {
-            let _ = self
-                .gpu
-                .with_allocator(|allocator| allocator.free(allocation));
         }
     }
 }

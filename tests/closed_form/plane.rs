@@ -163,7 +163,7 @@ pub fn settings(method: Method, samples: u32) -> Settings {
 /// The image of a method.
 pub fn render(headless: &mut Headless, scene: &PreparedScene, settings: &Settings) -> Vec<f64> {
     let mut frame = headless.prepare(scene, settings).unwrap();
-    let rendered = headless.render(scene, &mut frame, &camera()).unwrap();
+    let rendered = headless.render(&mut frame, &camera()).unwrap();
     rendered
         .colors
         .iter()

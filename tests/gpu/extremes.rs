@@ -166,7 +166,7 @@ fn a_whole_life_is_valid() {
     let (scene, pose) = crate::scenes::ball_over_checker().build();
     let prepared = gpu.upload(&scene, &pose, None).unwrap();
     let mut frame = gpu.prepare(&prepared, &Settings::new(40, 30)).unwrap();
-    let rendered: Rendered = gpu.render(&prepared, &mut frame, &camera()).unwrap();
+    let rendered: Rendered = gpu.render(&mut frame, &camera()).unwrap();
     assert!(rendered.statistics.superpixels > 0 && rendered.statistics.gpu_ms() > 0.0);
     drop((frame, prepared, gpu));
     assert_eq!(instance.validation_messages(), Vec::<String>::new());

@@ -17,6 +17,7 @@ mod partition;
 mod scenes;
 mod shade;
 mod sites;
+mod soundness;
 mod stage;
 mod ties;
 mod twin;

@@ -66,7 +66,7 @@ fn packed_occlusion_is_occlusion() {
                 ..once(SIZE)
             };
             let mut frame = gpu.prepare(&prepared, &settings).unwrap();
-            let rendered = gpu.render(&prepared, &mut frame, &camera()).unwrap();
+            let rendered = gpu.render(&mut frame, &camera()).unwrap();
             rendered.colors
         };
         let packed = shaded(read(0, 1.0));

@@ -123,7 +123,7 @@ fn a_file_far_from_the_origin_is_the_same_picture() {
         let pose = scene.pose(&PoseRequest::default()).unwrap();
         let prepared = headless.upload(&scene, &pose, None).unwrap();
         let mut frame = headless.prepare(&prepared, &settings).unwrap();
-        headless.render(&prepared, &mut frame, &camera).unwrap()
+        headless.render(&mut frame, &camera).unwrap()
     });
     assert!(images[0].statistics.superpixels > 50);
     assert_eq!(images[0].colors, images[1].colors);

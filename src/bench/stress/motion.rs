@@ -114,7 +114,7 @@ impl Wires {
                 shift: pixels / DVec2::new(columns as f64, rows as f64),
                 ..camera()
             };
-            let image = headless.render(&prepared, &mut frame, &camera)?;
+            let image = headless.render(&mut frame, &camera)?;
             let mut whole = 0.0;
             for row in image.colors.chunks_exact(columns) {
                 let energy: f64 = row.iter().map(|color| f64::from(color[0])).sum();

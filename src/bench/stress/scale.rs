@@ -51,7 +51,7 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
             eye: away,
             ..camera()
         };
-        let image = headless.render(&prepared, &mut frame, &camera)?;
+        let image = headless.render(&mut frame, &camera)?;
         findings.push(same(
             format!("{far:e} units away in each axis"),
             &first,

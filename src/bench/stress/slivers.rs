@@ -49,7 +49,7 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
         let prepared = headless.upload(&scene, &pose, None)?;
         for (name, settings) in &methods {
             let mut frame = headless.prepare(&prepared, settings)?;
-            let image = headless.render(&prepared, &mut frame, &camera())?;
+            let image = headless.render(&mut frame, &camera())?;
             let excess = |[r, g, b, a]: &[f32; 4]| {
                 let worst = |v: &f32| (RANGE[0] * a - v).max(v - RANGE[1] * a);
                 // NaN is no number's maximum.

@@ -247,7 +247,7 @@ impl Stage {
         let (scene, pose) = self.build();
         let prepared = headless.upload(&scene, &pose, settings.max_memory)?;
         let mut frame = headless.prepare(&prepared, settings)?;
-        headless.render(&prepared, &mut frame, camera)
+        headless.render(&mut frame, camera)
     }
 }
 

@@ -81,7 +81,7 @@ impl Work {
         };
         match self {
             Self::Frame(frame) => {
-                let rendered = headless.render(scene, frame, camera)?;
+                let rendered = headless.render(frame, camera)?;
                 Ok(done(rendered.colors.len() as u64, &rendered.statistics))
             }
             Self::Points(rig, settings) => {

@@ -100,7 +100,6 @@ impl Bench<'_> {
         });
         bench::take_turns(
             &mut self.headless,
-            &prepared,
             &step.camera,
             &mut contenders,
             self.args.repeat,

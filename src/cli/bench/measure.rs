@@ -156,7 +156,6 @@ impl Bench<'_> {
         let progress = &self.progress;
         bench::take_turns(
             &mut self.headless,
-            &subject.prepared,
             &subject.view.camera,
             entries.iter_mut().map(|entry| &mut entry.contender),
             self.args.repeat,

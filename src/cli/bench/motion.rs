@@ -107,9 +107,7 @@ impl Bench<'_> {
         let mut frame = self.headless.prepare(&subject.prepared, settings)?;
         let mut sequence = Sequence::default();
         for (camera, truth) in cameras.iter().zip(truths) {
-            let rendered = self
-                .headless
-                .render(&subject.prepared, &mut frame, camera)?;
+            let rendered = self.headless.render(&mut frame, camera)?;
             let picture = Picture::new(rendered.size, &rendered.colors)?;
             sequence.add(truth, &DecodedImage::from(&picture))?;
         }

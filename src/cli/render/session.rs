@@ -111,7 +111,7 @@ impl Session {
             anyhow::bail!("nothing was put on the device to render");
         };
         Ok(match frame {
-            Some(frame) => self.headless.render(scene, frame, camera)?,
+            Some(frame) => self.headless.render(frame, camera)?,
             None => self
                 .headless
                 .render_with_shadows(scene, camera, &self.settings)?,

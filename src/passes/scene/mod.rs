@@ -23,6 +23,7 @@ use glam::DVec3;
 use light::GpuLight;
 use material::GpuMaterial;
 use std::borrow::Cow;
+use std::sync::atomic::{AtomicBool, Ordering};
 use texture::{DeviceSampler, Texture};
 use texture_set::TextureSet;
 use triangles::{Run, Triangles};
@@ -49,7 +50,31 @@ pub struct GpuScene {
     textures: Vec<Texture>,
     _samplers: Vec<DeviceSampler>,
     _pool: Option<DescriptorPool>,
-    uploads: Vec<Upload>,
+    memory: Memory,
+    /// Whether the copies that fill it were recorded.
+    uploaded: AtomicBool,
+}
+
+/// What fills a scene's buffers and images.
+#[derive(Default)]
+pub struct SceneUploads {
+    buffers: Vec<Upload>,
+    /// Of the scene's textures, in their order.
+    textures: Vec<Buffer>,
+}
+
+impl SceneUploads {
+    /// Records the copies to the device.
+    pub fn record(&self, recorder: &Recorder<'_>, scene: &GpuScene) {
+        for upload in &self.buffers {
+            upload.record(recorder);
+        }
+        for (texture, upload) in scene.textures.iter().zip(&self.textures) {
+            texture.record_upload(recorder, upload);
+        }
+        recorder.barrier();
+        scene.uploaded.store(true, Ordering::Relaxed);
+    }
 }
 
 /// A stream or, where it is empty, `count` vectors of one value.
@@ -62,7 +87,7 @@ fn or_filled(stream: &[[f32; 4]], value: f32, count: usize) -> Cow<'_, [[f32; 4]
 }
 
 impl GpuScene {
-    /// Allocates and fills everything; copies that need the device wait for [`GpuScene::record_upload`].
+    /// Allocates and fills everything; copies that need the device wait for [`SceneUploads::record`].
     ///
     /// # Errors
     /// If memory runs out or the scene passes a limit of the device.
@@ -71,7 +96,7 @@ impl GpuScene {
         memory: &Memory,
         scene: &Scene,
         pose: &Pose,
-    ) -> Result<Self, VulkanError> {
+    ) -> Result<(Self, SceneUploads), VulkanError> {
         let geometry = &pose.geometry;
         let mut textures = TextureSet::new(memory);
         let bins = Bins::new(scene, geometry, &mut textures)?;
@@ -104,7 +129,13 @@ impl GpuScene {
         let uint4 = vk::Format::R32G32B32A32_UINT;
         let (bins, pool) = bins.allocate(layout, &textures)?;
         let mut uploader = Uploader::new(memory);
-        Ok(Self {
+        let TextureSet {
+            textures,
+            texture_uploads,
+            samplers,
+            ..
+        } = textures;
+        let scene = Self {
             positions: uploader.vectors("positions", &geometry.positions, 1.0)?,
             triangles: uploader.texels("triangles", uint4, &triangles.words)?,
             normals: uploader.vectors("normals", &geometry.streams.normals, 0.0)?,
@@ -126,32 +157,31 @@ impl GpuScene {
             light_features: LightFeatures::of(&pose.lights),
             origin: geometry.origin,
             runs: triangles.runs,
-            textures: textures.textures,
-            _samplers: textures
-                .samplers
-                .into_iter()
-                .map(|(_, sampler)| sampler)
-                .collect(),
+            textures,
+            _samplers: samplers.into_iter().map(|(_, sampler)| sampler).collect(),
             _pool: pool,
-            uploads: uploader.uploads,
-        })
+            memory: memory.clone(),
+            uploaded: AtomicBool::new(false),
+        };
+        let uploads = SceneUploads {
+            buffers: uploader.uploads,
+            textures: texture_uploads,
+        };
+        Ok((scene, uploads))
     }
 
-    /// Records the copies to the device; the first frame does so.
-    pub fn record_upload(&self, recorder: &Recorder<'_>) {
-        for upload in &self.uploads {
-            upload.record(recorder);
-        }
-        for texture in &self.textures {
-            texture.record_upload(recorder);
-        }
-        recorder.barrier();
+    pub(crate) fn is_uploaded(&self) -> bool {
+        self.uploaded.load(Ordering::Relaxed)
     }
 
-    /// Frees what uploads needed, once the first frame is done.
-    pub fn discard_uploads(&mut self) {
-        self.uploads.clear();
-        self.textures.iter_mut().for_each(Texture::discard_upload);
+    pub(crate) fn memory(&self) -> &Memory {
+        &self.memory
+    }
+
+    /// Bytes of device memory that it takes, with what is left of its uploads.
+    #[must_use]
+    pub fn memory_bytes(&self) -> u64 {
+        self.memory.used()
     }
 
     /// Number of triangles.

@@ -5,19 +5,18 @@ use crate::vulkan::{Buffer, Gpu, Image, Memory, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// An image with its mipmaps, and the bytes to fill it with until the first frame.
+/// An image with its mipmaps.
 pub(super) struct Texture {
     pub(super) image: Image,
-    upload: Option<Buffer>,
 }
 
 impl Texture {
-    /// `srgb` for colours, otherwise values are taken as they are.
+    /// The image, and the bytes to fill it with; `srgb` for colours, otherwise values are taken as they are.
     pub(super) fn new(
         memory: &Memory,
         source: &SceneImage,
         srgb: bool,
-    ) -> Result<Self, VulkanError> {
+    ) -> Result<(Self, Buffer), VulkanError> {
         let limit = u64::from(memory.gpu().limits().max_image_side);
         let side = u64::from(source.width.max(source.height));
         VulkanError::check_limit("a texture's side", side, "texels", limit)?;
@@ -43,15 +42,11 @@ impl Texture {
             );
         let image = memory.image("texture", &info, vk::ImageAspectFlags::COLOR)?;
         let upload = memory.upload("texture upload", &source.pixels)?;
-        Ok(Self {
-            image,
-            upload: Some(upload),
-        })
+        Ok((Self { image }, upload))
     }
 
     /// Copies the first level and makes each further one from the one before, by the device's linear blit.
-    pub(super) fn record_upload(&self, recorder: &Recorder<'_>) {
-        let Some(upload) = &self.upload else { return };
+    pub(super) fn record_upload(&self, recorder: &Recorder<'_>, upload: &Buffer) {
         let (device, raw, image) = (recorder.device(), recorder.raw(), &self.image);
         let (read, write) = (
             vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
@@ -105,11 +100,6 @@ impl Texture {
             recorder.transition_level(image, level, read, shown);
         }
         recorder.transition_level(image, last, write, shown);
-    }
-
-    /// Frees the bytes that filled the image.
-    pub(super) fn discard_upload(&mut self) {
-        self.upload = None;
     }
 }
 

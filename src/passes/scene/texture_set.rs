@@ -3,7 +3,7 @@
 use super::texture::{DeviceSampler, Texture};
 use crate::passes::FrameLayout;
 use crate::scene::{Image as SceneImage, Sampler, Scene};
-use crate::vulkan::{Memory, VulkanError};
+use crate::vulkan::{Buffer, Memory, VulkanError};
 use ash::vk;
 use std::collections::HashMap;
 
@@ -14,6 +14,8 @@ pub(super) type TextureIndex = (usize, usize);
 pub(super) struct TextureSet<'a> {
     memory: &'a Memory,
     pub(super) textures: Vec<Texture>,
+    /// What fills each of them.
+    pub(super) texture_uploads: Vec<Buffer>,
     known: HashMap<(u32, bool), usize>,
     pub(super) samplers: Vec<(Sampler, DeviceSampler)>,
     white: Option<usize>,
@@ -24,6 +26,7 @@ impl<'a> TextureSet<'a> {
         Self {
             memory,
             textures: Vec::new(),
+            texture_uploads: Vec::new(),
             known: HashMap::new(),
             samplers: Vec::new(),
             white: None,
@@ -46,13 +49,19 @@ impl<'a> TextureSet<'a> {
         let index = match self.known.get(&(texture.image, srgb)) {
             Some(index) => *index,
             None => {
-                self.textures.push(Texture::new(self.memory, image, srgb)?);
-                self.known
-                    .insert((texture.image, srgb), self.textures.len() - 1);
-                self.textures.len() - 1
+                let index = self.add(image, srgb)?;
+                self.known.insert((texture.image, srgb), index);
+                index
             }
         };
         Ok(Some((index, self.sampler(texture.sampler)?)))
+    }
+
+    fn add(&mut self, image: &SceneImage, srgb: bool) -> Result<usize, VulkanError> {
+        let (texture, upload) = Texture::new(self.memory, image, srgb)?;
+        self.textures.push(texture);
+        self.texture_uploads.push(upload);
+        Ok(self.textures.len() - 1)
     }
 
     fn sampler(&mut self, sampler: Sampler) -> Result<usize, VulkanError> {
@@ -78,9 +87,7 @@ impl<'a> TextureSet<'a> {
                     height: 1,
                     pixels: vec![255; 4],
                 };
-                self.textures
-                    .push(Texture::new(self.memory, &texel, false)?);
-                self.textures.len() - 1
+                self.add(&texel, false)?
             }
         };
         self.white = Some(index);

@@ -10,10 +10,11 @@ mod uniform;
 pub use target::{ImageState, Target};
 
 use super::plan::{Effort, Plan};
-use super::renderer::PreparedScene;
 use super::{RenderError, Settings};
 use crate::camera::Camera;
-use crate::passes::{Counter, Encoding, FrameLayout, Locations, RasterTargets, Resources, Sample};
+use crate::passes::{
+    Counter, Encoding, FrameLayout, GpuScene, Locations, RasterTargets, Resources, Sample,
+};
 use crate::sampling::Pattern;
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;
@@ -21,8 +22,11 @@ use passes::{Passes, raster_samples};
 use recording::Recording;
 use std::sync::Arc;
 
-/// Pipelines and memory for frames of one scene, size and method.
+/// Pipelines and memory for frames of one scene, which it keeps alive, of one size and method.
 pub struct Frame {
+    scene: Arc<GpuScene>,
+    encoding: Option<Encoding>,
+    beside: u64,
     settings: Settings,
     plan: Plan,
     passes: Passes,
@@ -35,16 +39,17 @@ pub struct Frame {
 }
 
 impl Frame {
+    /// Of what the settings allow, `beside` bytes are kept free for others.
     pub(super) fn new(
         layout: &Arc<FrameLayout>,
-        prepared: &PreparedScene,
+        scene: &Arc<GpuScene>,
         settings: &Settings,
         encoding: Option<Encoding>,
         effort: Effort,
+        beside: u64,
     ) -> Result<Self, RenderError> {
-        let scene = &prepared.gpu_scene;
-        let gpu = prepared.memory.gpu().clone();
-        let taken = prepared.memory_bytes();
+        let gpu = scene.memory().gpu().clone();
+        let taken = scene.memory_bytes() + beside;
         let plan = Plan::new(settings, scene, gpu.limits(), encoding, effort, taken)?;
         let memory = Memory::new(
             gpu.clone(),
@@ -81,6 +86,9 @@ impl Frame {
         let regions = plan.regions.len() as u64;
         let marks = regions as u32 * (16 + 2 * (4 + 8 * plan.rounds)) + 8;
         Ok(Self {
+            scene: scene.clone(),
+            encoding,
+            beside,
             passes,
             targets,
             resources,
@@ -104,6 +112,19 @@ impl Frame {
         &self.settings
     }
 
+    pub(super) fn scene(&self) -> &Arc<GpuScene> {
+        &self.scene
+    }
+
+    pub(super) fn encoding(&self) -> Option<Encoding> {
+        self.encoding
+    }
+
+    /// Bytes of what the settings allow that are others'.
+    pub(super) fn beside(&self) -> u64 {
+        self.beside
+    }
+
     /// What it was planned for.
     pub(super) fn effort(&self) -> Effort {
         self.plan.effort
@@ -124,16 +145,11 @@ impl Frame {
     ///
     /// # Safety
     /// - `commands` is being recorded, outside of a render pass, for the device and queue family of the renderer.
-    /// - `scene` is the one that the frame was prepared with and its upload was recorded before.
+    /// - The upload of the frame's scene was recorded before, and is executed before these commands.
     /// - The commands of this frame's last recording are done: its memory is used again.
-    /// - The target's handles are alive, of the frame's size, and as [`Target`] says.
-    pub unsafe fn record(
-        &mut self,
-        scene: &PreparedScene,
-        camera: &Camera,
-        commands: vk::CommandBuffer,
-        target: &Target,
-    ) {
+    /// - The frame, which keeps its scene alive, outlives the execution of the commands; so do the target's handles.
+    /// - The target's handles are of the frame's size, and as [`Target`] says.
+    pub unsafe fn record(&mut self, camera: &Camera, commands: vk::CommandBuffer, target: &Target) {
         let gpu = self.memory.gpu().clone();
         // SAFETY: passed on to the caller.
         let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
@@ -148,7 +164,7 @@ impl Frame {
             targets: &self.targets,
             resources: &self.resources,
             counters: &self.counters,
-            scene: &scene.gpu_scene,
+            scene: &self.scene,
             camera,
             target,
         };

@@ -54,6 +54,13 @@ pub(super) struct SiteEngine {
     uploaded: bool,
 }
 
+/// What the sites of a run saw, in their order.
+pub(super) struct SiteValues<'a> {
+    pub colors: &'a [[f32; 4]],
+    /// What `shaders/points.comp` wrote; nothing for superpixels.
+    pub attributes: &'a [[[u32; 4]; 2]],
+}
+
 /// How sites share cells and groups on a device.
 pub(super) fn cell_sizes(layout: &FrameLayout, cells: Cells, samples: u32) -> CellSizes {
     let lanes = layout.gpu.limits().subgroup_size;
@@ -78,8 +85,8 @@ impl SiteEngine {
         sizes: &ResourceSizes,
         apart: bool,
     ) -> Result<Self, RenderError> {
-        let scene = &prepared.gpu_scene;
-        let gpu = prepared.memory.gpu().clone();
+        let scene = &*prepared.gpu_scene;
+        let gpu = scene.memory().gpu().clone();
         let taken = prepared.memory_bytes();
         let memory = Memory::new(
             gpu.clone(),
@@ -185,7 +192,7 @@ impl SiteEngine {
         commands: vk::CommandBuffer,
     ) {
         let uniform = self.uniform(&scene.gpu_scene, pinhole, window, data);
-        let scene = &scene.gpu_scene;
+        let scene = &*scene.gpu_scene;
         let gpu = self.memory.gpu().clone();
         // SAFETY: passed on to the caller.
         let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
@@ -247,39 +254,44 @@ impl SiteEngine {
         recorder.barrier();
     }
 
-    /// The colours of the last run's sites, in their order.
-    pub fn colors(&self) -> &[[f32; 4]] {
-        bytemuck::try_cast_slice(self.resources.color.buffer.bytes()).unwrap_or(&[])
+    /// What the last run's `sites` sites saw.
+    pub fn values(&self, sites: usize) -> Result<SiteValues<'_>, VulkanError> {
+        let Resources {
+            color, attributes, ..
+        } = &self.resources;
+        Ok(SiteValues {
+            colors: color.buffer.read(sites)?,
+            attributes: match self.resources.sizes().attributes {
+                true => attributes.read(sites)?,
+                false => &[],
+            },
+        })
     }
 
-    /// What `shaders/points.comp` wrote of the last run's sites, in their order.
-    pub fn attributes(&self) -> &[[[u32; 4]; 2]] {
-        bytemuck::try_cast_slice(self.resources.attributes.bytes()).unwrap_or(&[])
-    }
-
-    fn counted(&self) -> &[u32] {
-        bytemuck::try_cast_slice(self.counters.bytes()).unwrap_or(&[])
+    fn counted(&self) -> Result<&[u32], VulkanError> {
+        self.counters.read(Counter::COUNT)
     }
 
     /// What the last run could not finish.
-    pub fn shortfall(&self, window: &Window) -> Shortfall {
+    pub fn shortfall(&self, window: &Window) -> Result<Shortfall, VulkanError> {
         let mut shortfall = Shortfall::default();
-        shortfall.add(self.counted(), window.tile_count());
-        shortfall
+        shortfall.add(self.counted()?, window.tile_count());
+        Ok(shortfall)
     }
 
     /// Adds the figures of the last run.
     ///
     /// # Errors
-    /// [`RenderError::Unfinished`] if its records did not fit, [`RenderError::Vulkan`] if timestamps can't be read.
+    /// [`RenderError::Unfinished`] if its records did not fit, [`RenderError::Vulkan`] if what was
+    /// counted or timed can't be read.
     pub fn add_statistics(
         &self,
         scene: &PreparedScene,
         window: &Window,
         total: &mut Statistics,
     ) -> Result<(), RenderError> {
-        self.shortfall(window).check()?;
-        total.add(self.counted());
+        self.shortfall(window)?.check()?;
+        total.add(self.counted()?);
         total.tiles += u64::from(window.tile_count());
         total.regions += 1;
         total.triangles.total = u64::from(scene.triangle_count());

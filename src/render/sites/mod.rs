@@ -20,7 +20,7 @@ pub(super) use triangles::Triangles;
 use super::{Headless, PreparedScene, RenderError, Settings, Shadows, Statistics};
 use crate::camera::{Pinhole, Site};
 use crate::passes::Cells;
-use engine::{SiteEngine, cell_sizes};
+use engine::{SiteEngine, SiteValues, cell_sizes};
 use partition::Partition;
 use plan::SitePlan;
 
@@ -90,9 +90,9 @@ impl Headless {
         };
         let mut values = vec![PointSample::default(); sites.len()];
         let mut statistics = shadows.statistics;
-        let run = self.run_sites(&partition, task, settings, |index, engine, place| {
-            let color = engine.colors().get(place);
-            let attributes = engine.attributes().get(place);
+        let run = self.run_sites(&partition, task, settings, |index, seen, place| {
+            let color = seen.colors.get(place);
+            let attributes = seen.attributes.get(place);
             if let (Some(value), Some(color), Some([seen, normal])) =
                 (values.get_mut(index), color, attributes)
             {
@@ -139,22 +139,21 @@ impl Headless {
             words: &[],
         };
         let mut values = vec![[0.0; 4]; sites.len()];
-        let statistics = self.run_sites(&partition, task, settings, |index, engine, place| {
-            if let (Some(value), Some(color)) = (values.get_mut(index), engine.colors().get(place))
-            {
+        let statistics = self.run_sites(&partition, task, settings, |index, seen, place| {
+            if let (Some(value), Some(color)) = (values.get_mut(index), seen.colors.get(place)) {
                 *value = *color;
             }
         })?;
         Ok(Sampled { values, statistics })
     }
 
-    /// Samples sites run by run; `take` is given each site's index and its place in what the engine holds.
+    /// Samples sites run by run; `take` is given each site's index, and what its run saw with its place there.
     fn run_sites(
         &mut self,
         partition: &Partition,
         task: Task<'_>,
         settings: &Settings,
-        mut take: impl FnMut(usize, &SiteEngine, usize),
+        mut take: impl FnMut(usize, &SiteValues<'_>, usize),
     ) -> Result<Statistics, RenderError> {
         let Task {
             scene,
@@ -162,6 +161,7 @@ impl Headless {
             colors,
             words,
         } = task;
+        self.check(&scene.gpu_scene)?;
         let cells = partition.cells;
         let layout = self.renderer.layout.clone();
         let taken = scene.memory_bytes();
@@ -186,14 +186,14 @@ impl Headless {
             let data = partition.data(&run, &window, &sizes, words);
             engine.write(&data)?;
             // SAFETY: the last submission was waited for; scene and engine outlive this one, which is waited for.
-            self.submit(|_, commands| unsafe {
+            self.submit(|commands| unsafe {
                 engine.record(scene, pinhole, &window, &data, commands);
             })?;
             match engine.add_statistics(scene, &window, &mut statistics) {
                 Ok(()) => {}
                 // One cell at a time gets through longer lists.
                 Err(RenderError::Unfinished { .. })
-                    if !apart && engine.shortfall(&window).stalled > 0 =>
+                    if !apart && engine.shortfall(&window)?.stalled > 0 =>
                 {
                     apart = true;
                     engine = make(apart)?;
@@ -210,8 +210,9 @@ impl Headless {
                 }
                 Err(error) => return Err(error),
             }
+            let values = engine.values(run.len())?;
             for (place, index) in partition.places(&run).iter().enumerate() {
-                take(*index as usize, &engine, place);
+                take(*index as usize, &values, place);
             }
         }
         Ok(statistics)

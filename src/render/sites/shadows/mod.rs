@@ -105,11 +105,11 @@ impl Headless {
             colors: false,
             words: &[],
         };
-        let run = self.run_sites(partition, surfaces, settings, |index, engine, place| {
-            if let (Some(id), Some([[_, seen, ..], _])) =
-                (ids.get_mut(index), engine.attributes().get(place))
+        let run = self.run_sites(partition, surfaces, settings, |index, seen, place| {
+            if let (Some(id), Some([[_, nearest, ..], _])) =
+                (ids.get_mut(index), seen.attributes.get(place))
             {
-                *id = *seen;
+                *id = *nearest;
             }
         })?;
         book(&mut statistics, &run);
@@ -138,8 +138,8 @@ impl Headless {
                     colors: false,
                     words: &view.ids,
                 };
-                let run = self.run_sites(&partition, task, &settings, |index, engine, place| {
-                    let occluder = engine.attributes().get(place).map(|[[_, id, ..], _]| *id);
+                let run = self.run_sites(&partition, task, &settings, |index, seen, place| {
+                    let occluder = seen.attributes.get(place).map(|[[_, id, ..], _]| *id);
                     if let (Some(1..), Some(receiver)) = (occluder, view.indices.get(index)) {
                         hide(*receiver);
                     }
