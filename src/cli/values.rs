@@ -1,6 +1,7 @@
 //! Values of options, from text.
 
 use glam::DVec3;
+use gpc::render::PixelRect;
 use std::ops::RangeInclusive;
 
 /// A number that is neither infinite nor NaN.
@@ -43,6 +44,22 @@ pub fn size(text: &str) -> Result<[u32; 2], String> {
         .ok_or_else(|| {
             "expected width x height in pixels, each 1 to 65535, such as 1280x720".to_owned()
         })
+}
+
+/// A part of an image in pixels, from its upper left corner: `640,360,320x180`.
+pub fn region(text: &str) -> Result<PixelRect, String> {
+    let region = || {
+        let mut parts = text.splitn(3, ',');
+        let mut corner = || parts.next()?.parse().ok();
+        Some(PixelRect {
+            corner: [corner()?, corner()?],
+            size: size(parts.next()?).ok()?,
+        })
+    };
+    region().ok_or_else(|| {
+        "expected column, row, width x height in pixels of the image, such as 640,360,320x180"
+            .to_owned()
+    })
 }
 
 /// A point or direction: `X,Y,Z`.
@@ -139,6 +156,18 @@ mod tests {
         assert_eq!(size("1280x720"), Ok([1280, 720]));
         for wrong in ["1280", "0x5", "5x", "-1x5", "70000x1", "1x2x3", "1.5x2"] {
             assert!(size(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn regions() {
+        let expected = PixelRect {
+            corner: [3, 0],
+            size: [20, 10],
+        };
+        assert_eq!(region("3,0,20x10"), Ok(expected));
+        for wrong in ["", "3,0", "3,0,20", "3,0,0x10", "-3,0,20x10", "3,0,20x10,1"] {
+            assert!(region(wrong).is_err(), "{wrong}");
         }
     }
 

@@ -138,7 +138,8 @@ impl Raster {
         })
     }
 
-    /// Records it for the upper left `size` pixels; afterwards the IDs can be read by shaders.
+    /// Records it for the upper left `size` pixels, of which those from `drawn[0]` to before `drawn[1]` are drawn, and
+    /// the others stay empty; afterwards the IDs can be read by shaders.
     pub fn record(
         &self,
         recorder: &Recorder<'_>,
@@ -146,11 +147,10 @@ impl Raster {
         scene: &GpuScene,
         targets: &RasterTargets,
         size: [u32; 2],
+        drawn: [[u32; 2]; 2],
     ) {
-        let extent = vk::Extent2D {
-            width: size[0],
-            height: size[1],
-        };
+        let area = rectangle([0, 0], size);
+        let scissor = rectangle(drawn[0], drawn[1]);
         let read = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
         let draw = vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
         recorder.transition(
@@ -168,7 +168,7 @@ impl Raster {
             scene,
             targets,
             &targets.ids,
-            extent,
+            [area, scissor],
             vk::AttachmentLoadOp::CLEAR,
             |class| class < DrawClass::Blend,
         );
@@ -182,7 +182,7 @@ impl Raster {
                 scene,
                 targets,
                 blend_ids,
-                extent,
+                [area, scissor],
                 vk::AttachmentLoadOp::LOAD,
                 |class| class >= DrawClass::Blend,
             );
@@ -203,15 +203,11 @@ impl Raster {
         scene: &GpuScene,
         targets: &RasterTargets,
         ids: &Image,
-        extent: vk::Extent2D,
+        [area, scissor]: [vk::Rect2D; 2],
         depth_load: vk::AttachmentLoadOp,
         wanted: impl Fn(DrawClass) -> bool,
     ) {
         let (device, raw) = (recorder.device(), recorder.raw());
-        let area = vk::Rect2D {
-            offset: vk::Offset2D::default(),
-            extent,
-        };
         let color = [vk::RenderingAttachmentInfo::default()
             .image_view(ids.view)
             .image_layout(vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL)
@@ -239,7 +235,7 @@ impl Raster {
         unsafe {
             device.cmd_begin_rendering(raw, &info);
             device.cmd_set_viewport(raw, 0, &[viewport]);
-            device.cmd_set_scissor(raw, 0, &[area]);
+            device.cmd_set_scissor(raw, 0, &[scissor]);
             device.cmd_bind_descriptor_sets(
                 raw,
                 vk::PipelineBindPoint::GRAPHICS,
@@ -270,6 +266,20 @@ impl Raster {
         }
         // SAFETY: as above.
         unsafe { device.cmd_end_rendering(raw) };
+    }
+}
+
+/// The pixels from `low` to before `high`.
+fn rectangle(low: [u32; 2], high: [u32; 2]) -> vk::Rect2D {
+    vk::Rect2D {
+        offset: vk::Offset2D {
+            x: low[0] as i32,
+            y: low[1] as i32,
+        },
+        extent: vk::Extent2D {
+            width: high[0] - low[0],
+            height: high[1] - low[1],
+        },
     }
 }
 

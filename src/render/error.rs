@@ -1,6 +1,6 @@
 //! What can go wrong with a frame.
 
-use super::SiteError;
+use super::{PixelRect, SiteError};
 use crate::sampling::PatternError;
 use crate::vulkan::VulkanError;
 
@@ -19,6 +19,20 @@ pub enum RenderError {
     /// A plane of values that detection compares is not as large as the image.
     #[error(transparent)]
     Plane(#[from] crate::reference::detect::PlaneError),
+    /// A region of an image has no pixels or leaves the image.
+    #[error(
+        "a region of {} x {} pixels from column {}, row {}: it must have pixels and lie in the image of {} x {}",
+        region.size[0], region.size[1], region.corner[0], region.corner[1], image[0], image[1]
+    )]
+    Region {
+        /// The region.
+        region: PixelRect,
+        /// Width and height of the image.
+        image: [u32; 2],
+    },
+    /// Only the pixels of an image have regions.
+    #[error("a region is a part of an image's pixels; of sites, hand over those that are wanted")]
+    SiteRegion,
     /// A sampling location can't be used.
     #[error(transparent)]
     Site(#[from] SiteError),
@@ -111,6 +125,8 @@ impl RenderError {
                 | Self::Site(_)
                 | Self::Samples { .. }
                 | Self::SiteMethod
+                | Self::SiteRegion
+                | Self::Region { .. }
                 | Self::Pinhole(_)
                 | Self::FrameShadows
                 | Self::ShadowLights { .. }

@@ -51,7 +51,7 @@ struct ReadBack {
 }
 
 fn pixel_count(settings: &Settings) -> u64 {
-    settings.size.map(u64::from).into_iter().product()
+    settings.output_size().map(u64::from).into_iter().product()
 }
 
 impl ReadBack {
@@ -271,7 +271,7 @@ impl Headless {
 
     fn render_once(&mut self, frame: &mut Frame, camera: &Camera) -> Result<Rendered, RenderError> {
         self.check(frame.scene())?;
-        let size = frame.settings().size;
+        let size = frame.settings().output_size();
         let output = ReadBack::for_frame(&self.gpu, frame, self.output.take())?;
         let target = Target::Buffer {
             colors: output.colors.handle(),

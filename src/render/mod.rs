@@ -18,6 +18,8 @@ pub use error::RenderError;
 pub use frame::{Frame, ImageState, Target};
 pub use headless::{Headless, HeadlessOptions, PixelAttributes, Rendered};
 pub use renderer::{PreparedScene, Renderer};
-pub use settings::{Coverage, Detection, Footprint, Method, Reference, Settings, Shading, Shadows};
+pub use settings::{
+    Coverage, Detection, Footprint, Method, PixelRect, Reference, Settings, Shading, Shadows,
+};
 pub use sites::{PointSample, Sampled, SiteError};
 pub use statistics::{PassTime, Statistics, TriangleCounts};

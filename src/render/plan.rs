@@ -6,30 +6,60 @@ use super::{Method, RenderError, Settings, Shading};
 use crate::passes::{Encoding, GpuScene, RecordRate, ResourceSizes};
 use crate::vulkan::Limits;
 
-/// A part of the image, in output pixels.
+/// A part of the image, in output pixels. Where a part of the image is wanted alone, it is what is wanted of one of the
+/// regions that the whole image has, and drawn in that region's place: devices round vertices to a fraction of a pixel
+/// after they have been moved there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Region {
-    /// Upper left pixel that the region owns.
-    pub low: [u32; 2],
+    /// Upper left pixel that the region has in the whole image.
+    low: [u32; 2],
     /// Lower right pixel, exclusive.
-    pub high: [u32; 2],
+    high: [u32; 2],
+    /// Upper left pixel that is wanted of it.
+    pub wanted_low: [u32; 2],
+    /// Lower right pixel, exclusive.
+    wanted_high: [u32; 2],
     /// Pixels around it that detection compares with: left, top, right, bottom. It needs one; on the left and at the
     /// top a whole tile keeps tiles, and with them the rounding of edge functions, those of the undivided image.
-    pub halo: [u32; 4],
+    halo: [u32; 4],
 }
 
 impl Region {
-    /// Pixels that it owns.
-    pub fn size(&self) -> [u32; 2] {
-        [self.high[0] - self.low[0], self.high[1] - self.low[1]]
+    /// Wants only what lies from `low` to before `high` in the image; false where that is nothing.
+    fn keep(&mut self, low: [u32; 2], high: [u32; 2]) -> bool {
+        self.wanted_low = [0, 1].map(|axis| self.low[axis].max(low[axis]));
+        self.wanted_high = [0, 1].map(|axis| self.high[axis].min(high[axis]));
+        (0..2).all(|axis| self.wanted_low[axis] < self.wanted_high[axis])
     }
 
-    /// Pixels with the halo.
+    /// Width and height of what is wanted of it.
+    pub fn size(&self) -> [u32; 2] {
+        [0, 1].map(|axis| self.wanted_high[axis] - self.wanted_low[axis])
+    }
+
+    /// Width and height in memory: the whole region with its halo.
     pub fn outer(&self) -> [u32; 2] {
-        let [width, height] = self.size();
+        [0, 1].map(|axis| self.high[axis] - self.low[axis] + self.halo[axis] + self.halo[axis + 2])
+    }
+
+    /// The image's pixel at the upper left in memory.
+    pub fn corner(&self) -> [u32; 2] {
+        [0, 1].map(|axis| self.low[axis] - self.halo[axis])
+    }
+
+    /// Place in memory of the upper left pixel that is wanted.
+    pub fn first_wanted(&self) -> [u32; 2] {
+        let corner = self.corner();
+        [0, 1].map(|axis| self.wanted_low[axis] - corner[axis])
+    }
+
+    /// Places in memory, from the first to beyond the last, that are to be drawn: what is wanted and the neighbours that
+    /// detection compares it with.
+    pub fn drawn(&self) -> [[u32; 2]; 2] {
+        let (first, size, outer) = (self.first_wanted(), self.size(), self.outer());
         [
-            width + self.halo[0] + self.halo[2],
-            height + self.halo[1] + self.halo[3],
+            first.map(|place| place.saturating_sub(1)),
+            [0, 1].map(|axis| (first[axis] + size[axis] + 1).min(outer[axis])),
         ]
     }
 }
@@ -128,7 +158,7 @@ impl Plan {
         let mut region = [width.min(longest), height.min(longest)];
         let allowed = settings.max_memory.map(|limit| limit.saturating_sub(taken));
         loop {
-            let mut plan = Self::with_region(settings, scene, limits, encoding, effort, region);
+            let mut plan = Self::with_region(settings, scene, limits, encoding, effort, region)?;
             let pixels = u64::from(plan.sizes.pixels());
             let mut needed = plan.bytes(scene, settings);
             if let Some(allowed) = allowed {
@@ -165,7 +195,7 @@ impl Plan {
         encoding: Option<Encoding>,
         effort: Effort,
         region: [u32; 2],
-    ) -> Self {
+    ) -> Result<Self, RenderError> {
         let [width, height] = settings.size;
         let side = settings.side();
         let detects = settings.method == Method::Superpixel;
@@ -177,6 +207,8 @@ impl Plan {
                 regions.push(Region {
                     low: [x, y],
                     high,
+                    wanted_low: [x, y],
+                    wanted_high: high,
                     halo: [
                         halo(x > 0, 8),
                         halo(y > 0, 4),
@@ -190,6 +222,10 @@ impl Plan {
             let [w, h] = r.outer();
             [most[0].max(w * side), most[1].max(h * side)]
         });
+        if let Some(wanted) = settings.region {
+            let end = wanted.end(settings.size)?;
+            regions.retain_mut(|region| region.keep(wanted.corner, end));
+        }
         let pixels = u64::from(outer[0]) * u64::from(outer[1]);
         let tiles = u64::from(outer[0].div_ceil(8)) * u64::from(outer[1].div_ceil(4));
         let samples = u64::from(settings.samples);
@@ -232,7 +268,7 @@ impl Plan {
                 .filter(|e| *e != Encoding::Rgba32Float)
                 .map_or(0, |e| e.bytes() * pixels),
         };
-        Self {
+        Ok(Self {
             regions,
             sizes,
             // Tiles whose triangles are shaded in parts reserve room for all of these, and use a third of it.
@@ -241,7 +277,7 @@ impl Plan {
             effort,
             lists_can_grow: u64::from(sizes.pair_capacity)
                 < limits.max_storage_bytes / ResourceSizes::PAIR_BYTES,
-        }
+        })
     }
 
     fn bytes(&self, scene: &GpuScene, settings: &Settings) -> u64 {

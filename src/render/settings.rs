@@ -89,11 +89,45 @@ pub enum Reference {
     Scene,
 }
 
+/// A part of an image, in its pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PixelRect {
+    /// Column and row of the upper left pixel, from 0.
+    pub corner: [u32; 2],
+    /// Width and height in pixels, at least 1.
+    pub size: [u32; 2],
+}
+
+impl PixelRect {
+    /// Column and row beyond the lower right pixel.
+    ///
+    /// # Errors
+    /// [`RenderError::Region`] if it has no pixels or leaves an image of that size.
+    pub fn end(&self, image: [u32; 2]) -> Result<[u32; 2], RenderError> {
+        let outside = RenderError::Region {
+            region: *self,
+            image,
+        };
+        let end = |axis: usize| {
+            self.corner[axis]
+                .checked_add(self.size[axis])
+                .filter(|end| self.size[axis] > 0 && *end <= image[axis])
+        };
+        match (end(0), end(1)) {
+            (Some(right), Some(bottom)) => Ok([right, bottom]),
+            _ => Err(outside),
+        }
+    }
+}
+
 /// All that decides an image beside scene and camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     /// Width and height in pixels.
     pub size: [u32; 2],
+    /// The part of the image that is rendered, as if all of it were: to the same numbers, unless `max_memory` has the image
+    /// drawn in other parts, whose vertices the device may round otherwise. `None` is all of it.
+    pub region: Option<PixelRect>,
     /// How edges are antialiased.
     pub method: Method,
     /// Samples a pixel: 1 to 1,024; squares for supersampling, what the device has for multisampling.
@@ -145,6 +179,7 @@ impl Settings {
     pub fn new(width: u32, height: u32) -> Self {
         Self {
             size: [width, height],
+            region: None,
             method: Method::Superpixel,
             samples: Self::DEFAULT_SAMPLES,
             pattern: Pattern::Sobol,
@@ -162,6 +197,12 @@ impl Settings {
             shadows: Shadows::None,
             max_memory: None,
         }
+    }
+
+    /// Width and height in pixels of what is rendered: the region, or the whole image.
+    #[must_use]
+    pub fn output_size(&self) -> [u32; 2] {
+        self.region.map_or(self.size, |region| region.size)
     }
 
     /// Whether superpixels are shaded as brute force is: each sample with the texture levels of the samples' distance.
@@ -212,6 +253,9 @@ impl Settings {
                 height,
                 limit: LARGEST_SIDE,
             });
+        }
+        if let Some(region) = self.region {
+            region.end(self.size)?;
         }
         let refuse = |method, possible| {
             Err(RenderError::Samples {

@@ -14,6 +14,7 @@ mod mask;
 mod meshes;
 mod methods;
 mod partition;
+mod region;
 mod scenes;
 mod shade;
 mod sites;

@@ -5,7 +5,7 @@ use crate::cli::report::ReportArgs;
 use crate::cli::values;
 use clap::{Args, ValueEnum};
 use glam::DVec3;
-use gpc::render::{Coverage, Detection, Footprint, Method, Settings, Shading, Shadows};
+use gpc::render::{Coverage, Detection, Footprint, Method, PixelRect, Settings, Shading, Shadows};
 use gpc::sampling::Pattern;
 use serde::Serialize;
 use std::fmt;
@@ -29,6 +29,9 @@ pub struct RenderArgs {
 
     #[command(flatten)]
     pub image: ImageArgs,
+    /// Render this part of the image alone, from column X and row Y on, to the same numbers as in the whole image
+    #[arg(long, value_name = "X,Y,WxH", value_parser = values::region)]
+    pub region: Option<PixelRect>,
     #[command(flatten)]
     pub sequence: SequenceArgs,
 

@@ -15,7 +15,9 @@ pub use save::{beside, encode, save, write};
 pub use session::{Shot, open, upload};
 pub use view::{View, choose as choose_views};
 
+use super::exit::usage;
 use super::input;
+use gpc::render::{Settings, Shadows};
 use indicatif::{ProgressBar, ProgressStyle};
 use report::{Origin, Report};
 use serde::Serialize;
@@ -34,13 +36,24 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     args.report.check(&args.output)?;
     let image = &args.image;
     let format = image.format(&args.output)?;
+    let settings = Settings {
+        region: args.region,
+        ..image.settings(format)
+    };
+    if let Some(region) = args.region {
+        region.end(settings.size)?;
+        if settings.shadows == Shadows::Exact {
+            usage!(
+                "--region: exact shadows are those of a whole image; leave out one of --region and --shadows"
+            );
+        }
+    }
     let steps = sequence::steps(args)?;
     template.require("frame", "frames", steps.len())?;
 
     let loaded = input::load_variant(&args.scene, image.camera.variant.as_deref())?;
     let mut warnings = Warnings::default();
     warnings.add(&loaded.warnings);
-    let settings = image.settings(format);
     let aspect = f64::from(settings.size[0]) / f64::from(settings.size[1]);
     let aovs = image.aovs();
     let stem = input::stem(&args.scene);

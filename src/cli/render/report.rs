@@ -14,11 +14,23 @@ pub struct Report {
     output: String,
     #[serde(flatten)]
     device: Device,
+    /// Width and height of what was rendered.
     size: [u32; 2],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    region: Option<RegionReport>,
     camera: CameraReport,
     #[serde(flatten)]
     effort: Effort,
     warnings: Vec<String>,
+}
+
+/// Which part of an image was rendered.
+#[derive(Serialize)]
+struct RegionReport {
+    /// Column and row of its upper left pixel.
+    corner: [u32; 2],
+    /// Width and height of the whole image.
+    image: [u32; 2],
 }
 
 #[derive(Serialize)]
@@ -46,12 +58,16 @@ pub struct Origin<'a> {
 
 impl Report {
     pub fn new(origin: Origin<'_>, shot: &Shot) -> Self {
-        let size = origin.settings.size;
-        let [width, height] = size.map(f64::from);
+        let size = origin.settings.output_size();
+        let [width, height] = origin.settings.size.map(f64::from);
         Self {
             output: origin.output,
             device: origin.device.clone(),
             size,
+            region: origin.settings.region.map(|region| RegionReport {
+                corner: region.corner,
+                image: origin.settings.size,
+            }),
             camera: describe(origin.camera, origin.view, width / height),
             effort: Effort::new(
                 origin.settings,

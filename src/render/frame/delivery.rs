@@ -7,7 +7,7 @@ use crate::vulkan::Recorder;
 use ash::vk;
 
 impl Recording<'_> {
-    /// Copies what the region owns to its place in the target.
+    /// Copies what is wanted of the region to its place in the target.
     pub(super) fn deliver(&self, recorder: &Recorder<'_>, region: &Region) {
         let resources = self.resources;
         let color = resources.color.buffer.handle();
@@ -27,12 +27,18 @@ impl Recording<'_> {
                 } else {
                     (color, 16)
                 };
-                copy_to_image(recorder, region, from, *image, bytes);
+                self.copy_to_image(recorder, region, from, *image, bytes);
             }
         }
     }
 
-    /// Copies what the region owns, of `bytes` a pixel, to its place in a buffer of the whole image.
+    /// Place in the target of what is wanted of a region.
+    fn place(&self, region: &Region) -> [u32; 2] {
+        let origin = self.settings.region.map_or([0, 0], |wanted| wanted.corner);
+        [0, 1].map(|axis| region.wanted_low[axis] - origin[axis])
+    }
+
+    /// Copies what is wanted of the region, of `bytes` a pixel, to its place in a buffer.
     fn copy_rows(
         &self,
         recorder: &Recorder<'_>,
@@ -42,13 +48,13 @@ impl Recording<'_> {
         bytes: u64,
     ) {
         let [width, height] = region.size().map(u64::from);
-        let [left, top] = region.low.map(u64::from);
-        let image_row = u64::from(self.settings.size[0]);
+        let [left, top] = self.place(region).map(u64::from);
+        let target_row = u64::from(self.settings.output_size()[0]);
         let rows: Vec<_> = (0..height)
             .map(|y| {
                 vk::BufferCopy::default()
-                    .src_offset((first_owned(region) + y * row(region)) * bytes)
-                    .dst_offset(((top + y) * image_row + left) * bytes)
+                    .src_offset((first_wanted(region) + y * row(region)) * bytes)
+                    .dst_offset(((top + y) * target_row + left) * bytes)
                     .size(width * bytes)
             })
             .collect();
@@ -59,6 +65,48 @@ impl Recording<'_> {
                 .cmd_copy_buffer(recorder.raw(), from, to, &rows)
         };
     }
+
+    /// Copies what is wanted of the region, of `bytes` a pixel, to its place in an image.
+    fn copy_to_image(
+        &self,
+        recorder: &Recorder<'_>,
+        region: &Region,
+        from: vk::Buffer,
+        to: vk::Image,
+        bytes: u64,
+    ) {
+        let [width, height] = region.size();
+        let [left, top] = self.place(region);
+        let copy = [vk::BufferImageCopy::default()
+            .buffer_offset(first_wanted(region) * bytes)
+            .buffer_row_length(row(region) as u32)
+            .image_subresource(vk::ImageSubresourceLayers {
+                aspect_mask: vk::ImageAspectFlags::COLOR,
+                mip_level: 0,
+                base_array_layer: 0,
+                layer_count: 1,
+            })
+            .image_offset(vk::Offset3D {
+                x: left as i32,
+                y: top as i32,
+                z: 0,
+            })
+            .image_extent(vk::Extent3D {
+                width,
+                height,
+                depth: 1,
+            })];
+        // SAFETY: the recorder's contract; the buffer holds the region, the host vouches for its image.
+        unsafe {
+            recorder.device().cmd_copy_buffer_to_image(
+                recorder.raw(),
+                from,
+                to,
+                COPIED_TO.layout,
+                &copy,
+            )
+        };
+    }
 }
 
 /// Pixels of a row of a region in memory.
@@ -66,47 +114,8 @@ fn row(region: &Region) -> u64 {
     u64::from(region.outer()[0])
 }
 
-/// Index in memory of the first pixel that a region owns.
-fn first_owned(region: &Region) -> u64 {
-    u64::from(region.halo[1]) * row(region) + u64::from(region.halo[0])
-}
-
-/// Copies what the region owns, of `bytes` a pixel, to its place in an image.
-fn copy_to_image(
-    recorder: &Recorder<'_>,
-    region: &Region,
-    from: vk::Buffer,
-    to: vk::Image,
-    bytes: u64,
-) {
-    let [width, height] = region.size();
-    let copy = [vk::BufferImageCopy::default()
-        .buffer_offset(first_owned(region) * bytes)
-        .buffer_row_length(row(region) as u32)
-        .image_subresource(vk::ImageSubresourceLayers {
-            aspect_mask: vk::ImageAspectFlags::COLOR,
-            mip_level: 0,
-            base_array_layer: 0,
-            layer_count: 1,
-        })
-        .image_offset(vk::Offset3D {
-            x: region.low[0] as i32,
-            y: region.low[1] as i32,
-            z: 0,
-        })
-        .image_extent(vk::Extent3D {
-            width,
-            height,
-            depth: 1,
-        })];
-    // SAFETY: the recorder's contract; the buffer holds the region, the host vouches for its image.
-    unsafe {
-        recorder.device().cmd_copy_buffer_to_image(
-            recorder.raw(),
-            from,
-            to,
-            COPIED_TO.layout,
-            &copy,
-        )
-    };
+/// Index in memory of the first pixel that is wanted of a region.
+fn first_wanted(region: &Region) -> u64 {
+    let [x, y] = region.first_wanted().map(u64::from);
+    y * row(region) + x
 }

@@ -148,7 +148,7 @@ impl Frame {
     /// - The upload of the frame's scene was recorded before, and is executed before these commands.
     /// - The commands of this frame's last recording are done: its memory is used again.
     /// - The frame, which keeps its scene alive, outlives the execution of the commands; so do the target's handles.
-    /// - The target's handles are of the frame's size, and as [`Target`] says.
+    /// - The target's handles are of the settings' output size, and as [`Target`] says.
     pub unsafe fn record(&mut self, camera: &Camera, commands: vk::CommandBuffer, target: &Target) {
         let gpu = self.memory.gpu().clone();
         // SAFETY: passed on to the caller.

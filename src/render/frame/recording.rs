@@ -63,6 +63,9 @@ impl Recording<'_> {
             scene,
             self.targets,
             [width, height],
+            region
+                .drawn()
+                .map(|place| place.map(|pixels| pixels * side)),
         );
         recorder.mark("raster");
         if let Some(PixelShading { spans, shade }) = &passes.pixels {

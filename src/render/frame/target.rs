@@ -17,7 +17,8 @@ pub struct ImageState {
 /// Where a frame's colours go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Target {
-    /// A host's image, single-sampled, created as a transfer destination, of the frame's size and encoding.
+    /// A host's image, single-sampled, created as a transfer destination, of the encoding and the
+    /// [output size](crate::render::Settings::output_size) that the frame was prepared with.
     Image {
         /// The image.
         image: vk::Image,

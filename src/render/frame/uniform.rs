@@ -7,8 +7,8 @@ use crate::render::footprint::Footprints;
 use crate::render::plan::Region;
 
 impl Recording<'_> {
-    /// The uniform block of a region and of cells of so many samples; with `owned`, only pixels that the region owns
-    /// become cells.
+    /// The uniform block of a region and of cells of so many samples; with `owned`, only pixels that are wanted of
+    /// the region become cells.
     pub(super) fn uniform(&self, region: &Region, samples: u32, owned: bool) -> FrameUniform {
         let (scene, camera) = (self.scene, self.camera);
         let side = self.settings.side();
@@ -16,13 +16,13 @@ impl Recording<'_> {
         let [image_width, image_height] =
             self.settings.size.map(|pixels| f64::from(pixels) * scale);
         let [width, height] = region.outer().map(|pixels| pixels * side);
-        let corner = [0, 1].map(|axis| f64::from(region.low[axis] - region.halo[axis]) * scale);
+        let corner = region.corner().map(|pixel| f64::from(pixel) * scale);
         let left_top = [
             corner[0] - 0.5 * image_width,
             corner[1] - 0.5 * image_height,
         ];
         let to_device = [2.0 / f64::from(width), 2.0 / f64::from(height)];
-        let low = [region.halo[0] * side, region.halo[1] * side];
+        let low = region.first_wanted().map(|place| place * side);
         let [own_width, own_height] = region.size().map(|pixels| pixels * side);
         let (interior_low, interior_high) = if owned {
             (low, [low[0] + own_width, low[1] + own_height])

@@ -33,7 +33,8 @@ impl Headless {
     ///
     /// # Errors
     /// [`RenderError::Site`] names the first site that can't be sampled or has no place in the output,
-    /// [`RenderError::SiteMethod`] if the method is `msaa`; otherwise as [`Headless::render`].
+    /// [`RenderError::SiteMethod`] if the method is `msaa`, [`RenderError::SiteRegion`] if the settings have a region;
+    /// otherwise as [`Headless::render`].
     pub fn render_sites(
         &mut self,
         scene: &PreparedScene,
@@ -54,6 +55,9 @@ impl Headless {
                 settings.shading = Shading::Sample;
             }
             Method::None | Method::Superpixel => {}
+        }
+        if settings.region.is_some() {
+            return Err(RenderError::SiteRegion);
         }
         settings.check(self.gpu().limits())?;
         let count = u64::from(size[0]) * u64::from(size[1]);

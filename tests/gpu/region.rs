@@ -1,0 +1,171 @@
+//! A region of an image holds the numbers of the whole image.
+
+use gpc::render::{Headless, Method, PixelRect, RenderError, Rendered, Settings, Shading, Shadows};
+use gpc::scene::{AlphaMode, Material};
+
+use crate::scenes::ball_over_checker;
+use crate::stage::{Stage, camera, flat, on_gpu};
+
+const SIZE: [u32; 2] = [157, 113];
+
+/// Odd places and sizes, one of them a single pixel, one a column, and one all.
+const REGIONS: [([u32; 2], [u32; 2]); 6] = [
+    ([0, 0], [157, 113]),
+    ([17, 29], [61, 43]),
+    ([3, 50], [150, 5]),
+    ([79, 0], [1, 113]),
+    ([101, 71], [56, 42]),
+    ([88, 57], [1, 1]),
+];
+
+fn region(corner: [u32; 2], size: [u32; 2]) -> PixelRect {
+    PixelRect { corner, size }
+}
+
+/// A lit scene with wires, and a pane of glass before it.
+fn behind_glass() -> Stage {
+    let mut stage = ball_over_checker();
+    let glass = stage.materials.len();
+    stage.materials.push(Material {
+        double_sided: true,
+        ..flat([0.3, 0.6, 0.9, 0.4], AlphaMode::Blend)
+    });
+    stage.add_quad(
+        glass,
+        [
+            [-0.2, -0.5, -1.4],
+            [0.6, -0.45, -1.5],
+            [0.7, 0.5, -1.6],
+            [-0.1, 0.4, -1.5],
+        ],
+    );
+    stage
+}
+
+fn render(gpu: &mut Headless, stage: &Stage, settings: &Settings) -> Rendered {
+    let (scene, pose) = stage.build();
+    let prepared = gpu.upload(&scene, &pose, None).unwrap();
+    let mut frame = gpu.prepare(&prepared, settings).unwrap();
+    gpu.render(&mut frame, &camera()).unwrap()
+}
+
+/// The part of an image, row by row.
+fn part<T: Copy>(values: &[T], row: u32, region: PixelRect) -> Vec<T> {
+    let ([left, top], [width, height]) = (region.corner, region.size);
+    (top..top + height)
+        .flat_map(|y| {
+            let first = (y * row + left) as usize;
+            values[first..first + width as usize].iter().copied()
+        })
+        .collect()
+}
+
+fn assert_regions_are_parts(
+    gpu: &mut Headless,
+    stage: &Stage,
+    settings: &Settings,
+    regions: &[([u32; 2], [u32; 2])],
+    what: &str,
+) {
+    let whole = render(gpu, stage, settings);
+    let row = whole.size[0];
+    for (corner, size) in regions.iter().copied() {
+        let wanted = region(corner, size);
+        let settings = Settings {
+            region: Some(wanted),
+            ..settings.clone()
+        };
+        let image = render(gpu, stage, &settings);
+        assert_eq!(image.size, size);
+        assert!(
+            image.colors == part(&whole.colors, row, wanted),
+            "{what}: colours of {wanted:?}"
+        );
+        if settings.attributes {
+            assert!(
+                image.attributes == part(&whole.attributes, row, wanted),
+                "{what}: attributes of {wanted:?}"
+            );
+            let superpixels = |pixel: &gpc::render::PixelAttributes| pixel.superpixel == 1;
+            assert_eq!(
+                image.statistics.superpixels as usize,
+                image.attributes.iter().copied().filter(superpixels).count(),
+                "{what}: superpixels of {wanted:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_region_is_that_part_of_the_image() {
+    on_gpu(|gpu| {
+        let methods = [
+            (Method::None, 1, Shading::Part),
+            (Method::Superpixel, 16, Shading::Part),
+            (Method::Superpixel, 256, Shading::Sample),
+            (Method::Ssaa, 4, Shading::Part),
+            (Method::Msaa, 4, Shading::Part),
+        ];
+        for (name, stage) in [("ball", ball_over_checker()), ("glass", behind_glass())] {
+            for (method, samples, shading) in methods {
+                let settings = Settings {
+                    method,
+                    samples,
+                    shading,
+                    attributes: method != Method::Msaa,
+                    ..Settings::new(SIZE[0], SIZE[1])
+                };
+                let what = format!("{name}, {method:?} of {samples}");
+                assert_regions_are_parts(gpu, &stage, &settings, &REGIONS, &what);
+            }
+        }
+    });
+}
+
+/// A large image is drawn in parts, which a region may lie across.
+#[test]
+fn a_region_of_an_image_in_parts_is_that_part_of_it() {
+    on_gpu(|gpu| {
+        let stage = ball_over_checker();
+        let settings = Settings {
+            samples: 4,
+            ..Settings::new(2600, 1700)
+        };
+        let regions = [([1297, 801], [151, 203]), ([1299, 0], [3, 1700])];
+        assert_regions_are_parts(gpu, &stage, &settings, &regions, "in parts");
+        let across = Settings {
+            region: Some(region([1297, 801], [151, 203])),
+            ..settings
+        };
+        let parts = render(gpu, &stage, &across).statistics.regions;
+        assert!(parts > 1, "{parts} parts");
+    });
+}
+
+#[test]
+fn impossible_regions_are_refused() {
+    on_gpu(|gpu| {
+        let stage = ball_over_checker();
+        let prepared = stage.upload(gpu);
+        for (corner, size) in [
+            ([150, 0], [8, 8]),
+            ([0, 113], [1, 1]),
+            ([0, 0], [0, 4]),
+            ([1, 1], [u32::MAX, 1]),
+        ] {
+            let settings = Settings {
+                region: Some(region(corner, size)),
+                ..Settings::new(SIZE[0], SIZE[1])
+            };
+            let refused = gpu.prepare(&prepared, &settings).err().unwrap();
+            assert!(matches!(refused, RenderError::Region { .. }), "{refused}");
+        }
+        let settings = Settings {
+            region: Some(region([0, 0], [8, 8])),
+            shadows: Shadows::Exact,
+            ..Settings::new(SIZE[0], SIZE[1])
+        };
+        let refused = gpu.render_with_shadows(&prepared, &camera(), &settings);
+        assert!(matches!(refused, Err(RenderError::SiteRegion)));
+    });
+}
