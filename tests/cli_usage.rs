@@ -9,7 +9,7 @@ use cli_support::{asset, files, gpc};
 fn wrong_usage_exits_with_2_and_names_what_can_be_had() {
     let folder = tempfile::tempdir().unwrap();
     let letters = asset("letters.glb");
-    let cases: [(&[&str], &[&str]); 29] = [
+    let cases: [(&[&str], &[&str]); 36] = [
         (&[], &["Usage"]),
         (&["-o", "a.tga"], &[".png", ".16.png", ".jpg", ".exr"]),
         (&["-o", "a.png", "--size", "0x7"], &["1280x720"]),
@@ -59,6 +59,25 @@ fn wrong_usage_exits_with_2_and_names_what_can_be_had() {
         (&["-o", "a.png", "--turntable", "3"], &["{frame}"]),
         (&["-o", "a.png", "--frames", "0..4"], &["{frame}"]),
         (&["-o", "-", "--turntable", "3"], &["standard output"]),
+        (&["-o", "-", "--turntable", "3"], &["--format"]),
+        (&["-o", "a.png", "--format", "y4m"], &["-o -"]),
+        (
+            &["-o", "{frame}.png", "--turntable", "3", "--fps", "25"],
+            &["--fps", "--frames", "y4m"],
+        ),
+        (&["-o", "{frame}.png", "--shard", "1/2"], &["--turntable"]),
+        (
+            &["-o", "{frame}.png", "--turntable", "3", "--shard", "3/2"],
+            &["1/4"],
+        ),
+        (
+            &["-o", "a.png", "--turntable", "3", "--shard", "1/3"],
+            &["{frame}"],
+        ),
+        (
+            &["-o", "-", "--turntable", "3", "--shard", "1/3"],
+            &["makes no film"],
+        ),
         (&["-o", "{name}.png"], &["{stem}", "{camera}", "{frame}"]),
         (&["-o", "a.png", "--background", "red"], &["#rrggbb"]),
         (
@@ -152,6 +171,8 @@ fn help_lists_every_option_and_exit_code() {
         "frames",
         "fps",
         "turntable",
+        "shard",
+        "format",
     ] {
         assert!(help.contains(&format!("--{option}")), "--{option}");
     }

@@ -28,6 +28,35 @@ pub fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Frames a second.
+pub fn rate(text: &str) -> Result<f64, String> {
+    positive(text)
+        .ok()
+        .filter(|rate| (0.001..=1000.0).contains(rate))
+        .ok_or_else(|| "expected a number from 0.001 to 1000, such as 23.976".to_owned())
+}
+
+/// A share of a sequence.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    /// From 1 to `count`.
+    pub number: u32,
+    pub count: u32,
+}
+
+/// The I-th of N shares: `I/N`.
+pub fn shard(text: &str) -> Result<Shard, String> {
+    text.split_once('/')
+        .and_then(|(number, count)| {
+            Some(Shard {
+                number: number.parse().ok()?,
+                count: count.parse().ok()?,
+            })
+        })
+        .filter(|shard| (1..=shard.count).contains(&shard.number))
+        .ok_or_else(|| "expected I/N with I from 1 to N, such as 1/4".to_owned())
+}
+
 /// A field of view in degrees.
 pub fn field_of_view(text: &str) -> Result<f64, String> {
     match finite(text) {
@@ -156,6 +185,22 @@ mod tests {
         assert_eq!(size("1280x720"), Ok([1280, 720]));
         for wrong in ["1280", "0x5", "5x", "-1x5", "70000x1", "1x2x3", "1.5x2"] {
             assert!(size(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn rates_and_shards() {
+        assert_eq!(rate("29.97"), Ok(29.97));
+        let expected = Shard {
+            number: 4,
+            count: 4,
+        };
+        assert_eq!(shard("4/4"), Ok(expected));
+        for wrong in ["", "0/4", "5/4", "4", "-1/4", "1/0", "1/4/4", "a/b"] {
+            assert!(shard(wrong).is_err(), "{wrong}");
+        }
+        for wrong in ["0", "0.0001", "1001", "24/1"] {
+            assert!(rate(wrong).is_err(), "{wrong}");
         }
     }
 

@@ -104,8 +104,8 @@ enum Channels {
     Rgba,
 }
 
-/// sRGB code values from 0 to `top` with straight alpha; without alpha where all of them would be `top`.
-fn straight(picture: &Picture<'_>, top: u16) -> (Vec<u16>, Channels) {
+/// sRGB code values from 0 to `top` with straight alpha.
+pub(super) fn straight_codes(picture: &Picture<'_>, top: u16) -> Vec<[u16; 4]> {
     let scale = f64::from(top);
     let code = |[r, g, b, a]: &[f32; 4]| {
         let alpha = f64::from(*a);
@@ -117,7 +117,12 @@ fn straight(picture: &Picture<'_>, top: u16) -> (Vec<u16>, Channels) {
         };
         [color(*r), color(*g), color(*b), alpha_code]
     };
-    let codes: Vec<_> = picture.pixels().par_iter().map(code).collect();
+    picture.pixels().par_iter().map(code).collect()
+}
+
+/// The same, without alpha where all of it would be `top`.
+fn straight(picture: &Picture<'_>, top: u16) -> (Vec<u16>, Channels) {
+    let codes = straight_codes(picture, top);
     if codes.par_iter().all(|code| code[3] == top) {
         let colors = codes.iter().flat_map(|[r, g, b, _]| [*r, *g, *b]);
         (colors.collect(), Channels::Rgb)

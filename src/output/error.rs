@@ -26,6 +26,19 @@ pub enum OutputError {
         /// What the system said.
         source: std::io::Error,
     },
+    /// A frame of another size than the film's.
+    #[error(
+        "a frame of {} x {} pixels for a film of {} x {}", found[0], found[1], expected[0], expected[1]
+    )]
+    FrameSize {
+        /// Width and height of the frame.
+        found: [u32; 2],
+        /// Width and height of the film.
+        expected: [u32; 2],
+    },
+    /// Frames can't be passed on.
+    #[error("frames can't be written: {0}")]
+    Stream(#[source] std::io::Error),
     /// The file can't be read.
     #[error("{}: can't be read: {source}", path.display())]
     Read {

@@ -1,4 +1,5 @@
-//! Image files: encoding what was rendered, and decoding files to compare them.
+//! Image files: encoding what was rendered, and decoding files to compare them; and frames for an encoder of films:
+//! see [`VideoFormat`].
 //!
 //! Rendered colours are linear light with premultiplied alpha. What each format makes of them:
 //!
@@ -20,6 +21,7 @@ mod error;
 mod exr;
 mod format;
 mod text;
+mod video;
 mod write;
 
 pub use aov::{Aov, AovKind};
@@ -28,6 +30,7 @@ pub use encode::{encode, encode_aov, encode_rgb, encode_shares};
 pub use error::{OutputError, UnknownAov, UnknownFormat};
 pub use format::Format;
 pub use text::{add_text, find_text};
+pub use video::{VideoFormat, VideoWriter};
 pub use write::write_atomically;
 
 /// A rendered image: rows from the top, linear light, premultiplied alpha.

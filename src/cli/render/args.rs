@@ -2,9 +2,10 @@
 
 use super::image::ImageArgs;
 use crate::cli::report::ReportArgs;
-use crate::cli::values;
+use crate::cli::values::{self, Shard};
 use clap::{Args, ValueEnum};
 use glam::DVec3;
+use gpc::output::VideoFormat;
 use gpc::render::{Coverage, Detection, Footprint, Method, PixelRect, Settings, Shading, Shadows};
 use gpc::sampling::Pattern;
 use serde::Serialize;
@@ -26,6 +27,10 @@ pub struct RenderArgs {
     /// Image to write, or - for a PNG on standard output
     #[arg(short, long, value_name = "OUT")]
     pub output: PathBuf,
+    /// What -o - writes instead of a PNG: frames one after the other, for an encoder. y4m is YUV4MPEG2, BT.709 in limited
+    /// range, 4:4:4, over black where there is no background; raw is RGBA of 8 bits, sRGB with straight alpha
+    #[arg(long, value_name = "F")]
+    pub format: Option<Stream>,
 
     #[command(flatten)]
     pub image: ImageArgs,
@@ -143,12 +148,40 @@ pub struct SequenceArgs {
     /// Frames of the animation, both ends included
     #[arg(long, value_name = "A..B", value_parser = values::frames, conflicts_with_all = ["turntable", "time"])]
     pub frames: Option<RangeInclusive<u32>>,
-    /// Frames a second
-    #[arg(long, value_name = "F", default_value_t = 24.0, value_parser = values::positive, requires = "frames")]
-    pub fps: f64,
+    /// Frames a second [default: 24]
+    #[arg(long, value_name = "F", value_parser = values::rate)]
+    pub fps: Option<f64>,
     /// N images from all around, turning about the vertical axis through what the camera looks at
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub turntable: Option<u32>,
+    /// Render the I-th of N equal shares of the sequence alone: every N-th image from the I-th on, I from 1 to N
+    #[arg(long, value_name = "I/N", value_parser = values::shard)]
+    pub shard: Option<Shard>,
+}
+
+impl SequenceArgs {
+    const DEFAULT_FPS: f64 = 24.0;
+
+    /// Frames a second.
+    pub fn fps(&self) -> f64 {
+        self.fps.unwrap_or(Self::DEFAULT_FPS)
+    }
+}
+
+/// Values of `--format`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Stream {
+    Y4m,
+    Raw,
+}
+
+impl Stream {
+    pub fn format(self) -> VideoFormat {
+        match self {
+            Self::Y4m => VideoFormat::Y4m,
+            Self::Raw => VideoFormat::Raw,
+        }
+    }
 }
 
 /// Values of `--aa`.

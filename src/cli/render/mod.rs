@@ -17,6 +17,7 @@ pub use view::{View, choose as choose_views};
 
 use super::exit::usage;
 use super::input;
+use gpc::output::{Picture, VideoWriter};
 use gpc::render::{Settings, Shadows};
 use indicatif::{ProgressBar, ProgressStyle};
 use report::{Origin, Report};
@@ -48,8 +49,18 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
             );
         }
     }
+    sequence::check(args)?;
     let steps = sequence::steps(args)?;
-    template.require("frame", "frames", steps.len())?;
+    if args.format.is_none() {
+        template.require("frame", "frames", steps.len())?;
+    }
+    let steps = sequence::share(steps, args.sequence.shard);
+    if steps.is_empty() {
+        log::info!("there are fewer images than shares: none are left for this one");
+        let images = Vec::new();
+        args.report.print(&Sequence { images })?;
+        return Ok(ExitCode::SUCCESS);
+    }
 
     let loaded = input::load_variant(&args.scene, image.camera.variant.as_deref())?;
     let mut warnings = Warnings::default();
@@ -67,6 +78,13 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     let mut session = Session::new(image.device.clone(), settings.clone())?;
     let device = session.device();
     session.show(&loaded.scene, &pose)?;
+    let mut video = args
+        .format
+        .map(|stream| {
+            let (format, size) = (stream.format(), settings.output_size());
+            VideoWriter::new(std::io::stdout(), format, size, args.sequence.fps())
+        })
+        .transpose()?;
     let progress = progress(steps.len() * cameras, args.report.quiet);
     let mut images = Vec::new();
     for step in &steps {
@@ -84,7 +102,12 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
                 camera: &view.label,
                 frame: step.frame,
             });
-            save::save(&path, format, &shot.rendered, &aovs)?;
+            match &mut video {
+                Some(video) => {
+                    video.write(&Picture::new(shot.rendered.size, &shot.rendered.colors)?)?;
+                }
+                None => save::save(&path, format, &shot.rendered, &aovs)?,
+            }
             let origin = Origin {
                 output: path.display().to_string(),
                 device: &device,
@@ -104,7 +127,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
         anyhow::bail!("the validation layer says: {message}");
     }
     match images.as_slice() {
-        [image] => args.report.print(image)?,
+        [image] if args.sequence.shard.is_none() => args.report.print(image)?,
         _ => args.report.print(&Sequence { images })?,
     }
     Ok(ExitCode::SUCCESS)

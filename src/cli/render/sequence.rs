@@ -1,7 +1,9 @@
 //! The images of a sequence.
 
-use super::args::RenderArgs;
+use super::args::{RenderArgs, SequenceArgs, Stream};
 use crate::cli::exit::Usage;
+use crate::cli::input;
+use crate::cli::values::Shard;
 
 /// A moment or an angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,7 +18,43 @@ pub struct Step {
 
 const MAX_STEPS: u32 = 1_000_000;
 
-/// The steps that the options ask for, at least one.
+/// Refuses what makes no sense without a sequence, or with this one.
+pub fn check(args: &RenderArgs) -> Result<(), Usage> {
+    let SequenceArgs {
+        frames,
+        fps,
+        turntable,
+        shard,
+    } = &args.sequence;
+    let standard = input::is_standard(&args.output);
+    let refuse = |text: &str| Err(Usage(text.to_owned()));
+    if args.format.is_some() && !standard {
+        return refuse("--format: OUT's ending decides the format of files; say -o -");
+    }
+    if fps.is_some() && frames.is_none() && args.format != Some(Stream::Y4m) {
+        return refuse("--fps: it says when --frames A..B are, and the rate of --format y4m");
+    }
+    if shard.is_some() && frames.is_none() && turntable.is_none() {
+        return refuse("--shard: it divides --frames A..B or --turntable N");
+    }
+    if shard.is_some() && standard {
+        return refuse(
+            "--shard: every N-th frame makes no film; write files, such as -o {frame}.png",
+        );
+    }
+    Ok(())
+}
+
+/// The steps of a share: every N-th one, since those close to each other cost about the same.
+pub fn share(steps: Vec<Step>, shard: Option<Shard>) -> Vec<Step> {
+    let Some(Shard { number, count }) = shard else {
+        return steps;
+    };
+    let (first, count) = (number as usize - 1, count as usize);
+    steps.into_iter().skip(first).step_by(count).collect()
+}
+
+/// The steps of the whole sequence that the options ask for, at least one.
 pub fn steps(args: &RenderArgs) -> Result<Vec<Step>, Usage> {
     let time = args.image.camera.time;
     let still = Step {
@@ -28,7 +66,7 @@ pub fn steps(args: &RenderArgs) -> Result<Vec<Step>, Usage> {
         if frames.end() - frames.start() >= MAX_STEPS {
             return Err(Usage(format!("--frames: at most {MAX_STEPS} at once")));
         }
-        let fps = args.sequence.fps;
+        let fps = args.sequence.fps();
         let step = |frame| Step {
             frame,
             time: f64::from(frame) / fps,

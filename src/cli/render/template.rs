@@ -43,7 +43,9 @@ impl Template {
             return Ok(());
         }
         Err(Usage(if self.0 == "-" {
-            format!("-o -: standard output takes one image, not {count} {what}")
+            format!(
+                "-o -: standard output takes one image, not {count} {what}; with --format y4m or raw it takes frames"
+            )
         } else {
             format!(
                 "-o {}: add {placeholder} to it, for there are {count} {what}",

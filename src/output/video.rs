@@ -1,0 +1,186 @@
+//! Frames one after the other, for the standard input of an encoder.
+
+use super::encode::straight_codes;
+use super::{OutputError, Picture};
+use crate::reference::srgb;
+use rayon::prelude::*;
+use std::io::{self, Write};
+
+/// How frames are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum VideoFormat {
+    /// YUV4MPEG2: a line that says size and rate, and Y', Cb and Cr planes of 8 bits, 4:4:4. The codes are those of
+    /// BT.709 in limited range (Y' from 16 to 235, Cb and Cr from 16 to 240), made of sRGB-encoded colours over black.
+    Y4m,
+    /// RGBA of 8 bits a channel, sRGB-encoded, with straight alpha, and nothing else.
+    Raw,
+}
+
+/// Writes frames of one size.
+pub struct VideoWriter<W: Write> {
+    out: W,
+    format: VideoFormat,
+    size: [u32; 2],
+}
+
+impl<W: Write> VideoWriter<W> {
+    /// Begins a film of `size` = width and height in pixels and of `rate` frames a second, which raw frames don't tell.
+    /// Rates that are no whole number are written in millionths, but those of NTSC, such as 23.976 and 29.97, as
+    /// 24000:1001 and 30000:1001.
+    ///
+    /// # Errors
+    /// What `out` says.
+    pub fn new(mut out: W, format: VideoFormat, size: [u32; 2], rate: f64) -> io::Result<Self> {
+        if format == VideoFormat::Y4m {
+            let [width, height] = size;
+            let (number, of) = ratio(rate);
+            writeln!(
+                out,
+                "YUV4MPEG2 W{width} H{height} F{number}:{of} Ip A1:1 C444 XCOLORRANGE=LIMITED"
+            )?;
+        }
+        Ok(Self { out, format, size })
+    }
+
+    /// Writes a frame, and sees to it that it is passed on at once.
+    ///
+    /// # Errors
+    /// [`OutputError::FrameSize`] if the picture has another size, [`OutputError::Stream`] if `out` fails.
+    pub fn write(&mut self, picture: &Picture<'_>) -> Result<(), OutputError> {
+        if picture.size() != self.size {
+            return Err(OutputError::FrameSize {
+                found: picture.size(),
+                expected: self.size,
+            });
+        }
+        let bytes = match self.format {
+            VideoFormat::Y4m => y4m_frame(picture),
+            VideoFormat::Raw => {
+                let codes = straight_codes(picture, u8::MAX.into()).into_flattened();
+                codes.into_iter().map(|code| code as u8).collect()
+            }
+        };
+        self.out
+            .write_all(&bytes)
+            .and_then(|()| self.out.flush())
+            .map_err(OutputError::Stream)
+    }
+}
+
+/// `FRAME` and the three planes.
+fn y4m_frame(picture: &Picture<'_>) -> Vec<u8> {
+    // Premultiplied colour is colour over black.
+    let code = |[r, g, b, _]: &[f32; 4]| bt709([*r, *g, *b].map(|v| srgb::encode(f64::from(v))));
+    let codes: Vec<_> = picture.pixels().par_iter().map(code).collect();
+    let mut bytes = b"FRAME\n".to_vec();
+    for plane in 0..3 {
+        bytes.extend(codes.iter().map(|code| code[plane]));
+    }
+    bytes
+}
+
+/// Y', Cb and Cr in 8 bits of limited range, by ITU-R BT.709-6, of gamma-encoded R', G' and B' of 0 to 1. They are rounded
+/// once, from colours that have not been rounded.
+fn bt709([r, g, b]: [f64; 3]) -> [u8; 3] {
+    let luma = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    let chroma = |difference: f64, range: f64| 128.0 + 224.0 * difference / range;
+    [
+        16.0 + 219.0 * luma,
+        chroma(b - luma, 1.8556),
+        chroma(r - luma, 1.5748),
+    ]
+    .map(|code| code.round() as u8)
+}
+
+/// Frames a second as a fraction.
+fn ratio(rate: f64) -> (u64, u64) {
+    const MILLION: u64 = 1_000_000;
+    let whole = (rate * 1.001).round();
+    if rate.fract() != 0.0 && (rate - whole / 1.001).abs() < 5e-4 {
+        return (whole as u64 * 1000, 1001);
+    }
+    let number = (rate * MILLION as f64).round() as u64;
+    let divisor = greatest_common_divisor(number, MILLION).max(1);
+    (number / divisor, MILLION / divisor)
+}
+
+fn greatest_common_divisor(a: u64, b: u64) -> u64 {
+    if b == 0 {
+        a
+    } else {
+        greatest_common_divisor(b, a % b)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The bars of a test picture, whose codes ITU-R BT.709 and everyone's measuring devices agree on.
+    #[test]
+    fn colour_bars_have_their_codes() {
+        let bars = [
+            ([1.0, 1.0, 1.0], [235, 128, 128]),
+            ([1.0, 1.0, 0.0], [219, 16, 138]),
+            ([0.0, 1.0, 1.0], [188, 154, 16]),
+            ([0.0, 1.0, 0.0], [173, 42, 26]),
+            ([1.0, 0.0, 1.0], [78, 214, 230]),
+            ([1.0, 0.0, 0.0], [63, 102, 240]),
+            ([0.0, 0.0, 1.0], [32, 240, 118]),
+            ([0.0, 0.0, 0.0], [16, 128, 128]),
+        ];
+        for (color, codes) in bars {
+            assert_eq!(bt709(color), codes, "{color:?}");
+        }
+    }
+
+    /// Decoding by the inverse matrix finds each colour within what half a code of each channel makes of it.
+    #[test]
+    fn codes_are_the_nearest() {
+        let steps = || (0..=20).map(|step| f64::from(step) / 20.0);
+        for (r, g, b) in
+            steps().flat_map(|r| steps().flat_map(move |g| steps().map(move |b| (r, g, b))))
+        {
+            let [y, cb, cr] = bt709([r, g, b]).map(f64::from);
+            let luma = (y - 16.0) / 219.0;
+            let red = luma + 1.5748 * (cr - 128.0) / 224.0;
+            let blue = luma + 1.8556 * (cb - 128.0) / 224.0;
+            let green = (luma - 0.2126 * red - 0.0722 * blue) / 0.7152;
+            let half = 0.5 / 219.0;
+            assert!((red - r).abs() <= half + 1.5748 * 0.5 / 224.0 + 1e-12);
+            assert!((blue - b).abs() <= half + 1.8556 * 0.5 / 224.0 + 1e-12);
+            let both = 0.2126 * 1.5748 + 0.0722 * 1.8556;
+            assert!((green - g).abs() <= half + both / 0.7152 * 0.5 / 224.0 + 1e-12);
+        }
+    }
+
+    #[test]
+    fn rates_are_fractions() {
+        for (rate, expected) in [
+            (24.0, (24, 1)),
+            (12.5, (25, 2)),
+            (23.976, (24_000, 1001)),
+            (29.97, (30_000, 1001)),
+            (59.94, (60_000, 1001)),
+            (0.1, (1, 10)),
+            (29.9, (299, 10)),
+        ] {
+            assert_eq!(ratio(rate), expected, "{rate}");
+        }
+    }
+
+    #[test]
+    fn frames_have_the_films_size() {
+        let mut out = Vec::new();
+        let mut writer = VideoWriter::new(&mut out, VideoFormat::Raw, [2, 1], 24.0).unwrap();
+        let pixels = [[1.0, 0.25, 0.0, 1.0], [0.25, 0.0, 0.0, 0.5]];
+        writer
+            .write(&Picture::new([2, 1], &pixels).unwrap())
+            .unwrap();
+        let refused = writer.write(&Picture::new([1, 2], &pixels).unwrap());
+        assert!(matches!(refused, Err(OutputError::FrameSize { .. })));
+        let half = srgb::encode_u8(0.5);
+        let quarter = srgb::encode_u8(0.25);
+        assert_eq!(out, [255, quarter, 0, 255, half, 0, 0, 128]);
+    }
+}
