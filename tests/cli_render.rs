@@ -102,6 +102,36 @@ fn json_holds_the_figures_of_the_image() {
 }
 
 #[test]
+fn json_says_where_the_time_to_the_first_image_went() {
+    let folder = tempfile::tempdir().unwrap();
+    let options = ["-o", "{frame}.png", "--size", "96x54", "--turntable", "2"];
+    let run = render(
+        folder.path(),
+        "glass",
+        &[&options[..], &["--json"]].concat(),
+    );
+    let images = run.ok().json()["images"].clone();
+    let steps: std::collections::BTreeMap<String, f64> =
+        serde_json::from_value(images[0]["startup_ms"].clone()).unwrap();
+    let names: Vec<&str> = steps.keys().map(String::as_str).collect();
+    let expected = [
+        "device",
+        "frame",
+        "load",
+        "pipelines",
+        "pose",
+        "total",
+        "upload",
+        "write",
+    ];
+    assert_eq!(names, expected);
+    let sum: f64 = steps.values().sum::<f64>() - steps["total"];
+    assert!((sum - steps["total"]).abs() < 1.0, "{steps:?}");
+    assert!(steps["frame"] > 0.0 && steps["load"] > 0.0, "{steps:?}");
+    assert_eq!(images[1]["startup_ms"], Value::Null);
+}
+
+#[test]
 fn the_camera_in_json_is_the_one_that_was_used() {
     let folder = tempfile::tempdir().unwrap();
     let view = [

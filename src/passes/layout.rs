@@ -161,16 +161,17 @@ impl FrameLayout {
         make: impl FnOnce() -> Result<Pipeline, VulkanError>,
     ) -> Result<Arc<Pipeline>, VulkanError> {
         let key = (code.as_ptr() as usize, constants.clone(), variant);
-        let mut known = self
-            .pipelines
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner);
-        if let Some(pipeline) = known.get(&key) {
+        let known = || {
+            self.pipelines
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+        };
+        if let Some(pipeline) = known().get(&key) {
             return Ok(pipeline.clone());
         }
-        let pipeline = Arc::new(make()?);
-        known.insert(key, pipeline.clone());
-        Ok(pipeline)
+        // Not under the lock, so that several threads make theirs at once.
+        let made = Arc::new(make()?);
+        Ok(known().entry(key).or_insert(made).clone())
     }
 
     /// A pool for `frames` sets 0 and `bins` sets 1.

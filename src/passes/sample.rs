@@ -40,6 +40,9 @@ pub struct SampleOptions {
     pub can_settle: bool,
     /// Whether a subgroup takes a block of one cell, for lists that are too long to take several.
     pub apart: bool,
+    /// Whether tiles whose list outgrew its buffer are sampled, by a kernel that tries every triangle. Without it they are
+    /// left, and counted.
+    pub unlisted: bool,
     /// Whether the scene has MASK triangles.
     pub has_mask: bool,
     /// Whether the scene has BLEND triangles.
@@ -153,9 +156,14 @@ impl Sample {
         let mut kernels = listed(if probes { Run::Probe } else { Run::Whole })?;
         if options.has_blend {
             kernels.push(whole(TileList::Blended, &CHAINED)?);
-            kernels.push(whole(TileList::Unlisted, &CHAINED_UNLISTED)?);
-        } else {
-            kernels.push(whole(TileList::Unlisted, &UNLISTED)?);
+        }
+        if options.unlisted {
+            let unlisted = if options.has_blend {
+                &CHAINED_UNLISTED
+            } else {
+                &UNLISTED
+            };
+            kernels.push(whole(TileList::Unlisted, unlisted)?);
         }
         let rest = if probes {
             listed(Run::Rest)?
@@ -219,7 +227,7 @@ impl Sample {
         }
     }
 
-    /// The lists that the scene can fill.
+    /// The lists that are sampled.
     pub fn lists(&self) -> impl Iterator<Item = TileList> + '_ {
         self.kernels.iter().map(|(list, _)| *list)
     }

@@ -47,37 +47,51 @@ impl Engine {
         output: &Constants,
         kind: &EngineKind,
     ) -> Result<Self, RenderError> {
-        let sample = Sample::new(
-            layout,
-            &SampleOptions {
-                cells: Cells::Pixels,
-                samples: kind.samples,
-                records: record_rate(settings, scene),
-                exact_areas: settings.coverage == Coverage::Area && kind.samples > 1,
-                can_settle: can_settle(settings, scene),
-                apart: plan.effort.apart,
-                has_mask: scene.has_mask(),
-                has_blend: scene.has_blend(),
-            },
-        )?;
-        Ok(Self {
-            thin: kind
-                .thin
-                .then(|| Thin::new(layout, scene.has_blend()))
-                .transpose()?,
-            detect: Detect::new(
+        let options = SampleOptions {
+            cells: Cells::Pixels,
+            samples: kind.samples,
+            records: record_rate(settings, scene),
+            exact_areas: settings.coverage == Coverage::Area && kind.samples > 1,
+            can_settle: can_settle(settings, scene),
+            apart: plan.effort.apart,
+            unlisted: plan.effort.unlisted,
+            has_mask: scene.has_mask(),
+            has_blend: scene.has_blend(),
+        };
+        let thin = || kind.thin.then(|| Thin::new(layout, scene.has_blend()));
+        let detect = || {
+            Detect::new(
                 layout,
                 kind.mode,
                 scene.has_blend(),
                 kind.thin,
                 settings.background.is_none(),
                 kind.multisampled,
-            )?,
-            cull: Cull::new(layout)?,
-            bin: Bin::new(layout)?,
+            )
+        };
+        // The kernels of `sample` take about as long to make as all others.
+        let (sample, others) = rayon::join(
+            || Sample::new(layout, &options),
+            || {
+                Ok::<_, RenderError>((
+                    thin().transpose()?,
+                    detect()?,
+                    Cull::new(layout)?,
+                    Bin::new(layout)?,
+                    Setup::new(layout)?,
+                    Sort::new(layout, scene.bin_count() == 1)?,
+                ))
+            },
+        );
+        let (sample, (thin, detect, cull, bin, setup, sort)) = (sample?, others?);
+        Ok(Self {
+            thin,
+            detect,
+            cull,
+            bin,
             schedule: Schedule::new(layout, &sample, plan.layers)?,
-            setup: Setup::new(layout)?,
-            sort: Sort::new(layout, scene.bin_count() == 1)?,
+            setup,
+            sort,
             shade: shade.clone(),
             resolve: Resolve::new(
                 layout,

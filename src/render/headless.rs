@@ -225,7 +225,7 @@ impl Headless {
         let scene = &scene.gpu_scene;
         self.check(scene)?;
         self.renderer
-            .prepare_with(scene, settings, None, Effort::default(), beside)
+            .prepare_with(scene, settings, None, Effort::least(), beside)
     }
 
     /// Renders a frame and waits for it. Where its records outgrow its memory it is prepared again with more

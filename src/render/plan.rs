@@ -89,6 +89,8 @@ pub(super) struct Effort {
     pub lists: u32,
     /// Whether a subgroup samples one cell at a time.
     pub apart: bool,
+    /// Whether there is a kernel for tiles whose list outgrows its buffer.
+    pub unlisted: bool,
 }
 
 impl Effort {
@@ -100,6 +102,14 @@ impl Effort {
         }
     }
 
+    /// With the kernels that most frames need alone: compiling one for tiles without a list may take longer than a frame.
+    pub fn least() -> Self {
+        Self {
+            unlisted: false,
+            ..Self::default()
+        }
+    }
+
     /// Twice as much of what a frame lacked.
     pub fn more(self, shortfall: Shortfall) -> Self {
         let factor = |lacked: bool| if lacked { 2 } else { 1 };
@@ -107,8 +117,9 @@ impl Effort {
         Self {
             rounds: self.rounds * factor(crowded || shortfall.waiting > 0),
             layers: self.layers * factor(crowded),
-            lists: self.lists * factor(crowded || shortfall.stalled > 0),
+            lists: self.lists * factor(crowded || shortfall.stalled + shortfall.unlisted > 0),
             apart: self.apart || shortfall.stalled > 0,
+            unlisted: self.unlisted || shortfall.unlisted > 0,
         }
     }
 
@@ -125,6 +136,7 @@ impl Default for Effort {
             layers: 4,
             lists: 1,
             apart: false,
+            unlisted: true,
         }
     }
 }

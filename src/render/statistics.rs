@@ -126,22 +126,27 @@ pub(super) struct Shortfall {
     pub crowded: u64,
     /// Cells with more candidates than loops may have trips.
     pub stalled: u64,
+    /// Tiles without a list, where no kernel is made for them.
+    pub unlisted: u64,
 }
 
 impl Shortfall {
-    /// Adds a run of the sampling passes over `tiles` tiles.
-    pub fn add(&mut self, counters: &[u32], tiles: u32) {
+    /// Adds a run of the sampling passes over `tiles` tiles, which sampled those without a list or left them.
+    pub fn add(&mut self, counters: &[u32], tiles: u32, samples_unlisted: bool) {
         let get = |counter: Counter| counters.get(counter as usize).copied().unwrap_or(0);
         if get(Counter::Tiles) != 0 {
             self.waiting += u64::from(tiles.saturating_sub(get(Counter::NextTile)));
         }
         self.crowded += u64::from(get(Counter::Unfinished));
         self.stalled += u64::from(get(Counter::Stalled));
+        if !samples_unlisted {
+            self.unlisted += u64::from(get(Counter::UnlistedTotal));
+        }
     }
 
     /// Fails where anything is left.
     pub fn check(&self) -> Result<(), RenderError> {
-        match self.waiting + self.crowded + self.stalled {
+        match self.waiting + self.crowded + self.stalled + self.unlisted {
             0 => Ok(()),
             cells => Err(RenderError::Unfinished { cells }),
         }

@@ -223,3 +223,35 @@ fn memory_does_not_matter() {
         }
     });
 }
+
+/// Lists that outgrow their memory leave tiles without one. The frame is then made again with a kernel that tries every
+/// triangle in such tiles, and, as it is rendered again, with longer lists: neither shows.
+#[test]
+fn tiles_without_a_list_are_sampled_all_the_same() {
+    on_gpu(|gpu| {
+        let size = [128, 96];
+        for blend in [0, 8] {
+            let mut stage = soup(5, size, 1, 0);
+            let mut random = Random::new(6);
+            for index in 0..600 {
+                let corners = [0; 3].map(|_| {
+                    let place = [0; 2].map(|_| random.range(-90.0, 90.0));
+                    seen_at(place, random.range(1.0, 9.0), size[1])
+                });
+                let material = if index + blend < 600 { index % 16 } else { 16 };
+                stage.add(material, corners);
+            }
+            let settings = everywhere(size, Pattern::Sobol, 16);
+            let prepared = stage.upload(gpu);
+            let mut frame = gpu.prepare(&prepared, &settings).unwrap();
+            let first = gpu.render(&mut frame, &camera()).unwrap();
+            assert!(first.statistics.unlisted_tiles > 0, "{blend} BLEND");
+            let listed = (0..8).find(|_| {
+                let again = gpu.render(&mut frame, &camera()).unwrap();
+                assert_same(&first, &again, "longer lists");
+                again.statistics.unlisted_tiles == 0
+            });
+            assert!(listed.is_some(), "lists never grew long enough");
+        }
+    });
+}

@@ -6,6 +6,7 @@ mod report;
 mod save;
 mod sequence;
 mod session;
+mod startup;
 mod template;
 mod view;
 
@@ -15,14 +16,16 @@ pub use save::{beside, encode, save, write};
 pub use session::{Shot, open, upload};
 pub use view::{View, choose as choose_views};
 
-use super::exit::usage;
+use super::exit::{Usage, usage};
 use super::input;
-use gpc::output::{Picture, VideoWriter};
+use gpc::output::{Format, Picture, VideoWriter};
 use gpc::render::{Settings, Shadows};
 use indicatif::{ProgressBar, ProgressStyle};
 use report::{Origin, Report};
+use sequence::Step;
 use serde::Serialize;
 use session::Session;
+use startup::Clock;
 use std::process::ExitCode;
 use template::{Fields, Template};
 
@@ -33,51 +36,44 @@ struct Sequence {
 }
 
 pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
+    let mut clock = Clock::start();
     let template = Template::new(&args.output)?;
-    args.report.check(&args.output)?;
+    let (format, settings) = settings(args)?;
+    let steps = steps(args, &template)?;
     let image = &args.image;
-    let format = image.format(&args.output)?;
-    let settings = Settings {
-        region: args.region,
-        ..image.settings(format)
-    };
-    if let Some(region) = args.region {
-        region.end(settings.size)?;
-        if settings.shadows == Shadows::Exact {
-            usage!(
-                "--region: exact shadows are those of a whole image; leave out one of --region and --shadows"
-            );
-        }
-    }
-    sequence::check(args)?;
-    let steps = sequence::steps(args)?;
-    if args.format.is_none() {
-        template.require("frame", "frames", steps.len())?;
-    }
-    let steps = sequence::share(steps, args.sequence.shard);
-    if steps.is_empty() {
+    let Some(first) = steps.first() else {
         log::info!("there are fewer images than shares: none are left for this one");
         let images = Vec::new();
         args.report.print(&Sequence { images })?;
         return Ok(ExitCode::SUCCESS);
-    }
-
-    let loaded = input::load_variant(&args.scene, image.camera.variant.as_deref())?;
-    let mut warnings = Warnings::default();
-    warnings.add(&loaded.warnings);
+    };
     let aspect = f64::from(settings.size[0]) / f64::from(settings.size[1]);
     let aovs = image.aovs();
     let stem = input::stem(&args.scene);
 
-    let mut time = steps.first().map_or(0.0, |step| step.time);
-    let mut pose = image.pose(&loaded, time)?;
-    warnings.add(&pose.warnings);
-    let cameras = view::choose(&image.camera, &pose, aspect)?.len();
-    template.require("camera", "cameras", cameras)?;
-
-    let mut session = Session::new(image.device.clone(), settings.clone())?;
+    let mut warnings = Warnings::default();
+    let mut time = first.time;
+    let (posed, headless) = std::thread::scope(|threads| {
+        let headless = threads.spawn(|| session::open(image.device.clone()));
+        let mut load = || -> anyhow::Result<_> {
+            let loaded = input::load_variant(&args.scene, image.camera.variant.as_deref())?;
+            clock.lap("load");
+            warnings.add(&loaded.warnings);
+            let pose = image.pose(&loaded, time)?;
+            warnings.add(&pose.warnings);
+            let cameras = view::choose(&image.camera, &pose, aspect)?.len();
+            template.require("camera", "cameras", cameras)?;
+            clock.lap("pose");
+            Ok((loaded, pose, cameras))
+        };
+        (load(), headless.join())
+    });
+    let (loaded, mut pose, cameras) = posed?;
+    let headless = headless.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
+    clock.lap("device");
+    let mut session = Session::new(headless, settings.clone());
     let device = session.device();
-    session.show(&loaded.scene, &pose)?;
+    session.show(&loaded.scene, &pose, &mut clock)?;
     let mut video = args
         .format
         .map(|stream| {
@@ -92,11 +88,12 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
             time = step.time;
             pose = image.pose(&loaded, time)?;
             warnings.add(&pose.warnings);
-            session.show(&loaded.scene, &pose)?;
+            session.show(&loaded.scene, &pose, &mut clock)?;
         }
         for view in view::choose(&image.camera, &pose, aspect)? {
             let camera = view.turned(step.turn);
             let shot = session.shoot(&camera, args.repeat)?;
+            clock.lap("frame");
             let path = template.fill(&Fields {
                 stem: &stem,
                 camera: &view.label,
@@ -108,12 +105,14 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
                 }
                 None => save::save(&path, format, &shot.rendered, &aovs)?,
             }
+            clock.lap("write");
             let origin = Origin {
                 output: path.display().to_string(),
                 device: &device,
                 settings: &settings,
                 view: &view,
                 camera: &camera,
+                startup: clock.finish().filter(|_| args.repeat.is_none()),
                 warnings: warnings.0.clone(),
             };
             let report = Report::new(origin, &shot);
@@ -131,6 +130,35 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
         _ => args.report.print(&Sequence { images })?,
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// How to render, and in what format, or why that can't be.
+fn settings(args: &RenderArgs) -> anyhow::Result<(Format, Settings)> {
+    args.report.check(&args.output)?;
+    let format = args.image.format(&args.output)?;
+    let settings = Settings {
+        region: args.region,
+        ..args.image.settings(format)
+    };
+    if let Some(region) = args.region {
+        region.end(settings.size)?;
+        if settings.shadows == Shadows::Exact {
+            usage!(
+                "--region: exact shadows are those of a whole image; leave out one of --region and --shadows"
+            );
+        }
+    }
+    Ok((format, settings))
+}
+
+/// The images of the sequence, or of the share of it that is asked for.
+fn steps(args: &RenderArgs, template: &Template) -> Result<Vec<Step>, Usage> {
+    sequence::check(args)?;
+    let steps = sequence::steps(args)?;
+    if args.format.is_none() {
+        template.require("frame", "frames", steps.len())?;
+    }
+    Ok(sequence::share(steps, args.sequence.shard))
 }
 
 /// Counts images on standard error where that is a terminal.

@@ -1,6 +1,7 @@
 //! What is said of an image.
 
 use super::session::Shot;
+use super::startup::StartUp;
 use super::view::View;
 use crate::cli::report::{Device, Effort, Work};
 use gpc::camera::{Camera, Projection};
@@ -21,6 +22,9 @@ pub struct Report {
     camera: CameraReport,
     #[serde(flatten)]
     effort: Effort,
+    /// Of the first image, unless renderings are repeated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    startup_ms: Option<StartUp>,
     warnings: Vec<String>,
 }
 
@@ -53,6 +57,7 @@ pub struct Origin<'a> {
     pub view: &'a View,
     /// The view's camera as it was turned.
     pub camera: &'a Camera,
+    pub startup: Option<StartUp>,
     pub warnings: Vec<String>,
 }
 
@@ -78,6 +83,7 @@ impl Report {
                     wall_ms: &shot.wall_ms,
                 },
             ),
+            startup_ms: origin.startup,
             warnings: origin.warnings,
         }
     }

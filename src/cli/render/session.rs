@@ -1,5 +1,6 @@
 //! A device with one scene on it, rendering image after image.
 
+use super::startup::Clock;
 use crate::cli::report::Device;
 use gpc::camera::Camera;
 use gpc::render::{
@@ -57,13 +58,13 @@ pub fn upload(
 }
 
 impl Session {
-    /// Opens a device by part of its name, or the best one.
-    pub fn new(device: Option<String>, settings: Settings) -> Result<Self, VulkanError> {
-        Ok(Self {
-            headless: open(device)?,
+    /// In a device.
+    pub fn new(headless: Headless, settings: Settings) -> Self {
+        Self {
+            headless,
             settings,
             shown: None,
-        })
+        }
     }
 
     /// The device.
@@ -71,15 +72,22 @@ impl Session {
         Device::of(&self.headless)
     }
 
-    /// Puts a pose on the device in place of the one before.
-    pub fn show(&mut self, scene: &Scene, pose: &Pose) -> Result<(), RenderError> {
+    /// Puts a pose on the device in place of the one before, and makes pipelines for it.
+    pub fn show(
+        &mut self,
+        scene: &Scene,
+        pose: &Pose,
+        clock: &mut Clock,
+    ) -> Result<(), RenderError> {
         // The memory of the pose before is free for this one.
         self.shown = None;
         let scene = upload(&mut self.headless, scene, pose, &self.settings)?;
+        clock.lap("upload");
         let frame = match self.settings.shadows {
             Shadows::None => Some(self.headless.prepare(&scene, &self.settings)?),
             Shadows::Exact => None,
         };
+        clock.lap("pipelines");
         self.shown = Some(Shown { scene, frame });
         Ok(())
     }

@@ -8,13 +8,14 @@ use crate::render::{PassTime, RenderError, Statistics};
 impl Frame {
     /// What the last frame could not finish.
     pub(in crate::render) fn shortfall(&self) -> Result<Shortfall, RenderError> {
+        let unlisted = self.plan.effort.unlisted;
         let mut shortfall = Shortfall::default();
         for (tiles, blended, superpixels) in self.counted()? {
             if self.passes.blended.is_some() {
-                shortfall.add(blended, tiles);
+                shortfall.add(blended, tiles, unlisted);
             }
             if self.passes.superpixels.is_some() {
-                shortfall.add(superpixels, tiles);
+                shortfall.add(superpixels, tiles, unlisted);
             }
         }
         Ok(shortfall)

@@ -64,18 +64,20 @@ impl Passes {
         let compares = !matches!(settings.detection, Detection::Exact | Detection::Every);
         let by_part = record_rate(settings, scene) == RecordRate::Part;
         let display_codes = antialiased && (compares || by_part);
-        let pixels = (!multisampled)
-            .then(|| -> Result<_, RenderError> {
-                let source = ShadeSource::Pixels { display_codes };
-                Ok(PixelShading {
-                    spans: Spans::new(layout, one_bin)?,
-                    shade: Shade::new(layout, scene, source, &output)?,
-                })
+        let pixels = || -> Result<_, RenderError> {
+            let source = ShadeSource::Pixels { display_codes };
+            Ok(PixelShading {
+                spans: Spans::new(layout, one_bin)?,
+                shade: Shade::new(layout, scene, source, &output)?,
             })
-            .transpose()?;
-        let shading = (scene.has_blend() || antialiased || multisampled)
-            .then(|| Engine::shading(layout, scene, &output))
-            .transpose()?;
+        };
+        let shading = || Engine::shading(layout, scene, &output);
+        let shades_records = scene.has_blend() || antialiased || multisampled;
+        let (pixels, shading) = rayon::join(
+            || (!multisampled).then(pixels).transpose(),
+            || shades_records.then(shading).transpose(),
+        );
+        let (pixels, shading) = (pixels?, shading?);
         let engine = |wanted: bool, kind: EngineKind| {
             shading
                 .as_ref()

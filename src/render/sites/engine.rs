@@ -110,6 +110,7 @@ impl SiteEngine {
             exact_areas: settings.coverage == Coverage::Area && settings.samples > 1 && !points,
             can_settle: can_settle(settings, scene),
             apart,
+            unlisted: true,
             has_mask: scene.has_mask(),
             has_blend: scene.has_blend(),
         };
@@ -275,7 +276,7 @@ impl SiteEngine {
     /// What the last run could not finish.
     pub fn shortfall(&self, window: &Window) -> Result<Shortfall, VulkanError> {
         let mut shortfall = Shortfall::default();
-        shortfall.add(self.counted()?, window.tile_count());
+        shortfall.add(self.counted()?, window.tile_count(), true);
         Ok(shortfall)
     }
 
