@@ -2,88 +2,49 @@
 // Sources: PIXELS (the centres of the pixels of a span, by the IDs of raster) or visibility records at their location
 // in a pixel or in the cell of a site (SITES), whose Jacobian then sets the footprint.
 // Reads: shade_order, ids or records, the geometry, textures. Writes: color and display, or shaded.
-// Linear light throughout. A texture is read once, at the level that its sampler chooses, or (BOX_FILTER) averaged over the
-// square that a place stands for: at several places along the longer side that the square has in the texture.
+// Linear light throughout. TRANSMISSION: what a layer lets through is a tint.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/color.glsl"
-#include "include/barycentric.glsl"
-#include "include/brdf.glsl"
-#include "include/material.glsl"
 #include "include/studio.glsl"
 #include "include/tiles.glsl"
 #include "include/sites.glsl"
 #include "include/place.glsl"
 #include "include/triangle.glsl"
+#include "include/tint.glsl"
+#include "include/texture.glsl"
 layout(local_size_x = 64) in;
 
 layout(constant_id = 0) const bool PIXELS = false;
 layout(constant_id = 1) const bool ONE_BIN = false;
 layout(constant_id = 2) const bool DISPLAY_CODES = false;
-layout(constant_id = 3) const bool BASE_COLOR_TEXTURE = false;
-layout(constant_id = 4) const bool METALLIC_ROUGHNESS_TEXTURE = false;
-layout(constant_id = 5) const bool NORMAL_TEXTURE = false;
-layout(constant_id = 6) const bool OCCLUSION_TEXTURE = false;
-layout(constant_id = 7) const bool EMISSIVE_TEXTURE = false;
 layout(constant_id = 8) const bool VERTEX_COLORS = false;
 layout(constant_id = 9) const bool UNLIT = false;
 layout(constant_id = 10) const bool PUNCTUAL = false;   // the scene has lights
 layout(constant_id = 11) const bool LOCAL_LIGHTS = false; // point or spot lights among them
 layout(constant_id = 12) const bool BLENDED = false;    // opacity is used
-layout(constant_id = 13) const bool PACKED_OCCLUSION = false;   // in the red channel of the metallic-roughness texture
-layout(constant_id = 14) const bool ONE_UV_TRANSFORM = false;   // and UV set, for all textures
-layout(constant_id = 15) const bool BOX_FILTER = false; // textures are filtered over the square that a place stands for, along both of its axes
+layout(constant_id = 32) const bool SPECULAR = false;   // this and what follows: of the materials
+layout(constant_id = 33) const bool CLEARCOAT = false;
+layout(constant_id = 34) const bool SHEEN = false;
+layout(constant_id = 35) const bool ANISOTROPY = false;
+layout(constant_id = 36) const bool IRIDESCENCE = false;
+layout(constant_id = 37) const bool DIFFUSE_TRANSMISSION = false;
+layout(constant_id = 38) const bool TRANSMISSION = false;
+layout(constant_id = 39) const bool SPECULAR_GLOSSINESS = false;
+const bool TANGENTS = NORMAL_TEXTURE != 0u || CLEARCOAT_NORMAL_TEXTURE != 0u || ANISOTROPY;
 
-layout(set = 1, binding = 0) uniform sampler2D base_color_texture;
-layout(set = 1, binding = 1) uniform sampler2D metallic_roughness_texture;
-layout(set = 1, binding = 2) uniform sampler2D normal_texture;
-layout(set = 1, binding = 3) uniform sampler2D occlusion_texture;
-layout(set = 1, binding = 4) uniform sampler2D emissive_texture;
+#include "include/brdf.glsl"
+#include "include/normal.glsl"
+#include "include/clearcoat.glsl"
+#include "include/iridescence.glsl"
+#include "include/sheen.glsl"
+#include "include/transmission.glsl"
 
 layout(push_constant) uniform Push { uint bin; } push;
 
 // Light left of the studio in a scene with lights of its own, so that what faces away from them shows.
 const float STUDIO_AMBIENT = 0.06;
-
-// Places along the longer axis of a footprint that a texture is read at, at the most.
-const float MOST_PROBES = 8.0;
-// Width of the texels, over that of a box, whose trilinear filter has the variance of the box: root of 1/3.
-const float LEVEL_WIDTH = 0.57735;
-
-struct Corners { vec4 a, b, c; };       // both UV sets of the three vertices
-
-vec4 read(sampler2D image, uint use, uint m, Corners corners, Barycentric w) {
-    uint rows = MATERIAL_UV_ROWS + (ONE_UV_TRANSFORM ? 0u : 2u * use);
-    vec4 row_u = material_vector(m, rows), row_v = material_vector(m, rows + 1u);
-    mat3x2 uv = row_u.w != 0.0 ? mat3x2(corners.a.zw, corners.b.zw, corners.c.zw) : mat3x2(corners.a.xy, corners.b.xy, corners.c.xy);
-    mat2 linear = mat2(row_u.x, row_v.x, row_u.y, row_v.y);
-    vec2 at = linear * (uv * w.at) + vec2(row_u.z, row_v.z);
-    vec2 dx = linear * (uv * w.dx), dy = linear * (uv * w.dy);
-    if (!BOX_FILTER) return textureGrad(image, at, dx, dy);
-    vec2 size = vec2(textureSize(image, 0));
-    vec2 tx = dx * size, ty = dy * size;
-    float square_x = dot(tx, tx), square_y = dot(ty, ty);
-    float longest = sqrt(max(square_x, square_y));
-    float across = abs(tx.x * ty.y - tx.y * ty.x) / max(longest, 1e-20);
-    float wanted = clamp(ceil(longest / max(across, 1.0) - 0.25), 1.0, MOST_PROBES);
-    vec2 step_ = (square_x > square_y ? dx : dy) / wanted;
-    float level = log2(max(across, longest / wanted) * LEVEL_WIDTH);
-    vec2 first = at - step_ * (0.5 * wanted - 0.5);
-    vec4 sum = vec4(0.0);
-    float probe = 0.0;
-    do {
-        vec4 texel = textureLod(image, first + probe * step_, level);
-        sum += probe < wanted ? texel : vec4(0.0);
-        probe += 1.0;
-    } while (subgroupAny(probe < wanted));
-    return sum / wanted;
-}
-
-vec3 safe_normalize(vec3 v, vec3 otherwise) {
-    float l = dot(v, v);
-    return l > 1e-30 ? v * inversesqrt(l) : otherwise;
-}
 
 void main() {
     uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
@@ -139,15 +100,21 @@ void main() {
     w.dx *= side;
     w.dy *= side;
 
-    Corners corners;
-    if (BASE_COLOR_TEXTURE || METALLIC_ROUGHNESS_TEXTURE || NORMAL_TEXTURE || OCCLUSION_TEXTURE || EMISSIVE_TEXTURE)
-        corners = Corners(texelFetch(uvs, v.x), texelFetch(uvs, v.y), texelFetch(uvs, v.z));
+    Place place;
+    place.material = m;
+    place.w = w;
+    if (TEXTURED) {
+        vec4 a = texelFetch(uvs, v.x), b = texelFetch(uvs, v.y), c = texelFetch(uvs, v.z);
+        place.first_uv = mat3x2(a.xy, b.xy, c.xy);
+        place.second_uv = mat3x2(a.zw, b.zw, c.zw);
+    }
 
     vec4 base = material_vector(m, MATERIAL_BASE_COLOR);
     if (VERTEX_COLORS) base *= mat3x4(texelFetch(colors, v.x), texelFetch(colors, v.y), texelFetch(colors, v.z)) * w.at;
-    if (BASE_COLOR_TEXTURE) base *= read(base_color_texture, 0u, m, corners, w);
+    base *= READ(BASE_COLOR_TEXTURE, place);
 
-    vec3 radiance;
+    vec3 radiance, through = vec3(0.0);     // what comes from the surface, and what passes it
+    vec4 factors = material_vector(m, MATERIAL_FACTORS);
     if (UNLIT) {
         radiance = base.rgb;
     } else {
@@ -156,46 +123,83 @@ void main() {
         vec3 to_eye = frame.view_direction.w != 0.0 ? -frame.view_direction.xyz : safe_normalize(frame.eye.xyz - position, -frame.view_direction.xyz);
 
         vec3 normal = mat3(texelFetch(normals, v.x).xyz, texelFetch(normals, v.y).xyz, texelFetch(normals, v.z).xyz) * w.at;
-        float facing = w.facing ? 1.0 : -1.0;
-        normal = safe_normalize(normal, to_eye * facing) * facing;
-        if (NORMAL_TEXTURE) {
-            vec4 tangent = mat3x4(texelFetch(tangents, v.x), texelFetch(tangents, v.y), texelFetch(tangents, v.z)) * w.at;
-            vec3 t = safe_normalize(tangent.xyz, vec3(0.0)) * facing;
-            vec3 b = cross(normal, t) * (tangent.w < 0.0 ? -1.0 : 1.0) * facing;
-            vec3 n = read(normal_texture, 2u, m, corners, w).xyz * 2.0 - 1.0;
-            n.xy *= material_vector(m, MATERIAL_FACTORS).y;
-            normal = safe_normalize(t * n.x + b * n.y + normal * n.z, normal);
+        float side_seen = w.facing ? 1.0 : -1.0;
+        normal = safe_normalize(normal, to_eye * side_seen) * side_seen;
+        vec3 tangent = vec3(0.0), bitangent = vec3(0.0);
+        if (TANGENTS) {
+            vec4 t = mat3x4(texelFetch(tangents, v.x), texelFetch(tangents, v.y), texelFetch(tangents, v.z)) * w.at;
+            tangent = safe_normalize(t.xyz, vec3(0.0)) * side_seen;
+            bitangent = cross(normal, tangent) * (t.w < 0.0 ? -1.0 : 1.0) * side_seen;
         }
-        // An interpolated normal may face away at a silhouette.
-        float turned = dot(normal, to_eye);
-        normal = turned < 0.0 ? safe_normalize(normal - to_eye * turned, normal) : normal;
-
-        vec4 emissive_metallic = material_vector(m, MATERIAL_EMISSIVE_METALLIC), factors = material_vector(m, MATERIAL_FACTORS);
-        float metallic = emissive_metallic.w, roughness = factors.x, occlusion = 1.0;
-        if (METALLIC_ROUGHNESS_TEXTURE) {
-            vec4 mr = read(metallic_roughness_texture, 1u, m, corners, w);
-            roughness *= mr.g;
-            metallic *= mr.b;
-            if (PACKED_OCCLUSION) occlusion = mr.r;
-        }
-        roughness = clamp(roughness, 0.04, 1.0);
-
         Surface s;
         s.normal = normal;
+        if (NORMAL_TEXTURE != 0u) s.normal = bumped(READ(NORMAL_TEXTURE, place), factors.y, tangent, bitangent, normal);
+        s.normal = facing(s.normal, to_eye);
+        float n_v = max(dot(s.normal, to_eye), 1e-4);
+
+        vec4 emissive_metallic = material_vector(m, MATERIAL_EMISSIVE_METALLIC);
+        vec4 metallic_roughness = READ(METALLIC_ROUGHNESS_TEXTURE, place);
+        float metallic = emissive_metallic.w * metallic_roughness.b;
+        s.roughness = factors.x * metallic_roughness.g;
+        vec3 dielectric = vec3(0.04);
+        float strength = 1.0;
+        if (SPECULAR) {
+            vec4 given = material_vector(m, MATERIAL_SPECULAR);
+            strength = given.w * READ(SPECULAR_TEXTURE, place).a;
+            dielectric = min(given.rgb * READ(SPECULAR_COLOR_TEXTURE, place).rgb, vec3(1.0)) * strength;
+        }
         s.diffuse = base.rgb * (1.0 - metallic);
-        s.f0 = mix(vec3(0.04), base.rgb, metallic);
-        s.alpha = roughness * roughness;
-        s.emissive = emissive_metallic.rgb;
-        if (EMISSIVE_TEXTURE) s.emissive *= read(emissive_texture, 4u, m, corners, w).rgb;
-        if (OCCLUSION_TEXTURE) occlusion = read(occlusion_texture, 3u, m, corners, w).r;
+        s.f0 = mix(dielectric, base.rgb, metallic);
+        s.f90 = SPECULAR ? mix(strength, 1.0, metallic) : 1.0;
+        if (SPECULAR_GLOSSINESS) {
+            vec4 given = material_vector(m, MATERIAL_SPECULAR_GLOSSINESS) * READ(SPECULAR_GLOSSINESS_TEXTURE, place);
+            s.diffuse = base.rgb * (1.0 - greatest(given.rgb));
+            s.f0 = given.rgb;
+            s.roughness = 1.0 - given.a;
+        }
+        s.roughness = clamp(s.roughness, 0.04, 1.0);
+        s.alpha = s.roughness * s.roughness;
+        if (IRIDESCENCE) s.f0 = film_f0(place, s.f0, n_v);
+        if (ANISOTROPY) draw_out(s, place, tangent, bitangent);
+        vec3 mirror = ANISOTROPY ? bent_normal(s, to_eye) : s.normal;
+        vec2 split = environment_brdf(s.roughness, n_v);
+        vec3 reflected = s.f0 * split.x + s.f90 * split.y;
+
+        if (TRANSMISSION) {
+            float passes = transmitted(place);
+            through = s.diffuse * remaining(reflected) * passes * volume_passes(place);
+            s.diffuse *= 1.0 - passes;
+        }
+        if (DIFFUSE_TRANSMISSION) {
+            vec4 given = material_vector(m, MATERIAL_DIFFUSE_TRANSMISSION);
+            float passes = given.w * READ(DIFFUSE_TRANSMISSION_TEXTURE, place).a;
+            s.through = given.rgb * READ(DIFFUSE_TRANSMISSION_COLOR_TEXTURE, place).rgb * (1.0 - metallic) * passes;
+            s.diffuse *= 1.0 - passes;
+        }
+        s.emissive = emissive_metallic.rgb * READ(EMISSIVE_TEXTURE, place).rgb;
+        float occlusion = 1.0;
+        if (OCCLUSION_TEXTURE != 0u)
+            occlusion = OCCLUSION_TEXTURE == METALLIC_ROUGHNESS_TEXTURE ? metallic_roughness.r : READ(OCCLUSION_TEXTURE, place).r;
         s.occlusion = 1.0 + factors.z * (occlusion - 1.0);
 
-        float n_v = max(dot(normal, to_eye), 1e-4);
-        vec2 split = environment_brdf(roughness, n_v);
-        vec3 specular = s.f0 * split.x + split.y;
-        vec3 studio = s.diffuse * (1.0 - specular) * studio_irradiance(normal)
-            + specular * studio_reflection(reflect(-to_eye, normal), s.alpha);
-        radiance = studio * s.occlusion * (PUNCTUAL ? STUDIO_AMBIENT : 1.0) + s.emissive;
+        float ambient = s.occlusion * (PUNCTUAL ? STUDIO_AMBIENT : 1.0);
+        vec3 irradiance = studio_irradiance(s.normal);
+        vec3 diffuse = s.diffuse * irradiance;
+        if (DIFFUSE_TRANSMISSION) diffuse += s.through * studio_irradiance(-s.normal);
+        radiance = (diffuse * remaining(reflected) + reflected * studio_reflection(reflect(-to_eye, mirror), s.alpha)) * ambient
+            + s.emissive;
+        Sheen sheen;
+        vec3 of_sheen = vec3(0.0);
+        if (SHEEN) {
+            sheen = read_sheen(place, n_v);
+            of_sheen = sheen.color * sheen.albedo * irradiance * ambient;
+        }
+        Coat coat;
+        vec3 of_coat = vec3(0.0);
+        if (CLEARCOAT) {
+            coat = read_coat(place, tangent, bitangent, normal, to_eye);
+            of_coat = coat_environment(coat, to_eye) * ambient;
+        }
 
         if (PUNCTUAL) {
             for (uint l = 0u; l < frame.light_count; l++) {
@@ -213,7 +217,17 @@ void main() {
                 }
                 e *= POINTS && l < 32u && (shadows >> l & 1u) != 0u ? 0.0 : 1.0;
                 radiance += reflect_light(s, to_eye, to_light, e);
+                if (SHEEN) of_sheen += sheen_light(sheen, s.normal, to_eye, to_light, e);
+                if (CLEARCOAT) of_coat += coat_light(coat, to_eye, to_light, e);
             }
+        }
+        if (SHEEN) {
+            radiance = radiance * sheen_passes(sheen) + of_sheen;
+            through *= sheen_passes(sheen);
+        }
+        if (CLEARCOAT) {
+            radiance = mix(radiance, of_coat, coat.weight);
+            through *= 1.0 - coat.weight;
         }
     }
     radiance *= frame.exposure;
@@ -225,6 +239,9 @@ void main() {
         if (mine) color[source] = c;
         if (DISPLAY_CODES && mine) display_out[source] = display_code(c);
     } else {
-        shaded_out[source] = vec4(radiance, BLENDED && id > frame.first_blend ? clamp(base.a, 0.0, 1.0) : 1.0);
+        // Alpha is an opacity, or compared with the cutoff.
+        float opacity = factors.w < 0.0 ? clamp(base.a, 0.0, 1.0) : base.a >= factors.w ? 1.0 : 0.0;
+        opacity = BLENDED && id > frame.first_blend ? opacity : 1.0;
+        shaded_out[source] = TINTED ? vec4(radiance * opacity, pack_tint(mix(vec3(1.0), through, opacity))) : vec4(radiance, opacity);
     }
 }

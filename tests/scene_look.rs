@@ -4,10 +4,11 @@ mod scene_builder;
 
 use glam::{DMat3, DVec3};
 use gpc::scene::{
-    AlphaMode, Filter, LightKind, Material, Sampler, Scene, SceneError, SceneProjection, Wrap,
+    AlphaMode, Filter, LightKind, Lobes, Material, Sampler, Scene, SceneError, SceneProjection,
+    Wrap,
 };
 use scene_builder::{Builder, png};
-use serde_json::{Value, json};
+use serde_json::json;
 
 #[test]
 fn materials_read_all_their_fields() {
@@ -319,11 +320,11 @@ fn required_extensions_are_refused_by_name_and_optional_ones_mentioned() {
     assert!(error.to_string().contains(way_out), "{error}");
 
     let mut builder = Builder::new();
-    builder.json["extensionsUsed"] = json!(["KHR_materials_sheen", "KHR_xmp_json_ld"]);
+    builder.json["extensionsUsed"] = json!(["KHR_materials_subsurface", "KHR_xmp_json_ld"]);
     let warnings = builder.load().unwrap().warnings;
     assert_eq!(warnings.len(), 1);
     assert!(
-        warnings[0].ends_with("drawn without KHR_materials_sheen"),
+        warnings[0].ends_with("drawn without KHR_materials_subsurface"),
         "{warnings:?}"
     );
 }
@@ -418,40 +419,116 @@ fn variants_choose_the_materials() {
 }
 
 #[test]
-fn specular_glossiness_is_converted_with_a_warning() {
-    let converted = |extension: Value| {
-        let mut builder = Builder::new();
-        builder.json["extensionsRequired"] = json!(["KHR_materials_pbrSpecularGlossiness"]);
-        let extensions = json!({"KHR_materials_pbrSpecularGlossiness": extension});
-        builder.push("materials", json!({"extensions": extensions}));
-        builder.triangle(json!({}));
-        let loaded = builder.load().unwrap();
-        let place = "/materials/0/extensions/KHR_materials_pbrSpecularGlossiness: is approximated";
+fn lobes_are_read() {
+    let mut builder = Builder::new();
+    let texture = builder.texture([1, 2, 3]);
+    let all = json!({
+        "KHR_materials_ior": {"ior": 2.0},
+        "KHR_materials_specular": {
+            "specularFactor": 0.5, "specularColorFactor": [2, 1, 0.5], "specularTexture": {"index": texture},
+        },
+        "KHR_materials_clearcoat": {
+            "clearcoatFactor": 0.25, "clearcoatRoughnessFactor": 0.75,
+            "clearcoatNormalTexture": {"index": texture, "scale": 3, "texCoord": 1},
+        },
+        "KHR_materials_sheen": {"sheenColorFactor": [0.5, 0.25, 1], "sheenRoughnessFactor": 0.5},
+        "KHR_materials_anisotropy": {"anisotropyStrength": 0.5, "anisotropyRotation": 1.5},
+        "KHR_materials_iridescence": {"iridescenceFactor": 1, "iridescenceThicknessMaximum": 500},
+        "KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 0.5},
+        "KHR_materials_transmission": {"transmissionFactor": 0.5},
+        "KHR_materials_volume": {
+            "thicknessFactor": 2, "attenuationDistance": 4, "attenuationColor": [1, 0.5, 0.25],
+        },
+        "KHR_materials_pbrSpecularGlossiness": {
+            "diffuseFactor": [0.5, 0.25, 0.125, 0.5], "specularFactor": [0.5, 0, 0], "glossinessFactor": 0.75,
+        },
+    });
+    let names: Vec<_> = all.as_object().unwrap().keys().cloned().collect();
+    builder.json["extensionsRequired"] = json!(names);
+    builder.push("materials", json!({"extensions": all}));
+    // What has no effect is absent.
+    builder.push(
+        "materials",
+        json!({"extensions": {"KHR_materials_clearcoat": {}, "KHR_materials_sheen": {},
+            "KHR_materials_anisotropy": {}, "KHR_materials_iridescence": {},
+            "KHR_materials_diffuse_transmission": {}, "KHR_materials_transmission": {},
+            "KHR_materials_volume": {}}}),
+    );
+    let loaded = builder.load().unwrap();
+    let approximated = |name: &&str| {
+        let expected = format!("{name} is approximated: ");
+        loaded.warnings.iter().any(|w| w.contains(&expected))
+    };
+    let names = [
+        "KHR_materials_diffuse_transmission",
+        "KHR_materials_transmission",
+        "KHR_materials_volume",
+    ];
+    assert!(names.iter().all(approximated), "{:?}", loaded.warnings);
+    assert_eq!(loaded.warnings.len(), names.len(), "{:?}", loaded.warnings);
+    assert_eq!(loaded.scene.materials[1].lobes, Lobes::default());
+    let material = &loaded.scene.materials[0];
+    assert_eq!(material.base_color, [0.5, 0.25, 0.125, 0.5]);
+    let lobes = material.lobes;
+    let specular = lobes.specular.unwrap();
+    assert!((specular.reflectance - 1.0 / 9.0).abs() < 1e-6);
+    assert_eq!((specular.factor, specular.color), (0.5, [2.0, 1.0, 0.5]));
+    assert!(specular.texture.is_some() && specular.color_texture.is_none());
+    let coat = lobes.clearcoat.unwrap();
+    assert_eq!((coat.factor, coat.roughness), (0.25, 0.75));
+    assert_eq!(
+        (coat.normal_scale, coat.normal_texture.unwrap().uv_set),
+        (3.0, 1)
+    );
+    assert_eq!(material.tangent_uv_set(), Some(1));
+    let sheen = lobes.sheen.unwrap();
+    assert_eq!((sheen.color, sheen.roughness), ([0.5, 0.25, 1.0], 0.5));
+    let anisotropy = lobes.anisotropy.unwrap();
+    assert_eq!((anisotropy.strength, anisotropy.rotation), (0.5, 1.5));
+    let film = lobes.iridescence.unwrap();
+    assert_eq!((film.ior, film.thickness), (1.3, [100.0, 500.0]));
+    let leaf = lobes.diffuse_transmission.unwrap();
+    assert_eq!((leaf.factor, leaf.color), (0.5, [1.0; 3]));
+    let glass = lobes.transmission.unwrap();
+    assert_eq!((glass.factor, glass.thickness), (0.5, 2.0));
+    let absorbed = glass.absorption.map(|a| (-4.0 * a).exp());
+    for (found, expected) in absorbed.iter().zip([1.0, 0.5, 0.25]) {
+        assert!((found - expected).abs() < 1e-6, "{absorbed:?}");
+    }
+    let old = lobes.specular_glossiness.unwrap();
+    assert_eq!((old.specular, old.glossiness), ([0.5, 0.0, 0.0], 0.75));
+    assert_eq!(material.textures().count(), 2);
+}
+
+#[test]
+fn broken_lobes_are_left_out_with_a_warning() {
+    let mut builder = Builder::new();
+    builder.push(
+        "materials",
+        json!({"doubleSided": true, "extensions": {
+            "KHR_materials_ior": {"ior": 0.5},
+            "KHR_materials_sheen": {"sheenColorFactor": [1, 1]},
+            "KHR_materials_transmission": {"transmissionFactor": "glass"},
+            "KHR_materials_clearcoat": {"clearcoatFactor": 1, "clearcoatTexture": {"index": 7}},
+        }}),
+    );
+    let loaded = builder.load().unwrap();
+    let material = &loaded.scene.materials[0];
+    assert!(material.double_sided);
+    assert!(material.lobes.sheen.is_none() && material.lobes.transmission.is_none());
+    assert!((material.lobes.specular.unwrap().reflectance - 0.04).abs() < 1e-6);
+    assert!(material.lobes.clearcoat.unwrap().texture.is_none());
+    for place in [
+        "ior/ior",
+        "sheen",
+        "transmission",
+        "clearcoat/clearcoatTexture/index",
+    ] {
+        let expected = format!("/materials/0/extensions/KHR_materials_{place}");
         assert!(
-            loaded.warnings.iter().any(|w| w.contains(place)),
-            "{:?}",
+            loaded.warnings.iter().any(|w| w.contains(&expected)),
+            "{place}: {:?}",
             loaded.warnings
         );
-        loaded.scene.materials[0].clone()
-    };
-    let close = |a: [f32; 4], b: [f32; 4]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-4);
-    // A dielectric as glTF has it: diffuse light is what the surface does not reflect.
-    let plastic = converted(json!({
-        "diffuseFactor": [0.5, 0.25, 0.125, 0.5], "specularFactor": [0.04, 0.04, 0.04],
-        "glossinessFactor": 0.75,
-    }));
-    assert!(
-        close(plastic.base_color, [0.5, 0.25, 0.125, 0.5]),
-        "{plastic:?}"
-    );
-    assert!(
-        plastic.metallic < 1e-4 && plastic.roughness == 0.25,
-        "{plastic:?}"
-    );
-    // A metal reflects in its colour, and has no diffuse light.
-    let gold = converted(json!({
-        "diffuseFactor": [0, 0, 0, 1], "specularFactor": [1.0, 0.8, 0.3],
-    }));
-    assert!(close(gold.base_color, [1.0, 0.8, 0.3, 1.0]), "{gold:?}");
-    assert!(gold.metallic > 0.9999 && gold.roughness == 0.0, "{gold:?}");
+    }
 }

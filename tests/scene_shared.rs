@@ -71,7 +71,7 @@ fn pose(path: &Path) -> Result<(Scene, Pose, Vec<String>), SceneError> {
     let pose = loaded.scene.pose(&PoseRequest::default())?;
     check(&pose.geometry, &path.display().to_string());
     for material in &loaded.scene.materials {
-        for used in material.textures() {
+        for (_, used) in material.textures() {
             let texture = loaded.scene.textures[used.texture as usize];
             let image = &loaded.scene.images[texture.image as usize];
             assert_eq!(

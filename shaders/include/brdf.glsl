@@ -1,35 +1,56 @@
 // glTF's metallic-roughness BRDF (glTF 2.0, appendix B): GGX with height-correlated Smith visibility, Schlick
 // Fresnel and a Lambertian base.
+#ifndef BRDF_GLSL
+#define BRDF_GLSL
 
 const float PI = 3.14159265359;
 
 struct Surface {
     vec3 normal;
     vec3 diffuse;       // albedo of the base
+    vec3 through;       // the same of light from behind
     vec3 f0;            // reflectance at normal incidence
+    float f90;          // and at grazing incidence
     float alpha;        // squared perceptual roughness
+    float roughness;    // perceptual
+    vec3 along, across; // ANISOTROPY: axes of the reflection, which is drawn out along the first
+    float alpha_along;
     vec3 emissive;
     float occlusion;
-    float opacity;
 };
 
-vec3 fresnel(vec3 f0, float v_dot_h) {
-    float m = 1.0 - clamp(v_dot_h, 0.0, 1.0);
-    float m2 = m * m;
-    return f0 + (1.0 - f0) * (m2 * m2 * m);
+vec3 safe_normalize(vec3 v, vec3 otherwise) {
+    float l = dot(v, v);
+    return l > 1e-30 ? v * inversesqrt(l) : otherwise;
 }
 
-// Radiance reflected to `v` of light from `l` with irradiance `e` on a surface facing it.
-vec3 reflect_light(Surface s, vec3 v, vec3 l, vec3 e) {
-    vec3 h = normalize(v + l);
-    float n_l = max(dot(s.normal, l), 0.0), n_v = max(dot(s.normal, v), 1e-4);
-    float n_h = max(dot(s.normal, h), 0.0), v_h = max(dot(v, h), 0.0);
-    float a2 = s.alpha * s.alpha;
+float greatest(vec3 v) {
+    return max(max(v.x, v.y), v.z);
+}
+
+// Schlick's weight of what is reflected at grazing incidence.
+float schlick(float cosine) {
+    float m = 1.0 - clamp(cosine, 0.0, 1.0);
+    float m2 = m * m;
+    return m2 * m2 * m;
+}
+
+vec3 fresnel(Surface s, float v_dot_h) {
+    return s.f0 + (s.f90 - s.f0) * schlick(v_dot_h);
+}
+
+// What is left of diffuse light where `reflected` is a dielectric's: a tinted reflection does not tint what remains.
+vec3 remaining(vec3 reflected) {
+    return SPECULAR || SPECULAR_GLOSSINESS ? vec3(1.0 - greatest(reflected)) : 1.0 - reflected;
+}
+
+// Distribution of GGX times visibility.
+float ggx(float alpha, float n_h, float n_l, float n_v) {
+    float a2 = alpha * alpha;
     float d = n_h * n_h * (a2 - 1.0) + 1.0;
     float distribution = a2 / (PI * d * d);
     float visibility = 0.5 / (n_l * sqrt(n_v * n_v * (1.0 - a2) + a2) + n_v * sqrt(n_l * n_l * (1.0 - a2) + a2) + 1e-7);
-    vec3 f = fresnel(s.f0, v_h);
-    return ((1.0 - f) * s.diffuse / PI + f * distribution * visibility) * e * n_l;
+    return distribution * visibility;
 }
 
 // Share of a uniform environment that the specular lobe reflects: scale and bias on f0 (a polynomial fit of the
@@ -39,3 +60,19 @@ vec2 environment_brdf(float roughness, float n_v) {
     float a = min(r.x * r.x, exp2(-9.28 * n_v)) * r.x + r.y;
     return vec2(-1.04, 1.04) * a + r.zw;
 }
+
+#include "anisotropy.glsl"
+
+// Radiance reflected to `v` of light from `l` with irradiance `e` on a surface facing it; what comes from behind passes.
+vec3 reflect_light(Surface s, vec3 v, vec3 l, vec3 e) {
+    vec3 h = normalize(v + l);
+    float toward = dot(s.normal, l), n_l = max(toward, 0.0), n_v = max(dot(s.normal, v), 1e-4);
+    float n_h = max(dot(s.normal, h), 0.0), v_h = max(dot(v, h), 0.0);
+    float lobe = ANISOTROPY ? ggx_anisotropic(s, v, l, h, n_h, n_l, n_v) : ggx(s.alpha, n_h, n_l, n_v);
+    vec3 f = fresnel(s, v_h);
+    vec3 r = (remaining(f) * s.diffuse / PI + f * lobe) * e * n_l;
+    if (DIFFUSE_TRANSMISSION) r += remaining(fresnel(s, n_v)) * s.through / PI * e * max(-toward, 0.0);
+    return r;
+}
+
+#endif

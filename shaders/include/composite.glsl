@@ -1,6 +1,7 @@
 // BLEND layers over an opaque surface or the background.
 #ifndef COMPOSITE_GLSL
 #define COMPOSITE_GLSL
+#include "tint.glsl"
 
 // What a record links to, or ~0. Links go to records that come before: nothing else is followed, so that chains end even
 // where a record found no room, and what is there is left from another round.
@@ -14,17 +15,19 @@ uint trips = 0u;            // of loops over chains, by this invocation
 // The surfaces of a chain, from the record of the nearest one on.
 vec4 composite(uint node) {
     vec3 light = vec3(0.0);
-    float through = 1.0;
+    vec3 through = vec3(1.0);
     // Not do-while: llvmpipe lets invocations that have left see what later trips make of variables of its body.
     while (node != ~0u) {
         vec4 layer = texelFetch(shaded, int(node));
-        light += through * layer.a * layer.rgb;
-        through *= 1.0 - layer.a;
+        light += TINTED ? through * layer.rgb : through * layer.a * layer.rgb;
+        through *= TINTED ? unpack_tint(layer.a) : vec3(1.0 - layer.a);
         node = farther(node);
         trips++;
     }
     trips += 2u;
-    return to_output(vec4(light + through * frame.background.rgb, 1.0 - through * (1.0 - frame.background.a)));
+    // What is behind shows as much as channels let it through on average.
+    float left = TINTED ? dot(through, vec3(1.0 / 3.0)) : through.x;
+    return to_output(vec4(light + through * frame.background.rgb, 1.0 - left * (1.0 - frame.background.a)));
 }
 
 #endif

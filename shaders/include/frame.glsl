@@ -32,6 +32,7 @@ layout(set = 0, binding = 0) uniform Frame {
     uint record_capacity;   // visibility records
     uint bin_count;         // material bins
     uint light_count;
+    uint material_vectors;  // of a material in `materials`
     uint contrast;          // code values; more than this is a contrast
     float exposure;         // factor on radiance
     float footprint;        // side of the square that textures are filtered over at a pixel's centre, in pixels of the region

@@ -1,6 +1,7 @@
 //! The layout of the descriptor sets and pipelines that all passes share, and the pipelines made so far.
 
 use super::pool::DescriptorPool;
+use super::scene::SLOTS;
 use crate::vulkan::{Constants, Gpu, Pipeline, VulkanError, compute_pipeline};
 use ash::vk;
 use std::collections::HashMap;
@@ -65,9 +66,6 @@ pub(super) fn descriptor_type(binding: u32) -> vk::DescriptorType {
         .map_or(vk::DescriptorType::default(), |(_, kind)| *kind)
 }
 
-/// Textures of a material bin, set 1.
-const TEXTURES: u32 = 5;
-
 /// What tells one pipeline from another: its shader, its constants, and a variant of its fixed state.
 type PipelineKey = (usize, Constants, u32);
 
@@ -97,15 +95,11 @@ impl FrameLayout {
                 .descriptor_count(1)
                 .stage_flags(stages)
         });
-        let textures: Vec<_> = (0..TEXTURES)
-            .map(|binding| {
-                vk::DescriptorSetLayoutBinding::default()
-                    .binding(binding)
-                    .descriptor_type(vk::DescriptorType::COMBINED_IMAGE_SAMPLER)
-                    .descriptor_count(1)
-                    .stage_flags(vk::ShaderStageFlags::COMPUTE)
-            })
-            .collect();
+        let textures = vk::DescriptorSetLayoutBinding::default()
+            .binding(0)
+            .descriptor_type(vk::DescriptorType::COMBINED_IMAGE_SAMPLER)
+            .descriptor_count(SLOTS as u32)
+            .stage_flags(vk::ShaderStageFlags::COMPUTE);
         let mut layout = Self {
             gpu: gpu.clone(),
             frame_set: vk::DescriptorSetLayout::null(),
@@ -122,7 +116,7 @@ impl FrameLayout {
                     .map_err(VulkanError::of("vkCreateDescriptorSetLayout"))
             };
             layout.frame_set = make(&frame)?;
-            layout.texture_set = make(&textures)?;
+            layout.texture_set = make(&[textures])?;
             let sets = [layout.frame_set, layout.texture_set];
             let push = [vk::PushConstantRange {
                 stage_flags: vk::ShaderStageFlags::COMPUTE,
@@ -190,7 +184,7 @@ impl FrameLayout {
         if bins > 0 {
             sizes.push(vk::DescriptorPoolSize {
                 ty: vk::DescriptorType::COMBINED_IMAGE_SAMPLER,
-                descriptor_count: bins * TEXTURES,
+                descriptor_count: bins * SLOTS as u32,
             });
         }
         DescriptorPool::new(&self.gpu, frames + bins, &sizes)

@@ -68,15 +68,7 @@ impl Shade {
                 bins.push(*index);
                 continue;
             }
-            let constants = (3..)
-                .zip(features.textures)
-                .fold(common.clone(), |constants, (id, read)| {
-                    constants.flag(id, read)
-                })
-                .flag(8, features.vertex_colors)
-                .flag(9, features.unlit)
-                .flag(13, features.packed_occlusion)
-                .flag(14, features.one_uv_transform);
+            let constants = features.constants(&common);
             pipelines.push(layout.compute(spirv::SHADE, &constants, None)?);
             known.insert(features, pipelines.len() - 1);
             bins.push(pipelines.len() - 1);

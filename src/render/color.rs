@@ -1,6 +1,7 @@
 //! Colours and their transforms as the shaders take them.
 
 use super::{Reference, Settings};
+use crate::passes::GpuScene;
 use crate::reference::srgb;
 use crate::vulkan::Constants;
 
@@ -10,11 +11,13 @@ impl Settings {
         self.background.map_or([0.0; 4], |[r, g, b]| [r, g, b, 1.0])
     }
 
-    /// The constants of `shaders/include/color.glsl`, and of `shaders/shade.comp` what is the same for all materials.
-    pub(super) fn color_constants(&self) -> Constants {
+    /// The constants of `shaders/include/color.glsl`, and of `shaders/shade.comp` and `shaders/include/tint.glsl` what is
+    /// the same for all materials of a scene.
+    pub(super) fn color_constants(&self, scene: &GpuScene) -> Constants {
         let tonemap = self.reference == Reference::Display && self.tonemapped_detection;
         Constants::new()
             .flag(15, self.filters_boxes())
+            .flag(16, scene.is_tinted())
             .flag(30, tonemap)
             .flag(31, self.tonemapped_detection)
     }

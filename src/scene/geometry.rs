@@ -1,5 +1,6 @@
 //! World-space triangles of one scene at one moment.
 
+use super::material::{AlphaMode, Material};
 use glam::DVec3;
 
 /// How a draw's triangles are rasterized; the order of the variants is the order of [`Geometry::draws`].
@@ -17,6 +18,21 @@ pub enum DrawClass {
     Blend,
     /// Composited over what lies behind, both faces drawn.
     BlendDoubleSided,
+}
+
+impl DrawClass {
+    /// How surfaces of a material are rasterized.
+    #[must_use]
+    pub fn of(material: &Material) -> Self {
+        match (material.alpha_mode, material.double_sided) {
+            (_, false) if material.is_layer() => Self::Blend,
+            (_, true) if material.is_layer() => Self::BlendDoubleSided,
+            (AlphaMode::Mask { .. }, false) => Self::Mask,
+            (AlphaMode::Mask { .. }, true) => Self::MaskDoubleSided,
+            (_, false) => Self::Opaque,
+            (_, true) => Self::OpaqueDoubleSided,
+        }
+    }
 }
 
 /// A run of triangles with one material and one class.
@@ -38,7 +54,7 @@ pub struct Draw {
 pub struct VertexStreams {
     /// Unit normals in world space; never empty when there are vertices (flat normals are generated where absent).
     pub normals: Vec<[f32; 3]>,
-    /// Unit tangents in world space, `w` is the bitangent's sign. Only where a material has a normal texture.
+    /// Unit tangents in world space, `w` is the bitangent's sign. Only where a material [needs](Material::tangent_uv_set) them.
     pub tangents: Vec<[f32; 4]>,
     /// TEXCOORD_0 in `[0..2]`, TEXCOORD_1 in `[2..4]`, untransformed.
     pub uvs: Vec<[f32; 4]>,

@@ -1,4 +1,6 @@
-//! Metallic-roughness materials, textures and images (glTF 2.0, section 3.9 and 3.8).
+//! Materials, textures and images (glTF 2.0, section 3.9 and 3.8).
+
+use super::lobes::Lobes;
 
 pub use gltf::json::texture::{MagFilter as Filter, WrappingMode as Wrap};
 
@@ -70,6 +72,8 @@ pub struct Material {
     pub occlusion_texture: Option<TextureUse>,
     /// sRGB colour.
     pub emissive_texture: Option<TextureUse>,
+    /// What extensions add.
+    pub lobes: Lobes,
 }
 
 impl Default for Material {
@@ -90,33 +94,133 @@ impl Default for Material {
             normal_texture: None,
             occlusion_texture: None,
             emissive_texture: None,
+            lobes: Lobes::default(),
         }
     }
 }
 
+/// What a material has a texture for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[allow(missing_docs)]
+pub enum TextureRole {
+    BaseColor,
+    MetallicRoughness,
+    Normal,
+    Occlusion,
+    Emissive,
+    Specular,
+    SpecularColor,
+    Clearcoat,
+    ClearcoatRoughness,
+    ClearcoatNormal,
+    SheenColor,
+    SheenRoughness,
+    Anisotropy,
+    Iridescence,
+    IridescenceThickness,
+    DiffuseTransmission,
+    DiffuseTransmissionColor,
+    Transmission,
+    Thickness,
+    SpecularGlossiness,
+}
+
+impl TextureRole {
+    /// Number of roles.
+    pub const COUNT: usize = Self::SpecularGlossiness as usize + 1;
+
+    /// Whether red, green and blue are in sRGB, or not read at all; alpha is linear always.
+    #[must_use]
+    pub fn is_srgb(self) -> bool {
+        matches!(
+            self,
+            Self::BaseColor
+                | Self::Emissive
+                | Self::Specular
+                | Self::SpecularColor
+                | Self::SheenColor
+                | Self::SheenRoughness
+                | Self::DiffuseTransmission
+                | Self::DiffuseTransmissionColor
+                | Self::SpecularGlossiness
+        )
+    }
+}
+
 impl Material {
-    /// The textures that the material uses, in the order of its fields.
-    pub fn textures(&self) -> impl Iterator<Item = TextureUse> + use<> {
-        [
-            self.base_color_texture,
-            self.metallic_roughness_texture,
-            self.normal_texture,
-            self.occlusion_texture,
-            self.emissive_texture,
-        ]
-        .into_iter()
-        .flatten()
+    /// Whether what lies behind shows through: its surfaces are composited in order of depth.
+    #[must_use]
+    pub fn is_layer(&self) -> bool {
+        self.alpha_mode == AlphaMode::Blend || (self.lobes.transmission.is_some() && !self.unlit)
     }
 
-    /// The same for change.
-    pub(super) fn texture_slots(&mut self) -> [&mut Option<TextureUse>; 5] {
-        [
-            &mut self.base_color_texture,
-            &mut self.metallic_roughness_texture,
-            &mut self.normal_texture,
-            &mut self.occlusion_texture,
-            &mut self.emissive_texture,
-        ]
+    /// The UV set that tangents go along, where the surface needs tangents.
+    #[must_use]
+    pub fn tangent_uv_set(&self) -> Option<u32> {
+        let coat = self.lobes.clearcoat.and_then(|coat| coat.normal_texture);
+        let normal = self.normal_texture.or(coat);
+        let lobe = self.lobes.anisotropy;
+        let drawn_out = lobe.map(|lobe| lobe.texture.map_or(0, |used| used.uv_set));
+        normal.map(|used| used.uv_set).or(drawn_out)
+    }
+
+    /// The textures that the material uses.
+    pub fn textures(&self) -> impl Iterator<Item = (TextureRole, TextureUse)> + use<> {
+        let mut copy = self.clone();
+        let used: Vec<_> = copy
+            .texture_slots()
+            .into_iter()
+            .filter_map(|(role, slot)| Some((role, (*slot)?)))
+            .collect();
+        used.into_iter()
+    }
+
+    /// What holds a texture or could, in the order of roles.
+    pub(super) fn texture_slots(&mut self) -> Vec<(TextureRole, &mut Option<TextureUse>)> {
+        use TextureRole as Role;
+        let mut slots = vec![
+            (Role::BaseColor, &mut self.base_color_texture),
+            (
+                Role::MetallicRoughness,
+                &mut self.metallic_roughness_texture,
+            ),
+            (Role::Normal, &mut self.normal_texture),
+            (Role::Occlusion, &mut self.occlusion_texture),
+            (Role::Emissive, &mut self.emissive_texture),
+        ];
+        let lobes = &mut self.lobes;
+        if let Some(lobe) = &mut lobes.specular {
+            slots.push((Role::Specular, &mut lobe.texture));
+            slots.push((Role::SpecularColor, &mut lobe.color_texture));
+        }
+        if let Some(lobe) = &mut lobes.clearcoat {
+            slots.push((Role::Clearcoat, &mut lobe.texture));
+            slots.push((Role::ClearcoatRoughness, &mut lobe.roughness_texture));
+            slots.push((Role::ClearcoatNormal, &mut lobe.normal_texture));
+        }
+        if let Some(lobe) = &mut lobes.sheen {
+            slots.push((Role::SheenColor, &mut lobe.color_texture));
+            slots.push((Role::SheenRoughness, &mut lobe.roughness_texture));
+        }
+        if let Some(lobe) = &mut lobes.anisotropy {
+            slots.push((Role::Anisotropy, &mut lobe.texture));
+        }
+        if let Some(lobe) = &mut lobes.iridescence {
+            slots.push((Role::Iridescence, &mut lobe.texture));
+            slots.push((Role::IridescenceThickness, &mut lobe.thickness_texture));
+        }
+        if let Some(lobe) = &mut lobes.diffuse_transmission {
+            slots.push((Role::DiffuseTransmission, &mut lobe.texture));
+            slots.push((Role::DiffuseTransmissionColor, &mut lobe.color_texture));
+        }
+        if let Some(lobe) = &mut lobes.transmission {
+            slots.push((Role::Transmission, &mut lobe.texture));
+            slots.push((Role::Thickness, &mut lobe.thickness_texture));
+        }
+        if let Some(lobe) = &mut lobes.specular_glossiness {
+            slots.push((Role::SpecularGlossiness, &mut lobe.texture));
+        }
+        slots
     }
 }
 

@@ -20,8 +20,10 @@
 //!
 //! Supported extensions: `KHR_draco_mesh_compression` and `KHR_texture_basisu` (by the features
 //! `draco` and `basisu`, on by default), `KHR_meshopt_compression`, `KHR_lights_punctual`, `KHR_materials_emissive_strength`,
-//! `KHR_materials_pbrSpecularGlossiness` (converted, with a warning), `KHR_materials_unlit`,
-//! `KHR_materials_variants`, `KHR_mesh_quantization`, `KHR_node_visibility`, `KHR_texture_transform`,
+//! `KHR_materials_anisotropy`, `KHR_materials_clearcoat`, `KHR_materials_diffuse_transmission`, `KHR_materials_ior`,
+//! `KHR_materials_iridescence`, `KHR_materials_pbrSpecularGlossiness`, `KHR_materials_sheen`, `KHR_materials_specular`,
+//! `KHR_materials_transmission` and `KHR_materials_volume` (a tinted layer, neither refracted nor blurred, with a warning),
+//! `KHR_materials_unlit`, `KHR_materials_variants`, `KHR_mesh_quantization`, `KHR_node_visibility`, `KHR_texture_transform`,
 //! `EXT_mesh_gpu_instancing`, `EXT_meshopt_compression`, `EXT_texture_webp`. A file that requires
 //! another one is refused.
 
@@ -30,6 +32,7 @@ mod error;
 mod geometry;
 mod info;
 mod light;
+mod lobes;
 mod material;
 mod pose;
 mod read;
@@ -42,8 +45,13 @@ pub use error::SceneError;
 pub use geometry::{Draw, DrawClass, Geometry, GeometryError, VertexStreams};
 pub use info::{AlphaModes, AnimationInfo, CameraInfo, ImageInfo, SceneInfo, SceneNames};
 pub use light::{Light, LightKind};
+pub use lobes::{
+    Anisotropy, Clearcoat, DiffuseTransmission, Iridescence, Lobes, Sheen, Specular,
+    SpecularGlossiness, Transmission,
+};
 pub use material::{
-    AlphaMode, Filter, Image, Material, Sampler, Texture, TextureTransform, TextureUse, Wrap,
+    AlphaMode, Filter, Image, Material, Sampler, Texture, TextureRole, TextureTransform,
+    TextureUse, Wrap,
 };
 pub use pose::{Pose, PoseRequest};
 pub use view::{SceneCamera, SceneProjection};

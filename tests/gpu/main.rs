@@ -9,6 +9,7 @@ mod golden;
 #[path = "../common/golden.rs"]
 mod goldens;
 mod invariance;
+mod lobes;
 mod mask;
 #[path = "../common/meshes.rs"]
 mod meshes;

@@ -3,6 +3,7 @@
 use super::mesh::Mesh;
 use glam::{DMat3, DQuat, DVec3};
 use serde_json::{Map, Value, json};
+use std::collections::BTreeSet;
 
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
@@ -43,6 +44,7 @@ impl Placement {
 pub struct Builder {
     lists: Map<String, Value>,
     lights: Vec<Value>,
+    extensions: BTreeSet<String>,
     binary: Vec<u8>,
 }
 
@@ -139,6 +141,9 @@ impl Builder {
 
     /// A material as glTF writes it.
     pub fn material(&mut self, material: Value) -> usize {
+        let extensions = material.get("extensions").and_then(Value::as_object);
+        self.extensions
+            .extend(extensions.into_iter().flat_map(Map::keys).cloned());
         self.push("materials", material)
     }
 
@@ -258,11 +263,14 @@ impl Builder {
             json!([{ "byteLength": self.binary.len() }]),
         );
         if !self.lights.is_empty() {
-            document.insert("extensionsUsed".into(), json!(["KHR_lights_punctual"]));
+            self.extensions.insert("KHR_lights_punctual".to_owned());
             document.insert(
                 "extensions".into(),
                 json!({ "KHR_lights_punctual": { "lights": self.lights } }),
             );
+        }
+        if !self.extensions.is_empty() {
+            document.insert("extensionsUsed".into(), json!(self.extensions));
         }
         let mut text = Value::Object(self.lists).to_string().into_bytes();
         text.resize(text.len().next_multiple_of(4), b' ');

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Indexed triangles, counter-clockwise seen from outside.
 #[derive(Clone, Default)]
@@ -119,6 +119,37 @@ impl Mesh {
             }
         }
     }
+}
+
+/// A unit sphere of meridians and parallels, with texture coordinates: u once around, v from the upper pole down.
+pub fn globe(meridians: u32, parallels: u32) -> Mesh {
+    let mut mesh = Mesh::default();
+    for row in 0..=parallels {
+        for column in 0..=meridians {
+            let uv = DVec2::new(
+                f64::from(column) / f64::from(meridians),
+                f64::from(row) / f64::from(parallels),
+            );
+            let ((sin, cos), (radius, height)) = ((TAU * uv.x).sin_cos(), (PI * uv.y).sin_cos());
+            let direction = DVec3::new(radius * cos, height, -radius * sin);
+            mesh.vertex(direction, direction);
+            mesh.uvs.push(uv);
+        }
+    }
+    for row in 0..parallels {
+        for column in 0..meridians {
+            let a = row * (meridians + 1) + column;
+            let below = a + meridians + 1;
+            // At the poles, one of the two has no area.
+            if row > 0 {
+                mesh.indices.extend([a, below + 1, a + 1]);
+            }
+            if row + 1 < parallels {
+                mesh.indices.extend([a, below, below + 1]);
+            }
+        }
+    }
+    mesh
 }
 
 /// A unit sphere from an icosahedron, each triangle split into four `levels` times. `radius`

@@ -7,6 +7,7 @@ mod glass;
 mod glb;
 mod glyphs;
 mod letters;
+mod lobes;
 mod mesh;
 mod picture;
 mod spheres;
@@ -15,11 +16,20 @@ mod spheres;
 type Build = fn() -> Vec<u8>;
 
 /// File name and builder of every scene.
-pub const ALL: [(&str, Build); 6] = [
+pub const ALL: [(&str, Build); 15] = [
+    ("anisotropy.glb", lobes::anisotropy),
     ("checker.glb", checker::build),
+    ("clearcoat.glb", lobes::clearcoat),
+    ("diffuse_transmission.glb", lobes::diffuse_transmission),
     ("fence.glb", fence::build),
     ("foliage.glb", foliage::build),
     ("glass.glb", glass::build),
+    ("ior.glb", lobes::ior),
+    ("iridescence.glb", lobes::iridescence),
     ("letters.glb", letters::build),
+    ("sheen.glb", lobes::sheen),
+    ("specular.glb", lobes::specular),
+    ("specular_glossiness.glb", lobes::specular_glossiness),
     ("spheres.glb", spheres::build),
+    ("transmission.glb", lobes::transmission),
 ];

@@ -143,19 +143,6 @@ impl Stage {
         }
     }
 
-    /// How a triangle is drawn.
-    fn class(&self, triangle: &Triangle) -> DrawClass {
-        let material = &self.materials[triangle.material];
-        match (material.alpha_mode, material.double_sided) {
-            (AlphaMode::Opaque, false) => DrawClass::Opaque,
-            (AlphaMode::Opaque, true) => DrawClass::OpaqueDoubleSided,
-            (AlphaMode::Mask { .. }, false) => DrawClass::Mask,
-            (AlphaMode::Mask { .. }, true) => DrawClass::MaskDoubleSided,
-            (AlphaMode::Blend, false) => DrawClass::Blend,
-            (AlphaMode::Blend, true) => DrawClass::BlendDoubleSided,
-        }
-    }
-
     /// The scene and its pose, as the renderer takes them.
     pub fn build(&self) -> (Scene, Pose) {
         let mut scene = Scene::from_materials(self.materials.clone());
@@ -168,7 +155,10 @@ impl Stage {
         }
         let mut draws: Vec<Draw> = Vec::new();
         for (index, triangle) in self.triangles.iter().enumerate() {
-            let (material, class) = (triangle.material as u32, self.class(triangle));
+            let (material, class) = (
+                triangle.material as u32,
+                DrawClass::of(&self.materials[triangle.material]),
+            );
             match draws.last_mut() {
                 Some(draw) if draw.material == material && draw.class == class => {
                     draw.triangle_count += 1;

@@ -1,27 +1,70 @@
 //! Material bins: materials that are shaded by one dispatch.
 
-use super::material::texture_uses;
+use super::slots::{RoleSlots, SLOTS, Slots};
 use super::texture_set::{TextureIndex, TextureSet};
 use crate::passes::FrameLayout;
 use crate::passes::pool::DescriptorPool;
-use crate::scene::{Geometry, Material, Scene, TextureUse};
-use crate::vulkan::VulkanError;
+use crate::scene::{Geometry, Material, Scene};
+use crate::vulkan::{Constants, VulkanError};
 use ash::vk;
 use std::collections::HashMap;
 
 /// What a shading pipeline is specialised for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct ShadeFeatures {
-    /// Which of the five textures are read, in the order of their bindings.
-    pub textures: [bool; 5],
+    /// Which slot each texture is read from.
+    slots: RoleSlots,
     /// Vertex colours are multiplied in.
-    pub vertex_colors: bool,
+    vertex_colors: bool,
     /// The base colour is the result.
-    pub unlit: bool,
-    /// Occlusion is the red channel of the metallic-roughness texture, and needs no reading of its own.
-    pub packed_occlusion: bool,
+    unlit: bool,
     /// All textures are read at the same coordinates.
-    pub one_uv_transform: bool,
+    one_uv_transform: bool,
+    /// Which lobes there are, in the order of the shader's constants.
+    lobes: [bool; 8],
+}
+
+impl ShadeFeatures {
+    fn new(material: &Material, slots: &Slots, vertex_colors: bool) -> Self {
+        let lobes = &material.lobes;
+        let lobes = [
+            lobes.specular.is_some(),
+            lobes.clearcoat.is_some(),
+            lobes.sheen.is_some(),
+            lobes.anisotropy.is_some(),
+            lobes.iridescence.is_some(),
+            lobes.diffuse_transmission.is_some(),
+            lobes.transmission.is_some(),
+            lobes.specular_glossiness.is_some(),
+        ];
+        Self {
+            slots: slots.of_role,
+            vertex_colors,
+            unlit: material.unlit,
+            one_uv_transform: slots.one_uv_transform(),
+            lobes: lobes.map(|lobe| lobe && !material.unlit),
+        }
+    }
+
+    /// Constants of `shaders/shade.comp` and what it includes.
+    pub(in crate::passes) fn constants(&self, common: &Constants) -> Constants {
+        // Slots count from 16, so that 0 is none.
+        let slot = |slot: Option<u8>| slot.map_or(0, |slot| 16 + u32::from(slot));
+        let common = common
+            .clone()
+            .flag(3, self.slots.iter().any(Option::is_some))
+            .flag(8, self.vertex_colors)
+            .flag(9, self.unlit)
+            .flag(14, self.one_uv_transform);
+        let with_lobes = (32..)
+            .zip(self.lobes)
+            .fold(common, |constants, (id, lobe)| constants.flag(id, lobe));
+        (40..)
+            .zip(self.slots)
+            .fold(with_lobes, |constants, (id, role)| {
+                constants.with(id, slot(role))
+            })
+    }
 }
 
 /// Materials that are shaded by one dispatch: same pipeline, same textures.
@@ -34,16 +77,12 @@ pub(in crate::passes) struct MaterialBin {
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 struct BinKey {
     features: ShadeFeatures,
-    textures: [TextureIndex; 5],
+    textures: [TextureIndex; SLOTS],
 }
 
 /// Largest number of materials and of material bins, by the bits of a triangle's last word.
 const MATERIAL_LIMIT: usize = 1 << 16;
 const BIN_LIMIT: usize = 1 << 14;
-
-/// Places among the five textures.
-const METALLIC_ROUGHNESS: usize = 1;
-const OCCLUSION: usize = 3;
 
 /// The bin of each material in use, and what each bin is.
 pub(super) struct Bins {
@@ -56,6 +95,7 @@ impl Bins {
     pub(super) fn new(
         scene: &Scene,
         geometry: &Geometry,
+        slots: &[Slots],
         textures: &mut TextureSet<'_>,
     ) -> Result<Self, VulkanError> {
         check(scene.materials.len(), "materials", MATERIAL_LIMIT)?;
@@ -67,10 +107,15 @@ impl Bins {
             if bin_of.contains_key(&draw.material) {
                 continue;
             }
-            let Some(material) = scene.materials.get(draw.material as usize) else {
+            let index = draw.material as usize;
+            let (Some(material), Some(slots)) = (scene.materials.get(index), slots.get(index))
+            else {
                 continue;
             };
-            let key = bin_key(scene, material, has_colors, textures)?;
+            let key = BinKey {
+                features: ShadeFeatures::new(material, slots, has_colors),
+                textures: textures_of(scene, slots, textures)?,
+            };
             let next = keys.len() as u32;
             let bin = *index_of.entry(key).or_insert(next);
             if bin == next {
@@ -117,49 +162,17 @@ fn check(found: usize, unit: &'static str, limit: usize) -> Result<(), VulkanErr
     VulkanError::check_limit("the scene", found as u64, unit, limit as u64)
 }
 
-fn bin_key(
+/// What each slot reads.
+fn textures_of(
     scene: &Scene,
-    material: &Material,
-    has_colors: bool,
+    slots: &Slots,
     textures: &mut TextureSet<'_>,
-) -> Result<BinKey, VulkanError> {
-    const SRGB: [bool; 5] = [true, false, false, false, true];
-    let mut found = [None; 5];
-    for (i, used) in texture_uses(material).into_iter().enumerate() {
-        let wanted = used.filter(|_| i == 0 || !material.unlit);
-        found[i] = match wanted {
-            Some(used) => textures.get(scene, used.texture, SRGB[i])?,
-            None => None,
-        };
+) -> Result<[TextureIndex; SLOTS], VulkanError> {
+    let mut all = [textures.unused()?; SLOTS];
+    for (index, (used, srgb)) in all.iter_mut().zip(&slots.uses) {
+        if let Some(texture) = textures.get(scene, used.texture, *srgb)? {
+            *index = texture;
+        }
     }
-    let place = |used: Option<TextureUse>| used.map(|used| (used.uv_set, used.transform));
-    let places = texture_uses(material).map(place);
-    let packed_occlusion = found[OCCLUSION].is_some()
-        && found[OCCLUSION] == found[METALLIC_ROUGHNESS]
-        && places[OCCLUSION] == places[METALLIC_ROUGHNESS];
-    if packed_occlusion {
-        found[OCCLUSION] = None;
-    }
-    let features = ShadeFeatures {
-        textures: found.map(|texture| texture.is_some()),
-        vertex_colors: has_colors,
-        unlit: material.unlit,
-        packed_occlusion,
-        one_uv_transform: places[0].is_some()
-            && places
-                .iter()
-                .flatten()
-                .all(|place| places[0] == Some(*place)),
-    };
-    let mut textures_of = [TextureIndex::default(); 5];
-    for (index, found) in textures_of.iter_mut().zip(found) {
-        *index = match found {
-            Some(texture) => texture,
-            None => textures.unused()?,
-        };
-    }
-    Ok(BinKey {
-        features,
-        textures: textures_of,
-    })
+    Ok(all)
 }

@@ -1,51 +1,78 @@
 //! Materials as the shaders read them.
 
-use crate::scene::{AlphaMode, Material, TextureTransform, TextureUse};
+use super::slots::Slots;
+use crate::scene::{AlphaMode, Lobes, Material};
 
-/// The vectors of `shaders/include/material.glsl`.
+/// Vectors of a material before those of its textures' coordinates.
+const FIXED: usize = 13;
+
+/// The vectors of `shaders/include/material.glsl`, those of coordinates excepted.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, bytemuck::Pod, bytemuck::Zeroable)]
-pub(super) struct GpuMaterial {
+struct GpuMaterial {
     base_color: [f32; 4],
     emissive_metallic: [f32; 4],
     roughness_normal_occlusion_cutoff: [f32; 4],
     alpha: [u32; 4],
-    uv_rows: [[f32; 4]; 10],
+    specular: [f32; 4],
+    clearcoat: [f32; 4],
+    sheen: [f32; 4],
+    anisotropy: [f32; 4],
+    iridescence: [f32; 4],
+    diffuse_transmission: [f32; 4],
+    transmission: [f32; 4],
+    volume: [f32; 4],
+    specular_glossiness: [f32; 4],
 }
 
-/// The five textures in the order of their bindings.
-pub(super) fn texture_uses(material: &Material) -> [Option<TextureUse>; 5] {
-    [
-        material.base_color_texture,
-        material.metallic_roughness_texture,
-        material.normal_texture,
-        material.occlusion_texture,
-        material.emissive_texture,
-    ]
+/// The vectors of all materials.
+pub(super) struct MaterialTable {
+    pub(super) words: Vec<[u32; 4]>,
+    /// Of each material.
+    pub(super) vectors: u32,
+}
+
+impl MaterialTable {
+    /// A table of materials, with their slots and where the alpha atlas has them.
+    pub(super) fn new(materials: &[Material], slots: &[Slots], alphas: Vec<[u32; 4]>) -> Self {
+        let most = slots.iter().map(|slots| slots.uses.len()).max();
+        // The alpha test of untextured materials reads the first coordinates, too.
+        let vectors = FIXED + 2 * most.unwrap_or(0).max(1);
+        let mut words = Vec::with_capacity(materials.len() * vectors);
+        for ((material, slots), alpha) in materials.iter().zip(slots).zip(alphas) {
+            let fixed = GpuMaterial::new(material, alpha);
+            words.extend_from_slice(bytemuck::cast_slice::<_, [u32; 4]>(&[fixed]));
+            for (used, _) in &slots.uses {
+                let [u, v] = used.transform.0;
+                words.push([u[0], u[1], u[2], used.uv_set as f32].map(f32::to_bits));
+                words.push([v[0], v[1], v[2], 0.0].map(f32::to_bits));
+            }
+            words.resize(words.len().next_multiple_of(vectors), [0; 4]);
+        }
+        Self {
+            words,
+            vectors: vectors as u32,
+        }
+    }
+}
+
+/// Three numbers and a fourth.
+fn vector([r, g, b]: [f32; 3], w: f32) -> [f32; 4] {
+    [r, g, b, w]
 }
 
 impl GpuMaterial {
-    pub(super) fn new(material: &Material, alpha: [u32; 4]) -> Self {
-        let mut uv_rows = [[0.0; 4]; 10];
-        for (i, used) in texture_uses(material).into_iter().enumerate() {
-            let used = used.unwrap_or(TextureUse {
-                texture: 0,
-                uv_set: 0,
-                transform: TextureTransform::default(),
-            });
-            let [u, v] = used.transform.0;
-            uv_rows[2 * i] = [u[0], u[1], u[2], used.uv_set as f32];
-            uv_rows[2 * i + 1] = [v[0], v[1], v[2], 0.0];
-        }
-        let [r, g, b] = material.emissive;
-        let cutoff = if let AlphaMode::Mask { cutoff } = material.alpha_mode {
-            cutoff
-        } else {
-            0.0
+    fn new(material: &Material, alpha: [u32; 4]) -> Self {
+        // Where alpha is compared with it: that of a BLEND material is an opacity.
+        let cutoff = match material.alpha_mode {
+            AlphaMode::Opaque => 0.0,
+            AlphaMode::Mask { cutoff } => cutoff,
+            AlphaMode::Blend => -1.0,
         };
+        let lobes = &material.lobes;
         Self {
             base_color: material.base_color,
-            emissive_metallic: [r, g, b, material.metallic],
+            emissive_metallic: vector(material.emissive, material.metallic),
             roughness_normal_occlusion_cutoff: [
                 material.roughness,
                 material.normal_scale,
@@ -53,7 +80,34 @@ impl GpuMaterial {
                 cutoff,
             ],
             alpha,
-            uv_rows,
+            specular: lobes.specular.map_or([0.0; 4], |lobe| {
+                vector(lobe.color.map(|x| x * lobe.reflectance), lobe.factor)
+            }),
+            clearcoat: lobes.clearcoat.map_or([0.0; 4], |lobe| {
+                [lobe.factor, lobe.roughness, lobe.normal_scale, 0.0]
+            }),
+            sheen: lobes
+                .sheen
+                .map_or([0.0; 4], |lobe| vector(lobe.color, lobe.roughness)),
+            anisotropy: lobes.anisotropy.map_or([0.0; 4], |lobe| {
+                let (sin, cos) = lobe.rotation.sin_cos();
+                [lobe.strength, cos, sin, 0.0]
+            }),
+            iridescence: lobes.iridescence.map_or([0.0; 4], |lobe| {
+                [lobe.factor, lobe.ior, lobe.thickness[0], lobe.thickness[1]]
+            }),
+            diffuse_transmission: lobes
+                .diffuse_transmission
+                .map_or([0.0; 4], |lobe| vector(lobe.color, lobe.factor)),
+            transmission: lobes
+                .transmission
+                .map_or([0.0; 4], |lobe| [lobe.factor, lobe.thickness, 0.0, 0.0]),
+            volume: lobes
+                .transmission
+                .map_or([0.0; 4], |lobe| vector(lobe.absorption, 0.0)),
+            specular_glossiness: lobes
+                .specular_glossiness
+                .map_or([0.0; 4], |lobe| vector(lobe.specular, lobe.glossiness)),
         }
     }
 }
@@ -64,8 +118,19 @@ const GLOSSY_ROUGHNESS: f32 = 0.6;
 /// Whether light or paint may change so quickly over a material's surface that one shading place in a pixel is too few: it
 /// is textured or glossy.
 pub(super) fn high_frequency(material: &Material) -> bool {
-    let glossy = !material.unlit && material.roughness < GLOSSY_ROUGHNESS;
-    glossy || texture_uses(material).iter().any(Option::is_some)
+    material.textures().next().is_some() || (!material.unlit && is_glossy(material))
+}
+
+fn is_glossy(material: &Material) -> bool {
+    let Lobes {
+        clearcoat,
+        iridescence,
+        specular_glossiness,
+        ..
+    } = &material.lobes;
+    let base = specular_glossiness.map_or(material.roughness, |base| 1.0 - base.glossiness);
+    let coat = clearcoat.map_or(1.0, |coat| coat.roughness);
+    base.min(coat) < GLOSSY_ROUGHNESS || iridescence.is_some()
 }
 
 #[cfg(test)]
@@ -78,27 +143,33 @@ mod tests {
         let vector = |name: &str| -> usize {
             let line = text
                 .lines()
-                .find(|line| line.starts_with(&format!("#define {name} ")))
+                .find(|line| line.split_whitespace().nth(1) == Some(name))
                 .unwrap();
-            line.split_whitespace()
-                .nth(2)
-                .unwrap()
-                .trim_end_matches('u')
-                .parse()
-                .unwrap()
+            let value = line.split_whitespace().nth(2).unwrap();
+            value.trim_end_matches('u').parse().unwrap()
         };
+        let offset = |name| 16 * vector(name);
         macro_rules! check {
-            ($($name:literal = $field:ident),*) => {
-                $(assert_eq!(vector($name) * 16, std::mem::offset_of!(GpuMaterial, $field), $name);)*
+            ($($field:ident $name:literal,)*) => {
+                $(assert_eq!(std::mem::offset_of!(GpuMaterial, $field), offset($name), $name);)*
             };
         }
-        check!(
-            "MATERIAL_BASE_COLOR" = base_color,
-            "MATERIAL_EMISSIVE_METALLIC" = emissive_metallic,
-            "MATERIAL_FACTORS" = roughness_normal_occlusion_cutoff,
-            "MATERIAL_ALPHA" = alpha,
-            "MATERIAL_UV_ROWS" = uv_rows
-        );
-        assert_eq!(vector("MATERIAL_VECTORS") * 16, size_of::<GpuMaterial>());
+        check! {
+            base_color "MATERIAL_BASE_COLOR",
+            emissive_metallic "MATERIAL_EMISSIVE_METALLIC",
+            roughness_normal_occlusion_cutoff "MATERIAL_FACTORS",
+            alpha "MATERIAL_ALPHA",
+            specular "MATERIAL_SPECULAR",
+            clearcoat "MATERIAL_CLEARCOAT",
+            sheen "MATERIAL_SHEEN",
+            anisotropy "MATERIAL_ANISOTROPY",
+            iridescence "MATERIAL_IRIDESCENCE",
+            diffuse_transmission "MATERIAL_DIFFUSE_TRANSMISSION",
+            transmission "MATERIAL_TRANSMISSION",
+            volume "MATERIAL_VOLUME",
+            specular_glossiness "MATERIAL_SPECULAR_GLOSSINESS",
+        }
+        assert_eq!(size_of::<GpuMaterial>(), offset("MATERIAL_UV_ROWS"));
+        assert_eq!(size_of::<GpuMaterial>(), 16 * FIXED);
     }
 }

@@ -4,6 +4,7 @@ mod alpha_atlas;
 mod bins;
 mod light;
 mod material;
+mod slots;
 mod texture;
 mod texture_set;
 mod triangles;
@@ -21,7 +22,9 @@ use ash::vk;
 use bins::{Bins, MaterialBin};
 use glam::DVec3;
 use light::GpuLight;
-use material::GpuMaterial;
+use material::MaterialTable;
+pub(in crate::passes) use slots::SLOTS;
+use slots::Slots;
 use std::borrow::Cow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use texture::{DeviceSampler, Texture};
@@ -37,6 +40,8 @@ pub struct GpuScene {
     pub(super) uvs: BufferView,
     pub(super) colors: BufferView,
     pub(super) materials: BufferView,
+    material_vectors: u32,
+    is_tinted: bool,
     pub(super) lights: Buffer,
     pub(super) alpha_atlas: BufferView,
     pub(super) bins: Vec<MaterialBin>,
@@ -99,14 +104,20 @@ impl GpuScene {
     ) -> Result<(Self, SceneUploads), VulkanError> {
         let geometry = &pose.geometry;
         let mut textures = TextureSet::new(memory);
-        let bins = Bins::new(scene, geometry, &mut textures)?;
-        let triangles = Triangles::new(scene, geometry, &bins);
-        let mut atlas = AlphaAtlas::new();
-        let materials: Vec<GpuMaterial> = scene
+        let slots = scene
             .materials
             .iter()
-            .map(|m| GpuMaterial::new(m, atlas.place(scene, m)))
+            .map(|material| Slots::of(scene, material))
+            .collect::<Result<Vec<_>, _>>()?;
+        let bins = Bins::new(scene, geometry, &slots, &mut textures)?;
+        let triangles = Triangles::new(scene, geometry, &bins);
+        let mut atlas = AlphaAtlas::new();
+        let alphas = scene
+            .materials
+            .iter()
+            .map(|m| atlas.place(scene, m))
             .collect();
+        let materials = MaterialTable::new(&scene.materials, &slots, alphas);
         let lights: Vec<GpuLight> = pose
             .lights
             .iter()
@@ -142,11 +153,13 @@ impl GpuScene {
             tangents: uploader.texels("tangents", float4, &geometry.streams.tangents)?,
             uvs: uploader.texels("texture coordinates", float4, &uvs)?,
             colors: uploader.texels("vertex colours", float4, &colors)?,
-            materials: uploader.texels(
-                "materials",
-                uint4,
-                bytemuck::cast_slice::<_, [u32; 4]>(&materials),
-            )?,
+            materials: uploader.texels("materials", uint4, &materials.words)?,
+            material_vectors: materials.vectors,
+            is_tinted: geometry
+                .draws
+                .iter()
+                .filter_map(|draw| scene.materials.get(draw.material as usize))
+                .any(|m| m.lobes.transmission.is_some() && !m.unlit),
             lights: uploader.storage("lights", bytemuck::cast_slice(&lights))?,
             alpha_atlas: uploader.texels("alpha atlas", vk::Format::R32_UINT, &atlas.words)?,
             bins,
@@ -230,6 +243,18 @@ impl GpuScene {
     #[must_use]
     pub fn bin_count(&self) -> u32 {
         (self.bins.len() as u32).max(1)
+    }
+
+    /// Number of vectors of a material in the buffer of materials.
+    #[must_use]
+    pub fn material_vectors(&self) -> u32 {
+        self.material_vectors
+    }
+
+    /// Whether a triangle lets light through by other shares than its opacity.
+    #[must_use]
+    pub fn is_tinted(&self) -> bool {
+        self.is_tinted
     }
 
     /// The scene's lights.

@@ -94,34 +94,30 @@ impl<'a> TextureSet<'a> {
         Ok((index, self.sampler(Sampler::default())?))
     }
 
-    /// Writes textures to the bindings of a set, in their order.
+    /// Writes textures to the slots of a set, in their order.
     pub(super) fn write(
         &self,
         layout: &FrameLayout,
         set: vk::DescriptorSet,
         textures: &[TextureIndex],
     ) {
-        let infos: Vec<[vk::DescriptorImageInfo; 1]> = textures
+        let infos: Vec<vk::DescriptorImageInfo> = textures
             .iter()
             .filter_map(|(image, sampler)| {
-                Some([vk::DescriptorImageInfo::default()
-                    .image_view(self.textures.get(*image)?.image.view)
-                    .sampler(self.samplers.get(*sampler)?.1.raw)
-                    .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)])
+                Some(
+                    vk::DescriptorImageInfo::default()
+                        .image_view(self.textures.get(*image)?.image.view)
+                        .sampler(self.samplers.get(*sampler)?.1.raw)
+                        .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL),
+                )
             })
             .collect();
-        let writes: Vec<_> = infos
-            .iter()
-            .enumerate()
-            .map(|(binding, info)| {
-                vk::WriteDescriptorSet::default()
-                    .dst_set(set)
-                    .dst_binding(binding as u32)
-                    .descriptor_type(vk::DescriptorType::COMBINED_IMAGE_SAMPLER)
-                    .image_info(info)
-            })
-            .collect();
+        let write = vk::WriteDescriptorSet::default()
+            .dst_set(set)
+            .dst_binding(0)
+            .descriptor_type(vk::DescriptorType::COMBINED_IMAGE_SAMPLER)
+            .image_info(&infos);
         // SAFETY: the set was just allocated; images and samplers live as long as the scene that holds the set.
-        unsafe { layout.gpu.device.update_descriptor_sets(&writes, &[]) };
+        unsafe { layout.gpu.device.update_descriptor_sets(&[write], &[]) };
     }
 }

@@ -57,7 +57,7 @@ impl Passes {
         plan: &Plan,
         encoding: Option<Encoding>,
     ) -> Result<Self, RenderError> {
-        let output = settings.color_constants();
+        let output = settings.color_constants(scene);
         let one_bin = scene.bin_count() == 1;
         let multisampled = settings.method == Method::Msaa;
         let antialiased = settings.method == Method::Superpixel;

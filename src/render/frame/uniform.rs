@@ -58,6 +58,7 @@ impl Recording<'_> {
             record_capacity: self.plan.sizes.record_capacity,
             bin_count: scene.bin_count(),
             light_count: scene.light_features().count,
+            material_vectors: scene.material_vectors(),
             contrast: u32::from(self.settings.contrast),
             exposure: self.settings.exposure.exp2(),
             footprint: footprints.centre,

@@ -132,7 +132,7 @@ impl SiteEngine {
             scene.has_blend(),
         )?;
         let resources = Resources::new(layout, &memory, scene, &targets, *sizes, &[locations])?;
-        let output = settings.color_constants();
+        let output = settings.color_constants(scene);
         let sample = Sample::new(layout, &options)?;
         let finish = if points {
             Finish::Points(Points::new(layout, &output)?)
@@ -343,6 +343,7 @@ impl SiteEngine {
             record_capacity: self.resources.sizes().record_capacity,
             bin_count: scene.bin_count(),
             light_count: scene.light_features().count,
+            material_vectors: scene.material_vectors(),
             exposure: self.settings.exposure.exp2(),
             footprint: footprints.centre,
             place_footprint: footprints.place,

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::placement::Placement;
 use crate::scene::{
-    AlphaMode, Draw, DrawClass, Geometry, Material, Scene, SceneError, VertexStreams,
+    Draw, DrawClass, Geometry, Material, Scene, SceneError, VertexStreams,
     error::{Fault, Warnings},
     read::MAX_ELEMENTS,
 };
@@ -85,7 +85,7 @@ impl Needed {
             scene.materials.get(p.primitive.material).is_some_and(has)
         };
         Self {
-            tangents: any(&|p| material(p, |m| m.normal_texture.is_some())),
+            tangents: any(&|p| material(p, |m| m.tangent_uv_set().is_some())),
             uvs: any(&|p| material(p, |m| m.textures().next().is_some())),
             colors: any(&|p| !p.primitive.colors.is_empty()),
         }
@@ -112,9 +112,10 @@ fn plan<'p, 'd>(
             continue;
         }
         (low, high) = (low.min(corners.0), high.max(corners.1));
+        let material = scene.materials.get(placement.primitive.material);
         jobs.push(Job {
             placement,
-            class: class(scene.materials.get(placement.primitive.material)),
+            class: material.map_or(DrawClass::Opaque, DrawClass::of),
             first_vertex: 0,
         });
     }
@@ -152,20 +153,6 @@ fn bounds(placement: &Placement<'_>) -> (DVec3, DVec3) {
 
 fn empty_box() -> (DVec3, DVec3) {
     (DVec3::INFINITY, DVec3::NEG_INFINITY)
-}
-
-fn class(material: Option<&Material>) -> DrawClass {
-    let (mode, double_sided) = material.map_or((AlphaMode::Opaque, false), |material| {
-        (material.alpha_mode, material.double_sided)
-    });
-    match (mode, double_sided) {
-        (AlphaMode::Opaque, false) => DrawClass::Opaque,
-        (AlphaMode::Opaque, true) => DrawClass::OpaqueDoubleSided,
-        (AlphaMode::Mask { .. }, false) => DrawClass::Mask,
-        (AlphaMode::Mask { .. }, true) => DrawClass::MaskDoubleSided,
-        (AlphaMode::Blend, false) => DrawClass::Blend,
-        (AlphaMode::Blend, true) => DrawClass::BlendDoubleSided,
-    }
 }
 
 /// Runs of triangles with one material and class.

@@ -10,16 +10,25 @@ use crate::scene::{
 };
 
 /// The extensions that are implemented, some by an optional feature.
-const SUPPORTED: [(&str, bool); 14] = [
+const SUPPORTED: [(&str, bool); 23] = [
     ("EXT_mesh_gpu_instancing", true),
     ("EXT_meshopt_compression", true),
     ("EXT_texture_webp", true),
     ("KHR_draco_mesh_compression", cfg!(feature = "draco")),
     ("KHR_lights_punctual", true),
+    ("KHR_materials_anisotropy", true),
+    ("KHR_materials_clearcoat", true),
+    ("KHR_materials_diffuse_transmission", true),
     ("KHR_materials_emissive_strength", true),
+    ("KHR_materials_ior", true),
+    ("KHR_materials_iridescence", true),
     ("KHR_materials_pbrSpecularGlossiness", true),
+    ("KHR_materials_sheen", true),
+    ("KHR_materials_specular", true),
+    ("KHR_materials_transmission", true),
     ("KHR_materials_unlit", true),
     ("KHR_materials_variants", true),
+    ("KHR_materials_volume", true),
     ("KHR_mesh_quantization", true),
     ("KHR_meshopt_compression", true),
     ("KHR_node_visibility", true),
@@ -27,22 +36,30 @@ const SUPPORTED: [(&str, bool); 14] = [
     ("KHR_texture_transform", true),
 ];
 
+/// Those among them that are drawn otherwise than a path tracer would, and how; of others than these the lighting alone is
+/// approximate.
+const APPROXIMATED: [(&str, &str); 3] = [
+    (
+        "KHR_materials_diffuse_transmission",
+        "light from behind is that of the lights and the environment, not of other surfaces",
+    ),
+    (
+        "KHR_materials_transmission",
+        "what lies behind is tinted, but neither refracted nor blurred",
+    ),
+    (
+        "KHR_materials_volume",
+        "light is absorbed over the thickness, but neither refracted nor scattered",
+    ),
+];
+
 /// Extensions without which a file looks different; others that are not supported are metadata, or
 /// have a fallback that looks the same.
-const VISIBLE: [&str; 14] = [
+const VISIBLE: [&str; 5] = [
     "EXT_lights_image_based",
     "KHR_animation_pointer",
-    "KHR_materials_anisotropy",
-    "KHR_materials_clearcoat",
-    "KHR_materials_diffuse_transmission",
     "KHR_materials_dispersion",
-    "KHR_materials_ior",
-    "KHR_materials_iridescence",
-    "KHR_materials_sheen",
-    "KHR_materials_specular",
     "KHR_materials_subsurface",
-    "KHR_materials_transmission",
-    "KHR_materials_volume",
     "KHR_materials_volume_scatter",
 ];
 
@@ -72,7 +89,8 @@ pub fn read(value: &Value, file: &str) -> Result<Asset, SceneError> {
     Ok(asset)
 }
 
-/// Refuses extensions that are required but not supported, and warns of those that are seen.
+/// Refuses extensions that are required but not supported; warns of those that are approximated, and of others that are
+/// seen.
 pub fn check_extensions(
     root: &Root,
     file: &str,
@@ -89,6 +107,12 @@ pub fn check_extensions(
             name: name.clone(),
             way_out: way_out(name),
         });
+    }
+    for (name, how) in APPROXIMATED {
+        if root.extensions_required.iter().any(|other| other == name) {
+            let reason = format!("{name} is approximated: {how}");
+            warnings.push(&Fault::new("/extensionsRequired", reason));
+        }
     }
     let used = root.extensions_used.iter().map(String::as_str);
     let visible: Vec<&str> = used.filter(|name| VISIBLE.contains(name)).collect();

@@ -1,15 +1,14 @@
 //! Materials (glTF 2.0, section 3.9) with `KHR_materials_unlit`, `KHR_materials_emissive_strength`,
-//! `KHR_texture_transform` and, converted, `KHR_materials_pbrSpecularGlossiness`.
+//! `KHR_texture_transform` and the [lobes] of other extensions.
 
 use gltf::json::{
-    self, Index, extensions,
-    material::{AlphaCutoff, AlphaMode as Mode},
+    self, extensions,
+    material::{AlphaCutoff, AlphaMode as Mode, NormalTexture, OcclusionTexture},
     texture::Info,
 };
-
 use serde_json::{Map, Value};
 
-use super::{Context, model};
+use super::{Context, lobes, model};
 use crate::scene::{
     error::Fault,
     material::{AlphaMode, Material, TextureTransform, TextureUse},
@@ -53,12 +52,7 @@ fn read(item: &json::Material, place: &str, context: &mut Context<'_>) -> Result
         ..Material::default()
     };
     if let Some(normal) = &item.normal_texture {
-        let others = normal
-            .extensions
-            .as_ref()
-            .map(|extensions| &extensions.others);
-        let info = with_transform(normal.index, normal.tex_coord, others);
-        material.normal_texture = texture(Some(info), "normalTexture");
+        material.normal_texture = texture(Some(normal_info(normal)), "normalTexture");
         material.normal_scale = normal.scale;
         if !normal.scale.is_finite() {
             let place = format!("{place}/normalTexture/scale");
@@ -66,34 +60,22 @@ fn read(item: &json::Material, place: &str, context: &mut Context<'_>) -> Result
         }
     }
     if let Some(occlusion) = &item.occlusion_texture {
-        let others = occlusion
-            .extensions
-            .as_ref()
-            .map(|extensions| &extensions.others);
-        let info = with_transform(occlusion.index, occlusion.tex_coord, others);
-        material.occlusion_texture = texture(Some(info), "occlusionTexture");
+        material.occlusion_texture = texture(Some(occlusion_info(occlusion)), "occlusionTexture");
         material.occlusion_strength = unit(occlusion.strength.0);
     }
-    let (mut strength, mut converted) = (1.0, false);
+    let mut strength = 1.0;
     if let Some(extensions) = &item.extensions {
         material.unlit = extensions.unlit.is_some();
         if let Some(old) = &extensions.pbr_specular_glossiness {
             let place = "extensions/KHR_materials_pbrSpecularGlossiness/diffuseTexture";
+            material.base_color = old.diffuse_factor.0.map(unit);
             material.base_color_texture = texture(old.diffuse_texture.clone(), place);
             material.metallic_roughness_texture = None;
-            convert(old, &mut material);
-            converted = true;
         }
         if let Some(extension) = &extensions.emissive_strength {
             strength = extension.emissive_strength.0.max(0.0);
         }
-    }
-    if converted {
-        let reason = "is approximated: the base colour is the diffuse one, metalness and roughness \
-                      follow from the factors, and the specularGlossinessTexture is ignored; convert \
-                      it with `gltf-transform metalrough IN OUT` for more";
-        let place = format!("{place}/extensions/KHR_materials_pbrSpecularGlossiness");
-        context.warn(&Fault::new(place, reason));
+        material.lobes = lobes::read(extensions, place, context);
     }
     // The factor is at most 1, so that a finite strength leaves the product finite.
     material.emissive = item.emissive_factor.0.map(|x| unit(x) * strength);
@@ -110,64 +92,46 @@ fn read(item: &json::Material, place: &str, context: &mut Context<'_>) -> Result
     Ok(material)
 }
 
-/// Metallic-roughness for a material of `KHR_materials_pbrSpecularGlossiness`, as Khronos' example of
-/// a conversion does it for factors. With textures, these say nothing of any one place, and the
-/// material is taken for a dielectric.
-fn convert(old: &extensions::material::PbrSpecularGlossiness, material: &mut Material) {
-    /// Reflectance of a dielectric at normal incidence.
-    const DIELECTRIC: f32 = 0.04;
-    const LEAST: f32 = 1e-6;
-    let unit = |x: f32| x.clamp(0.0, 1.0);
-    let [r, g, b, alpha] = old.diffuse_factor.0.map(unit);
-    let specular = old.specular_factor.0.map(unit);
-    material.base_color = [r, g, b, alpha];
-    material.metallic = 0.0;
-    material.roughness = 1.0 - unit(old.glossiness_factor.0);
-    if old.diffuse_texture.is_some() || old.specular_glossiness_texture.is_some() {
-        return;
-    }
-    let brightness = |[r, g, b]: [f32; 3]| (0.299 * r * r + 0.587 * g * g + 0.114 * b * b).sqrt();
-    let (diffuse, shine) = (brightness([r, g, b]), brightness(specular));
-    let strongest = specular.into_iter().fold(0.0, f32::max);
-    let kept = (1.0 - strongest) / (1.0 - DIELECTRIC);
-    // The metalness at which diffuse and specular colour both come out: a root of a parabola.
-    let metallic = if shine < DIELECTRIC {
-        0.0
-    } else {
-        let b = diffuse * kept + shine - 2.0 * DIELECTRIC;
-        let root = (b * b - 4.0 * DIELECTRIC * (DIELECTRIC - shine))
-            .max(0.0)
-            .sqrt();
-        unit((root - b) / (2.0 * DIELECTRIC))
-    };
-    let of_diffuse = kept / (1.0 - metallic).max(LEAST);
-    for (channel, shine) in material.base_color.iter_mut().zip(specular) {
-        let from_specular = (shine - DIELECTRIC * (1.0 - metallic)) / metallic.max(LEAST);
-        let from_diffuse = *channel * of_diffuse;
-        let metal = metallic * metallic;
-        *channel = unit(from_diffuse + (from_specular - from_diffuse) * metal);
-    }
-    material.metallic = metallic;
-}
-
-/// A texture in the form that `gltf` gives to all but two; of the extensions of these it knows none.
-fn with_transform(
-    index: Index<json::Texture>,
-    tex_coord: u32,
-    others: Option<&Map<String, Value>>,
-) -> Info {
+/// A normal texture in the form that `gltf` gives to others.
+pub fn normal_info(texture: &NormalTexture) -> Info {
     Info {
-        index,
-        tex_coord,
-        extensions: others.map(|others| extensions::texture::Info {
-            texture_transform: None,
-            others: others.clone(),
-        }),
+        index: texture.index,
+        tex_coord: texture.tex_coord,
+        extensions: texture
+            .extensions
+            .as_ref()
+            .map(|e| with_transform(&e.others)),
         extras: None,
     }
 }
 
-fn read_texture_use(item: &Info, place: &str, context: &Context<'_>) -> Result<TextureUse, Fault> {
+/// An occlusion texture in the form that `gltf` gives to others.
+fn occlusion_info(texture: &OcclusionTexture) -> Info {
+    Info {
+        index: texture.index,
+        tex_coord: texture.tex_coord,
+        extensions: texture
+            .extensions
+            .as_ref()
+            .map(|e| with_transform(&e.others)),
+        extras: None,
+    }
+}
+
+/// Extensions of a texture of which `gltf` knows none.
+fn with_transform(others: &Map<String, Value>) -> extensions::texture::Info {
+    extensions::texture::Info {
+        texture_transform: None,
+        others: others.clone(),
+    }
+}
+
+/// Reads what a material at `place` says of a texture.
+pub fn read_texture_use(
+    item: &Info,
+    place: &str,
+    context: &Context<'_>,
+) -> Result<TextureUse, Fault> {
     context
         .model
         .check(&item.index, &format!("{place}/index"))?;

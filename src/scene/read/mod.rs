@@ -18,6 +18,7 @@ mod image;
 mod instance;
 mod light;
 mod limits;
+mod lobes;
 mod material;
 mod mesh;
 mod meshopt;

@@ -48,7 +48,9 @@ elements! {
     Image, "/images", [];
     Light, "/extensions/KHR_lights_punctual/lights", [];
     Material, "/materials", [
-        "extensions/KHR_materials_pbrSpecularGlossiness",
+        "extensions/KHR_materials_ior", "extensions/KHR_materials_pbrSpecularGlossiness",
+        "extensions/KHR_materials_specular", "extensions/KHR_materials_transmission",
+        "extensions/KHR_materials_volume",
         "normalTexture", "occlusionTexture", "emissiveTexture",
         "pbrMetallicRoughness/baseColorTexture", "pbrMetallicRoughness/metallicRoughnessTexture"
     ];

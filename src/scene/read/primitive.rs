@@ -140,11 +140,11 @@ pub fn read(
         targets: reader.targets(targets, &sources, notes),
         influences: reader.influences(&sources, notes),
     };
-    if let Some(used) = material.normal_texture {
+    if let Some(uv_set) = material.tangent_uv_set() {
         let given = reader.tangents(&primitive.normals, &sources, notes);
         match given {
             Some(tangents) => primitive.tangents = tangents,
-            None => tangent::generate(&mut primitive, used.uv_set),
+            None => tangent::generate(&mut primitive, uv_set),
         }
     }
     Ok(Outcome::Drawn(Box::new(primitive)))

@@ -35,7 +35,7 @@ pub fn resolve(
 ) -> (Vec<Texture>, Vec<Image>) {
     let mut images = Images::default();
     let uses = materials.iter().flat_map(Material::textures);
-    let used: BTreeSet<u32> = uses.map(|used| used.texture).collect();
+    let used: BTreeSet<u32> = uses.map(|(_, used)| used.texture).collect();
     let mut wanted = Vec::new();
     for index in used {
         let found = context.model.get(Index::new(index), "/textures").map(Some);
@@ -68,7 +68,7 @@ pub fn resolve(
         places.insert(index, textures.len() as u32);
         textures.push(Texture { image, sampler });
     }
-    for slot in materials.iter_mut().flat_map(Material::texture_slots) {
+    for (_, slot) in materials.iter_mut().flat_map(Material::texture_slots) {
         *slot = slot.and_then(|mut used| {
             used.texture = *places.get(&used.texture)?;
             Some(used)

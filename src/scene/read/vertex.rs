@@ -96,16 +96,19 @@ impl<'r> Reader<'r, '_> {
         self.read(accessor, place, components, types, notes)
     }
 
-    /// Both UV sets, if `material` has textures.
+    /// Both UV sets, if `material` has textures or needs tangents that are not given.
     pub fn uvs(
         &self,
         material: &Material,
         sources: &[u32],
         notes: &mut Vec<Fault>,
     ) -> Vec<[f32; 4]> {
+        let given = attribute_of(self.primitive, Semantic::Tangents).is_some();
+        let tangents = material.tangent_uv_set().filter(|_| !given);
+        let textures = material.textures().map(|(_, used)| used.uv_set);
         let mut used = [false; 2];
-        for texture in material.textures() {
-            if let Some(used) = used.get_mut(texture.uv_set as usize) {
+        for set in textures.chain(tangents) {
+            if let Some(used) = used.get_mut(set as usize) {
                 *used = true;
             }
         }

@@ -1,0 +1,40 @@
+// KHR_materials_anisotropy: reflections drawn out along a direction of the surface, by an anisotropic GGX (Heitz,
+// "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", 2014).
+#ifndef ANISOTROPY_GLSL
+#define ANISOTROPY_GLSL
+
+// Sets the axes of a surface with these tangents, and how rough it is along them.
+void draw_out(inout Surface s, Place place, vec3 tangent, vec3 bitangent) {
+    vec4 given = material_vector(place.material, MATERIAL_ANISOTROPY);
+    vec4 texel = READ(ANISOTROPY_TEXTURE, place);
+    vec2 direction = ANISOTROPY_TEXTURE != 0u ? texel.rg * 2.0 - 1.0 : vec2(1.0, 0.0);
+    direction = mat2(given.y, given.z, -given.z, given.y) * direction;
+    float strength = given.x * texel.b;
+    vec3 any = abs(s.normal.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
+    vec3 along = tangent * direction.x + bitangent * direction.y;
+    // Perpendicular to the normal, which a texture may have turned.
+    s.along = safe_normalize(along - s.normal * dot(s.normal, along), normalize(cross(s.normal, any)));
+    s.across = cross(s.normal, s.along);
+    s.alpha_along = mix(s.alpha, 1.0, strength * strength);
+}
+
+// Distribution times visibility.
+float ggx_anisotropic(Surface s, vec3 v, vec3 l, vec3 h, float n_h, float n_l, float n_v) {
+    float a = s.alpha_along, b = s.alpha;
+    vec3 d = vec3(b * dot(s.along, h), a * dot(s.across, h), a * b * n_h);
+    float w = a * b / max(dot(d, d), 1e-20);
+    float distribution = a * b * w * w / PI;
+    float to_eye = length(vec3(a * dot(s.along, v), b * dot(s.across, v), n_v));
+    float to_light = length(vec3(a * dot(s.along, l), b * dot(s.across, l), n_l));
+    return distribution * 0.5 / (n_l * to_eye + n_v * to_light + 1e-7);
+}
+
+// The normal that mirrors an environment about where a lobe that is drawn out looks: bent along the direction, by as much
+// as the lobe is longer than wide.
+vec3 bent_normal(Surface s, vec3 v) {
+    vec3 bent = safe_normalize(cross(cross(s.along, v), s.along), s.normal);
+    float share = clamp((s.alpha_along - s.alpha) / max(s.alpha_along + s.alpha, 1e-4), 0.0, 1.0);
+    return safe_normalize(mix(s.normal, bent, share * share), s.normal);
+}
+
+#endif

@@ -1,0 +1,40 @@
+// KHR_materials_clearcoat: a layer of varnish over everything else, which takes from what lies below the share that it
+// reflects.
+#ifndef CLEARCOAT_GLSL
+#define CLEARCOAT_GLSL
+
+struct Coat {
+    vec3 normal;
+    float alpha, roughness;
+    float weight;       // share of the light towards the eye that is the coat's
+};
+
+// `texel` of the normal texture; the tangents and the normal are the mesh's.
+Coat read_coat(Place place, vec3 tangent, vec3 bitangent, vec3 normal, vec3 v) {
+    vec4 given = material_vector(place.material, MATERIAL_CLEARCOAT);
+    Coat coat;
+    coat.normal = normal;
+    if (CLEARCOAT_NORMAL_TEXTURE != 0u)
+        coat.normal = bumped(READ(CLEARCOAT_NORMAL_TEXTURE, place), given.z, tangent, bitangent, normal);
+    coat.normal = facing(coat.normal, v);
+    coat.roughness = clamp(given.y * READ(CLEARCOAT_ROUGHNESS_TEXTURE, place).g, 0.04, 1.0);
+    coat.alpha = coat.roughness * coat.roughness;
+    float f = 0.04 + 0.96 * schlick(dot(coat.normal, v));
+    coat.weight = given.x * READ(CLEARCOAT_TEXTURE, place).r * f;
+    return coat;
+}
+
+// Radiance that a coat of weight 1 reflects of a light.
+vec3 coat_light(Coat coat, vec3 v, vec3 l, vec3 e) {
+    vec3 h = normalize(v + l);
+    float n_l = max(dot(coat.normal, l), 0.0);
+    return ggx(coat.alpha, max(dot(coat.normal, h), 0.0), n_l, max(dot(coat.normal, v), 1e-4)) * n_l * e;
+}
+
+// Radiance that it reflects of the environment.
+vec3 coat_environment(Coat coat, vec3 v) {
+    vec2 split = environment_brdf(coat.roughness, max(dot(coat.normal, v), 1e-4));
+    return min(split.x + split.y, 1.0) * studio_reflection(reflect(-v, coat.normal), coat.alpha);
+}
+
+#endif

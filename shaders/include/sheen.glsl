@@ -1,0 +1,43 @@
+// KHR_materials_sheen: fibres on a surface, by the distribution of Estevez and Kulla ("Production Friendly Microfacet Sheen
+// BRDF", 2017) with the visibility of Neubelt and Pettineo. The CPU's twin is `gpc::reference::sheen`.
+#ifndef SHEEN_GLSL
+#define SHEEN_GLSL
+
+struct Sheen {
+    vec3 color;
+    float roughness;
+    float albedo;       // share of a uniform environment that white sheen reflects
+};
+
+// Fitted to the integral of distribution and visibility over the hemisphere for roughness from 0.15 on, where it errs by
+// 0.05; at most 1.
+float sheen_albedo(float roughness, float n_v) {
+    vec3 powers = vec3(1.0, n_v, n_v * n_v);
+    float exponent = dot(vec3(-0.2872, 0.3874, -0.8319), powers) + dot(vec3(0.1861, -1.3376, 0.0131), powers) / roughness
+        + dot(vec3(-0.4766, -0.5986, 1.0871), powers) * roughness;
+    return min(exp(exponent), 1.0);
+}
+
+Sheen read_sheen(Place place, float n_v) {
+    vec4 given = material_vector(place.material, MATERIAL_SHEEN);
+    Sheen sheen;
+    sheen.color = given.rgb * READ(SHEEN_COLOR_TEXTURE, place).rgb;
+    sheen.roughness = clamp(given.w * READ(SHEEN_ROUGHNESS_TEXTURE, place).a, 0.15, 1.0);
+    sheen.albedo = sheen_albedo(sheen.roughness, n_v);
+    return sheen;
+}
+
+// What passes to the surface below and from there to the eye.
+float sheen_passes(Sheen sheen) {
+    return 1.0 - greatest(sheen.color) * sheen.albedo;
+}
+
+vec3 sheen_light(Sheen sheen, vec3 normal, vec3 v, vec3 l, vec3 e) {
+    vec3 h = normalize(v + l);
+    float n_l = max(dot(normal, l), 0.0), n_v = max(dot(normal, v), 1e-4), n_h = clamp(dot(normal, h), 0.0, 1.0);
+    float sharpness = 1.0 / (sheen.roughness * sheen.roughness);
+    float distribution = (2.0 + sharpness) * pow(1.0 - n_h * n_h, 0.5 * sharpness) / (2.0 * PI);
+    return sheen.color * distribution / (4.0 * (n_l + n_v - n_l * n_v)) * n_l * e;
+}
+
+#endif

@@ -1,0 +1,79 @@
+// The textures of a material, each read once for all that it is used for.
+// A texture is read at the level that its sampler chooses, or (BOX_FILTER) averaged over the square that a place stands for:
+// at several places along the longer side that the square has in the texture.
+#ifndef TEXTURE_GLSL
+#define TEXTURE_GLSL
+#include "barycentric.glsl"
+#include "material.glsl"
+
+layout(constant_id = 3) const bool TEXTURED = false;            // any is used
+layout(constant_id = 14) const bool ONE_UV_TRANSFORM = false;   // and UV set, for all textures
+layout(constant_id = 15) const bool BOX_FILTER = false; // textures are filtered over the square that a place stands for, along both of its axes
+
+// Which of `textures` a role reads, 16 added; 0 for none.
+layout(constant_id = 40) const uint BASE_COLOR_TEXTURE = 0u;
+layout(constant_id = 41) const uint METALLIC_ROUGHNESS_TEXTURE = 0u;
+layout(constant_id = 42) const uint NORMAL_TEXTURE = 0u;
+layout(constant_id = 43) const uint OCCLUSION_TEXTURE = 0u;
+layout(constant_id = 44) const uint EMISSIVE_TEXTURE = 0u;
+layout(constant_id = 45) const uint SPECULAR_TEXTURE = 0u;
+layout(constant_id = 46) const uint SPECULAR_COLOR_TEXTURE = 0u;
+layout(constant_id = 47) const uint CLEARCOAT_TEXTURE = 0u;
+layout(constant_id = 48) const uint CLEARCOAT_ROUGHNESS_TEXTURE = 0u;
+layout(constant_id = 49) const uint CLEARCOAT_NORMAL_TEXTURE = 0u;
+layout(constant_id = 50) const uint SHEEN_COLOR_TEXTURE = 0u;
+layout(constant_id = 51) const uint SHEEN_ROUGHNESS_TEXTURE = 0u;
+layout(constant_id = 52) const uint ANISOTROPY_TEXTURE = 0u;
+layout(constant_id = 53) const uint IRIDESCENCE_TEXTURE = 0u;
+layout(constant_id = 54) const uint IRIDESCENCE_THICKNESS_TEXTURE = 0u;
+layout(constant_id = 55) const uint DIFFUSE_TRANSMISSION_TEXTURE = 0u;
+layout(constant_id = 56) const uint DIFFUSE_TRANSMISSION_COLOR_TEXTURE = 0u;
+layout(constant_id = 57) const uint TRANSMISSION_TEXTURE = 0u;
+layout(constant_id = 58) const uint THICKNESS_TEXTURE = 0u;
+layout(constant_id = 59) const uint SPECULAR_GLOSSINESS_TEXTURE = 0u;
+
+layout(set = 1, binding = 0) uniform sampler2D textures[15];
+
+// Where a material is read: at a place in a triangle.
+struct Place {
+    uint material;
+    mat3x2 first_uv, second_uv;     // of the three vertices
+    Barycentric w;
+};
+
+// Places along the longer axis of a footprint that a texture is read at, at the most.
+const float MOST_PROBES = 8.0;
+// Width of the texels, over that of a box, whose trilinear filter has the variance of the box: root of 1/3.
+const float LEVEL_WIDTH = 0.57735;
+
+vec4 read_texture(sampler2D image, uint slot, Place place) {
+    uint rows = MATERIAL_UV_ROWS + (ONE_UV_TRANSFORM ? 0u : 2u * slot);
+    vec4 row_u = material_vector(place.material, rows), row_v = material_vector(place.material, rows + 1u);
+    mat3x2 uv = row_u.w != 0.0 ? place.second_uv : place.first_uv;
+    mat2 linear = mat2(row_u.x, row_v.x, row_u.y, row_v.y);
+    vec2 at = linear * (uv * place.w.at) + vec2(row_u.z, row_v.z);
+    vec2 dx = linear * (uv * place.w.dx), dy = linear * (uv * place.w.dy);
+    if (!BOX_FILTER) return textureGrad(image, at, dx, dy);
+    vec2 size = vec2(textureSize(image, 0));
+    vec2 tx = dx * size, ty = dy * size;
+    float square_x = dot(tx, tx), square_y = dot(ty, ty);
+    float longest = sqrt(max(square_x, square_y));
+    float across = abs(tx.x * ty.y - tx.y * ty.x) / max(longest, 1e-20);
+    float wanted = clamp(ceil(longest / max(across, 1.0) - 0.25), 1.0, MOST_PROBES);
+    vec2 step_ = (square_x > square_y ? dx : dy) / wanted;
+    float level = log2(max(across, longest / wanted) * LEVEL_WIDTH);
+    vec2 first = at - step_ * (0.5 * wanted - 0.5);
+    vec4 sum = vec4(0.0);
+    float probe = 0.0;
+    do {
+        vec4 texel = textureLod(image, first + probe * step_, level);
+        sum += probe < wanted ? texel : vec4(0.0);
+        probe += 1.0;
+    } while (subgroupAny(probe < wanted));
+    return sum / wanted;
+}
+
+// A role's texture at a place; white where it has none. A macro, since the index is to be a constant.
+#define READ(ROLE, place) (ROLE != 0u ? read_texture(textures[ROLE & 15u], ROLE & 15u, place) : vec4(1.0))
+
+#endif

@@ -1,0 +1,18 @@
+// What layers let through of each channel, in the fourth number of a shaded record: ten bits each, of the root, so that dark
+// tints keep their colour.
+#ifndef TINT_GLSL
+#define TINT_GLSL
+
+layout(constant_id = 16) const bool TINTED = false;     // layers have tints in place of opacities, and their light is premultiplied
+
+float pack_tint(vec3 through) {
+    uvec3 q = uvec3(round(sqrt(clamp(through, vec3(0.0), vec3(1.0))) * 1023.0));
+    return uintBitsToFloat(q.x | q.y << 10 | q.z << 20);
+}
+
+vec3 unpack_tint(float word) {
+    vec3 root = vec3(uvec3(floatBitsToUint(word)) >> uvec3(0u, 10u, 20u) & 0x3ffu) * (1.0 / 1023.0);
+    return root * root;
+}
+
+#endif

@@ -1,0 +1,61 @@
+//! Where shaders find a material's textures: what is read alike is read once.
+
+use crate::scene::{Material, Scene, TextureRole, TextureUse};
+use crate::vulkan::VulkanError;
+
+/// Textures of a material that differ, at the most. With one for the environment, these are the samplers that every Vulkan
+/// device has.
+pub(in crate::passes) const SLOTS: usize = 15;
+
+/// The slot of each role, by its number.
+pub(in crate::passes) type RoleSlots = [Option<u8>; TextureRole::COUNT];
+
+/// The slots of a material. The base colour comes first.
+pub(super) struct Slots {
+    pub(super) of_role: RoleSlots,
+    /// What each slot reads, and whether it is in sRGB.
+    pub(super) uses: Vec<(TextureUse, bool)>,
+}
+
+impl Slots {
+    /// An unlit material has a slot for its base colour alone. Textures that the scene does not have get none.
+    pub(super) fn of(scene: &Scene, material: &Material) -> Result<Self, VulkanError> {
+        let mut slots = Self {
+            of_role: [None; TextureRole::COUNT],
+            uses: Vec::new(),
+        };
+        let wanted = |role| role == TextureRole::BaseColor || !material.unlit;
+        let exists = |used: &TextureUse| {
+            let texture = scene.textures.get(used.texture as usize);
+            texture.is_some_and(|texture| (texture.image as usize) < scene.images.len())
+        };
+        for (role, used) in material.textures() {
+            if !wanted(role) || !exists(&used) {
+                continue;
+            }
+            let read = (used, role.is_srgb());
+            let slot = slots.uses.iter().position(|known| *known == read);
+            slots.of_role[role as usize] = Some(slot.unwrap_or(slots.uses.len()) as u8);
+            if slot.is_none() {
+                slots.uses.push(read);
+            }
+        }
+        VulkanError::check_limit(
+            "a material",
+            slots.uses.len() as u64,
+            "textures",
+            SLOTS as u64,
+        )?;
+        Ok(slots)
+    }
+
+    /// Whether all textures are read at the same coordinates.
+    pub(super) fn one_uv_transform(&self) -> bool {
+        let mut places = self
+            .uses
+            .iter()
+            .map(|(used, _)| (used.uv_set, used.transform));
+        let first = places.next();
+        places.all(|place| Some(place) == first)
+    }
+}
