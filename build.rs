@@ -31,6 +31,7 @@ const VARIANTS: &[Variant] = &[
         "detect.comp",
         &[("MULTISAMPLED", "")],
     ),
+    ("grow", "grow.comp", &[]),
     ("cull", "cull.comp", &[]),
     ("bin", "bin.comp", &[]),
     ("setup", "setup.comp", &[]),

@@ -1,5 +1,5 @@
 // attributes: what the centre of a pixel sees besides its colour, where the caller asked for it.
-// Reads: ids, the geometry, masks. Writes: two vectors a pixel, floats as bits:
+// Reads: ids, the geometry, masks, marks. Writes: two vectors a pixel, floats as bits:
 // (distance along the view direction, ID, sub-samples, superpixel 0 or 1), (world normal, 0).
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -8,6 +8,7 @@
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool SUPERPIXELS = false;
+layout(constant_id = 1) const bool GROWN = false;       // masks hold those that `grow` added alone
 layout(std430, set = 0, binding = 36) writeonly buffer AttributesOut { uvec4 attributes_out[]; };
 
 void main() {
@@ -26,7 +27,9 @@ void main() {
     vec3 n = mat3(texelFetch(normals, v.x).xyz, texelFetch(normals, v.y).xyz, texelFetch(normals, v.z).xyz) * w.at;
     n *= inversesqrt(max(dot(n, n), 1e-30));
     uint tile = pixel.y / 4u * frame.tiles.x + pixel.x / 8u;
-    bool super = SUPERPIXELS && (masks[tile] >> (pixel.y % 4u * 8u + pixel.x % 8u) & 1u) != 0u;
+    uint word = SUPERPIXELS ? masks[tile] : 0u;
+    if (GROWN) word |= marks[2u * frame.tiles.x * frame.tiles.y + tile];
+    bool super = (word >> (pixel.y % 4u * 8u + pixel.x % 8u) & 1u) != 0u;
     bool hit = id != 0u;
     attributes_out[2u * i] = uvec4(floatBitsToUint(hit ? distance_ : 0.0), id, super ? frame.sample_count : side * side, uint(super));
     attributes_out[2u * i + 1u] = uvec4(floatBitsToUint(hit ? n : vec3(0.0)), 0u);

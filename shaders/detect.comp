@@ -7,6 +7,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
+#include "include/contrast.glsl"
+#include "include/interior.glsl"
 layout(local_size_x = 64) in;
 
 layout(constant_id = 0) const uint MODE = 0u;
@@ -14,6 +16,7 @@ const uint CONTRAST = 0u, EDGES = 1u, EXACT = 2u, BLENDED = 3u, EVERY = 4u;
 layout(constant_id = 1) const bool HAS_BLEND = false;
 layout(constant_id = 2) const bool THIN = false;    // pixels that `thin` marked are superpixels too; some, if they lie amid a triangle
 layout(constant_id = 3) const bool TRANSPARENT = false;  // colours differ in alpha too
+layout(constant_id = 4) const uint BEYOND = 0u;     // pixels around the region's own that are superpixels too, for `grow`
 
 // The nearest BLEND triangle at a pixel; multisampled, that of any of its samples.
 uint blend_at(ivec2 p) {
@@ -24,21 +27,6 @@ uint blend_at(ivec2 p) {
 #else
     return texelFetch(blend_ids, p, 0).x;
 #endif
-}
-
-// Three 8-bit channels apart in 11-bit fields, so that one subtraction compares all of them: a field holds
-// 512 + contrast + a - b, whose bit 9 is set where a - b >= -contrast, and its complement where a - b <= contrast.
-const uint FIELDS = 0x400801u;
-
-uint spread(uint c) {
-    return (c & 0xffu) | (c & 0xff00u) << 3 | (c & 0xff0000u) << 6;
-}
-
-// Of spread colours.
-bool contrasting(uint a, uint b) {
-    uint limit = (512u + frame.contrast) * FIELDS;
-    uint u = a - b + limit;
-    return (u & (2u * limit - u) & 512u * FIELDS) != 512u * FIELDS;
 }
 
 bool differs(uint id_a, uint id_b, uint blend_a, uint blend_b, uint color_a, uint color_b, int alpha_a, int alpha_b) {
@@ -122,18 +110,12 @@ void main() {
 
     if (THIN && inside) word |= marks[tile] | (marks[tile_count + tile] & amid);
 
-    // Pixels of the halo belong to another region; beyond the border there are none.
-    ivec2 low = clamp(ivec2(frame.interior_low) - base, ivec2(0), ivec2(8, 4));
-    ivec2 high = clamp(ivec2(frame.interior_high) - base, ivec2(0), ivec2(8, 4));
-    uint columns = ((1u << high.x) - 1u) & ~((1u << low.x) - 1u);
-    uint owned = columns * 0x01010101u;
-    owned &= (high.y >= 4 ? ~0u : (1u << (high.y * 8)) - 1u) & ~(low.y >= 4 ? ~0u : (1u << (low.y * 8)) - 1u);
-    word &= inside ? owned : 0u;
+    word &= inside ? interior_mask(base, int(BEYOND)) : 0u;
 
     if (inside) masks[tile] = word;
-    uint pixels = subgroupAdd(uint(bitCount(word)));
+    uint pixels = subgroupAdd(uint(bitCount(word & interior_mask(base, 0))));
     uint busy = uint(bitCount(subgroupBallot(word != 0u).x)) + uint(bitCount(subgroupBallot(word != 0u).y));
-    if (subgroupElect() && pixels != 0u) {
+    if (subgroupElect() && busy != 0u) {
         atomicAdd(counters[COUNTER_SUPERPIXELS], pixels);
         atomicAdd(counters[COUNTER_TILES], busy);
     }

@@ -1,6 +1,6 @@
 // resolve: the colour of each superpixel, from its shaded records.
 // Sub-samples are tone-mapped one by one, then averaged in linear light; alpha is coverage.
-// Reads: tile_lists, tiles, masks, headers, records, shaded. Writes: color and, where asked, display.
+// Reads: tile_lists, tiles, masks, headers, records, shaded. Writes: color and, where asked, display or marks.
 // SITES: the cells of a group, into the colours of their sites.
 // CHAINED records are layers over an opaque surface, composited from those of the header on: leaves of their chains.
 #version 460
@@ -10,12 +10,14 @@
 #include "include/color.glsl"
 #include "include/composite.glsl"
 #include "include/work.glsl"
+#include "include/seen_beside.glsl"
 layout(local_size_x_id = 0) in;
 layout(constant_id = 2) const uint BLOCK = 256u;
 layout(constant_id = 3) const bool CHAINED = false;
 layout(constant_id = 4) const uint LIST = 0u;
 layout(constant_id = 5) const bool DISPLAY_CODES = false;
 layout(constant_id = 6) const bool PROBED = false;      // cells that are not marked have one block
+layout(constant_id = 7) const bool GROWS = false;       // `grow` follows
 
 void write(uvec2 pixel, vec4 c) {
     if (SITES) {
@@ -27,6 +29,7 @@ void write(uvec2 pixel, vec4 c) {
     uint at = pixel.y * frame.size.x + pixel.x;
     color[at] = c;
     if (DISPLAY_CODES) display_out[at] = display_code(c);
+    if (GROWS) mark_contrasting_neighbours(pixel, display_code(c));
 }
 
 void main() {

@@ -8,8 +8,10 @@ use gpc::bench::stress::stage::{Stage, camera, flat, seen_at, textured};
 use gpc::bench::{Half, Looks, Random, Stripped, Suspects, Within, Yardstick, brute_force};
 use gpc::output::{DecodedImage, Picture};
 use gpc::render::{
-    Detection, Footprint, Headless, HeadlessOptions, Method, PreparedScene, Settings,
+    Coverage, Detection, Footprint, Headless, HeadlessOptions, Method, PreparedScene, Settings,
+    Shading,
 };
+use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Image, Material, Pose, Sampler, Scene};
 
 const SIZE: [u32; 2] = [48; 2];
@@ -167,5 +169,28 @@ fn paint_and_light_are_told_apart() {
             // The two triangles meet along a diagonal.
             assert!(within.superpixel_edges < 0.1 * mine, "{name} {within:?}");
         }
+    }
+}
+
+/// Superpixels of samples on a grid, each shaded with the texture levels of a sample, are what brute force by as many
+/// samples is: to 60 dB of the three colours, since both find footprints by their own differences.
+#[test]
+fn a_grid_of_shaded_samples_is_brute_force() {
+    let (scene, pose) = noisy(textured(AlphaMode::Opaque));
+    let mut headless = headless();
+    let scene = headless.upload(&scene, &pose, None).unwrap();
+    for samples in [16, 64] {
+        let brute_force = settings(Method::Ssaa, samples, Footprint::Sample);
+        let superpixels = Settings {
+            detection: Detection::Every,
+            coverage: Coverage::Samples,
+            shading: Shading::Sample,
+            pattern: Pattern::Grid,
+            ..settings(Method::Superpixel, samples, Footprint::Sample)
+        };
+        let [brute_force, superpixels] =
+            [brute_force, superpixels].map(|settings| render(&mut headless, &scene, &settings));
+        let error = rmse(&superpixels, &brute_force);
+        assert!(error < 8.6e-4, "{samples} samples: {error}");
     }
 }

@@ -34,6 +34,7 @@ layout(set = 0, binding = 0) uniform Frame {
     uint light_count;
     uint material_vectors;  // of a material in `materials`
     uint contrast;          // code values; more than this is a contrast
+    uint alike;             // code values; a material in colours that differ by no more is shaded once
     float exposure;         // factor on radiance
     float footprint;        // side of the square that textures are filtered over at a pixel's centre, in pixels of the region
     float place_footprint;  // the same at the place of a visibility record, in pixels; BOX_FILTER: over the root of the record's share of a cell
@@ -88,7 +89,7 @@ layout(std430, set = 0, binding = 34) buffer Arguments { uvec4 arguments[]; }; /
 
 layout(set = 0, binding = 38) uniform utextureBuffer pairs;       // triangle, tile, rank in its list, 0
 layout(std430, set = 0, binding = 39) writeonly buffer PairsOut { uvec4 pairs_out[]; };
-layout(std430, set = 0, binding = 41) buffer Marks { uint marks[]; };       // pixels that `thin` marks, like masks: unseen ones, then those of paint; later, cells that a PROBE leaves
+layout(std430, set = 0, binding = 41) buffer Marks { uint marks[]; };       // like masks, three times: pixels that `thin` found unseen, later cells that a PROBE leaves; paint that it found, later pixels that contrast with a superpixel; superpixels before `grow`
 
 // (n % width, n / width). Integer division is a loop on CPU devices; a float quotient errs by one at the most for
 // quotients below 2^22, and is mended.

@@ -32,8 +32,8 @@ float variation_range(uint codes[9], uint among) {
 }
 
 uint variation_parts(float range) {
-    float contrast = float(frame.contrast);
-    return range <= contrast ? PARTS_ONE : range <= 4.0 * contrast ? PARTS_MERGED : PARTS_ALL;
+    float alike = float(frame.alike);
+    return range <= alike ? PARTS_ONE : range <= 4.0 * alike ? PARTS_MERGED : PARTS_ALL;
 }
 
 // An invocation takes a pixel.
@@ -66,8 +66,8 @@ Variation variation_around(uvec2 pixel) {
         bitCount(alike.x) >= 3 ? variation_parts(variation_range(codes, alike.x)) : PARTS_ALL,
         bitCount(alike.y) >= 3 ? variation_parts(variation_range(codes, alike.y)) : PARTS_ALL);
     uvec2 of_triangle = uvec2(
-        bitCount(own.x) >= 4 && 4.0 * variation_range(codes, own.x) <= float(frame.contrast) ? PARTS_ONE : of_material.x,
-        bitCount(own.y) >= 4 && 4.0 * variation_range(codes, own.y) <= float(frame.contrast) ? PARTS_ONE : of_material.y);
+        bitCount(own.x) >= 4 && 4.0 * variation_range(codes, own.x) <= float(frame.alike) ? PARTS_ONE : of_material.x,
+        bitCount(own.y) >= 4 && 4.0 * variation_range(codes, own.y) <= float(frame.alike) ? PARTS_ONE : of_material.y);
     r.parts = of_triangle.x | of_triangle.y << 2 | of_material.x << 4 | of_material.y << 6;
     return r;
 }

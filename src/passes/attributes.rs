@@ -10,14 +10,15 @@ pub struct Attributes {
 }
 
 impl Attributes {
-    /// Makes the pipeline; `superpixels` tells them from other pixels.
+    /// Makes the pipeline; `superpixels` tells them from other pixels, `grown` if [`Grow`](super::Grow) added
+    /// some.
     ///
     /// # Errors
     /// If the driver refuses it.
-    pub fn new(layout: &FrameLayout, superpixels: bool) -> Result<Self, VulkanError> {
+    pub fn new(layout: &FrameLayout, superpixels: bool, grown: bool) -> Result<Self, VulkanError> {
         let pipeline = layout.compute(
             spirv::ATTRIBUTES,
-            &Constants::new().flag(0, superpixels),
+            &Constants::new().flag(0, superpixels).flag(1, grown),
             None,
         )?;
         Ok(Self { pipeline })

@@ -27,7 +27,8 @@ pub struct Detect {
 impl Detect {
     /// Makes the pipeline; `has_blend` compares the nearest BLEND triangles too, `thin` adds what
     /// [`Thin`](super::Thin) marked, `transparent` compares alpha too, `multisampled` reads the IDs of a multisampled raster (for
-    /// [`DetectMode::Blended`]).
+    /// [`DetectMode::Blended`]), pixels `beyond` the region's own become superpixels
+    /// too, for [`Grow`](super::Grow).
     ///
     /// # Errors
     /// If the driver refuses it.
@@ -38,12 +39,14 @@ impl Detect {
         thin: bool,
         transparent: bool,
         multisampled: bool,
+        beyond: u32,
     ) -> Result<Self, VulkanError> {
         let constants = Constants::new()
             .with(0, mode as u32)
             .flag(1, has_blend)
             .flag(2, thin)
-            .flag(3, transparent);
+            .flag(3, transparent)
+            .with(4, beyond);
         let code = if multisampled {
             spirv::DETECT_MULTISAMPLED
         } else {

@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! raster ─▶ spans ─▶ shade ─▶ thin ─▶ detect ─▶ cull ─▶ bin ─▶ schedule ─▶ setup ─▶ sample ─▶ sort ─▶ shade ─▶ resolve
-//!            └─ pixel centres ─┘                        └─────── a round, as often as memory needs it ───────┘
+//!            └─ pixel centres ─┘                 ▲             └─────── a round, as often as memory needs it ───────┘│
+//!                                                └───────────────────────── grow ◀────────────────────────────────┘
 //! ```
 //! Every pass records into a caller's command buffer and reads what the pass before left on the device. They share the
 //! scene (`scene/`), the memory that they hand to each other (`resources/`), the layout of descriptors (`layout.rs`) and
@@ -17,6 +18,7 @@ mod detect;
 mod encode;
 mod frame;
 mod groups;
+mod grow;
 mod layout;
 mod multisample;
 mod points;
@@ -50,11 +52,12 @@ pub use detect::{Detect, DetectMode};
 pub use encode::{Encode, Encoding};
 pub use frame::FrameUniform;
 pub use groups::Groups;
+pub use grow::Grow;
 pub use layout::FrameLayout;
 pub use multisample::Multisample;
 pub use points::Points;
 pub use raster::{Raster, RasterTargets};
-pub use resolve::Resolve;
+pub use resolve::{Resolve, Then};
 pub use resources::{Locations, ResourceSizes, Resources, SampleSet};
 pub use sample::{RecordRate, Sample, SampleOptions, TileList};
 pub use scene::{GpuScene, SceneUploads};

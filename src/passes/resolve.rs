@@ -4,13 +4,25 @@ use super::{FrameLayout, Sample, TileList, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
+/// The pass that reads what [`Resolve`] wrote, beside the colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Then {
+    /// None.
+    Nothing,
+    /// [`Detect`](super::Detect), which compares the resolved colours.
+    Detect,
+    /// [`Grow`](super::Grow): neighbours that contrast are marked.
+    Grow,
+}
+
 /// Averages what the sub-samples of a cell see.
 pub struct Resolve {
     kernels: Vec<(TileList, Arc<Pipeline>)>,
 }
 
 impl Resolve {
-    /// Makes a pipeline for each list of `sample`; `output` are the colour constants of `shaders/include/color.glsl`.
+    /// Makes a pipeline for each list of `sample`; `then` is what a pass after it needs, `output` are the colour constants of
+    /// `shaders/include/color.glsl`.
     ///
     /// # Errors
     /// If the driver refuses one.
@@ -18,7 +30,7 @@ impl Resolve {
         layout: &FrameLayout,
         sample: &Sample,
         has_blend: bool,
-        display_codes: bool,
+        then: Then,
         output: &Constants,
     ) -> Result<Self, VulkanError> {
         let output = &sample.options().cells.constants(output.clone());
@@ -35,7 +47,7 @@ impl Resolve {
                         chained,
                         sample.options().probes()
                             && matches!(list, TileList::Plain | TileList::Masked),
-                        display_codes,
+                        then,
                         output,
                     )?,
                 ))
@@ -51,18 +63,11 @@ impl Resolve {
     pub fn for_multisample(
         layout: &FrameLayout,
         samples: u32,
-        display_codes: bool,
+        then: Then,
         output: &Constants,
     ) -> Result<Self, VulkanError> {
-        let pipeline = Self::pipeline(
-            layout,
-            TileList::Plain,
-            samples,
-            false,
-            false,
-            display_codes,
-            output,
-        )?;
+        let pipeline =
+            Self::pipeline(layout, TileList::Plain, samples, false, false, then, output)?;
         Ok(Self {
             kernels: vec![(TileList::Plain, pipeline)],
         })
@@ -74,7 +79,7 @@ impl Resolve {
         block: u32,
         chained: bool,
         probed: bool,
-        display_codes: bool,
+        then: Then,
         output: &Constants,
     ) -> Result<Arc<Pipeline>, VulkanError> {
         let lanes = layout.gpu.limits().subgroup_size;
@@ -85,8 +90,9 @@ impl Resolve {
             .with(2, block)
             .flag(3, chained)
             .with(4, list as u32)
-            .flag(5, display_codes)
-            .flag(6, probed);
+            .flag(5, then == Then::Detect)
+            .flag(6, probed)
+            .flag(7, then == Then::Grow);
         layout.compute(spirv::RESOLVE, &constants, Some(lanes))
     }
 

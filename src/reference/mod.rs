@@ -10,6 +10,7 @@ pub mod coverage;
 pub mod detect;
 pub mod edge;
 mod exact;
+pub mod grow;
 pub mod sheen;
 pub mod srgb;
 pub mod tonemap;

@@ -26,18 +26,20 @@ pub enum Parts {
 /// In which parts `triangle` is shaded.
 ///
 /// Around the pixel, two triangles are looked at: that of its centre, and the first other one. Where 4 centres or more
-/// see the triangle and their colours differ by at most a quarter of the threshold of contrast, it is shaded once.
-/// Otherwise the colours of its material count, where 3 centres or more see it: it is shaded once if they differ by at most
-/// the threshold, and in merged parts if by at most four times that. A triangle that is neither of the two and not of
-/// their materials is shaded in all parts.
+/// see the triangle and their colours differ by at most a quarter of `alike` code values, it is shaded once. Otherwise
+/// the colours of its material count, where 3 centres or more see it: it is shaded once if they differ by at most `alike`,
+/// and in merged parts if by at most four times that. A triangle that is neither of the two and not of their materials is
+/// shaded in all parts.
+///
+/// `alike` is the threshold of contrast, but 0 in superpixels that grew: what these contrast with, no centre saw.
 #[must_use]
 pub fn parts(
     around: &Neighbourhood,
     material_of: impl Fn(u32) -> u32,
     triangle: u32,
-    contrast: u8,
+    alike: u8,
 ) -> Parts {
-    let contrast = u32::from(contrast);
+    let alike = u32::from(alike);
     let own = around.ids[CENTRE];
     let other = around
         .ids
@@ -48,7 +50,7 @@ pub fn parts(
     let known = [own, other];
     if known.contains(&triangle) {
         let seen = |id: u32| id == triangle;
-        if count(around, seen) >= 4 && 4 * range(around, seen) <= contrast {
+        if count(around, seen) >= 4 && 4 * range(around, seen) <= alike {
             return Parts::One;
         }
     } else if !known.map(material).contains(&material(triangle)) {
@@ -59,8 +61,8 @@ pub fn parts(
         return Parts::All;
     }
     match range(around, seen) {
-        range if range <= contrast => Parts::One,
-        range if range <= 4 * contrast => Parts::Merged,
+        range if range <= alike => Parts::One,
+        range if range <= 4 * alike => Parts::Merged,
         _ => Parts::All,
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{Reference, Settings};
 use crate::passes::GpuScene;
-use crate::reference::srgb;
+use crate::reference::{srgb, tonemap};
 use crate::vulkan::Constants;
 
 impl Settings {
@@ -29,4 +29,19 @@ pub(super) fn display_code(color: [f32; 4]) -> u32 {
     let rgb = [r, g, b].map(srgb::encode_u8);
     let alpha = (a.clamp(0.0, 1.0) * 255.0).round() as u8;
     u32::from_le_bytes([rgb[0], rgb[1], rgb[2], alpha])
+}
+
+impl Settings {
+    /// What detection compares of a colour in the output, as the shaders' `display_code` does: scene-referred ones are
+    /// tone-mapped for it.
+    pub(super) fn output_code(&self, color: [f32; 4]) -> u32 {
+        if self.reference == Reference::Display || !self.tonemapped_detection {
+            return display_code(color);
+        }
+        let alpha = f64::from(color[3]);
+        let opaque = color.map(|channel| f64::from(channel) / alpha.max(1e-6));
+        let [r, g, b] = tonemap::neutral([opaque[0], opaque[1], opaque[2]])
+            .map(|channel| (channel * alpha) as f32);
+        display_code([r, g, b, color[3]])
+    }
 }

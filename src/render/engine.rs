@@ -3,8 +3,8 @@
 use super::plan::Plan;
 use super::{Coverage, RenderError, Settings, Shading};
 use crate::passes::{
-    Bin, Cells, Cull, Detect, DetectMode, FrameLayout, GpuScene, RecordRate, Resolve, Resources,
-    Sample, SampleOptions, Schedule, Setup, Shade, ShadeSource, Sort, Thin,
+    Bin, Cells, Cull, Detect, DetectMode, FrameLayout, GpuScene, Grow, RecordRate, Resolve,
+    Resources, Sample, SampleOptions, Schedule, Setup, Shade, ShadeSource, Sort, Then, Thin,
 };
 use crate::vulkan::{Constants, Recorder};
 use std::sync::Arc;
@@ -13,6 +13,8 @@ use std::sync::Arc;
 pub(super) struct Engine {
     thin: Option<Thin>,
     detect: Detect,
+    /// In the order in which they run.
+    growths: Vec<Grow>,
     cull: Cull,
     bin: Bin,
     schedule: Schedule,
@@ -33,8 +35,10 @@ pub(super) struct EngineKind {
     pub multisampled: bool,
     /// Sub-samples of a cell.
     pub samples: u32,
-    /// Whether detection still follows, and compares the resolved colours.
-    pub display_codes: bool,
+    /// How often superpixels grow.
+    pub growths: u32,
+    /// Whether `detect` compares the resolved colours.
+    pub detected: bool,
 }
 
 impl Engine {
@@ -67,6 +71,7 @@ impl Engine {
                 kind.thin,
                 settings.background.is_none(),
                 kind.multisampled,
+                kind.growths,
             )
         };
         // The kernels of `sample` take about as long to make as all others.
@@ -87,6 +92,10 @@ impl Engine {
         Ok(Self {
             thin,
             detect,
+            growths: (0..kind.growths)
+                .rev()
+                .map(|beyond| Grow::new(layout, beyond))
+                .collect::<Result<_, _>>()?,
             cull,
             bin,
             schedule: Schedule::new(layout, &sample, plan.layers)?,
@@ -97,7 +106,11 @@ impl Engine {
                 layout,
                 &sample,
                 scene.has_blend(),
-                kind.display_codes,
+                match (kind.growths > 0, kind.detected) {
+                    (true, _) => Then::Grow,
+                    (false, true) => Then::Detect,
+                    (false, false) => Then::Nothing,
+                },
                 output,
             )?,
             sample,
@@ -127,26 +140,59 @@ impl Engine {
         tiles: u32,
         rounds: u32,
     ) {
-        let arguments = &resources.arguments;
         if let Some(thin) = &self.thin {
             thin.record(
                 recorder,
                 &resources.marks,
-                arguments,
+                &resources.arguments,
                 scene.triangle_count(),
             );
             recorder.mark("thin");
         }
         self.detect.record(recorder, tiles);
         recorder.mark("detect");
+        if !self.growths.is_empty() || self.sample.options().probes() {
+            recorder.clear(&resources.marks);
+            recorder.barrier();
+        }
+        self.record_rounds(recorder, scene, resources, rounds);
+    }
+
+    /// How often [`Self::record_growth`] has to follow.
+    pub fn growths(&self) -> usize {
+        self.growths.len()
+    }
+
+    /// Records growth number `growth`: the sampling and shading of pixels that contrast with the superpixels beside them.
+    /// The region has begun again, after [`Self::record`] or the growth before.
+    pub fn record_growth(
+        &self,
+        recorder: &mut Recorder<'_>,
+        scene: &GpuScene,
+        resources: &Resources,
+        tiles: u32,
+        growth: usize,
+        rounds: u32,
+    ) {
+        if let Some(grow) = self.growths.get(growth) {
+            grow.record(recorder, tiles);
+            recorder.mark("grow");
+            self.record_rounds(recorder, scene, resources, rounds);
+        }
+    }
+
+    fn record_rounds(
+        &self,
+        recorder: &mut Recorder<'_>,
+        scene: &GpuScene,
+        resources: &Resources,
+        rounds: u32,
+    ) {
+        let arguments = &resources.arguments;
         self.cull.record(recorder, arguments);
         recorder.mark("cull");
         self.bin.record(recorder, arguments);
         recorder.mark("bin");
-        if self.sample.options().probes() {
-            recorder.clear(&resources.marks);
-            recorder.barrier();
-        }
         for _ in 0..rounds {
             self.schedule.record(recorder);
             recorder.mark("schedule");

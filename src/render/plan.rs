@@ -19,8 +19,8 @@ pub(super) struct Region {
     pub wanted_low: [u32; 2],
     /// Lower right pixel, exclusive.
     wanted_high: [u32; 2],
-    /// Pixels around it that detection compares with: left, top, right, bottom. It needs one; on the left and at the
-    /// top a whole tile keeps tiles, and with them the rounding of edge functions, those of the undivided image.
+    /// Pixels around it that detection compares with: left, top, right, bottom. It needs [`NEIGHBOURS`]; on the left and at
+    /// the top a whole tile keeps tiles, and with them the rounding of edge functions, those of the undivided image.
     halo: [u32; 4],
 }
 
@@ -58,8 +58,8 @@ impl Region {
     pub fn drawn(&self) -> [[u32; 2]; 2] {
         let (first, size, outer) = (self.first_wanted(), self.size(), self.outer());
         [
-            first.map(|place| place.saturating_sub(1)),
-            [0, 1].map(|axis| (first[axis] + size[axis] + 1).min(outer[axis])),
+            first.map(|place| place.saturating_sub(NEIGHBOURS)),
+            [0, 1].map(|axis| (first[axis] + size[axis] + NEIGHBOURS).min(outer[axis])),
         ]
     }
 }
@@ -141,6 +141,9 @@ impl Default for Effort {
     }
 }
 
+/// How far away what a pixel shows can matter, in pixels: it is compared with neighbours, which may be superpixels that
+/// grew beside others, which grew beside others.
+const NEIGHBOURS: u32 = 3;
 /// Largest region in virtual pixels; larger images are rendered in parts.
 /// `schedule` takes 8 tiles a trip on CPU devices, which end loops after 65,535 trips.
 const REGION_PIXELS: u64 = 4 << 20;
@@ -166,7 +169,7 @@ impl Plan {
         let side = settings.side();
         let [width, height] = settings.size;
         let most = REGION_PIXELS;
-        let longest = limits.max_image_side.min(65_535) / side - 9;
+        let longest = limits.max_image_side.min(65_535) / side - 11;
         let mut region = [width.min(longest), height.min(longest)];
         let allowed = settings.max_memory.map(|limit| limit.saturating_sub(taken));
         loop {
@@ -224,8 +227,8 @@ impl Plan {
                     halo: [
                         halo(x > 0, 8),
                         halo(y > 0, 4),
-                        halo(high[0] < width, 1),
-                        halo(high[1] < height, 1),
+                        halo(high[0] < width, NEIGHBOURS),
+                        halo(high[1] < height, NEIGHBOURS),
                     ],
                 });
             }
@@ -290,6 +293,11 @@ impl Plan {
             lists_can_grow: u64::from(sizes.pair_capacity)
                 < limits.max_storage_bytes / ResourceSizes::PAIR_BYTES,
         })
+    }
+
+    /// Rounds recorded for the superpixels that grow beside others, some six times fewer than these.
+    pub fn growth_rounds(&self) -> u32 {
+        self.rounds.div_ceil(3)
     }
 
     fn bytes(&self, scene: &GpuScene, settings: &Settings) -> u64 {

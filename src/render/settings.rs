@@ -21,7 +21,8 @@ pub enum Method {
 /// What makes a pixel a superpixel: see [`crate::passes::DetectMode`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Detection {
-    /// A contrasting colour beside it, of another triangle or of the same one.
+    /// A contrasting colour beside it, of another triangle or of the same one; also that which a superpixel beside it
+    /// was found to show.
     Contrast,
     /// Another triangle in a contrasting colour beside it: the rule of the sources.
     Edges,
@@ -217,6 +218,20 @@ impl Settings {
         self.method == Method::Superpixel
             && self.footprint == Footprint::Sample
             && self.shading != Shading::Sample
+    }
+
+    /// How often pixels beside superpixels are looked at again, by what these were found to show.
+    pub(crate) fn growths(&self) -> u32 {
+        match self.detection {
+            Detection::Contrast if self.method == Method::Superpixel => {
+                if self.samples < 128 {
+                    1
+                } else {
+                    2
+                }
+            }
+            _ => 0,
+        }
     }
 
     /// Side of a pixel's grid under supersampling, otherwise 1.

@@ -39,7 +39,7 @@ pub struct Statistics {
     pub resampled: u64,
     /// Tiles of 8 x 4 pixels.
     pub tiles: u64,
-    /// Tiles that hold superpixels.
+    /// Tiles that hold superpixels before these grow.
     pub busy_tiles: u64,
     /// Triangles of the antialiasing passes; counted once for each region.
     pub triangles: TriangleCounts,
@@ -104,16 +104,22 @@ impl Statistics {
         let get = |counter: Counter| counters.get(counter as usize).copied().map_or(0, u64::from);
         self.superpixels += get(Counter::Superpixels);
         self.resampled += get(Counter::Resampled);
+        self.candidates += get(Counter::CandidatesTotal);
+        self.records += get(Counter::RecordsTotal);
+        self.unlisted_tiles += get(Counter::UnlistedTotal);
+        self.rounds += get(Counter::Rounds);
+    }
+
+    /// Adds what the counters of one region's superpixels say of tiles and triangles.
+    pub(super) fn add_scene(&mut self, counters: &[u32], tiles: u32) {
+        let get = |counter: Counter| counters.get(counter as usize).copied().map_or(0, u64::from);
+        self.tiles += u64::from(tiles);
         self.busy_tiles += get(Counter::Tiles);
         self.triangles.drawn += get(Counter::Survivors) + get(Counter::Large);
         self.triangles.outside += get(Counter::Outside);
         self.triangles.backfacing += get(Counter::Backfacing);
         self.triangles.degenerate += get(Counter::Degenerate);
         self.triangles.untouching += get(Counter::Untouching);
-        self.candidates += get(Counter::CandidatesTotal);
-        self.records += get(Counter::RecordsTotal);
-        self.unlisted_tiles += get(Counter::UnlistedTotal);
-        self.rounds += get(Counter::Rounds);
     }
 }
 

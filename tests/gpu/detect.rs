@@ -9,10 +9,10 @@ use crate::meshes::{Depths, Random, delaunay};
 use crate::stage::{Stage, flat, ids, on_gpu, once, seen_at, textured};
 
 const SIZES: [[u32; 2]; 3] = [[64, 64], [37, 23], [8, 4]];
-const CONTRAST: u8 = 12;
+pub const CONTRAST: u8 = 12;
 
 /// A tiling with holes whose colours have code values that differ by about the threshold.
-fn mosaic(seed: u64, size: [u32; 2]) -> Stage {
+pub fn mosaic(seed: u64, size: [u32; 2]) -> Stage {
     let mut random = Random::new(seed);
     let mesh = delaunay(seed, f64::from(size[0]) / 2.0, 20, Depths::Random);
     let mut stage = Stage::new(vec![flat([1.0; 4], AlphaMode::Opaque)]);
@@ -28,7 +28,7 @@ fn mosaic(seed: u64, size: [u32; 2]) -> Stage {
     stage
 }
 
-/// The superpixels that the device finds.
+/// The superpixels that the device finds, those that grow included.
 fn found(
     gpu: &mut Headless,
     stage: &Stage,
@@ -58,7 +58,7 @@ fn found(
 
 /// The code values of a linear image, red in the lowest byte, and which pixels are too near to a step between two codes
 /// to tell.
-fn codes(rendered: &Rendered) -> (Vec<u32>, Vec<bool>) {
+pub fn codes(rendered: &Rendered) -> (Vec<u32>, Vec<bool>) {
     let each = rendered.colors.iter().map(|&[r, g, b, a]| {
         let exact = [r, g, b].map(|v| 255.0 * encode(f64::from(v)));
         let exact = [exact[0], exact[1], exact[2], 255.0 * f64::from(a)];
@@ -68,10 +68,16 @@ fn codes(rendered: &Rendered) -> (Vec<u32>, Vec<bool>) {
     each.unzip()
 }
 
-/// The superpixels of the CPU.
+/// The superpixels of the CPU, before any grow.
 fn expected(size: [u32; 2], ids: &[u32], blend: &[u32], codes: &[u32], mode: Mode) -> Vec<bool> {
     let [width, height] = size;
-    let mask = superpixels(&Frame::new(width, height, ids, blend, codes).unwrap(), mode);
+    let frame = Frame::new(width, height, ids, blend, codes).unwrap();
+    pixels(size, &superpixels(&frame, mode))
+}
+
+/// A mask of tiles as one value a pixel.
+pub fn pixels(size: [u32; 2], mask: &[u32]) -> Vec<bool> {
+    let [width, height] = size;
     let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     pixels
         .map(|(x, y)| {
@@ -82,11 +88,16 @@ fn expected(size: [u32; 2], ids: &[u32], blend: &[u32], codes: &[u32], mode: Mod
 }
 
 /// Whether a pixel or one of its neighbours is marked.
-fn near(marks: &[bool], size: [u32; 2], pixel: usize) -> bool {
+pub fn near(marks: &[bool], size: [u32; 2], pixel: usize) -> bool {
     let [width, height] = size.map(|side| side as usize);
     let (x, y) = (pixel % width, pixel / width);
     (y.saturating_sub(1)..(y + 2).min(height))
         .any(|y| (x.saturating_sub(1)..(x + 2).min(width)).any(|x| marks[y * width + x]))
+}
+
+/// Whether the device may have found a pixel that the rule alone does not: those that it finds grow.
+fn may_grow(found: bool, expected: &[bool], size: [u32; 2], pixel: usize, mode: Mode) -> bool {
+    found && matches!(mode, Mode::Contrast(_)) && near(expected, size, pixel)
 }
 
 const MODES: [(Detection, Mode); 3] = [
@@ -110,7 +121,12 @@ fn masks_of_whole_codes_are_the_twins() {
             for (detection, mode) in MODES {
                 let found = found(gpu, &stage, &once(size), detection);
                 let expected = expected(size, &ids, &blend, &codes, mode);
-                assert!(found == expected, "{detection:?}, {size:?}");
+                for (pixel, &found) in found.iter().enumerate() {
+                    assert!(
+                        found == expected[pixel] || may_grow(found, &expected, size, pixel, mode),
+                        "{detection:?}, {size:?}, pixel {pixel}"
+                    );
+                }
                 sums.push(found.iter().filter(|&&marked| marked).count());
             }
             if size == SIZES[0] {
@@ -162,13 +178,15 @@ fn masks_of_blended_scenes_are_the_twins() {
             let expected = expected(size, &ids(&base), &blend, &codes, mode);
             let mut excused = 0;
             for pixel in 0..found.len() {
+                let same = found[pixel] == expected[pixel]
+                    || may_grow(found[pixel], &expected, size, pixel, mode);
                 let excuse = detection != Detection::Exact && near(&doubtful, size, pixel);
                 assert!(
-                    found[pixel] == expected[pixel] || excuse,
+                    same || excuse,
                     "{detection:?}, pixel {pixel}: {}",
                     found[pixel]
                 );
-                excused += u32::from(found[pixel] != expected[pixel]);
+                excused += u32::from(!same);
             }
             assert!(excused <= 4, "{detection:?}: {excused} pixels differ");
         }
@@ -185,12 +203,12 @@ fn black_contrasts_with_a_transparent_background() {
         stage.add(0, corners.map(|place| seen_at(place, 1.0, size[1])));
         let exact = found(gpu, &stage, &once(size), Detection::Exact);
         assert!(exact.contains(&true));
-        for detection in [Detection::Contrast, Detection::Edges] {
-            assert!(
-                found(gpu, &stage, &once(size), detection) == exact,
-                "{detection:?}"
-            );
-        }
+        let edges = found(gpu, &stage, &once(size), Detection::Edges);
+        assert!(edges == exact);
+        // Superpixels grow.
+        let contrast = found(gpu, &stage, &once(size), Detection::Contrast);
+        let mut pairs = contrast.iter().zip(&exact);
+        assert!(pairs.all(|(&contrast, &exact)| contrast || !exact));
     });
 }
 
@@ -271,8 +289,8 @@ fn an_image_without_edges_has_no_superpixels() {
 }
 
 /// Stripes painted on a surface of one triangle, by a texture with such a filter.
-fn stripes(size: [u32; 2], filter: Filter) -> Stage {
-    let mut stage = Stage::new(vec![textured(AlphaMode::Opaque)]);
+fn stripes(size: [u32; 2], filter: Filter, alpha: AlphaMode) -> Stage {
+    let mut stage = Stage::new(vec![textured(alpha)]);
     stage.texture = Some((
         Image {
             width: 2,
@@ -310,8 +328,12 @@ fn paint_makes_superpixels() {
             footprint: Footprint::Pixel,
             ..once(size)
         };
-        for filter in [Filter::Nearest, Filter::Linear] {
-            let stage = stripes(size, filter);
+        for (filter, alpha) in [
+            (Filter::Nearest, AlphaMode::Opaque),
+            (Filter::Linear, AlphaMode::Opaque),
+            (Filter::Linear, AlphaMode::Blend),
+        ] {
+            let stage = stripes(size, filter, alpha);
             let truth = stage.render(gpu, &with(Method::Ssaa, 1024));
             let aliased = stage.render(gpu, &with(Method::None, 1));
             let settings = Settings {
@@ -325,6 +347,9 @@ fn paint_makes_superpixels() {
             let [before, after] = [&aliased, &smooth].map(|rendered| error(rendered, &truth));
             assert!(after * 3.0 < before, "{filter:?}: {after} of {before}");
 
+            if alpha == AlphaMode::Blend {
+                continue; // IDs of BLEND triangles are not in the image.
+            }
             let (codes, doubtful) = codes(&aliased);
             let ids = ids(&aliased);
             let blend = vec![0; ids.len()];
@@ -337,7 +362,10 @@ fn paint_makes_superpixels() {
                 };
                 let expected = expected(size, &ids, &blend, &codes, mode);
                 let found = found(gpu, &stage, &settings, detection);
-                let excuse = |pixel| near(&doubtful, size, pixel);
+                let excuse = |pixel: usize| {
+                    near(&doubtful, size, pixel)
+                        || may_grow(found[pixel], &expected, size, pixel, mode)
+                };
                 assert!(
                     (0..found.len()).all(|pixel| found[pixel] == expected[pixel] || excuse(pixel)),
                     "{filter:?}, {mode:?}"

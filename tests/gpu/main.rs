@@ -8,6 +8,7 @@ mod extremes;
 mod golden;
 #[path = "../common/golden.rs"]
 mod goldens;
+mod grow;
 mod invariance;
 mod lobes;
 mod mask;

@@ -108,3 +108,30 @@ fn alpha_is_tested_for_each_sample() {
         }
     });
 }
+
+/// A pane before the checker lets through what each sample sees of it: alpha decides which samples hit, and is no
+/// coverage of its own.
+#[test]
+fn panes_are_composited_over_what_each_sample_sees() {
+    const PANE: [f32; 4] = [0.5, 0.25, 1.0, 0.25];
+    on_gpu(|gpu| {
+        let open = checker();
+        let mut covered = open.clone();
+        covered.materials.push(flat(PANE, AlphaMode::Blend));
+        let corners = [[-40.0, -40.0], [-40.0, 40.0], [40.0, 40.0], [40.0, -40.0]];
+        covered.add_quad(2, corners.map(|place| seen_at(place, 0.5, SIZE[1])));
+        for samples in [16, 64, 256] {
+            let settings = everywhere(SIZE, Pattern::Sobol, samples);
+            let [open, covered] = [&open, &covered].map(|stage| stage.render(gpu, &settings));
+            for (pixel, (open, covered)) in open.colors.iter().zip(&covered.colors).enumerate() {
+                for (channel, pane) in PANE.iter().take(3).enumerate() {
+                    let expected = open[channel] * (1.0 - PANE[3]) + pane * PANE[3];
+                    assert!(
+                        (covered[channel] - expected).abs() < 2e-5,
+                        "{samples} samples, pixel {pixel}: {covered:?} over {open:?}"
+                    );
+                }
+            }
+        }
+    });
+}

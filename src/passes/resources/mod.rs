@@ -103,7 +103,10 @@ impl Resources {
             color: texels_in("colour", pixels, float4, output)?,
             counters: storage("counters", Counter::BYTES)?,
             masks: storage_in("superpixel mask", tiles * 4, input)?,
-            marks: storage("marks of pixels", sizes.work_owners() * 8)?,
+            marks: storage(
+                "marks of pixels",
+                sizes.work_owners() * ResourceSizes::MARK_BYTES,
+            )?,
             tiles: storage("tiles", tiles * 16)?,
             tile_lists: storage(
                 "tile lists",

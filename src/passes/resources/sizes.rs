@@ -31,6 +31,9 @@ impl ResourceSizes {
     /// Bytes of the work lists for a tile or group of sites: six lists of up to four entries.
     pub const WORK_BYTES: u64 = 96;
 
+    /// Bytes of the marks of a tile or group of sites: three words.
+    pub const MARK_BYTES: u64 = 12;
+
     /// Bytes of the largest storage buffer.
     #[must_use]
     pub fn largest_storage(&self) -> u64 {
@@ -78,7 +81,7 @@ impl ResourceSizes {
         let records = u64::from(self.record_capacity);
         pixels * (16 + 4 + 4 + 4)
             + tiles * 20
-            + self.work_owners() * (8 + Self::WORK_BYTES)
+            + self.work_owners() * (Self::MARK_BYTES + Self::WORK_BYTES)
             + u64::from(self.list_capacity) * Self::CANDIDATE_BYTES
             + u64::from(self.pair_capacity) * Self::PAIR_BYTES
             + records * 40

@@ -19,7 +19,7 @@ use crate::sampling::Pattern;
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;
 use passes::{Passes, raster_samples};
-use recording::Recording;
+use recording::{Recording, Run};
 use std::sync::Arc;
 
 /// Pipelines and memory for frames of one scene, which it keeps alive, of one size and method.
@@ -84,7 +84,7 @@ impl Frame {
         )?;
         let passes = Passes::new(layout, scene, settings, &plan, encoding)?;
         let regions = plan.regions.len() as u64;
-        let marks = regions as u32 * (16 + 2 * (4 + 8 * plan.rounds)) + 8;
+        let marks = regions as u32 * (16 + Run::ALL.len() as u32 * (4 + 8 * plan.rounds)) + 8;
         Ok(Self {
             scene: scene.clone(),
             encoding,
@@ -94,7 +94,7 @@ impl Frame {
             resources,
             counters: memory.buffer(
                 "counter read-back",
-                regions * 2 * Counter::BYTES,
+                regions * Run::ALL.len() as u64 * Counter::BYTES,
                 vk::BufferUsageFlags::TRANSFER_DST,
                 MemoryUse::Readback,
             )?,

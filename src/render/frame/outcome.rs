@@ -1,6 +1,7 @@
 //! What the device counted over a frame, once its commands are done.
 
 use super::Frame;
+use super::recording::Run;
 use crate::passes::Counter;
 use crate::render::statistics::Shortfall;
 use crate::render::{PassTime, RenderError, Statistics};
@@ -10,27 +11,40 @@ impl Frame {
     pub(in crate::render) fn shortfall(&self) -> Result<Shortfall, RenderError> {
         let unlisted = self.plan.effort.unlisted;
         let mut shortfall = Shortfall::default();
-        for (tiles, blended, superpixels) in self.counted()? {
-            if self.passes.blended.is_some() {
-                shortfall.add(blended, tiles, unlisted);
-            }
-            if self.passes.superpixels.is_some() {
-                shortfall.add(superpixels, tiles, unlisted);
+        for (tiles, run, counters) in self.counted()? {
+            if self.records(run) {
+                shortfall.add(counters, tiles, unlisted);
             }
         }
         Ok(shortfall)
     }
 
-    /// Tiles of each region, and what the last frame counted over them for BLEND pixels and for superpixels.
-    fn counted(&self) -> Result<impl Iterator<Item = (u32, &[u32], &[u32])>, RenderError> {
+    /// Whether recordings have such a run.
+    fn records(&self, run: Run) -> bool {
+        let superpixels = self.passes.superpixels.as_ref();
+        match run {
+            Run::Blended => self.passes.blended.is_some(),
+            Run::Superpixels => superpixels.is_some(),
+            Run::Grown => superpixels.is_some_and(|engine| engine.growths() > 0),
+            Run::GrownAgain => superpixels.is_some_and(|engine| engine.growths() > 1),
+        }
+    }
+
+    /// For each run over each region: the region's tiles, the run, and what the last frame counted.
+    fn counted(&self) -> Result<impl Iterator<Item = (u32, Run, &[u32])>, RenderError> {
         let regions = &self.plan.regions;
-        let words: &[u32] = self.counters.read(regions.len() * 2 * Counter::COUNT)?;
-        let runs = words.chunks_exact(2 * Counter::COUNT);
-        Ok(regions.iter().zip(runs).map(|(region, runs)| {
+        let words: &[u32] = self
+            .counters
+            .read(regions.len() * Run::ALL.len() * Counter::COUNT)?;
+        let runs = regions.iter().flat_map(|region| {
             let [width, height] = region.outer().map(|side| side * self.settings.side());
-            let (blended, superpixels) = runs.split_at(Counter::COUNT);
-            (width.div_ceil(8) * height.div_ceil(4), blended, superpixels)
-        }))
+            let tiles = width.div_ceil(8) * height.div_ceil(4);
+            Run::ALL.map(|run| (tiles, run))
+        });
+        let counters = words.chunks_exact(Counter::COUNT);
+        Ok(runs
+            .zip(counters)
+            .map(|((tiles, run), counters)| (tiles, run, counters)))
     }
 
     /// Figures of the last frame. Call it when its commands are done.
@@ -46,10 +60,13 @@ impl Frame {
         };
         statistics.triangles.total = u64::from(self.scene.triangle_count());
         self.shortfall()?.check()?;
-        for (tiles, _, superpixels) in self.counted()? {
-            if self.passes.superpixels.is_some() {
-                statistics.tiles += u64::from(tiles);
-                statistics.add(superpixels);
+        for (tiles, run, counters) in self.counted()? {
+            if !self.records(run) || run == Run::Blended {
+                continue;
+            }
+            statistics.add(counters);
+            if run == Run::Superpixels {
+                statistics.add_scene(counters, tiles);
             }
         }
         if self.passes.blended.is_none() {

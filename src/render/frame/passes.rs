@@ -2,7 +2,7 @@
 
 use crate::passes::{
     Attributes, BoxFilter, DetectMode, Encode, Encoding, FrameLayout, GpuScene, Multisample,
-    Raster, RecordRate, Resolve, Shade, ShadeSource, Sort, Spans,
+    Raster, RecordRate, Resolve, Shade, ShadeSource, Sort, Spans, Then,
 };
 use crate::render::engine::{Engine, EngineKind, record_rate};
 use crate::render::plan::Plan;
@@ -92,7 +92,8 @@ impl Passes {
                 thin: false,
                 multisampled,
                 samples: if multisampled { settings.samples } else { 1 },
-                display_codes,
+                growths: 0,
+                detected: display_codes,
             },
         )?;
         let superpixels = engine(
@@ -107,7 +108,8 @@ impl Passes {
                 thin: settings.thin && settings.detection != Detection::Every,
                 multisampled: false,
                 samples: settings.samples,
-                display_codes: false,
+                growths: settings.growths(),
+                detected: false,
             },
         )?;
         let multisampling = shading
@@ -118,7 +120,12 @@ impl Passes {
                     multisample: Multisample::new(layout)?,
                     sort: Sort::new(layout, one_bin)?,
                     shade: shade.clone(),
-                    resolve: Resolve::for_multisample(layout, settings.samples, false, &output)?,
+                    resolve: Resolve::for_multisample(
+                        layout,
+                        settings.samples,
+                        Then::Nothing,
+                        &output,
+                    )?,
                 })
             })
             .transpose()?;
@@ -130,7 +137,7 @@ impl Passes {
             superpixels,
             attributes: settings
                 .attributes
-                .then(|| Attributes::new(layout, antialiased))
+                .then(|| Attributes::new(layout, antialiased, settings.growths() > 0))
                 .transpose()?,
             box_filter: (settings.side() > 1)
                 .then(|| BoxFilter::new(layout))

@@ -3,7 +3,7 @@
 use super::passes::{Multisampling, Passes, PixelShading};
 use super::target::Target;
 use crate::camera::Camera;
-use crate::passes::{GpuScene, RasterTargets, Resources};
+use crate::passes::{FrameUniform, GpuScene, RasterTargets, Resources};
 use crate::render::Settings;
 use crate::render::color::display_code;
 use crate::render::engine::record_shading;
@@ -14,6 +14,32 @@ use crate::vulkan::{Buffer, Recorder};
 const CENTRE: usize = 0;
 /// Descriptor set with the method's sample locations.
 const LOCATIONS: usize = 1;
+
+/// The runs of the sampling engine over a region, each of which counts for itself.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Run {
+    Blended,
+    Superpixels,
+    Grown,
+    GrownAgain,
+}
+
+impl Run {
+    /// All of them, in the order in which their counters are kept.
+    pub const ALL: [Self; 4] = [
+        Self::Blended,
+        Self::Superpixels,
+        Self::Grown,
+        Self::GrownAgain,
+    ];
+    /// Those of superpixels that grew.
+    const GROWN: [Self; 2] = [Self::Grown, Self::GrownAgain];
+
+    /// Where the counters of a region's run are kept.
+    fn slot(self, region: usize) -> u64 {
+        (Self::ALL.len() * region + self as usize) as u64
+    }
+}
 
 /// One recording of a frame: the frame's parts, borrowed apart from its timings, and what it shows where.
 pub(super) struct Recording<'a> {
@@ -93,13 +119,21 @@ impl Recording<'_> {
         if let Some(engine) = &passes.blended {
             resources.record_begin(recorder, main, &whole);
             engine.record(recorder, scene, resources, tiles, self.plan.rounds);
-            resources.record_keep_counters(recorder, self.counters, 2 * index as u64);
+            resources.record_keep_counters(recorder, self.counters, Run::Blended.slot(index));
         }
         if let Some(engine) = &passes.superpixels {
             let owned = self.uniform(region, locations.count(), true);
             resources.record_begin(recorder, locations, &owned);
             engine.record(recorder, scene, resources, tiles, self.plan.rounds);
-            resources.record_keep_counters(recorder, self.counters, 2 * index as u64 + 1);
+            resources.record_keep_counters(recorder, self.counters, Run::Superpixels.slot(index));
+            // Centres whose colours are alike miss what superpixels beside them show.
+            let grown = FrameUniform { alike: 0, ..owned };
+            for (growth, run) in Run::GROWN.into_iter().enumerate().take(engine.growths()) {
+                let rounds = self.plan.growth_rounds();
+                resources.record_begin(recorder, locations, &grown);
+                engine.record_growth(recorder, scene, resources, tiles, growth, rounds);
+                resources.record_keep_counters(recorder, self.counters, run.slot(index));
+            }
         }
         if let Some(attributes) = &passes.attributes {
             attributes.record(recorder, filtered);

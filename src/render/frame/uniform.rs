@@ -60,6 +60,7 @@ impl Recording<'_> {
             light_count: scene.light_features().count,
             material_vectors: scene.material_vectors(),
             contrast: u32::from(self.settings.contrast),
+            alike: u32::from(self.settings.contrast),
             exposure: self.settings.exposure.exp2(),
             footprint: footprints.centre,
             place_footprint: footprints.place,

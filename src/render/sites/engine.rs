@@ -6,7 +6,7 @@ use crate::camera::Pinhole;
 use crate::passes::{
     Bin, Cells, Counter, Cull, FrameLayout, FrameUniform, GpuScene, Groups, Locations, Points,
     RasterTargets, RecordRate, Resolve, ResourceSizes, Resources, Sample, SampleOptions, Schedule,
-    Setup, Shade, ShadeSource, SiteData, Sort,
+    Setup, Shade, ShadeSource, SiteData, Sort, Then,
 };
 use crate::render::engine::{can_settle, record_rate, record_shading};
 use crate::render::footprint::Footprints;
@@ -141,7 +141,7 @@ impl SiteEngine {
                 layout,
                 &sample,
                 scene.has_blend(),
-                false,
+                Then::Nothing,
                 &output,
             )?)
         };

@@ -93,20 +93,10 @@ impl Headless {
             if settings.thin && !every {
                 cells.mark_thin(scene, rig, size[0], &mut marked);
             }
-            for (pinhole, sites) in rig {
-                let chosen: Vec<Site> = sites
-                    .iter()
-                    .filter(|site| marked.get(site.output as usize).copied().unwrap_or(false))
-                    .copied()
-                    .collect();
-                if chosen.is_empty() {
-                    continue;
-                }
-                let resolved = self.sample_superpixels(scene, pinhole, &chosen, &settings)?;
-                statistics.append(resolved.statistics);
-                for (site, color) in chosen.iter().zip(&resolved.values) {
-                    cells.resolve(site.output as usize, *color, settings.samples);
-                }
+            statistics.append(self.sample_marked(scene, rig, &marked, &settings, &mut cells)?);
+            for _ in 0..settings.growths() {
+                marked = cells.beside(&marked, &settings);
+                statistics.append(self.sample_marked(scene, rig, &marked, &settings, &mut cells)?);
             }
         }
         Ok(Rendered {
@@ -119,6 +109,34 @@ impl Headless {
             },
             statistics,
         })
+    }
+
+    /// Samples the sites of marked cells as superpixels.
+    fn sample_marked(
+        &mut self,
+        scene: &PreparedScene,
+        rig: &[(Pinhole, Vec<Site>)],
+        marked: &[bool],
+        settings: &Settings,
+        cells: &mut Cells,
+    ) -> Result<Statistics, RenderError> {
+        let mut statistics = Statistics::default();
+        for (pinhole, sites) in rig {
+            let chosen: Vec<Site> = sites
+                .iter()
+                .filter(|site| marked.get(site.output as usize).copied().unwrap_or(false))
+                .copied()
+                .collect();
+            if chosen.is_empty() {
+                continue;
+            }
+            let resolved = self.sample_superpixels(scene, pinhole, &chosen, settings)?;
+            statistics.append(resolved.statistics);
+            for (site, color) in chosen.iter().zip(&resolved.values) {
+                cells.resolve(site.output as usize, *color, settings.samples);
+            }
+        }
+        Ok(statistics)
     }
 }
 
@@ -194,6 +212,27 @@ impl Cells {
                 .is_some_and(|word| word >> bit & 1 != 0)
         };
         Ok((0..width * height).map(marked).collect())
+    }
+
+    /// Whether each cell grows beside others: it is no superpixel, and contrasts with what one of those `resolved` last was
+    /// found to show.
+    fn beside(&self, resolved: &[bool], settings: &Settings) -> Vec<bool> {
+        let [width, height] = settings.size.map(|side| side as usize);
+        let shown = |cell: usize| settings.output_code(self.colors[cell]).to_le_bytes();
+        let grows = |cell: usize| {
+            let own = self.codes[cell].to_le_bytes();
+            let (x, y) = (cell % width, cell / width);
+            let rows = y.saturating_sub(1)..(y + 2).min(height);
+            let mut around = rows.flat_map(|row| {
+                (x.saturating_sub(1)..(x + 2).min(width)).map(move |column| row * width + column)
+            });
+            self.attributes[cell].superpixel == 0
+                && around.any(|cell| {
+                    let mut channels = own.into_iter().zip(shown(cell));
+                    resolved[cell] && channels.any(|(a, b)| a.abs_diff(b) > settings.contrast)
+                })
+        };
+        (0..width * height).map(grows).collect()
     }
 
     /// Marks the cells that a thin triangle crosses unseen.

@@ -23,7 +23,7 @@ fn borders_of_shadows_are_antialiased() {
         let settings = Settings {
             samples: 64,
             shadows: Shadows::Exact,
-            detection: Detection::Contrast,
+            detection: Detection::Edges,
             attributes: true,
             ..everywhere(SIZE, Pattern::Sobol, 64)
         };
