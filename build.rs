@@ -7,6 +7,16 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+/// Shaders of the example `visibility`, which is a host with materials of its own.
+const EXAMPLE: &[Variant] = &[
+    ("pose", "pose.comp", &[]),
+    ("ids_vertex", "ids.vert", &[]),
+    ("ids_fragment", "ids.frag", &[]),
+    ("screen_vertex", "screen.vert", &[]),
+    ("screen_fragment", "screen.frag", &[]),
+    ("samples", "samples.comp", &[]),
+];
+
 /// Name of the compiled shader, its source, its macro definitions.
 type Variant = (
     &'static str,
@@ -95,18 +105,36 @@ const VARIANTS: &[Variant] = &[
     ("multisample", "multisample.comp", &[]),
     ("attributes", "attributes.comp", &[]),
     ("encode", "encode.comp", &[]),
+    ("adopt", "adopt.comp", &[]),
+    ("take", "take.comp", &[]),
+    ("patch_vertex", "patch.vert", &[]),
+    ("patch_fragment", "patch.frag", &[]),
 ];
+
+/// Shaders that are compiled and checked in together.
+struct Group {
+    /// Their folder; compiled ones are in `spirv` in it.
+    sources: PathBuf,
+    /// The folder of what they include, beside their own.
+    includes: PathBuf,
+    variants: &'static [Variant],
+}
 
 fn main() {
     println!("cargo:rerun-if-changed=shaders");
+    println!("cargo:rerun-if-changed=examples/visibility/shaders");
     println!("cargo:rerun-if-changed=build.rs");
     println!("cargo:rerun-if-env-changed=GPC_SPIRV");
     let root =
         PathBuf::from(std::env::var("CARGO_MANIFEST_DIR").expect("cargo sets CARGO_MANIFEST_DIR"));
     let out = PathBuf::from(std::env::var("OUT_DIR").expect("cargo sets OUT_DIR"));
-    let sources = root.join("shaders");
-    let checked_in = sources.join("spirv");
-    let folder = spirv(&sources, &checked_in, &out);
+    let group = |folder: &str, variants| Group {
+        sources: root.join(folder),
+        includes: root.join("shaders/include"),
+        variants,
+    };
+    spirv(&group("examples/visibility/shaders", EXAMPLE), &out);
+    let folder = spirv(&group("shaders", VARIANTS), &out);
     let mut code = String::new();
     for (name, source, _) in VARIANTS {
         let path = folder.join(format!("{name}.spv"));
@@ -121,70 +149,81 @@ fn main() {
     fs::write(out.join("spirv.rs"), code).expect("OUT_DIR is writable");
 }
 
-/// A fingerprint of every source file and of the list of variants (64-bit FNV-1a).
-fn fingerprint(sources: &Path) -> String {
-    let mut files: Vec<PathBuf> = [sources.to_path_buf(), sources.join("include")]
-        .iter()
-        .flat_map(|folder| {
-            fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()))
-        })
-        .map(|entry| entry.expect("a folder's entry").path())
-        .filter(|path| path.is_file())
-        .collect();
-    files.sort();
-    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
-    let mut add = |bytes: &[u8]| {
-        for byte in bytes.iter().filter(|byte| **byte != b'\r') {
-            hash = (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
-        }
-    };
-    for file in &files {
-        add(file.file_name().expect("a file's name").as_encoded_bytes());
-        add(&fs::read(file).unwrap_or_else(|e| panic!("{}: {e}", file.display())));
+impl Group {
+    fn checked_in(&self) -> PathBuf {
+        self.sources.join("spirv")
     }
-    add(format!("{VARIANTS:?}").as_bytes());
-    format!("{hash:016x}\n")
+
+    /// A fingerprint of every source file and of the list of variants (64-bit FNV-1a).
+    fn fingerprint(&self) -> String {
+        let mut files: Vec<PathBuf> = [&self.sources, &self.includes]
+            .iter()
+            .flat_map(|folder| {
+                fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()))
+            })
+            .map(|entry| entry.expect("a folder's entry").path())
+            .filter(|path| path.is_file())
+            .collect();
+        files.sort();
+        let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+        let mut add = |bytes: &[u8]| {
+            for byte in bytes.iter().filter(|byte| **byte != b'\r') {
+                hash = (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+            }
+        };
+        for file in &files {
+            add(file.file_name().expect("a file's name").as_encoded_bytes());
+            add(&fs::read(file).unwrap_or_else(|e| panic!("{}: {e}", file.display())));
+        }
+        add(format!("{:?}", self.variants).as_bytes());
+        format!("{hash:016x}\n")
+    }
 }
 
 #[cfg(not(feature = "compile-shaders"))]
-fn spirv(sources: &Path, checked_in: &Path, _out: &Path) -> PathBuf {
+fn spirv(group: &Group, _out: &Path) -> PathBuf {
+    let checked_in = group.checked_in();
     let made_from = fs::read_to_string(checked_in.join("fingerprint")).unwrap_or_default();
     assert!(
-        made_from.trim() == fingerprint(sources).trim(),
-        "\n\nshaders/spirv is not what shaders/ compiles to: run `make shaders` (needs cmake and a C++ compiler) and commit the result\n"
+        made_from.trim() == group.fingerprint().trim(),
+        "\n\n{} is not what its sources compile to: run `make shaders` (needs cmake and a C++ compiler) and commit the result\n",
+        checked_in.display()
     );
-    checked_in.to_path_buf()
+    checked_in
 }
 
 #[cfg(feature = "compile-shaders")]
-fn spirv(sources: &Path, checked_in: &Path, out: &Path) -> PathBuf {
-    let compiled = compile(sources);
+fn spirv(group: &Group, out: &Path) -> PathBuf {
+    let compiled = compile(group);
+    let checked_in = group.checked_in();
     let mode = std::env::var("GPC_SPIRV").unwrap_or_default();
     let folder = out.join("spirv");
     fs::create_dir_all(&folder).expect("OUT_DIR is writable");
     if mode == "write" {
-        let _ = fs::remove_dir_all(checked_in);
-        fs::create_dir_all(checked_in).expect("shaders/ is writable");
-        fs::write(checked_in.join("fingerprint"), fingerprint(sources))
-            .expect("shaders/spirv is writable");
+        let _ = fs::remove_dir_all(&checked_in);
+        fs::create_dir_all(&checked_in).expect("the sources' folder is writable");
+        fs::write(checked_in.join("fingerprint"), group.fingerprint())
+            .expect("the sources' folder is writable");
     }
     if mode == "check" {
         let made_from = fs::read_to_string(checked_in.join("fingerprint")).unwrap_or_default();
         assert!(
-            made_from == fingerprint(sources),
-            "\n\nshaders/spirv/fingerprint is stale: run `make shaders`\n"
+            made_from == group.fingerprint(),
+            "\n\n{}/fingerprint is stale: run `make shaders`\n",
+            checked_in.display()
         );
     }
     for (name, words) in compiled {
         let file = format!("{name}.spv");
         if mode == "write" {
-            fs::write(checked_in.join(&file), &words).expect("shaders/spirv is writable");
+            fs::write(checked_in.join(&file), &words).expect("the sources' folder is writable");
         }
         if mode == "check" {
             let found = fs::read(checked_in.join(&file)).unwrap_or_default();
             assert!(
                 found == words,
-                "\n\nshaders/spirv/{file} is not what its source compiles to: run `make shaders`\n"
+                "\n\n{}/{file} is not what its source compiles to: run `make shaders`\n",
+                checked_in.display()
             );
         }
         fs::write(folder.join(&file), &words).expect("OUT_DIR is writable");
@@ -193,9 +232,11 @@ fn spirv(sources: &Path, checked_in: &Path, out: &Path) -> PathBuf {
 }
 
 #[cfg(feature = "compile-shaders")]
-fn compile(sources: &Path) -> Vec<(&'static str, Vec<u8>)> {
+fn compile(group: &Group) -> Vec<(&'static str, Vec<u8>)> {
+    let sources = &group.sources;
     let compiler = shaderc::Compiler::new().expect("shaderc starts");
-    VARIANTS
+    group
+        .variants
         .iter()
         .map(|(name, source, definitions)| {
             let mut options = shaderc::CompileOptions::new().expect("shaderc options");
@@ -208,9 +249,13 @@ fn compile(sources: &Path) -> Vec<(&'static str, Vec<u8>)> {
                 let nested = Path::new(from)
                     .parent()
                     .map(|folder| sources.join(folder).join(requested));
-                let path = nested
-                    .filter(|path| path.is_file())
-                    .unwrap_or_else(|| sources.join(requested));
+                let beside = [sources, &group.includes].map(|folder| Some(folder.join(requested)));
+                let path = [nested]
+                    .into_iter()
+                    .chain(beside)
+                    .flatten()
+                    .find(|path| path.is_file())
+                    .ok_or_else(|| format!("{requested} is in no folder of includes"))?;
                 let content =
                     fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
                 let resolved_name = path
@@ -232,10 +277,10 @@ fn compile(sources: &Path) -> Vec<(&'static str, Vec<u8>)> {
                 _ => shaderc::ShaderKind::Compute,
             };
             let text = fs::read_to_string(sources.join(source))
-                .unwrap_or_else(|e| panic!("shaders/{source}: {e}"));
+                .unwrap_or_else(|e| panic!("{source}: {e}"));
             let artifact = compiler
                 .compile_into_spirv(&text, kind, source, "main", Some(&options))
-                .unwrap_or_else(|e| panic!("\n\nshaders/{source} as {name}:\n{e}\n"));
+                .unwrap_or_else(|e| panic!("\n\n{source} as {name}:\n{e}\n"));
             (*name, artifact.as_binary_u8().to_vec())
         })
         .collect()

@@ -12,7 +12,7 @@ void main() {
     uint corner = uint(gl_VertexIndex) - 3u * t;
     uvec4 indices = texelFetch(triangles, int(t));
     uint v = corner == 0u ? indices.x : corner == 1u ? indices.y : indices.z;
-    vec4 p = to_clip(frame.transform, texelFetch(positions, int(v)).xyz);
+    vec4 p = to_clip(frame.transform, texelFetch(positions, int(v)));
     gl_Position = vec4(p.xy * frame.raster_scale + frame.raster_offset * p.w, p.zw);
     triangle_id = t + 1u;
 }

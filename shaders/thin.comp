@@ -16,6 +16,7 @@
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool SELECT = false;
 layout(constant_id = 1) const bool HAS_BLEND = false;
+layout(constant_id = 2) const bool FARTHER_IS_LARGER = false;   // in raster's depth
 
 layout(set = 0, binding = 40) uniform texture2D raster_depth;
 
@@ -59,6 +60,7 @@ vec4 span_of(vec3 p, vec3 q, float left, float right) {
 // `depths`: the farthest and the nearest of the triangle there.
 void mark(ivec2 pixel, uint t, vec2 depths) {
     float seen = texelFetch(raster_depth, pixel, 0).x;
+    seen = FARTHER_IS_LARGER ? 1.0 - seen : seen;
     bool unseen = !HAS_BLEND || t < frame.first_blend || texelFetch(blend_ids, pixel, 0).x != t + 1u;
     bool apart = depths.x - seen > frame.gap.x * depths.x + frame.gap.y;
     bool painted = depths.y >= seen && texelFetch(ids, pixel, 0).x != t + 1u;

@@ -1,10 +1,12 @@
 //! A renderer on Vulkan that antialiases only where an image aliases.
 //!
 //! The feature `cli`, on by default, has what the command needs: image files ([`output`]), comparisons and benchmarks.
-//! `gltf` alone has scenes, cameras and rendering in a host's device or one of its own. Without either there are the
-//! [`vulkan`] layer and [`sampling`] patterns.
+//! `gltf` alone has scenes, cameras and rendering in a host's device or one of its own. What is left without either is the
+//! engine for a host's own scene and materials ([`host`]), which knows no files.
 
 #![warn(missing_docs)]
+// The engine has what scenes of files need, too.
+#![cfg_attr(not(feature = "gltf"), allow(dead_code))]
 
 #[cfg(feature = "cli")]
 pub mod bench;
@@ -12,15 +14,13 @@ pub mod bench;
 pub mod camera;
 #[cfg(feature = "cli")]
 pub mod compare;
+pub mod host;
 #[cfg(feature = "cli")]
 pub mod output;
-#[cfg(feature = "gltf")]
 pub mod passes;
 #[cfg(feature = "gltf")]
 mod random;
-#[cfg(feature = "gltf")]
 pub mod reference;
-#[cfg(feature = "gltf")]
 pub mod render;
 #[cfg(feature = "cli")]
 pub mod resample;

@@ -13,8 +13,8 @@ struct Triangle {
 };
 
 // Every pass gets the same bits, so that they agree on shared edges.
-vec4 to_clip(mat4 matrix, vec3 p) {
-    precise vec4 z = matrix[3] + matrix[2] * p.z;
+vec4 to_clip(mat4 matrix, vec4 p) {
+    precise vec4 z = matrix[3] * p.w + matrix[2] * p.z;
     precise vec4 y = z + matrix[1] * p.y;
     precise vec4 x = y + matrix[0] * p.x;
     return x;
@@ -25,9 +25,9 @@ Triangle triangle_at(uint index) {
     Triangle t;
     t.vertices = ivec3(record.xyz);
     t.word = record.w;
-    t.v0 = to_clip(frame.transform, texelFetch(positions, t.vertices.x).xyz);
-    t.v1 = to_clip(frame.transform, texelFetch(positions, t.vertices.y).xyz);
-    t.v2 = to_clip(frame.transform, texelFetch(positions, t.vertices.z).xyz);
+    t.v0 = to_clip(frame.transform, texelFetch(positions, t.vertices.x));
+    t.v1 = to_clip(frame.transform, texelFetch(positions, t.vertices.y));
+    t.v2 = to_clip(frame.transform, texelFetch(positions, t.vertices.z));
     return t;
 }
 

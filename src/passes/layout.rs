@@ -1,11 +1,14 @@
 //! The layout of the descriptor sets and pipelines that all passes share, and the pipelines made so far.
 
 use super::pool::DescriptorPool;
-use super::scene::SLOTS;
 use crate::vulkan::{Constants, Gpu, Pipeline, VulkanError, compute_pipeline};
 use ash::vk;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
+
+/// Textures of a material that differ, at the most. With one for the environment, these are the samplers that every Vulkan
+/// device has.
+pub(super) const SLOTS: usize = 15;
 
 /// The bindings of set 0.
 const BINDINGS: [(u32, vk::DescriptorType); 44] = {

@@ -9,9 +9,11 @@
 //! scene (`scene/`), the memory that they hand to each other (`resources/`), the layout of descriptors (`layout.rs`) and
 //! the twins of what shaders include (`frame.rs`, `counters.rs`, `sites.rs`).
 
+mod adopt;
 mod attributes;
 mod bin;
 mod box_filter;
+mod content;
 mod counters;
 mod cull;
 mod detect;
@@ -21,21 +23,28 @@ mod groups;
 mod grow;
 mod layout;
 mod multisample;
+mod own_layout;
+mod patch;
 mod points;
 mod pool;
+#[cfg(feature = "gltf")]
 mod raster;
 mod resolve;
 mod resources;
 mod sample;
+#[cfg(feature = "gltf")]
 mod scene;
 mod schedule;
 mod setup;
+#[cfg(feature = "gltf")]
 mod shade;
 mod sites;
 mod sort;
 mod spans;
+mod take;
 mod thin;
 mod upload;
+mod visibility;
 
 /// The compiled shaders.
 #[allow(missing_docs)]
@@ -43,9 +52,11 @@ mod spirv {
     include!(concat!(env!("OUT_DIR"), "/spirv.rs"));
 }
 
+pub(crate) use adopt::{Adopt, AdoptedCounts, AdoptedDraw};
 pub use attributes::Attributes;
 pub use bin::Bin;
 pub use box_filter::BoxFilter;
+pub use content::Content;
 pub use counters::{Argument, Counter};
 pub use cull::Cull;
 pub use detect::{Detect, DetectMode};
@@ -55,16 +66,23 @@ pub use groups::Groups;
 pub use grow::Grow;
 pub use layout::FrameLayout;
 pub use multisample::Multisample;
+pub(crate) use own_layout::{OwnSet, SetLayout};
+pub(crate) use patch::Patch;
 pub use points::Points;
+#[cfg(feature = "gltf")]
 pub use raster::{Raster, RasterTargets};
 pub use resolve::{Resolve, Then};
-pub use resources::{Locations, ResourceSizes, Resources, SampleSet};
+pub use resources::{IdViews, Locations, ResourceSizes, Resources, SampleSet};
 pub use sample::{RecordRate, Sample, SampleOptions, TileList};
+#[cfg(feature = "gltf")]
 pub use scene::{GpuScene, SceneUploads};
 pub use schedule::Schedule;
 pub use setup::Setup;
+#[cfg(feature = "gltf")]
 pub use shade::{Shade, ShadeSource};
 pub use sites::{Cells, SiteData, SiteSizes};
 pub use sort::Sort;
 pub use spans::Spans;
+pub(crate) use take::Take;
 pub use thin::Thin;
+pub(crate) use visibility::{VisibilityUniform, visibility_layout};

@@ -1,6 +1,6 @@
 //! raster: depth and triangle ID of every pixel, by the device's rasterizer.
 
-use super::{FrameLayout, GpuScene, spirv};
+use super::{FrameLayout, GpuScene, IdViews, spirv};
 use crate::scene::DrawClass;
 use crate::vulkan::{Constants, Gpu, Image, Memory, Pipeline, Recorder, Shader, VulkanError};
 use ash::vk;
@@ -77,6 +77,17 @@ impl RasterTargets {
                 })
                 .transpose()?,
         })
+    }
+
+    /// What passes see of them.
+    #[must_use]
+    pub fn views(&self) -> IdViews {
+        IdViews {
+            ids: self.ids.view,
+            blend_ids: self.blend_ids.as_ref().map(|image| image.view),
+            depth: Some(self.depth.view),
+            placeholder: self.placeholder.as_ref().map(|image| image.view),
+        }
     }
 
     /// Brings single-sampled images into the layout in which descriptor sets show them, where nothing is drawn.

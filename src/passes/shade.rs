@@ -1,7 +1,7 @@
 //! shade: the radiance of what is seen, one dispatch a material bin.
 
 use super::scene::ShadeFeatures;
-use super::{Argument, Cells, FrameLayout, GpuScene, spirv};
+use super::{Argument, Cells, Content, FrameLayout, GpuScene, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::collections::HashMap;

@@ -12,16 +12,23 @@ pub struct Thin {
 }
 
 impl Thin {
-    /// Makes the pipelines.
+    /// Makes the pipelines; `farther_is_larger` says how the depth that was drawn runs.
     ///
     /// # Errors
     /// If the driver refuses one.
-    pub fn new(layout: &FrameLayout, has_blend: bool) -> Result<Self, VulkanError> {
+    pub fn new(
+        layout: &FrameLayout,
+        has_blend: bool,
+        farther_is_larger: bool,
+    ) -> Result<Self, VulkanError> {
         let make = |code, constants| layout.compute(code, &constants, None);
         let thin = |select| {
             make(
                 spirv::THIN,
-                Constants::new().flag(0, select).flag(1, has_blend),
+                Constants::new()
+                    .flag(0, select)
+                    .flag(1, has_blend)
+                    .flag(2, farther_is_larger),
             )
         };
         Ok(Self {

@@ -1,19 +1,19 @@
 //! Colours and their transforms as the shaders take them.
 
 use super::{Reference, Settings};
-use crate::passes::GpuScene;
+use crate::passes::Content;
 use crate::reference::{srgb, tonemap};
 use crate::vulkan::Constants;
 
 impl Settings {
     /// The background as linear, premultiplied RGBA.
-    pub(super) fn background_rgba(&self) -> [f32; 4] {
+    pub(crate) fn background_rgba(&self) -> [f32; 4] {
         self.background.map_or([0.0; 4], |[r, g, b]| [r, g, b, 1.0])
     }
 
     /// The constants of `shaders/include/color.glsl`, and of `shaders/shade.comp` and `shaders/include/tint.glsl` what is
     /// the same for all materials of a scene.
-    pub(super) fn color_constants(&self, scene: &GpuScene) -> Constants {
+    pub(crate) fn color_constants(&self, scene: &dyn Content) -> Constants {
         let tonemap = self.reference == Reference::Display && self.tonemapped_detection;
         Constants::new()
             .flag(15, self.filters_boxes())
@@ -24,7 +24,7 @@ impl Settings {
 }
 
 /// What detection compares of a background, as `display_code` of `shaders/include/color.glsl` packs it.
-pub(super) fn display_code(color: [f32; 4]) -> u32 {
+pub(crate) fn display_code(color: [f32; 4]) -> u32 {
     let [r, g, b, a] = color.map(f64::from);
     let rgb = [r, g, b].map(srgb::encode_u8);
     let alpha = (a.clamp(0.0, 1.0) * 255.0).round() as u8;

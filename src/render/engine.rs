@@ -3,14 +3,21 @@
 use super::plan::Plan;
 use super::{Coverage, RenderError, Settings, Shading};
 use crate::passes::{
-    Bin, Cells, Cull, Detect, DetectMode, FrameLayout, GpuScene, Grow, RecordRate, Resolve,
-    Resources, Sample, SampleOptions, Schedule, Setup, Shade, ShadeSource, Sort, Then, Thin,
+    Bin, Cells, Content, Cull, Detect, DetectMode, FrameLayout, Grow, RecordRate, Resolve,
+    Resources, Sample, SampleOptions, Schedule, Setup, Sort, Then, Thin,
 };
 use crate::vulkan::{Constants, Recorder};
 use std::sync::Arc;
 
-/// Detects cells and samples them; one for BLEND pixels, one for superpixels.
-pub(super) struct Engine {
+/// Shades visibility records: writes the radiance of each to its place in the buffer of shaded records.
+pub(crate) trait RecordShading {
+    /// Records the shading of a round, sorted by key. Set 0 is bound before, and bound again after it.
+    fn record(&self, recorder: &Recorder<'_>, resources: &Resources);
+}
+
+/// Detects cells and samples them: it knows triangles and shading keys, no materials. A frame has one for BLEND pixels and
+/// one for superpixels.
+pub(crate) struct Engine {
     thin: Option<Thin>,
     detect: Detect,
     /// In the order in which they run.
@@ -21,16 +28,17 @@ pub(super) struct Engine {
     setup: Setup,
     sample: Sample,
     sort: Sort,
-    shade: Arc<Shade>,
     resolve: Resolve,
 }
 
 /// What an [`Engine`] is made for.
-pub(super) struct EngineKind {
+pub(crate) struct EngineKind {
     /// Which pixels are cells.
     pub mode: DetectMode,
     /// Whether thin triangles that no pixel centre saw make cells too.
     pub thin: bool,
+    /// Whether the depth that was drawn grows with distance.
+    pub farther_is_larger: bool,
     /// Whether the triangle IDs are multisampled.
     pub multisampled: bool,
     /// Sub-samples of a cell.
@@ -44,10 +52,9 @@ pub(super) struct EngineKind {
 impl Engine {
     pub fn new(
         layout: &Arc<FrameLayout>,
-        scene: &GpuScene,
+        scene: &dyn Content,
         settings: &Settings,
         plan: &Plan,
-        shade: &Arc<Shade>,
         output: &Constants,
         kind: &EngineKind,
     ) -> Result<Self, RenderError> {
@@ -62,7 +69,10 @@ impl Engine {
             has_mask: scene.has_mask(),
             has_blend: scene.has_blend(),
         };
-        let thin = || kind.thin.then(|| Thin::new(layout, scene.has_blend()));
+        let thin = || {
+            kind.thin
+                .then(|| Thin::new(layout, scene.has_blend(), kind.farther_is_larger))
+        };
         let detect = || {
             Detect::new(
                 layout,
@@ -75,9 +85,9 @@ impl Engine {
             )
         };
         // The kernels of `sample` take about as long to make as all others.
-        let (sample, others) = rayon::join(
-            || Sample::new(layout, &options),
-            || {
+        let (sample, others) = std::thread::scope(|scope| {
+            let sample = scope.spawn(|| Sample::new(layout, &options));
+            let others = (|| {
                 Ok::<_, RenderError>((
                     thin().transpose()?,
                     detect()?,
@@ -86,8 +96,11 @@ impl Engine {
                     Setup::new(layout)?,
                     Sort::new(layout, scene.bin_count() == 1)?,
                 ))
-            },
-        );
+            })();
+            let sample = sample.join();
+            let sample = sample.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+            (sample, others)
+        });
         let (sample, (thin, detect, cull, bin, setup, sort)) = (sample?, others?);
         Ok(Self {
             thin,
@@ -101,7 +114,6 @@ impl Engine {
             schedule: Schedule::new(layout, &sample, plan.layers)?,
             setup,
             sort,
-            shade: shade.clone(),
             resolve: Resolve::new(
                 layout,
                 &sample,
@@ -117,45 +129,30 @@ impl Engine {
         })
     }
 
-    /// Makes the shading of records, which engines of a frame share.
-    pub fn shading(
-        layout: &Arc<FrameLayout>,
-        scene: &GpuScene,
-        output: &Constants,
-    ) -> Result<Arc<Shade>, RenderError> {
-        Ok(Arc::new(Shade::new(
-            layout,
-            scene,
-            ShadeSource::Records(Cells::Pixels),
-            output,
-        )?))
-    }
-
     /// Records detection, lists, sampling and shading. The region has begun; its IDs and display codes are there.
     pub fn record(
         &self,
         recorder: &mut Recorder<'_>,
-        scene: &GpuScene,
         resources: &Resources,
-        tiles: u32,
-        rounds: u32,
+        shading: &dyn RecordShading,
+        work: &Work,
     ) {
         if let Some(thin) = &self.thin {
             thin.record(
                 recorder,
                 &resources.marks,
                 &resources.arguments,
-                scene.triangle_count(),
+                work.triangles,
             );
             recorder.mark("thin");
         }
-        self.detect.record(recorder, tiles);
+        self.detect.record(recorder, work.tiles);
         recorder.mark("detect");
         if !self.growths.is_empty() || self.sample.options().probes() {
             recorder.clear(&resources.marks);
             recorder.barrier();
         }
-        self.record_rounds(recorder, scene, resources, rounds);
+        self.record_rounds(recorder, resources, shading, work);
     }
 
     /// How often [`Self::record_growth`] has to follow.
@@ -168,47 +165,56 @@ impl Engine {
     pub fn record_growth(
         &self,
         recorder: &mut Recorder<'_>,
-        scene: &GpuScene,
         resources: &Resources,
-        tiles: u32,
+        shading: &dyn RecordShading,
+        work: &Work,
         growth: usize,
-        rounds: u32,
     ) {
         if let Some(grow) = self.growths.get(growth) {
-            grow.record(recorder, tiles);
+            grow.record(recorder, work.tiles);
             recorder.mark("grow");
-            self.record_rounds(recorder, scene, resources, rounds);
+            self.record_rounds(recorder, resources, shading, work);
         }
     }
 
     fn record_rounds(
         &self,
         recorder: &mut Recorder<'_>,
-        scene: &GpuScene,
         resources: &Resources,
-        rounds: u32,
+        shading: &dyn RecordShading,
+        work: &Work,
     ) {
         let arguments = &resources.arguments;
         self.cull.record(recorder, arguments);
         recorder.mark("cull");
         self.bin.record(recorder, arguments);
         recorder.mark("bin");
-        for _ in 0..rounds {
+        for _ in 0..work.rounds {
             self.schedule.record(recorder);
             recorder.mark("schedule");
             self.setup.record(recorder, arguments);
             recorder.mark("setup");
             self.sample.record(recorder, arguments);
             recorder.mark("sample");
-            record_shading(recorder, scene, resources, &self.sort, &self.shade);
+            record_shading(recorder, resources, &self.sort, shading);
             self.resolve.record(recorder, arguments);
             recorder.mark("resolve");
         }
     }
 }
 
+/// How much a recording of an [`Engine`] may find to do.
+pub(crate) struct Work {
+    /// Triangles of the scene.
+    pub triangles: u32,
+    /// Tiles of the region.
+    pub tiles: u32,
+    /// Rounds of lists and records.
+    pub rounds: u32,
+}
+
 /// How many records the settings' shading asks for.
-pub(super) fn record_rate(settings: &Settings, scene: &GpuScene) -> RecordRate {
+pub(crate) fn record_rate(settings: &Settings, scene: &dyn Content) -> RecordRate {
     match settings.shading {
         Shading::Part if scene.has_high_frequency() => RecordRate::Part,
         Shading::Triangle | Shading::Part => RecordRate::Triangle,
@@ -218,21 +224,20 @@ pub(super) fn record_rate(settings: &Settings, scene: &GpuScene) -> RecordRate {
 
 /// Whether few samples may settle superpixels: not those of high-frequency triangles, which are shaded
 /// in many places.
-pub(super) fn can_settle(settings: &Settings, scene: &GpuScene) -> bool {
+pub(crate) fn can_settle(settings: &Settings, scene: &dyn Content) -> bool {
     settings.shading != Shading::Part || !scene.is_mostly_high_frequency()
 }
 
 /// Sorts and shades the records of a round.
-pub(super) fn record_shading(
+pub(crate) fn record_shading(
     recorder: &mut Recorder<'_>,
-    scene: &GpuScene,
     resources: &Resources,
     sort: &Sort,
-    shade: &Shade,
+    shading: &dyn RecordShading,
 ) {
     let arguments = &resources.arguments;
     sort.record(recorder, &resources.bins, arguments);
     recorder.mark("sort");
-    shade.record(recorder, scene, arguments);
+    shading.record(recorder, resources);
     recorder.mark("shade");
 }

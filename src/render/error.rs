@@ -1,6 +1,8 @@
 //! What can go wrong with a frame.
 
-use super::{PixelRect, SiteError};
+use super::PixelRect;
+#[cfg(feature = "gltf")]
+use super::SiteError;
 use crate::sampling::PatternError;
 use crate::vulkan::VulkanError;
 
@@ -34,9 +36,11 @@ pub enum RenderError {
     #[error("a region is a part of an image's pixels; of sites, hand over those that are wanted")]
     SiteRegion,
     /// A sampling location can't be used.
+    #[cfg(feature = "gltf")]
     #[error(transparent)]
     Site(#[from] SiteError),
     /// The geometry contradicts itself.
+    #[cfg(feature = "gltf")]
     #[error(transparent)]
     Geometry(#[from] crate::scene::GeometryError),
     /// A scene or frame was made for another device.
@@ -46,9 +50,11 @@ pub enum RenderError {
     #[error("the scene is not on the device: Headless::upload puts it there")]
     NotUploaded,
     /// A camera makes no pinhole.
+    #[cfg(feature = "gltf")]
     #[error(transparent)]
     Pinhole(#[from] crate::camera::PinholeError),
     /// The lights of a scene make no rig of pinholes.
+    #[cfg(feature = "gltf")]
     #[error(transparent)]
     Rig(#[from] crate::camera::RigError),
     /// A frame writes commands once, and shadows need the host between their steps.
@@ -119,15 +125,17 @@ impl RenderError {
     /// Whether what was asked for can't be had from this method at all.
     #[must_use]
     pub fn is_usage(&self) -> bool {
+        #[cfg(feature = "gltf")]
+        if matches!(self, Self::Site(_) | Self::Pinhole(_)) {
+            return true;
+        }
         matches!(
             self,
             Self::Pattern(_)
-                | Self::Site(_)
                 | Self::Samples { .. }
                 | Self::SiteMethod
                 | Self::SiteRegion
                 | Self::Region { .. }
-                | Self::Pinhole(_)
                 | Self::FrameShadows
                 | Self::ShadowLights { .. }
                 | Self::Attributes

@@ -7,7 +7,7 @@ use super::{Footprint, Method, Settings};
 const ALPHA_SIDE: f32 = 0.125;
 
 /// Sides of these squares.
-pub(super) struct Footprints {
+pub(crate) struct Footprints {
     /// At the centre of a pixel, in pixels of the region.
     pub centre: f32,
     /// At the place of a visibility record, in pixels of the region; of [`Footprint::Sample`], over the root of the

@@ -3,23 +3,33 @@
 //! [`Renderer`] works in a host's device and command buffers; [`Headless`] owns a device and is built on it.
 
 mod color;
-mod engine;
+pub(crate) mod engine;
 mod error;
-mod footprint;
+pub(crate) mod footprint;
+#[cfg(feature = "gltf")]
 mod frame;
+#[cfg(feature = "gltf")]
 mod headless;
-mod plan;
+pub(crate) mod image_state;
+pub(crate) mod plan;
+#[cfg(feature = "gltf")]
 mod renderer;
 mod settings;
+#[cfg(feature = "gltf")]
 mod sites;
-mod statistics;
+pub(crate) mod statistics;
 
 pub use error::RenderError;
-pub use frame::{Frame, ImageState, Target};
+#[cfg(feature = "gltf")]
+pub use frame::{Frame, Target};
+#[cfg(feature = "gltf")]
 pub use headless::{Headless, HeadlessOptions, PixelAttributes, Rendered};
+pub use image_state::ImageState;
+#[cfg(feature = "gltf")]
 pub use renderer::{PreparedScene, Renderer};
 pub use settings::{
     Coverage, Detection, Footprint, Method, PixelRect, Reference, Settings, Shading, Shadows,
 };
+#[cfg(feature = "gltf")]
 pub use sites::{PointSample, Sampled, SiteError};
 pub use statistics::{PassTime, Statistics, TriangleCounts};

@@ -3,14 +3,14 @@
 use super::engine::record_rate;
 use super::statistics::Shortfall;
 use super::{Method, RenderError, Settings, Shading};
-use crate::passes::{Encoding, GpuScene, RecordRate, ResourceSizes};
-use crate::vulkan::Limits;
+use crate::passes::{Content, Encoding, RecordRate, ResourceSizes};
+use crate::vulkan::{Limits, VulkanError};
 
 /// A part of the image, in output pixels. Where a part of the image is wanted alone, it is what is wanted of one of the
 /// regions that the whole image has, and drawn in that region's place: devices round vertices to a fraction of a pixel
 /// after they have been moved there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Region {
+pub(crate) struct Region {
     /// Upper left pixel that the region has in the whole image.
     low: [u32; 2],
     /// Lower right pixel, exclusive.
@@ -66,7 +66,7 @@ impl Region {
 
 /// The regions of an image and the memory that the largest of them needs.
 #[derive(Clone, Debug)]
-pub(super) struct Plan {
+pub(crate) struct Plan {
     pub regions: Vec<Region>,
     pub sizes: ResourceSizes,
     /// Rounds of lists and records recorded for each region.
@@ -82,7 +82,7 @@ pub(super) struct Plan {
 
 /// What a frame was found to need more of than first planned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Effort {
+pub(crate) struct Effort {
     pub rounds: u32,
     pub layers: u32,
     /// Factor on the room for candidates.
@@ -160,7 +160,7 @@ impl Plan {
     /// [`RenderError::Memory`] if not even a region of 8 x 8 pixels fits.
     pub fn new(
         settings: &Settings,
-        scene: &GpuScene,
+        scene: &dyn Content,
         limits: &Limits,
         encoding: Option<Encoding>,
         effort: Effort,
@@ -175,16 +175,7 @@ impl Plan {
         loop {
             let mut plan = Self::with_region(settings, scene, limits, encoding, effort, region)?;
             let pixels = u64::from(plan.sizes.pixels());
-            let mut needed = plan.bytes(scene, settings);
-            if let Some(allowed) = allowed {
-                // Fewer records mean more rounds, which cost less than more regions.
-                while needed > allowed && plan.sizes.record_capacity > 1 << 16 {
-                    plan.sizes.record_capacity /= 2;
-                    plan.sizes.list_capacity = (plan.sizes.list_capacity / 2).max(1 << 12);
-                    plan.rounds *= 2;
-                    needed = plan.bytes(scene, settings);
-                }
-            }
+            let needed = plan.shrink(scene, settings, allowed);
             // Colours, records and candidates are storage buffers.
             let largest = plan.sizes.largest_storage();
             let fits = pixels <= most && largest <= limits.max_storage_bytes;
@@ -203,9 +194,50 @@ impl Plan {
         }
     }
 
+    /// Plans an image in one region, whatever its size.
+    ///
+    /// # Errors
+    /// [`RenderError::Memory`] if it does not fit in what is allowed or in the device's buffers.
+    pub fn whole(
+        settings: &Settings,
+        scene: &dyn Content,
+        limits: &Limits,
+        effort: Effort,
+        taken: u64,
+    ) -> Result<Self, RenderError> {
+        let allowed = settings.max_memory.map(|limit| limit.saturating_sub(taken));
+        let mut plan = Self::with_region(settings, scene, limits, None, effort, settings.size)?;
+        let needed = plan.shrink(scene, settings, allowed);
+        let largest = plan.sizes.largest_storage();
+        let limit = limits.max_storage_bytes;
+        VulkanError::check_limit("the largest list of a frame", largest, "bytes", limit)?;
+        match allowed {
+            Some(allowed) if needed > allowed => Err(RenderError::Memory {
+                needed: needed + taken,
+                allowed: settings.max_memory.unwrap_or(0),
+            }),
+            _ => Ok(plan),
+        }
+    }
+
+    /// Trades room for rounds until the plan takes what is allowed, if it can. Returns what it takes.
+    fn shrink(&mut self, scene: &dyn Content, settings: &Settings, allowed: Option<u64>) -> u64 {
+        let mut needed = self.bytes(scene, settings);
+        // Fewer records mean more rounds, which cost less than more regions.
+        while allowed.is_some_and(|allowed| needed > allowed)
+            && self.sizes.record_capacity > 1 << 16
+        {
+            self.sizes.record_capacity /= 2;
+            self.sizes.list_capacity = (self.sizes.list_capacity / 2).max(1 << 12);
+            self.rounds *= 2;
+            needed = self.bytes(scene, settings);
+        }
+        needed
+    }
+
     fn with_region(
         settings: &Settings,
-        scene: &GpuScene,
+        scene: &dyn Content,
         limits: &Limits,
         encoding: Option<Encoding>,
         effort: Effort,
@@ -300,7 +332,7 @@ impl Plan {
         self.rounds.div_ceil(3)
     }
 
-    fn bytes(&self, scene: &GpuScene, settings: &Settings) -> u64 {
+    fn bytes(&self, scene: &dyn Content, settings: &Settings) -> u64 {
         let samples = if settings.method == Method::Msaa {
             u64::from(settings.samples)
         } else {

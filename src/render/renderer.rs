@@ -4,7 +4,7 @@ use super::frame::Frame;
 use super::plan::Effort;
 use super::sites::{Casters, Triangles};
 use super::{RenderError, Settings, Shadows};
-use crate::passes::{Encoding, FrameLayout, GpuScene, SceneUploads};
+use crate::passes::{Content, Encoding, FrameLayout, GpuScene, SceneUploads};
 use crate::scene::{Pose, Scene};
 use crate::vulkan::{Gpu, Host, Memory, Recorder, VulkanError};
 use ash::vk;

@@ -2,10 +2,10 @@
 
 use super::RenderError;
 use crate::passes::Counter;
-use serde::Serialize;
 
 /// GPU time of one pass.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "gltf", derive(serde::Serialize))]
 pub struct PassTime {
     /// The pass.
     pub pass: &'static str,
@@ -14,7 +14,8 @@ pub struct PassTime {
 }
 
 /// Triangles of the scene, and why some were not sampled.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "gltf", derive(serde::Serialize))]
 pub struct TriangleCounts {
     /// Triangles in the scene.
     pub total: u64,
@@ -31,7 +32,8 @@ pub struct TriangleCounts {
 }
 
 /// Figures of one frame; sums over its regions.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "gltf", derive(serde::Serialize))]
 pub struct Statistics {
     /// Superpixels.
     pub superpixels: u64,
@@ -69,7 +71,7 @@ impl Statistics {
     }
 
     /// Adds the time of a pass to what is booked under its name.
-    pub(super) fn add_time(&mut self, time: PassTime) {
+    pub(crate) fn add_time(&mut self, time: PassTime) {
         match self.passes.iter_mut().find(|known| known.pass == time.pass) {
             Some(known) => known.ms += time.ms,
             None => self.passes.push(time),
@@ -100,7 +102,7 @@ impl Statistics {
     }
 
     /// Adds the counters of one region's superpixels.
-    pub(super) fn add(&mut self, counters: &[u32]) {
+    pub(crate) fn add(&mut self, counters: &[u32]) {
         let get = |counter: Counter| counters.get(counter as usize).copied().map_or(0, u64::from);
         self.superpixels += get(Counter::Superpixels);
         self.resampled += get(Counter::Resampled);
@@ -125,7 +127,7 @@ impl Statistics {
 
 /// What the sampling passes could not finish, by what they lacked.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Shortfall {
+pub(crate) struct Shortfall {
     /// Tiles that no round took.
     pub waiting: u64,
     /// Cells whose records found no room in their round.
@@ -150,9 +152,14 @@ impl Shortfall {
         }
     }
 
+    /// Cells and tiles that are left.
+    pub fn left(&self) -> u64 {
+        self.waiting + self.crowded + self.stalled + self.unlisted
+    }
+
     /// Fails where anything is left.
     pub fn check(&self) -> Result<(), RenderError> {
-        match self.waiting + self.crowded + self.stalled + self.unlisted {
+        match self.left() {
             0 => Ok(()),
             cells => Err(RenderError::Unfinished { cells }),
         }

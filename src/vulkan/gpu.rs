@@ -38,6 +38,8 @@ pub struct Limits {
     pub max_image_side: u32,
     /// Most elements of a texel buffer.
     pub max_texel_elements: u64,
+    /// What offsets of storage and texel buffers are multiples of, in bytes.
+    pub buffer_alignment: u64,
     /// Most bytes of a storage buffer binding.
     pub max_storage_bytes: u64,
     /// Nanoseconds a timestamp step, 0 if the queue has no timestamps.
@@ -188,6 +190,10 @@ fn limits(instance: &ash::Instance, device: vk::PhysicalDevice, queue_family: u3
             .contains(vk::ShaderStageFlags::COMPUTE),
         max_image_side: basic.limits.max_image_dimension2_d,
         max_texel_elements: u64::from(basic.limits.max_texel_buffer_elements),
+        buffer_alignment: basic
+            .limits
+            .min_storage_buffer_offset_alignment
+            .max(basic.limits.min_texel_buffer_offset_alignment),
         max_storage_bytes: u64::from(basic.limits.max_storage_buffer_range),
         timestamp_period: if timestamps {
             basic.limits.timestamp_period

@@ -347,6 +347,44 @@ impl Drop for BufferView {
     }
 }
 
+/// Texels of a buffer that belongs to someone else.
+pub(crate) struct TexelView {
+    gpu: Arc<Gpu>,
+    pub(crate) raw: vk::BufferView,
+}
+
+impl TexelView {
+    /// # Safety
+    /// The buffer is alive, of the device, made for uniform texel access, and outlives the view.
+    pub unsafe fn new(
+        gpu: &Arc<Gpu>,
+        buffer: vk::Buffer,
+        format: vk::Format,
+        offset: u64,
+        bytes: u64,
+    ) -> Result<Self, VulkanError> {
+        let info = vk::BufferViewCreateInfo::default()
+            .buffer(buffer)
+            .format(format)
+            .offset(offset)
+            .range(bytes);
+        // SAFETY: passed on to the caller.
+        let raw = unsafe { gpu.device.create_buffer_view(&info, None) }
+            .map_err(VulkanError::of("vkCreateBufferView"))?;
+        Ok(Self {
+            gpu: gpu.clone(),
+            raw,
+        })
+    }
+}
+
+impl Drop for TexelView {
+    fn drop(&mut self) {
+        // SAFETY: owners drop a view only after the frames that use it are done.
+        unsafe { self.gpu.device.destroy_buffer_view(self.raw, None) };
+    }
+}
+
 /// An image, its view and its memory.
 pub struct Image {
     gpu: Arc<Gpu>,

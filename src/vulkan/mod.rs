@@ -1,8 +1,5 @@
 //! A thin layer over Vulkan 1.3: devices, memory, pipelines, command recording. It knows nothing of rendering.
 
-// Passes, which come with `gltf`, use what the rest leaves.
-#![cfg_attr(not(feature = "gltf"), allow(dead_code))]
-
 mod commands;
 mod error;
 mod gpu;
@@ -15,6 +12,7 @@ pub use commands::{Recorder, Timings};
 pub use error::VulkanError;
 pub use gpu::{Gpu, Host, Limits, SharedAllocator};
 pub use instance::{DeviceInfo, Instance, InstanceOptions};
+pub(crate) use memory::TexelView;
 pub use memory::{Buffer, BufferView, Image, Memory, MemoryUse};
 pub use pipeline::{Constants, Pipeline, Shader, compute_pipeline};
 pub use requirements::{MISSING_DRIVER_HELP, Missing, Requirements};

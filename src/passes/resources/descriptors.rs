@@ -1,23 +1,28 @@
 //! Which buffer or image each binding of a frame's descriptor set shows.
 
 use super::{Resources, SampleSet};
+use crate::passes::Content;
 use crate::passes::layout::descriptor_type;
-use crate::passes::{GpuScene, RasterTargets};
 use crate::vulkan::Buffer;
 use ash::vk;
 
+/// What shows triangle IDs and depth to passes, in the layout `SHADER_READ_ONLY_OPTIMAL`.
+#[derive(Clone, Copy, Debug)]
+pub struct IdViews {
+    /// Triangle IDs.
+    pub ids: vk::ImageView,
+    /// IDs of the nearest BLEND triangles, where there are any.
+    pub blend_ids: Option<vk::ImageView>,
+    /// Depth, where `thin` reads it.
+    pub depth: Option<vk::ImageView>,
+    /// Stands for the single-sampled IDs where these are multisampled.
+    pub placeholder: Option<vk::ImageView>,
+}
+
 impl Resources {
     /// Writes a set that was just allocated.
-    pub(super) fn write_set(&self, set: &SampleSet, scene: &GpuScene, targets: &RasterTargets) {
-        let texels = [
-            (1, &scene.positions),
-            (2, &scene.triangles),
-            (3, &scene.normals),
-            (4, &scene.tangents),
-            (5, &scene.uvs),
-            (6, &scene.colors),
-            (7, &scene.materials),
-            (9, &scene.alpha_atlas),
+    pub(super) fn write_set(&self, set: &SampleSet, scene: &dyn Content, shown: &IdViews) {
+        let own_texels = [
             (16, &self.display),
             (24, &self.candidates),
             (27, &self.records),
@@ -29,7 +34,13 @@ impl Resources {
             (43, &self.sites.cells),
             (44, &self.sites.groups),
         ]
-        .map(|(binding, view)| (binding, [view.view]));
+        .map(|(binding, texels)| (binding, texels.view));
+        let texels: Vec<_> = scene
+            .texels()
+            .into_iter()
+            .chain(own_texels)
+            .map(|(binding, view)| (binding, [view]))
+            .collect();
         let whole = |buffer: &Buffer| {
             [vk::DescriptorBufferInfo::default()
                 .buffer(buffer.raw)
@@ -37,7 +48,7 @@ impl Resources {
         };
         let buffers = [
             (0, &set.uniform),
-            (8, &scene.lights),
+            (8, scene.lights()),
             (17, &self.display.buffer),
             (18, &self.color.buffer),
             (25, &self.candidates.buffer),
@@ -61,14 +72,12 @@ impl Resources {
         .map(|(binding, buffer)| (binding, whole(buffer)));
         // A set shows either single-sampled or multisampled IDs; pipelines that could read the former but are
         // specialised not to see a placeholder. Without BLEND its binding shows the opaque IDs, which is not read either.
-        let ids = targets.ids.view;
-        let blend_ids = targets.blend_ids.as_ref().map_or(ids, |image| image.view);
-        let images = match &targets.placeholder {
-            Some(placeholder) => {
-                let unread = placeholder.view;
-                vec![(12, unread), (13, unread), (14, ids), (15, blend_ids)]
-            }
-            None => vec![(12, ids), (13, blend_ids), (40, targets.depth.view)],
+        let IdViews { ids, .. } = *shown;
+        let blend_ids = shown.blend_ids.unwrap_or(ids);
+        let images = match (shown.placeholder, shown.depth) {
+            (Some(unread), _) => vec![(12, unread), (13, unread), (14, ids), (15, blend_ids)],
+            (None, Some(depth)) => vec![(12, ids), (13, blend_ids), (40, depth)],
+            (None, None) => vec![(12, ids), (13, blend_ids)],
         };
         let images: Vec<_> = images
             .into_iter()

@@ -5,12 +5,13 @@ mod record;
 mod sample_set;
 mod sizes;
 
+pub use descriptors::IdViews;
 pub use sample_set::{Locations, SampleSet};
 pub use sizes::ResourceSizes;
 
 use super::pool::DescriptorPool;
 use super::sites::SiteBuffers;
-use super::{Argument, Counter, FrameLayout, GpuScene, RasterTargets};
+use super::{Argument, Content, Counter, FrameLayout};
 use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, VulkanError};
 use ash::vk;
 use std::sync::Arc;
@@ -29,9 +30,9 @@ pub struct Resources {
     pairs: BufferView,
     candidates: BufferView,
     headers: Buffer,
-    records: BufferView,
-    shaded: BufferView,
-    shade_order: Buffer,
+    pub(super) records: BufferView,
+    pub(super) shaded: BufferView,
+    pub(super) shade_order: Buffer,
     pub(crate) bins: Buffer,
     pub(crate) arguments: Buffer,
     filtered: BufferView,
@@ -64,8 +65,8 @@ impl Resources {
     pub fn new(
         layout: &Arc<FrameLayout>,
         memory: &Memory,
-        scene: &GpuScene,
-        targets: &RasterTargets,
+        scene: &dyn Content,
+        ids: &IdViews,
         sizes: ResourceSizes,
         location_lists: &[Locations<'_>],
     ) -> Result<Self, VulkanError> {
@@ -139,7 +140,7 @@ impl Resources {
             sets,
         };
         for set in &resources.sets {
-            resources.write_set(set, scene, targets);
+            resources.write_set(set, scene, ids);
         }
         Ok(resources)
     }

@@ -34,6 +34,11 @@ impl Resources {
         recorder.clear(&self.counters);
         recorder.clear(&self.tiles);
         recorder.barrier();
+        self.record_bind(recorder, set);
+    }
+
+    /// Binds the set of the passes.
+    pub(crate) fn record_bind(&self, recorder: &Recorder<'_>, set: &SampleSet) {
         // SAFETY: the recorder's contract; the set matches the layout of all pipelines.
         unsafe {
             recorder.device().cmd_bind_descriptor_sets(

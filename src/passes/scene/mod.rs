@@ -12,9 +12,9 @@ mod triangles;
 pub use bins::ShadeFeatures;
 pub use light::LightFeatures;
 
-use super::FrameLayout;
 use super::pool::DescriptorPool;
 use super::upload::{Upload, Uploader};
+use super::{Content, FrameLayout};
 use crate::scene::{AlphaMode, DrawClass, Pose, Scene};
 use crate::vulkan::{Buffer, BufferView, Memory, Recorder, VulkanError};
 use alpha_atlas::AlphaAtlas;
@@ -23,7 +23,6 @@ use bins::{Bins, MaterialBin};
 use glam::DVec3;
 use light::GpuLight;
 use material::MaterialTable;
-pub(in crate::passes) use slots::SLOTS;
 use slots::Slots;
 use std::borrow::Cow;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -197,12 +196,6 @@ impl GpuScene {
         self.memory.used()
     }
 
-    /// Number of triangles.
-    #[must_use]
-    pub fn triangle_count(&self) -> u32 {
-        self.triangle_count
-    }
-
     /// Index of the first MASK triangle, or the number of triangles that come before where there is none.
     #[must_use]
     pub fn first_mask(&self) -> u32 {
@@ -215,46 +208,10 @@ impl GpuScene {
         self.first_blend
     }
 
-    /// Whether any triangle is alpha-tested.
-    #[must_use]
-    pub fn has_mask(&self) -> bool {
-        self.first_mask < self.first_blend
-    }
-
-    /// Whether any triangle is composited.
-    #[must_use]
-    pub fn has_blend(&self) -> bool {
-        self.first_blend < self.triangle_count
-    }
-
-    /// Whether a triangle may ask for several shading places in a pixel.
-    #[must_use]
-    pub fn has_high_frequency(&self) -> bool {
-        self.high_frequency_triangles > 0
-    }
-
-    /// Whether most triangles do.
-    #[must_use]
-    pub fn is_mostly_high_frequency(&self) -> bool {
-        self.high_frequency_triangles > self.triangle_count / 2
-    }
-
-    /// Number of material bins, at least 1.
-    #[must_use]
-    pub fn bin_count(&self) -> u32 {
-        (self.bins.len() as u32).max(1)
-    }
-
     /// Number of vectors of a material in the buffer of materials.
     #[must_use]
     pub fn material_vectors(&self) -> u32 {
         self.material_vectors
-    }
-
-    /// Whether a triangle lets light through by other shares than its opacity.
-    #[must_use]
-    pub fn is_tinted(&self) -> bool {
-        self.is_tinted
     }
 
     /// The scene's lights.
@@ -271,5 +228,53 @@ impl GpuScene {
 
     pub(super) fn runs(&self) -> &[Run] {
         &self.runs
+    }
+}
+
+impl Content for GpuScene {
+    fn triangle_count(&self) -> u32 {
+        self.triangle_count
+    }
+
+    fn has_mask(&self) -> bool {
+        self.first_mask < self.first_blend
+    }
+
+    fn has_blend(&self) -> bool {
+        self.first_blend < self.triangle_count
+    }
+
+    fn has_high_frequency(&self) -> bool {
+        self.high_frequency_triangles > 0
+    }
+
+    fn is_mostly_high_frequency(&self) -> bool {
+        self.high_frequency_triangles > self.triangle_count / 2
+    }
+
+    fn is_tinted(&self) -> bool {
+        self.is_tinted
+    }
+
+    fn bin_count(&self) -> u32 {
+        (self.bins.len() as u32).max(1)
+    }
+
+    fn texels(&self) -> [(u32, vk::BufferView); 8] {
+        [
+            (1, &self.positions),
+            (2, &self.triangles),
+            (3, &self.normals),
+            (4, &self.tangents),
+            (5, &self.uvs),
+            (6, &self.colors),
+            (7, &self.materials),
+            (9, &self.alpha_atlas),
+        ]
+        .map(|(binding, texels)| (binding, texels.view))
+    }
+
+    fn lights(&self) -> &Buffer {
+        &self.lights
     }
 }

@@ -1,11 +1,8 @@
 //! Where shaders find a material's textures: what is read alike is read once.
 
+pub(super) use crate::passes::layout::SLOTS;
 use crate::scene::{Material, Scene, TextureRole, TextureUse};
 use crate::vulkan::VulkanError;
-
-/// Textures of a material that differ, at the most. With one for the environment, these are the samplers that every Vulkan
-/// device has.
-pub(in crate::passes) const SLOTS: usize = 15;
 
 /// The slot of each role, by its number.
 pub(in crate::passes) type RoleSlots = [Option<u8>; TextureRole::COUNT];

@@ -3,17 +3,17 @@
 mod delivery;
 mod outcome;
 mod passes;
-mod recording;
+pub(super) mod recording;
 mod target;
 mod uniform;
 
-pub use target::{ImageState, Target};
+pub use target::Target;
 
 use super::plan::{Effort, Plan};
 use super::{RenderError, Settings};
 use crate::camera::Camera;
 use crate::passes::{
-    Counter, Encoding, FrameLayout, GpuScene, Locations, RasterTargets, Resources, Sample,
+    Content, Counter, Encoding, FrameLayout, GpuScene, Locations, RasterTargets, Resources, Sample,
 };
 use crate::sampling::Pattern;
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings};
@@ -50,7 +50,7 @@ impl Frame {
     ) -> Result<Self, RenderError> {
         let gpu = scene.memory().gpu().clone();
         let taken = scene.memory_bytes() + beside;
-        let plan = Plan::new(settings, scene, gpu.limits(), encoding, effort, taken)?;
+        let plan = Plan::new(settings, &**scene, gpu.limits(), encoding, effort, taken)?;
         let memory = Memory::new(
             gpu.clone(),
             settings.max_memory.map(|limit| limit.saturating_sub(taken)),
@@ -77,8 +77,8 @@ impl Frame {
         let resources = Resources::new(
             layout,
             &memory,
-            scene,
-            &targets,
+            &**scene,
+            &targets.views(),
             plan.sizes,
             &[centre, locations],
         )?;

@@ -1,8 +1,8 @@
 //! The passes that a frame's settings ask for.
 
 use crate::passes::{
-    Attributes, BoxFilter, DetectMode, Encode, Encoding, FrameLayout, GpuScene, Multisample,
-    Raster, RecordRate, Resolve, Shade, ShadeSource, Sort, Spans, Then,
+    Attributes, BoxFilter, Cells, Content, DetectMode, Encode, Encoding, FrameLayout, GpuScene,
+    Multisample, Raster, RecordRate, Resolve, Shade, ShadeSource, Sort, Spans, Then,
 };
 use crate::render::engine::{Engine, EngineKind, record_rate};
 use crate::render::plan::Plan;
@@ -20,7 +20,6 @@ pub(super) struct PixelShading {
 pub(super) struct Multisampling {
     pub multisample: Multisample,
     pub sort: Sort,
-    pub shade: Arc<Shade>,
     pub resolve: Resolve,
 }
 
@@ -29,6 +28,8 @@ pub(super) struct Passes {
     pub raster: Raster,
     pub pixels: Option<PixelShading>,
     pub multisampling: Option<Multisampling>,
+    /// Of records; what engines and multisampling share.
+    pub shade: Option<Arc<Shade>>,
     pub blended: Option<Engine>,
     pub superpixels: Option<Engine>,
     pub attributes: Option<Attributes>,
@@ -71,18 +72,18 @@ impl Passes {
                 shade: Shade::new(layout, scene, source, &output)?,
             })
         };
-        let shading = || Engine::shading(layout, scene, &output);
+        let shading = || Shade::new(layout, scene, ShadeSource::Records(Cells::Pixels), &output);
         let shades_records = scene.has_blend() || antialiased || multisampled;
         let (pixels, shading) = rayon::join(
             || (!multisampled).then(pixels).transpose(),
             || shades_records.then(shading).transpose(),
         );
-        let (pixels, shading) = (pixels?, shading?);
+        let (pixels, shading) = (pixels?, shading?.map(Arc::new));
         let engine = |wanted: bool, kind: EngineKind| {
             shading
                 .as_ref()
                 .filter(|_| wanted)
-                .map(|shade| Engine::new(layout, scene, settings, plan, shade, &output, &kind))
+                .map(|_| Engine::new(layout, scene, settings, plan, &output, &kind))
                 .transpose()
         };
         let blended = engine(
@@ -90,6 +91,7 @@ impl Passes {
             EngineKind {
                 mode: DetectMode::Blended,
                 thin: false,
+                farther_is_larger: false,
                 multisampled,
                 samples: if multisampled { settings.samples } else { 1 },
                 growths: 0,
@@ -106,6 +108,7 @@ impl Passes {
                     Detection::Every => DetectMode::Every,
                 },
                 thin: settings.thin && settings.detection != Detection::Every,
+                farther_is_larger: false,
                 multisampled: false,
                 samples: settings.samples,
                 growths: settings.growths(),
@@ -115,11 +118,10 @@ impl Passes {
         let multisampling = shading
             .as_ref()
             .filter(|_| multisampled)
-            .map(|shade| -> Result<_, RenderError> {
+            .map(|_| -> Result<_, RenderError> {
                 Ok(Multisampling {
                     multisample: Multisample::new(layout)?,
                     sort: Sort::new(layout, one_bin)?,
-                    shade: shade.clone(),
                     resolve: Resolve::for_multisample(
                         layout,
                         settings.samples,
@@ -133,6 +135,7 @@ impl Passes {
             raster: Raster::new(layout, raster_samples(settings), scene.has_mask())?,
             pixels,
             multisampling,
+            shade: shading,
             blended,
             superpixels,
             attributes: settings

@@ -3,10 +3,10 @@
 use super::passes::{Multisampling, Passes, PixelShading};
 use super::target::Target;
 use crate::camera::Camera;
-use crate::passes::{FrameUniform, GpuScene, RasterTargets, Resources};
+use crate::passes::{Content, FrameUniform, GpuScene, RasterTargets, Resources, Shade};
 use crate::render::Settings;
 use crate::render::color::display_code;
-use crate::render::engine::record_shading;
+use crate::render::engine::{RecordShading, Work, record_shading};
 use crate::render::plan::{Plan, Region};
 use crate::vulkan::{Buffer, Recorder};
 
@@ -54,6 +54,20 @@ pub(super) struct Recording<'a> {
     pub target: &'a Target,
 }
 
+/// A scene's materials as a client of the engine.
+pub(in crate::render) struct SceneShading<'a> {
+    pub scene: &'a GpuScene,
+    pub shade: Option<&'a Shade>,
+}
+
+impl RecordShading for SceneShading<'_> {
+    fn record(&self, recorder: &Recorder<'_>, resources: &Resources) {
+        if let Some(shade) = self.shade {
+            shade.record(recorder, self.scene, &resources.arguments);
+        }
+    }
+}
+
 impl Recording<'_> {
     pub fn record(&self, recorder: &mut Recorder<'_>) {
         self.target.record_begin(recorder);
@@ -81,6 +95,15 @@ impl Recording<'_> {
         let side = self.settings.side();
         let filtered = pixels / (side * side);
         let tiles = whole.tiles[0] * whole.tiles[1];
+        let work = Work {
+            triangles: scene.triangle_count(),
+            tiles,
+            rounds: self.plan.rounds,
+        };
+        let shading = SceneShading {
+            scene,
+            shade: passes.shade.as_deref(),
+        };
 
         resources.record_begin(recorder, main, &whole);
         passes.raster.record(
@@ -106,32 +129,34 @@ impl Recording<'_> {
         if let Some(Multisampling {
             multisample,
             sort,
-            shade,
             resolve,
         }) = &passes.multisampling
         {
             multisample.record(recorder, tiles);
             recorder.mark("multisample");
-            record_shading(recorder, scene, resources, sort, shade);
+            record_shading(recorder, resources, sort, &shading);
             resolve.record(recorder, &resources.arguments);
             recorder.mark("resolve");
         }
         if let Some(engine) = &passes.blended {
             resources.record_begin(recorder, main, &whole);
-            engine.record(recorder, scene, resources, tiles, self.plan.rounds);
+            engine.record(recorder, resources, &shading, &work);
             resources.record_keep_counters(recorder, self.counters, Run::Blended.slot(index));
         }
         if let Some(engine) = &passes.superpixels {
             let owned = self.uniform(region, locations.count(), true);
             resources.record_begin(recorder, locations, &owned);
-            engine.record(recorder, scene, resources, tiles, self.plan.rounds);
+            engine.record(recorder, resources, &shading, &work);
             resources.record_keep_counters(recorder, self.counters, Run::Superpixels.slot(index));
             // Centres whose colours are alike miss what superpixels beside them show.
             let grown = FrameUniform { alike: 0, ..owned };
             for (growth, run) in Run::GROWN.into_iter().enumerate().take(engine.growths()) {
-                let rounds = self.plan.growth_rounds();
                 resources.record_begin(recorder, locations, &grown);
-                engine.record_growth(recorder, scene, resources, tiles, growth, rounds);
+                let work = Work {
+                    rounds: self.plan.growth_rounds(),
+                    ..work
+                };
+                engine.record_growth(recorder, resources, &shading, &work, growth);
                 resources.record_keep_counters(recorder, self.counters, run.slot(index));
             }
         }

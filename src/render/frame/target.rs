@@ -1,18 +1,10 @@
 //! Where a frame's colours go: a host's image, and its states, or a buffer.
 
+use crate::render::ImageState;
 use crate::vulkan::Recorder;
 use ash::vk;
 
-/// State of a host's image around the frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ImageState {
-    /// Its layout.
-    pub layout: vk::ImageLayout,
-    /// Stages that use it.
-    pub stage: vk::PipelineStageFlags2,
-    /// How they use it.
-    pub access: vk::AccessFlags2,
-}
+const COLOR: vk::ImageAspectFlags = vk::ImageAspectFlags::COLOR;
 
 /// Where a frame's colours go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,14 +32,14 @@ impl Target {
     /// Readies a host's image for copies.
     pub(super) fn record_begin(&self, recorder: &Recorder<'_>) {
         if let Self::Image { image, before, .. } = self {
-            transition(recorder, *image, *before, COPIED_TO);
+            before.change(recorder, *image, COLOR, COPIED_TO);
         }
     }
 
     /// Hands a host's image back.
     pub(super) fn record_end(&self, recorder: &Recorder<'_>) {
         if let Self::Image { image, after, .. } = self {
-            transition(recorder, *image, COPIED_TO, *after);
+            COPIED_TO.change(recorder, *image, COLOR, *after);
         }
     }
 }
@@ -58,29 +50,3 @@ pub(super) const COPIED_TO: ImageState = ImageState {
     stage: vk::PipelineStageFlags2::COPY,
     access: vk::AccessFlags2::TRANSFER_WRITE,
 };
-
-fn transition(recorder: &Recorder<'_>, image: vk::Image, from: ImageState, to: ImageState) {
-    let range = vk::ImageSubresourceRange {
-        aspect_mask: vk::ImageAspectFlags::COLOR,
-        base_mip_level: 0,
-        level_count: 1,
-        base_array_layer: 0,
-        layer_count: 1,
-    };
-    let barriers = [vk::ImageMemoryBarrier2::default()
-        .src_stage_mask(from.stage)
-        .src_access_mask(from.access)
-        .dst_stage_mask(to.stage)
-        .dst_access_mask(to.access)
-        .old_layout(from.layout)
-        .new_layout(to.layout)
-        .image(image)
-        .subresource_range(range)];
-    let info = vk::DependencyInfo::default().image_memory_barriers(&barriers);
-    // SAFETY: the recorder's contract; the host vouches for its image and states.
-    unsafe {
-        recorder
-            .device()
-            .cmd_pipeline_barrier2(recorder.raw(), &info)
-    };
-}

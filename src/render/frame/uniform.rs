@@ -2,7 +2,7 @@
 
 use super::recording::Recording;
 use crate::camera::{Camera, Projection};
-use crate::passes::FrameUniform;
+use crate::passes::{Content, FrameUniform};
 use crate::render::footprint::Footprints;
 use crate::render::plan::Region;
 

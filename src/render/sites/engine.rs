@@ -4,12 +4,13 @@ use super::layout::CellSizes;
 use super::partition::Window;
 use crate::camera::Pinhole;
 use crate::passes::{
-    Bin, Cells, Counter, Cull, FrameLayout, FrameUniform, GpuScene, Groups, Locations, Points,
-    RasterTargets, RecordRate, Resolve, ResourceSizes, Resources, Sample, SampleOptions, Schedule,
-    Setup, Shade, ShadeSource, SiteData, Sort, Then,
+    Bin, Cells, Content, Counter, Cull, FrameLayout, FrameUniform, GpuScene, Groups, Locations,
+    Points, RasterTargets, RecordRate, Resolve, ResourceSizes, Resources, Sample, SampleOptions,
+    Schedule, Setup, Shade, ShadeSource, SiteData, Sort, Then,
 };
 use crate::render::engine::{can_settle, record_rate, record_shading};
 use crate::render::footprint::Footprints;
+use crate::render::frame::recording::SceneShading;
 use crate::render::plan::Effort;
 use crate::render::renderer::PreparedScene;
 use crate::render::statistics::Shortfall;
@@ -131,7 +132,14 @@ impl SiteEngine {
             vk::SampleCountFlags::TYPE_1,
             scene.has_blend(),
         )?;
-        let resources = Resources::new(layout, &memory, scene, &targets, *sizes, &[locations])?;
+        let resources = Resources::new(
+            layout,
+            &memory,
+            scene,
+            &targets.views(),
+            *sizes,
+            &[locations],
+        )?;
         let output = settings.color_constants(scene);
         let sample = Sample::new(layout, &options)?;
         let finish = if points {
@@ -236,7 +244,11 @@ impl SiteEngine {
             self.sample.record(recorder, arguments);
             recorder.mark("sample");
             match &self.shade {
-                Some(shade) => record_shading(recorder, scene, resources, &self.sort, shade),
+                Some(shade) => {
+                    let shade = Some(shade);
+                    let shading = SceneShading { scene, shade };
+                    record_shading(recorder, resources, &self.sort, &shading);
+                }
                 // Counts the records.
                 None => self.sort.record(recorder, &resources.bins, arguments),
             }

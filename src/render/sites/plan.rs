@@ -2,7 +2,7 @@
 
 use super::engine::cell_sizes;
 use super::partition::{Partition, Window};
-use crate::passes::{Cells, FrameLayout, GpuScene, ResourceSizes, SiteSizes};
+use crate::passes::{Cells, Content, FrameLayout, GpuScene, ResourceSizes, SiteSizes};
 use crate::render::{RenderError, Settings, Shading};
 use std::ops::Range;
 

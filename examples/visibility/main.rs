@@ -1,0 +1,140 @@
+//! A host with a visibility buffer, materials and an animation of its own, antialiased by the library's engine.
+//!
+//! ```text
+//! cargo run --release --no-default-features --example visibility [OUT.png]
+//! ```
+//!
+//! The host poses its meshes by a compute shader into clip space, draws triangle IDs and depth, and shades the centres of
+//! pixels from these. The library then samples the pixels that alias, and has the host shade what the samples see. Two
+//! frames are in flight, and half way through the images change their size. At the end, the last frame is compared with
+//! the host's own brute force.
+
+mod device;
+mod meshes;
+mod pipelines;
+mod slot;
+
+use device::{Device, Image};
+use glam::{Mat4, Vec3};
+use gpc::host::{Antialiaser, Options};
+use gpc::render::Shading;
+use meshes::World;
+use pipelines::Pipelines;
+use slot::{Antialiasing, SKY, Slot};
+use std::path::PathBuf;
+
+type Failure = Box<dyn std::error::Error>;
+
+const SIZE: [u32; 2] = [320, 180];
+/// The size that it starts with.
+const FIRST_SIZE: [u32; 2] = [200, 150];
+const FRAMES: usize = 6;
+const IN_FLIGHT: usize = 2;
+/// Samples along a pixel's side: of the brute force that takes as many as the library, and of the reference.
+const BRUTE: u32 = 8;
+const REFERENCE: u32 = 32;
+
+fn main() -> Result<(), Failure> {
+    let out = std::env::args_os()
+        .nth(1)
+        .map_or_else(|| "visibility.png".into(), PathBuf::from);
+    let device = Device::new()?;
+    // SAFETY: the handles belong together, the features are enabled, and the device outlives the antialiaser.
+    let antialiaser = unsafe { Antialiaser::new(device.lent()) }?;
+    let world = World::new(&device)?;
+    let pipelines = Pipelines::new(&device, antialiaser.samples_layout())?;
+
+    let mut slots: Vec<Slot<'_>> = Vec::new();
+    let mut superpixels = 0;
+    for frame in 0..FRAMES {
+        let size = if frame < FRAMES / 2 { FIRST_SIZE } else { SIZE };
+        let index = frame % IN_FLIGHT;
+        if let Some(slot) = slots.get_mut(index) {
+            slot.wait()?;
+            if slot.size() != size {
+                *slot = Slot::new(
+                    &device,
+                    &world,
+                    &pipelines,
+                    size,
+                    Some((&antialiaser, &options(size))),
+                )?;
+            }
+        } else {
+            slots.push(Slot::new(
+                &device,
+                &world,
+                &pipelines,
+                size,
+                Some((&antialiaser, &options(size))),
+            )?);
+        }
+        let slot = &mut slots[index];
+        slot.show(&world, time(frame), camera(size))?;
+        slot.submit(&world, &pipelines)?;
+    }
+    for slot in &mut slots {
+        slot.wait()?;
+        let Antialiasing { frame, .. } = slot.antialiasing().ok_or("a slot without the library")?;
+        let outcome = frame.outcome()?;
+        superpixels = outcome.statistics.superpixels;
+        println!(
+            "{superpixels} superpixels, {} left over, {:.1} ms of the library on the GPU",
+            outcome.left_over,
+            outcome.statistics.gpu_ms()
+        );
+    }
+
+    let own = slots[(FRAMES - 1) % IN_FLIGHT].pixels(1)?;
+    // As brute force does it: every sample is shaded, and next to no contrast is left.
+    let each = Options {
+        shading: Shading::Sample,
+        contrast: 2,
+        ..options(SIZE)
+    };
+    let last = |side: u32, options: Option<&Options>| -> Result<Image, Failure> {
+        let size = SIZE.map(|pixels| pixels * side);
+        let antialiasing = options.map(|options| (&antialiaser, options));
+        let mut slot = Slot::new(&device, &world, &pipelines, size, antialiasing)?;
+        slot.show(&world, time(FRAMES - 1), camera(SIZE))?;
+        slot.submit(&world, &pipelines)?;
+        slot.wait()?;
+        slot.pixels(side)
+    };
+    let reference = last(REFERENCE, None)?;
+    for (what, image) in [
+        ("one sample", &last(1, None)?),
+        ("brute force", &last(BRUTE, None)?),
+        ("superpixels", &own),
+        ("superpixels, each sample shaded", &last(1, Some(&each))?),
+    ] {
+        println!("error of {what}: {:.6}", image.error(&reference));
+    }
+    println!(
+        "share of superpixels: {:.4}",
+        superpixels as f64 / f64::from(SIZE[0] * SIZE[1])
+    );
+    own.save(&out)?;
+    println!("{}", out.display());
+    Ok(())
+}
+
+/// Seconds of the animation.
+fn time(frame: usize) -> f32 {
+    0.4 * frame as f32
+}
+
+/// From the world to clip space, y up; and the projection in it.
+fn camera([width, height]: [u32; 2]) -> (Mat4, Mat4) {
+    let aspect = width as f32 / height as f32;
+    let projection = Mat4::perspective_infinite_reverse_rh(0.9, aspect, 0.1);
+    let view = Mat4::look_at_rh(Vec3::new(1.0, 2.2, 5.5), Vec3::new(0.0, 0.7, 0.0), Vec3::Y);
+    (projection * view, projection)
+}
+
+fn options(size: [u32; 2]) -> Options {
+    Options {
+        background: Some(SKY),
+        ..Options::new(size[0], size[1])
+    }
+}

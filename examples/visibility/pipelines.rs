@@ -1,0 +1,280 @@
+//! The host's pipelines, and the materials that it shades the library's samples with.
+
+use crate::Failure;
+use crate::device::Device;
+use crate::meshes::KEYS;
+use ash::vk;
+use gpc::host::{ShadeSamples, VisibilitySamples};
+
+/// Formats of what the host draws.
+pub const IDS: vk::Format = vk::Format::R32_UINT;
+pub const DEPTH: vk::Format = vk::Format::D32_SFLOAT;
+pub const COLOR: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
+
+/// What is bound at each binding of `shaders/host.glsl` and `shaders/posed.glsl`.
+pub const BINDINGS: [vk::DescriptorType; 9] = {
+    let mut kinds = [vk::DescriptorType::STORAGE_BUFFER; 9];
+    kinds[7] = vk::DescriptorType::COMBINED_IMAGE_SAMPLER;
+    kinds[8] = vk::DescriptorType::SAMPLED_IMAGE;
+    kinds
+};
+
+macro_rules! spirv {
+    ($name:literal) => {
+        include_bytes!(concat!("shaders/spirv/", $name, ".spv"))
+    };
+}
+
+pub struct Pipelines<'a> {
+    device: &'a Device,
+    pub set_layout: vk::DescriptorSetLayout,
+    /// Of the host's own passes: its set, and 16 bytes.
+    pub layout: vk::PipelineLayout,
+    /// Of shading samples: the library's set, and the host's.
+    samples_layout: vk::PipelineLayout,
+    pub pose: vk::Pipeline,
+    pub ids: vk::Pipeline,
+    pub screen: vk::Pipeline,
+    samples: Vec<vk::Pipeline>,
+    pub sampler: vk::Sampler,
+}
+
+impl<'a> Pipelines<'a> {
+    pub fn new(device: &'a Device, samples_set: vk::DescriptorSetLayout) -> Result<Self, Failure> {
+        let raw = &device.raw;
+        // SAFETY: plain creations whose structures live until after the calls. Handles made before a failure leak, which
+        // ends the program.
+        unsafe {
+            let all = vk::ShaderStageFlags::ALL;
+            let bindings: Vec<_> = (0..)
+                .zip(BINDINGS)
+                .map(|(binding, kind)| {
+                    vk::DescriptorSetLayoutBinding::default()
+                        .binding(binding)
+                        .descriptor_type(kind)
+                        .descriptor_count(1)
+                        .stage_flags(all)
+                })
+                .collect();
+            let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
+            let set_layout = raw.create_descriptor_set_layout(&info, None)?;
+            let push = [vk::PushConstantRange {
+                stage_flags: all,
+                offset: 0,
+                size: 16,
+            }];
+            let sets = [set_layout];
+            let info = vk::PipelineLayoutCreateInfo::default()
+                .set_layouts(&sets)
+                .push_constant_ranges(&push);
+            let layout = raw.create_pipeline_layout(&info, None)?;
+            let sets = [samples_set, set_layout];
+            let info = vk::PipelineLayoutCreateInfo::default().set_layouts(&sets);
+            let samples_layout = raw.create_pipeline_layout(&info, None)?;
+            let info = vk::SamplerCreateInfo::default()
+                .mag_filter(vk::Filter::LINEAR)
+                .min_filter(vk::Filter::LINEAR)
+                .mipmap_mode(vk::SamplerMipmapMode::LINEAR)
+                .max_lod(vk::LOD_CLAMP_NONE);
+            let mut pipelines = Self {
+                device,
+                set_layout,
+                layout,
+                samples_layout,
+                pose: vk::Pipeline::null(),
+                ids: vk::Pipeline::null(),
+                screen: vk::Pipeline::null(),
+                samples: Vec::new(),
+                sampler: raw.create_sampler(&info, None)?,
+            };
+            pipelines.pose = pipelines.compute(spirv!("pose"), layout, 0)?;
+            let stages = [&spirv!("ids_vertex")[..], &spirv!("ids_fragment")[..]];
+            pipelines.ids = pipelines.graphics(stages, IDS, Some(DEPTH))?;
+            let stages = [&spirv!("screen_vertex")[..], &spirv!("screen_fragment")[..]];
+            pipelines.screen = pipelines.graphics(stages, COLOR, None)?;
+            for key in 0..KEYS {
+                let pipeline = pipelines.compute(spirv!("samples"), samples_layout, key)?;
+                pipelines.samples.push(pipeline);
+            }
+            Ok(pipelines)
+        }
+    }
+
+    /// # Safety
+    /// The words are SPIR-V.
+    unsafe fn module(&self, spirv: &[u8]) -> Result<vk::ShaderModule, Failure> {
+        let words = ash::util::read_spv(&mut std::io::Cursor::new(spirv))?;
+        let info = vk::ShaderModuleCreateInfo::default().code(&words);
+        // SAFETY: passed on to the caller.
+        Ok(unsafe { self.device.raw.create_shader_module(&info, None) }?)
+    }
+
+    /// A compute pipeline; its constant 0, if it has one, is `key`.
+    ///
+    /// # Safety
+    /// Code and layout fit.
+    unsafe fn compute(
+        &self,
+        code: &[u8],
+        layout: vk::PipelineLayout,
+        key: u32,
+    ) -> Result<vk::Pipeline, Failure> {
+        let map = [vk::SpecializationMapEntry {
+            constant_id: 0,
+            offset: 0,
+            size: 4,
+        }];
+        let data = key.to_ne_bytes();
+        let specialization = vk::SpecializationInfo::default()
+            .map_entries(&map)
+            .data(&data);
+        // SAFETY: passed on to the caller; a module may go once its pipeline is made.
+        unsafe {
+            let module = self.module(code)?;
+            let stage = vk::PipelineShaderStageCreateInfo::default()
+                .stage(vk::ShaderStageFlags::COMPUTE)
+                .module(module)
+                .name(c"main")
+                .specialization_info(&specialization);
+            let info = [vk::ComputePipelineCreateInfo::default()
+                .layout(layout)
+                .stage(stage)];
+            let made =
+                self.device
+                    .raw
+                    .create_compute_pipelines(vk::PipelineCache::null(), &info, None);
+            self.device.raw.destroy_shader_module(module, None);
+            Ok(made.map_err(|(_, error)| error)?[0])
+        }
+    }
+
+    /// A graphics pipeline without vertex attributes; with depth, it tests and writes it, reversed.
+    ///
+    /// # Safety
+    /// The code fits the host's layout.
+    unsafe fn graphics(
+        &self,
+        [vertex, fragment]: [&[u8]; 2],
+        color: vk::Format,
+        depth: Option<vk::Format>,
+    ) -> Result<vk::Pipeline, Failure> {
+        // SAFETY: passed on to the caller.
+        let modules = unsafe { [self.module(vertex)?, self.module(fragment)?] };
+        let stage = |stage, module| {
+            vk::PipelineShaderStageCreateInfo::default()
+                .stage(stage)
+                .module(module)
+                .name(c"main")
+        };
+        let stages = [
+            stage(vk::ShaderStageFlags::VERTEX, modules[0]),
+            stage(vk::ShaderStageFlags::FRAGMENT, modules[1]),
+        ];
+        let input = vk::PipelineVertexInputStateCreateInfo::default();
+        let assembly = vk::PipelineInputAssemblyStateCreateInfo::default()
+            .topology(vk::PrimitiveTopology::TRIANGLE_LIST);
+        let viewport = vk::PipelineViewportStateCreateInfo::default()
+            .viewport_count(1)
+            .scissor_count(1);
+        let cull = if depth.is_some() {
+            vk::CullModeFlags::BACK
+        } else {
+            vk::CullModeFlags::NONE
+        };
+        let rasterization = vk::PipelineRasterizationStateCreateInfo::default()
+            .cull_mode(cull)
+            .front_face(vk::FrontFace::COUNTER_CLOCKWISE)
+            .line_width(1.0);
+        let multisample = vk::PipelineMultisampleStateCreateInfo::default()
+            .rasterization_samples(vk::SampleCountFlags::TYPE_1);
+        let tests = vk::PipelineDepthStencilStateCreateInfo::default()
+            .depth_test_enable(depth.is_some())
+            .depth_write_enable(depth.is_some())
+            .depth_compare_op(vk::CompareOp::GREATER);
+        let attachments = [vk::PipelineColorBlendAttachmentState::default()
+            .color_write_mask(vk::ColorComponentFlags::RGBA)];
+        let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments);
+        let dynamic = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
+        let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic);
+        let formats = [color];
+        let mut rendering = vk::PipelineRenderingCreateInfo::default()
+            .color_attachment_formats(&formats)
+            .depth_attachment_format(depth.unwrap_or(vk::Format::UNDEFINED));
+        let info = [vk::GraphicsPipelineCreateInfo::default()
+            .stages(&stages)
+            .vertex_input_state(&input)
+            .input_assembly_state(&assembly)
+            .viewport_state(&viewport)
+            .rasterization_state(&rasterization)
+            .multisample_state(&multisample)
+            .depth_stencil_state(&tests)
+            .color_blend_state(&blend)
+            .dynamic_state(&dynamic)
+            .layout(self.layout)
+            .push_next(&mut rendering)];
+        // SAFETY: passed on to the caller; modules may go once their pipeline is made.
+        unsafe {
+            let raw = &self.device.raw;
+            let made = raw.create_graphics_pipelines(vk::PipelineCache::null(), &info, None);
+            for module in modules {
+                raw.destroy_shader_module(module, None);
+            }
+            Ok(made.map_err(|(_, error)| error)?[0])
+        }
+    }
+
+    /// The host's materials, for the library; `set` is the host's.
+    pub fn materials(&self, set: vk::DescriptorSet) -> Materials<'_> {
+        Materials {
+            pipelines: self,
+            set,
+        }
+    }
+}
+
+impl Drop for Pipelines<'_> {
+    fn drop(&mut self) {
+        let raw = &self.device.raw;
+        // SAFETY: every submission was waited for.
+        unsafe {
+            let all = self.samples.iter().copied();
+            for pipeline in all.chain([self.pose, self.ids, self.screen]) {
+                raw.destroy_pipeline(pipeline, None);
+            }
+            raw.destroy_pipeline_layout(self.samples_layout, None);
+            raw.destroy_pipeline_layout(self.layout, None);
+            raw.destroy_descriptor_set_layout(self.set_layout, None);
+            raw.destroy_sampler(self.sampler, None);
+        }
+    }
+}
+
+/// The host's materials with what they read in one frame.
+pub struct Materials<'a> {
+    pipelines: &'a Pipelines<'a>,
+    set: vk::DescriptorSet,
+}
+
+impl ShadeSamples for Materials<'_> {
+    fn record(&self, commands: vk::CommandBuffer, samples: &VisibilitySamples) {
+        let Pipelines {
+            device,
+            samples_layout,
+            samples: pipelines,
+            ..
+        } = self.pipelines;
+        let raw = &device.raw;
+        let sets = [samples.descriptor_set(), self.set];
+        let compute = vk::PipelineBindPoint::COMPUTE;
+        // SAFETY: the command buffer is being recorded; sets and pipelines are of one layout and outlive it.
+        unsafe {
+            raw.cmd_bind_descriptor_sets(commands, compute, *samples_layout, 0, &sets, &[]);
+            for (key, pipeline) in (0..).zip(pipelines) {
+                if let Some((arguments, offset)) = samples.dispatch(key) {
+                    raw.cmd_bind_pipeline(commands, compute, *pipeline);
+                    raw.cmd_dispatch_indirect(commands, arguments, offset);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,19 @@
+// pose: the vertices of an instance of a mesh, in their place.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define POSED_ACCESS writeonly
+#include "host.glsl"
+#include "posed.glsl"
+layout(local_size_x = 64) in;
+layout(push_constant) uniform Push { uint first_vertex, vertex_count, first_posed, instance; } push;
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= push.vertex_count) return;
+    Vertex v = vertices[push.first_vertex + i];
+    Instance instance = instances[push.instance];
+    vec4 position = vec4(v.position_u.xyz, 1.0);
+    positions[push.first_posed + i] = instance.to_clip * position;
+    posed[push.first_posed + i].position_u = vec4((instance.to_world * position).xyz, v.position_u.w);
+    posed[push.first_posed + i].normal_v = vec4(mat3(instance.to_world) * v.normal_v.xyz, v.normal_v.w);
+}

@@ -1,0 +1,534 @@
+//! One of the host's frames in flight: its buffers, images, commands, and what the library prepared for them.
+
+use crate::Failure;
+use crate::device::{Buffer, Device, Image, Texture};
+use crate::meshes::{Instance, KEYS, World};
+use crate::pipelines::{BINDINGS, COLOR, DEPTH, IDS, Pipelines};
+use ash::vk;
+use glam::Mat4;
+use gpc::host::{
+    Antialiaser, ClipSpace, ColorImage, Frame, Geometry, ImageState, Images, LentImage, Options,
+    Scenery,
+};
+
+/// What the library prepared for a slot.
+pub struct Antialiasing {
+    pub frame: Frame,
+    projection: Mat4,
+}
+
+pub struct Slot<'a> {
+    device: &'a Device,
+    size: [u32; 2],
+    antialiasing: Option<Antialiasing>,
+    commands: vk::CommandBuffer,
+    fence: vk::Fence,
+    pool: vk::DescriptorPool,
+    set: vk::DescriptorSet,
+    instances: Buffer<'a>,
+    positions: Buffer<'a>,
+    _posed: Buffer<'a>,
+    ids: Texture<'a>,
+    depth: Texture<'a>,
+    color: Texture<'a>,
+    read_back: Buffer<'a>,
+}
+
+/// The background that the host draws, and tells the library.
+pub const SKY: [f32; 3] = [0.2, 0.35, 0.6];
+
+/// The state in which the host samples what it has drawn.
+const SHOWN: ImageState = ImageState {
+    layout: vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
+    stage: vk::PipelineStageFlags2::FRAGMENT_SHADER,
+    access: vk::AccessFlags2::SHADER_READ,
+};
+
+impl<'a> Slot<'a> {
+    /// Makes a slot for images of a size, that of the options; without the library, the host draws alone.
+    pub fn new(
+        device: &'a Device,
+        world: &World<'a>,
+        pipelines: &Pipelines<'_>,
+        size: [u32; 2],
+        antialiasing: Option<(&Antialiaser, &Options)>,
+    ) -> Result<Self, Failure> {
+        let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
+        let posed_count = u64::from(world.posed_count);
+        let texels = storage | vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER;
+        let instance_bytes = (world.draws.len() * size_of::<Instance>()) as u64;
+        let instances = device.buffer(instance_bytes, storage)?;
+        let positions = device.buffer(16 * posed_count, texels)?;
+        let posed = device.buffer(32 * posed_count, storage)?;
+        let sampled = vk::ImageUsageFlags::SAMPLED;
+        let drawn = sampled | vk::ImageUsageFlags::COLOR_ATTACHMENT;
+        let plain = vk::ImageAspectFlags::COLOR;
+        let ids = device.image(IDS, size, 1, drawn, plain)?;
+        let depth_usage = sampled | vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT;
+        let depth = device.image(DEPTH, size, 1, depth_usage, vk::ImageAspectFlags::DEPTH)?;
+        let copied = drawn | vk::ImageUsageFlags::TRANSFER_SRC;
+        let color = device.image(COLOR, size, 1, copied, plain)?;
+        let pixels = u64::from(size[0]) * u64::from(size[1]);
+        let read_back = device.buffer(16 * pixels, vk::BufferUsageFlags::TRANSFER_DST)?;
+        let raw = &device.raw;
+        // SAFETY: plain creations on a live device. Handles made before a failure leak, which ends the program.
+        let (commands, fence, pool, set) = unsafe {
+            let info = vk::CommandBufferAllocateInfo::default()
+                .command_pool(device.pool)
+                .command_buffer_count(1);
+            let commands = raw.allocate_command_buffers(&info)?[0];
+            let fence = raw.create_fence(&vk::FenceCreateInfo::default(), None)?;
+            let sizes = BINDINGS.map(|ty| vk::DescriptorPoolSize {
+                ty,
+                descriptor_count: 1,
+            });
+            let info = vk::DescriptorPoolCreateInfo::default()
+                .max_sets(1)
+                .pool_sizes(&sizes);
+            let pool = raw.create_descriptor_pool(&info, None)?;
+            let layouts = [pipelines.set_layout];
+            let info = vk::DescriptorSetAllocateInfo::default()
+                .descriptor_pool(pool)
+                .set_layouts(&layouts);
+            let set = raw.allocate_descriptor_sets(&info)?[0];
+            (commands, fence, pool, set)
+        };
+        let buffers = [
+            &world.vertices,
+            &instances,
+            &world.indices,
+            &world.draw_table,
+            &world.draw_of,
+            &positions,
+            &posed,
+        ]
+        .map(|buffer| {
+            [vk::DescriptorBufferInfo::default()
+                .buffer(buffer.raw)
+                .range(vk::WHOLE_SIZE)]
+        });
+        let images = [&world.bricks, &ids].map(|texture| {
+            [vk::DescriptorImageInfo::default()
+                .sampler(pipelines.sampler)
+                .image_view(texture.view)
+                .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)]
+        });
+        let write = |binding: usize| {
+            vk::WriteDescriptorSet::default()
+                .dst_set(set)
+                .dst_binding(binding as u32)
+                .descriptor_type(BINDINGS[binding])
+        };
+        let writes: Vec<_> = (0..)
+            .zip(&buffers)
+            .map(|(binding, info)| write(binding).buffer_info(info))
+            .chain(
+                (buffers.len()..)
+                    .zip(&images)
+                    .map(|(binding, info)| write(binding).image_info(info)),
+            )
+            .collect();
+        // SAFETY: the set is new; what it shows lives as long as the slot.
+        unsafe { raw.update_descriptor_sets(&writes, &[]) };
+        let mut slot = Self {
+            device,
+            size,
+            antialiasing: None,
+            commands,
+            fence,
+            pool,
+            set,
+            instances,
+            positions,
+            _posed: posed,
+            ids,
+            depth,
+            color,
+            read_back,
+        };
+        if let Some((antialiaser, options)) = antialiasing {
+            let (geometry, images) = (slot.geometry(world), slot.images());
+            // SAFETY: buffers and images are as they say, and live as long as the slot.
+            let frame = unsafe { antialiaser.prepare(&geometry, &images, options) }?;
+            slot.antialiasing = Some(Antialiasing {
+                frame,
+                projection: Mat4::IDENTITY,
+            });
+        }
+        Ok(slot)
+    }
+
+    /// The buffers that the library is lent.
+    fn geometry(&self, world: &World<'_>) -> Geometry {
+        Geometry {
+            positions: self.positions.raw,
+            positions_offset: 0,
+            vertex_capacity: world.posed_count,
+            indices: world.indices.raw,
+            indices_offset: 0,
+            index_capacity: world.index_count,
+            triangle_capacity: world.triangle_count,
+            draw_capacity: world.draws.len() as u32,
+            keys: KEYS,
+            clip: ClipSpace {
+                y_up: true,
+                reversed_depth: true,
+            },
+        }
+    }
+
+    /// The images that the library is lent: as the host has drawn them, and as it goes on with them.
+    fn images(&self) -> Images {
+        let lent = |texture: &Texture<'_>, before, after| LentImage {
+            image: texture.raw,
+            view: texture.view,
+            aspects: texture.aspect,
+            before,
+            after,
+        };
+        Images {
+            ids: lent(&self.ids, SHOWN, SHOWN),
+            depth: Some(lent(&self.depth, DEPTH_DRAWN, SHOWN)),
+            color: ColorImage {
+                lent: lent(&self.color, COLOR_DRAWN, COPIED),
+                format: COLOR,
+                encoded: false,
+            },
+        }
+    }
+
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    pub fn antialiasing(&self) -> Option<&Antialiasing> {
+        self.antialiasing.as_ref()
+    }
+
+    /// Says what is shown next. The commands before are done.
+    pub fn show(
+        &mut self,
+        world: &World<'_>,
+        time: f32,
+        (camera, projection): (Mat4, Mat4),
+    ) -> Result<(), Failure> {
+        let instances = world.instances(time, camera);
+        let bytes: &[u8] = bytemuck::cast_slice(&instances);
+        self.instances.bytes_mut()?[..bytes.len()].copy_from_slice(bytes);
+        if let Some(antialiasing) = &mut self.antialiasing {
+            antialiasing.projection = projection;
+        }
+        Ok(())
+    }
+
+    /// Records the host's frame, with the library's part in it, and submits it.
+    pub fn submit(&mut self, world: &World<'_>, pipelines: &Pipelines<'_>) -> Result<(), Failure> {
+        let (raw, commands) = (&self.device.raw, self.commands);
+        // SAFETY: the commands before are done; all handles live as long as the slot, whose drop waits.
+        unsafe {
+            raw.begin_command_buffer(commands, &vk::CommandBufferBeginInfo::default())?;
+            self.record_pose(world, pipelines);
+            self.record_ids(world, pipelines);
+            self.record_screen(pipelines);
+            if let Some(Antialiasing { frame, projection }) = &mut self.antialiasing {
+                let scenery = Scenery {
+                    draws: &world.draws,
+                    projection: projection.to_cols_array_2d(),
+                };
+                frame.record(commands, &scenery, &pipelines.materials(self.set))?;
+            } else {
+                self.change(&self.color, COLOR_DRAWN, COPIED);
+            }
+            self.record_read_back();
+            raw.end_command_buffer(commands)?;
+            let buffers = [commands];
+            let submitted = [vk::SubmitInfo::default().command_buffers(&buffers)];
+            raw.queue_submit(self.device.queue, &submitted, self.fence)?;
+        }
+        Ok(())
+    }
+
+    /// Waits for what was submitted.
+    pub fn wait(&mut self) -> Result<(), Failure> {
+        // SAFETY: the fence was submitted.
+        unsafe {
+            let fences = [self.fence];
+            self.device.raw.wait_for_fences(&fences, true, u64::MAX)?;
+            self.device.raw.reset_fences(&fences)?;
+        }
+        Ok(())
+    }
+
+    /// What was drawn, means of `side` x `side` pixels.
+    pub fn pixels(&self, side: u32) -> Result<Image, Failure> {
+        let bytes = self.read_back.read()?;
+        let pixels: &[[f32; 4]] = bytemuck::try_cast_slice(&bytes[..self.read_back.bytes as usize])
+            .map_err(|error| error.to_string())?;
+        let size = self.size.map(|pixels| pixels / side);
+        let side = side as usize;
+        let row = self.size[0] as usize;
+        let mean = |x: usize, y: usize| {
+            let mut sum = [0.0; 3];
+            for line in 0..side {
+                let first = (y * side + line) * row + x * side;
+                for pixel in &pixels[first..first + side] {
+                    for (sum, channel) in sum.iter_mut().zip(pixel) {
+                        *sum += channel;
+                    }
+                }
+            }
+            sum.map(|sum| sum / (side * side) as f32)
+        };
+        let [width, height] = size.map(|pixels| pixels as usize);
+        Ok(Image {
+            size,
+            colors: (0..width * height)
+                .map(|i| mean(i % width, i / width))
+                .collect(),
+        })
+    }
+
+    unsafe fn bind(
+        &self,
+        point: vk::PipelineBindPoint,
+        pipelines: &Pipelines<'_>,
+        pipeline: vk::Pipeline,
+    ) {
+        let (raw, commands) = (&self.device.raw, self.commands);
+        // SAFETY: passed on to the caller.
+        unsafe {
+            raw.cmd_bind_pipeline(commands, point, pipeline);
+            raw.cmd_bind_descriptor_sets(commands, point, pipelines.layout, 0, &[self.set], &[]);
+        }
+    }
+
+    unsafe fn push<T: bytemuck::NoUninit>(&self, pipelines: &Pipelines<'_>, values: &[T]) {
+        let bytes = bytemuck::cast_slice(values);
+        // SAFETY: passed on to the caller.
+        unsafe {
+            self.device.raw.cmd_push_constants(
+                self.commands,
+                pipelines.layout,
+                vk::ShaderStageFlags::ALL,
+                0,
+                bytes,
+            );
+        }
+    }
+
+    /// Vertices of all instances, in their place.
+    unsafe fn record_pose(&self, world: &World<'_>, pipelines: &Pipelines<'_>) {
+        let (raw, commands) = (&self.device.raw, self.commands);
+        // SAFETY: passed on to the caller.
+        unsafe {
+            self.bind(vk::PipelineBindPoint::COMPUTE, pipelines, pipelines.pose);
+            for (number, (mesh, draw)) in (0_u32..).zip(world.meshes.iter().zip(&world.draws)) {
+                let posed = draw.vertex_offset.cast_unsigned();
+                let push = [mesh.first_vertex, mesh.vertex_count, posed, number];
+                self.push(pipelines, &push);
+                raw.cmd_dispatch(commands, mesh.vertex_count.div_ceil(64), 1, 1);
+            }
+            let barriers = [vk::MemoryBarrier2::default()
+                .src_stage_mask(vk::PipelineStageFlags2::COMPUTE_SHADER)
+                .src_access_mask(vk::AccessFlags2::SHADER_WRITE)
+                .dst_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
+                .dst_access_mask(vk::AccessFlags2::SHADER_READ)];
+            let info = vk::DependencyInfo::default().memory_barriers(&barriers);
+            raw.cmd_pipeline_barrier2(commands, &info);
+        }
+    }
+
+    /// The visibility buffer: triangle IDs and depth.
+    unsafe fn record_ids(&self, world: &World<'_>, pipelines: &Pipelines<'_>) {
+        let (raw, commands) = (&self.device.raw, self.commands);
+        // SAFETY: passed on to the caller.
+        unsafe {
+            self.change(&self.ids, UNDEFINED, COLOR_DRAWN);
+            self.change(&self.depth, UNDEFINED, DEPTH_DRAWN);
+            self.begin_rendering(&self.ids, Some(&self.depth));
+            self.bind(vk::PipelineBindPoint::GRAPHICS, pipelines, pipelines.ids);
+            raw.cmd_bind_index_buffer(commands, world.indices.raw, 0, vk::IndexType::UINT32);
+            let mut first_triangle = 0_u32;
+            for draw in &world.draws {
+                self.push(pipelines, &[first_triangle]);
+                raw.cmd_draw_indexed(
+                    commands,
+                    3 * draw.triangle_count,
+                    1,
+                    draw.first_index,
+                    draw.vertex_offset,
+                    0,
+                );
+                first_triangle += draw.triangle_count;
+            }
+            raw.cmd_end_rendering(commands);
+            self.change(&self.ids, COLOR_DRAWN, SHOWN);
+        }
+    }
+
+    /// Colours of the centres of pixels.
+    unsafe fn record_screen(&self, pipelines: &Pipelines<'_>) {
+        let (raw, commands) = (&self.device.raw, self.commands);
+        // SAFETY: passed on to the caller.
+        unsafe {
+            self.change(&self.color, UNDEFINED, COLOR_DRAWN);
+            self.begin_rendering(&self.color, None);
+            self.bind(vk::PipelineBindPoint::GRAPHICS, pipelines, pipelines.screen);
+            self.push(pipelines, &self.size.map(|side| 0.5 * side as f32));
+            raw.cmd_draw(commands, 3, 1, 0, 0);
+            raw.cmd_end_rendering(commands);
+        }
+    }
+
+    /// Begins drawing over the whole of an image, cleared; y points up.
+    unsafe fn begin_rendering(&self, color: &Texture<'_>, depth: Option<&Texture<'_>>) {
+        let (raw, commands) = (&self.device.raw, self.commands);
+        let [width, height] = self.size;
+        let area = vk::Rect2D {
+            offset: vk::Offset2D::default(),
+            extent: vk::Extent2D { width, height },
+        };
+        let attachment = |texture: &Texture<'_>, layout| {
+            vk::RenderingAttachmentInfo::default()
+                .image_view(texture.view)
+                .image_layout(layout)
+                .load_op(vk::AttachmentLoadOp::CLEAR)
+                .store_op(vk::AttachmentStoreOp::STORE)
+        };
+        let colors = [attachment(color, COLOR_DRAWN.layout)];
+        let depth = depth.map(|depth| attachment(depth, DEPTH_DRAWN.layout));
+        let mut info = vk::RenderingInfo::default()
+            .render_area(area)
+            .layer_count(1)
+            .color_attachments(&colors);
+        if let Some(depth) = &depth {
+            info = info.depth_attachment(depth);
+        }
+        let viewport = vk::Viewport {
+            x: 0.0,
+            y: height as f32,
+            width: width as f32,
+            height: -(height as f32),
+            min_depth: 0.0,
+            max_depth: 1.0,
+        };
+        // SAFETY: passed on to the caller.
+        unsafe {
+            raw.cmd_begin_rendering(commands, &info);
+            raw.cmd_set_viewport(commands, 0, &[viewport]);
+            raw.cmd_set_scissor(commands, 0, &[area]);
+        }
+    }
+
+    unsafe fn record_read_back(&self) {
+        let (raw, commands) = (&self.device.raw, self.commands);
+        let [width, height] = self.size;
+        let region = vk::BufferImageCopy::default()
+            .image_subresource(vk::ImageSubresourceLayers {
+                aspect_mask: vk::ImageAspectFlags::COLOR,
+                mip_level: 0,
+                base_array_layer: 0,
+                layer_count: 1,
+            })
+            .image_extent(vk::Extent3D {
+                width,
+                height,
+                depth: 1,
+            });
+        let barriers = [vk::MemoryBarrier2::default()
+            .src_stage_mask(vk::PipelineStageFlags2::COPY)
+            .src_access_mask(vk::AccessFlags2::TRANSFER_WRITE)
+            .dst_stage_mask(vk::PipelineStageFlags2::HOST)
+            .dst_access_mask(vk::AccessFlags2::HOST_READ)];
+        let to_host = vk::DependencyInfo::default().memory_barriers(&barriers);
+        let (from, to) = (self.color.raw, self.read_back.raw);
+        // SAFETY: passed on to the caller; image and buffer are of the same size.
+        unsafe {
+            raw.cmd_copy_image_to_buffer(commands, from, COPIED.layout, to, &[region]);
+            raw.cmd_pipeline_barrier2(commands, &to_host);
+        }
+    }
+
+    unsafe fn change(&self, texture: &Texture<'_>, from: ImageState, to: ImageState) {
+        let barriers = [vk::ImageMemoryBarrier2::default()
+            .src_stage_mask(from.stage)
+            .src_access_mask(from.access)
+            .dst_stage_mask(to.stage)
+            .dst_access_mask(to.access)
+            .old_layout(from.layout)
+            .new_layout(to.layout)
+            .image(texture.raw)
+            .subresource_range(range(texture, 1))];
+        let info = vk::DependencyInfo::default().image_memory_barriers(&barriers);
+        // SAFETY: passed on to the caller.
+        unsafe { self.device.raw.cmd_pipeline_barrier2(self.commands, &info) };
+    }
+}
+
+impl Drop for Slot<'_> {
+    fn drop(&mut self) {
+        let raw = &self.device.raw;
+        // SAFETY: nothing of the slot is used after the wait.
+        unsafe {
+            let _ = raw.device_wait_idle();
+            raw.destroy_fence(self.fence, None);
+            raw.destroy_descriptor_pool(self.pool, None);
+            raw.free_command_buffers(self.device.pool, &[self.commands]);
+        }
+    }
+}
+
+const UNDEFINED: ImageState = ImageState {
+    layout: vk::ImageLayout::UNDEFINED,
+    stage: vk::PipelineStageFlags2::ALL_COMMANDS,
+    access: vk::AccessFlags2::NONE,
+};
+const COLOR_DRAWN: ImageState = ImageState {
+    layout: vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
+    stage: vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
+    access: vk::AccessFlags2::COLOR_ATTACHMENT_WRITE,
+};
+const DEPTH_DRAWN: ImageState = ImageState {
+    layout: vk::ImageLayout::DEPTH_ATTACHMENT_OPTIMAL,
+    stage: vk::PipelineStageFlags2::LATE_FRAGMENT_TESTS,
+    access: vk::AccessFlags2::DEPTH_STENCIL_ATTACHMENT_WRITE,
+};
+const COPIED: ImageState = ImageState {
+    layout: vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
+    stage: vk::PipelineStageFlags2::COPY,
+    access: vk::AccessFlags2::TRANSFER_READ,
+};
+
+fn range(texture: &Texture<'_>, levels: u32) -> vk::ImageSubresourceRange {
+    vk::ImageSubresourceRange {
+        aspect_mask: texture.aspect,
+        base_mip_level: 0,
+        level_count: levels,
+        base_array_layer: 0,
+        layer_count: 1,
+    }
+}
+
+/// Moves all levels of a texture to another layout, after all before and ahead of all after.
+pub fn change(
+    device: &Device,
+    commands: vk::CommandBuffer,
+    texture: &Texture<'_>,
+    levels: u32,
+    from: vk::ImageLayout,
+    to: vk::ImageLayout,
+) {
+    let all = vk::PipelineStageFlags2::ALL_COMMANDS;
+    let barriers = [vk::ImageMemoryBarrier2::default()
+        .src_stage_mask(all)
+        .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
+        .dst_stage_mask(all)
+        .dst_access_mask(vk::AccessFlags2::MEMORY_READ | vk::AccessFlags2::MEMORY_WRITE)
+        .old_layout(from)
+        .new_layout(to)
+        .image(texture.raw)
+        .subresource_range(range(texture, levels))];
+    let info = vk::DependencyInfo::default().image_memory_barriers(&barriers);
+    // SAFETY: the command buffer is being recorded for the device.
+    unsafe { device.raw.cmd_pipeline_barrier2(commands, &info) };
+}

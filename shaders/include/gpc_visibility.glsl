@@ -1,0 +1,86 @@
+// What an application's shader needs to shade visibility samples with its own materials.
+//
+// A compute shader of 64 invocations a workgroup, dispatched once for each shading key and round:
+//
+//     #version 460
+//     #extension GL_GOOGLE_include_directive : require
+//     #define GPC_SET 0                       // the set that the samples' descriptors are bound to
+//     #include "gpc_visibility.glsl"
+//     layout(local_size_x = 64) in;
+//     layout(push_constant) uniform Push { uint key; };
+//
+//     void main() {
+//         GpcSample s;
+//         if (!gpc_sample(key, s)) return;
+//         vec3 normal = mat3(normals[s.vertices.x], normals[s.vertices.y], normals[s.vertices.z]) * s.weights;
+//         gpc_store(s, vec4(shade(normal), 1.0));
+//     }
+//
+// A visibility sample is a record of four words:
+//     x   pixel: x | y << 16
+//     y   triangle ID: 1 + index of the triangle in the order of the frame's draws
+//     z   place in the pixel: offset from its centre, x and y in 12 bits each, signed, in units of 2^-12 of a pixel, and
+//         above them the side of the square that the sample stands for, as -16 log2 of its share of the pixel's side
+//     w   weight in the pixel, in samples, as a float
+#ifndef GPC_VISIBILITY_GLSL
+#define GPC_VISIBILITY_GLSL
+#include "place.glsl"
+#include "barycentric.glsl"
+
+#ifndef GPC_SET
+#define GPC_SET 0
+#endif
+
+layout(set = GPC_SET, binding = 0) uniform GpcFrame {
+    vec2 scale;         // clip space to pixels from the image's centre, times w
+    vec2 half_size;     // of the image, in pixels
+    float place_side;   // of the square that textures are filtered over; GPC_BOX: over what the sample's place says
+    uint box;           // whether each place says how large a square it stands for
+} gpc_frame;
+layout(std430, set = GPC_SET, binding = 1) readonly buffer GpcKeys { uvec4 gpc_keys[]; };           // samples, first in the order
+layout(std430, set = GPC_SET, binding = 2) readonly buffer GpcOrder { uint gpc_order[]; };          // indices of records
+layout(std430, set = GPC_SET, binding = 3) readonly buffer GpcRecords { uvec4 gpc_records[]; };
+layout(std430, set = GPC_SET, binding = 4) readonly buffer GpcTriangles { uvec4 gpc_triangles[]; }; // three vertices; material | key << 16 | flags
+layout(std430, set = GPC_SET, binding = 5) readonly buffer GpcPositions { vec4 gpc_positions[]; };  // clip space
+layout(std430, set = GPC_SET, binding = 6) writeonly buffer GpcShaded { vec4 gpc_shaded[]; };
+
+struct GpcSample {
+    uint record;        // index, for gpc_store
+    uint triangle;      // index in the order of the frame's draws
+    uint material;      // that of its draw
+    uvec3 vertices;     // indices, the draw's vertex offset added
+    vec2 position;      // in the image, in pixels from its upper left corner, y down
+    vec3 weights;       // barycentric coordinates, perspective-correct: an attribute is the sum of the vertices' weighted
+    vec3 dx, dy;        // their change over the square that the sample stands for, to the right and down: gradients of an
+                        // attribute for textureGrad, or for gpc_texture.glsl
+    bool front;         // the triangle is seen from its front, counter-clockwise on the screen
+};
+
+// The sample of this invocation among those of a key; false where there is none.
+bool gpc_sample(uint key, out GpcSample s) {
+    uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    uvec4 listed = gpc_keys[key];
+    s.record = gpc_order[listed.y + min(i, max(listed.x, 1u) - 1u)];
+    uvec4 record = gpc_records[s.record];
+    s.triangle = max(record.y, 1u) - 1u;
+    uvec4 words = gpc_triangles[s.triangle];
+    s.vertices = words.xyz;
+    s.material = words.w & 0xffffu;
+    vec2 centred = vec2(record.x & 0xffffu, record.x >> 16) + 0.5 - gpc_frame.half_size + place_location(record.z);
+    s.position = centred + gpc_frame.half_size;
+    vec4 scale = vec4(gpc_frame.scale, 1.0, 1.0);
+    Barycentric b = barycentric(gpc_positions[words.x] * scale, gpc_positions[words.y] * scale, gpc_positions[words.z] * scale, centred);
+    float side = gpc_frame.place_side * (gpc_frame.box != 0u ? place_side(record.z) : 1.0);
+    s.weights = b.at;
+    s.dx = b.dx * side;
+    s.dy = b.dy * side;
+    s.front = b.facing;
+    return i < listed.x;
+}
+
+// Writes what a sample shows: linear light that the image's encoding is averaged in, and opacity.
+void gpc_store(GpcSample s, vec4 light) {
+    gpc_shaded[s.record] = light;
+}
+
+#endif

@@ -1,0 +1,22 @@
+// take: a host's image as what superpixels stand in: its colours in linear light, and the codes that detection compares.
+// Reads: the image. Writes: color, display. ENCODED: the host has written sRGB codes into a format of plain numbers.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "include/frame.glsl"
+#include "include/color.glsl"
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const bool ENCODED = false;
+layout(set = 1, binding = 0) uniform texture2D host_image;
+
+vec3 srgb_decode(vec3 c) {
+    return mix(pow((c + 0.055) / 1.055, vec3(2.4)), c / 12.92, lessThanEqual(c, vec3(0.04045)));
+}
+
+void main() {
+    uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    if (i >= frame.size.x * frame.size.y) return;
+    vec4 c = texelFetch(host_image, ivec2(split(i, frame.size.x)), 0);
+    c.rgb = ENCODED ? srgb_decode(clamp(c.rgb, vec3(0.0), vec3(1.0))) : c.rgb;
+    color[i] = c;
+    display_out[i] = display_code(c);
+}

@@ -1,0 +1,88 @@
+//! What can be wrong with what a host lends.
+
+use crate::render::RenderError;
+use crate::vulkan::VulkanError;
+use ash::vk;
+
+/// An error of antialiasing a host's frames.
+#[derive(Debug, thiserror::Error)]
+pub enum HostError {
+    /// The options are impossible, memory runs out, or the driver refuses something.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// A handle is null.
+    #[error("{0} is VK_NULL_HANDLE")]
+    NullHandle(&'static str),
+    /// A count that has to be at least 1 is 0, or more than can be addressed.
+    #[error("{what} is {found}; it can be 1 to {most}")]
+    Count {
+        /// The count.
+        what: &'static str,
+        /// What it is.
+        found: u32,
+        /// What it can be.
+        most: u32,
+    },
+    /// A buffer's offset is not a multiple of what the device asks for.
+    #[error("{what} is {offset} bytes; the device asks for multiples of {alignment}")]
+    Alignment {
+        /// The offset.
+        what: &'static str,
+        /// What it is.
+        offset: u64,
+        /// What it has to be a multiple of.
+        alignment: u64,
+    },
+    /// The colour image has a format that can't be drawn to or read.
+    #[error(
+        "a colour image of format {0:?}: it can have 8, 10, 16 or 32 bits a channel as UNORM, SRGB or SFLOAT, or be B10G11R11_UFLOAT"
+    )]
+    Format(vk::Format),
+    /// An image with its own sRGB encoding is said to hold codes.
+    #[error("a colour image of format {0:?} holds linear light; it can't be encoded as well")]
+    Encoded(vk::Format),
+    /// Thin triangles are found by depth.
+    #[error(
+        "thin triangles are found by depth: lend the depth image, or set Options::thin to false"
+    )]
+    NoDepth,
+    /// A frame has more of something than it was prepared for.
+    #[error("{found} {what}; the frame was prepared for {capacity}")]
+    Capacity {
+        /// Draws or triangles.
+        what: &'static str,
+        /// How many there are.
+        found: u64,
+        /// How many there can be.
+        capacity: u32,
+    },
+    /// A draw reads past the index buffer.
+    #[error("draw {draw} reads indices up to {end}, and there are {indices}")]
+    Indices {
+        /// The draw, by its place in the list.
+        draw: usize,
+        /// One past its last index.
+        end: u64,
+        /// How many there are.
+        indices: u32,
+    },
+    /// A draw has a shading key that there is none of.
+    #[error("draw {draw} has shading key {key}, and there are {keys}")]
+    Key {
+        /// The draw, by its place in the list.
+        draw: usize,
+        /// Its key.
+        key: u32,
+        /// How many there are.
+        keys: u32,
+    },
+    /// A number of the projection is not finite.
+    #[error("the projection matrix has a number that is not finite")]
+    Projection,
+}
+
+impl From<VulkanError> for HostError {
+    fn from(error: VulkanError) -> Self {
+        Self::Render(error.into())
+    }
+}

@@ -1,0 +1,491 @@
+//! One of a host's frames in flight.
+
+use super::geometry::HostContent;
+use super::shading::{HostShading, ShadeSamples, VisibilitySamples};
+use super::{Draw, Geometry, HostError, Images, Options, Shared};
+use crate::passes::{
+    AdoptedCounts, AdoptedDraw, Counter, DetectMode, FrameUniform, IdViews, Locations, OwnSet,
+    Patch, Resources, Sample, VisibilityUniform,
+};
+use crate::render::engine::{Engine, EngineKind, Work};
+use crate::render::footprint::Footprints;
+use crate::render::plan::{Effort, Plan};
+use crate::render::statistics::Shortfall;
+use crate::render::{Detection, PassTime, RenderError, Settings, Statistics};
+use crate::sampling::Pattern;
+use crate::vulkan::{Buffer, Memory, MemoryUse, Pipeline, Recorder, Timings};
+use ash::vk;
+use std::sync::Arc;
+
+/// What a recording shows.
+#[derive(Clone, Copy, Debug)]
+pub struct Scenery<'a> {
+    /// Runs of triangles. IDs count from 1 in their order.
+    pub draws: &'a [Draw],
+    /// The projection that positions were made with, in columns: from view space, in which distances are the world's, to
+    /// clip space. It tells how far apart two depths are.
+    pub projection: [[f32; 4]; 4],
+}
+
+/// What a recording did.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// Figures.
+    pub statistics: Statistics,
+    /// Superpixels and tiles that found no room. [`Frame::grow`] makes a frame with more.
+    pub left_over: u64,
+}
+
+/// Pipelines and memory to antialias one frame in flight of a host.
+pub struct Frame {
+    geometry: Geometry,
+    images: Images,
+    options: Options,
+    settings: Settings,
+    plan: Plan,
+    _content: HostContent,
+    resources: Resources,
+    engine: Engine,
+    take: Pipeline,
+    patch: Patch,
+    draws: Buffer,
+    visibility: Buffer,
+    adopt_set: OwnSet,
+    take_set: OwnSet,
+    visibility_set: OwnSet,
+    counters: Buffer,
+    timings: Timings,
+    memory: Memory,
+    uploaded: bool,
+    triangles: u32,
+    /// Last: layouts go after what was made with them.
+    shared: Arc<Shared>,
+}
+
+/// Trips that loops have on CPU devices, with some to spare; in each, an invocation of `schedule` takes a tile of 32 pixels.
+const TRIPS: u64 = 60_000;
+
+impl Frame {
+    /// # Safety
+    /// As [`super::Antialiaser::prepare`].
+    pub(super) unsafe fn new(
+        shared: &Arc<Shared>,
+        geometry: &Geometry,
+        images: &Images,
+        options: &Options,
+    ) -> Result<Self, HostError> {
+        // SAFETY: passed on to the caller.
+        unsafe { Self::with_effort(shared, geometry, images, options, Effort::default()) }
+    }
+
+    unsafe fn with_effort(
+        shared: &Arc<Shared>,
+        geometry: &Geometry,
+        images: &Images,
+        options: &Options,
+        effort: Effort,
+    ) -> Result<Self, HostError> {
+        let gpu = &shared.gpu;
+        let layout = &shared.frame;
+        let settings = options.settings();
+        settings.check(gpu.limits())?;
+        geometry.check(gpu)?;
+        images.check(options.thin)?;
+        let [width, height] = settings.size;
+        let most = TRIPS * 32 * u64::from(gpu.limits().subgroup_size);
+        if u64::from(width) * u64::from(height) > most {
+            return Err(HostError::Count {
+                what: "the number of pixels",
+                found: width.saturating_mul(height),
+                most: most as u32,
+            });
+        }
+        let memory = Memory::new(gpu.clone(), settings.max_memory);
+        // SAFETY: passed on to the caller.
+        let content = unsafe { HostContent::new(gpu, &memory, geometry) }?;
+        let device_buffer = |name, bytes, usage| {
+            let usage = usage | vk::BufferUsageFlags::TRANSFER_DST;
+            memory.buffer(name, bytes, usage, MemoryUse::Device)
+        };
+        let draw_bytes = u64::from(geometry.draw_capacity) * size_of::<AdoptedDraw>() as u64;
+        let draws = device_buffer("draws", draw_bytes, vk::BufferUsageFlags::STORAGE_BUFFER)?;
+        let visibility = device_buffer(
+            "visibility uniform",
+            size_of::<VisibilityUniform>() as u64,
+            vk::BufferUsageFlags::UNIFORM_BUFFER,
+        )?;
+        let taken = memory.used();
+        let plan = Plan::whole(&settings, &content, gpu.limits(), effort, taken)?;
+        let mut locations = settings.locations()?;
+        let count = locations.len() as u32;
+        locations.extend(
+            Pattern::Sobol
+                .offsets(Sample::PROBES)
+                .map_err(RenderError::from)?,
+        );
+        let views = IdViews {
+            ids: images.ids.view,
+            blend_ids: None,
+            depth: images.depth.map(|depth| depth.view),
+            placeholder: None,
+        };
+        let resources = Resources::new(
+            layout,
+            &memory,
+            &content,
+            &views,
+            plan.sizes,
+            &[Locations {
+                all: &locations,
+                count,
+            }],
+        )?;
+        let output = settings.color_constants(&content);
+        let engine = Engine::new(
+            layout,
+            &content,
+            &settings,
+            &plan,
+            &output,
+            &EngineKind {
+                mode: match settings.detection {
+                    Detection::Contrast => DetectMode::Contrast,
+                    Detection::Edges => DetectMode::Edges,
+                    Detection::Exact => DetectMode::Exact,
+                    Detection::Every => DetectMode::Every,
+                },
+                thin: settings.thin && settings.detection != Detection::Every,
+                farther_is_larger: !geometry.clip.reversed_depth,
+                multisampled: false,
+                samples: settings.samples,
+                growths: 0,
+                detected: false,
+            },
+        )?;
+        // SAFETY: of the host's handles, as the caller says; the rest goes with the frame.
+        let (adopt_set, take_set, visibility_set) = unsafe {
+            (
+                shared
+                    .adopt
+                    .set(geometry.indices_info(), &draws, content.triangles())?,
+                shared.take.set(images.color.lent.view)?,
+                resources.visibility_set(
+                    &shared.visibility,
+                    &visibility,
+                    content.triangles(),
+                    geometry.positions_info(),
+                )?,
+            )
+        };
+        let (format, encoded) = (images.color.format, images.color.encoded);
+        Ok(Self {
+            take: shared.take.pipeline(layout, encoded, &output)?,
+            patch: Patch::new(layout, format, encoded)?,
+            counters: memory.buffer(
+                "counter read-back",
+                Counter::BYTES,
+                vk::BufferUsageFlags::TRANSFER_DST,
+                MemoryUse::Readback,
+            )?,
+            timings: Timings::new(gpu, 32 + 8 * plan.rounds)?,
+            geometry: *geometry,
+            images: *images,
+            options: options.clone(),
+            settings,
+            plan,
+            _content: content,
+            resources,
+            engine,
+            draws,
+            visibility,
+            adopt_set,
+            take_set,
+            visibility_set,
+            memory,
+            uploaded: false,
+            triangles: 0,
+            shared: shared.clone(),
+        })
+    }
+
+    /// The options that it was prepared with.
+    #[must_use]
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+
+    /// Bytes of device memory that it takes, beside what the host lends.
+    #[must_use]
+    pub fn memory_bytes(&self) -> u64 {
+        self.memory.used()
+    }
+
+    /// A frame like this one, for the same buffers and images, with more of what the last recording lacked: rounds, and
+    /// memory for lists. Where it lacked nothing, it is made with as much.
+    ///
+    /// # Errors
+    /// If memory runs out, or what was counted can't be read.
+    ///
+    /// # Safety
+    /// As [`super::Antialiaser::prepare`]; and the commands of the last recording are done.
+    pub unsafe fn grow(&self) -> Result<Self, HostError> {
+        let effort = self.plan.effort.more(self.shortfall()?);
+        // SAFETY: passed on to the caller.
+        unsafe {
+            Self::with_effort(
+                &self.shared,
+                &self.geometry,
+                &self.images,
+                &self.options,
+                effort,
+            )
+        }
+    }
+
+    /// Records the antialiasing of a frame that the host has drawn. It submits nothing, waits for nothing, allocates
+    /// nothing on the device and updates no descriptor.
+    ///
+    /// # Errors
+    /// If the scenery does not fit what the frame was prepared for. Nothing is recorded then.
+    ///
+    /// # Safety
+    /// - `commands` is being recorded, outside of a render pass, for the device of the antialiaser and a queue family with
+    ///   graphics and compute. What was bound and pushed before has to be bound and pushed again.
+    /// - The commands of this frame's last recording are done: its memory is used again.
+    /// - Images are in the states named, and hold what the host has drawn of the same draws and positions.
+    /// - Writes to the lent buffers by the device were recorded into the same queue before, or made visible to it.
+    /// - The frame, the buffers, the images and what `shading` records outlive the execution of the commands.
+    /// - What `shading` records is valid, and writes no memory of the frame but by `gpc_store`.
+    pub unsafe fn record(
+        &mut self,
+        commands: vk::CommandBuffer,
+        scenery: &Scenery<'_>,
+        shading: &dyn ShadeSamples,
+    ) -> Result<(), HostError> {
+        let (draws, triangles) = self.geometry.adopted(scenery.draws)?;
+        if !scenery
+            .projection
+            .as_flattened()
+            .iter()
+            .all(|n| n.is_finite())
+        {
+            return Err(HostError::Projection);
+        }
+        self.triangles = triangles;
+        let uniform = self.uniform(triangles, &scenery.projection);
+        let gpu = self.shared.gpu.clone();
+        let resources = &self.resources;
+        let Some(set) = resources.set(0) else {
+            return Ok(());
+        };
+        // SAFETY: passed on to the caller.
+        let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
+        let recorder = &mut recorder;
+        if !self.uploaded {
+            resources.record_upload(recorder);
+            self.uploaded = true;
+        }
+        recorder.begin();
+        self.images.record_begin(recorder);
+        let counts = AdoptedCounts {
+            triangles,
+            draws: draws.len() as u32,
+            indices: self.geometry.index_capacity,
+            vertices: self.geometry.vertex_capacity,
+        };
+        self.shared
+            .adopt
+            .record(recorder, &self.adopt_set, &self.draws, &draws, counts);
+        recorder.mark("adopt");
+        let visible = visibility_uniform(&self.geometry, &self.settings);
+        // SAFETY: the recorder's contract; the buffer has the block's size.
+        unsafe {
+            gpu.device.cmd_update_buffer(
+                commands,
+                self.visibility.handle(),
+                0,
+                bytemuck::bytes_of(&visible),
+            );
+        }
+        resources.record_begin(recorder, set, &uniform);
+        let [width, height] = self.settings.size;
+        let sets = [set.descriptor(), self.take_set.raw];
+        self.shared
+            .take
+            .record(recorder, &self.take, sets, width * height);
+        resources.record_bind(recorder, set);
+        recorder.mark("take");
+        let shading = HostShading {
+            shading,
+            samples: VisibilitySamples {
+                set: self.visibility_set.raw,
+                arguments: resources.arguments.handle(),
+                keys: self.geometry.keys,
+            },
+            set,
+        };
+        let work = Work {
+            triangles,
+            tiles: uniform.tiles[0] * uniform.tiles[1],
+            rounds: self.plan.rounds,
+        };
+        self.engine.record(recorder, resources, &shading, &work);
+        resources.record_keep_counters(recorder, &self.counters, 0);
+        recorder.barrier();
+        self.images.record_draw(recorder);
+        let view = self.images.color.lent.view;
+        self.patch
+            .record(recorder, set.descriptor(), view, self.settings.size);
+        recorder.mark("patch");
+        self.images.record_end(recorder);
+        Ok(())
+    }
+
+    fn shortfall(&self) -> Result<Shortfall, HostError> {
+        let [width, height] = self.settings.size;
+        let mut shortfall = Shortfall::default();
+        let counted = self.counters.read(Counter::COUNT)?;
+        let tiles = width.div_ceil(8) * height.div_ceil(4);
+        shortfall.add(counted, tiles, self.plan.effort.unlisted);
+        Ok(shortfall)
+    }
+
+    /// What the last recording did. Call it when its commands are done, at any time later: it waits for nothing.
+    ///
+    /// # Errors
+    /// If what was counted or timed can't be read.
+    pub fn outcome(&self) -> Result<Outcome, HostError> {
+        let [width, height] = self.settings.size;
+        let mut statistics = Statistics {
+            regions: 1,
+            memory_bytes: self.memory.used(),
+            tiles: u64::from(width.div_ceil(8)) * u64::from(height.div_ceil(4)),
+            ..Statistics::default()
+        };
+        statistics.triangles.total = u64::from(self.triangles);
+        statistics.add(self.counters.read(Counter::COUNT)?);
+        for (pass, ms) in self.timings.read()? {
+            statistics.add_time(PassTime { pass, ms });
+        }
+        Ok(Outcome {
+            statistics,
+            left_over: self.shortfall()?.left(),
+        })
+    }
+
+    fn uniform(&self, triangles: u32, projection: &[[f32; 4]; 4]) -> FrameUniform {
+        let [width, height] = self.settings.size;
+        let half = [width, height].map(|side| 0.5 * side as f32);
+        let [x, y] = scale(&self.geometry, self.settings.size);
+        // Depth in which larger is nearer: z, or w - z.
+        let (z, z_of_w) = if self.geometry.clip.reversed_depth {
+            (1.0, 0.0)
+        } else {
+            (-1.0, 1.0)
+        };
+        let footprints = Footprints::new(&self.settings, self.settings.samples);
+        FrameUniform {
+            transform: [
+                [x, 0.0, 0.0, 0.0],
+                [0.0, y, 0.0, 0.0],
+                [0.0, 0.0, z, 0.0],
+                [0.0, 0.0, z_of_w, 1.0],
+            ]
+            .as_flattened()
+            .try_into()
+            .unwrap_or_default(),
+            background: self.settings.background_rgba(),
+            origin: half.map(|half| 0.5 - half),
+            size: [width, height],
+            tiles: [width.div_ceil(8), height.div_ceil(4)],
+            interior_high: [width, height],
+            gap: gap(projection, height),
+            triangle_count: triangles,
+            first_mask: triangles,
+            first_blend: triangles,
+            sample_count: self.settings.samples,
+            pair_capacity: self.plan.sizes.pair_capacity,
+            list_capacity: self.plan.sizes.list_capacity,
+            record_capacity: self.plan.sizes.record_capacity,
+            bin_count: self.geometry.keys + 1,
+            contrast: u32::from(self.settings.contrast),
+            alike: u32::from(self.settings.contrast),
+            exposure: 1.0,
+            footprint: footprints.centre,
+            place_footprint: footprints.place,
+            sample_footprint: footprints.sample,
+            side: 1,
+            reach: 0.5,
+            ..FrameUniform::default()
+        }
+    }
+}
+
+/// Clip space to pixels from the image's centre, y down.
+fn scale(geometry: &Geometry, size: [u32; 2]) -> [f32; 2] {
+    let [x, y] = size.map(|side| 0.5 * side as f32);
+    [x, if geometry.clip.y_up { -y } else { y }]
+}
+
+fn visibility_uniform(geometry: &Geometry, settings: &Settings) -> VisibilityUniform {
+    VisibilityUniform {
+        scale: scale(geometry, settings.size),
+        half_size: settings.size.map(|side| 0.5 * side as f32),
+        place_side: Footprints::new(settings, settings.samples).place,
+        boxes: u32::from(settings.filters_boxes()),
+        padding: [0; 2],
+    }
+}
+
+/// Factor on a depth, and constant, by which a surface nearer by a pixel's width has a larger depth.
+fn gap(projection: &[[f32; 4]; 4], height: u32) -> [f32; 2] {
+    let pixel = 2.0 / (projection[1][1].abs().max(f32::MIN_POSITIVE) * height as f32);
+    // Depth is near / distance in perspective, up to a constant, and linear in distance without.
+    if projection[2][3] == 0.0 {
+        [0.0, projection[2][2].abs() * pixel]
+    } else {
+        [pixel, 0.0]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_uniform_block_is_the_shaders() {
+        let text = include_str!("../../shaders/include/gpc_visibility.glsl");
+        let block = text
+            .split("uniform GpcFrame {")
+            .nth(1)
+            .and_then(|rest| rest.split("} gpc_frame;").next())
+            .unwrap();
+        let fields: Vec<_> = block
+            .lines()
+            .filter_map(|line| line.split_once(';'))
+            .map(|(field, _)| field.trim())
+            .collect();
+        assert_eq!(
+            fields,
+            [
+                "vec2 scale",
+                "vec2 half_size",
+                "float place_side",
+                "uint box"
+            ]
+        );
+        assert_eq!(size_of::<VisibilityUniform>() % 16, 0);
+    }
+
+    #[test]
+    fn a_pixels_width_in_depth() {
+        let mut perspective = [[0.0; 4]; 4];
+        perspective[1][1] = 2.0;
+        perspective[2][3] = -1.0;
+        assert_eq!(gap(&perspective, 100), [0.01, 0.0]);
+        let mut parallel = [[0.0; 4]; 4];
+        parallel[1][1] = 2.0;
+        parallel[2][2] = -0.5;
+        assert_eq!(gap(&parallel, 100), [0.0, 0.005]);
+    }
+}

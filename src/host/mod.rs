@@ -1,0 +1,104 @@
+//! Antialiasing of an application's own frames: its geometry, its images, its materials.
+//!
+//! The application draws its frame as ever, and one more attachment of triangle IDs. [`Frame::record`] then finds the
+//! pixels that alias, samples the application's triangles there, has the application shade what the samples see
+//! ([`ShadeSamples`]), and draws the resolved pixels over the aliased ones.
+//!
+//! ```text
+//! application          colour, triangle IDs, depth      pipelines of its materials         colour
+//!                               │                                 ▲    │                     ▲
+//! Frame::record       adopt ─▶ take ─▶ detect ─▶ cull, bin ─▶ [ sample ─▶ sort ─▶ resolve ] ─▶ patch
+//!                                                              └──────── rounds ──────────┘
+//! ```
+//!
+//! Nothing here knows a material, a light or a file. `docs/embedding.md` is the manual.
+
+mod error;
+mod frame;
+mod geometry;
+mod images;
+mod options;
+mod shading;
+
+pub use crate::render::ImageState;
+pub use error::HostError;
+pub use frame::{Frame, Outcome, Scenery};
+pub use geometry::{ClipSpace, Draw, Geometry};
+pub use images::{ColorImage, Images, LentImage};
+pub use options::Options;
+pub use shading::{SHADER_INCLUDES, ShadeSamples, VisibilitySamples};
+
+use crate::passes::{Adopt, FrameLayout, SetLayout, Take, visibility_layout};
+use crate::vulkan::{Gpu, Host, VulkanError};
+use ash::vk;
+use std::sync::Arc;
+
+/// What frames of one device share: layouts, and the pipelines made so far.
+pub struct Antialiaser {
+    shared: Arc<Shared>,
+}
+
+pub(crate) struct Shared {
+    gpu: Arc<Gpu>,
+    frame: Arc<FrameLayout>,
+    adopt: Adopt,
+    take: Take,
+    visibility: SetLayout,
+}
+
+impl Antialiaser {
+    /// In a host's device. See [`crate::vulkan::Requirements`] for what the device needs.
+    ///
+    /// # Errors
+    /// [`VulkanError::Missing`] lists all that the device lacks.
+    ///
+    /// # Safety
+    /// - The host's handles are alive, belong together and outlive this and all that it prepares.
+    /// - The device was created with [`crate::vulkan::Requirements::features13`] enabled.
+    pub unsafe fn new(host: Host) -> Result<Self, VulkanError> {
+        // SAFETY: passed on to the caller.
+        let gpu = unsafe { Gpu::new(host) }?;
+        let frame = FrameLayout::new(&gpu)?;
+        Ok(Self {
+            shared: Arc::new(Shared {
+                adopt: Adopt::new(&gpu)?,
+                take: Take::new(&frame)?,
+                visibility: visibility_layout(&gpu)?,
+                frame,
+                gpu,
+            }),
+        })
+    }
+
+    /// The device.
+    #[must_use]
+    pub fn gpu(&self) -> &Arc<Gpu> {
+        &self.shared.gpu
+    }
+
+    /// The layout of the set that shaders read visibility samples from, for the layouts of the host's own pipelines. It
+    /// lives as long as this and all frames.
+    #[must_use]
+    pub fn samples_layout(&self) -> vk::DescriptorSetLayout {
+        self.shared.visibility.raw
+    }
+
+    /// Makes the pipelines and memory of a frame. An application has one for each frame that it has in flight, and makes
+    /// new ones where a size or a handle changes.
+    ///
+    /// # Errors
+    /// [`HostError`] names what can't be had; nothing is left behind.
+    ///
+    /// # Safety
+    /// - The buffers and views are alive, of this device, of the sizes and formats named, made with the usage flags that
+    ///   [`Geometry`] and [`Images`] name, and outlive the frame.
+    pub unsafe fn prepare(
+        &self,
+        geometry: &Geometry,
+        images: &Images,
+        options: &Options,
+    ) -> Result<Frame, HostError> {
+        // SAFETY: passed on to the caller.
+        unsafe { Frame::new(&self.shared, geometry, images, options) }
+    }
+}

@@ -1,0 +1,34 @@
+//! What the engine's passes know of a scene, whoever made it.
+
+use crate::vulkan::Buffer;
+use ash::vk;
+
+/// Triangles, and what passes read them from.
+pub trait Content: Sync {
+    /// Number of triangles, or the most there can be.
+    fn triangle_count(&self) -> u32;
+
+    /// Whether any triangle is alpha-tested.
+    fn has_mask(&self) -> bool;
+
+    /// Whether any triangle is composited.
+    fn has_blend(&self) -> bool;
+
+    /// Whether a triangle may ask for several shading places in a pixel.
+    fn has_high_frequency(&self) -> bool;
+
+    /// Whether most triangles do.
+    fn is_mostly_high_frequency(&self) -> bool;
+
+    /// Whether a triangle lets light through by other shares than its opacity.
+    fn is_tinted(&self) -> bool;
+
+    /// Number of shading keys, at least 1.
+    fn bin_count(&self) -> u32;
+
+    /// The texel buffers of the descriptor set, by binding: see `shaders/include/frame.glsl`.
+    fn texels(&self) -> [(u32, vk::BufferView); 8];
+
+    /// The buffer of lights.
+    fn lights(&self) -> &Buffer;
+}

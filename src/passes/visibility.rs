@@ -1,0 +1,58 @@
+//! What a host's shaders see of a frame: the set of `shaders/include/gpc_visibility.glsl`.
+
+use super::Resources;
+use super::own_layout::{OwnSet, SetLayout};
+use crate::vulkan::{Buffer, Gpu, VulkanError};
+use ash::vk;
+use std::sync::Arc;
+
+/// The uniform block `GpcFrame`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct VisibilityUniform {
+    pub scale: [f32; 2],
+    pub half_size: [f32; 2],
+    pub place_side: f32,
+    pub boxes: u32,
+    pub padding: [u32; 2],
+}
+
+/// The set's layout, which hosts make their pipelines with.
+pub(crate) fn visibility_layout(gpu: &Arc<Gpu>) -> Result<SetLayout, VulkanError> {
+    let mut kinds = [vk::DescriptorType::STORAGE_BUFFER; 7];
+    kinds[0] = vk::DescriptorType::UNIFORM_BUFFER;
+    SetLayout::new(gpu, &kinds)
+}
+
+impl Resources {
+    /// A set that shows these resources, triangles, and a host's positions.
+    ///
+    /// # Safety
+    /// The host's buffer outlives the set's use.
+    pub(crate) unsafe fn visibility_set(
+        &self,
+        layout: &SetLayout,
+        uniform: &Buffer,
+        triangles: &Buffer,
+        positions: vk::DescriptorBufferInfo,
+    ) -> Result<OwnSet, VulkanError> {
+        let whole = |buffer: &Buffer| {
+            vk::DescriptorBufferInfo::default()
+                .buffer(buffer.handle())
+                .range(vk::WHOLE_SIZE)
+        };
+        let set = layout.allocate()?;
+        let buffers = [
+            whole(uniform),
+            whole(&self.bins),
+            whole(&self.shade_order),
+            whole(&self.records.buffer),
+            whole(triangles),
+            positions,
+            whole(&self.shaded.buffer),
+        ];
+        // SAFETY: the set is new; of the host's buffer as the caller says, ours go with the frame.
+        unsafe { set.write_buffers(&buffers) };
+        Ok(set)
+    }
+}

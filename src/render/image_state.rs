@@ -1,0 +1,66 @@
+//! States of a host's images, and the barriers between them.
+
+use crate::vulkan::Recorder;
+use ash::vk;
+
+/// State of a host's image, of one mipmap level and one layer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ImageState {
+    /// Its layout.
+    pub layout: vk::ImageLayout,
+    /// Stages that use it.
+    pub stage: vk::PipelineStageFlags2,
+    /// How they use it.
+    pub access: vk::AccessFlags2,
+}
+
+impl ImageState {
+    /// Where shaders read the image, and the caller's barriers wait for all that was written before.
+    pub(crate) const READ: Self = Self {
+        layout: vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
+        stage: vk::PipelineStageFlags2::COMPUTE_SHADER,
+        access: vk::AccessFlags2::SHADER_SAMPLED_READ,
+    };
+    /// Where the image is drawn to, over what it holds.
+    pub(crate) const DRAWN: Self = Self {
+        layout: vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
+        stage: vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
+        access: vk::AccessFlags2::from_raw(
+            vk::AccessFlags2::COLOR_ATTACHMENT_READ.as_raw()
+                | vk::AccessFlags2::COLOR_ATTACHMENT_WRITE.as_raw(),
+        ),
+    };
+
+    /// Records the change from this state to another.
+    pub(crate) fn change(
+        self,
+        recorder: &Recorder<'_>,
+        image: vk::Image,
+        aspect_mask: vk::ImageAspectFlags,
+        to: Self,
+    ) {
+        let range = vk::ImageSubresourceRange {
+            aspect_mask,
+            base_mip_level: 0,
+            level_count: 1,
+            base_array_layer: 0,
+            layer_count: 1,
+        };
+        let barriers = [vk::ImageMemoryBarrier2::default()
+            .src_stage_mask(self.stage)
+            .src_access_mask(self.access)
+            .dst_stage_mask(to.stage)
+            .dst_access_mask(to.access)
+            .old_layout(self.layout)
+            .new_layout(to.layout)
+            .image(image)
+            .subresource_range(range)];
+        let info = vk::DependencyInfo::default().image_memory_barriers(&barriers);
+        // SAFETY: the recorder's contract; the host vouches for its image and states.
+        unsafe {
+            recorder
+                .device()
+                .cmd_pipeline_barrier2(recorder.raw(), &info)
+        };
+    }
+}
