@@ -56,7 +56,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     let (posed, headless) = std::thread::scope(|threads| {
         let headless = threads.spawn(|| session::open(image.device.clone()));
         let mut load = || -> anyhow::Result<_> {
-            let loaded = input::load_variant(&args.scene, image.camera.variant.as_deref())?;
+            let loaded = image.load(&args.scene)?;
             clock.lap("load");
             warnings.add(&loaded.warnings);
             let pose = image.pose(&loaded, time)?;
