@@ -8,7 +8,7 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The bindings of set 0.
-const BINDINGS: [(u32, vk::DescriptorType); 44] = {
+const BINDINGS: [(u32, vk::DescriptorType); 45] = {
     use vk::DescriptorType as T;
     [
         (0, T::UNIFORM_BUFFER),
@@ -55,6 +55,7 @@ const BINDINGS: [(u32, vk::DescriptorType); 44] = {
         (43, T::UNIFORM_TEXEL_BUFFER),
         (44, T::UNIFORM_TEXEL_BUFFER),
         (45, T::STORAGE_BUFFER),
+        (46, T::UNIFORM_BUFFER),
     ]
 };
 
