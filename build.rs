@@ -52,6 +52,8 @@ const VARIANTS: &[Variant] = &[
     ("sample_1", "sample.comp", &[("ROWS", "1")]),
     ("sample_2", "sample.comp", &[("ROWS", "2")]),
     ("sample_8", "sample.comp", &[("ROWS", "8")]),
+    ("sample_masks_16", "sample_masks.comp", &[("SAMPLES", "16")]),
+    ("sample_masks_64", "sample_masks.comp", &[("SAMPLES", "64")]),
     (
         "sample_chained_1",
         "sample.comp",

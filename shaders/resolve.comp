@@ -47,7 +47,7 @@ void main() {
 
     // An invocation a cell.
     uint first = entry_part(entry) * LANES, cell = first + lane;
-    uint bit = SITES ? lane : bit_of_cell(word, first, lane);
+    uint bit = SITES ? lane : bit_of_cell(word, cell);
     bool mine = cell < (SITES ? site_group.z : bitCount(word));
     vec4 sum = vec4(0.0);
     float covered = 0.0;

@@ -96,7 +96,7 @@ void main() {
     count = manageable ? count : 0u;
 
     // The cell of each invocation, and what it keeps of the tile's candidates.
-    uint my_bit = bit_of_cell(word, first_cell, lane);
+    uint my_bit = bit_of_cell(word, min(first_cell + lane, cells - 1u));
     vec2 my_at = vec2(my_bit & 7u, my_bit >> 3) - vec2(3.5, 1.5), my_half = vec2(0.5 + ROUNDING);
     uvec2 my_sites = uvec2(0u);     // the first one, and how many
     if (SITES) {
@@ -201,11 +201,7 @@ void main() {
     } while (++block < blocks);
 
     if (RUN == PROBE && unsettled != 0u && subgroupElect()) {
-        uint more = uint(bitCount(unsettled)), before = uint(bitCount(atomicOr(marks[owner], unsettled)));
-        atomicAdd(counters[COUNTER_RESAMPLED], more);
-        // These and the cells of the tile that others left fill entries one after the other.
-        uint part = (before + LANES - 1u) / LANES;
-        if (part * LANES < before + more)
-            tile_lists[first_entry(LIST + LEFT) + atomicAdd(counters[COUNTER_PLAIN_LEFT + LIST], 1u)] = work_entry(owner, part);
+        atomicAdd(counters[COUNTER_RESAMPLED], uint(bitCount(unsettled)));
+        leave_cells(LIST, owner, unsettled);
     }
 }

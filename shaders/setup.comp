@@ -1,10 +1,12 @@
 // setup: the triangle of each pair as edge functions and a depth plane around its tile's centre, in the tile's list.
 // Reads: pairs, the geometry, tiles. Writes: candidates, 4 vectors each:
-// (a0, b0, c0, a1), (b1, c1, a2, b2), (c2, depth x, depth y, depth at centre), (nearest, farthest depth, ID, 0).
+// (a0, b0, c0, a1), (b1, c1, a2, b2), (c2, depth x, depth y, depth at centre), (nearest, farthest depth, ID, pixels of the
+// tile that it may touch).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/tiles.glsl"
+#include "include/touches.glsl"
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 
@@ -15,13 +17,14 @@ void main() {
     uvec4 tile = tiles[pair.y];
     if ((tile.w & TILE_LISTED) == 0u) return;
     Triangle k = triangle_at(pair.x);
-    vec2 center = tile_center(ivec2(split(pair.y, frame.tiles.x)));
-    Setup s = setup_triangle(k.v0, k.v1, k.v2, center, (k.word >> 31) == 0u);
+    ivec2 tile_at = ivec2(split(pair.y, frame.tiles.x));
+    Setup s = setup_triangle(k.v0, k.v1, k.v2, tile_center(tile_at), (k.word >> 31) == 0u);
     // A triangle that does not show keeps its place and touches nothing.
     s.c = s.valid ? s.c : vec3(-3.4e38);
+    uint touches = s.valid ? pixels_touched(s) & footprint_mask(footprint_of(k.v0, k.v1, k.v2), tile_at) : 0u;
     int o = int(tile.y + pair.z) * 4;
     candidates_out[o] = floatBitsToUint(vec4(s.a.x, s.b.x, s.c.x, s.a.y));
     candidates_out[o + 1] = floatBitsToUint(vec4(s.b.y, s.c.y, s.a.z, s.b.z));
     candidates_out[o + 2] = floatBitsToUint(vec4(s.c.z, s.depth));
-    candidates_out[o + 3] = uvec4(floatBitsToUint(s.near), floatBitsToUint(s.far), pair.x + 1u, 0u);
+    candidates_out[o + 3] = uvec4(floatBitsToUint(s.near), floatBitsToUint(s.far), pair.x + 1u, touches);
 }

@@ -2,7 +2,7 @@
 //
 // A convex region's area is half the sum, over the lines that bound it, of the line's distance from the cell's centre
 // (positive where the centre lies inside) times the length of the line's segment within all other half-planes. There
-// are seven lines, three of the triangle and four of the square: an invocation takes one. Twin: src/reference/area.rs.
+// are seven lines, three of the triangle and four of the square. Twin: src/reference/area.rs.
 #ifndef AREA_GLSL
 #define AREA_GLSL
 
@@ -16,11 +16,28 @@ void clip_line(vec2 normal, float distance_, vec2 n, float d, bool own, inout fl
     empty = empty || (!own && along == 0.0 && before > 0.0);
 }
 
+const float FEWEST = 6.0;                               // samples that an area to be trusted is worth
+const float AGREEMENT = 0.1;                            // of areas and samples, in cells
+
 // Areas are sums of integers, so that the order of vertices and triangles does not show.
 const float AREA_UNIT = 1048576.0;      // of a cell
 
-// `a`, `b` and `c` are the triangle's edge functions around the cell's centre, positive inside, the same for all
-// invocations of the subgroup.
+// What line number `line` of the seven adds to the area: those of the triangle, then those of the square. `a`, `b` and `c`
+// are the triangle's edge functions around the cell's centre, positive inside and of unit length.
+float part_of_line(int line, vec2 normal, float distance_, vec3 a, vec3 b, vec3 c) {
+    float from = -2.0, to = 2.0;
+    bool empty = line > 6;
+    clip_line(normal, distance_, vec2(a.x, b.x), c.x, line == 0, from, to, empty);
+    clip_line(normal, distance_, vec2(a.y, b.y), c.y, line == 1, from, to, empty);
+    clip_line(normal, distance_, vec2(a.z, b.z), c.z, line == 2, from, to, empty);
+    clip_line(normal, distance_, vec2(1.0, 0.0), 0.5, line == 3, from, to, empty);
+    clip_line(normal, distance_, vec2(-1.0, 0.0), 0.5, line == 4, from, to, empty);
+    clip_line(normal, distance_, vec2(0.0, 1.0), 0.5, line == 5, from, to, empty);
+    clip_line(normal, distance_, vec2(0.0, -1.0), 0.5, line == 6, from, to, empty);
+    return empty || !(from < to) ? 0.0 : 0.5 * distance_ * (to - from);
+}
+
+// The area of a triangle that is the same for all invocations of the subgroup: each takes a line.
 int area_in_cell(vec3 a, vec3 b, vec3 c, uint lane) {
     vec3 inverse = 1.0 / sqrt(max(a * a + b * b, vec3(1e-37)));
     a *= inverse;
@@ -30,17 +47,24 @@ int area_in_cell(vec3 a, vec3 b, vec3 c, uint lane) {
     vec2 side_normal = vec2(side == 0u ? 1.0 : side == 1u ? -1.0 : 0.0, side == 2u ? 1.0 : side == 3u ? -1.0 : 0.0);
     vec2 normal = lane == 0u ? vec2(a.x, b.x) : lane == 1u ? vec2(a.y, b.y) : lane == 2u ? vec2(a.z, b.z) : side_normal;
     float distance_ = lane == 0u ? c.x : lane == 1u ? c.y : lane == 2u ? c.z : 0.5;
-    float from = -2.0, to = 2.0;
-    bool empty = lane > 6u;
-    clip_line(normal, distance_, vec2(a.x, b.x), c.x, lane == 0u, from, to, empty);
-    clip_line(normal, distance_, vec2(a.y, b.y), c.y, lane == 1u, from, to, empty);
-    clip_line(normal, distance_, vec2(a.z, b.z), c.z, lane == 2u, from, to, empty);
-    clip_line(normal, distance_, vec2(1.0, 0.0), 0.5, lane == 3u, from, to, empty);
-    clip_line(normal, distance_, vec2(-1.0, 0.0), 0.5, lane == 4u, from, to, empty);
-    clip_line(normal, distance_, vec2(0.0, 1.0), 0.5, lane == 5u, from, to, empty);
-    clip_line(normal, distance_, vec2(0.0, -1.0), 0.5, lane == 6u, from, to, empty);
-    float part = empty || !(from < to) ? 0.0 : 0.5 * distance_ * (to - from);
+    float part = part_of_line(int(lane), normal, distance_, a, b, c);
     return clamp(lanes_add(int(round(part * AREA_UNIT))), 0, int(AREA_UNIT));
+}
+
+// The same for the triangle of each invocation, in a cell of its own.
+int area_in_own_cell(vec3 a, vec3 b, vec3 c) {
+    vec3 inverse = 1.0 / sqrt(max(a * a + b * b, vec3(1e-37)));
+    a *= inverse;
+    b *= inverse;
+    c *= inverse;
+    int area = 0;
+    [[unroll]] for (int line = 0; line < 7; line++) {
+        vec2 side = vec2(line == 3 ? 1.0 : line == 4 ? -1.0 : 0.0, line == 5 ? 1.0 : line == 6 ? -1.0 : 0.0);
+        vec2 normal = line < 3 ? vec2(a[min(line, 2)], b[min(line, 2)]) : side;
+        float distance_ = line < 3 ? c[min(line, 2)] : 0.5;
+        area += int(round(part_of_line(line, normal, distance_, a, b, c) * AREA_UNIT));
+    }
+    return clamp(area, 0, int(AREA_UNIT));
 }
 
 #endif

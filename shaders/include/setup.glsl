@@ -66,7 +66,8 @@ Setup setup_triangle(vec4 c0, vec4 c1, vec4 c2, vec2 center, bool cull) {
         s.facing = det < 0.0;
         s.valid = det != 0.0 && !isnan(det) && !isinf(det);
         float inverse = 1.0 / det;
-        s.depth = (vec3(h0.a, h0.b, h0.c) * v0.z + vec3(h1.a, h1.b, h1.c) * v1.z + vec3(h2.a, h2.b, h2.c) * v2.z) * inverse;
+        precise vec3 depth = (vec3(h0.a, h0.b, h0.c) * v0.z + vec3(h1.a, h1.b, h1.c) * v1.z + vec3(h2.a, h2.b, h2.c) * v2.z) * inverse;
+        s.depth = depth;
         s.near = 3.4e38;
         s.far = -3.4e38;
     } else {
@@ -78,9 +79,10 @@ Setup setup_triangle(vec4 c0, vec4 c1, vec4 c2, vec2 center, bool cull) {
         float z0 = v0.z / v0.w, z1 = v1.z / v1.w, z2 = v2.z / v2.w;
         // Differences from a vertex keep the depth of tiny triangles; the clamp to the vertices' range bounds that of slivers.
         float inverse = 1.0 / area;
-        float gx = ((z1 - z0) * d2.y - (z2 - z0) * d1.y) * inverse;
-        float gy = ((z2 - z0) * d1.x - (z1 - z0) * d2.x) * inverse;
-        s.depth = vec3(gx, gy, z0 - gx * q0.x - gy * q0.y);
+        precise float gx = ((z1 - z0) * d2.y - (z2 - z0) * d1.y) * inverse;
+        precise float gy = ((z2 - z0) * d1.x - (z1 - z0) * d2.x) * inverse;
+        precise float at_center = z0 - gx * q0.x - gy * q0.y;
+        s.depth = vec3(gx, gy, at_center);
         s.near = max(z0, max(z1, z2));
         s.far = min(z0, min(z1, z2));
     }

@@ -2,10 +2,8 @@
 #ifndef SURFACES_GLSL
 #define SURFACES_GLSL
 #include "area.glsl"
+#include "records.glsl"
 #include "variation.glsl"
-
-const float FEWEST = 6.0;                               // samples that an area to be trusted is worth
-const float AGREEMENT = 0.1;                            // of areas and samples, in cells
 
 // What a block of samples sees of one triangle.
 struct Surface {
@@ -89,10 +87,6 @@ uint merge_bits(uint bits) {
     return WITHIN || ACROSS ? (bits | bits >> 1) & 0x55555555u : bits;
 }
 
-bool high_frequency_triangle(uint of) {
-    return high_frequency(texelFetch(triangles, int(max(of, 1u) - 1u)).w);
-}
-
 // The surfaces of a block, ascending by ID; an invocation holds one.
 struct Surfaces {
     uint count;             // may be more than there are invocations
@@ -160,16 +154,6 @@ float weigh(Surfaces s, uint samples, out bool settled) {
     float cell_weight = float(frame.sample_count);
     return exact ? cell_weight * (s.whole ? float(s.area) * (1.0 / AREA_UNIT) * mend : s.samples * share)
         : cell_weight / float(samples) * s.samples;
-}
-
-// Makes room for records; returns the first one, and whether they fit.
-uint allocate_records(uint count, out bool fits) {
-    uint base = 0u;
-    if (subgroupElect() && count != 0u) base = atomicAdd(counters[COUNTER_RECORDS], count);
-    base = subgroupBroadcastFirst(base);
-    fits = base + count <= frame.record_capacity;
-    if (subgroupElect() && !fits) atomicAdd(counters[COUNTER_UNFINISHED], 1u);
-    return base;
 }
 
 // A record a sample; returns the first one and their number.

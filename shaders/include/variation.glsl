@@ -82,6 +82,10 @@ Variation variation_of(uint member) {
     return r;
 }
 
+bool high_frequency_triangle(uint of) {
+    return high_frequency(texelFetch(triangles, int(max(of, 1u) - 1u)).w);
+}
+
 // The parts that a triangle is shaded in.
 uint parts_around(Variation around, uint triangle) {
     uint material = variation_material(triangle);

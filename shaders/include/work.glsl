@@ -21,14 +21,26 @@ uint work_entry(uint owner, uint part) { return owner << 2 | part; }
 uint entry_owner(uint entry) { return entry >> 2; }
 uint entry_part(uint entry) { return entry & 3u; }
 
-// Bit number of the cell that is number `first + lane` of a word.
-uint bit_of_cell(uint word, uint first, uint lane) {
-    uint bit = 0u, n = 0u;
-    do {
-        bit = n == first + lane ? uint(findLSB(word)) : bit;
-        word &= word - 1u;
-    } while (++n < first + LANES);
+// Bit number of a word's set bit number `cell`, from 0; 31 where it has no more than that.
+uint bit_of_cell(uint word, uint cell) {
+    uint bit = 0u;
+    [[unroll]] for (uint size = 16u; size > 0u; size >>= 1u) {
+        uint below = uint(bitCount(word & ((1u << size) - 1u)));
+        bool above = cell >= below;
+        cell -= above ? below : 0u;
+        word = above ? word >> size : word;
+        bit += above ? size : 0u;
+    }
     return bit;
+}
+
+// Lists cells of an owner, a bit each, for the kernel that takes what others leave of a list. These and the cells that
+// others left fill entries one after the other. One invocation of a subgroup calls it.
+void leave_cells(uint list, uint owner, uint cells) {
+    uint more = uint(bitCount(cells)), before = uint(bitCount(atomicOr(marks[owner], cells)));
+    uint part = (before + LANES - 1u) / LANES;
+    if (part * LANES < before + more)
+        tile_lists[first_entry(list + LEFT) + atomicAdd(counters[COUNTER_PLAIN_LEFT + list], 1u)] = work_entry(owner, part);
 }
 
 #endif

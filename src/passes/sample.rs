@@ -70,7 +70,7 @@ enum Run {
     Rest,
 }
 
-/// The kernels, one a kind of tile that the scene can have; those of a second run follow the first.
+/// The kernels, one a kind of tile that the scene can have; those of a second run, over cells that the first left, follow.
 pub struct Sample {
     kernels: Vec<(TileList, Arc<Pipeline>)>,
     rest: Vec<(TileList, Arc<Pipeline>)>,
@@ -88,6 +88,8 @@ const KERNELS: Kernels = [
     (2, spirv::SAMPLE_2),
     (8, spirv::SAMPLE_8),
 ];
+/// Kernels that hold the samples of a cell as a mask, by how many these can be.
+const MASKS: [(u32, &[u8]); 2] = [(16, spirv::SAMPLE_MASKS_16), (64, spirv::SAMPLE_MASKS_64)];
 const UNLISTED: Kernels = [
     (1, spirv::SAMPLE_UNLISTED_1),
     (2, spirv::SAMPLE_UNLISTED_2),
@@ -129,7 +131,26 @@ impl Sample {
     pub fn new(layout: &FrameLayout, options: &SampleOptions) -> Result<Self, VulkanError> {
         let lanes = layout.gpu.limits().subgroup_size;
         let (rows, _) = kernel(&KERNELS, options.samples.min(Self::BLOCK).div_ceil(lanes));
+        let by_masks = || {
+            let constants = Constants::new()
+                .with(0, lanes)
+                .with(1, lanes)
+                .flag(6, options.records == RecordRate::Part)
+                .flag(7, options.exact_areas)
+                .with(8, options.part_samples());
+            let [few, many] = MASKS;
+            let code = if options.samples <= few.0 {
+                few.1
+            } else {
+                many.1
+            };
+            let pipeline = layout.compute(code, &constants, Some(lanes))?;
+            Ok((TileList::Plain, pipeline))
+        };
         let make = |(list, run, kernels, mask): &(TileList, Run, &Kernels, bool)| {
+            if *list == TileList::Plain && *run == Run::Whole && options.by_masks() {
+                return by_masks();
+            }
             let constants = options
                 .cells
                 .constants(Constants::new())
@@ -172,6 +193,8 @@ impl Sample {
         let first_run = wanted.len();
         if probes {
             wanted.extend(listed(Run::Rest));
+        } else if options.leaves_cells() && !options.always_blends {
+            wanted.push((TileList::Plain, Run::Rest, &KERNELS, false));
         }
         // They take drivers the longest of all.
         let make = &make;
@@ -253,7 +276,8 @@ impl Sample {
         self.kernels.iter().map(|(list, _)| *list)
     }
 
-    /// Records them over the tiles of the round. With two runs, no cell is marked before the first round.
+    /// Records them over the tiles of the round. Where a run [leaves cells](SampleOptions::leaves_cells), none is marked
+    /// before the first round.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
         for (list, pipeline) in &self.kernels {
             recorder.dispatch_indirect(pipeline, arguments, list.argument());
@@ -276,9 +300,8 @@ impl SampleOptions {
     /// Whether a run measures areas: where it takes all samples of a cell at once.
     fn measures(&self, list: TileList, run: Run) -> bool {
         let at_once = match run {
-            Run::Whole => self.samples <= Sample::PROBES,
+            Run::Whole | Run::Rest => self.samples <= Sample::PROBES,
             Run::Probe => true,
-            Run::Rest => false,
         };
         let listed = matches!(list, TileList::Plain | TileList::Masked);
         self.exact_areas && self.records != RecordRate::Sample && at_once && listed
@@ -287,6 +310,20 @@ impl SampleOptions {
     /// Whether a run tells parts: not where a part holds a block. A probe leaves what is to be shaded by part.
     fn by_part(&self, run: Run, block: u32) -> bool {
         self.records == RecordRate::Part && (run == Run::Probe || self.part_samples() < block)
+    }
+
+    /// Whether cells of opaque triangles are taken by masks of their samples.
+    fn by_masks(&self) -> bool {
+        self.cells == Cells::Pixels
+            && self.records != RecordRate::Sample
+            && !self.apart
+            && (2..=64).contains(&self.samples)
+    }
+
+    /// Whether a first run leaves cells to a second one, and marks them.
+    #[must_use]
+    pub fn leaves_cells(&self) -> bool {
+        self.probes() || self.by_masks()
     }
 
     /// Samples of a part: there are 16 parts of up to 64 samples, 64 of 256 and 128 of 1,024.

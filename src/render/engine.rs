@@ -148,7 +148,7 @@ impl Engine {
         }
         self.detect.record(recorder, work.tiles);
         recorder.mark("detect");
-        if !self.growths.is_empty() || self.sample.options().probes() {
+        if !self.growths.is_empty() || self.sample.options().leaves_cells() {
             recorder.clear(&resources.marks);
             recorder.barrier();
         }

@@ -11,11 +11,11 @@ const SIZE: [u32; 2] = [32, 24];
 const CONTRAST: u8 = 8;
 /// Samples of a block, each of which has parts of its own.
 const BLOCK: u32 = 64;
-/// Numbers of samples, the parts of a superpixel there, and how many are left where they are merged, which depends on the
-/// size of subgroups: these are those of 8 invocations.
+/// Numbers of samples, the parts of a superpixel there, and how many are left where they are merged, which from 256 samples
+/// on depends on the size of subgroups: these are those of 8 invocations.
 const RATES: [(u32, u64, u64); 5] = [
     (4, 4, 2),
-    (16, 16, 16),
+    (16, 16, 8),
     (64, 16, 8),
     (256, 64, 32),
     (1024, 128, 128),

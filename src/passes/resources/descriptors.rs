@@ -68,6 +68,7 @@ impl Resources {
             (37, &self.encoded),
             (41, &self.marks),
             (45, &self.sites.loads),
+            (47, &set.locations.buffer),
         ]
         .map(|(binding, buffer)| (binding, whole(buffer)));
         // A set shows either single-sampled or multisampled IDs; pipelines that could read the former but are

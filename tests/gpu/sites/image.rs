@@ -1,7 +1,7 @@
 //! Images whose pixels look where sites say.
 
 use gpc::camera::{Pinhole, Site};
-use gpc::render::{Method, Rendered, Settings, Shading};
+use gpc::render::{Coverage, Method, Rendered, Settings, Shading};
 use gpc::scene::{AlphaMode, Filter, Image, Sampler};
 
 use super::{pinhole, planar, site};
@@ -25,6 +25,8 @@ fn a_planar_image_is_the_cameras() {
             samples: 16,
             // Sites have no neighbours to tell how many parts are enough, and are shaded in all.
             shading: Shading::Triangle,
+            // Where more triangles meet than a subgroup has invocations, sites know no areas.
+            coverage: Coverage::Samples,
             attributes: true,
             background: Some([0.2, 0.3, 0.4]),
             ..Settings::new(SIZE[0], SIZE[1])

@@ -1,0 +1,76 @@
+// Sets of a cell's samples as masks, a bit each in the pattern's order, and what is added up over them.
+#ifndef MASK_GLSL
+#define MASK_GLSL
+
+// Offsets of samples from the middle of their cell, two a vector.
+layout(std140, set = 0, binding = 47) uniform Pattern { vec4 pattern[32]; };
+
+vec2 offsets[SAMPLES];      // the same, read once
+
+void load_offsets() {
+    [[unroll]] for (int n = 0; n < SAMPLES; n++) offsets[n] = n % 2 == 0 ? pattern[n / 2].xy : pattern[n / 2].zw;
+}
+
+// A bit for each sample that there is.
+uvec2 all_samples() {
+    uint count = frame.sample_count;
+    return uvec2(count < 32u ? (1u << count) - 1u : ~0u, count < 64u ? (1u << max(count, 32u) - 32u) - 1u : ~0u);
+}
+
+// What is compared at samples: three linear functions of the position, or the depths of two surfaces.
+struct Comparison {
+    vec3 a, b, c;           // E = a x + b y + c
+    vec3 least;             // each E is to reach its own
+    bool depths;            // the first E, within its bounds, is to reach the second one, within its bounds
+    vec2 low, high;         // bounds of the first and the second E
+};
+
+// The samples of a cell around `at` where a comparison holds.
+uvec2 mask_of(Comparison k, vec2 at) {
+    precise vec3 c = k.a * at.x + k.b * at.y + k.c;
+    uvec2 mask = uvec2(0u);
+    [[unroll]] for (int n = 0; n < SAMPLES; n++) {
+        vec2 p = offsets[n];
+        precise float e0 = k.a.x * p.x + k.b.x * p.y + c.x;
+        precise float e1 = k.a.y * p.x + k.b.y * p.y + c.y;
+        precise float e2 = k.a.z * p.x + k.b.z * p.y + c.z;
+        e0 = clamp(e0, k.low.x, k.high.x);
+        e1 = clamp(e1, k.low.y, k.high.y);
+        bool holds = e0 >= (k.depths ? e1 : k.least.x) && e1 >= k.least.y && e2 >= k.least.z;
+        mask[n / 32] |= holds ? 1u << (n % 32) : 0u;
+    }
+    return mask;
+}
+
+uint samples_of(uvec2 mask) {
+    return uint(bitCount(mask.x) + bitCount(mask.y));
+}
+
+// The sum of the offsets of a mask's samples.
+vec2 sum_of_offsets(uvec2 mask) {
+    vec2 sum = vec2(0.0);
+    [[unroll]] for (int n = 0; n < SAMPLES; n++) {
+        int inside = int(mask[n / 32]) << (31 - n % 32) >> 31;
+        sum += intBitsToFloat(floatBitsToInt(offsets[n]) & inside);
+    }
+    return sum;
+}
+
+// The same of runs of four samples is known: 16 vectors a run, by its bits, behind the pattern's locations. A mask of up to
+// eight samples from number `first` on takes two.
+vec2 sum_of_run(uint first, uint samples) {
+    uint four = first >> 2, bits = samples << (first & 3u);
+    int at = int(frame.sample_count + PROBES + four * 16u);
+    return texelFetch(locations, at + int(bits & 15u)).xy + texelFetch(locations, at + 16 + int(bits >> 4)).xy;
+}
+
+// A bit for each run of `length` samples that a mask has any of; for lengths of up to 8.
+uvec2 runs_of(uvec2 mask, uint length) {
+    uint every = length == 1u ? ~0u : length == 2u ? 0x55555555u : length == 4u ? 0x11111111u : 0x01010101u;
+    mask |= length >= 2u ? mask >> 1 : uvec2(0u);
+    mask |= length >= 4u ? mask >> 2 : uvec2(0u);
+    mask |= length >= 8u ? mask >> 4 : uvec2(0u);
+    return mask & every;
+}
+
+#endif

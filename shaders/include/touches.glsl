@@ -1,0 +1,26 @@
+// Which pixels of a tile a triangle may touch, from its edge functions around the tile's centre.
+#ifndef TOUCHES_GLSL
+#define TOUCHES_GLSL
+
+// Columns of a row that three half-planes have in common, as 8 bits: a x + e >= 0 for x from 0.
+uint columns_within(vec3 a, vec3 e) {
+    // What is parallel to the row holds the whole of it, or nothing.
+    bvec3 parallel = lessThan(abs(a), vec3(1e-30));
+    a = mix(a, vec3(0.0), parallel);
+    vec3 root = -e / mix(a, vec3(1.0), parallel);
+    vec3 from = mix(vec3(0.0), root, greaterThan(a, vec3(0.0))), to = mix(vec3(7.0), root, lessThan(a, vec3(0.0)));
+    int low = int(ceil(clamp(max(from.x, max(from.y, from.z)), 0.0, 8.0)));
+    int high = int(floor(clamp(min(to.x, min(to.y, to.z)), -1.0, 7.0))) + 1;
+    bool misses = (parallel.x && e.x < 0.0) || (parallel.y && e.y < 0.0) || (parallel.z && e.z < 0.0);
+    return misses ? 0u : ((1u << max(high, low)) - 1u) & ~((1u << low) - 1u);
+}
+
+// Those whose square the edges leave something of, as a mask word; a 64th of a pixel more covers rounding.
+uint pixels_touched(Setup s) {
+    vec3 e = s.c - 3.5 * s.a - 1.5 * s.b + (0.5 + 1.0 / 64.0) * (abs(s.a) + abs(s.b));
+    uint word = 0u;
+    [[unroll]] for (uint row = 0u; row < 4u; row++) word |= columns_within(s.a, e + float(row) * s.b) << (8u * row);
+    return word;
+}
+
+#endif
