@@ -25,8 +25,8 @@ void main() {
     uint step_ = 0u;
     do {
         uint t = first + step_ * 64u;
-        bool exists = t < frame.triangle_count;
         Triangle k = triangle_at(min(t, frame.triangle_count - 1u));
+        bool exists = k.exists && t < frame.triangle_count;
         Footprint f = footprint_of(k.v0, k.v1, k.v2);
         bool is_outside = exists && f.outside;
         bool is_degenerate = exists && !is_outside && (k.v0 == k.v1 || k.v1 == k.v2 || k.v2 == k.v0);

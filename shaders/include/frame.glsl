@@ -23,7 +23,7 @@ layout(set = 0, binding = 0) uniform Frame {
     uvec2 interior_low;     // pixels that the region owns, the rest being halo for detection
     uvec2 interior_high;    // exclusive
     vec2 gap;               // depth in front of a surface that counts as apart from it: factor on the depth, and constant
-    uint triangle_count;
+    uint triangle_count;    // and of indices that stand for none, see triangle.glsl
     uint first_mask;        // index of the first MASK triangle
     uint first_blend;       // index of the first BLEND triangle
     uint sample_count;      // sub-samples of a cell
@@ -63,6 +63,8 @@ struct Light {
 layout(std430, set = 0, binding = 8) readonly buffer Lights { Light lights[]; };
 layout(set = 0, binding = 9) uniform utextureBuffer alpha_atlas;    // see alpha.glsl
 
+layout(set = 0, binding = 10) uniform utextureBuffer instance_of;   // of 64 indices each
+layout(set = 0, binding = 11) uniform utextureBuffer instances;     // see triangle.glsl
 layout(set = 0, binding = 12) uniform utexture2D ids;
 layout(set = 0, binding = 13) uniform utexture2D blend_ids;
 layout(set = 0, binding = 14) uniform texture2DMS ids_ms;

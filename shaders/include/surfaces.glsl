@@ -90,7 +90,7 @@ uint merge_bits(uint bits) {
 }
 
 bool high_frequency_triangle(uint of) {
-    return high_frequency(texelFetch(triangles, int(max(of, 1u) - 1u)).w);
+    return high_frequency(triangle_word(max(of, 1u) - 1u));
 }
 
 // The surfaces of a block, ascending by ID; an invocation holds one.

@@ -1,14 +1,15 @@
 //! The layout of the descriptor sets and pipelines that all passes share, and the pipelines made so far.
 
+use super::geometry::PlacedDraw;
 use super::pool::DescriptorPool;
 use super::scene::SLOTS;
-use crate::vulkan::{Constants, Gpu, Pipeline, VulkanError, compute_pipeline};
+use crate::vulkan::{Constants, Gpu, PUSH_STAGES, Pipeline, VulkanError, compute_pipeline};
 use ash::vk;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The bindings of set 0.
-const BINDINGS: [(u32, vk::DescriptorType); 44] = {
+const BINDINGS: [(u32, vk::DescriptorType); 46] = {
     use vk::DescriptorType as T;
     [
         (0, T::UNIFORM_BUFFER),
@@ -21,6 +22,8 @@ const BINDINGS: [(u32, vk::DescriptorType); 44] = {
         (7, T::UNIFORM_TEXEL_BUFFER),
         (8, T::STORAGE_BUFFER),
         (9, T::UNIFORM_TEXEL_BUFFER),
+        (10, T::UNIFORM_TEXEL_BUFFER),
+        (11, T::UNIFORM_TEXEL_BUFFER),
         (12, T::SAMPLED_IMAGE),
         (13, T::SAMPLED_IMAGE),
         (14, T::SAMPLED_IMAGE),
@@ -119,9 +122,9 @@ impl FrameLayout {
             layout.texture_set = make(&[textures])?;
             let sets = [layout.frame_set, layout.texture_set];
             let push = [vk::PushConstantRange {
-                stage_flags: vk::ShaderStageFlags::COMPUTE,
+                stage_flags: PUSH_STAGES,
                 offset: 0,
-                size: 16,
+                size: size_of::<PlacedDraw>() as u32,
             }];
             let info = vk::PipelineLayoutCreateInfo::default()
                 .set_layouts(&sets)

@@ -6,7 +6,7 @@
 //!                                                └───────────────────────── grow ◀────────────────────────────────┘
 //! ```
 //! Every pass records into a caller's command buffer and reads what the pass before left on the device. They share the
-//! scene (`scene/`), the memory that they hand to each other (`resources/`), the layout of descriptors (`layout.rs`) and
+//! geometry (`geometry/`) and what else the scene has (`scene/`), the memory that they hand to each other (`resources/`), the layout of descriptors (`layout.rs`) and
 //! the twins of what shaders include (`frame.rs`, `counters.rs`, `sites.rs`).
 
 mod attributes;
@@ -17,6 +17,7 @@ mod cull;
 mod detect;
 mod encode;
 mod frame;
+mod geometry;
 mod groups;
 mod grow;
 mod layout;

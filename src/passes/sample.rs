@@ -1,6 +1,6 @@
 //! sample: the nearest triangle of every sub-sample.
 
-use super::{Argument, Cells, FrameLayout, spirv};
+use super::{Argument, Cells, FrameLayout, GpuScene, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
@@ -124,13 +124,17 @@ impl Sample {
     ///
     /// # Errors
     /// If the driver refuses one.
-    pub fn new(layout: &FrameLayout, options: &SampleOptions) -> Result<Self, VulkanError> {
+    pub fn new(
+        layout: &FrameLayout,
+        scene: &GpuScene,
+        options: &SampleOptions,
+    ) -> Result<Self, VulkanError> {
         let lanes = layout.gpu.limits().subgroup_size;
         let (rows, _) = kernel(&KERNELS, options.samples.min(Self::BLOCK).div_ceil(lanes));
         let make = |list: TileList, run: Run, kernels: &Kernels, mask: bool| {
             let constants = options
                 .cells
-                .constants(Constants::new())
+                .constants(scene.geometry.constants(Constants::new()))
                 .with(0, lanes)
                 .with(1, lanes)
                 .flag(2, options.records == RecordRate::Sample)

@@ -1,6 +1,6 @@
 //! thin: pixels that a thin triangle crosses unseen.
 
-use super::{Argument, FrameLayout, spirv};
+use super::{Argument, FrameLayout, GpuScene, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
@@ -16,13 +16,11 @@ impl Thin {
     ///
     /// # Errors
     /// If the driver refuses one.
-    pub fn new(layout: &FrameLayout, has_blend: bool) -> Result<Self, VulkanError> {
+    pub fn new(layout: &FrameLayout, scene: &GpuScene) -> Result<Self, VulkanError> {
         let make = |code, constants| layout.compute(code, &constants, None);
         let thin = |select| {
-            make(
-                spirv::THIN,
-                Constants::new().flag(0, select).flag(1, has_blend),
-            )
+            let constants = Constants::new().flag(0, select).flag(1, scene.has_blend());
+            make(spirv::THIN, scene.geometry.constants(constants))
         };
         Ok(Self {
             select: thin(true)?,
@@ -31,17 +29,17 @@ impl Thin {
         })
     }
 
-    /// Records it for a scene of `triangles` triangles; `marks` is cleared first.
+    /// Records it for a scene of so many indices of triangles; `marks` is cleared first.
     pub fn record(
         &self,
         recorder: &Recorder<'_>,
         marks: &Buffer,
         arguments: &Buffer,
-        triangles: u32,
+        indices: u32,
     ) {
         recorder.clear(marks);
         recorder.barrier();
-        recorder.dispatch(&self.select, u64::from(triangles.div_ceil(512)));
+        recorder.dispatch(&self.select, u64::from(indices.div_ceil(512)));
         recorder.dispatch(&self.arguments, 1);
         recorder.dispatch_indirect(&self.walk, arguments, Argument::Thin as u32);
     }

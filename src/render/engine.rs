@@ -62,7 +62,7 @@ impl Engine {
             has_mask: scene.has_mask(),
             has_blend: scene.has_blend(),
         };
-        let thin = || kind.thin.then(|| Thin::new(layout, scene.has_blend()));
+        let thin = || kind.thin.then(|| Thin::new(layout, scene));
         let detect = || {
             Detect::new(
                 layout,
@@ -76,15 +76,15 @@ impl Engine {
         };
         // The kernels of `sample` take about as long to make as all others.
         let (sample, others) = rayon::join(
-            || Sample::new(layout, &options),
+            || Sample::new(layout, scene, &options),
             || {
                 Ok::<_, RenderError>((
                     thin().transpose()?,
                     detect()?,
-                    Cull::new(layout)?,
-                    Bin::new(layout)?,
-                    Setup::new(layout)?,
-                    Sort::new(layout, scene.bin_count() == 1)?,
+                    Cull::new(layout, scene)?,
+                    Bin::new(layout, scene)?,
+                    Setup::new(layout, scene)?,
+                    Sort::new(layout, scene, scene.bin_count() == 1)?,
                 ))
             },
         );
@@ -145,7 +145,7 @@ impl Engine {
                 recorder,
                 &resources.marks,
                 &resources.arguments,
-                scene.triangle_count(),
+                scene.index_count(),
             );
             recorder.mark("thin");
         }

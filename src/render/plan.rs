@@ -262,7 +262,7 @@ impl Plan {
             let room = if samples_cells { room } else { 0 };
             (room * u64::from(effort.lists)).min(limits.max_storage_bytes / bytes) as u32
         };
-        let triangles = u64::from(scene.triangle_count());
+        let triangles = scene.triangle_count();
         let pairs = (triangles * 4 + tiles * 16).clamp(1 << 14, MOST_PAIRS);
         let candidates = (triangles * 3 + tiles * 8).clamp(1 << 14, MOST_CANDIDATES);
         let by_part = detects && record_rate(settings, scene) == RecordRate::Part;
@@ -308,6 +308,6 @@ impl Plan {
         };
         let images =
             u64::from(self.sizes.pixels()) * samples * if scene.has_blend() { 12 } else { 8 };
-        self.sizes.bytes(u64::from(scene.triangle_count())) + images
+        self.sizes.bytes(scene) + images
     }
 }

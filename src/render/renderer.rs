@@ -2,7 +2,7 @@
 
 use super::frame::Frame;
 use super::plan::Effort;
-use super::sites::{Casters, Triangles};
+use super::sites::{Casters, HostTriangles};
 use super::{RenderError, Settings, Shadows};
 use crate::passes::{Encoding, FrameLayout, GpuScene, SceneUploads};
 use crate::scene::{Pose, Scene};
@@ -25,7 +25,7 @@ pub struct PreparedScene {
     pub(super) gpu_scene: Arc<GpuScene>,
     uploads: SceneUploads,
     /// For what the host looks for in images of sites.
-    pub(super) triangles: Triangles,
+    pub(super) triangles: HostTriangles,
     /// What casts shadows, where the scene was made ready for them.
     pub(super) casters: Option<Box<Casters>>,
 }
@@ -45,7 +45,7 @@ impl PreparedScene {
 
     /// Number of triangles.
     #[must_use]
-    pub fn triangle_count(&self) -> u32 {
+    pub fn triangle_count(&self) -> u64 {
         self.gpu_scene.triangle_count()
     }
 
@@ -117,7 +117,7 @@ impl Renderer {
         Ok(PreparedScene {
             gpu_scene: Arc::new(gpu_scene),
             uploads,
-            triangles: Triangles::new(&pose.geometry),
+            triangles: HostTriangles::new(&pose.geometry),
             casters: None,
         })
     }

@@ -1,7 +1,7 @@
 //! The scene: what a file holds, and its triangles in the pose of one moment.
 //!
-//! Nothing here knows of Vulkan. [`Scene::load`] reads a file; [`Scene::pose`] flattens one of its
-//! scenes into world-space [`Geometry`] that a renderer uploads.
+//! Nothing here knows of Vulkan. [`Scene::load`] reads a file; [`Scene::pose`] makes one of its
+//! scenes [`Geometry`] that a renderer uploads: in world space, but for large meshes that are drawn often.
 //!
 //! ```no_run
 //! use gpc::scene::{PoseRequest, Scene};
@@ -11,7 +11,7 @@
 //!     eprintln!("{warning}");
 //! }
 //! let pose = loaded.scene.pose(&PoseRequest::default())?;
-//! println!("{} triangles", pose.geometry.triangles.len());
+//! println!("{} triangles", pose.geometry.triangle_count());
 //! # Ok::<(), gpc::scene::SceneError>(())
 //! ```
 //!
@@ -42,7 +42,9 @@ mod view;
 use std::{path::Path, sync::Arc};
 
 pub use error::SceneError;
-pub use geometry::{Draw, DrawClass, Geometry, GeometryError, VertexStreams};
+pub use geometry::{
+    Draw, DrawClass, Geometry, GeometryError, Instance, InstanceFault, VertexStreams,
+};
 pub use info::{AlphaModes, AnimationInfo, CameraInfo, ImageInfo, SceneInfo, SceneNames};
 pub use light::{Light, LightKind};
 pub use lobes::{

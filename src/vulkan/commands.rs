@@ -4,6 +4,11 @@ use super::{Buffer, Gpu, Image, Pipeline, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
+/// The stages that push constants are for.
+pub(crate) const PUSH_STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_raw(
+    vk::ShaderStageFlags::VERTEX.as_raw() | vk::ShaderStageFlags::COMPUTE.as_raw(),
+);
+
 /// Writes commands of one frame into a caller's command buffer.
 pub struct Recorder<'a> {
     gpu: &'a Gpu,
@@ -131,15 +136,11 @@ impl<'a> Recorder<'a> {
     /// Sets the push constants of `layout`.
     pub fn push(&self, layout: vk::PipelineLayout, words: &[u32]) {
         let bytes = bytemuck::cast_slice(words);
-        // SAFETY: `new`'s contract; layouts reserve 16 bytes for compute.
+        // SAFETY: `new`'s contract; layouts reserve room for what their passes push.
         unsafe {
-            self.gpu.device.cmd_push_constants(
-                self.raw,
-                layout,
-                vk::ShaderStageFlags::COMPUTE,
-                0,
-                bytes,
-            )
+            self.gpu
+                .device
+                .cmd_push_constants(self.raw, layout, PUSH_STAGES, 0, bytes)
         };
     }
 

@@ -9,6 +9,7 @@ mod golden;
 #[path = "../common/golden.rs"]
 mod goldens;
 mod grow;
+mod instances;
 mod invariance;
 mod lobes;
 mod mask;

@@ -10,14 +10,16 @@ impl Resources {
     /// Writes a set that was just allocated.
     pub(super) fn write_set(&self, set: &SampleSet, scene: &GpuScene, targets: &RasterTargets) {
         let texels = [
-            (1, &scene.positions),
-            (2, &scene.triangles),
-            (3, &scene.normals),
-            (4, &scene.tangents),
-            (5, &scene.uvs),
-            (6, &scene.colors),
+            (1, &scene.geometry.positions),
+            (2, &scene.geometry.triangles),
+            (3, &scene.geometry.normals),
+            (4, &scene.geometry.tangents),
+            (5, &scene.geometry.uvs),
+            (6, &scene.geometry.colors),
             (7, &scene.materials),
             (9, &scene.alpha_atlas),
+            (10, &scene.geometry.blocks),
+            (11, &self.placed.buffer),
             (16, &self.display),
             (24, &self.candidates),
             (27, &self.records),

@@ -8,11 +8,13 @@ mod sizes;
 pub use sample_set::{Locations, SampleSet};
 pub use sizes::ResourceSizes;
 
+use super::geometry::PlacedInstances;
 use super::pool::DescriptorPool;
 use super::sites::SiteBuffers;
 use super::{Argument, Counter, FrameLayout, GpuScene, RasterTargets};
 use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, VulkanError};
 use ash::vk;
+use glam::DMat4;
 use std::sync::Arc;
 
 /// Buffers that passes hand to each other.
@@ -38,6 +40,7 @@ pub struct Resources {
     pub(crate) attributes: Buffer,
     pub(crate) encoded: Buffer,
     pub(super) sites: SiteBuffers,
+    pub(super) placed: PlacedInstances,
     layout: Arc<FrameLayout>,
     _pool: DescriptorPool,
     sets: Vec<SampleSet>,
@@ -73,7 +76,7 @@ impl Resources {
         let tiles = u64::from(sizes.tiles());
         let records = u64::from(sizes.record_capacity);
         let site_sizes = sizes.sites.unwrap_or_default();
-        let triangles = u64::from(scene.triangle_count());
+        let triangles = u64::from(scene.index_count());
         let storage_in = |name: &str, bytes: u64, location: MemoryUse| {
             memory.storage_buffer(name, bytes, STORAGE, location)
         };
@@ -134,6 +137,7 @@ impl Resources {
             )?,
             encoded: storage("encoded colour", sizes.encoded)?,
             sites: SiteBuffers::new(memory, &site_sizes, tiles)?,
+            placed: PlacedInstances::new(memory, &scene.geometry)?,
             layout: layout.clone(),
             _pool: pool,
             sets,
@@ -148,6 +152,12 @@ impl Resources {
     #[must_use]
     pub fn sizes(&self) -> &ResourceSizes {
         &self.sizes
+    }
+
+    /// Places a scene's instances for a camera, whose matrix leads from the space of the scene's geometry to pixel-scaled
+    /// clip space. Before each recording, while the device is done with the one before.
+    pub(crate) fn place(&mut self, scene: &GpuScene, to_clip: &DMat4) {
+        self.placed.write(&scene.geometry, to_clip);
     }
 
     /// The list of sub-sample locations at `index`.

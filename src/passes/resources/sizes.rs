@@ -1,6 +1,6 @@
 //! How much room a frame needs.
 
-use crate::passes::SiteSizes;
+use crate::passes::{GpuScene, SiteSizes};
 
 /// How much room a frame needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,9 +73,9 @@ impl ResourceSizes {
         self.region[0].div_ceil(8) * self.region[1].div_ceil(4)
     }
 
-    /// About how many bytes [`super::Resources`] of this size take, for a scene of `triangles` triangles.
+    /// About how many bytes [`super::Resources`] of this size take for a scene.
     #[must_use]
-    pub fn bytes(&self, triangles: u64) -> u64 {
+    pub fn bytes(&self, scene: &GpuScene) -> u64 {
         let pixels = self.colors();
         let tiles = u64::from(self.tiles());
         let records = u64::from(self.record_capacity);
@@ -86,7 +86,8 @@ impl ResourceSizes {
             + u64::from(self.pair_capacity) * Self::PAIR_BYTES
             + records * 40
             + records.max(pixels) * 4
-            + triangles * 4
+            + u64::from(scene.index_count()) * 4
+            + scene.geometry.placed_bytes()
             + u64::from(self.filtered) * 16
             + if self.attributes { pixels * 32 } else { 0 }
             + self.encoded

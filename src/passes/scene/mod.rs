@@ -13,9 +13,10 @@ pub use bins::ShadeFeatures;
 pub use light::LightFeatures;
 
 use super::FrameLayout;
+use super::geometry::GpuGeometry;
 use super::pool::DescriptorPool;
 use super::upload::{Upload, Uploader};
-use crate::scene::{AlphaMode, DrawClass, Pose, Scene};
+use crate::scene::{DrawClass, Pose, Scene};
 use crate::vulkan::{Buffer, BufferView, Memory, Recorder, VulkanError};
 use alpha_atlas::AlphaAtlas;
 use ash::vk;
@@ -25,33 +26,24 @@ use light::GpuLight;
 use material::MaterialTable;
 pub(in crate::passes) use slots::SLOTS;
 use slots::Slots;
-use std::borrow::Cow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use texture::{DeviceSampler, Texture};
 use texture_set::TextureSet;
-use triangles::{Run, Triangles};
+use triangles::Triangles;
 
 /// A posed scene on the device.
 pub struct GpuScene {
-    pub(super) positions: BufferView,
-    pub(super) triangles: BufferView,
-    pub(super) normals: BufferView,
-    pub(super) tangents: BufferView,
-    pub(super) uvs: BufferView,
-    pub(super) colors: BufferView,
+    pub(super) geometry: GpuGeometry,
     pub(super) materials: BufferView,
     material_vectors: u32,
     is_tinted: bool,
     pub(super) lights: Buffer,
     pub(super) alpha_atlas: BufferView,
     pub(super) bins: Vec<MaterialBin>,
-    runs: Vec<Run>,
-    triangle_count: u32,
     first_mask: u32,
     first_blend: u32,
-    high_frequency_triangles: u32,
+    high_frequency_triangles: u64,
     light_features: LightFeatures,
-    origin: DVec3,
     textures: Vec<Texture>,
     _samplers: Vec<DeviceSampler>,
     _pool: Option<DescriptorPool>,
@@ -79,15 +71,6 @@ impl SceneUploads {
         }
         recorder.barrier();
         scene.uploaded.store(true, Ordering::Relaxed);
-    }
-}
-
-/// A stream or, where it is empty, `count` vectors of one value.
-fn or_filled(stream: &[[f32; 4]], value: f32, count: usize) -> Cow<'_, [[f32; 4]]> {
-    if stream.is_empty() {
-        Cow::Owned(vec![[value; 4]; count])
-    } else {
-        Cow::Borrowed(stream)
     }
 }
 
@@ -123,23 +106,10 @@ impl GpuScene {
             .iter()
             .map(|light| GpuLight::new(light, geometry.origin))
             .collect();
-        // The alpha test reads both streams whether or not the scene has them.
-        let has_mask = scene
-            .materials
-            .iter()
-            .any(|m| matches!(m.alpha_mode, AlphaMode::Mask { .. }));
-        let filled = if has_mask {
-            geometry.positions.len()
-        } else {
-            0
-        };
-        let colors = or_filled(&geometry.streams.colors, 1.0, filled);
-        let uvs = or_filled(&geometry.streams.uvs, 0.0, filled);
-
-        let float4 = vk::Format::R32G32B32A32_SFLOAT;
         let uint4 = vk::Format::R32G32B32A32_UINT;
         let (bins, pool) = bins.allocate(layout, &textures)?;
         let mut uploader = Uploader::new(memory);
+        let device_geometry = GpuGeometry::new(&mut uploader, scene, geometry, &triangles.records)?;
         let TextureSet {
             textures,
             texture_uploads,
@@ -147,12 +117,6 @@ impl GpuScene {
             ..
         } = textures;
         let scene = Self {
-            positions: uploader.vectors("positions", &geometry.positions, 1.0)?,
-            triangles: uploader.texels("triangles", uint4, &triangles.words)?,
-            normals: uploader.vectors("normals", &geometry.streams.normals, 0.0)?,
-            tangents: uploader.texels("tangents", float4, &geometry.streams.tangents)?,
-            uvs: uploader.texels("texture coordinates", float4, &uvs)?,
-            colors: uploader.texels("vertex colours", float4, &colors)?,
             materials: uploader.texels("materials", uint4, &materials.words)?,
             material_vectors: materials.vectors,
             is_tinted: geometry
@@ -163,13 +127,11 @@ impl GpuScene {
             lights: uploader.storage("lights", bytemuck::cast_slice(&lights))?,
             alpha_atlas: uploader.texels("alpha atlas", vk::Format::R32_UINT, &atlas.words)?,
             bins,
-            triangle_count: triangles.words.len() as u32,
-            first_mask: triangles.first_of(DrawClass::Mask),
-            first_blend: triangles.first_of(DrawClass::Blend),
+            first_mask: device_geometry.first_of(DrawClass::Mask),
+            first_blend: device_geometry.first_of(DrawClass::Blend),
+            geometry: device_geometry,
             high_frequency_triangles: triangles.high_frequency,
             light_features: LightFeatures::of(&pose.lights),
-            origin: geometry.origin,
-            runs: triangles.runs,
             textures,
             _samplers: samplers.into_iter().map(|(_, sampler)| sampler).collect(),
             _pool: pool,
@@ -197,19 +159,25 @@ impl GpuScene {
         self.memory.used()
     }
 
-    /// Number of triangles.
+    /// Number of triangles that are drawn.
     #[must_use]
-    pub fn triangle_count(&self) -> u32 {
-        self.triangle_count
+    pub fn triangle_count(&self) -> u64 {
+        self.geometry.triangle_count
     }
 
-    /// Index of the first MASK triangle, or the number of triangles that come before where there is none.
+    /// Number of indices of triangles, of which some may stand for none.
+    #[must_use]
+    pub fn index_count(&self) -> u32 {
+        self.geometry.index_count
+    }
+
+    /// Index of the first MASK triangle, or the number of indices that come before where there is none.
     #[must_use]
     pub fn first_mask(&self) -> u32 {
         self.first_mask
     }
 
-    /// Index of the first BLEND triangle, or the number of triangles.
+    /// Index of the first BLEND triangle, or the number of indices.
     #[must_use]
     pub fn first_blend(&self) -> u32 {
         self.first_blend
@@ -224,7 +192,7 @@ impl GpuScene {
     /// Whether any triangle is composited.
     #[must_use]
     pub fn has_blend(&self) -> bool {
-        self.first_blend < self.triangle_count
+        self.first_blend < self.geometry.index_count
     }
 
     /// Whether a triangle may ask for several shading places in a pixel.
@@ -236,7 +204,7 @@ impl GpuScene {
     /// Whether most triangles do.
     #[must_use]
     pub fn is_mostly_high_frequency(&self) -> bool {
-        self.high_frequency_triangles > self.triangle_count / 2
+        self.high_frequency_triangles > self.geometry.triangle_count / 2
     }
 
     /// Number of material bins, at least 1.
@@ -266,10 +234,6 @@ impl GpuScene {
     /// World position that device positions are relative to.
     #[must_use]
     pub fn origin(&self) -> DVec3 {
-        self.origin
-    }
-
-    pub(super) fn runs(&self) -> &[Run] {
-        &self.runs
+        self.geometry.origin
     }
 }

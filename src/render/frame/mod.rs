@@ -157,6 +157,8 @@ impl Frame {
             self.resources.record_upload(&recorder);
             self.uploaded = true;
         }
+        let to_clip = uniform::to_clip(&self.scene, camera, &self.settings);
+        self.resources.place(&self.scene, &to_clip);
         let recording = Recording {
             settings: &self.settings,
             plan: &self.plan,

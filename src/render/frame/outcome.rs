@@ -58,7 +58,7 @@ impl Frame {
             memory_bytes: self.memory.used() + self.scene.memory_bytes(),
             ..Statistics::default()
         };
-        statistics.triangles.total = u64::from(self.scene.triangle_count());
+        statistics.triangles.total = self.scene.triangle_count();
         self.shortfall()?.check()?;
         for (tiles, run, counters) in self.counted()? {
             if !self.records(run) || run == Run::Blended {

@@ -58,7 +58,6 @@ impl Passes {
         encoding: Option<Encoding>,
     ) -> Result<Self, RenderError> {
         let output = settings.color_constants(scene);
-        let one_bin = scene.bin_count() == 1;
         let multisampled = settings.method == Method::Msaa;
         let antialiased = settings.method == Method::Superpixel;
         let compares = !matches!(settings.detection, Detection::Exact | Detection::Every);
@@ -67,7 +66,7 @@ impl Passes {
         let pixels = || -> Result<_, RenderError> {
             let source = ShadeSource::Pixels { display_codes };
             Ok(PixelShading {
-                spans: Spans::new(layout, one_bin)?,
+                spans: Spans::new(layout, scene)?,
                 shade: Shade::new(layout, scene, source, &output)?,
             })
         };
@@ -118,7 +117,7 @@ impl Passes {
             .map(|shade| -> Result<_, RenderError> {
                 Ok(Multisampling {
                     multisample: Multisample::new(layout)?,
-                    sort: Sort::new(layout, one_bin)?,
+                    sort: Sort::new(layout, scene, scene.bin_count() == 1)?,
                     shade: shade.clone(),
                     resolve: Resolve::for_multisample(
                         layout,
@@ -130,14 +129,14 @@ impl Passes {
             })
             .transpose()?;
         Ok(Self {
-            raster: Raster::new(layout, raster_samples(settings), scene.has_mask())?,
+            raster: Raster::new(layout, raster_samples(settings), scene)?,
             pixels,
             multisampling,
             blended,
             superpixels,
             attributes: settings
                 .attributes
-                .then(|| Attributes::new(layout, antialiased, settings.growths() > 0))
+                .then(|| Attributes::new(layout, scene, antialiased, settings.growths() > 0))
                 .transpose()?,
             box_filter: (settings.side() > 1)
                 .then(|| BoxFilter::new(layout))

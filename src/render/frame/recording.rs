@@ -87,6 +87,7 @@ impl Recording<'_> {
             recorder,
             main.descriptor(),
             scene,
+            resources,
             self.targets,
             [width, height],
             region

@@ -17,7 +17,7 @@ use crate::render::{Coverage, PassTime, RenderError, Settings, Statistics};
 use crate::sampling::Pattern;
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings, VulkanError};
 use ash::vk;
-use glam::DVec2;
+use glam::{DMat4, DVec2};
 use std::sync::Arc;
 
 /// Sites of a cell that are sampled once each, at the least; a subgroup may hold more.
@@ -73,6 +73,11 @@ pub(super) fn cell_sizes(layout: &FrameLayout, cells: Cells, samples: u32) -> Ce
         in_group: lanes as usize,
         samples,
     }
+}
+
+/// From the space of a scene's geometry to clip space around a window's middle.
+fn to_clip(scene: &GpuScene, pinhole: &Pinhole, window: &Window) -> DMat4 {
+    pinhole.pixel_matrix(scene.origin(), DVec2::from_array(window.middle))
 }
 
 impl SiteEngine {
@@ -133,9 +138,9 @@ impl SiteEngine {
         )?;
         let resources = Resources::new(layout, &memory, scene, &targets, *sizes, &[locations])?;
         let output = settings.color_constants(scene);
-        let sample = Sample::new(layout, &options)?;
+        let sample = Sample::new(layout, scene, &options)?;
         let finish = if points {
-            Finish::Points(Points::new(layout, &output)?)
+            Finish::Points(Points::new(layout, scene, &output)?)
         } else {
             Finish::Resolve(Resolve::new(
                 layout,
@@ -147,12 +152,12 @@ impl SiteEngine {
         };
         Ok(Self {
             settings: settings.clone(),
-            cull: Cull::new(layout)?,
-            bin: Bin::new(layout)?,
+            cull: Cull::new(layout, scene)?,
+            bin: Bin::new(layout, scene)?,
             schedule: Schedule::new(layout, &sample, LAYERS)?,
             groups: Groups::new(layout, &sample)?,
-            setup: Setup::new(layout)?,
-            sort: Sort::new(layout, !colors || scene.bin_count() == 1)?,
+            setup: Setup::new(layout, scene)?,
+            sort: Sort::new(layout, scene, !colors || scene.bin_count() == 1)?,
             shade: colors
                 .then(|| Shade::new(layout, scene, ShadeSource::Records(cells), &output))
                 .transpose()?,
@@ -193,6 +198,8 @@ impl SiteEngine {
         commands: vk::CommandBuffer,
     ) {
         let uniform = self.uniform(&scene.gpu_scene, pinhole, window, data);
+        let to_clip = to_clip(&scene.gpu_scene, pinhole, window);
+        self.resources.place(&scene.gpu_scene, &to_clip);
         let scene = &*scene.gpu_scene;
         let gpu = self.memory.gpu().clone();
         // SAFETY: passed on to the caller.
@@ -295,7 +302,7 @@ impl SiteEngine {
         total.add(self.counted()?);
         total.tiles += u64::from(window.tile_count());
         total.regions += 1;
-        total.triangles.total = u64::from(scene.triangle_count());
+        total.triangles.total = scene.triangle_count();
         total.memory_bytes = total
             .memory_bytes
             .max(self.memory.used() + scene.memory_bytes());
@@ -324,17 +331,14 @@ impl SiteEngine {
         let samples = self.sample.options().samples;
         let footprints = Footprints::new(&self.settings, if points { 1 } else { samples });
         FrameUniform {
-            transform: pinhole
-                .pixel_matrix(scene.origin(), DVec2::from_array(middle))
-                .as_mat4()
-                .to_cols_array(),
+            transform: to_clip(scene, pinhole, window).as_mat4().to_cols_array(),
             eye: [eye.x, eye.y, eye.z, 1.0],
             view_direction: [direction.x, direction.y, direction.z, parallel],
             background: self.settings.background_rgba(),
             origin: [0, 1].map(|axis| (window.low[axis] as f64 + 0.5 - middle[axis]) as f32),
             size: window.size(),
             tiles: window.tiles,
-            triangle_count: scene.triangle_count(),
+            triangle_count: scene.index_count(),
             first_mask: scene.first_mask(),
             first_blend: scene.first_blend(),
             sample_count: samples,

@@ -42,7 +42,7 @@ impl SitePlan {
             let windows = runs.iter().map(|run| partition.window(run));
             let most = runs.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
             let sizes = sizes(layout, scene, settings, cells, windows, most as u64);
-            let needed = taken + sizes.bytes(u64::from(scene.triangle_count()));
+            let needed = taken + sizes.bytes(scene);
             let texels = 4 * u64::from(sizes.list_capacity).max(most as u64);
             let fits = sizes.largest_storage() <= limits.max_storage_bytes
                 && texels <= limits.max_texel_elements;
@@ -90,7 +90,7 @@ fn sizes(
         _ if settings.shading == Shading::Sample || scene.has_blend() => most * samples.min(64),
         _ => most * (6 * samples.div_ceil(64)).min(samples).max(2),
     };
-    let triangles = u64::from(scene.triangle_count());
+    let triangles = scene.triangle_count();
     let pairs = (triangles * 4 + tiles * 16).clamp(1 << 14, MOST_PAIRS);
     let candidates = (triangles * 3 + tiles * 8).clamp(1 << 14, MOST_CANDIDATES);
     let at_most = |room: u64, bytes: u64| room.min(limits.max_storage_bytes / bytes) as u32;

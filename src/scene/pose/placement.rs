@@ -113,6 +113,30 @@ impl<'d> Placement<'d> {
         placements
     }
 
+    /// The mesh that it shares with others that differ in their [`rigid`](Self::rigid) transform alone.
+    pub fn mesh(&self) -> Option<&'d Primitive> {
+        let is_rigid = matches!(self.motion, Motion::Rigid(_)) && self.targets.is_empty();
+        is_rigid.then_some(self.primitive)
+    }
+
+    /// From its mesh's space to the world, where all vertices move alike.
+    pub fn rigid(&self) -> Option<DAffine3> {
+        match &self.motion {
+            Motion::Rigid(frame) => Some(frame.affine),
+            Motion::Skinned(_) => None,
+        }
+    }
+
+    /// The same mesh in another place.
+    pub fn at(&self, affine: DAffine3) -> Self {
+        let frame = Frame::new(affine);
+        Self {
+            motion: Motion::Rigid(frame),
+            mirrored: frame.sign < 0.0,
+            ..self.clone()
+        }
+    }
+
     /// How vertex `v` moves.
     #[inline]
     pub fn frame(&self, v: usize) -> Frame {
