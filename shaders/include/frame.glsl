@@ -27,6 +27,7 @@ layout(set = 0, binding = 0) uniform Frame {
     uint first_mask;        // index of the first MASK triangle
     uint first_blend;       // index of the first BLEND triangle
     uint sample_count;      // sub-samples of a cell
+    uint survivor_capacity; // triangles that `thin` selects and that `cull` keeps
     uint pair_capacity;     // pairs of a triangle and a tile
     uint list_capacity;     // candidates of a round
     uint record_capacity;   // visibility records
@@ -89,8 +90,8 @@ layout(set = 0, binding = 32) uniform textureBuffer locations;              // s
 layout(std430, set = 0, binding = 33) buffer Bins { uvec4 bins[]; };        // count, first, cursor, 0
 layout(std430, set = 0, binding = 34) buffer Arguments { uvec4 arguments[]; }; // indirect dispatches
 
-layout(set = 0, binding = 38) uniform utextureBuffer pairs;       // triangle, tile, rank in its list, 0
-layout(std430, set = 0, binding = 39) writeonly buffer PairsOut { uvec4 pairs_out[]; };
+layout(set = 0, binding = 38) uniform utextureBuffer pairs;       // triangle, and its tile and rank there, see pairs.glsl
+layout(std430, set = 0, binding = 39) writeonly buffer PairsOut { uvec2 pairs_out[]; };
 layout(std430, set = 0, binding = 41) buffer Marks { uint marks[]; };       // like masks, three times: pixels that `thin` found unseen, later cells that a PROBE leaves; paint that it found, later pixels that contrast with a superpixel; superpixels before `grow`
 
 // (n % width, n / width). Integer division is a loop on CPU devices; a float quotient errs by one at the most for

@@ -380,6 +380,12 @@ impl Geometry {
         boxes.reduce(|(low, high), (p, _)| (low.min(p), high.max(p)))
     }
 
+    /// Corners of the box around an instance's vertices before its transform.
+    pub(crate) fn own_box(&self, instance: &Instance) -> Option<[DVec3; 2]> {
+        let (low, high) = self.box_of(instance.triangles(), DAffine3::IDENTITY)?;
+        Some([low, high])
+    }
+
     fn position(&self, v: u32) -> DVec3 {
         DVec3::from_array(self.positions[v as usize].map(f64::from))
     }

@@ -2,13 +2,15 @@
 
 use glam::{DAffine3, DMat3, DQuat, DVec3, EulerRot};
 use gpc::render::{Headless, Method, Rendered, Settings};
+use gpc::sampling::Pattern;
 use gpc::scene::{
-    AlphaMode, GeometryError, Image, Instance, InstanceFault, Material, Pose, Sampler, Scene,
+    AlphaMode, Draw, DrawClass, GeometryError, Image, Instance, InstanceFault, Material, Pose,
+    Sampler, Scene,
 };
 
 use crate::meshes::Random;
 use crate::sites::{pinhole, planar};
-use crate::stage::{Stage, camera, flat, ids, on_gpu, once, textured};
+use crate::stage::{Stage, camera, everywhere, flat, ids, on_gpu, once, textured};
 
 const SIZE: [u32; 2] = [96, 64];
 /// Instances of each mesh.
@@ -162,6 +164,44 @@ fn every_method_sees_them() {
                 "{method:?} {samples}: {apart}"
             );
         }
+    });
+}
+
+#[test]
+fn a_crowd_that_outgrows_its_room_is_drawn_all_the_same() {
+    /// Pairs of a triangle and a tile that an image of this size has room for at first, and more than enough triangles.
+    const FIRST_ROOM: u64 = 160 * 16 * 8;
+    const CROWD: u32 = 400;
+    on_gpu(|gpu| {
+        let (mut scene, mut pose) = scene();
+        scene.materials[0].double_sided = true;
+        let ball = pose.geometry.draws[0];
+        pose.geometry
+            .triangles
+            .truncate(ball.triangle_count as usize);
+        pose.geometry.draws = vec![Draw {
+            class: DrawClass::OpaqueDoubleSided,
+            ..ball
+        }];
+        let mut random = Random::new(9);
+        let at = |index: u32, random: &mut Random| Instance {
+            first_triangle: 0,
+            triangle_count: ball.triangle_count,
+            first_index: index * ball.triangle_count.next_multiple_of(Instance::ALIGNMENT),
+            transform: DAffine3::from_scale_rotation_translation(
+                DVec3::splat(0.3),
+                DQuat::IDENTITY,
+                DVec3::new(random.range(-2.5, 2.5), random.range(-2.5, 2.5), -4.0),
+            ),
+        };
+        pose.geometry.instances = (0..CROWD).map(|index| at(index, &mut random)).collect();
+        let world = in_world_space(&pose);
+        let settings = everywhere([64, 64], Pattern::Sobol, 16);
+        let found = render(gpu, (&scene, &pose), &settings);
+        let expected = render(gpu, (&scene, &world), &settings);
+        assert!(found.statistics.triangles.drawn > FIRST_ROOM);
+        let apart = difference(&found, &expected);
+        assert!(apart < 1e-3, "{apart}");
     });
 }
 

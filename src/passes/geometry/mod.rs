@@ -17,6 +17,7 @@ use crate::vulkan::{BufferView, Constants, VulkanError};
 use ash::vk;
 use glam::{DAffine3, DVec3};
 use std::borrow::Cow;
+use std::collections::HashMap;
 
 /// Indices that share an instance.
 const BLOCK: u32 = Instance::ALIGNMENT;
@@ -37,19 +38,22 @@ struct Place {
     /// What leads from an index to a record, modulo 2^32; the first index that is not theirs; flags.
     words: [u32; 4],
     transform: DAffine3,
+    /// Lowest and highest corner of the box around their vertices, before the transform.
+    bounds: [DVec3; 2],
 }
 
 /// Set where a place mirrors its triangles.
 const MIRRORED: u32 = 1;
 
 impl Place {
-    fn of(instance: &Instance) -> Self {
+    fn of(instance: &Instance, bounds: [DVec3; 2]) -> Self {
         let offset = instance.first_triangle.wrapping_sub(instance.first_index);
         let end = instance.first_index + instance.triangle_count;
         let flags = if instance.mirrored() { MIRRORED } else { 0 };
         Self {
             words: [offset, end, flags, 0],
             transform: instance.transform,
+            bounds,
         }
     }
 }
@@ -67,7 +71,7 @@ pub(super) struct GpuGeometry {
     pub(super) blocks: BufferView,
     pub(super) runs: Vec<Run>,
     places: Vec<Place>,
-    is_instanced: bool,
+    pub(super) is_instanced: bool,
     /// Triangles that are drawn.
     pub(super) triangle_count: u64,
     /// Indices, of which some may stand for no triangle.
@@ -164,13 +168,23 @@ fn blocks(geometry: &Geometry) -> Vec<u32> {
 
 /// All places; the world alone where nothing is instanced.
 fn places(geometry: &Geometry) -> Vec<Place> {
+    let everywhere = [DVec3::NEG_INFINITY, DVec3::INFINITY];
     if geometry.instances.is_empty() {
         return vec![Place {
             words: [0, geometry.triangles.len() as u32, 0, 0],
             transform: DAffine3::IDENTITY,
+            bounds: everywhere,
         }];
     }
-    geometry.instances.iter().map(Place::of).collect()
+    // Instances of a mesh share its box.
+    let mut boxes: HashMap<(u32, u32), [DVec3; 2]> = HashMap::new();
+    let place = |instance: &Instance| {
+        let bounds = boxes
+            .entry((instance.first_triangle, instance.triangle_count))
+            .or_insert_with(|| geometry.own_box(instance).unwrap_or(everywhere));
+        Place::of(instance, *bounds)
+    };
+    geometry.instances.iter().map(place).collect()
 }
 
 /// What is drawn at once.

@@ -3,7 +3,7 @@
 use super::GpuGeometry;
 use crate::vulkan::{BufferView, Memory, MemoryUse, VulkanError};
 use ash::vk;
-use glam::{DAffine3, DMat4, Mat4};
+use glam::{DAffine3, DMat4, DVec3, DVec4};
 
 /// Vectors of an instance in `shaders/include/triangle.glsl`.
 const VECTORS: usize = 8;
@@ -14,6 +14,7 @@ pub(in crate::passes) struct PlacedInstances {
     /// is instanced.
     pub(in crate::passes) buffer: BufferView,
     draws: Vec<PlacedDraw>,
+    hidden: Vec<bool>,
 }
 
 /// What the vertex shader is told of a place: `Push` in `shaders/raster.vert`.
@@ -41,6 +42,7 @@ impl PlacedInstances {
                 MemoryUse::Upload,
             )?,
             draws: vec![PlacedDraw::default(); geometry.places.len()],
+            hidden: vec![false; geometry.places.len()],
         };
         if placed.vectors(instances).len() < instances {
             return Err(VulkanError::Call {
@@ -66,12 +68,22 @@ impl PlacedInstances {
 
     /// Writes them for a camera whose matrix leads from the geometry's space to pixel-scaled clip space, while the device
     /// is done with what was written before. Products are of 64 bits and rounded once.
-    pub(in crate::passes) fn write(&mut self, geometry: &GpuGeometry, to_clip: &DMat4) {
-        for (draw, place) in self.draws.iter_mut().zip(&geometry.places) {
+    /// What lies outside of an `image` of so many pixels is not drawn.
+    pub(in crate::passes) fn write(
+        &mut self,
+        geometry: &GpuGeometry,
+        to_clip: &DMat4,
+        image: Option<[u32; 2]>,
+    ) {
+        let draws = self.draws.iter_mut().zip(&mut self.hidden);
+        for ((draw, hidden), place) in draws.zip(&geometry.places) {
+            let matrix = *to_clip * DMat4::from(place.transform);
             *draw = PlacedDraw {
-                matrix: matrix(to_clip, &place.transform).to_cols_array(),
+                matrix: matrix.as_mat4().to_cols_array(),
                 words: place.words,
             };
+            *hidden = geometry.is_instanced
+                && image.is_some_and(|image| is_outside(&matrix, place.bounds, image));
         }
         if !geometry.is_instanced {
             return;
@@ -96,17 +108,35 @@ impl PlacedInstances {
             .unwrap_or(&mut [])
     }
 
-    /// What the vertex shader is told of a place.
+    /// What the vertex shader is told of a place; nothing where it is not seen.
     pub(in crate::passes) fn draw(&self, place: u32) -> Option<&PlacedDraw> {
-        self.draws.get(place as usize)
+        let is_hidden = self.hidden.get(place as usize).copied()?;
+        self.draws.get(place as usize).filter(|_| !is_hidden)
     }
 }
 
-fn matrix(to_clip: &DMat4, place: &DAffine3) -> Mat4 {
-    if *place == DAffine3::IDENTITY {
-        return to_clip.as_mat4();
-    }
-    (*to_clip * DMat4::from(*place)).as_mat4()
+/// Whether all of a box lies on the outer side of one border of an image, before its near plane or beyond its far one;
+/// these are tests of half-spaces, which hold for what is behind the eye too.
+fn is_outside(matrix: &DMat4, [low, high]: [DVec3; 2], image: [u32; 2]) -> bool {
+    /// Farther out than any sample of a pixel on the border, in pixels.
+    const MARGIN: f64 = 2.0;
+    let half = image.map(|pixels| 0.5 * f64::from(pixels) + MARGIN);
+    let corners = [0, 1, 2, 3, 4, 5, 6, 7].map(|corner| {
+        let high_on = |axis: u32| corner >> axis & 1 == 1;
+        let at = DVec3::select(
+            glam::BVec3::new(high_on(0), high_on(1), high_on(2)),
+            high,
+            low,
+        );
+        *matrix * at.extend(1.0)
+    });
+    let all = |outside: &dyn Fn(&DVec4) -> bool| corners.iter().all(outside);
+    all(&|c| c.x < -half[0] * c.w)
+        || all(&|c| c.x > half[0] * c.w)
+        || all(&|c| c.y < -half[1] * c.w)
+        || all(&|c| c.y > half[1] * c.w)
+        || all(&|c| c.z > c.w)
+        || all(&|c| c.z < 0.0)
 }
 
 /// The rows of the way to the geometry's space, floats as bits.

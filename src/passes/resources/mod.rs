@@ -76,7 +76,6 @@ impl Resources {
         let tiles = u64::from(sizes.tiles());
         let records = u64::from(sizes.record_capacity);
         let site_sizes = sizes.sites.unwrap_or_default();
-        let triangles = u64::from(scene.index_count());
         let storage_in = |name: &str, bytes: u64, location: MemoryUse| {
             memory.storage_buffer(name, bytes, STORAGE, location)
         };
@@ -115,8 +114,12 @@ impl Resources {
                 "tile lists",
                 sizes.work_owners() * ResourceSizes::WORK_BYTES,
             )?,
-            survivors: storage("survivors", triangles * 4)?,
-            pairs: texels("pairs", u64::from(sizes.pair_capacity), uint4)?,
+            survivors: storage("survivors", u64::from(sizes.survivor_capacity) * 4)?,
+            pairs: texels(
+                "pairs",
+                u64::from(sizes.pair_capacity),
+                vk::Format::R32G32_UINT,
+            )?,
             candidates: texels("candidates", u64::from(sizes.list_capacity) * 4, uint4)?,
             headers: storage("record headers", records * 8)?,
             records: texels("visibility records", records, uint4)?,
@@ -155,9 +158,10 @@ impl Resources {
     }
 
     /// Places a scene's instances for a camera, whose matrix leads from the space of the scene's geometry to pixel-scaled
-    /// clip space. Before each recording, while the device is done with the one before.
-    pub(crate) fn place(&mut self, scene: &GpuScene, to_clip: &DMat4) {
-        self.placed.write(&scene.geometry, to_clip);
+    /// clip space. Before each recording, while the device is done with the one before. `image` is how many pixels `raster`
+    /// draws, if it does.
+    pub(crate) fn place(&mut self, scene: &GpuScene, to_clip: &DMat4, image: Option<[u32; 2]>) {
+        self.placed.write(&scene.geometry, to_clip, image);
     }
 
     /// The list of sub-sample locations at `index`.

@@ -165,6 +165,12 @@ impl GpuScene {
         self.geometry.triangle_count
     }
 
+    /// Whether some of its triangles are drawn several times.
+    #[must_use]
+    pub fn is_instanced(&self) -> bool {
+        self.geometry.is_instanced
+    }
+
     /// Number of indices of triangles, of which some may stand for none.
     #[must_use]
     pub fn index_count(&self) -> u32 {

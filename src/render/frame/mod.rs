@@ -158,7 +158,9 @@ impl Frame {
             self.uploaded = true;
         }
         let to_clip = uniform::to_clip(&self.scene, camera, &self.settings);
-        self.resources.place(&self.scene, &to_clip);
+        let side = self.settings.side();
+        let image = self.settings.size.map(|pixels| pixels * side);
+        self.resources.place(&self.scene, &to_clip, Some(image));
         let recording = Recording {
             settings: &self.settings,
             plan: &self.plan,

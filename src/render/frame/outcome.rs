@@ -11,9 +11,10 @@ impl Frame {
     pub(in crate::render) fn shortfall(&self) -> Result<Shortfall, RenderError> {
         let unlisted = self.plan.effort.unlisted;
         let mut shortfall = Shortfall::default();
+        let room = self.plan.sizes.survivor_capacity;
         for (tiles, run, counters) in self.counted()? {
             if self.records(run) {
-                shortfall.add(counters, tiles, unlisted);
+                shortfall.add(counters, (tiles, room), unlisted);
             }
         }
         Ok(shortfall)

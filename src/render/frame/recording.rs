@@ -86,8 +86,7 @@ impl Recording<'_> {
         passes.raster.record(
             recorder,
             main.descriptor(),
-            scene,
-            resources,
+            (scene, resources),
             self.targets,
             [width, height],
             region

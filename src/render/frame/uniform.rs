@@ -54,6 +54,7 @@ impl Recording<'_> {
             first_mask: scene.first_mask(),
             first_blend: scene.first_blend(),
             sample_count: samples,
+            survivor_capacity: self.plan.sizes.survivor_capacity,
             pair_capacity: self.plan.sizes.pair_capacity,
             list_capacity: self.plan.sizes.list_capacity,
             record_capacity: self.plan.sizes.record_capacity,

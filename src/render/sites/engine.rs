@@ -199,7 +199,7 @@ impl SiteEngine {
     ) {
         let uniform = self.uniform(&scene.gpu_scene, pinhole, window, data);
         let to_clip = to_clip(&scene.gpu_scene, pinhole, window);
-        self.resources.place(&scene.gpu_scene, &to_clip);
+        self.resources.place(&scene.gpu_scene, &to_clip, None);
         let scene = &*scene.gpu_scene;
         let gpu = self.memory.gpu().clone();
         // SAFETY: passed on to the caller.
@@ -283,7 +283,8 @@ impl SiteEngine {
     /// What the last run could not finish.
     pub fn shortfall(&self, window: &Window) -> Result<Shortfall, VulkanError> {
         let mut shortfall = Shortfall::default();
-        shortfall.add(self.counted()?, window.tile_count(), true);
+        let room = self.resources.sizes().survivor_capacity;
+        shortfall.add(self.counted()?, (window.tile_count(), room), true);
         Ok(shortfall)
     }
 
@@ -342,6 +343,7 @@ impl SiteEngine {
             first_mask: scene.first_mask(),
             first_blend: scene.first_blend(),
             sample_count: samples,
+            survivor_capacity: self.resources.sizes().survivor_capacity,
             pair_capacity: self.resources.sizes().pair_capacity,
             list_capacity: self.resources.sizes().list_capacity,
             record_capacity: self.resources.sizes().record_capacity,

@@ -101,6 +101,7 @@ fn sizes(
             cells: cell_count as u32,
             groups: group_count as u32,
         }),
+        survivor_capacity: scene.index_count(),
         pair_capacity: at_most(pairs, ResourceSizes::PAIR_BYTES),
         list_capacity: at_most(candidates, ResourceSizes::CANDIDATE_BYTES),
         record_capacity: records.clamp(1 << 16, MOST_RECORDS) as u32,
