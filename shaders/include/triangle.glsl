@@ -8,7 +8,7 @@
 #ifndef TRIANGLE_GLSL
 #define TRIANGLE_GLSL
 
-layout(constant_id = 40) const bool INSTANCED = false;  // indices are those of instances, not of records
+layout(constant_id = 23) const bool INSTANCED = false;  // indices are those of instances, not of records
 
 const uint MIRRORED = 1u;
 // Vectors of an instance: (what leads from an index to a record, end of its indices, flags, 0), four columns to clip

@@ -9,7 +9,7 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The bindings of set 0.
-const BINDINGS: [(u32, vk::DescriptorType); 46] = {
+const BINDINGS: [(u32, vk::DescriptorType); 53] = {
     use vk::DescriptorType as T;
     [
         (0, T::UNIFORM_BUFFER),
@@ -58,6 +58,13 @@ const BINDINGS: [(u32, vk::DescriptorType); 46] = {
         (43, T::UNIFORM_TEXEL_BUFFER),
         (44, T::UNIFORM_TEXEL_BUFFER),
         (45, T::STORAGE_BUFFER),
+        (46, T::UNIFORM_TEXEL_BUFFER),
+        (47, T::UNIFORM_TEXEL_BUFFER),
+        (48, T::UNIFORM_TEXEL_BUFFER),
+        (49, T::UNIFORM_TEXEL_BUFFER),
+        (50, T::STORAGE_TEXEL_BUFFER),
+        (51, T::STORAGE_TEXEL_BUFFER),
+        (52, T::STORAGE_TEXEL_BUFFER),
     ]
 };
 

@@ -1,9 +1,9 @@
 //! The passes of a frame, one file each, named like their shaders in `shaders/`.
 //!
 //! ```text
-//! raster ─▶ spans ─▶ shade ─▶ thin ─▶ detect ─▶ cull ─▶ bin ─▶ schedule ─▶ setup ─▶ sample ─▶ sort ─▶ shade ─▶ resolve
-//!            └─ pixel centres ─┘                 ▲             └─────── a round, as often as memory needs it ───────┘│
-//!                                                └───────────────────────── grow ◀────────────────────────────────┘
+//! pose ─▶ raster ─▶ spans ─▶ shade ─▶ thin ─▶ detect ─▶ cull ─▶ bin ─▶ schedule ─▶ setup ─▶ sample ─▶ sort ─▶ shade ─▶ resolve
+//!                   └─ pixel centres ─┘                 ▲             └─────── a round, as often as memory needs it ───────┘│
+//!                                                       └───────────────────────── grow ◀────────────────────────────────┘
 //! ```
 //! Every pass records into a caller's command buffer and reads what the pass before left on the device. They share the
 //! geometry (`geometry/`) and what else the scene has (`scene/`), the memory that they hand to each other (`resources/`), the layout of descriptors (`layout.rs`) and
@@ -24,6 +24,7 @@ mod layout;
 mod multisample;
 mod points;
 mod pool;
+mod pose;
 mod raster;
 mod resolve;
 mod resources;
@@ -57,6 +58,7 @@ pub use grow::Grow;
 pub use layout::FrameLayout;
 pub use multisample::Multisample;
 pub use points::Points;
+pub use pose::Pose;
 pub use raster::{Raster, RasterTargets};
 pub use resolve::{Resolve, Then};
 pub use resources::{Locations, ResourceSizes, Resources, SampleSet};

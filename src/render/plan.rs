@@ -118,9 +118,7 @@ impl Effort {
             rounds: self.rounds * factor(crowded || shortfall.waiting > 0),
             layers: self.layers * factor(crowded),
             lists: self.lists
-                * factor(
-                    crowded || shortfall.stalled + shortfall.unlisted + shortfall.dropped > 0,
-                ),
+                * factor(crowded || shortfall.stalled + shortfall.unlisted + shortfall.dropped > 0),
             apart: self.apart || shortfall.stalled > 0,
             unlisted: self.unlisted || shortfall.unlisted > 0,
         }

@@ -55,7 +55,8 @@ pub use material::{
     AlphaMode, Filter, Image, Material, Sampler, Texture, TextureRole, TextureTransform,
     TextureUse, Wrap,
 };
-pub use pose::{Pose, PoseRequest};
+pub(crate) use pose::MotionPart;
+pub use pose::{Moment, Motion, Pose, PoseRequest};
 pub use view::{SceneCamera, SceneProjection};
 
 /// A file's content, checked and decoded.
@@ -143,6 +144,15 @@ impl Scene {
     /// If the file has no such scene or animation, or if repetition makes the scene too large.
     pub fn pose(&self, request: &PoseRequest) -> Result<Pose, SceneError> {
         pose::pose(self, request)
+    }
+
+    /// As [`pose`](Self::pose), and what its animation moves, for other moments of it; nothing of that is drawn by
+    /// instances.
+    ///
+    /// # Errors
+    /// As [`pose`](Self::pose).
+    pub fn pose_in_motion(&self, request: &PoseRequest) -> Result<(Pose, Motion), SceneError> {
+        pose::pose_in_motion(self, request)
     }
 
     /// A summary of the file.

@@ -105,6 +105,12 @@ impl<'a> Recorder<'a> {
 
     /// Runs a pipeline over `groups` workgroups, folded into rows of 32,768.
     pub fn dispatch(&self, pipeline: &Pipeline, groups: u64) {
+        self.dispatch_unordered(pipeline, groups);
+        self.barrier();
+    }
+
+    /// The same without a barrier after it, for dispatches that write different places.
+    pub fn dispatch_unordered(&self, pipeline: &Pipeline, groups: u64) {
         self.bind(pipeline);
         let rows = groups.div_ceil(32768) as u32;
         // SAFETY: `new`'s contract; 32,768 is below every device's limit of 65,535.
@@ -113,7 +119,6 @@ impl<'a> Recorder<'a> {
                 .device
                 .cmd_dispatch(self.raw, groups.min(32768) as u32, rows, 1)
         };
-        self.barrier();
     }
 
     /// Runs a pipeline over the workgroups that vector `index` of `arguments` names.

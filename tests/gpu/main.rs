@@ -17,7 +17,10 @@ mod mask;
 mod meshes;
 mod methods;
 mod partition;
+mod pose;
 mod region;
+#[path = "../scene_builder/mod.rs"]
+mod scene_builder;
 mod scenes;
 mod shade;
 mod sites;

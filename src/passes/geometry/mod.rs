@@ -7,12 +7,14 @@
 //!
 //! What a camera makes of it belongs to a frame ([`PlacedInstances`]), so that several may be in flight.
 
+mod moving;
 mod placed;
 
+pub(super) use moving::{GpuMotion, MovingVertices};
 pub(super) use placed::{PlacedDraw, PlacedInstances};
 
 use super::upload::Uploader;
-use crate::scene::{AlphaMode, DrawClass, Geometry, Instance, Scene};
+use crate::scene::{AlphaMode, DrawClass, Geometry, Instance, Motion, Scene};
 use crate::vulkan::{BufferView, Constants, VulkanError};
 use ash::vk;
 use glam::{DAffine3, DVec3};
@@ -71,6 +73,9 @@ pub(super) struct GpuGeometry {
     pub(super) blocks: BufferView,
     pub(super) runs: Vec<Run>,
     places: Vec<Place>,
+    /// What moves of it.
+    pub(super) motion: Option<GpuMotion>,
+    pub(super) has_tangents: bool,
     pub(super) is_instanced: bool,
     /// Triangles that are drawn.
     pub(super) triangle_count: u64,
@@ -93,7 +98,7 @@ impl GpuGeometry {
     pub(super) fn new(
         uploader: &mut Uploader<'_>,
         scene: &Scene,
-        geometry: &Geometry,
+        (geometry, motion): (&Geometry, Option<&Motion>),
         records: &[[u32; 4]],
     ) -> Result<Self, VulkanError> {
         // The alpha test reads both streams whether or not the scene has them.
@@ -130,6 +135,10 @@ impl GpuGeometry {
             )?,
             runs: runs(geometry),
             places: places(geometry),
+            motion: motion
+                .map(|motion| GpuMotion::new(uploader, motion))
+                .transpose()?,
+            has_tangents: !geometry.streams.tangents.is_empty(),
             is_instanced: !geometry.instances.is_empty(),
             triangle_count: geometry.triangle_count(),
             index_count,
@@ -145,14 +154,14 @@ impl GpuGeometry {
             .map_or(self.index_count, |run| run.first_index)
     }
 
-    /// Bytes of [`PlacedInstances`].
-    pub(super) fn placed_bytes(&self) -> u64 {
-        PlacedInstances::bytes(self)
+    /// Bytes of [`PlacedInstances`] and [`MovingVertices`].
+    pub(super) fn frame_bytes(&self) -> u64 {
+        PlacedInstances::bytes(self) + MovingVertices::bytes(self)
     }
 
     /// Adds the constants of `shaders/include/triangle.glsl`.
     pub(super) fn constants(&self, constants: Constants) -> Constants {
-        constants.flag(40, self.is_instanced)
+        constants.flag(23, self.is_instanced)
     }
 }
 

@@ -9,11 +9,16 @@ use ash::vk;
 impl Resources {
     /// Writes a set that was just allocated.
     pub(super) fn write_set(&self, set: &SampleSet, scene: &GpuScene, targets: &RasterTargets) {
-        let texels = [
-            (1, &scene.geometry.positions),
-            (2, &scene.geometry.triangles),
-            (3, &scene.geometry.normals),
-            (4, &scene.geometry.tangents),
+        let geometry = &scene.geometry;
+        let (positions, normals, tangents) = match &self.moving {
+            Some(moving) => (&moving.positions, &moving.normals, &moving.tangents),
+            None => (&geometry.positions, &geometry.normals, &geometry.tangents),
+        };
+        let mut texels = vec![
+            (1, positions),
+            (2, &geometry.triangles),
+            (3, normals),
+            (4, tangents),
             (5, &scene.geometry.uvs),
             (6, &scene.geometry.colors),
             (7, &scene.materials),
@@ -30,8 +35,22 @@ impl Resources {
             (42, &self.sites.sites),
             (43, &self.sites.cells),
             (44, &self.sites.groups),
-        ]
-        .map(|(binding, view)| (binding, [view.view]));
+        ];
+        if let (Some(moving), Some(motion)) = (&self.moving, &geometry.motion) {
+            texels.extend([
+                (46, &moving.moment),
+                (47, &motion.resting),
+                (48, &motion.influences),
+                (49, &motion.displacements),
+                (50, &moving.positions),
+                (51, &moving.normals),
+                (52, &moving.tangents),
+            ]);
+        }
+        let texels: Vec<_> = texels
+            .into_iter()
+            .map(|(binding, view)| (binding, [view.view]))
+            .collect();
         let whole = |buffer: &Buffer| {
             [vk::DescriptorBufferInfo::default()
                 .buffer(buffer.raw)

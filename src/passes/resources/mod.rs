@@ -8,10 +8,11 @@ mod sizes;
 pub use sample_set::{Locations, SampleSet};
 pub use sizes::ResourceSizes;
 
-use super::geometry::PlacedInstances;
+use super::geometry::{MovingVertices, PlacedInstances};
 use super::pool::DescriptorPool;
 use super::sites::SiteBuffers;
 use super::{Argument, Counter, FrameLayout, GpuScene, RasterTargets};
+use crate::scene::Moment;
 use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, VulkanError};
 use ash::vk;
 use glam::DMat4;
@@ -41,6 +42,7 @@ pub struct Resources {
     pub(crate) encoded: Buffer,
     pub(super) sites: SiteBuffers,
     pub(super) placed: PlacedInstances,
+    pub(super) moving: Option<MovingVertices>,
     layout: Arc<FrameLayout>,
     _pool: DescriptorPool,
     sets: Vec<SampleSet>,
@@ -141,6 +143,11 @@ impl Resources {
             encoded: storage("encoded colour", sizes.encoded)?,
             sites: SiteBuffers::new(memory, &site_sizes, tiles)?,
             placed: PlacedInstances::new(memory, &scene.geometry)?,
+            moving: if sizes.sites.is_none() {
+                MovingVertices::new(memory, &scene.geometry)?
+            } else {
+                None
+            },
             layout: layout.clone(),
             _pool: pool,
             sets,
@@ -162,6 +169,13 @@ impl Resources {
     /// draws, if it does.
     pub(crate) fn place(&mut self, scene: &GpuScene, to_clip: &DMat4, image: Option<[u32; 2]>) {
         self.placed.write(&scene.geometry, to_clip, image);
+    }
+
+    /// Writes what moves at a moment. Before a recording, while the device is done with the one before.
+    pub(crate) fn write_moment(&mut self, moment: &Moment) {
+        if let Some(moving) = &mut self.moving {
+            moving.write(moment);
+        }
     }
 
     /// The list of sub-sample locations at `index`.

@@ -1,13 +1,16 @@
 //! What a frame records of its memory beside its passes: uploads, clearing, counters and the background.
 
 use super::{Resources, SampleSet};
-use crate::passes::{Counter, FrameUniform};
+use crate::passes::{Counter, FrameUniform, GpuScene};
 use crate::vulkan::{Buffer, Recorder};
 use ash::vk;
 
 impl Resources {
-    /// Copies the locations to the device, once.
-    pub fn record_upload(&self, recorder: &Recorder<'_>) {
+    /// Copies the locations to the device, and vertices of which some will move, once.
+    pub fn record_upload(&self, recorder: &Recorder<'_>, scene: &GpuScene) {
+        if let Some(moving) = &self.moving {
+            moving.record_upload(recorder, &scene.geometry);
+        }
         for set in &self.sets {
             set.upload.record(recorder);
         }

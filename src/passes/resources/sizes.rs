@@ -89,7 +89,7 @@ impl ResourceSizes {
             + records * 40
             + records.max(pixels) * 4
             + u64::from(self.survivor_capacity) * 4
-            + scene.geometry.placed_bytes()
+            + scene.geometry.frame_bytes()
             + u64::from(self.filtered) * 16
             + if self.attributes { pixels * 32 } else { 0 }
             + self.encoded

@@ -16,7 +16,7 @@ use super::FrameLayout;
 use super::geometry::GpuGeometry;
 use super::pool::DescriptorPool;
 use super::upload::{Upload, Uploader};
-use crate::scene::{DrawClass, Pose, Scene};
+use crate::scene::{DrawClass, Moment, Motion, Pose, Scene};
 use crate::vulkan::{Buffer, BufferView, Memory, Recorder, VulkanError};
 use alpha_atlas::AlphaAtlas;
 use ash::vk;
@@ -83,7 +83,7 @@ impl GpuScene {
         layout: &FrameLayout,
         memory: &Memory,
         scene: &Scene,
-        pose: &Pose,
+        (pose, motion): (&Pose, Option<&Motion>),
     ) -> Result<(Self, SceneUploads), VulkanError> {
         let geometry = &pose.geometry;
         let mut textures = TextureSet::new(memory);
@@ -109,7 +109,8 @@ impl GpuScene {
         let uint4 = vk::Format::R32G32B32A32_UINT;
         let (bins, pool) = bins.allocate(layout, &textures)?;
         let mut uploader = Uploader::new(memory);
-        let device_geometry = GpuGeometry::new(&mut uploader, scene, geometry, &triangles.records)?;
+        let device_geometry =
+            GpuGeometry::new(&mut uploader, scene, (geometry, motion), &triangles.records)?;
         let TextureSet {
             textures,
             texture_uploads,
@@ -169,6 +170,19 @@ impl GpuScene {
     #[must_use]
     pub fn is_instanced(&self) -> bool {
         self.geometry.is_instanced
+    }
+
+    /// Whether some of its vertices move.
+    #[must_use]
+    pub fn moves(&self) -> bool {
+        self.geometry.motion.is_some()
+    }
+
+    /// Whether a moment is one of what moves in it.
+    #[must_use]
+    pub fn has_moment(&self, moment: &Moment) -> bool {
+        let motion = self.geometry.motion.as_ref();
+        motion.is_some_and(|motion| motion.has(moment))
     }
 
     /// Number of indices of triangles, of which some may stand for none.

@@ -16,6 +16,7 @@ use crate::passes::{
     Counter, Encoding, FrameLayout, GpuScene, Locations, RasterTargets, Resources, Sample,
 };
 use crate::sampling::Pattern;
+use crate::scene::Moment;
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;
 use passes::{Passes, raster_samples};
@@ -25,6 +26,8 @@ use std::sync::Arc;
 /// Pipelines and memory for frames of one scene, which it keeps alive, of one size and method.
 pub struct Frame {
     scene: Arc<GpuScene>,
+    /// What is shown in the stead of the first pose.
+    moment: Option<Arc<Moment>>,
     encoding: Option<Encoding>,
     beside: u64,
     settings: Settings,
@@ -87,6 +90,7 @@ impl Frame {
         let marks = regions as u32 * (16 + Run::ALL.len() as u32 * (4 + 8 * plan.rounds)) + 8;
         Ok(Self {
             scene: scene.clone(),
+            moment: None,
             encoding,
             beside,
             passes,
@@ -110,6 +114,23 @@ impl Frame {
     #[must_use]
     pub fn settings(&self) -> &Settings {
         &self.settings
+    }
+
+    /// Shows another moment of the motion that its scene was prepared with, from the next recording on: that one hands the
+    /// device the moment's matrices and weights, and nothing else. Nothing waits for the device.
+    ///
+    /// # Errors
+    /// [`RenderError::OtherMotion`] if the moment is one of another motion.
+    pub fn show(&mut self, moment: Arc<Moment>) -> Result<(), RenderError> {
+        if !self.scene.has_moment(&moment) {
+            return Err(RenderError::OtherMotion);
+        }
+        self.moment = Some(moment);
+        Ok(())
+    }
+
+    pub(super) fn moment(&self) -> Option<&Arc<Moment>> {
+        self.moment.as_ref()
     }
 
     pub(super) fn scene(&self) -> &Arc<GpuScene> {
@@ -154,8 +175,11 @@ impl Frame {
         // SAFETY: passed on to the caller.
         let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
         if !self.uploaded {
-            self.resources.record_upload(&recorder);
+            self.resources.record_upload(&recorder, &self.scene);
             self.uploaded = true;
+        }
+        if let Some(moment) = &self.moment {
+            self.resources.write_moment(moment);
         }
         let to_clip = uniform::to_clip(&self.scene, camera, &self.settings);
         let side = self.settings.side();
@@ -169,6 +193,7 @@ impl Frame {
             resources: &self.resources,
             counters: &self.counters,
             scene: &self.scene,
+            moment: self.moment.as_deref(),
             camera,
             target,
         };

@@ -1,7 +1,7 @@
 //! The passes that a frame's settings ask for.
 
 use crate::passes::{
-    Attributes, BoxFilter, DetectMode, Encode, Encoding, FrameLayout, GpuScene, Multisample,
+    Attributes, BoxFilter, DetectMode, Encode, Encoding, FrameLayout, GpuScene, Multisample, Pose,
     Raster, RecordRate, Resolve, Shade, ShadeSource, Sort, Spans, Then,
 };
 use crate::render::engine::{Engine, EngineKind, record_rate};
@@ -26,6 +26,7 @@ pub(super) struct Multisampling {
 
 /// The pipelines of a frame, in the order in which they run.
 pub(super) struct Passes {
+    pub pose: Option<Pose>,
     pub raster: Raster,
     pub pixels: Option<PixelShading>,
     pub multisampling: Option<Multisampling>,
@@ -129,6 +130,7 @@ impl Passes {
             })
             .transpose()?;
         Ok(Self {
+            pose: scene.moves().then(|| Pose::new(layout)).transpose()?,
             raster: Raster::new(layout, raster_samples(settings), scene)?,
             pixels,
             multisampling,

@@ -8,6 +8,7 @@ use crate::render::Settings;
 use crate::render::color::display_code;
 use crate::render::engine::record_shading;
 use crate::render::plan::{Plan, Region};
+use crate::scene::Moment;
 use crate::vulkan::{Buffer, Recorder};
 
 /// Descriptor set with one sample at the pixel's centre.
@@ -50,6 +51,7 @@ pub(super) struct Recording<'a> {
     pub resources: &'a Resources,
     pub counters: &'a Buffer,
     pub scene: &'a GpuScene,
+    pub moment: Option<&'a Moment>,
     pub camera: &'a Camera,
     pub target: &'a Target,
 }
@@ -83,6 +85,10 @@ impl Recording<'_> {
         let tiles = whole.tiles[0] * whole.tiles[1];
 
         resources.record_begin(recorder, main, &whole);
+        if let (0, Some(pose), Some(moment)) = (index, &passes.pose, self.moment) {
+            pose.record(recorder, scene, resources, moment);
+            recorder.mark("pose");
+        }
         passes.raster.record(
             recorder,
             main.descriptor(),

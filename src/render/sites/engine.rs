@@ -208,7 +208,7 @@ impl SiteEngine {
         let resources = &self.resources;
         let arguments = &resources.arguments;
         if !self.uploaded {
-            resources.record_upload(recorder);
+            resources.record_upload(recorder, scene);
             self.targets.record_unused(recorder);
             self.uploaded = true;
         }

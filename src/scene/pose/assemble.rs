@@ -30,6 +30,8 @@ const LEAST_SAVED: usize = 1 << 16;
 /// A placement and where its elements go.
 struct Job<'p, 'd> {
     placement: Placement<'d>,
+    /// Of its placement, or of one of them.
+    index: usize,
     class: DrawClass,
     first_vertex: u32,
     /// What its positions are made relative to.
@@ -50,7 +52,7 @@ pub fn assemble(
     scene: &Scene,
     placements: &[Placement<'_>],
     warnings: &mut Warnings,
-) -> Result<Geometry, SceneError> {
+) -> Result<(Geometry, Vec<MovingPlacement>), SceneError> {
     let total = |count: fn(&Placement<'_>) -> usize, what| {
         let count = placements.iter().map(|p| count(p) as u64).sum();
         if count > MAX_ELEMENTS {
@@ -95,7 +97,19 @@ pub fn assemble(
         });
     }
     fill(&jobs, &mut geometry);
-    Ok(geometry)
+    let moving = jobs.iter().filter(|job| job.placement.moves);
+    let moving = moving.map(|job| MovingPlacement {
+        placement: job.index,
+        first_vertex: job.first_vertex,
+    });
+    Ok((geometry, moving.collect()))
+}
+
+/// Where the vertices of a placement that moves are.
+pub struct MovingPlacement {
+    /// Its index.
+    pub placement: usize,
+    pub first_vertex: u32,
 }
 
 fn stream<T: Clone>(needed: bool, count: usize, default: T) -> Vec<T> {
@@ -132,7 +146,7 @@ fn plan<'p, 'd>(
     let boxes: Vec<(DVec3, DVec3)> = placements.par_iter().map(bounds).collect();
     let mut placed = Vec::new();
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for (placement, corners) in placements.iter().zip(boxes) {
+    for ((index, placement), corners) in placements.iter().enumerate().zip(boxes) {
         // Written so that an undefined corner is refused too.
         let near = |corner: DVec3| corner.abs().cmple(DVec3::splat(FARTHEST)).all();
         if !(near(corners.0) && near(corners.1)) {
@@ -143,7 +157,7 @@ fn plan<'p, 'd>(
             continue;
         }
         (low, high) = (low.min(corners.0), high.max(corners.1));
-        placed.push(placement);
+        placed.push((index, placement));
     }
     let origin = if placed.is_empty() {
         DVec3::ZERO
@@ -161,9 +175,13 @@ fn plan<'p, 'd>(
 }
 
 /// The jobs by class: first what is in world space, then meshes with instances.
-fn jobs<'p, 'd>(scene: &Scene, placed: &[&'p Placement<'d>], origin: DVec3) -> Vec<Job<'p, 'd>> {
+fn jobs<'p, 'd>(
+    scene: &Scene,
+    placed: &[(usize, &'p Placement<'d>)],
+    origin: DVec3,
+) -> Vec<Job<'p, 'd>> {
     let mut sharing: HashMap<*const Primitive, usize> = HashMap::new();
-    for mesh in placed.iter().filter_map(|placement| placement.mesh()) {
+    for mesh in placed.iter().filter_map(|(_, placement)| placement.mesh()) {
         *sharing.entry(std::ptr::from_ref(mesh)).or_default() += 1;
     }
     let is_instanced = |mesh: &Primitive| {
@@ -173,12 +191,13 @@ fn jobs<'p, 'd>(scene: &Scene, placed: &[&'p Placement<'d>], origin: DVec3) -> V
     };
     let mut jobs: Vec<Job<'p, 'd>> = Vec::new();
     let mut job_of: HashMap<*const Primitive, usize> = HashMap::new();
-    for &placement in placed {
+    for &(index, placement) in placed {
         let material = scene.materials.get(placement.primitive.material);
         let class = material.map_or(DrawClass::Opaque, DrawClass::of);
         let Some(mesh) = placement.mesh().filter(|mesh| is_instanced(mesh)) else {
             jobs.push(Job {
                 placement: placement.clone(),
+                index,
                 class,
                 first_vertex: 0,
                 origin,
@@ -191,6 +210,7 @@ fn jobs<'p, 'd>(scene: &Scene, placed: &[&'p Placement<'d>], origin: DVec3) -> V
             let (low, high) = bounds(&own);
             jobs.push(Job {
                 placement: own,
+                index,
                 class,
                 first_vertex: 0,
                 // Rounded as positions are, so that those of the file stay as they are where they are small.
