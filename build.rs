@@ -25,6 +25,7 @@ type Variant = (
 );
 
 const VARIANTS: &[Variant] = &[
+    ("pose", "pose.comp", &[]),
     ("raster_vertex", "raster.vert", &[]),
     ("raster_opaque", "raster.frag", &[]),
     ("raster_masked", "raster.frag", &[("MASKED", "")]),

@@ -20,11 +20,9 @@ void main() {
     uvec2 pixel = split(i, size.x) * side + side / 2u;
     uint id = texelFetch(ids, ivec2(pixel), 0).x;
     Triangle k = triangle_at(max(id, 1u) - 1u);
-    ivec3 v = k.vertices;
     Barycentric w = barycentric(k.v0, k.v1, k.v2, frame.origin + vec2(pixel));
-    mat3 world = mat3(texelFetch(positions, v.x).xyz, texelFetch(positions, v.y).xyz, texelFetch(positions, v.z).xyz);
-    float distance_ = dot(world * w.at - frame.eye.xyz, frame.view_direction.xyz);
-    vec3 n = mat3(texelFetch(normals, v.x).xyz, texelFetch(normals, v.y).xyz, texelFetch(normals, v.z).xyz) * w.at;
+    float distance_ = dot(position_of(k, w.at) - frame.eye.xyz, frame.view_direction.xyz);
+    vec3 n = normal_of(k, w.at);
     n *= inversesqrt(max(dot(n, n), 1e-30));
     uint tile = pixel.y / 4u * frame.tiles.x + pixel.x / 8u;
     uint word = SUPERPIXELS ? masks[tile] : 0u;

@@ -7,14 +7,15 @@
 #include "include/frame.glsl"
 #include "include/tiles.glsl"
 #include "include/triangle.glsl"
+#include "include/pairs.glsl"
 layout(local_size_x = 64) in;
 
 layout(constant_id = 0) const bool LARGE = false;   // a workgroup a triangle, not an invocation
 
 void main() {
     uint i = LARGE ? gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u : gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
-    if (i >= counters[LARGE ? COUNTER_LARGE : COUNTER_SURVIVORS]) return;
-    uint t = survivors[LARGE ? frame.triangle_count - 1u - i : i];
+    if (i >= min(counters[LARGE ? COUNTER_LARGE : COUNTER_SURVIVORS], frame.survivor_capacity)) return;
+    uint t = survivors[LARGE ? frame.survivor_capacity - 1u - i : i];
     Triangle corners = triangle_at(t);
     Footprint f = footprint_of(corners.v0, corners.v1, corners.v2);
     uint flag = t >= frame.first_blend ? TILE_HAS_BLEND : t >= frame.first_mask ? TILE_HAS_MASK : 0u;
@@ -41,10 +42,11 @@ void main() {
             if (subgroupElect()) slot = atomicAdd(counters[COUNTER_PAIRS], subgroupBallotBitCount(together));
             slot = subgroupBroadcastFirst(slot) + subgroupBallotExclusiveBitCount(together);
             uint rank = atomicAdd(tiles[index].x, 1u);
-            bool kept = slot < frame.pair_capacity;
+            bool kept = slot < frame.pair_capacity && rank < pair_ranks();
             uint flags = flag | (kept ? 0u : TILE_OVERFLOW);
             if ((tiles[index].w & flags) != flags) atomicOr(tiles[index].w, flags);
-            if (kept) pairs_out[slot] = uvec4(t, index, rank, 0u);
+            // One that is not kept leaves no gap: its tile gets no list.
+            if (slot < frame.pair_capacity) pairs_out[slot] = make_pair(t, index, rank);
         }
         k += LARGE ? 64u : 1u;
     } while (k < count);

@@ -1,7 +1,7 @@
 // cull: keeps the triangles that can touch a superpixel; counts the others by reason. It errs towards keeping:
 // `setup` has the last word on what has area and faces the camera.
 // Reads: the geometry, masks. Writes: survivors (small from the front, large ones from the back), counters.
-// Small triangles go to one invocation each in `bin`, large ones to a workgroup each.
+// The host discards a frame whose survivors outnumber their room. Small triangles go to one invocation each in `bin`, large ones to a workgroup each.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -25,8 +25,8 @@ void main() {
     uint step_ = 0u;
     do {
         uint t = first + step_ * 64u;
-        bool exists = t < frame.triangle_count;
         Triangle k = triangle_at(min(t, frame.triangle_count - 1u));
+        bool exists = k.exists && t < frame.triangle_count;
         Footprint f = footprint_of(k.v0, k.v1, k.v2);
         bool is_outside = exists && f.outside;
         bool is_degenerate = exists && !is_outside && (k.v0 == k.v1 || k.v1 == k.v2 || k.v2 == k.v0);
@@ -48,9 +48,9 @@ void main() {
         bool small = candidate && !large && touched != 0u;
 
         uint slot = append(COUNTER_SURVIVORS, small);
-        if (small) survivors[slot] = t;
+        if (small && slot < frame.survivor_capacity) survivors[slot] = t;
         slot = append(COUNTER_LARGE, large);
-        if (large) survivors[frame.triangle_count - 1u - slot] = t;
+        if (large && slot < frame.survivor_capacity) survivors[frame.survivor_capacity - 1u - slot] = t;
         outside += uint(is_outside);
         degenerate += uint(is_degenerate);
         backfacing += uint(is_backfacing);

@@ -37,11 +37,9 @@ void main() {
     uvec4 at = texelFetch(sites, int(2u * site));
     vec2 p = tile_center(ivec2(split(at.z, frame.tiles.x))) + uintBitsToFloat(at.xy);
     Triangle k = triangle_at(max(id, 1u) - 1u);
-    ivec3 v = k.vertices;
     Barycentric w = barycentric(k.v0, k.v1, k.v2, p);
-    mat3 world = mat3(texelFetch(positions, v.x).xyz, texelFetch(positions, v.y).xyz, texelFetch(positions, v.z).xyz);
-    float distance_ = dot(world * w.at - frame.eye.xyz, frame.view_direction.xyz);
-    vec3 n = mat3(texelFetch(normals, v.x).xyz, texelFetch(normals, v.y).xyz, texelFetch(normals, v.z).xyz) * w.at;
+    float distance_ = dot(position_of(k, w.at) - frame.eye.xyz, frame.view_direction.xyz);
+    vec3 n = normal_of(k, w.at);
     n *= inversesqrt(max(dot(n, n), 1e-30));
     bool hit = id != 0u;
     attributes_out[2u * site] = uvec4(floatBitsToUint(hit ? distance_ : 0.0), id, blend_id, display_code(c));

@@ -1,18 +1,22 @@
 // raster: pulls a triangle's vertices, so that the ID of a triangle is gl_VertexIndex / 3 (cheaper than
 // gl_PrimitiveID) and so that positions are those that `sample` sees.
-// Reads: triangles, positions.
+// Reads: triangles, positions. What differs between instances is pushed, which costs less than to look it up.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/triangle.glsl"
 layout(location = 0) flat out uint triangle_id;
+layout(push_constant) uniform Push {
+    mat4 matrix;        // position -> (pixel x * w, pixel y * w, z, w)
+    uvec4 instance;     // first of its vectors, see triangle.glsl
+} push;
 
 void main() {
     uint t = uint(gl_VertexIndex) / 3u;
     uint corner = uint(gl_VertexIndex) - 3u * t;
-    uvec4 indices = texelFetch(triangles, int(t));
+    uvec4 indices = triangle_in(push.instance, t);
     uint v = corner == 0u ? indices.x : corner == 1u ? indices.y : indices.z;
-    vec4 p = to_clip(frame.transform, texelFetch(positions, int(v)));
+    vec4 p = to_clip(push.matrix, texelFetch(positions, int(v)));
     gl_Position = vec4(p.xy * frame.raster_scale + frame.raster_offset * p.w, p.zw);
     triangle_id = t + 1u;
 }

@@ -8,21 +8,23 @@
 #include "include/tiles.glsl"
 #include "include/touches.glsl"
 #include "include/triangle.glsl"
+#include "include/pairs.glsl"
 layout(local_size_x = 64) in;
 
 void main() {
     uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
     if (i >= min(counters[COUNTER_PAIRS], frame.pair_capacity)) return;
-    uvec4 pair = texelFetch(pairs, int(i));
-    uvec4 tile = tiles[pair.y];
+    uvec2 pair = texelFetch(pairs, int(i)).xy;
+    uint tile_index = pair_tile(pair);
+    uvec4 tile = tiles[tile_index];
     if ((tile.w & TILE_LISTED) == 0u) return;
     Triangle k = triangle_at(pair.x);
-    ivec2 tile_at = ivec2(split(pair.y, frame.tiles.x));
+    ivec2 tile_at = ivec2(split(tile_index, frame.tiles.x));
     Setup s = setup_triangle(k.v0, k.v1, k.v2, tile_center(tile_at), (k.word >> 31) == 0u);
     // A triangle that does not show keeps its place and touches nothing.
     s.c = s.valid ? s.c : vec3(-3.4e38);
     uint touches = s.valid ? pixels_touched(s) & footprint_mask(footprint_of(k.v0, k.v1, k.v2), tile_at) : 0u;
-    int o = int(tile.y + pair.z) * 4;
+    int o = int(tile.y + pair_rank(pair)) * 4;
     candidates_out[o] = floatBitsToUint(vec4(s.a.x, s.b.x, s.c.x, s.a.y));
     candidates_out[o + 1] = floatBitsToUint(vec4(s.b.y, s.c.y, s.a.z, s.b.z));
     candidates_out[o + 2] = floatBitsToUint(vec4(s.c.z, s.depth));

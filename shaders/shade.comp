@@ -118,16 +118,15 @@ void main() {
     if (UNLIT) {
         radiance = base.rgb;
     } else {
-        mat3 world = mat3(texelFetch(positions, v.x).xyz, texelFetch(positions, v.y).xyz, texelFetch(positions, v.z).xyz);
-        vec3 position = world * w.at;
+        vec3 position = position_of(k, w.at);
         vec3 to_eye = frame.view_direction.w != 0.0 ? -frame.view_direction.xyz : safe_normalize(frame.eye.xyz - position, -frame.view_direction.xyz);
 
-        vec3 normal = mat3(texelFetch(normals, v.x).xyz, texelFetch(normals, v.y).xyz, texelFetch(normals, v.z).xyz) * w.at;
+        vec3 normal = normal_of(k, w.at);
         float side_seen = w.facing ? 1.0 : -1.0;
         normal = safe_normalize(normal, to_eye * side_seen) * side_seen;
         vec3 tangent = vec3(0.0), bitangent = vec3(0.0);
         if (TANGENTS) {
-            vec4 t = mat3x4(texelFetch(tangents, v.x), texelFetch(tangents, v.y), texelFetch(tangents, v.z)) * w.at;
+            vec4 t = tangent_of(k, w.at);
             tangent = safe_normalize(t.xyz, vec3(0.0)) * side_seen;
             bitangent = cross(normal, tangent) * (t.w < 0.0 ? -1.0 : 1.0) * side_seen;
         }

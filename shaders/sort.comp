@@ -1,9 +1,10 @@
 // sort: visibility records ordered by material bin. Runs twice: COUNT, then SCATTER into `shade_order`.
 // Background and empty records are left out.
-// Reads: records, triangles. Writes: bins, shade_order.
+// Reads: records, the geometry. Writes: bins, shade_order.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
+#include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool SCATTER = false;
 
@@ -11,7 +12,7 @@ void main() {
     uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
     uint count = min(counters[COUNTER_RECORDS], frame.record_capacity);
     uint id = i < count ? texelFetch(records, int(i)).y : 0u;
-    uint bin = id == 0u ? ~0u : texelFetch(triangles, int(id - 1u)).w >> 16 & 0x3fffu;
+    uint bin = id == 0u ? ~0u : triangle_word(id - 1u) >> 16 & 0x3fffu;
     uint current = subgroupMin(bin);
     // One atomic a bin a subgroup.
     do {

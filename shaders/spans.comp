@@ -1,12 +1,13 @@
 // spans: rows of 8 pixels, listed by material bin, for `shade`. A span stands in the list of every bin it shows.
 // Runs twice: COUNT, then SCATTER into `shade_order`; for a single bin SCATTER alone, which then counts too.
-// Reads: ids, triangles. Writes: bins, shade_order. Background stands in no list: its colour is filled in beforehand.
+// Reads: ids, the geometry. Writes: bins, shade_order. Background stands in no list: its colour is filled in beforehand.
 //
 // Neighbouring invocations take neighbouring pixels, 8 times; then each takes one of the spans so seen.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/lanes.glsl"
+#include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool SCATTER = false;
 layout(constant_id = 2) const bool ONE_BIN = false;
@@ -33,7 +34,7 @@ void main() {
         bool inside = span < span_count && pixel.x < frame.size.x;
         uint id = texelFetch(ids, ivec2(inside ? pixel : uvec2(0u)), 0).x;
         id = inside ? id : 0u;
-        bin[s] = id == 0u ? NONE : ONE_BIN ? 0u : texelFetch(triangles, int(id - 1u)).w >> 16 & 0x3fffu;
+        bin[s] = id == 0u ? NONE : ONE_BIN ? 0u : triangle_word(id - 1u) >> 16 & 0x3fffu;
     }
 
     // This invocation's span was seen in step `my_step` by the invocations from `my_source` on.

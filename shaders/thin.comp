@@ -44,7 +44,8 @@ void select_thin() {
         if (subgroupElect() && subgroupBallotBitCount(together) != 0u)
             base = atomicAdd(counters[COUNTER_THIN], subgroupBallotBitCount(together));
         base = subgroupBroadcastFirst(base);
-        if (thin) survivors[base + subgroupBallotExclusiveBitCount(together)] = t;
+        uint slot = base + subgroupBallotExclusiveBitCount(together);
+        if (thin && slot < frame.survivor_capacity) survivors[slot] = t;
     } while (++step_ < PER_INVOCATION);
 }
 
@@ -78,7 +79,7 @@ vec3 projected(vec4 vertex) {
 
 void walk() {
     uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
-    if (i >= counters[COUNTER_THIN]) return;
+    if (i >= min(counters[COUNTER_THIN], frame.survivor_capacity)) return;
     uint t = survivors[i];
     Triangle k = triangle_at(t);
     vec3 p0 = projected(k.v0), p1 = projected(k.v1), p2 = projected(k.v2);

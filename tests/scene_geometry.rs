@@ -3,7 +3,7 @@
 mod scene_builder;
 
 use glam::DVec3;
-use gpc::scene::{DrawClass, PoseRequest};
+use gpc::scene::{DrawClass, Instance, PoseRequest};
 use scene_builder::{Builder, TRIANGLE, assert_near, corners, le};
 use serde_json::json;
 
@@ -390,5 +390,72 @@ fn scenes_are_chosen_by_request_default_or_order() {
     assert!(
         error.to_string().contains("no scene 2, the file has 2"),
         "{error}"
+    );
+}
+
+#[test]
+fn a_large_mesh_that_is_drawn_often_is_held_once() {
+    const SIDE: usize = 17;
+    const COPIES: usize = 200;
+    let mut builder = Builder::new();
+    let grid: Vec<[f32; 3]> = (0..SIDE * SIDE)
+        .map(|v| [(v % SIDE) as f32, (v / SIDE) as f32, (v % 7) as f32])
+        .collect();
+    let mut indices = Vec::new();
+    for row in 0..SIDE - 1 {
+        for a in (row * SIDE..).take(SIDE - 1) {
+            indices.extend([a, a + 1, a + SIDE, a + 1, a + 1 + SIDE, a + SIDE].map(|v| v as u16));
+        }
+    }
+    let positions = builder.floats(&grid);
+    let corners_of = builder.indices(&indices);
+    let mesh = builder.push(
+        "meshes",
+        json!({"primitives": [{"attributes": {"POSITION": positions}, "indices": corners_of}]}),
+    );
+    let size = |copy: usize| [if copy == 3 { -2.0 } else { 2.0 }, 1.0, 0.5];
+    for copy in 0..COPIES {
+        let place = [copy as f64, 3.0, 0.0];
+        builder.push(
+            "nodes",
+            json!({"mesh": mesh, "translation": place, "scale": size(copy)}),
+        );
+    }
+    builder.triangle(json!({}));
+    let geometry = builder.pose().geometry;
+
+    let count = indices.len() / 3;
+    assert_eq!(geometry.triangles.len(), count + 1);
+    assert_eq!(geometry.triangle_count(), (COPIES * count + 1) as u64);
+    assert_eq!(geometry.instances.len(), COPIES + 1);
+    let flat = geometry.flat();
+    assert!(flat.instances.is_empty());
+    assert_eq!(flat.triangles.len() as u64, geometry.index_count());
+    let drawn: u32 = flat.draws.iter().map(|draw| draw.triangle_count).sum();
+    assert_eq!(drawn as usize, flat.triangles.len());
+    assert_near(corners(&flat, 0), FIRST);
+    for (copy, instance) in geometry.instances[1..].iter().enumerate() {
+        assert_eq!(instance.first_index % Instance::ALIGNMENT, 0);
+        assert_eq!(instance.mirrored(), copy == 3);
+        for (triangle, corners_of) in indices.chunks(3).enumerate() {
+            let place = |v: u16| {
+                let [x, y, z] = grid[v as usize].map(f64::from);
+                let [width, height, depth] = size(copy);
+                [x * width + copy as f64, y * height + 3.0, z * depth]
+            };
+            let mut expected = [0, 1, 2].map(|corner| place(corners_of[corner]));
+            if copy == 3 {
+                expected.swap(1, 2);
+            }
+            let found = corners(&flat, instance.first_index as usize + triangle);
+            let near = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-4;
+            let pairs = found.as_flattened().iter().zip(expected.as_flattened());
+            assert!(pairs.into_iter().all(near), "{found:?} {expected:?}");
+        }
+    }
+    let (low, high) = geometry.bounds().unwrap();
+    assert_eq!(
+        flat.bounds().map(|(l, h)| (l.as_vec3(), h.as_vec3())),
+        Some((low.as_vec3(), high.as_vec3()))
     );
 }

@@ -4,7 +4,7 @@
 #include "studio.glsl"
 
 layout(constant_id = 17) const bool ENVIRONMENT = false;
-layout(set = 0, binding = 46) uniform samplerCube environment_map;   // a level for each roughness, see `Environment`
+layout(set = 0, binding = 53) uniform samplerCube environment_map;   // a level for each roughness, see `Environment`
 
 // A world direction as the map has it.
 vec3 to_environment(vec3 d) {

@@ -25,10 +25,11 @@ layout(set = 0, binding = 0) uniform Frame {
     uvec2 interior_low;     // pixels that the region owns, the rest being halo for detection
     uvec2 interior_high;    // exclusive
     vec2 gap;               // depth in front of a surface that counts as apart from it: factor on the depth, and constant
-    uint triangle_count;
+    uint triangle_count;    // and of indices that stand for none, see triangle.glsl
     uint first_mask;        // index of the first MASK triangle
     uint first_blend;       // index of the first BLEND triangle
     uint sample_count;      // sub-samples of a cell
+    uint survivor_capacity; // triangles that `thin` selects and that `cull` keeps
     uint pair_capacity;     // pairs of a triangle and a tile
     uint list_capacity;     // candidates of a round
     uint record_capacity;   // visibility records
@@ -65,6 +66,8 @@ struct Light {
 layout(std430, set = 0, binding = 8) readonly buffer Lights { Light lights[]; };
 layout(set = 0, binding = 9) uniform utextureBuffer alpha_atlas;    // see alpha.glsl
 
+layout(set = 0, binding = 10) uniform utextureBuffer instance_of;   // of 64 indices each
+layout(set = 0, binding = 11) uniform utextureBuffer instances;     // see triangle.glsl
 layout(set = 0, binding = 12) uniform utexture2D ids;
 layout(set = 0, binding = 13) uniform utexture2D blend_ids;
 layout(set = 0, binding = 14) uniform texture2DMS ids_ms;
@@ -89,8 +92,8 @@ layout(set = 0, binding = 32) uniform textureBuffer locations;              // s
 layout(std430, set = 0, binding = 33) buffer Bins { uvec4 bins[]; };        // count, first, cursor, 0
 layout(std430, set = 0, binding = 34) buffer Arguments { uvec4 arguments[]; }; // indirect dispatches
 
-layout(set = 0, binding = 38) uniform utextureBuffer pairs;       // triangle, tile, rank in its list, 0
-layout(std430, set = 0, binding = 39) writeonly buffer PairsOut { uvec4 pairs_out[]; };
+layout(set = 0, binding = 38) uniform utextureBuffer pairs;       // triangle, and its tile and rank there, see pairs.glsl
+layout(std430, set = 0, binding = 39) writeonly buffer PairsOut { uvec2 pairs_out[]; };
 layout(std430, set = 0, binding = 41) buffer Marks { uint marks[]; };       // like masks, three times: pixels that `thin` found unseen, later cells that a PROBE leaves; paint that it found, later pixels that contrast with a superpixel; superpixels before `grow`
 
 // (n % width, n / width). Integer division is a loop on CPU devices; a float quotient errs by one at the most for

@@ -3,7 +3,7 @@
 #define MASK_GLSL
 
 // Offsets of samples from the middle of their cell, two a vector.
-layout(std140, set = 0, binding = 47) uniform Pattern { vec4 pattern[32]; };
+layout(std140, set = 0, binding = 54) uniform Pattern { vec4 pattern[32]; };
 
 vec2 offsets[SAMPLES];      // the same, read once
 

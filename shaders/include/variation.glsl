@@ -2,6 +2,7 @@
 // tell, and so in how many parts of the pixel it is shaded. Twin: src/reference/variation.rs.
 #ifndef VARIATION_GLSL
 #define VARIATION_GLSL
+#include "triangle.glsl"
 
 // In which parts of a cell a triangle is shaded: in all, in these merged in pairs, or in one.
 const uint PARTS_ALL = 0u, PARTS_MERGED = 1u, PARTS_ONE = 2u;
@@ -15,7 +16,7 @@ struct Variation {
 };
 
 uint variation_material(uint of) {
-    return of == 0u ? ~0u : texelFetch(triangles, int(of - 1u)).w & 0xffffu;
+    return of == 0u ? ~0u : triangle_word(of - 1u) & 0xffffu;
 }
 
 // The widest channel of the colours in a bit set of `codes`, in code values.

@@ -43,7 +43,8 @@ impl Fingerprint {
         (x, y, z, image.size, samples).hash(&mut hasher);
         (&limits.device_name, &limits.driver).hash(&mut hasher);
         // The debug format of floats is exact.
-        format!("{camera:?} {:?}", probe.footprint).hash(&mut hasher);
+        let places = &geometry.instances;
+        format!("{camera:?} {:?} {places:?}", probe.footprint).hash(&mut hasher);
         hasher.write(bytemuck::cast_slice(&geometry.positions));
         hasher.write(bytemuck::cast_slice(&geometry.triangles));
         hasher.write(bytemuck::cast_slice(&image.colors));

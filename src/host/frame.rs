@@ -133,6 +133,7 @@ impl Frame {
             layout,
             &memory,
             &content,
+            &content.texels(),
             &views,
             plan.sizes,
             &[Locations {

@@ -2,7 +2,7 @@
 
 use super::HostError;
 use crate::passes::{AdoptedDraw, Content};
-use crate::vulkan::{Buffer, BufferView, Gpu, Memory, MemoryUse, TexelView, VulkanError};
+use crate::vulkan::{Buffer, BufferView, Constants, Gpu, Memory, MemoryUse, TexelView, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -233,11 +233,30 @@ impl HostContent {
     pub fn triangles(&self) -> &Buffer {
         &self.triangles.buffer
     }
+
+    /// The texel buffers of `shaders/include/frame.glsl` that it has, by binding.
+    pub fn texels(&self) -> [(u32, vk::BufferView); 8] {
+        let floats = self.unread_floats.view;
+        [
+            (1, self.positions.raw),
+            (2, self.triangles.view),
+            (3, floats),
+            (4, floats),
+            (5, floats),
+            (6, floats),
+            (7, self.unread_words.view),
+            (9, self.unread_words.view),
+        ]
+    }
 }
 
 impl Content for HostContent {
-    fn triangle_count(&self) -> u32 {
+    fn index_count(&self) -> u32 {
         self.triangle_capacity
+    }
+
+    fn constants(&self, constants: Constants) -> Constants {
+        constants
     }
 
     fn has_mask(&self) -> bool {
@@ -263,20 +282,6 @@ impl Content for HostContent {
     /// One more than the host has, since samples of a single key would not be listed.
     fn bin_count(&self) -> u32 {
         self.keys + 1
-    }
-
-    fn texels(&self) -> [(u32, vk::BufferView); 8] {
-        let floats = self.unread_floats.view;
-        [
-            (1, self.positions.raw),
-            (2, self.triangles.view),
-            (3, floats),
-            (4, floats),
-            (5, floats),
-            (6, floats),
-            (7, self.unread_words.view),
-            (9, self.unread_words.view),
-        ]
     }
 
     fn lights(&self) -> &Buffer {

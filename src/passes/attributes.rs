@@ -1,6 +1,6 @@
 //! attributes: depth, ID, normal and sampling of every pixel, where asked for.
 
-use super::{FrameLayout, spirv};
+use super::{Content, FrameLayout, GpuScene, spirv};
 use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
@@ -15,12 +15,15 @@ impl Attributes {
     ///
     /// # Errors
     /// If the driver refuses it.
-    pub fn new(layout: &FrameLayout, superpixels: bool, grown: bool) -> Result<Self, VulkanError> {
-        let pipeline = layout.compute(
-            spirv::ATTRIBUTES,
-            &Constants::new().flag(0, superpixels).flag(1, grown),
-            None,
-        )?;
+    pub fn new(
+        layout: &FrameLayout,
+        scene: &GpuScene,
+        superpixels: bool,
+        grown: bool,
+    ) -> Result<Self, VulkanError> {
+        let constants = Constants::new().flag(0, superpixels).flag(1, grown);
+        let constants = scene.constants(constants);
+        let pipeline = layout.compute(spirv::ATTRIBUTES, &constants, None)?;
         Ok(Self { pipeline })
     }
 

@@ -1,6 +1,6 @@
 //! bin: triangles into pairs with the tiles they touch.
 
-use super::{Argument, FrameLayout, spirv};
+use super::{Argument, Content, FrameLayout, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
@@ -16,12 +16,18 @@ impl Bin {
     ///
     /// # Errors
     /// If the driver refuses one.
-    pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
+    pub fn new(layout: &FrameLayout, scene: &dyn Content) -> Result<Self, VulkanError> {
         let make = |code, constants| layout.compute(code, &constants, None);
+        let bin = |large| {
+            make(
+                spirv::BIN,
+                scene.constants(Constants::new().flag(0, large)),
+            )
+        };
         Ok(Self {
             arguments: make(spirv::ARGUMENTS, Constants::new().with(0, 1))?,
-            small: make(spirv::BIN, Constants::new().flag(0, false))?,
-            large: make(spirv::BIN, Constants::new().flag(0, true))?,
+            small: bin(false)?,
+            large: bin(true)?,
         })
     }
 

@@ -1,12 +1,15 @@
 //! What the engine's passes know of a scene, whoever made it.
 
-use crate::vulkan::Buffer;
+use crate::vulkan::{Buffer, Constants};
 use ash::vk;
 
 /// Triangles, and what passes read them from.
 pub trait Content: Sync {
-    /// Number of triangles, or the most there can be.
-    fn triangle_count(&self) -> u32;
+    /// Number of indices of triangles, or the most there can be; some may stand for none.
+    fn index_count(&self) -> u32;
+
+    /// Adds the constants of `shaders/include/triangle.glsl`.
+    fn constants(&self, constants: Constants) -> Constants;
 
     /// Whether any triangle is alpha-tested.
     fn has_mask(&self) -> bool;
@@ -25,9 +28,6 @@ pub trait Content: Sync {
 
     /// Number of shading keys, at least 1.
     fn bin_count(&self) -> u32;
-
-    /// The texel buffers of the descriptor set, by binding: see `shaders/include/frame.glsl`.
-    fn texels(&self) -> [(u32, vk::BufferView); 8];
 
     /// The buffer of lights.
     fn lights(&self) -> &Buffer;

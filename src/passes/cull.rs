@@ -1,6 +1,6 @@
 //! cull: the triangles that can touch a superpixel.
 
-use super::{Argument, FrameLayout, spirv};
+use super::{Argument, Content, FrameLayout, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
@@ -15,11 +15,11 @@ impl Cull {
     ///
     /// # Errors
     /// If the driver refuses one.
-    pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
+    pub fn new(layout: &FrameLayout, scene: &dyn Content) -> Result<Self, VulkanError> {
         let make = |code, constants| layout.compute(code, &constants, None);
         Ok(Self {
             arguments: make(spirv::ARGUMENTS, Constants::new().with(0, 0))?,
-            pipeline: make(spirv::CULL, Constants::new())?,
+            pipeline: make(spirv::CULL, scene.constants(Constants::new()))?,
         })
     }
 

@@ -1,7 +1,7 @@
 //! The layout of the descriptor sets and pipelines that all passes share, and the pipelines made so far.
 
 use super::pool::DescriptorPool;
-use crate::vulkan::{Constants, Gpu, Pipeline, VulkanError, compute_pipeline};
+use crate::vulkan::{Constants, Gpu, PUSH_STAGES, Pipeline, VulkanError, compute_pipeline};
 use ash::vk;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -10,8 +10,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// device has.
 pub(super) const SLOTS: usize = 15;
 
+/// Bytes of push constants: a matrix and four words, as `raster` has them.
+pub(super) const PUSH_BYTES: u32 = 80;
+
 /// The bindings of set 0.
-const BINDINGS: [(u32, vk::DescriptorType); 46] = {
+const BINDINGS: [(u32, vk::DescriptorType); 55] = {
     use vk::DescriptorType as T;
     [
         (0, T::UNIFORM_BUFFER),
@@ -24,6 +27,8 @@ const BINDINGS: [(u32, vk::DescriptorType); 46] = {
         (7, T::UNIFORM_TEXEL_BUFFER),
         (8, T::STORAGE_BUFFER),
         (9, T::UNIFORM_TEXEL_BUFFER),
+        (10, T::UNIFORM_TEXEL_BUFFER),
+        (11, T::UNIFORM_TEXEL_BUFFER),
         (12, T::SAMPLED_IMAGE),
         (13, T::SAMPLED_IMAGE),
         (14, T::SAMPLED_IMAGE),
@@ -58,8 +63,15 @@ const BINDINGS: [(u32, vk::DescriptorType); 46] = {
         (43, T::UNIFORM_TEXEL_BUFFER),
         (44, T::UNIFORM_TEXEL_BUFFER),
         (45, T::STORAGE_BUFFER),
-        (46, T::COMBINED_IMAGE_SAMPLER),
-        (47, T::UNIFORM_BUFFER),
+        (46, T::UNIFORM_TEXEL_BUFFER),
+        (47, T::UNIFORM_TEXEL_BUFFER),
+        (48, T::UNIFORM_TEXEL_BUFFER),
+        (49, T::UNIFORM_TEXEL_BUFFER),
+        (50, T::STORAGE_TEXEL_BUFFER),
+        (51, T::STORAGE_TEXEL_BUFFER),
+        (52, T::STORAGE_TEXEL_BUFFER),
+        (53, T::COMBINED_IMAGE_SAMPLER),
+        (54, T::UNIFORM_BUFFER),
     ]
 };
 
@@ -124,9 +136,9 @@ impl FrameLayout {
             layout.texture_set = make(&[textures])?;
             let sets = [layout.frame_set, layout.texture_set];
             let push = [vk::PushConstantRange {
-                stage_flags: vk::ShaderStageFlags::COMPUTE,
+                stage_flags: PUSH_STAGES,
                 offset: 0,
-                size: 16,
+                size: PUSH_BYTES,
             }];
             let info = vk::PipelineLayoutCreateInfo::default()
                 .set_layouts(&sets)

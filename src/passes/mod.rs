@@ -1,12 +1,12 @@
 //! The passes of a frame, one file each, named like their shaders in `shaders/`.
 //!
 //! ```text
-//! raster ─▶ spans ─▶ shade ─▶ thin ─▶ detect ─▶ cull ─▶ bin ─▶ schedule ─▶ setup ─▶ sample ─▶ sort ─▶ shade ─▶ resolve
-//!            └─ pixel centres ─┘                 ▲             └─────── a round, as often as memory needs it ───────┘│
-//!                                                └───────────────────────── grow ◀────────────────────────────────┘
+//! pose ─▶ raster ─▶ spans ─▶ shade ─▶ thin ─▶ detect ─▶ cull ─▶ bin ─▶ schedule ─▶ setup ─▶ sample ─▶ sort ─▶ shade ─▶ resolve
+//!                   └─ pixel centres ─┘                 ▲             └─────── a round, as often as memory needs it ───────┘│
+//!                                                       └───────────────────────── grow ◀────────────────────────────────┘
 //! ```
 //! Every pass records into a caller's command buffer and reads what the pass before left on the device. They share the
-//! scene (`scene/`), the memory that they hand to each other (`resources/`), the layout of descriptors (`layout.rs`) and
+//! geometry (`geometry/`) and what else the scene has (`scene/`), the memory that they hand to each other (`resources/`), the layout of descriptors (`layout.rs`) and
 //! the twins of what shaders include (`frame.rs`, `counters.rs`, `sites.rs`).
 
 mod adopt;
@@ -19,6 +19,8 @@ mod cull;
 mod detect;
 mod encode;
 mod frame;
+#[cfg(feature = "gltf")]
+mod geometry;
 mod groups;
 mod grow;
 mod layout;
@@ -27,6 +29,8 @@ mod own_layout;
 mod patch;
 mod points;
 mod pool;
+#[cfg(feature = "gltf")]
+mod pose;
 #[cfg(feature = "gltf")]
 mod raster;
 mod resolve;
@@ -63,12 +67,16 @@ pub use detect::{Detect, DetectMode};
 pub use encode::{Encode, Encoding};
 pub use frame::FrameUniform;
 pub use groups::Groups;
+#[cfg(feature = "gltf")]
+pub use geometry::FrameGeometry;
 pub use grow::Grow;
 pub use layout::FrameLayout;
 pub use multisample::Multisample;
 pub(crate) use own_layout::{OwnSet, SetLayout};
 pub(crate) use patch::Patch;
 pub use points::Points;
+#[cfg(feature = "gltf")]
+pub use pose::Pose;
 #[cfg(feature = "gltf")]
 pub use raster::{Raster, RasterTargets};
 pub use resolve::{Resolve, Then};

@@ -1,6 +1,6 @@
 //! points: colour and attributes of sites that are sampled once.
 
-use super::{Argument, Cells, FrameLayout, spirv};
+use super::{Argument, Cells, Content, FrameLayout, GpuScene, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
@@ -14,8 +14,12 @@ impl Points {
     ///
     /// # Errors
     /// If the driver refuses it.
-    pub fn new(layout: &FrameLayout, output: &Constants) -> Result<Self, VulkanError> {
-        let constants = Cells::Points.constants(output.clone());
+    pub fn new(
+        layout: &FrameLayout,
+        scene: &GpuScene,
+        output: &Constants,
+    ) -> Result<Self, VulkanError> {
+        let constants = Cells::Points.constants(scene.constants(output.clone()));
         Ok(Self {
             pipeline: layout.compute(spirv::POINTS, &constants, None)?,
         })

@@ -1,6 +1,6 @@
 //! raster: depth and triangle ID of every pixel, by the device's rasterizer.
 
-use super::{FrameLayout, GpuScene, IdViews, spirv};
+use super::{Content, FrameLayout, GpuScene, IdViews, Resources, spirv};
 use crate::scene::DrawClass;
 use crate::vulkan::{Constants, Gpu, Image, Memory, Pipeline, Recorder, Shader, VulkanError};
 use ash::vk;
@@ -129,7 +129,7 @@ impl Raster {
     pub fn new(
         layout: &Arc<FrameLayout>,
         samples: vk::SampleCountFlags,
-        has_mask: bool,
+        scene: &GpuScene,
     ) -> Result<Self, VulkanError> {
         let bytes = samples != vk::SampleCountFlags::TYPE_1;
         let (opaque, masked) = if bytes {
@@ -137,15 +137,16 @@ impl Raster {
         } else {
             (spirv::RASTER_OPAQUE, spirv::RASTER_MASKED)
         };
+        let constants = scene.constants(Constants::new());
         let make = |code| {
-            layout.cached(code, &Constants::new(), samples.as_raw(), || {
-                pipeline(&layout.gpu, layout.pipeline, code, samples)
+            layout.cached(code, &constants, samples.as_raw(), || {
+                pipeline(&layout.gpu, layout.pipeline, code, &constants, samples)
             })
         };
         Ok(Self {
             layout: layout.clone(),
             opaque: make(opaque)?,
-            masked: has_mask.then(|| make(masked)).transpose()?,
+            masked: scene.has_mask().then(|| make(masked)).transpose()?,
         })
     }
 
@@ -155,7 +156,7 @@ impl Raster {
         &self,
         recorder: &Recorder<'_>,
         set: vk::DescriptorSet,
-        scene: &GpuScene,
+        (scene, geometry): (&GpuScene, &FrameGeometry),
         targets: &RasterTargets,
         size: [u32; 2],
         drawn: [[u32; 2]; 2],
@@ -177,6 +178,7 @@ impl Raster {
             recorder,
             set,
             scene,
+            geometry,
             targets,
             &targets.ids,
             [area, scissor],
@@ -191,6 +193,7 @@ impl Raster {
                 recorder,
                 set,
                 scene,
+                geometry,
                 targets,
                 blend_ids,
                 [area, scissor],
@@ -212,6 +215,7 @@ impl Raster {
         recorder: &Recorder<'_>,
         set: vk::DescriptorSet,
         scene: &GpuScene,
+        geometry: &FrameGeometry,
         targets: &RasterTargets,
         ids: &Image,
         [area, scissor]: [vk::Rect2D; 2],
@@ -256,7 +260,10 @@ impl Raster {
                 &[],
             );
         }
-        for run in scene.runs().iter().filter(|run| wanted(run.class)) {
+        for run in scene.geometry.runs.iter().filter(|run| wanted(run.class)) {
+            let Some(place) = geometry.placed.draw(run.place) else {
+                continue;
+            };
             let masked = matches!(run.class, DrawClass::Mask | DrawClass::MaskDoubleSided);
             recorder.bind(
                 self.masked
@@ -269,10 +276,11 @@ impl Raster {
             } else {
                 vk::CullModeFlags::BACK
             };
+            recorder.push(self.layout.pipeline, bytemuck::cast_slice(&[*place]));
             // SAFETY: as above; the shader reads 3 vertices a triangle of the run.
             unsafe {
                 device.cmd_set_cull_mode(raw, cull);
-                device.cmd_draw(raw, 3 * run.triangle_count, 1, 3 * run.first_triangle, 0);
+                device.cmd_draw(raw, 3 * run.triangle_count, 1, 3 * run.first_index, 0);
             }
         }
         // SAFETY: as above.
@@ -306,15 +314,21 @@ fn pipeline(
     gpu: &Arc<Gpu>,
     layout: vk::PipelineLayout,
     fragment: &[u8],
+    constants: &Constants,
     samples: vk::SampleCountFlags,
 ) -> Result<Pipeline, VulkanError> {
     let vertex = Shader::new(gpu, spirv::RASTER_VERTEX)?;
     let fragment = Shader::new(gpu, fragment)?;
+    let (map, data) = constants.packed();
+    let specialization = vk::SpecializationInfo::default()
+        .map_entries(&map)
+        .data(&data);
     let stage = |stage, shader: &Shader| {
         vk::PipelineShaderStageCreateInfo::default()
             .stage(stage)
             .module(shader.raw)
             .name(c"main")
+            .specialization_info(&specialization)
     };
     let stages = [
         stage(vk::ShaderStageFlags::VERTEX, &vertex),

@@ -1,6 +1,6 @@
 //! sample: the nearest triangle of every sub-sample.
 
-use super::{Argument, Cells, FrameLayout, spirv};
+use super::{Argument, Cells, Content, FrameLayout, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
@@ -128,7 +128,11 @@ impl Sample {
     ///
     /// # Errors
     /// If the driver refuses one.
-    pub fn new(layout: &FrameLayout, options: &SampleOptions) -> Result<Self, VulkanError> {
+    pub fn new(
+        layout: &FrameLayout,
+        scene: &dyn Content,
+        options: &SampleOptions,
+    ) -> Result<Self, VulkanError> {
         let lanes = layout.gpu.limits().subgroup_size;
         let (rows, _) = kernel(&KERNELS, options.samples.min(Self::BLOCK).div_ceil(lanes));
         let by_masks = || {
@@ -153,7 +157,7 @@ impl Sample {
             }
             let constants = options
                 .cells
-                .constants(Constants::new())
+                .constants(scene.constants(Constants::new()))
                 .with(0, lanes)
                 .with(1, lanes)
                 .flag(2, options.records == RecordRate::Sample)

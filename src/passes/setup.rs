@@ -1,6 +1,6 @@
 //! setup: triangles as edge functions around the tiles they touch.
 
-use super::{Argument, FrameLayout, spirv};
+use super::{Argument, Content, FrameLayout, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
@@ -14,8 +14,12 @@ impl Setup {
     ///
     /// # Errors
     /// If the driver refuses it.
-    pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
-        let pipeline = layout.compute(spirv::SETUP, &Constants::new(), None)?;
+    pub fn new(layout: &FrameLayout, scene: &dyn Content) -> Result<Self, VulkanError> {
+        let pipeline = layout.compute(
+            spirv::SETUP,
+            &scene.constants(Constants::new()),
+            None,
+        )?;
         Ok(Self { pipeline })
     }
 

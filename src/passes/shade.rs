@@ -46,7 +46,7 @@ impl Shade {
             ShadeSource::Records(cells) => (false, cells),
         };
         let common = cells
-            .constants(output.clone())
+            .constants(scene.constants(output.clone()))
             .flag(0, pixels)
             .flag(1, scene.bins.len() <= 1)
             .flag(

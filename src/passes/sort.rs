@@ -1,6 +1,6 @@
 //! sort: visibility records ordered by material bin.
 
-use super::{Argument, FrameLayout, spirv};
+use super::{Argument, Content, FrameLayout, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
@@ -16,16 +16,22 @@ impl Sort {
     ///
     /// # Errors
     /// If the driver refuses one.
-    pub fn new(layout: &FrameLayout, one_bin: bool) -> Result<Self, VulkanError> {
+    pub fn new(layout: &FrameLayout, scene: &dyn Content, one_bin: bool) -> Result<Self, VulkanError> {
         let make = |code, constants| layout.compute(code, &constants, None);
+        let sort = |scatter| {
+            make(
+                spirv::SORT,
+                scene.constants(Constants::new().flag(0, scatter)),
+            )
+        };
         let before = make(spirv::ARGUMENTS, Constants::new().with(0, 2))?;
         let passes = if one_bin {
             None
         } else {
             Some([
-                make(spirv::SORT, Constants::new().flag(0, false))?,
+                sort(false)?,
                 make(spirv::ARGUMENTS, Constants::new().with(0, 3))?,
-                make(spirv::SORT, Constants::new().flag(0, true))?,
+                sort(true)?,
             ])
         };
         Ok(Self { before, passes })

@@ -1,6 +1,6 @@
 //! spans: rows of 8 pixels, listed by material bin.
 
-use super::{FrameLayout, spirv};
+use super::{Content, FrameLayout, GpuScene, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
@@ -17,15 +17,16 @@ impl Spans {
     ///
     /// # Errors
     /// If the driver refuses one.
-    pub fn new(layout: &FrameLayout, one_bin: bool) -> Result<Self, VulkanError> {
+    pub fn new(layout: &FrameLayout, scene: &GpuScene) -> Result<Self, VulkanError> {
+        let one_bin = scene.bin_count() == 1;
         let lanes = layout.gpu.limits().subgroup_size;
         let spans = |scatter| {
             let constants = Constants::new()
                 .flag(0, scatter)
                 .with(1, lanes)
                 .flag(2, one_bin);
-            let code = spirv::SPANS;
-            layout.compute(code, &constants, Some(lanes))
+            let constants = scene.constants(constants);
+            layout.compute(spirv::SPANS, &constants, Some(lanes))
         };
         let arguments = Constants::new().with(0, 4);
         Ok(Self {

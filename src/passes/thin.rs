@@ -1,6 +1,6 @@
 //! thin: pixels that a thin triangle crosses unseen.
 
-use super::{Argument, FrameLayout, spirv};
+use super::{Argument, Content, FrameLayout, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
@@ -18,18 +18,16 @@ impl Thin {
     /// If the driver refuses one.
     pub fn new(
         layout: &FrameLayout,
-        has_blend: bool,
+        scene: &dyn Content,
         farther_is_larger: bool,
     ) -> Result<Self, VulkanError> {
         let make = |code, constants| layout.compute(code, &constants, None);
         let thin = |select| {
-            make(
-                spirv::THIN,
-                Constants::new()
-                    .flag(0, select)
-                    .flag(1, has_blend)
-                    .flag(2, farther_is_larger),
-            )
+            let constants = Constants::new()
+                .flag(0, select)
+                .flag(1, scene.has_blend())
+                .flag(2, farther_is_larger);
+            make(spirv::THIN, scene.constants(constants))
         };
         Ok(Self {
             select: thin(true)?,
@@ -38,17 +36,17 @@ impl Thin {
         })
     }
 
-    /// Records it for a scene of `triangles` triangles; `marks` is cleared first.
+    /// Records it for a scene of so many indices of triangles; `marks` is cleared first.
     pub fn record(
         &self,
         recorder: &Recorder<'_>,
         marks: &Buffer,
         arguments: &Buffer,
-        triangles: u32,
+        indices: u32,
     ) {
         recorder.clear(marks);
         recorder.barrier();
-        recorder.dispatch(&self.select, u64::from(triangles.div_ceil(512)));
+        recorder.dispatch(&self.select, u64::from(indices.div_ceil(512)));
         recorder.dispatch(&self.arguments, 1);
         recorder.dispatch_indirect(&self.walk, arguments, Argument::Thin as u32);
     }

@@ -68,7 +68,9 @@ impl<'a> Uploader<'a> {
         format: vk::Format,
         data: &[T],
     ) -> Result<BufferView, VulkanError> {
-        let usage = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
+        let usage = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER
+            | vk::BufferUsageFlags::TRANSFER_DST
+            | vk::BufferUsageFlags::TRANSFER_SRC;
         let mut view =
             self.memory
                 .texel_buffer(name, data.len() as u64, format, usage, MemoryUse::Device)?;

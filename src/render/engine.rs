@@ -72,7 +72,7 @@ impl Engine {
         };
         let thin = || {
             kind.thin
-                .then(|| Thin::new(layout, scene.has_blend(), kind.farther_is_larger))
+                .then(|| Thin::new(layout, scene, kind.farther_is_larger))
         };
         let detect = || {
             Detect::new(
@@ -86,15 +86,15 @@ impl Engine {
             )
         };
         let (sample, others) = std::thread::scope(|scope| {
-            let sample = scope.spawn(|| Sample::new(layout, &options));
+            let sample = scope.spawn(|| Sample::new(layout, scene, &options));
             let others = (|| {
                 Ok::<_, RenderError>((
                     thin().transpose()?,
                     detect()?,
-                    Cull::new(layout)?,
-                    Bin::new(layout)?,
-                    Setup::new(layout)?,
-                    Sort::new(layout, scene.bin_count() == 1)?,
+                    Cull::new(layout, scene)?,
+                    Bin::new(layout, scene)?,
+                    Setup::new(layout, scene)?,
+                    Sort::new(layout, scene, scene.bin_count() == 1)?,
                 ))
             })();
             let sample = sample.join();

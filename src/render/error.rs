@@ -46,6 +46,11 @@ pub enum RenderError {
     /// A scene or frame was made for another device.
     #[error("a scene or frame of one device was handed to another")]
     OtherDevice,
+    /// A moment or pose is not of the motion that it was handed to.
+    #[error(
+        "a moment or pose of one motion was handed to another: Scene::pose_in_motion makes pose and motion together"
+    )]
+    OtherMotion,
     /// A scene is not on the device yet.
     #[error("the scene is not on the device: Headless::upload puts it there")]
     NotUploaded,

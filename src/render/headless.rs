@@ -5,7 +5,7 @@ use super::renderer::{PreparedScene, Renderer};
 use super::{Frame, RenderError, Settings, Statistics, Target};
 use crate::camera::Camera;
 use crate::passes::GpuScene;
-use crate::scene::{Pose, Scene};
+use crate::scene::{Motion, Pose, Scene};
 use crate::vulkan::{Buffer, Gpu, Instance, InstanceOptions, Memory, MemoryUse, VulkanError};
 use ash::vk;
 use std::sync::Arc;
@@ -203,7 +203,28 @@ impl Headless {
         pose: &Pose,
         max_memory: Option<u64>,
     ) -> Result<PreparedScene, RenderError> {
-        let mut prepared = self.renderer.prepare_scene(scene, pose, max_memory)?;
+        let prepared = self.renderer.prepare_scene(scene, pose, max_memory)?;
+        self.put(prepared)
+    }
+
+    /// As [`Headless::upload`], for a scene that moves: its frames [show](Frame::show) other moments of the motion. Images
+    /// of sites are those of the first pose.
+    ///
+    /// # Errors
+    /// As [`Headless::upload`]; [`RenderError::OtherMotion`] for a pose and motion that were not made together.
+    pub fn upload_in_motion(
+        &mut self,
+        scene: &Scene,
+        pose: (&Pose, &Motion),
+        max_memory: Option<u64>,
+    ) -> Result<PreparedScene, RenderError> {
+        let prepared = self
+            .renderer
+            .prepare_scene_in_motion(scene, pose, max_memory)?;
+        self.put(prepared)
+    }
+
+    fn put(&mut self, mut prepared: PreparedScene) -> Result<PreparedScene, RenderError> {
         // SAFETY: the commands are submitted and waited for while the scene is alive.
         self.submit(|commands| unsafe { prepared.record_upload(commands) })?;
         // SAFETY: the commands were waited for.

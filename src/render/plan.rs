@@ -117,7 +117,8 @@ impl Effort {
         Self {
             rounds: self.rounds * factor(crowded || shortfall.waiting > 0),
             layers: self.layers * factor(crowded),
-            lists: self.lists * factor(crowded || shortfall.stalled + shortfall.unlisted > 0),
+            lists: self.lists
+                * factor(crowded || shortfall.stalled + shortfall.unlisted + shortfall.dropped > 0),
             apart: self.apart || shortfall.stalled > 0,
             unlisted: self.unlisted || shortfall.unlisted > 0,
         }
@@ -152,6 +153,10 @@ const MOST_RECORDS: u64 = 6 << 20;
 const MOST_CANDIDATES: u64 = 2 << 20;
 /// Most pairs of a triangle and a tile, of all rounds, that a frame is first planned with.
 const MOST_PAIRS: u64 = 8 << 20;
+/// The same for each tile where there are instances: their triangles are many, and what they take of memory is to be in
+/// proportion to the image. Rounds of fewer candidates are more rounds, which cost little.
+const TILE_PAIRS: u64 = 160;
+const TILE_CANDIDATES: u64 = 10;
 
 impl Plan {
     /// Plans an image.
@@ -294,9 +299,15 @@ impl Plan {
             let room = if samples_cells { room } else { 0 };
             (room * u64::from(effort.lists)).min(limits.max_storage_bytes / bytes) as u32
         };
-        let triangles = u64::from(scene.triangle_count());
-        let pairs = (triangles * 4 + tiles * 16).clamp(1 << 14, MOST_PAIRS);
-        let candidates = (triangles * 3 + tiles * 8).clamp(1 << 14, MOST_CANDIDATES);
+        let triangles = u64::from(scene.index_count());
+        let (most_pairs, most_candidates) = if scene.is_instanced() {
+            (tiles * TILE_PAIRS, tiles * TILE_CANDIDATES)
+        } else {
+            (MOST_PAIRS, MOST_CANDIDATES)
+        };
+        let room = |wanted: u64, most: u64| wanted.min(most).max(1 << 14);
+        let pairs = room(triangles * 4 + tiles * 16, most_pairs);
+        let candidates = room(triangles * 3 + tiles * 8, most_candidates);
         let by_part = detects && record_rate(settings, scene) == RecordRate::Part;
         let filtered = if side > 1 {
             pixels / u64::from(side * side)
@@ -306,6 +317,8 @@ impl Plan {
         let sizes = ResourceSizes {
             region: outer,
             sites: None,
+            // What survives is in a pair at the least.
+            survivor_capacity: at_most(pairs, 4).min(scene.index_count()),
             pair_capacity: at_most(pairs, ResourceSizes::PAIR_BYTES),
             list_capacity: at_most(candidates, ResourceSizes::CANDIDATE_BYTES),
             record_capacity: records as u32,
@@ -319,7 +332,8 @@ impl Plan {
             regions,
             sizes,
             // Tiles whose triangles are shaded in parts reserve room for all of these, and use a third of it.
-            rounds: effort.rounds_for(settings.samples) * if by_part { 2 } else { 1 },
+            rounds: (effort.rounds_for(settings.samples) * if by_part { 2 } else { 1 })
+                .max(pairs.div_ceil(candidates) as u32),
             layers: effort.layers,
             effort,
             lists_can_grow: u64::from(sizes.pair_capacity)
@@ -340,6 +354,6 @@ impl Plan {
         };
         let images =
             u64::from(self.sizes.pixels()) * samples * if scene.has_blend() { 12 } else { 8 };
-        self.sizes.bytes(u64::from(scene.triangle_count())) + images
+        self.sizes.bytes() + images
     }
 }

@@ -2,10 +2,10 @@
 
 use super::frame::Frame;
 use super::plan::Effort;
-use super::sites::{Casters, Triangles};
+use super::sites::{Casters, HostTriangles};
 use super::{RenderError, Settings, Shadows};
 use crate::passes::{Content, Encoding, FrameLayout, GpuScene, SceneUploads};
-use crate::scene::{Pose, Scene};
+use crate::scene::{Motion, Pose, Scene};
 use crate::vulkan::{Gpu, Host, Memory, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
@@ -25,7 +25,7 @@ pub struct PreparedScene {
     pub(super) gpu_scene: Arc<GpuScene>,
     uploads: SceneUploads,
     /// For what the host looks for in images of sites.
-    pub(super) triangles: Triangles,
+    pub(super) triangles: HostTriangles,
     /// What casts shadows, where the scene was made ready for them.
     pub(super) casters: Option<Box<Casters>>,
 }
@@ -45,7 +45,7 @@ impl PreparedScene {
 
     /// Number of triangles.
     #[must_use]
-    pub fn triangle_count(&self) -> u32 {
+    pub fn triangle_count(&self) -> u64 {
         self.gpu_scene.triangle_count()
     }
 
@@ -111,13 +111,38 @@ impl Renderer {
         pose: &Pose,
         max_memory: Option<u64>,
     ) -> Result<PreparedScene, RenderError> {
+        self.prepare_moving(scene, (pose, None), max_memory)
+    }
+
+    /// As [`Self::prepare_scene`], for a scene that moves: its frames [show](Frame::show) other moments of the motion.
+    ///
+    /// # Errors
+    /// As [`Self::prepare_scene`]; [`RenderError::OtherMotion`] for a pose and motion that were not made together.
+    pub fn prepare_scene_in_motion(
+        &self,
+        scene: &Scene,
+        (pose, motion): (&Pose, &Motion),
+        max_memory: Option<u64>,
+    ) -> Result<PreparedScene, RenderError> {
+        if motion.vertex_count != pose.geometry.positions.len() {
+            return Err(RenderError::OtherMotion);
+        }
+        self.prepare_moving(scene, (pose, Some(motion)), max_memory)
+    }
+
+    fn prepare_moving(
+        &self,
+        scene: &Scene,
+        (pose, motion): (&Pose, Option<&Motion>),
+        max_memory: Option<u64>,
+    ) -> Result<PreparedScene, RenderError> {
         let memory = Memory::new(self.gpu.clone(), max_memory);
         pose.geometry.check(scene.materials.len())?;
-        let (gpu_scene, uploads) = GpuScene::new(&self.layout, &memory, scene, pose)?;
+        let (gpu_scene, uploads) = GpuScene::new(&self.layout, &memory, scene, (pose, motion))?;
         Ok(PreparedScene {
             gpu_scene: Arc::new(gpu_scene),
             uploads,
-            triangles: Triangles::new(&pose.geometry),
+            triangles: HostTriangles::new(&pose.geometry),
             casters: None,
         })
     }
@@ -164,14 +189,18 @@ impl Renderer {
 
     pub(super) fn prepare_like(&self, frame: &Frame, effort: Effort) -> Result<Frame, RenderError> {
         self.check(frame.scene())?;
-        Frame::new(
+        let mut like = Frame::new(
             &self.layout,
             frame.scene(),
             frame.settings(),
             frame.encoding(),
             effort,
             frame.beside(),
-        )
+        )?;
+        if let Some(moment) = frame.moment() {
+            like.show(moment.clone())?;
+        }
+        Ok(like)
     }
 
     /// Of what the settings allow, `beside` bytes are kept free for others.

@@ -136,11 +136,14 @@ pub(crate) struct Shortfall {
     pub stalled: u64,
     /// Tiles without a list, where no kernel is made for them.
     pub unlisted: u64,
+    /// Triangles that found no room among those that may touch a cell, or are thin.
+    pub dropped: u64,
 }
 
 impl Shortfall {
-    /// Adds a run of the sampling passes over `tiles` tiles, which sampled those without a list or left them.
-    pub fn add(&mut self, counters: &[u32], tiles: u32, samples_unlisted: bool) {
+    /// Adds a run of the sampling passes over so many tiles, with room for so many triangles, which sampled tiles without
+    /// a list or left them.
+    pub fn add(&mut self, counters: &[u32], (tiles, room): (u32, u32), samples_unlisted: bool) {
         let get = |counter: Counter| counters.get(counter as usize).copied().unwrap_or(0);
         if get(Counter::Tiles) != 0 {
             self.waiting += u64::from(tiles.saturating_sub(get(Counter::NextTile)));
@@ -150,11 +153,14 @@ impl Shortfall {
         if !samples_unlisted {
             self.unlisted += u64::from(get(Counter::UnlistedTotal));
         }
+        let survivors = get(Counter::Survivors).saturating_add(get(Counter::Large));
+        let listed = survivors.max(get(Counter::Thin));
+        self.dropped += u64::from(listed.saturating_sub(room));
     }
 
     /// Cells and tiles that are left.
     pub fn left(&self) -> u64 {
-        self.waiting + self.crowded + self.stalled + self.unlisted
+        self.waiting + self.crowded + self.stalled + self.unlisted + self.dropped
     }
 
     /// Fails where anything is left.

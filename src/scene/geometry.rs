@@ -1,7 +1,9 @@
-//! World-space triangles of one scene at one moment.
+//! Triangles of one scene at one moment, and where they are drawn.
 
 use super::material::{AlphaMode, Material};
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
+use rayon::prelude::*;
+use std::borrow::Cow;
 
 /// How a draw's triangles are rasterized; the order of the variants is the order of [`Geometry::draws`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -48,6 +50,14 @@ pub struct Draw {
     pub class: DrawClass,
 }
 
+impl Draw {
+    /// Indices of its triangles in [`Geometry::triangles`].
+    fn triangles(&self) -> std::ops::Range<usize> {
+        let first = self.first_triangle as usize;
+        first..first + self.triangle_count as usize
+    }
+}
+
 /// Vertex attributes beside the position. A stream that no primitive of the scene needs is empty;
 /// otherwise it has one entry a vertex, with glTF's defaults where a primitive lacks it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -62,16 +72,48 @@ pub struct VertexStreams {
     pub colors: Vec<[f32; 4]>,
 }
 
-/// Every triangle of a scene in world space, ready for upload.
+/// Neighbouring triangles of a [`Geometry`] at one place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Instance {
+    /// Index of its first triangle in [`Geometry::triangles`].
+    pub first_triangle: u32,
+    /// Number of its triangles, at least 1; they have one [`DrawClass`].
+    pub triangle_count: u32,
+    /// Its first triangle's ID less 1, a multiple of [`Instance::ALIGNMENT`]; the others follow. IDs between the last
+    /// triangle of an instance and the first of the next one stand for nothing.
+    pub first_index: u32,
+    /// From the space of its vertices to the world relative to [`Geometry::origin`].
+    pub transform: DAffine3,
+}
+
+impl Instance {
+    /// IDs of instances start at multiples of this, plus 1.
+    pub const ALIGNMENT: u32 = 64;
+
+    /// Whether it is mirrored, so that its triangles wind the other way.
+    #[must_use]
+    pub fn mirrored(&self) -> bool {
+        self.transform.matrix3.determinant() < 0.0
+    }
+
+    /// Indices of its triangles in [`Geometry::triangles`].
+    pub(crate) fn triangles(&self) -> std::ops::Range<usize> {
+        let first = self.first_triangle as usize;
+        first..first + self.triangle_count as usize
+    }
+}
+
+/// Every triangle of a scene, ready for upload.
 ///
-/// Front faces wind counter-clockwise seen from outside, also under negative scale: the
-/// winding is mended when a node mirrors. Triangle `i` has the ID `i + 1`; 0 is background.
+/// Front faces wind counter-clockwise seen from outside. Without [`instances`](Self::instances) positions are in world
+/// space, and triangle `i` has the ID `i + 1`; 0 is background. With them, each instance draws some of the triangles at
+/// a place and with IDs of its own, so that a mesh that is drawn often is held once.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Geometry {
     /// World position of the point that [`positions`](Self::positions) are relative to, so that a
     /// scene far from its origin keeps its precision.
     pub origin: DVec3,
-    /// Positions relative to [`origin`](Self::origin).
+    /// Positions relative to [`origin`](Self::origin), or in the space of their instances.
     pub positions: Vec<[f32; 3]>,
     /// The other attributes, one entry a vertex in each stream that is not empty.
     pub streams: VertexStreams,
@@ -79,6 +121,9 @@ pub struct Geometry {
     pub triangles: Vec<[u32; 3]>,
     /// Runs that partition `triangles`, sorted by [`DrawClass`], then by order in the file.
     pub draws: Vec<Draw>,
+    /// Where triangles are drawn, in the order of their IDs and so of their classes. Empty: each once, where its
+    /// vertices are.
+    pub instances: Vec<Instance>,
 }
 
 /// Why a [`Geometry`] can't be drawn.
@@ -124,6 +169,14 @@ pub enum GeometryError {
         /// Its class.
         class: DrawClass,
     },
+    /// An instance can't be drawn.
+    #[error("instance {index}: {fault}")]
+    Instance {
+        /// The instance.
+        index: usize,
+        /// What is wrong with it.
+        fault: InstanceFault,
+    },
     /// A draw has a material that there is none of.
     #[error("draw {draw} has material {material}, and there are {materials}")]
     Material {
@@ -134,6 +187,28 @@ pub enum GeometryError {
         /// How many materials there are.
         materials: usize,
     },
+}
+
+/// What can be wrong with an [`Instance`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum InstanceFault {
+    /// It has no triangles, or more than there are.
+    #[error("it has no triangles, or some that there are none of")]
+    Triangles,
+    /// Its indices begin before those of the instance before it end, at no multiple of 64, or pass 32 bits.
+    #[error(
+        "its first index is no multiple of 64 after the instance before it, or its last passes 32 bits"
+    )]
+    Index,
+    /// Its transform is not finite.
+    #[error("its transform is not finite")]
+    Transform,
+    /// Its triangles are of several classes.
+    #[error("its triangles are of several classes")]
+    Classes,
+    /// It follows one of a later class.
+    #[error("it follows one of a later class")]
+    Order,
 }
 
 impl Geometry {
@@ -210,20 +285,195 @@ impl Geometry {
                 triangles,
             });
         }
+        self.check_instances()
+    }
+
+    fn check_instances(&self) -> Result<(), GeometryError> {
+        let (mut next, mut class) = (0, DrawClass::Opaque);
+        for (index, instance) in self.instances.iter().enumerate() {
+            let error = |fault| Err(GeometryError::Instance { index, fault });
+            let own = instance.triangles();
+            if own.is_empty() || own.end > self.triangles.len() {
+                return error(InstanceFault::Triangles);
+            }
+            if instance.first_index < next
+                || !instance.first_index.is_multiple_of(Instance::ALIGNMENT)
+            {
+                return error(InstanceFault::Index);
+            }
+            match instance.first_index.checked_add(instance.triangle_count) {
+                Some(end) => next = end,
+                None => return error(InstanceFault::Index),
+            }
+            if !instance.transform.is_finite() {
+                return error(InstanceFault::Transform);
+            }
+            let touched = self.draws_of(instance).map(|draw| draw.class);
+            if touched
+                .clone()
+                .any(|other| Some(other) != touched.clone().next())
+            {
+                return error(InstanceFault::Classes);
+            }
+            match touched.clone().next() {
+                Some(found) if found < class => return error(InstanceFault::Order),
+                found => class = found.unwrap_or(class),
+            }
+        }
         Ok(())
     }
 
-    /// Smallest and largest corner of the axis-aligned box around all vertices that a triangle
+    /// The draws that an instance has triangles of.
+    fn draws_of(&self, instance: &Instance) -> impl Iterator<Item = &Draw> + Clone {
+        let own = instance.triangles();
+        let first = self
+            .draws
+            .partition_point(|draw| draw.triangles().end <= own.start);
+        let after = self.draws.get(first..).unwrap_or(&[]).iter();
+        after.take_while(move |draw| draw.triangles().start < own.end)
+    }
+
+    /// Number of triangles that are drawn.
+    #[must_use]
+    pub fn triangle_count(&self) -> u64 {
+        if self.instances.is_empty() {
+            return self.triangles.len() as u64;
+        }
+        let counts = self.instances.iter().map(|i| u64::from(i.triangle_count));
+        counts.sum()
+    }
+
+    /// Number of indices of triangles, which are IDs less 1; some may stand for no triangle.
+    #[must_use]
+    pub fn index_count(&self) -> u64 {
+        self.instances
+            .last()
+            .map_or(self.triangles.len() as u64, |last| {
+                u64::from(last.first_index) + u64::from(last.triangle_count)
+            })
+    }
+
+    /// Smallest and largest corner of the axis-aligned box around all vertices that a drawn triangle
     /// uses, in world space; `None` without triangles.
     #[must_use]
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
-        let mut corners = self
-            .triangles
-            .iter()
+        let whole = [DAffine3::IDENTITY].map(|place| self.box_of(0..self.triangles.len(), place));
+        let boxes: Vec<_> = match self.instances.as_slice() {
+            [] => whole.to_vec(),
+            all => all
+                .par_iter()
+                .map(|instance| self.box_of(instance.triangles(), instance.transform))
+                .collect(),
+        };
+        let (low, high) = boxes
+            .into_iter()
             .flatten()
-            .map(|&v| DVec3::from_array(self.positions[v as usize].map(f64::from)));
-        let first = corners.next()?;
-        let (low, high) = corners.fold((first, first), |(low, high), p| (low.min(p), high.max(p)));
+            .reduce(|(low, high), (l, h)| (low.min(l), high.max(h)))?;
         Some((low + self.origin, high + self.origin))
+    }
+
+    /// The box around a range of triangles at a place.
+    fn box_of(&self, triangles: std::ops::Range<usize>, place: DAffine3) -> Option<(DVec3, DVec3)> {
+        let corners = self.triangles.get(triangles)?.iter().flatten();
+        let positions = corners.map(|&v| place.transform_point3(self.position(v)));
+        let boxes = positions.map(|p| (p, p));
+        boxes.reduce(|(low, high), (p, _)| (low.min(p), high.max(p)))
+    }
+
+    /// Corners of the box around an instance's vertices before its transform.
+    pub(crate) fn own_box(&self, instance: &Instance) -> Option<[DVec3; 2]> {
+        let (low, high) = self.box_of(instance.triangles(), DAffine3::IDENTITY)?;
+        Some([low, high])
+    }
+
+    fn position(&self, v: u32) -> DVec3 {
+        DVec3::from_array(self.positions[v as usize].map(f64::from))
+    }
+
+    /// The same triangles in world space and without instances: each has the same ID. IDs that stand for nothing become
+    /// triangles without area.
+    #[must_use]
+    pub fn flat(&self) -> Cow<'_, Self> {
+        if self.instances.is_empty() {
+            return Cow::Borrowed(self);
+        }
+        let mut flat = Self {
+            origin: self.origin,
+            ..Self::default()
+        };
+        for instance in &self.instances {
+            self.flatten(instance, &mut flat);
+        }
+        Cow::Owned(flat)
+    }
+
+    /// Adds the triangles of an instance to a geometry without instances.
+    fn flatten(&self, instance: &Instance, flat: &mut Self) {
+        let triangles = self.triangles.get(instance.triangles()).unwrap_or(&[]);
+        let vertices = triangles.iter().flatten();
+        let (Some(&low), Some(&high)) = (vertices.clone().min(), vertices.max()) else {
+            return;
+        };
+        let used = low as usize..=high as usize;
+        let first = flat.positions.len() as u32;
+        let place = instance.transform;
+        // The inverse transpose up to a positive factor; exists also where the inverse does not.
+        let m = place.matrix3;
+        let mirrored = instance.mirrored();
+        let sign = if mirrored { -1.0 } else { 1.0 };
+        let turn = |[x, y, z]: [f32; 3]| {
+            let n = DVec3::from_array([x, y, z].map(f64::from));
+            let cofactors = m.y_axis.cross(m.z_axis) * n.x
+                + m.z_axis.cross(m.x_axis) * n.y
+                + m.x_axis.cross(m.y_axis) * n.z;
+            (cofactors * sign)
+                .normalize_or(DVec3::Z)
+                .as_vec3()
+                .to_array()
+        };
+        let vertices = used.clone().map(|v| v as u32);
+        let placed = vertices.map(|v| place.transform_point3(self.position(v)));
+        flat.positions
+            .extend(placed.map(|p| p.as_vec3().to_array()));
+        let streams = &mut flat.streams;
+        if let Some(normals) = self.streams.normals.get(used.clone()) {
+            streams.normals.extend(normals.iter().map(|&n| turn(n)));
+        }
+        if let Some(tangents) = self.streams.tangents.get(used.clone()) {
+            streams
+                .tangents
+                .extend(tangents.iter().map(|&[x, y, z, w]| {
+                    let along = m * DVec3::from_array([x, y, z].map(f64::from));
+                    let [x, y, z] = along.normalize_or(DVec3::X).as_vec3().to_array();
+                    [x, y, z, w * sign as f32]
+                }));
+        }
+        if let Some(uvs) = self.streams.uvs.get(used.clone()) {
+            streams.uvs.extend(uvs);
+        }
+        if let Some(colors) = self.streams.colors.get(used) {
+            streams.colors.extend(colors);
+        }
+
+        // What stands for nothing belongs to the draw before it.
+        let gap = instance.first_index as usize - flat.triangles.len();
+        flat.triangles.extend(std::iter::repeat_n([first; 3], gap));
+        if let Some(draw) = flat.draws.last_mut() {
+            draw.triangle_count += gap as u32;
+        }
+        flat.triangles.extend(triangles.iter().map(|&[a, b, c]| {
+            let corners = if mirrored { [a, c, b] } else { [a, b, c] };
+            corners.map(|v| v - low + first)
+        }));
+        let own = instance.triangles();
+        for draw in self.draws_of(instance) {
+            let start = draw.triangles().start.max(own.start);
+            let end = draw.triangles().end.min(own.end);
+            flat.draws.push(Draw {
+                first_triangle: instance.first_index + (start - own.start) as u32,
+                triangle_count: (end - start) as u32,
+                ..*draw
+            });
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! The scene: what a file holds, and its triangles in the pose of one moment.
 //!
-//! Nothing here knows of Vulkan. [`Scene::load`] reads a file; [`Scene::pose`] flattens one of its
-//! scenes into world-space [`Geometry`] that a renderer uploads.
+//! Nothing here knows of Vulkan. [`Scene::load`] reads a file; [`Scene::pose`] makes one of its
+//! scenes [`Geometry`] that a renderer uploads: in world space, but for large meshes that are drawn often.
 //!
 //! ```no_run
 //! use gpc::scene::{PoseRequest, Scene};
@@ -11,7 +11,7 @@
 //!     eprintln!("{warning}");
 //! }
 //! let pose = loaded.scene.pose(&PoseRequest::default())?;
-//! println!("{} triangles", pose.geometry.triangles.len());
+//! println!("{} triangles", pose.geometry.triangle_count());
 //! # Ok::<(), gpc::scene::SceneError>(())
 //! ```
 //!
@@ -44,7 +44,9 @@ use std::{path::Path, sync::Arc};
 
 pub use environment::{Environment, EnvironmentError};
 pub use error::SceneError;
-pub use geometry::{Draw, DrawClass, Geometry, GeometryError, VertexStreams};
+pub use geometry::{
+    Draw, DrawClass, Geometry, GeometryError, Instance, InstanceFault, VertexStreams,
+};
 pub use info::{AlphaModes, AnimationInfo, CameraInfo, ImageInfo, SceneInfo, SceneNames};
 pub use light::{Light, LightKind};
 pub use lobes::{
@@ -55,7 +57,8 @@ pub use material::{
     AlphaMode, Filter, Image, Material, Sampler, Texture, TextureRole, TextureTransform,
     TextureUse, Wrap,
 };
-pub use pose::{Pose, PoseRequest};
+pub(crate) use pose::MotionPart;
+pub use pose::{Moment, Motion, Pose, PoseRequest};
 pub use view::{SceneCamera, SceneProjection};
 
 /// A file's content, checked and decoded.
@@ -146,6 +149,15 @@ impl Scene {
     /// If the file has no such scene or animation, or if repetition makes the scene too large.
     pub fn pose(&self, request: &PoseRequest) -> Result<Pose, SceneError> {
         pose::pose(self, request)
+    }
+
+    /// As [`pose`](Self::pose), and what its animation moves, for other moments of it; nothing of that is drawn by
+    /// instances.
+    ///
+    /// # Errors
+    /// As [`pose`](Self::pose).
+    pub fn pose_in_motion(&self, request: &PoseRequest) -> Result<(Pose, Motion), SceneError> {
+        pose::pose_in_motion(self, request)
     }
 
     /// A summary of the file.

@@ -4,6 +4,11 @@ use super::{Buffer, Gpu, Image, Pipeline, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
+/// The stages that push constants are for.
+pub(crate) const PUSH_STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_raw(
+    vk::ShaderStageFlags::VERTEX.as_raw() | vk::ShaderStageFlags::COMPUTE.as_raw(),
+);
+
 /// Writes commands of one frame into a caller's command buffer.
 pub struct Recorder<'a> {
     gpu: &'a Gpu,
@@ -100,6 +105,12 @@ impl<'a> Recorder<'a> {
 
     /// Runs a pipeline over `groups` workgroups, folded into rows of 32,768.
     pub fn dispatch(&self, pipeline: &Pipeline, groups: u64) {
+        self.dispatch_unordered(pipeline, groups);
+        self.barrier();
+    }
+
+    /// The same without a barrier after it, for dispatches that write different places.
+    pub fn dispatch_unordered(&self, pipeline: &Pipeline, groups: u64) {
         self.bind(pipeline);
         let rows = groups.div_ceil(32768) as u32;
         // SAFETY: `new`'s contract; 32,768 is below every device's limit of 65,535.
@@ -108,7 +119,6 @@ impl<'a> Recorder<'a> {
                 .device
                 .cmd_dispatch(self.raw, groups.min(32768) as u32, rows, 1)
         };
-        self.barrier();
     }
 
     /// Runs a pipeline over the workgroups that vector `index` of `arguments` names.
@@ -131,15 +141,11 @@ impl<'a> Recorder<'a> {
     /// Sets the push constants of `layout`.
     pub fn push(&self, layout: vk::PipelineLayout, words: &[u32]) {
         let bytes = bytemuck::cast_slice(words);
-        // SAFETY: `new`'s contract; layouts reserve 16 bytes for compute.
+        // SAFETY: `new`'s contract; layouts reserve room for what their passes push.
         unsafe {
-            self.gpu.device.cmd_push_constants(
-                self.raw,
-                layout,
-                vk::ShaderStageFlags::COMPUTE,
-                0,
-                bytes,
-            )
+            self.gpu
+                .device
+                .cmd_push_constants(self.raw, layout, PUSH_STAGES, 0, bytes)
         };
     }
 

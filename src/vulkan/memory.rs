@@ -205,7 +205,7 @@ impl Memory {
         VulkanError::check_limit(name, elements, "elements", limit)?;
         let bytes = match format {
             vk::Format::R32G32B32A32_SFLOAT | vk::Format::R32G32B32A32_UINT => 16,
-            vk::Format::R32G32_SFLOAT => 8,
+            vk::Format::R32G32_SFLOAT | vk::Format::R32G32_UINT => 8,
             _ => 4,
         };
         let buffer = self.buffer(name, elements.max(1) * bytes, usage, location)?;

@@ -8,6 +8,7 @@ mod memory;
 mod pipeline;
 mod requirements;
 
+pub(crate) use commands::PUSH_STAGES;
 pub use commands::{Recorder, Timings};
 pub use error::VulkanError;
 pub use gpu::{Gpu, Host, Limits, SharedAllocator};

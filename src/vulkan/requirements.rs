@@ -48,7 +48,13 @@ pub enum Missing {
 pub struct Requirements;
 
 /// Formats and what they must do in linear images or texel buffers.
-const BUFFER_FORMATS: [(vk::Format, &str, vk::FormatFeatureFlags, &str); 6] = [
+const BUFFER_FORMATS: [(vk::Format, &str, vk::FormatFeatureFlags, &str); 7] = [
+    (
+        vk::Format::R32G32_UINT,
+        "R32G32_UINT",
+        vk::FormatFeatureFlags::UNIFORM_TEXEL_BUFFER,
+        "uniform texel buffer",
+    ),
     (
         vk::Format::R32G32B32A32_SFLOAT,
         "R32G32B32A32_SFLOAT",

@@ -10,6 +10,7 @@ mod golden;
 #[path = "../common/golden.rs"]
 mod goldens;
 mod grow;
+mod instances;
 mod invariance;
 mod lobes;
 mod mask;
@@ -17,7 +18,10 @@ mod mask;
 mod meshes;
 mod methods;
 mod partition;
+mod pose;
 mod region;
+#[path = "../scene_builder/mod.rs"]
+mod scene_builder;
 mod scenes;
 mod shade;
 mod sites;

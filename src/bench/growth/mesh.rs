@@ -60,6 +60,7 @@ impl Mesh {
             },
             triangles: self.triangles,
             draws,
+            instances: Vec::new(),
         };
         let pose = Pose {
             geometry,

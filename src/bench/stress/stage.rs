@@ -202,6 +202,7 @@ impl Stage {
                 .map(|t| [3 * t, 3 * t + 1, 3 * t + 2])
                 .collect(),
             draws,
+            instances: Vec::new(),
         };
         let pose = Pose {
             geometry,

@@ -122,7 +122,7 @@ impl Bench<'_> {
         Ok(Point {
             value: step.value,
             size: step.size,
-            triangles: step.pose.geometry.triangles.len() as u64,
+            triangles: step.pose.geometry.triangle_count(),
             superpixel_fraction,
             times,
         })

@@ -130,7 +130,7 @@ impl Bench<'_> {
 
 impl Subject {
     pub fn triangles(&self) -> u64 {
-        self.pose.geometry.triangles.len() as u64
+        self.pose.geometry.triangle_count()
     }
 
     /// Whether a material of something drawn has a texture.

@@ -8,7 +8,7 @@ use clap::Args;
 use gpc::output::{AovKind, Format};
 use gpc::reference::srgb;
 use gpc::render::{Reference, Settings};
-use gpc::scene::{Loaded, Pose, PoseRequest, SceneError};
+use gpc::scene::{Loaded, Motion, Pose, PoseRequest, SceneError};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -131,10 +131,19 @@ impl ImageArgs {
 
     /// The scene at a moment.
     pub fn pose(&self, loaded: &Loaded, time: f64) -> Result<Pose, SceneError> {
-        loaded.scene.pose(&PoseRequest {
+        loaded.scene.pose(&self.request(time))
+    }
+
+    /// The scene at a moment, and what moves from there on.
+    pub fn pose_in_motion(&self, loaded: &Loaded, time: f64) -> Result<(Pose, Motion), SceneError> {
+        loaded.scene.pose_in_motion(&self.request(time))
+    }
+
+    fn request(&self, time: f64) -> PoseRequest {
+        PoseRequest {
             scene: self.camera.scene,
             animation: self.camera.animation.clone(),
             time,
-        })
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! `gpc render`.
 
 mod args;
+mod film;
 mod image;
 mod report;
 mod save;
@@ -18,6 +19,7 @@ pub use view::{View, choose as choose_views};
 
 use super::exit::{Usage, usage};
 use super::input;
+use film::Film;
 use gpc::output::{Format, Picture, VideoWriter};
 use gpc::render::{Settings, Shadows};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -39,9 +41,9 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     let mut clock = Clock::start();
     let template = Template::new(&args.output)?;
     let (format, settings) = settings(args)?;
-    let steps = steps(args, &template)?;
+    let (first, steps) = steps(args, &template)?;
     let image = &args.image;
-    let Some(first) = steps.first() else {
+    if steps.is_empty() {
         log::info!("there are fewer images than shares: none are left for this one");
         let images = Vec::new();
         args.report.print(&Sequence { images })?;
@@ -52,23 +54,21 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     let stem = input::stem(&args.scene);
 
     let mut warnings = Warnings::default();
-    let mut time = first.time;
-    let (headless, (loaded, mut pose, cameras)) =
+    let (headless, (mut film, cameras)) =
         session::open_beside(image.device.clone(), || {
             let loaded = image.load(&args.scene)?;
             clock.lap("load");
             warnings.add(&loaded.warnings);
-            let pose = image.pose(&loaded, time)?;
-            warnings.add(&pose.warnings);
-            let cameras = view::choose(&image.camera, &pose, aspect)?.len();
+            let film = Film::new(image, loaded, first, &steps)?;
+            warnings.add(&film.pose.warnings);
+            let cameras = film.views(aspect)?.len();
             template.require("camera", "cameras", cameras)?;
             clock.lap("pose");
-            Ok((loaded, pose, cameras))
+            Ok((film, cameras))
         })?;
     clock.lap("device");
     let mut session = Session::new(headless, settings.clone());
     let device = session.device();
-    session.show(&loaded.scene, &pose, &mut clock)?;
     let mut video = args
         .format
         .map(|stream| {
@@ -79,13 +79,8 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     let progress = progress(steps.len() * cameras, args.report.quiet);
     let mut images = Vec::new();
     for step in &steps {
-        if step.time != time {
-            time = step.time;
-            pose = image.pose(&loaded, time)?;
-            warnings.add(&pose.warnings);
-            session.show(&loaded.scene, &pose, &mut clock)?;
-        }
-        for view in view::choose(&image.camera, &pose, aspect)? {
+        warnings.add(&film.show(step.time, &mut session, &mut clock)?);
+        for view in film.views(aspect)? {
             let camera = view.turned(step.turn);
             let shot = session.shoot(&camera, args.repeat)?;
             clock.lap("frame");
@@ -147,13 +142,15 @@ fn settings(args: &RenderArgs) -> anyhow::Result<(Format, Settings)> {
 }
 
 /// The images of the sequence, or of the share of it that is asked for.
-fn steps(args: &RenderArgs, template: &Template) -> Result<Vec<Step>, Usage> {
+fn steps(args: &RenderArgs, template: &Template) -> Result<(f64, Vec<Step>), Usage> {
     sequence::check(args)?;
     let steps = sequence::steps(args)?;
     if args.format.is_none() {
         template.require("frame", "frames", steps.len())?;
     }
-    Ok(sequence::share(steps, args.sequence.shard))
+    // What all shares start from, so that none shows.
+    let first = steps.first().map_or(0.0, |step| step.time);
+    Ok((first, sequence::share(steps, args.sequence.shard)))
 }
 
 /// Counts images on standard error where that is a terminal.

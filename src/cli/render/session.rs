@@ -7,8 +7,9 @@ use gpc::render::{
     Frame, Headless, HeadlessOptions, PassTime, PreparedScene, RenderError, Rendered, Settings,
     Shadows,
 };
-use gpc::scene::{Pose, Scene};
+use gpc::scene::{Moment, Motion, Pose, Scene};
 use gpc::vulkan::VulkanError;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Renders with the same settings until it is dropped.
@@ -88,16 +89,25 @@ impl Session {
         Device::of(&self.headless)
     }
 
-    /// Puts a pose on the device in place of the one before, and makes pipelines for it.
+    /// Puts a pose on the device in place of the one before, to be moved where a motion says so, and makes pipelines for
+    /// it.
     pub fn show(
         &mut self,
         scene: &Scene,
         pose: &Pose,
+        motion: Option<&Motion>,
         clock: &mut Clock,
     ) -> Result<(), RenderError> {
         // The memory of the pose before is free for this one.
         self.shown = None;
-        let scene = upload(&mut self.headless, scene, pose, &self.settings)?;
+        let scene = match motion {
+            Some(motion) => {
+                let memory = self.settings.max_memory;
+                self.headless
+                    .upload_in_motion(scene, (pose, motion), memory)?
+            }
+            None => upload(&mut self.headless, scene, pose, &self.settings)?,
+        };
         clock.lap("upload");
         let frame = match self.settings.shadows {
             Shadows::None => Some(self.headless.prepare(&scene, &self.settings)?),
@@ -106,6 +116,16 @@ impl Session {
         clock.lap("pipelines");
         self.shown = Some(Shown { scene, frame });
         Ok(())
+    }
+
+    /// Moves what is shown.
+    pub fn show_moment(&mut self, moment: Moment) -> Result<(), RenderError> {
+        match &mut self.shown {
+            Some(Shown {
+                frame: Some(frame), ..
+            }) => frame.show(Arc::new(moment)),
+            _ => Err(RenderError::OtherMotion),
+        }
     }
 
     /// Renders what is shown: once, or with `repeat` once unmeasured and then so many times.

@@ -17,30 +17,42 @@ pub struct View {
     pub target: DVec3,
 }
 
+/// The box around a pose; around the origin where it is empty.
+pub fn bounds(pose: &Pose) -> (DVec3, DVec3) {
+    let bounds = pose.geometry.bounds();
+    bounds.unwrap_or((DVec3::splat(-1.0), DVec3::ONE))
+}
+
 /// The cameras that the options ask for, at least one; `aspect` is width / height.
 pub fn choose(args: &CameraArgs, pose: &Pose, aspect: f64) -> Result<Vec<View>, Usage> {
-    let bounds = pose
-        .geometry
-        .bounds()
-        .unwrap_or((DVec3::splat(-1.0), DVec3::ONE));
+    choose_among(args, &pose.cameras, bounds(pose), aspect)
+}
+
+/// As [`choose`], among these cameras, for what lies within a box.
+pub fn choose_among(
+    args: &CameraArgs,
+    cameras: &[SceneCamera],
+    bounds: (DVec3, DVec3),
+    aspect: f64,
+) -> Result<Vec<View>, Usage> {
     if let Some(eye) = args.eye {
         return Ok(vec![stand_at(eye, args, bounds)?]);
     }
     let orbits = args.azimuth.is_some() || args.elevation.is_some() || args.zoom.is_some();
-    if orbits || (args.camera.is_none() && pose.cameras.is_empty()) {
+    if orbits || (args.camera.is_none() && cameras.is_empty()) {
         return Ok(vec![orbit(args, bounds, aspect)?]);
     }
     let indices = match args.camera.as_deref() {
         None => vec![0],
-        Some("all") if pose.cameras.is_empty() => {
+        Some("all") if cameras.is_empty() => {
             return Err(Usage("--camera all: the scene has no cameras".to_owned()));
         }
-        Some("all") => (0..pose.cameras.len()).collect(),
-        Some(asked) => vec![find(asked, &pose.cameras)?],
+        Some("all") => (0..cameras.len()).collect(),
+        Some(asked) => vec![find(asked, cameras)?],
     };
-    let labels = labels(&pose.cameras);
+    let labels = labels(cameras);
     let centre = 0.5 * (bounds.0 + bounds.1);
-    pose.cameras
+    cameras
         .iter()
         .zip(labels)
         .enumerate()

@@ -20,8 +20,15 @@ pub struct IdViews {
 }
 
 impl Resources {
-    /// Writes a set that was just allocated.
-    pub(super) fn write_set(&self, set: &SampleSet, scene: &dyn Content, shown: &IdViews) {
+    /// Writes a set that was just allocated; `geometry` are the texel buffers that belong to a scene or to what a frame
+    /// sees of it, by binding: see `shaders/include/frame.glsl`.
+    pub(super) fn write_set(
+        &self,
+        set: &SampleSet,
+        scene: &dyn Content,
+        geometry: &[(u32, vk::BufferView)],
+        shown: &IdViews,
+    ) {
         let own_texels = [
             (16, &self.display),
             (24, &self.candidates),
@@ -35,9 +42,9 @@ impl Resources {
             (44, &self.sites.groups),
         ]
         .map(|(binding, texels)| (binding, texels.view));
-        let texels: Vec<_> = scene
-            .texels()
-            .into_iter()
+        let texels: Vec<_> = geometry
+            .iter()
+            .copied()
             .chain(own_texels)
             .map(|(binding, view)| (binding, [view]))
             .collect();
@@ -68,7 +75,7 @@ impl Resources {
             (37, &self.encoded),
             (41, &self.marks),
             (45, &self.sites.loads),
-            (47, &set.locations.buffer),
+            (54, &set.locations.buffer),
         ]
         .map(|(binding, buffer)| (binding, whole(buffer)));
         // A set shows either single-sampled or multisampled IDs; pipelines that could read the former but are
@@ -105,7 +112,7 @@ impl Resources {
         let images = images
             .iter()
             .map(|(binding, info)| write(*binding).image_info(info));
-        let environment = environment.as_ref().map(|map| write(46).image_info(map));
+        let environment = environment.as_ref().map(|map| write(53).image_info(map));
         let writes: Vec<_> = texels
             .chain(buffers)
             .chain(images)

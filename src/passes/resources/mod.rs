@@ -58,7 +58,8 @@ const TEXELS: vk::BufferUsageFlags = vk::BufferUsageFlags::from_raw(
 );
 
 impl Resources {
-    /// Allocates a frame's memory and one descriptor set for each list of sub-sample locations.
+    /// Allocates a frame's memory and one descriptor set for each list of sub-sample locations. `geometry` are the texel
+    /// buffers of `shaders/include/frame.glsl` that others own, by binding.
     ///
     /// # Errors
     /// If memory runs out or a buffer passes the device's limits.
@@ -66,6 +67,7 @@ impl Resources {
         layout: &Arc<FrameLayout>,
         memory: &Memory,
         scene: &dyn Content,
+        geometry: &[(u32, vk::BufferView)],
         ids: &IdViews,
         sizes: ResourceSizes,
         location_lists: &[Locations<'_>],
@@ -74,7 +76,6 @@ impl Resources {
         let tiles = u64::from(sizes.tiles());
         let records = u64::from(sizes.record_capacity);
         let site_sizes = sizes.sites.unwrap_or_default();
-        let triangles = u64::from(scene.triangle_count());
         let storage_in = |name: &str, bytes: u64, location: MemoryUse| {
             memory.storage_buffer(name, bytes, STORAGE, location)
         };
@@ -113,8 +114,12 @@ impl Resources {
                 "tile lists",
                 sizes.work_owners() * ResourceSizes::WORK_BYTES,
             )?,
-            survivors: storage("survivors", triangles * 4)?,
-            pairs: texels("pairs", u64::from(sizes.pair_capacity), uint4)?,
+            survivors: storage("survivors", u64::from(sizes.survivor_capacity) * 4)?,
+            pairs: texels(
+                "pairs",
+                u64::from(sizes.pair_capacity),
+                vk::Format::R32G32_UINT,
+            )?,
             candidates: texels("candidates", u64::from(sizes.list_capacity) * 4, uint4)?,
             headers: storage("record headers", records * 8)?,
             records: texels("visibility records", records, uint4)?,
@@ -140,7 +145,7 @@ impl Resources {
             sets,
         };
         for set in &resources.sets {
-            resources.write_set(set, scene, ids);
+            resources.write_set(set, scene, geometry, ids);
         }
         Ok(resources)
     }

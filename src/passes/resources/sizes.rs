@@ -9,6 +9,8 @@ pub struct ResourceSizes {
     pub region: [u32; 2],
     /// Sites of a region, where cells are these instead of pixels.
     pub sites: Option<SiteSizes>,
+    /// Triangles that may touch a cell, or are thin.
+    pub survivor_capacity: u32,
     /// Pairs of a triangle and a tile of all rounds.
     pub pair_capacity: u32,
     /// Candidates of all lists of a round.
@@ -25,7 +27,7 @@ pub struct ResourceSizes {
 
 impl ResourceSizes {
     /// Bytes of a pair.
-    pub const PAIR_BYTES: u64 = 16;
+    pub const PAIR_BYTES: u64 = 8;
     /// Bytes of a candidate.
     pub const CANDIDATE_BYTES: u64 = 64;
     /// Bytes of the work lists for a tile or group of sites: six lists of up to four entries.
@@ -73,9 +75,9 @@ impl ResourceSizes {
         self.region[0].div_ceil(8) * self.region[1].div_ceil(4)
     }
 
-    /// About how many bytes [`super::Resources`] of this size take, for a scene of `triangles` triangles.
+    /// About how many bytes [`super::Resources`] of this size take.
     #[must_use]
-    pub fn bytes(&self, triangles: u64) -> u64 {
+    pub fn bytes(&self) -> u64 {
         let pixels = self.colors();
         let tiles = u64::from(self.tiles());
         let records = u64::from(self.record_capacity);
@@ -86,7 +88,7 @@ impl ResourceSizes {
             + u64::from(self.pair_capacity) * Self::PAIR_BYTES
             + records * 40
             + records.max(pixels) * 4
-            + triangles * 4
+            + u64::from(self.survivor_capacity) * 4
             + u64::from(self.filtered) * 16
             + if self.attributes { pixels * 32 } else { 0 }
             + self.encoded

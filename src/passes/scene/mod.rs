@@ -14,11 +14,12 @@ pub use bins::ShadeFeatures;
 pub use environment::EnvironmentUniform;
 pub use light::LightFeatures;
 
+use super::geometry::GpuGeometry;
 use super::pool::DescriptorPool;
 use super::upload::{Upload, Uploader};
 use super::{Content, FrameLayout};
-use crate::scene::{AlphaMode, DrawClass, Pose, Scene};
-use crate::vulkan::{Buffer, BufferView, Memory, Recorder, VulkanError};
+use crate::scene::{DrawClass, Moment, Motion, Pose, Scene};
+use crate::vulkan::{Buffer, BufferView, Constants, Memory, Recorder, VulkanError};
 use alpha_atlas::AlphaAtlas;
 use ash::vk;
 use bins::{Bins, MaterialBin};
@@ -27,20 +28,14 @@ use glam::DVec3;
 use light::GpuLight;
 use material::MaterialTable;
 use slots::Slots;
-use std::borrow::Cow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use texture::{DeviceSampler, Texture};
 use texture_set::TextureSet;
-use triangles::{Run, Triangles};
+use triangles::Triangles;
 
 /// A posed scene on the device.
 pub struct GpuScene {
-    pub(super) positions: BufferView,
-    pub(super) triangles: BufferView,
-    pub(super) normals: BufferView,
-    pub(super) tangents: BufferView,
-    pub(super) uvs: BufferView,
-    pub(super) colors: BufferView,
+    pub(super) geometry: GpuGeometry,
     pub(super) materials: BufferView,
     material_vectors: u32,
     is_tinted: bool,
@@ -49,13 +44,10 @@ pub struct GpuScene {
     pub(super) environment: GpuEnvironment,
     has_environment: bool,
     pub(super) bins: Vec<MaterialBin>,
-    runs: Vec<Run>,
-    triangle_count: u32,
     first_mask: u32,
     first_blend: u32,
-    high_frequency_triangles: u32,
+    high_frequency_triangles: u64,
     light_features: LightFeatures,
-    origin: DVec3,
     textures: Vec<Texture>,
     _samplers: Vec<DeviceSampler>,
     _pool: Option<DescriptorPool>,
@@ -90,15 +82,6 @@ impl SceneUploads {
     }
 }
 
-/// A stream or, where it is empty, `count` vectors of one value.
-fn or_filled(stream: &[[f32; 4]], value: f32, count: usize) -> Cow<'_, [[f32; 4]]> {
-    if stream.is_empty() {
-        Cow::Owned(vec![[value; 4]; count])
-    } else {
-        Cow::Borrowed(stream)
-    }
-}
-
 impl GpuScene {
     /// Allocates and fills everything; copies that need the device wait for [`SceneUploads::record`].
     ///
@@ -108,7 +91,7 @@ impl GpuScene {
         layout: &FrameLayout,
         memory: &Memory,
         scene: &Scene,
-        pose: &Pose,
+        (pose, motion): (&Pose, Option<&Motion>),
     ) -> Result<(Self, SceneUploads), VulkanError> {
         let geometry = &pose.geometry;
         let mut textures = TextureSet::new(memory);
@@ -131,25 +114,13 @@ impl GpuScene {
             .iter()
             .map(|light| GpuLight::new(light, geometry.origin))
             .collect();
-        // The alpha test reads both streams whether or not the scene has them.
-        let has_mask = scene
-            .materials
-            .iter()
-            .any(|m| matches!(m.alpha_mode, AlphaMode::Mask { .. }));
-        let filled = if has_mask {
-            geometry.positions.len()
-        } else {
-            0
-        };
-        let colors = or_filled(&geometry.streams.colors, 1.0, filled);
-        let uvs = or_filled(&geometry.streams.uvs, 0.0, filled);
-
-        let float4 = vk::Format::R32G32B32A32_SFLOAT;
         let uint4 = vk::Format::R32G32B32A32_UINT;
         let (bins, pool) = bins.allocate(layout, &textures)?;
         let (environment, environment_upload) =
             GpuEnvironment::new(memory, scene.environment.as_deref())?;
         let mut uploader = Uploader::new(memory);
+        let device_geometry =
+            GpuGeometry::new(&mut uploader, scene, (geometry, motion), &triangles.records)?;
         let TextureSet {
             textures,
             texture_uploads,
@@ -157,12 +128,6 @@ impl GpuScene {
             ..
         } = textures;
         let scene = Self {
-            positions: uploader.vectors("positions", &geometry.positions, 1.0)?,
-            triangles: uploader.texels("triangles", uint4, &triangles.words)?,
-            normals: uploader.vectors("normals", &geometry.streams.normals, 0.0)?,
-            tangents: uploader.texels("tangents", float4, &geometry.streams.tangents)?,
-            uvs: uploader.texels("texture coordinates", float4, &uvs)?,
-            colors: uploader.texels("vertex colours", float4, &colors)?,
             materials: uploader.texels("materials", uint4, &materials.words)?,
             material_vectors: materials.vectors,
             is_tinted: geometry
@@ -175,13 +140,11 @@ impl GpuScene {
             environment,
             has_environment: scene.environment.is_some(),
             bins,
-            triangle_count: triangles.words.len() as u32,
-            first_mask: triangles.first_of(DrawClass::Mask),
-            first_blend: triangles.first_of(DrawClass::Blend),
+            first_mask: device_geometry.first_of(DrawClass::Mask),
+            first_blend: device_geometry.first_of(DrawClass::Blend),
+            geometry: device_geometry,
             high_frequency_triangles: triangles.high_frequency,
             light_features: LightFeatures::of(&pose.lights),
-            origin: geometry.origin,
-            runs: triangles.runs,
             textures,
             _samplers: samplers.into_iter().map(|(_, sampler)| sampler).collect(),
             _pool: pool,
@@ -210,13 +173,38 @@ impl GpuScene {
         self.memory.used()
     }
 
-    /// Index of the first MASK triangle, or the number of triangles that come before where there is none.
+    /// Number of triangles that are drawn.
+    #[must_use]
+    pub fn triangle_count(&self) -> u64 {
+        self.geometry.triangle_count
+    }
+
+    /// Whether some of its triangles are drawn several times.
+    #[must_use]
+    pub fn is_instanced(&self) -> bool {
+        self.geometry.is_instanced
+    }
+
+    /// Whether some of its vertices move.
+    #[must_use]
+    pub fn moves(&self) -> bool {
+        self.geometry.motion.is_some()
+    }
+
+    /// Whether a moment is one of what moves in it.
+    #[must_use]
+    pub fn has_moment(&self, moment: &Moment) -> bool {
+        let motion = self.geometry.motion.as_ref();
+        motion.is_some_and(|motion| motion.has(moment))
+    }
+
+    /// Index of the first MASK triangle, or the number of indices that come before where there is none.
     #[must_use]
     pub fn first_mask(&self) -> u32 {
         self.first_mask
     }
 
-    /// Index of the first BLEND triangle, or the number of triangles.
+    /// Index of the first BLEND triangle, or the number of indices.
     #[must_use]
     pub fn first_blend(&self) -> u32 {
         self.first_blend
@@ -249,17 +237,17 @@ impl GpuScene {
     /// World position that device positions are relative to.
     #[must_use]
     pub fn origin(&self) -> DVec3 {
-        self.origin
-    }
-
-    pub(super) fn runs(&self) -> &[Run] {
-        &self.runs
+        self.geometry.origin
     }
 }
 
 impl Content for GpuScene {
-    fn triangle_count(&self) -> u32 {
-        self.triangle_count
+    fn index_count(&self) -> u32 {
+        self.geometry.index_count
+    }
+
+    fn constants(&self, constants: Constants) -> Constants {
+        self.geometry.constants(constants)
     }
 
     fn has_mask(&self) -> bool {
@@ -267,7 +255,7 @@ impl Content for GpuScene {
     }
 
     fn has_blend(&self) -> bool {
-        self.first_blend < self.triangle_count
+        self.first_blend < self.geometry.index_count
     }
 
     fn has_high_frequency(&self) -> bool {
@@ -275,7 +263,7 @@ impl Content for GpuScene {
     }
 
     fn is_mostly_high_frequency(&self) -> bool {
-        self.high_frequency_triangles > self.triangle_count / 2
+        self.high_frequency_triangles > self.geometry.triangle_count / 2
     }
 
     fn is_tinted(&self) -> bool {
@@ -284,20 +272,6 @@ impl Content for GpuScene {
 
     fn bin_count(&self) -> u32 {
         (self.bins.len() as u32).max(1)
-    }
-
-    fn texels(&self) -> [(u32, vk::BufferView); 8] {
-        [
-            (1, &self.positions),
-            (2, &self.triangles),
-            (3, &self.normals),
-            (4, &self.tangents),
-            (5, &self.uvs),
-            (6, &self.colors),
-            (7, &self.materials),
-            (9, &self.alpha_atlas),
-        ]
-        .map(|(binding, texels)| (binding, texels.view))
     }
 
     fn lights(&self) -> &Buffer {

@@ -3,15 +3,7 @@
 use super::bins::Bins;
 use super::material::high_frequency;
 use crate::passes::raster::double_sided;
-use crate::scene::{DrawClass, Geometry, Scene};
-
-/// Neighbouring triangles of one class, drawn at once.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::passes) struct Run {
-    pub(in crate::passes) class: DrawClass,
-    pub(in crate::passes) first_triangle: u32,
-    pub(in crate::passes) triangle_count: u32,
-}
+use crate::scene::{Geometry, Scene};
 
 /// The bits of a triangle's last word: 16 of its material, 14 of its bin, and flags.
 const BIN_SHIFT: u32 = 16;
@@ -42,27 +34,19 @@ fn first_corner_first(corners: [u32; 3], positions: &[[f32; 3]]) -> [u32; 3] {
 /// All triangles of a scene.
 pub(super) struct Triangles {
     /// Corners and last word of each.
-    pub(super) words: Vec<[u32; 4]>,
-    pub(super) runs: Vec<Run>,
-    /// How many may ask for several shading places in a pixel.
-    pub(super) high_frequency: u32,
+    pub(super) records: Vec<[u32; 4]>,
+    /// How many of those that are drawn may ask for several shading places in a pixel.
+    pub(super) high_frequency: u64,
 }
 
 impl Triangles {
     pub(super) fn new(scene: &Scene, geometry: &Geometry, bins: &Bins) -> Self {
         let mut last_words = vec![0_u32; geometry.triangles.len()];
-        let mut runs: Vec<Run> = Vec::new();
-        let mut high_frequency_count = 0;
         for draw in &geometry.draws {
             let is_high_frequency = scene
                 .materials
                 .get(draw.material as usize)
                 .is_some_and(high_frequency);
-            high_frequency_count += if is_high_frequency {
-                draw.triangle_count
-            } else {
-                0
-            };
             let flag = |bit: u32, set: bool| if set { bit } else { 0 };
             let word = draw.material
                 | bins.of(draw.material) << BIN_SHIFT
@@ -70,16 +54,8 @@ impl Triangles {
                 | flag(HIGH_FREQUENCY_BIT, is_high_frequency);
             let first = draw.first_triangle as usize;
             last_words[first..first + draw.triangle_count as usize].fill(word);
-            match runs.last_mut() {
-                Some(run) if run.class == draw.class => run.triangle_count += draw.triangle_count,
-                _ => runs.push(Run {
-                    class: draw.class,
-                    first_triangle: draw.first_triangle,
-                    triangle_count: draw.triangle_count,
-                }),
-            }
         }
-        let words = geometry
+        let records: Vec<_> = geometry
             .triangles
             .iter()
             .zip(&last_words)
@@ -89,17 +65,24 @@ impl Triangles {
             })
             .collect();
         Self {
-            words,
-            runs,
-            high_frequency: high_frequency_count,
+            high_frequency: high_frequency_count(geometry, &records),
+            records,
         }
     }
+}
 
-    /// Index of the first triangle of a class or a later one; the number of triangles where there is none.
-    pub(super) fn first_of(&self, class: DrawClass) -> u32 {
-        self.runs
-            .iter()
-            .find(|run| run.class >= class)
-            .map_or(self.words.len() as u32, |run| run.first_triangle)
+/// How many drawn triangles have a record with that flag.
+fn high_frequency_count(geometry: &Geometry, records: &[[u32; 4]]) -> u64 {
+    let counts = records.iter().scan(0, |count, [.., word]| {
+        *count += u64::from(word & HIGH_FREQUENCY_BIT != 0);
+        Some(*count)
+    });
+    // Up to each triangle and including it, after those up to none.
+    let counts: Vec<u64> = std::iter::once(0).chain(counts).collect();
+    let up_to = |triangle: usize| counts.get(triangle).copied().unwrap_or(0);
+    let of = |range: std::ops::Range<usize>| up_to(range.end) - up_to(range.start);
+    match geometry.instances.as_slice() {
+        [] => up_to(records.len()),
+        instances => instances.iter().map(|i| of(i.triangles())).sum(),
     }
 }

@@ -12,10 +12,11 @@ pub use target::Target;
 use super::plan::{Effort, Plan};
 use super::{RenderError, Settings};
 use crate::camera::Camera;
-use crate::passes::{
+use crate::passes::{FrameGeometry, 
     Content, Counter, Encoding, FrameLayout, GpuScene, Locations, RasterTargets, Resources, Sample,
 };
 use crate::sampling::Pattern;
+use crate::scene::Moment;
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;
 use passes::{Passes, raster_samples};
@@ -25,12 +26,15 @@ use std::sync::Arc;
 /// Pipelines and memory for frames of one scene, which it keeps alive, of one size and method.
 pub struct Frame {
     scene: Arc<GpuScene>,
+    /// What is shown in the stead of the first pose.
+    moment: Option<Arc<Moment>>,
     encoding: Option<Encoding>,
     beside: u64,
     settings: Settings,
     plan: Plan,
     passes: Passes,
     targets: RasterTargets,
+    geometry: FrameGeometry,
     resources: Resources,
     counters: Buffer,
     timings: Timings,
@@ -50,7 +54,15 @@ impl Frame {
     ) -> Result<Self, RenderError> {
         let gpu = scene.memory().gpu().clone();
         let taken = scene.memory_bytes() + beside;
-        let plan = Plan::new(settings, &**scene, gpu.limits(), encoding, effort, taken)?;
+        let beside_regions = taken + FrameGeometry::bytes(scene);
+        let plan = Plan::new(
+            settings,
+            &**scene,
+            gpu.limits(),
+            encoding,
+            effort,
+            beside_regions,
+        )?;
         let memory = Memory::new(
             gpu.clone(),
             settings.max_memory.map(|limit| limit.saturating_sub(taken)),
@@ -74,10 +86,12 @@ impl Frame {
             all: &locations,
             count: sample_count,
         };
+        let geometry = FrameGeometry::new(&memory, scene, true)?;
         let resources = Resources::new(
             layout,
             &memory,
             &**scene,
+            &geometry.texels(scene),
             &targets.views(),
             plan.sizes,
             &[centre, locations],
@@ -87,10 +101,12 @@ impl Frame {
         let marks = regions as u32 * (16 + Run::ALL.len() as u32 * (4 + 8 * plan.rounds)) + 8;
         Ok(Self {
             scene: scene.clone(),
+            moment: None,
             encoding,
             beside,
             passes,
             targets,
+            geometry,
             resources,
             counters: memory.buffer(
                 "counter read-back",
@@ -110,6 +126,23 @@ impl Frame {
     #[must_use]
     pub fn settings(&self) -> &Settings {
         &self.settings
+    }
+
+    /// Shows another moment of the motion that its scene was prepared with, from the next recording on: that one hands the
+    /// device the moment's matrices and weights, and nothing else. Nothing waits for the device.
+    ///
+    /// # Errors
+    /// [`RenderError::OtherMotion`] if the moment is one of another motion.
+    pub fn show(&mut self, moment: Arc<Moment>) -> Result<(), RenderError> {
+        if !self.scene.has_moment(&moment) {
+            return Err(RenderError::OtherMotion);
+        }
+        self.moment = Some(moment);
+        Ok(())
+    }
+
+    pub(super) fn moment(&self) -> Option<&Arc<Moment>> {
+        self.moment.as_ref()
     }
 
     pub(super) fn scene(&self) -> &Arc<GpuScene> {
@@ -154,17 +187,27 @@ impl Frame {
         // SAFETY: passed on to the caller.
         let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
         if !self.uploaded {
+            self.geometry.record_upload(&recorder, &self.scene);
             self.resources.record_upload(&recorder);
             self.uploaded = true;
         }
+        if let Some(moment) = &self.moment {
+            self.geometry.write_moment(moment);
+        }
+        let to_clip = uniform::to_clip(&self.scene, camera, &self.settings);
+        let side = self.settings.side();
+        let image = self.settings.size.map(|pixels| pixels * side);
+        self.geometry.place(&self.scene, &to_clip, Some(image));
         let recording = Recording {
             settings: &self.settings,
             plan: &self.plan,
             passes: &self.passes,
             targets: &self.targets,
+            geometry: &self.geometry,
             resources: &self.resources,
             counters: &self.counters,
             scene: &self.scene,
+            moment: self.moment.as_deref(),
             camera,
             target,
         };

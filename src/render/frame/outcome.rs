@@ -11,9 +11,10 @@ impl Frame {
     pub(in crate::render) fn shortfall(&self) -> Result<Shortfall, RenderError> {
         let unlisted = self.plan.effort.unlisted;
         let mut shortfall = Shortfall::default();
+        let room = self.plan.sizes.survivor_capacity;
         for (tiles, run, counters) in self.counted()? {
             if self.records(run) {
-                shortfall.add(counters, tiles, unlisted);
+                shortfall.add(counters, (tiles, room), unlisted);
             }
         }
         Ok(shortfall)
@@ -58,7 +59,7 @@ impl Frame {
             memory_bytes: self.memory.used() + self.scene.memory_bytes(),
             ..Statistics::default()
         };
-        statistics.triangles.total = u64::from(self.scene.triangle_count());
+        statistics.triangles.total = self.scene.triangle_count();
         self.shortfall()?.check()?;
         for (tiles, run, counters) in self.counted()? {
             if !self.records(run) || run == Run::Blended {

@@ -2,7 +2,7 @@
 
 use crate::passes::{
     Attributes, BoxFilter, Cells, Content, DetectMode, Encode, Encoding, FrameLayout, GpuScene,
-    Multisample, Raster, RecordRate, Resolve, Shade, ShadeSource, Sort, Spans, Then,
+    Multisample, Pose, Raster, RecordRate, Resolve, Shade, ShadeSource, Sort, Spans, Then,
 };
 use crate::render::engine::{Engine, EngineKind, record_rate};
 use crate::render::plan::Plan;
@@ -25,6 +25,7 @@ pub(super) struct Multisampling {
 
 /// The pipelines of a frame, in the order in which they run.
 pub(super) struct Passes {
+    pub pose: Option<Pose>,
     pub raster: Raster,
     pub pixels: Option<PixelShading>,
     pub multisampling: Option<Multisampling>,
@@ -59,7 +60,6 @@ impl Passes {
         encoding: Option<Encoding>,
     ) -> Result<Self, RenderError> {
         let output = settings.color_constants(scene);
-        let one_bin = scene.bin_count() == 1;
         let multisampled = settings.method == Method::Msaa;
         let antialiased = settings.method == Method::Superpixel;
         let compares = !matches!(settings.detection, Detection::Exact | Detection::Every);
@@ -68,7 +68,7 @@ impl Passes {
         let pixels = || -> Result<_, RenderError> {
             let source = ShadeSource::Pixels { display_codes };
             Ok(PixelShading {
-                spans: Spans::new(layout, one_bin)?,
+                spans: Spans::new(layout, scene)?,
                 shade: Shade::new(layout, scene, source, &output)?,
             })
         };
@@ -121,7 +121,7 @@ impl Passes {
             .map(|_| -> Result<_, RenderError> {
                 Ok(Multisampling {
                     multisample: Multisample::new(layout)?,
-                    sort: Sort::new(layout, one_bin)?,
+                    sort: Sort::new(layout, scene, scene.bin_count() == 1)?,
                     resolve: Resolve::for_multisample(
                         layout,
                         settings.samples,
@@ -132,7 +132,8 @@ impl Passes {
             })
             .transpose()?;
         Ok(Self {
-            raster: Raster::new(layout, raster_samples(settings), scene.has_mask())?,
+            pose: scene.moves().then(|| Pose::new(layout)).transpose()?,
+            raster: Raster::new(layout, raster_samples(settings), scene)?,
             pixels,
             multisampling,
             shade: shading,
@@ -140,7 +141,7 @@ impl Passes {
             superpixels,
             attributes: settings
                 .attributes
-                .then(|| Attributes::new(layout, antialiased, settings.growths() > 0))
+                .then(|| Attributes::new(layout, scene, antialiased, settings.growths() > 0))
                 .transpose()?,
             box_filter: (settings.side() > 1)
                 .then(|| BoxFilter::new(layout))

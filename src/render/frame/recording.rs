@@ -3,11 +3,12 @@
 use super::passes::{Multisampling, Passes, PixelShading};
 use super::target::Target;
 use crate::camera::Camera;
-use crate::passes::{Content, FrameUniform, GpuScene, RasterTargets, Resources, Shade};
+use crate::passes::{FrameGeometry, Content, FrameUniform, GpuScene, RasterTargets, Resources, Shade};
 use crate::render::Settings;
 use crate::render::color::display_code;
 use crate::render::engine::{RecordShading, Work, record_shading};
 use crate::render::plan::{Plan, Region};
+use crate::scene::Moment;
 use crate::vulkan::{Buffer, Recorder};
 
 /// Descriptor set with one sample at the pixel's centre.
@@ -47,9 +48,11 @@ pub(super) struct Recording<'a> {
     pub plan: &'a Plan,
     pub passes: &'a Passes,
     pub targets: &'a RasterTargets,
+    pub geometry: &'a FrameGeometry,
     pub resources: &'a Resources,
     pub counters: &'a Buffer,
     pub scene: &'a GpuScene,
+    pub moment: Option<&'a Moment>,
     pub camera: &'a Camera,
     pub target: &'a Target,
 }
@@ -96,7 +99,7 @@ impl Recording<'_> {
         let filtered = pixels / (side * side);
         let tiles = whole.tiles[0] * whole.tiles[1];
         let work = Work {
-            triangles: scene.triangle_count(),
+            triangles: scene.index_count(),
             tiles,
             rounds: self.plan.rounds,
         };
@@ -106,10 +109,14 @@ impl Recording<'_> {
         };
 
         resources.record_begin(recorder, main, &whole);
+        if let (0, Some(pose), Some(moment)) = (index, &passes.pose, self.moment) {
+            pose.record(recorder, scene, self.geometry, moment);
+            recorder.mark("pose");
+        }
         passes.raster.record(
             recorder,
             main.descriptor(),
-            scene,
+            (scene, self.geometry),
             self.targets,
             [width, height],
             region

@@ -2,9 +2,11 @@
 
 use super::recording::Recording;
 use crate::camera::{Camera, Projection};
-use crate::passes::{Content, FrameUniform};
+use crate::passes::{Content, FrameUniform, GpuScene};
+use crate::render::Settings;
 use crate::render::footprint::Footprints;
 use crate::render::plan::Region;
+use glam::DMat4;
 
 impl Recording<'_> {
     /// The uniform block of a region and of cells of so many samples; with `owned`, only pixels that are wanted of
@@ -34,8 +36,7 @@ impl Recording<'_> {
         let parallel = if camera.is_orthographic() { 1.0 } else { 0.0 };
         let footprints = Footprints::new(self.settings, samples);
         FrameUniform {
-            transform: camera
-                .pixel_matrix(scene.origin(), image_width, image_height)
+            transform: to_clip(scene, camera, self.settings)
                 .as_mat4()
                 .to_cols_array(),
             eye: [eye.x, eye.y, eye.z, 1.0],
@@ -51,10 +52,11 @@ impl Recording<'_> {
             interior_low,
             interior_high,
             gap: gap(camera, image_height),
-            triangle_count: scene.triangle_count(),
+            triangle_count: scene.index_count(),
             first_mask: scene.first_mask(),
             first_blend: scene.first_blend(),
             sample_count: samples,
+            survivor_capacity: self.plan.sizes.survivor_capacity,
             pair_capacity: self.plan.sizes.pair_capacity,
             list_capacity: self.plan.sizes.list_capacity,
             record_capacity: self.plan.sizes.record_capacity,
@@ -72,6 +74,12 @@ impl Recording<'_> {
             group_count: 0,
         }
     }
+}
+
+/// From the space of a scene's geometry to the image's clip space, in pixels.
+pub(super) fn to_clip(scene: &GpuScene, camera: &Camera, settings: &Settings) -> DMat4 {
+    let [width, height] = settings.size.map(|side| f64::from(side * settings.side()));
+    camera.pixel_matrix(scene.origin(), width, height)
 }
 
 /// Factor on a depth, and constant, by which a surface nearer by a pixel's width has a larger depth.

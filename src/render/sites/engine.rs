@@ -3,7 +3,7 @@
 use super::layout::CellSizes;
 use super::partition::Window;
 use crate::camera::Pinhole;
-use crate::passes::{
+use crate::passes::{FrameGeometry, 
     Bin, Cells, Content, Counter, Cull, FrameLayout, FrameUniform, GpuScene, Groups, Locations,
     Points, RasterTargets, RecordRate, Resolve, ResourceSizes, Resources, Sample, SampleOptions,
     Schedule, Setup, Shade, ShadeSource, SiteData, Sort, Then,
@@ -18,7 +18,7 @@ use crate::render::{Coverage, PassTime, RenderError, Settings, Statistics};
 use crate::sampling::Pattern;
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings, VulkanError};
 use ash::vk;
-use glam::DVec2;
+use glam::{DMat4, DVec2};
 use std::sync::Arc;
 
 /// Sites of a cell that are sampled once each, at the least; a subgroup may hold more.
@@ -47,6 +47,7 @@ pub(super) struct SiteEngine {
     /// Nothing where surfaces are asked for and no colours.
     shade: Option<Shade>,
     finish: Finish,
+    geometry: FrameGeometry,
     resources: Resources,
     targets: RasterTargets,
     counters: Buffer,
@@ -74,6 +75,11 @@ pub(super) fn cell_sizes(layout: &FrameLayout, cells: Cells, samples: u32) -> Ce
         in_group: lanes as usize,
         samples,
     }
+}
+
+/// From the space of a scene's geometry to clip space around a window's middle.
+fn to_clip(scene: &GpuScene, pinhole: &Pinhole, window: &Window) -> DMat4 {
+    pinhole.pixel_matrix(scene.origin(), DVec2::from_array(window.middle))
 }
 
 impl SiteEngine {
@@ -133,18 +139,20 @@ impl SiteEngine {
             vk::SampleCountFlags::TYPE_1,
             scene.has_blend(),
         )?;
+        let geometry = FrameGeometry::new(&memory, scene, false)?;
         let resources = Resources::new(
             layout,
             &memory,
             scene,
+            &geometry.texels(scene),
             &targets.views(),
             *sizes,
             &[locations],
         )?;
         let output = settings.color_constants(scene);
-        let sample = Sample::new(layout, &options)?;
+        let sample = Sample::new(layout, scene, &options)?;
         let finish = if points {
-            Finish::Points(Points::new(layout, &output)?)
+            Finish::Points(Points::new(layout, scene, &output)?)
         } else {
             Finish::Resolve(Resolve::new(
                 layout,
@@ -156,17 +164,18 @@ impl SiteEngine {
         };
         Ok(Self {
             settings: settings.clone(),
-            cull: Cull::new(layout)?,
-            bin: Bin::new(layout)?,
+            cull: Cull::new(layout, scene)?,
+            bin: Bin::new(layout, scene)?,
             schedule: Schedule::new(layout, &sample, LAYERS)?,
             groups: Groups::new(layout, &sample)?,
-            setup: Setup::new(layout)?,
-            sort: Sort::new(layout, !colors || scene.bin_count() == 1)?,
+            setup: Setup::new(layout, scene)?,
+            sort: Sort::new(layout, scene, !colors || scene.bin_count() == 1)?,
             shade: colors
                 .then(|| Shade::new(layout, scene, ShadeSource::Records(cells), &output))
                 .transpose()?,
             sample,
             finish,
+            geometry,
             resources,
             targets,
             counters: memory.buffer(
@@ -202,6 +211,8 @@ impl SiteEngine {
         commands: vk::CommandBuffer,
     ) {
         let uniform = self.uniform(&scene.gpu_scene, pinhole, window, data);
+        let to_clip = to_clip(&scene.gpu_scene, pinhole, window);
+        self.geometry.place(&scene.gpu_scene, &to_clip, None);
         let scene = &*scene.gpu_scene;
         let gpu = self.memory.gpu().clone();
         // SAFETY: passed on to the caller.
@@ -289,7 +300,8 @@ impl SiteEngine {
     /// What the last run could not finish.
     pub fn shortfall(&self, window: &Window) -> Result<Shortfall, VulkanError> {
         let mut shortfall = Shortfall::default();
-        shortfall.add(self.counted()?, window.tile_count(), true);
+        let room = self.resources.sizes().survivor_capacity;
+        shortfall.add(self.counted()?, (window.tile_count(), room), true);
         Ok(shortfall)
     }
 
@@ -308,7 +320,7 @@ impl SiteEngine {
         total.add(self.counted()?);
         total.tiles += u64::from(window.tile_count());
         total.regions += 1;
-        total.triangles.total = u64::from(scene.triangle_count());
+        total.triangles.total = scene.triangle_count();
         total.memory_bytes = total
             .memory_bytes
             .max(self.memory.used() + scene.memory_bytes());
@@ -337,10 +349,7 @@ impl SiteEngine {
         let samples = self.sample.options().samples;
         let footprints = Footprints::new(&self.settings, if points { 1 } else { samples });
         FrameUniform {
-            transform: pinhole
-                .pixel_matrix(scene.origin(), DVec2::from_array(middle))
-                .as_mat4()
-                .to_cols_array(),
+            transform: to_clip(scene, pinhole, window).as_mat4().to_cols_array(),
             eye: [eye.x, eye.y, eye.z, 1.0],
             view_direction: [direction.x, direction.y, direction.z, parallel],
             irradiance: scene.environment().irradiance,
@@ -349,10 +358,11 @@ impl SiteEngine {
             origin: [0, 1].map(|axis| (window.low[axis] as f64 + 0.5 - middle[axis]) as f32),
             size: window.size(),
             tiles: window.tiles,
-            triangle_count: scene.triangle_count(),
+            triangle_count: scene.index_count(),
             first_mask: scene.first_mask(),
             first_blend: scene.first_blend(),
             sample_count: samples,
+            survivor_capacity: self.resources.sizes().survivor_capacity,
             pair_capacity: self.resources.sizes().pair_capacity,
             list_capacity: self.resources.sizes().list_capacity,
             record_capacity: self.resources.sizes().record_capacity,

@@ -250,7 +250,7 @@ impl Cells {
             blend_ids: &self.blend_ids,
         };
         for (pinhole, sites) in rig.iter().filter(|(_, sites)| !sites.is_empty()) {
-            for cell in thin::crossed(&scene.triangles, pinhole, sites, &output) {
+            for cell in thin::crossed(scene.triangles.get(), pinhole, sites, &output) {
                 if let Some(mark) = marked.get_mut(cell as usize) {
                     *mark = true;
                 }

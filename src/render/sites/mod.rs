@@ -15,7 +15,7 @@ mod triangles;
 
 pub use error::SiteError;
 pub(super) use shadows::Casters;
-pub(super) use triangles::Triangles;
+pub(super) use triangles::{HostTriangles, Triangles};
 
 use super::{Headless, PreparedScene, RenderError, Settings, Shadows, Statistics};
 use crate::camera::{Pinhole, Site};

@@ -2,7 +2,7 @@
 
 use super::engine::cell_sizes;
 use super::partition::{Partition, Window};
-use crate::passes::{Cells, Content, FrameLayout, GpuScene, ResourceSizes, SiteSizes};
+use crate::passes::{FrameGeometry, Cells, Content, FrameLayout, GpuScene, ResourceSizes, SiteSizes};
 use crate::render::{RenderError, Settings, Shading};
 use std::ops::Range;
 
@@ -42,7 +42,7 @@ impl SitePlan {
             let windows = runs.iter().map(|run| partition.window(run));
             let most = runs.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
             let sizes = sizes(layout, scene, settings, cells, windows, most as u64);
-            let needed = taken + sizes.bytes(u64::from(scene.triangle_count()));
+            let needed = taken + sizes.bytes() + FrameGeometry::bytes(scene);
             let texels = 4 * u64::from(sizes.list_capacity).max(most as u64);
             let fits = sizes.largest_storage() <= limits.max_storage_bytes
                 && texels <= limits.max_texel_elements;
@@ -90,7 +90,7 @@ fn sizes(
         _ if settings.shading == Shading::Sample || scene.has_blend() => most * samples.min(64),
         _ => most * (6 * samples.div_ceil(64)).min(samples).max(2),
     };
-    let triangles = u64::from(scene.triangle_count());
+    let triangles = scene.triangle_count();
     let pairs = (triangles * 4 + tiles * 16).clamp(1 << 14, MOST_PAIRS);
     let candidates = (triangles * 3 + tiles * 8).clamp(1 << 14, MOST_CANDIDATES);
     let at_most = |room: u64, bytes: u64| room.min(limits.max_storage_bytes / bytes) as u32;
@@ -101,6 +101,7 @@ fn sizes(
             cells: cell_count as u32,
             groups: group_count as u32,
         }),
+        survivor_capacity: scene.index_count(),
         pair_capacity: at_most(pairs, ResourceSizes::PAIR_BYTES),
         list_capacity: at_most(candidates, ResourceSizes::CANDIDATE_BYTES),
         record_capacity: records.clamp(1 << 16, MOST_RECORDS) as u32,

@@ -1,11 +1,48 @@
 //! The triangles of a scene as the host needs them, to look for thin ones and to know where sites see them.
 
-use crate::scene::{DrawClass, Geometry};
+use crate::scene::{DrawClass, Geometry, VertexStreams};
 use glam::DVec3;
+use std::borrow::Cow;
 use std::ops::Range;
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// Most triangles of a chunk.
 const CHUNK: usize = 1024;
+
+/// The triangles of a posed scene, put in world space once they are asked for.
+pub(in crate::render) struct HostTriangles {
+    /// Without what vertices have beside their positions; nothing once `made` is there.
+    geometry: Mutex<Option<Geometry>>,
+    made: OnceLock<Triangles>,
+}
+
+impl HostTriangles {
+    pub fn new(geometry: &Geometry) -> Self {
+        let geometry = Geometry {
+            origin: geometry.origin,
+            positions: geometry.positions.clone(),
+            streams: VertexStreams::default(),
+            triangles: geometry.triangles.clone(),
+            draws: geometry.draws.clone(),
+            instances: geometry.instances.clone(),
+        };
+        Self {
+            geometry: Mutex::new(Some(geometry)),
+            made: OnceLock::new(),
+        }
+    }
+
+    pub fn get(&self) -> &Triangles {
+        self.made.get_or_init(|| {
+            let mut held = self.geometry.lock().unwrap_or_else(PoisonError::into_inner);
+            let geometry = held.take().unwrap_or_default();
+            match geometry.flat() {
+                Cow::Owned(flat) => Triangles::new(flat),
+                Cow::Borrowed(_) => Triangles::new(geometry),
+            }
+        })
+    }
+}
 
 /// The triangles of a posed scene, in the order of their IDs.
 #[derive(Clone, Debug, Default)]
@@ -29,13 +66,13 @@ pub(super) struct Chunk {
 
 impl Triangles {
     /// The triangles of a pose.
-    pub fn new(geometry: &Geometry) -> Self {
+    fn new(geometry: Geometry) -> Self {
         use DrawClass::{BlendDoubleSided, MaskDoubleSided, OpaqueDoubleSided};
         let two = [OpaqueDoubleSided, MaskDoubleSided, BlendDoubleSided];
         let mut triangles = Self {
             origin: geometry.origin,
-            positions: geometry.positions.clone(),
-            corners: geometry.triangles.clone(),
+            positions: geometry.positions,
+            corners: geometry.triangles,
             chunks: Vec::new(),
         };
         for draw in &geometry.draws {

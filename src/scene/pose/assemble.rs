@@ -1,11 +1,16 @@
 //! Puts all placements' triangles into one geometry.
+//!
+//! Most placements are moved into world space here, once, where passes read them with the least effort. A large mesh that
+//! many placements share is held once, in a space of its own, and drawn by [`Instance`]s.
 
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
+use std::collections::HashMap;
 
 use super::placement::Placement;
 use crate::scene::{
-    Draw, DrawClass, Geometry, Material, Scene, SceneError, VertexStreams,
+    Draw, DrawClass, Geometry, Instance, Material, Scene, SceneError, VertexStreams,
+    document::Primitive,
     error::{Fault, Warnings},
     read::MAX_ELEMENTS,
 };
@@ -17,11 +22,29 @@ const CHUNK: usize = 24_576;
 /// single.
 const FARTHEST: f64 = 1e30;
 
+/// Fewest triangles of a mesh that is worth instances: indices of triangles are rounded up to whole blocks for each.
+const LEAST_TRIANGLES: usize = 4 * Instance::ALIGNMENT as usize;
+/// Fewest triangles that instances have to save, at some 60 bytes each; what saves less is quicker in world space.
+const LEAST_SAVED: usize = 1 << 16;
+
 /// A placement and where its elements go.
 struct Job<'p, 'd> {
-    placement: &'p Placement<'d>,
+    placement: Placement<'d>,
+    /// Of its placement, or of one of them.
+    index: usize,
     class: DrawClass,
     first_vertex: u32,
+    /// What its positions are made relative to.
+    origin: DVec3,
+    /// Placements that draw it, of one mesh in a space of its own; none where it is in world space.
+    instances: Vec<&'p Placement<'d>>,
+}
+
+impl Job<'_, '_> {
+    fn triangle_count(&self) -> u32 {
+        // Within u32: the total was checked.
+        self.placement.primitive.triangles.len() as u32
+    }
 }
 
 /// Flattens `placements` into one geometry, sorted by class, then by their order.
@@ -29,7 +52,7 @@ pub fn assemble(
     scene: &Scene,
     placements: &[Placement<'_>],
     warnings: &mut Warnings,
-) -> Result<Geometry, SceneError> {
+) -> Result<(Geometry, Vec<MovingPlacement>), SceneError> {
     let total = |count: fn(&Placement<'_>) -> usize, what| {
         let count = placements.iter().map(|p| count(p) as u64).sum();
         if count > MAX_ELEMENTS {
@@ -47,7 +70,7 @@ pub fn assemble(
 
     let (jobs, origin) = plan(scene, placements, warnings);
     let count = |count: fn(&Placement<'_>) -> usize| -> usize {
-        jobs.iter().map(|job| count(job.placement)).sum()
+        jobs.iter().map(|job| count(&job.placement)).sum()
     };
     let vertices = count(|p| p.primitive.positions.len());
     let needed = Needed::by(scene, &jobs);
@@ -62,9 +85,31 @@ pub fn assemble(
         },
         triangles: vec![[0; 3]; count(|p| p.primitive.triangles.len())],
         draws: draws(&jobs),
+        instances: instances(&jobs, origin),
     };
+    let indices = geometry.index_count();
+    if indices > MAX_ELEMENTS {
+        return Err(SceneError::TooLarge {
+            file: scene.document.file.clone(),
+            what: "triangles, each instance's rounded up to a multiple of 64",
+            count: indices,
+            limit: MAX_ELEMENTS,
+        });
+    }
     fill(&jobs, &mut geometry);
-    Ok(geometry)
+    let moving = jobs.iter().filter(|job| job.placement.moves);
+    let moving = moving.map(|job| MovingPlacement {
+        placement: job.index,
+        first_vertex: job.first_vertex,
+    });
+    Ok((geometry, moving.collect()))
+}
+
+/// Where the vertices of a placement that moves are.
+pub struct MovingPlacement {
+    /// Its index.
+    pub placement: usize,
+    pub first_vertex: u32,
 }
 
 fn stream<T: Clone>(needed: bool, count: usize, default: T) -> Vec<T> {
@@ -80,7 +125,7 @@ struct Needed {
 
 impl Needed {
     fn by(scene: &Scene, jobs: &[Job<'_, '_>]) -> Self {
-        let any = |has: &dyn Fn(&Placement<'_>) -> bool| jobs.iter().any(|job| has(job.placement));
+        let any = |has: &dyn Fn(&Placement<'_>) -> bool| jobs.iter().any(|job| has(&job.placement));
         let material = |p: &Placement<'_>, has: fn(&Material) -> bool| {
             scene.materials.get(p.primitive.material).is_some_and(has)
         };
@@ -99,9 +144,9 @@ fn plan<'p, 'd>(
     warnings: &mut Warnings,
 ) -> (Vec<Job<'p, 'd>>, DVec3) {
     let boxes: Vec<(DVec3, DVec3)> = placements.par_iter().map(bounds).collect();
-    let mut jobs = Vec::new();
+    let mut placed = Vec::new();
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for (placement, corners) in placements.iter().zip(boxes) {
+    for ((index, placement), corners) in placements.iter().enumerate().zip(boxes) {
         // Written so that an undefined corner is refused too.
         let near = |corner: DVec3| corner.abs().cmple(DVec3::splat(FARTHEST)).all();
         if !(near(corners.0) && near(corners.1)) {
@@ -112,26 +157,122 @@ fn plan<'p, 'd>(
             continue;
         }
         (low, high) = (low.min(corners.0), high.max(corners.1));
-        let material = scene.materials.get(placement.primitive.material);
-        jobs.push(Job {
-            placement,
-            class: material.map_or(DrawClass::Opaque, DrawClass::of),
-            first_vertex: 0,
-        });
+        placed.push((index, placement));
     }
-    jobs.sort_by_key(|job| job.class);
+    let origin = if placed.is_empty() {
+        DVec3::ZERO
+    } else {
+        (low + high) / 2.0
+    };
+    let mut jobs = jobs(scene, &placed, origin);
     let mut next = 0;
     for job in &mut jobs {
         job.first_vertex = next;
         // Within u32: the total was checked.
         next += job.placement.primitive.positions.len() as u32;
     }
-    let origin = if jobs.is_empty() {
-        DVec3::ZERO
-    } else {
-        (low + high) / 2.0
-    };
     (jobs, origin)
+}
+
+/// The jobs by class: first what is in world space, then meshes with instances.
+fn jobs<'p, 'd>(
+    scene: &Scene,
+    placed: &[(usize, &'p Placement<'d>)],
+    origin: DVec3,
+) -> Vec<Job<'p, 'd>> {
+    let mut sharing: HashMap<*const Primitive, usize> = HashMap::new();
+    for mesh in placed.iter().filter_map(|(_, placement)| placement.mesh()) {
+        *sharing.entry(std::ptr::from_ref(mesh)).or_default() += 1;
+    }
+    let is_instanced = |mesh: &Primitive| {
+        let copies = sharing.get(&std::ptr::from_ref(mesh)).copied().unwrap_or(0);
+        let saved = copies.saturating_sub(1) * mesh.triangles.len();
+        mesh.triangles.len() >= LEAST_TRIANGLES && saved >= LEAST_SAVED
+    };
+    let mut jobs: Vec<Job<'p, 'd>> = Vec::new();
+    let mut job_of: HashMap<*const Primitive, usize> = HashMap::new();
+    for &(index, placement) in placed {
+        let material = scene.materials.get(placement.primitive.material);
+        let class = material.map_or(DrawClass::Opaque, DrawClass::of);
+        let Some(mesh) = placement.mesh().filter(|mesh| is_instanced(mesh)) else {
+            jobs.push(Job {
+                placement: placement.clone(),
+                index,
+                class,
+                first_vertex: 0,
+                origin,
+                instances: Vec::new(),
+            });
+            continue;
+        };
+        let job = *job_of.entry(std::ptr::from_ref(mesh)).or_insert_with(|| {
+            let own = placement.at(DAffine3::IDENTITY);
+            let (low, high) = bounds(&own);
+            jobs.push(Job {
+                placement: own,
+                index,
+                class,
+                first_vertex: 0,
+                // Rounded as positions are, so that those of the file stay as they are where they are small.
+                origin: ((low + high) / 2.0).as_vec3().as_dvec3(),
+                instances: Vec::new(),
+            });
+            jobs.len() - 1
+        });
+        if let Some(job) = jobs.get_mut(job) {
+            job.instances.push(placement);
+        }
+    }
+    jobs.sort_by_key(|job| (job.class, !job.instances.is_empty()));
+    jobs
+}
+
+/// Where the triangles of jobs are drawn; empty where all are in world space.
+fn instances(jobs: &[Job<'_, '_>], origin: DVec3) -> Vec<Instance> {
+    if jobs.iter().all(|job| job.instances.is_empty()) {
+        return Vec::new();
+    }
+    let mut instances: Vec<Instance> = Vec::new();
+    let mut first_triangle = 0;
+    let mut last = None;
+    for job in jobs {
+        let triangle_count = job.triangle_count();
+        let place = (job.class, job.instances.is_empty());
+        match instances.last_mut() {
+            Some(world) if last == Some(place) && job.instances.is_empty() => {
+                world.triangle_count += triangle_count;
+            }
+            _ => {
+                let transforms: Vec<DAffine3> = match job.instances.as_slice() {
+                    [] => vec![DAffine3::IDENTITY],
+                    placements => placements
+                        .iter()
+                        .filter_map(|placement| placement.rigid())
+                        .map(|place| {
+                            DAffine3::from_translation(-origin)
+                                * place
+                                * DAffine3::from_translation(job.origin)
+                        })
+                        .collect(),
+                };
+                instances.extend(transforms.into_iter().map(|transform| Instance {
+                    first_triangle,
+                    triangle_count,
+                    first_index: 0,
+                    transform,
+                }));
+            }
+        }
+        last = Some(place);
+        first_triangle += triangle_count;
+    }
+    let mut next = 0_u64;
+    for instance in &mut instances {
+        // The caller checks where this ends.
+        instance.first_index = next as u32;
+        next += u64::from(instance.triangle_count).next_multiple_of(Instance::ALIGNMENT.into());
+    }
+    instances
 }
 
 /// Corners of the box around a placement; undefined where a position is.
@@ -160,10 +301,8 @@ fn draws(jobs: &[Job<'_, '_>]) -> Vec<Draw> {
     let mut draws: Vec<Draw> = Vec::new();
     let mut first_triangle = 0;
     for job in jobs {
-        let primitive = job.placement.primitive;
-        let (material, class) = (primitive.material as u32, job.class);
-        // Within u32: the total was checked.
-        let triangle_count = primitive.triangles.len() as u32;
+        let (material, class) = (job.placement.primitive.material as u32, job.class);
+        let triangle_count = job.triangle_count();
         match draws.last_mut() {
             Some(last) if last.material == material && last.class == class => {
                 last.triangle_count += triangle_count;
@@ -191,7 +330,6 @@ struct Parts<'g> {
 }
 
 fn fill(jobs: &[Job<'_, '_>], geometry: &mut Geometry) {
-    let origin = geometry.origin;
     let streams = &mut geometry.streams;
     let mut rest = Parts {
         positions: &mut geometry.positions,
@@ -217,7 +355,7 @@ fn fill(jobs: &[Job<'_, '_>], geometry: &mut Geometry) {
         ));
     }
     work.into_par_iter()
-        .for_each(|(job, parts)| job.fill(origin, parts));
+        .for_each(|(job, parts)| job.fill(parts));
 }
 
 /// Cuts the first `count` elements off, or nothing where the stream is empty.
@@ -229,8 +367,8 @@ fn take<'g, T>(rest: &mut &'g mut [T], count: usize) -> &'g mut [T] {
 }
 
 impl Job<'_, '_> {
-    fn fill(&self, origin: DVec3, parts: Parts<'_>) {
-        let placement = self.placement;
+    fn fill(&self, parts: Parts<'_>) {
+        let (placement, origin) = (&self.placement, self.origin);
         let primitive = placement.primitive;
         copy(parts.uvs, &primitive.uvs);
         copy(parts.colors, &primitive.colors);

@@ -3,6 +3,7 @@
 mod assemble;
 mod hierarchy;
 mod keyframes;
+mod motion;
 mod placement;
 
 use glam::{DAffine3, DMat3, DVec3};
@@ -16,6 +17,9 @@ use super::{
     light::Light,
     view::{SceneCamera, SceneProjection},
 };
+use assemble::MovingPlacement;
+use motion::Moving;
+pub use motion::{Moment, Motion, MotionPart};
 use placement::Placement;
 
 /// Which scene, and which moment of which animation.
@@ -43,14 +47,74 @@ pub struct Pose {
     pub warnings: Vec<String>,
 }
 
+/// What a moment shows, before its triangles are put together.
+struct Shown<'d> {
+    placements: Vec<Placement<'d>>,
+    lights: Vec<Light>,
+    cameras: Vec<SceneCamera>,
+}
+
 pub(super) fn pose(scene: &Scene, request: &PoseRequest) -> Result<Pose, SceneError> {
+    Ok(posed(scene, request, &Moving::default())?.0)
+}
+
+pub(super) fn pose_in_motion(
+    scene: &Scene,
+    request: &PoseRequest,
+) -> Result<(Pose, Motion), SceneError> {
     let document = &scene.document;
-    let file = &document.file;
+    // The animation that is chosen for any time but the first.
+    let later = PoseRequest {
+        time: f64::MAX,
+        ..request.clone()
+    };
+    let moving = Moving::new(document, keyframes::choose(document, &later)?);
+    let (pose, placements) = posed(scene, request, &moving)?;
+    let mut warnings = Warnings::new(&document.file);
+    let shown = show(scene, request, &moving, &mut warnings)?;
+    let motion = Motion::new(request, &pose, &shown, &placements);
+    Ok((pose, motion))
+}
+
+/// A pose, and where what moves is in it.
+fn posed(
+    scene: &Scene,
+    request: &PoseRequest,
+    moving: &Moving,
+) -> Result<(Pose, Vec<MovingPlacement>), SceneError> {
+    let document = &scene.document;
+    let mut warnings = Warnings::new(&document.file);
+    let shown = show(scene, request, moving, &mut warnings)?;
+    let (geometry, placements) = assemble::assemble(scene, &shown.placements, &mut warnings)?;
+    if geometry.triangles.is_empty() {
+        let place = match request.scene.or(document.default_scene) {
+            Some(index) => format!("/scenes/{index}"),
+            None => "/nodes".to_owned(),
+        };
+        warnings.push(&Fault::new(place, "there are no triangles to draw"));
+    }
+    let pose = Pose {
+        geometry,
+        lights: shown.lights,
+        cameras: shown.cameras,
+        warnings: warnings.into_vec(),
+    };
+    Ok((pose, placements))
+}
+
+/// What a scene shows at a moment.
+fn show<'d>(
+    scene: &'d Scene,
+    request: &PoseRequest,
+    moving: &Moving,
+    warnings: &mut Warnings,
+) -> Result<Shown<'d>, SceneError> {
+    let document = &scene.document;
     if let Some(asked) = request.scene
         && asked >= document.root.scenes.len()
     {
         return Err(SceneError::NoSuchScene {
-            file: file.clone(),
+            file: document.file.clone(),
             asked,
             count: document.root.scenes.len(),
         });
@@ -59,7 +123,6 @@ pub(super) fn pose(scene: &Scene, request: &PoseRequest) -> Result<Pose, SceneEr
     let state = hierarchy::State::new(document, animation, request.time);
     let drawn = drawn_nodes(document, request.scene.or(document.default_scene));
 
-    let mut warnings = Warnings::new(file);
     let mut placements = Vec::new();
     let (mut lights, mut cameras) = (Vec::new(), Vec::new());
     for index in drawn {
@@ -93,22 +156,13 @@ pub(super) fn pose(scene: &Scene, request: &PoseRequest) -> Result<Pose, SceneEr
             }
         }
         if visible {
-            placements.extend(Placement::of_node(document, index, node, &state));
+            placements.extend(Placement::of_node(document, index, node, &state, moving));
         }
     }
-    let geometry = assemble::assemble(scene, &placements, &mut warnings)?;
-    if geometry.triangles.is_empty() {
-        let place = match request.scene.or(document.default_scene) {
-            Some(index) => format!("/scenes/{index}"),
-            None => "/nodes".to_owned(),
-        };
-        warnings.push(&Fault::new(place, "there are no triangles to draw"));
-    }
-    Ok(Pose {
-        geometry,
+    Ok(Shown {
+        placements,
         lights,
         cameras,
-        warnings: warnings.into_vec(),
     })
 }
 

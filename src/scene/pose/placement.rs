@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use gltf::json::Node;
 
-use super::{copies, hierarchy::State, primitives_of};
+use super::{copies, hierarchy::State, motion::Moving, primitives_of};
 use crate::scene::document::{Document, Primitive, Target};
 
 /// A primitive and its way into the world.
@@ -14,9 +14,11 @@ pub struct Placement<'d> {
     /// Index of the node, for messages.
     pub node: usize,
     pub primitive: &'d Primitive,
-    /// Morph targets that have an effect.
-    targets: Arc<[(f64, &'d Target)]>,
+    /// Morph targets that have an effect: weight, index, displacements.
+    pub targets: Arc<[(f64, usize, &'d Target)]>,
     motion: Motion,
+    /// Whether it is to be moved by the device.
+    pub moves: bool,
     /// Whether the way into the world mirrors, so that the winding has to be mended.
     pub mirrored: bool,
 }
@@ -61,6 +63,7 @@ impl<'d> Placement<'d> {
         index: usize,
         node: &'d Node,
         state: &State,
+        moving: &Moving,
     ) -> Vec<Self> {
         let primitives = primitives_of(document, node);
         if primitives.is_empty() {
@@ -76,8 +79,11 @@ impl<'d> Placement<'d> {
         let targets: Vec<Arc<[_]>> = primitives
             .iter()
             .map(|primitive| {
-                let weighted = weights.iter().copied().zip(&primitive.targets);
-                weighted.filter(|(weight, _)| *weight != 0.0).collect()
+                let weighted = weights.iter().zip(primitive.targets.iter().enumerate());
+                weighted
+                    .filter(|(weight, _)| **weight != 0.0)
+                    .map(|(weight, (index, target))| (*weight, index, target))
+                    .collect()
             })
             .collect();
         let world = state.world.get(index).copied().unwrap_or_default();
@@ -102,6 +108,7 @@ impl<'d> Placement<'d> {
                     _ => (Motion::Rigid(rigid), rigid.sign < 0.0),
                 };
                 placements.push(Self {
+                    moves: moving.has(document, index, node),
                     node: index,
                     primitive,
                     targets: Arc::clone(targets),
@@ -111,6 +118,44 @@ impl<'d> Placement<'d> {
             }
         }
         placements
+    }
+
+    /// The mesh that it shares with others that differ in their [`rigid`](Self::rigid) transform alone.
+    pub fn mesh(&self) -> Option<&'d Primitive> {
+        let is_rigid =
+            matches!(self.motion, Motion::Rigid(_)) && self.targets.is_empty() && !self.moves;
+        is_rigid.then_some(self.primitive)
+    }
+
+    /// From its mesh's space to the world, where all vertices move alike.
+    pub fn rigid(&self) -> Option<DAffine3> {
+        match &self.motion {
+            Motion::Rigid(frame) => Some(frame.affine),
+            Motion::Skinned(_) => None,
+        }
+    }
+
+    /// From its mesh's space to the world: of each joint, or the one of its node.
+    pub fn matrices(&self) -> &[DAffine3] {
+        match &self.motion {
+            Motion::Rigid(frame) => std::slice::from_ref(&frame.affine),
+            Motion::Skinned(joints) => joints,
+        }
+    }
+
+    /// Whether its vertices follow joints.
+    pub fn is_skinned(&self) -> bool {
+        matches!(self.motion, Motion::Skinned(_))
+    }
+
+    /// The same mesh in another place.
+    pub fn at(&self, affine: DAffine3) -> Self {
+        let frame = Frame::new(affine);
+        Self {
+            motion: Motion::Rigid(frame),
+            mirrored: frame.sign < 0.0,
+            ..self.clone()
+        }
     }
 
     /// How vertex `v` moves.
@@ -172,7 +217,7 @@ impl<'d> Placement<'d> {
     #[inline]
     fn morph(&self, v: usize, base: [f32; 3], stream: fn(&Target) -> &Vec<[f32; 3]>) -> DVec3 {
         let mut value = Vec3::from_array(base).as_dvec3();
-        for (weight, target) in self.targets.iter() {
+        for (weight, _, target) in self.targets.iter() {
             if let Some(&displacement) = stream(target).get(v) {
                 value += Vec3::from_array(displacement).as_dvec3() * *weight;
             }

@@ -13,7 +13,7 @@ use gpc::camera::{Pinhole, Site};
 use crate::stage::camera;
 
 /// The pinhole of all stages in an image of `size` pixels.
-fn pinhole(size: [u32; 2]) -> Pinhole {
+pub fn pinhole(size: [u32; 2]) -> Pinhole {
     Pinhole::from_camera(&camera(), size).unwrap()
 }
 
@@ -27,7 +27,7 @@ fn site(uv: [f64; 2], output: u32) -> Site {
 }
 
 /// The centres of an image's pixels.
-fn planar([width, height]: [u32; 2]) -> Vec<Site> {
+pub fn planar([width, height]: [u32; 2]) -> Vec<Site> {
     (0..width * height)
         .map(|pixel| {
             let at = [pixel % width, pixel / width];

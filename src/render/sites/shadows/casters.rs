@@ -45,9 +45,9 @@ pub(super) fn caster_scene(scene: &Scene, pose: &Pose) -> (Scene, Pose) {
         },
     };
     let images = scene.images.iter().enumerate().map(image).collect();
-    let draws: Vec<Draw> = pose.geometry.draws.iter().filter_map(caster).collect();
+    let mut geometry = pose.geometry.flat().into_owned();
+    let draws: Vec<Draw> = geometry.draws.iter().filter_map(caster).collect();
     let count = draws.iter().map(|draw| draw.triangle_count as usize).sum();
-    let mut geometry = pose.geometry.clone();
     geometry.triangles.truncate(count);
     geometry.draws = draws;
     let mut casting = Scene::from_materials(materials);

@@ -113,7 +113,7 @@ impl Headless {
             }
         })?;
         book(&mut statistics, &run);
-        let receivers = receivers(&scene.triangles, pinhole, sites, &ids);
+        let receivers = receivers(scene.triangles.get(), pinhole, sites, &ids);
         let own = scene.memory_bytes() - casters.memory_bytes();
         let settings = Settings {
             max_memory: settings.max_memory.map(|most| most.saturating_sub(own)),

@@ -1,0 +1,27 @@
+// A pair of a triangle and a tile that it may touch: 64 bits, since a frame has millions. The second word holds the tile in
+// as many low bits as the region's tiles need, and the triangle's rank in the tile's list above.
+#ifndef PAIRS_GLSL
+#define PAIRS_GLSL
+
+uint pair_tile_bits() {
+    return uint(findMSB(frame.tiles.x * frame.tiles.y) + 1);
+}
+
+// Ranks that there is room for; a tile whose list is longer has every triangle as a candidate.
+uint pair_ranks() {
+    return 1u << (32u - pair_tile_bits());
+}
+
+uvec2 make_pair(uint triangle, uint tile, uint rank) {
+    return uvec2(triangle, tile | rank << pair_tile_bits());
+}
+
+uint pair_tile(uvec2 pair) {
+    return pair.y & ((1u << pair_tile_bits()) - 1u);
+}
+
+uint pair_rank(uvec2 pair) {
+    return pair.y >> pair_tile_bits();
+}
+
+#endif

@@ -1,0 +1,92 @@
+//! A frame's own part of the geometry.
+
+use super::{MovingVertices, PlacedInstances};
+use crate::passes::GpuScene;
+use crate::scene::Moment;
+use crate::vulkan::{Memory, Recorder, VulkanError};
+use ash::vk;
+use glam::DMat4;
+
+/// Where a frame's camera sees instances, and the vertices that move at the frame's moment.
+pub struct FrameGeometry {
+    pub(in crate::passes) placed: PlacedInstances,
+    pub(in crate::passes) moving: Option<MovingVertices>,
+}
+
+impl FrameGeometry {
+    /// Memory for a scene; unless it `moves`, its vertices stay as they were uploaded.
+    ///
+    /// # Errors
+    /// If memory runs out or could not be mapped.
+    pub fn new(memory: &Memory, scene: &GpuScene, moves: bool) -> Result<Self, VulkanError> {
+        let moving = moves.then(|| MovingVertices::new(memory, &scene.geometry));
+        Ok(Self {
+            placed: PlacedInstances::new(memory, &scene.geometry)?,
+            moving: moving.transpose()?.flatten(),
+        })
+    }
+
+    /// About how many bytes it takes for a scene that moves.
+    #[must_use]
+    pub fn bytes(scene: &GpuScene) -> u64 {
+        PlacedInstances::bytes(&scene.geometry) + MovingVertices::bytes(&scene.geometry)
+    }
+
+    /// The scene's texel buffers and its own, by their bindings in `shaders/include/frame.glsl` and `shaders/pose.comp`.
+    #[must_use]
+    pub fn texels(&self, scene: &GpuScene) -> Vec<(u32, vk::BufferView)> {
+        let geometry = &scene.geometry;
+        let (positions, normals, tangents) = match &self.moving {
+            Some(moving) => (&moving.positions, &moving.normals, &moving.tangents),
+            None => (&geometry.positions, &geometry.normals, &geometry.tangents),
+        };
+        let mut texels = vec![
+            (1, positions),
+            (2, &geometry.triangles),
+            (3, normals),
+            (4, tangents),
+            (5, &geometry.uvs),
+            (6, &geometry.colors),
+            (7, &scene.materials),
+            (9, &scene.alpha_atlas),
+            (10, &geometry.blocks),
+            (11, &self.placed.buffer),
+        ];
+        if let (Some(moving), Some(motion)) = (&self.moving, &geometry.motion) {
+            texels.extend([
+                (46, &moving.moment),
+                (47, &motion.resting),
+                (48, &motion.influences),
+                (49, &motion.displacements),
+                (50, &moving.positions),
+                (51, &moving.normals),
+                (52, &moving.tangents),
+            ]);
+        }
+        texels
+            .into_iter()
+            .map(|(binding, texels)| (binding, texels.view))
+            .collect()
+    }
+
+    /// Records copies of vertices of which some will move, once.
+    pub(crate) fn record_upload(&self, recorder: &Recorder<'_>, scene: &GpuScene) {
+        if let Some(moving) = &self.moving {
+            moving.record_upload(recorder, &scene.geometry);
+        }
+    }
+
+    /// Places a scene's instances for a camera, whose matrix leads from the space of the scene's geometry to pixel-scaled
+    /// clip space. Before each recording, while the device is done with the one before. `image` is how many pixels `raster`
+    /// draws, if it does.
+    pub(crate) fn place(&mut self, scene: &GpuScene, to_clip: &DMat4, image: Option<[u32; 2]>) {
+        self.placed.write(&scene.geometry, to_clip, image);
+    }
+
+    /// Writes what moves at a moment. Before a recording, while the device is done with the one before.
+    pub(crate) fn write_moment(&mut self, moment: &Moment) {
+        if let Some(moving) = &mut self.moving {
+            moving.write(moment);
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! Vertices that move: what they are at rest, which belongs to the scene, and at a moment, which belongs to a frame.
+
+use super::GpuGeometry;
+use crate::passes::upload::Uploader;
+use crate::scene::{Moment, Motion, MotionPart};
+use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, Recorder, VulkanError};
+use ash::vk;
+use std::sync::Arc;
+
+/// What `pose` reads of a scene.
+pub(in crate::passes) struct GpuMotion {
+    /// Position, normal and tangent of each vertex.
+    pub(in crate::passes) resting: BufferView,
+    pub(in crate::passes) influences: BufferView,
+    pub(in crate::passes) displacements: BufferView,
+    pub(in crate::passes) parts: Vec<MotionPart>,
+    vector_count: u64,
+    identity: Arc<()>,
+}
+
+impl GpuMotion {
+    /// Allocates and fills its buffers.
+    pub(super) fn new(uploader: &mut Uploader<'_>, motion: &Motion) -> Result<Self, VulkanError> {
+        let float4 = vk::Format::R32G32B32A32_SFLOAT;
+        let uint4 = vk::Format::R32G32B32A32_UINT;
+        Ok(Self {
+            resting: uploader.texels("resting vertices", float4, motion.vertices.as_flattened())?,
+            influences: uploader.texels("influences", uint4, motion.influences.as_flattened())?,
+            displacements: uploader.texels("displacements", float4, &motion.displacements)?,
+            parts: motion.parts.clone(),
+            vector_count: motion.vector_count(),
+            identity: motion.identity.clone(),
+        })
+    }
+}
+
+impl GpuMotion {
+    /// Whether a moment is one of this motion.
+    pub(in crate::passes) fn has(&self, moment: &Moment) -> bool {
+        Arc::ptr_eq(&self.identity, &moment.identity)
+    }
+}
+
+/// A frame's vertices, of which `pose` writes those that move.
+pub(in crate::passes) struct MovingVertices {
+    pub(in crate::passes) positions: BufferView,
+    pub(in crate::passes) normals: BufferView,
+    pub(in crate::passes) tangents: BufferView,
+    /// Matrices and weights, which the host writes before each recording.
+    pub(in crate::passes) moment: BufferView,
+}
+
+impl MovingVertices {
+    /// Memory for all vertices of a geometry, where some of them move.
+    pub(in crate::passes) fn new(
+        memory: &Memory,
+        geometry: &GpuGeometry,
+    ) -> Result<Option<Self>, VulkanError> {
+        let Some(motion) = &geometry.motion else {
+            return Ok(None);
+        };
+        let usage = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER
+            | vk::BufferUsageFlags::STORAGE_TEXEL_BUFFER
+            | vk::BufferUsageFlags::TRANSFER_DST;
+        let texels = |name: &str, elements: u64, usage, place| {
+            let format = vk::Format::R32G32B32A32_SFLOAT;
+            memory.texel_buffer(name, elements, format, usage, place)
+        };
+        let like = |name: &str, view: &BufferView| {
+            texels(name, view.buffer.size() / 16, usage, MemoryUse::Device)
+        };
+        let mut moving = Self {
+            positions: like("moving positions", &geometry.positions)?,
+            normals: like("moving normals", &geometry.normals)?,
+            tangents: like("moving tangents", &geometry.tangents)?,
+            moment: texels(
+                "matrices and weights",
+                motion.vector_count,
+                vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER,
+                MemoryUse::Upload,
+            )?,
+        };
+        let bytes = motion.vector_count * 16;
+        if (moving.moment.buffer.bytes_mut().len() as u64) < bytes {
+            return Err(VulkanError::Call {
+                call: "mapping matrices and weights",
+                result: vk::Result::ERROR_MEMORY_MAP_FAILED,
+            });
+        }
+        Ok(Some(moving))
+    }
+
+    /// Bytes of device memory for the vertices of a geometry.
+    pub(in crate::passes) fn bytes(geometry: &GpuGeometry) -> u64 {
+        let streams = [&geometry.positions, &geometry.normals, &geometry.tangents];
+        geometry.motion.as_ref().map_or(0, |motion| {
+            let vertices: u64 = streams.iter().map(|view| view.buffer.size()).sum();
+            vertices + motion.vector_count * 16
+        })
+    }
+
+    /// Records copies of the vertices of the first pose, of which those that don't move stay.
+    pub(in crate::passes) fn record_upload(&self, recorder: &Recorder<'_>, geometry: &GpuGeometry) {
+        for (from, to) in [
+            (&geometry.positions, &self.positions),
+            (&geometry.normals, &self.normals),
+            (&geometry.tangents, &self.tangents),
+        ] {
+            copy(recorder, &from.buffer, &to.buffer);
+        }
+        recorder.barrier();
+    }
+
+    /// Writes a moment, while the device is done with the one before.
+    pub(in crate::passes) fn write(&mut self, moment: &Moment) {
+        let vectors: &[u8] = bytemuck::cast_slice(&moment.vectors);
+        if let Some(place) = self.moment.buffer.bytes_mut().get_mut(..vectors.len()) {
+            place.copy_from_slice(vectors);
+        }
+    }
+}
+
+fn copy(recorder: &Recorder<'_>, from: &Buffer, to: &Buffer) {
+    let region = [vk::BufferCopy::default().size(from.size())];
+    // SAFETY: the recorder's contract; both buffers have that size and were created for copies.
+    unsafe {
+        recorder
+            .device()
+            .cmd_copy_buffer(recorder.raw(), from.raw, to.raw, &region)
+    };
+}

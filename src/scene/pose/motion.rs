@@ -1,0 +1,267 @@
+//! What moves in a scene, and its matrices and weights at a moment: all that a device needs to move it.
+
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec3};
+use gltf::json::{Node, animation::Property};
+
+use super::{MovingPlacement, Placement, Pose, PoseRequest, Shown, show};
+use crate::scene::{
+    Light, Scene, SceneCamera, SceneError,
+    document::{Channel, Document, Target},
+    error::Warnings,
+};
+
+/// Which nodes an animation moves or deforms.
+#[derive(Debug, Default)]
+pub struct Moving {
+    /// Of every node, whether its place in the world may change; empty where nothing does.
+    places: Vec<bool>,
+    /// Of every node, whether its morph weights may.
+    weights: Vec<bool>,
+}
+
+impl Moving {
+    /// What these channels move.
+    pub fn new(document: &Document, animation: &[Channel]) -> Self {
+        let mut places = vec![false; document.nodes.len()];
+        let mut weights = places.clone();
+        for channel in animation {
+            let of = if channel.path == Property::MorphTargetWeights {
+                &mut weights
+            } else {
+                &mut places
+            };
+            of[channel.node] = true;
+        }
+        for &index in &document.order {
+            let parent = document.nodes[index].parent;
+            places[index] = places[index] || parent.is_some_and(|parent| places[parent]);
+        }
+        Self { places, weights }
+    }
+
+    /// Whether what a node draws moves.
+    pub fn has(&self, document: &Document, index: usize, node: &Node) -> bool {
+        if self.places.is_empty() {
+            return false;
+        }
+        let skin = node.skin.and_then(|skin| document.skins.get(skin.value()));
+        let joints = skin.map_or(&[] as &[usize], |skin| &skin.joints);
+        self.places[index] || self.weights[index] || joints.iter().any(|&joint| self.places[joint])
+    }
+}
+
+/// What moves in a [`Pose`]: skins, morph targets, and meshes of animated nodes. A renderer that has it on the device
+/// shows other [moments](Self::at) without a look at any vertex.
+#[derive(Clone, Debug)]
+pub struct Motion {
+    /// What its moments and it have in common with no other.
+    pub(crate) identity: Arc<()>,
+    /// Of the geometry.
+    pub(crate) vertex_count: usize,
+    request: PoseRequest,
+    origin: DVec3,
+    lights: Vec<Light>,
+    placements: usize,
+    pub(crate) parts: Vec<MotionPart>,
+    /// Position, normal and tangent of each vertex as it rests in its mesh.
+    pub(crate) vertices: Vec<[[f32; 4]; 3]>,
+    /// Joints and weights of a set of each vertex, the latter's bits.
+    pub(crate) influences: Vec<[[u32; 4]; 2]>,
+    /// Displacements of positions, or of positions, normals and tangents in turn.
+    pub(crate) displacements: Vec<[f32; 4]>,
+}
+
+/// Vertices of a mesh that move alike.
+#[derive(Clone, Copy, Debug)]
+pub struct MotionPart {
+    placement: usize,
+    pub mirrored: bool,
+    /// Of the geometry.
+    pub first_vertex: u32,
+    pub vertex_count: u32,
+    /// In [`Motion::vertices`].
+    pub first_resting: u32,
+    /// In [`Motion::influences`]; those of a set follow each other.
+    pub first_influence: u32,
+    pub sets: u32,
+    /// In [`Motion::displacements`]; those of a target follow each other.
+    pub first_displacement: u32,
+    /// Vectors of a vertex there.
+    pub displacement_vectors: u32,
+    matrix_count: u32,
+    target_count: u32,
+    /// Whether normals are those of triangles, of which each has three vertices for itself.
+    pub is_flat: bool,
+}
+
+/// Matrices and weights of what moves, at one moment.
+#[derive(Clone, Debug)]
+pub struct Moment {
+    /// Its motion's.
+    pub(crate) identity: Arc<()>,
+    /// The cameras, as in [`Pose::cameras`].
+    pub cameras: Vec<SceneCamera>,
+    /// Three rows a matrix, to the geometry's space; and of each target with a weight that, and its index.
+    pub(crate) vectors: Vec<[f32; 4]>,
+    pub(crate) parts: Vec<MomentPart>,
+}
+
+/// Where the vectors of a [`MotionPart`] are.
+#[derive(Clone, Copy, Debug)]
+pub struct MomentPart {
+    pub first_matrix: u32,
+    pub first_weight: u32,
+    pub weight_count: u32,
+}
+
+impl Motion {
+    pub(super) fn new(
+        request: &PoseRequest,
+        pose: &Pose,
+        shown: &Shown<'_>,
+        moving: &[MovingPlacement],
+    ) -> Self {
+        let mut motion = Self {
+            identity: Arc::new(()),
+            vertex_count: pose.geometry.positions.len(),
+            request: request.clone(),
+            origin: pose.geometry.origin,
+            lights: pose.lights.clone(),
+            placements: shown.placements.len(),
+            parts: Vec::new(),
+            vertices: Vec::new(),
+            influences: Vec::new(),
+            displacements: Vec::new(),
+        };
+        for part in moving {
+            if let Some(placement) = shown.placements.get(part.placement) {
+                motion.add(part, placement);
+            }
+        }
+        motion
+    }
+
+    fn add(&mut self, part: &MovingPlacement, placement: &Placement<'_>) {
+        let primitive = placement.primitive;
+        let sets = if placement.is_skinned() {
+            primitive.influences.as_slice()
+        } else {
+            &[]
+        };
+        let turns = |target: &Target| !target.normals.is_empty() || !target.tangents.is_empty();
+        let displacement_vectors = if primitive.targets.iter().any(turns) {
+            3
+        } else {
+            1
+        };
+        let vertices = 0..primitive.positions.len();
+        self.parts.push(MotionPart {
+            placement: part.placement,
+            mirrored: placement.mirrored,
+            first_vertex: part.first_vertex,
+            vertex_count: vertices.len() as u32,
+            first_resting: self.vertices.len() as u32,
+            first_influence: self.influences.len() as u32,
+            sets: sets.len() as u32,
+            first_displacement: self.displacements.len() as u32,
+            displacement_vectors,
+            matrix_count: placement.matrices().len() as u32,
+            target_count: primitive.targets.len() as u32,
+            is_flat: primitive.is_flat(),
+        });
+        let vector = |stream: &[[f32; 3]], v: usize| {
+            let [x, y, z] = stream.get(v).copied().unwrap_or_default();
+            [x, y, z, 0.0]
+        };
+        self.vertices.extend(vertices.clone().map(|v| {
+            let tangent = primitive.tangents.get(v).copied();
+            [
+                vector(&primitive.positions, v),
+                vector(&primitive.normals, v),
+                tangent.unwrap_or([1.0, 0.0, 0.0, 1.0]),
+            ]
+        }));
+        for set in sets {
+            let pairs = set.joints.iter().zip(&set.weights);
+            let bits = |(joints, weights): (&[u16; 4], &[f32; 4])| {
+                [joints.map(u32::from), weights.map(f32::to_bits)]
+            };
+            self.influences.extend(pairs.map(bits));
+        }
+        for target in &primitive.targets {
+            for v in vertices.clone() {
+                let streams = [&target.positions, &target.normals, &target.tangents];
+                let vectors = streams.into_iter().take(displacement_vectors as usize);
+                let vectors = vectors.map(|stream| vector(stream, v));
+                self.displacements.extend(vectors);
+            }
+        }
+    }
+
+    /// Most vectors of a [`Moment`].
+    pub(crate) fn vector_count(&self) -> u64 {
+        let of =
+            |part: &MotionPart| 3 * u64::from(part.matrix_count) + u64::from(part.target_count);
+        self.parts.iter().map(of).sum()
+    }
+
+    /// Matrices and weights at another time, in seconds, of the animation and scene that the motion is of. `None` where
+    /// they can't lead there from the first pose, and the scene has to be posed anew: where a light moves, a mesh turns
+    /// inside out, or something goes beyond what numbers can say.
+    ///
+    /// # Errors
+    /// As [`Scene::pose`].
+    pub fn at(&self, scene: &Scene, time: f64) -> Result<Option<Moment>, SceneError> {
+        let request = PoseRequest {
+            time,
+            ..self.request.clone()
+        };
+        let mut warnings = Warnings::new(&scene.document.file);
+        let shown = show(scene, &request, &Moving::default(), &mut warnings)?;
+        if shown.lights != self.lights || shown.placements.len() != self.placements {
+            return Ok(None);
+        }
+        let mut moment = Moment {
+            identity: self.identity.clone(),
+            cameras: shown.cameras,
+            vectors: Vec::new(),
+            parts: Vec::new(),
+        };
+        for part in &self.parts {
+            let placement = shown.placements.get(part.placement);
+            let Some(placement) = placement.filter(|p| p.mirrored == part.mirrored) else {
+                return Ok(None);
+            };
+            let first_matrix = moment.vectors.len() as u32;
+            for matrix in placement.matrices() {
+                moment.vectors.extend(rows(matrix, self.origin));
+            }
+            let first_weight = moment.vectors.len() as u32;
+            let weights = placement.targets.iter();
+            let weights =
+                weights.map(|(weight, index, _)| [*weight as f32, *index as f32, 0.0, 0.0]);
+            moment.vectors.extend(weights);
+            moment.parts.push(MomentPart {
+                first_matrix,
+                first_weight,
+                weight_count: placement.targets.len() as u32,
+            });
+        }
+        let finite = |vector: &[f32; 4]| vector.iter().all(|value| value.is_finite());
+        Ok(Some(moment).filter(|moment| moment.vectors.iter().all(finite)))
+    }
+}
+
+/// Rows of a matrix that leads to the space around an origin.
+fn rows(matrix: &DAffine3, origin: DVec3) -> [[f32; 4]; 3] {
+    let linear = matrix.matrix3.transpose();
+    let offset = matrix.translation - origin;
+    let row = |axis: DVec3, offset: f64| [axis.x, axis.y, axis.z, offset].map(|value| value as f32);
+    [
+        row(linear.x_axis, offset.x),
+        row(linear.y_axis, offset.y),
+        row(linear.z_axis, offset.z),
+    ]
+}

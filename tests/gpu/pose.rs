@@ -1,0 +1,250 @@
+//! Moments that the device makes, against poses of the same moments that the CPU makes.
+
+use std::sync::Arc;
+
+use gpc::camera::{Camera, Orbit};
+use gpc::render::{Frame, Headless, Method, RenderError, Rendered, Settings};
+use gpc::scene::{Loaded, Motion, Pose, PoseRequest};
+use serde_json::json;
+
+use crate::scene_builder::Builder;
+use crate::stage::{ids, on_gpu, once};
+
+const SIZE: [u32; 2] = [96, 80];
+/// Segments of the tube along its length and around.
+const TUBE: [usize; 2] = [12, 10];
+/// Seconds into the animation.
+const TIMES: [f64; 3] = [0.25, 0.6, 1.0];
+
+/// A tube that two joints bend and a target thickens, a flat pyramid that a target squeezes, and one that its parent turns
+/// and stretches; behind them one that stays.
+fn film() -> Loaded {
+    let mut builder = Builder::new();
+    let [length, around] = TUBE;
+    let mut tube = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    for ring in 0..=length {
+        let along = ring as f32 / length as f32;
+        for side in 0..around {
+            let (sin, cos) = (side as f32 / around as f32 * std::f32::consts::TAU).sin_cos();
+            tube.0.push([0.3 * cos, 2.0 * along - 1.0, 0.3 * sin]);
+            tube.1.push([cos, 0.0, sin]);
+            tube.2.push([1.0 - along, along, 0.0, 0.0]);
+            tube.3.push([0.4 * cos * along, 0.0, 0.4 * sin * along]);
+        }
+    }
+    let mut indices = Vec::new();
+    for ring in 0..length {
+        for side in 0..around {
+            let [a, b] = [side, (side + 1) % around].map(|side| (ring * around + side) as u16);
+            let [c, d] = [a + around as u16, b + around as u16];
+            indices.extend([a, c, b, b, c, d]);
+        }
+    }
+    let joints = [0_u8, 1, 0, 0].repeat(tube.0.len());
+    let primitive = json!({
+        "attributes": {
+            "POSITION": builder.floats(&tube.0), "NORMAL": builder.floats(&tube.1),
+            "WEIGHTS_0": builder.floats(&tube.2), "JOINTS_0": builder.accessor("VEC4", 5121, &joints, json!({})),
+        },
+        "indices": builder.indices(&indices),
+        "targets": [{"POSITION": builder.floats(&tube.3), "NORMAL": builder.floats(&tube.3)}],
+    });
+    let bind = [
+        1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1.,
+    ];
+    let inverse = builder.floats(&[bind, bind]);
+    let upper = builder.push("nodes", json!({}));
+    let lower = builder.push("nodes", json!({"children": [upper]}));
+    builder.push(
+        "skins",
+        json!({"joints": [lower, upper], "inverseBindMatrices": inverse}),
+    );
+    let bent = builder.node_with(primitive, json!({"skin": 0}));
+
+    // Without normals: flat.
+    let [base, top] = [
+        [[-0.5, 0., -0.4], [0.5, 0., -0.4], [0., 0., 0.6]],
+        [[0., 0.9, 0.]; 3],
+    ];
+    let sides = [[0, 1, 3], [1, 2, 3], [2, 0, 3]];
+    let corner = |v: usize| *base.get(v).unwrap_or(&top[0]);
+    let pyramid: Vec<[f32; 3]> = sides.iter().flatten().map(|v| corner(*v)).collect();
+    let squeezed: Vec<[f32; 3]> = pyramid
+        .iter()
+        .map(|[x, y, z]| [-0.6 * x, 0.3 * y, 0.5 * z * y])
+        .collect();
+    let positions = builder.floats(&pyramid);
+    let displaced = builder.floats(&squeezed);
+    let material = builder.push("materials", json!({"doubleSided": true}));
+    let plain = json!({"attributes": {"POSITION": positions}, "material": material});
+    let mut morphed = plain.clone();
+    morphed["targets"] = json!([{"POSITION": displaced}]);
+    let squeezing = builder.node_with(morphed, json!({"translation": [1.2, -0.5, 0.3]}));
+    let turned = builder.node_with(plain.clone(), json!({"scale": [-0.8, 1.2, 1.0]}));
+    let turning = builder.push(
+        "nodes",
+        json!({"children": [turned], "translation": [-1.3, 0.2, 0.4]}),
+    );
+    builder.node_with(
+        plain,
+        json!({"translation": [0.3, -1.2, -1.0], "scale": [3.0, 1.0, 1.0]}),
+    );
+
+    let input = |builder: &mut Builder| builder.floats(&[[0.0], [1.0]]);
+    let mut channels = Vec::new();
+    let mut samplers = Vec::new();
+    let half = std::f32::consts::FRAC_1_SQRT_2;
+    for (node, path, output) in [
+        (
+            upper,
+            "rotation",
+            builder.floats(&[[0., 0., 0., 1.], [0., 0., half, half]]),
+        ),
+        (
+            lower,
+            "translation",
+            builder.floats(&[[0., 0., 0.], [0.2, -0.3, 0.5]]),
+        ),
+        (bent, "weights", builder.floats(&[[0.0], [0.9]])),
+        (squeezing, "weights", builder.floats(&[[0.0], [1.2]])),
+        (
+            turning,
+            "rotation",
+            builder.floats(&[[0., 0., 0., 1.], [0., half, 0., half]]),
+        ),
+        (
+            turning,
+            "scale",
+            builder.floats(&[[1., 1., 1.], [1.4, 0.7, 1.]]),
+        ),
+    ] {
+        let input = input(&mut builder);
+        channels.push(json!({"sampler": samplers.len(), "target": {"node": node, "path": path}}));
+        samplers.push(json!({"input": input, "output": output}));
+    }
+    builder.push(
+        "animations",
+        json!({"channels": channels, "samplers": samplers}),
+    );
+    builder.load().unwrap()
+}
+
+fn at(time: f64) -> PoseRequest {
+    PoseRequest {
+        time,
+        ..PoseRequest::default()
+    }
+}
+
+struct Shown {
+    loaded: Loaded,
+    motion: Motion,
+    camera: Camera,
+    frame: Frame,
+}
+
+fn shown(gpu: &mut Headless, settings: &Settings) -> Shown {
+    let loaded = film();
+    let (pose, motion) = loaded.scene.pose_in_motion(&at(0.0)).unwrap();
+    let prepared = gpu
+        .upload_in_motion(&loaded.scene, (&pose, &motion), None)
+        .unwrap();
+    let frame = gpu.prepare(&prepared, settings).unwrap();
+    Shown {
+        camera: camera(&pose),
+        loaded,
+        motion,
+        frame,
+    }
+}
+
+fn camera(pose: &Pose) -> Camera {
+    let (low, high) = pose.geometry.bounds().unwrap();
+    let aspect = f64::from(SIZE[0]) / f64::from(SIZE[1]);
+    Orbit::default().frame(low, high, aspect).unwrap()
+}
+
+impl Shown {
+    fn moved(&mut self, gpu: &mut Headless, time: f64) -> Rendered {
+        let moment = self.motion.at(&self.loaded.scene, time).unwrap().unwrap();
+        self.frame.show(Arc::new(moment)).unwrap();
+        gpu.render(&mut self.frame, &self.camera).unwrap()
+    }
+
+    fn posed(&self, gpu: &mut Headless, time: f64) -> Rendered {
+        let pose = self.loaded.scene.pose(&at(time)).unwrap();
+        let prepared = gpu.upload(&self.loaded.scene, &pose, None).unwrap();
+        let mut frame = gpu.prepare(&prepared, self.frame.settings()).unwrap();
+        gpu.render(&mut frame, &self.camera).unwrap()
+    }
+}
+
+#[test]
+fn moments_are_poses() {
+    on_gpu(|gpu| {
+        let mut shown = shown(gpu, &once(SIZE));
+        let still = shown.posed(gpu, 0.0);
+        for time in TIMES {
+            let found = shown.moved(gpu, time);
+            let expected = shown.posed(gpu, time);
+            let changed = ids(&still)
+                .iter()
+                .zip(ids(&found))
+                .filter(|(a, b)| **a != *b)
+                .count();
+            assert!(
+                changed > 300,
+                "only {changed} pixels show that anything moved"
+            );
+            let pairs = found.attributes.iter().zip(&expected.attributes);
+            let other = pairs.clone().filter(|(a, b)| a.id != b.id).count();
+            assert!(other <= 3, "{other} pixels show another triangle at {time}");
+            for (a, b) in pairs.filter(|(a, b)| a.id == b.id) {
+                assert!((a.depth - b.depth).abs() < 1e-4, "{a:?} {b:?}");
+                let apart = [0, 1, 2].map(|axis| (a.normal[axis] - b.normal[axis]).abs());
+                assert!(apart.iter().all(|apart| *apart < 2e-4), "{a:?} {b:?}");
+            }
+        }
+    });
+}
+
+#[test]
+fn a_moment_depends_on_no_other() {
+    on_gpu(|gpu| {
+        let settings = Settings {
+            method: Method::Superpixel,
+            samples: 16,
+            ..Settings::new(SIZE[0], SIZE[1])
+        };
+        let mut shown = shown(gpu, &settings);
+        let first = shown.moved(gpu, TIMES[1]).colors;
+        assert_ne!(first, shown.moved(gpu, TIMES[2]).colors);
+        assert_eq!(first, shown.moved(gpu, TIMES[1]).colors);
+        let expected = shown.posed(gpu, TIMES[1]).colors;
+        let pairs = first.as_flattened().iter().zip(expected.as_flattened());
+        let squares: f64 = pairs.map(|(a, b)| f64::from(a - b).powi(2)).sum();
+        let apart = (squares / (4 * first.len()) as f64).sqrt();
+        assert!(apart < 1e-3, "{apart}");
+    });
+}
+
+#[test]
+fn what_does_not_belong_together_is_refused() {
+    on_gpu(|gpu| {
+        let mut first = shown(gpu, &once(SIZE));
+        let second = shown(gpu, &once(SIZE));
+        let moment = second
+            .motion
+            .at(&second.loaded.scene, 0.5)
+            .unwrap()
+            .unwrap();
+        let refused = first.frame.show(Arc::new(moment));
+        assert!(
+            matches!(refused, Err(RenderError::OtherMotion)),
+            "{refused:?}"
+        );
+        let other = crate::blend::panes().build();
+        let refused = gpu.upload_in_motion(&other.0, (&other.1, &first.motion), None);
+        assert!(matches!(refused, Err(RenderError::OtherMotion)));
+    });
+}
