@@ -23,28 +23,32 @@ pub struct Stage {
 impl Stage {
     /// Loads a scene, poses it and puts it on the device.
     pub fn open(path: &Path, image: &ImageArgs, settings: Settings) -> anyhow::Result<Self> {
-        let loaded = input::load_variant(path, image.camera.variant.as_deref())?;
-        let pose = image.pose(&loaded, image.camera.time)?;
-        let warnings: Vec<_> = loaded
-            .warnings
-            .iter()
-            .chain(&pose.warnings)
-            .cloned()
-            .collect();
-        for warning in &warnings {
-            log::warn!("{warning}");
-        }
-        let [width, height] = image.size.map(f64::from);
-        let views = render::choose_views(&image.camera, &pose, width / height)?;
-        let [view] = views.as_slice() else {
-            usage!("--camera all: this command takes one camera");
-        };
-        let mut headless = render::open(image.device.clone())?;
+        let (mut headless, (loaded, pose, warnings, camera)) =
+            render::open_beside(image.device.clone(), || {
+                let loaded = input::load_variant(path, image.camera.variant.as_deref())?;
+                let pose = image.pose(&loaded, image.camera.time)?;
+                let warnings: Vec<_> = loaded
+                    .warnings
+                    .iter()
+                    .chain(&pose.warnings)
+                    .cloned()
+                    .collect();
+                for warning in &warnings {
+                    log::warn!("{warning}");
+                }
+                let [width, height] = image.size.map(f64::from);
+                let views = render::choose_views(&image.camera, &pose, width / height)?;
+                let [view] = views.as_slice() else {
+                    usage!("--camera all: this command takes one camera");
+                };
+                let camera = view.camera;
+                Ok((loaded, pose, warnings, camera))
+            })?;
         let scene = render::upload(&mut headless, &loaded.scene, &pose, &settings)?;
         Ok(Self {
             headless,
             scene,
-            camera: view.camera,
+            camera,
             settings,
             warnings,
         })

@@ -47,6 +47,8 @@ pub struct SampleOptions {
     pub has_mask: bool,
     /// Whether the scene has BLEND triangles.
     pub has_blend: bool,
+    /// Whether cells are those that show a BLEND triangle, so that no list without one is sampled.
+    pub always_blends: bool,
 }
 
 /// How many records the samples of a block that see the same triangle make.
@@ -127,35 +129,37 @@ impl Sample {
     pub fn new(layout: &FrameLayout, options: &SampleOptions) -> Result<Self, VulkanError> {
         let lanes = layout.gpu.limits().subgroup_size;
         let (rows, _) = kernel(&KERNELS, options.samples.min(Self::BLOCK).div_ceil(lanes));
-        let make = |list: TileList, run: Run, kernels: &Kernels, mask: bool| {
+        let make = |(list, run, kernels, mask): &(TileList, Run, &Kernels, bool)| {
             let constants = options
                 .cells
                 .constants(Constants::new())
                 .with(0, lanes)
                 .with(1, lanes)
                 .flag(2, options.records == RecordRate::Sample)
-                .flag(3, mask)
-                .with(4, list as u32)
-                .with(5, run as u32)
-                .flag(6, options.by_part(run, rows * lanes))
-                .flag(7, options.measures(list, run))
+                .flag(3, *mask)
+                .with(4, *list as u32)
+                .with(5, *run as u32)
+                .flag(6, options.by_part(*run, rows * lanes))
+                .flag(7, options.measures(*list, *run))
                 .with(8, options.part_samples())
                 .flag(9, options.apart);
             let code = kernel(kernels, rows).1;
-            Ok((list, layout.compute(code, &constants, Some(lanes))?))
+            Ok::<_, VulkanError>((*list, layout.compute(code, &constants, Some(lanes))?))
         };
-        let listed = |run: Run| {
-            let mut kernels = vec![make(TileList::Plain, run, &KERNELS, false)?];
-            if options.has_mask {
-                kernels.push(make(TileList::Masked, run, &KERNELS, true)?);
-            }
-            Ok::<_, VulkanError>(kernels)
-        };
-        let whole = |list, kernels| make(list, Run::Whole, kernels, options.has_mask);
         let probes = options.probes();
-        let mut kernels = listed(if probes { Run::Probe } else { Run::Whole })?;
+        let listed = |run: Run| {
+            let plain = (TileList::Plain, run, &KERNELS, false);
+            let masked = (TileList::Masked, run, &KERNELS, true);
+            let wanted = [(plain, true), (masked, options.has_mask)];
+            wanted
+                .into_iter()
+                .filter(|(_, wanted)| *wanted && !options.always_blends)
+                .map(|(kernel, _)| kernel)
+        };
+        let whole = |list, kernels| (list, Run::Whole, kernels, options.has_mask);
+        let mut wanted: Vec<_> = listed(if probes { Run::Probe } else { Run::Whole }).collect();
         if options.has_blend {
-            kernels.push(whole(TileList::Blended, &CHAINED)?);
+            wanted.push(whole(TileList::Blended, &CHAINED));
         }
         if options.unlisted {
             let unlisted = if options.has_blend {
@@ -163,13 +167,30 @@ impl Sample {
             } else {
                 &UNLISTED
             };
-            kernels.push(whole(TileList::Unlisted, unlisted)?);
+            wanted.push(whole(TileList::Unlisted, unlisted));
         }
-        let rest = if probes {
-            listed(Run::Rest)?
-        } else {
-            Vec::new()
-        };
+        let first_run = wanted.len();
+        if probes {
+            wanted.extend(listed(Run::Rest));
+        }
+        // They take drivers the longest of all.
+        let make = &make;
+        let made: Result<Vec<_>, _> = std::thread::scope(|threads| {
+            let making: Vec<_> = wanted
+                .iter()
+                .map(|kernel| threads.spawn(move || make(kernel)))
+                .collect();
+            making
+                .into_iter()
+                .map(|thread| {
+                    thread
+                        .join()
+                        .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+                })
+                .collect()
+        });
+        let mut kernels = made?;
+        let rest = kernels.split_off(first_run);
         let block = rows * lanes;
         let taking = |samples: u32| {
             let blocks = samples.div_ceil(block);

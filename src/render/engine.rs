@@ -68,6 +68,7 @@ impl Engine {
             unlisted: plan.effort.unlisted,
             has_mask: scene.has_mask(),
             has_blend: scene.has_blend(),
+            always_blends: kind.mode == DetectMode::Blended,
         };
         let thin = || {
             kind.thin
@@ -84,7 +85,6 @@ impl Engine {
                 kind.growths,
             )
         };
-        // The kernels of `sample` take about as long to make as all others.
         let (sample, others) = std::thread::scope(|scope| {
             let sample = scope.spawn(|| Sample::new(layout, &options));
             let others = (|| {

@@ -13,7 +13,7 @@ mod view;
 pub use args::{Antialiasing, CameraArgs, RenderArgs, Tonemap};
 pub use image::ImageArgs;
 pub use save::{beside, encode, save, write};
-pub use session::{Shot, open, upload};
+pub use session::{Shot, open_beside, upload};
 pub use view::{View, choose as choose_views};
 
 use super::exit::{Usage, usage};
@@ -53,9 +53,8 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
 
     let mut warnings = Warnings::default();
     let mut time = first.time;
-    let (posed, headless) = std::thread::scope(|threads| {
-        let headless = threads.spawn(|| session::open(image.device.clone()));
-        let mut load = || -> anyhow::Result<_> {
+    let (headless, (loaded, mut pose, cameras)) =
+        session::open_beside(image.device.clone(), || {
             let loaded = input::load_variant(&args.scene, image.camera.variant.as_deref())?;
             clock.lap("load");
             warnings.add(&loaded.warnings);
@@ -65,11 +64,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
             template.require("camera", "cameras", cameras)?;
             clock.lap("pose");
             Ok((loaded, pose, cameras))
-        };
-        (load(), headless.join())
-    });
-    let (loaded, mut pose, cameras) = posed?;
-    let headless = headless.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
+        })?;
     clock.lap("device");
     let mut session = Session::new(headless, settings.clone());
     let device = session.device();

@@ -35,9 +35,25 @@ pub struct Shot {
 }
 
 /// Opens a device by part of its name, or the best one; under the validation layer where the environment says so.
-pub fn open(device: Option<String>) -> Result<Headless, VulkanError> {
+fn open(device: Option<String>) -> Result<Headless, VulkanError> {
     let validation = std::env::var_os("GPC_VALIDATION").is_some_and(|value| !value.is_empty());
     Headless::new(&HeadlessOptions { device, validation })
+}
+
+/// Opens a device as [`open`] does while `load` reads what is to be shown. Where both fail, the error is that of `load`.
+pub fn open_beside<T>(
+    device: Option<String>,
+    load: impl FnOnce() -> anyhow::Result<T>,
+) -> anyhow::Result<(Headless, T)> {
+    std::thread::scope(|threads| {
+        let headless = threads.spawn(|| open(device));
+        let loaded = load();
+        let headless = headless
+            .join()
+            .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        let loaded = loaded?;
+        Ok((headless?, loaded))
+    })
 }
 
 /// Puts a pose on the device, ready for the shadows that the settings ask for.

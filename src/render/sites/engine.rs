@@ -114,6 +114,7 @@ impl SiteEngine {
             unlisted: true,
             has_mask: scene.has_mask(),
             has_blend: scene.has_blend(),
+            always_blends: false,
         };
         let mut locations = if points {
             vec![[0.0; 2]]
