@@ -194,3 +194,77 @@ fn etc1s_and_uastc_have_their_colours() {
         assert!(found.is_none_or(|count| count > 1000), "{found:?}");
     }
 }
+
+/// Mipmaps that a file has down to a single texel are kept; too few of them are not.
+#[test]
+fn ktx2_keeps_its_levels() {
+    // A block of UASTC in one colour: its mode, and eight bits of each channel.
+    let block = |[r, g, b]: [u8; 3]| {
+        let channels = [r, g, b, 255].map(u128::from);
+        let shifted = channels.iter().zip([5, 13, 21, 29]);
+        shifted.fold(0x17_u128, |bits, (channel, shift)| bits | channel << shift)
+    };
+    let colors = [[200, 0, 0], [0, 150, 0], [0, 0, 100], [50, 60, 70]];
+    let file = |levels: usize| {
+        let mut bytes = b"\xABKTX 20\xBB\r\n\x1A\n".to_vec();
+        let words = [0, 1, 8, 8, 0, 0, 1, levels as u32, 0];
+        bytes.extend(words.iter().flat_map(|word: &u32| word.to_le_bytes()));
+        let descriptor = 80 + 24 * levels as u32;
+        let words = [descriptor, 44, 0, 0, 0, 0, 0, 0];
+        bytes.extend(words.iter().flat_map(|word| word.to_le_bytes()));
+        let mut offset = u64::from(descriptor) + 44;
+        for level in 0..levels {
+            let size = if level == 0 { 64 } else { 16 };
+            bytes.extend(
+                [offset, size, size]
+                    .iter()
+                    .flat_map(|word| word.to_le_bytes()),
+            );
+            offset += size;
+        }
+        let words = [
+            44_u32,
+            0,
+            2 | 40 << 16,
+            166 | 1 << 8 | 2 << 16,
+            3 | 3 << 8,
+            16,
+        ];
+        bytes.extend(
+            words
+                .iter()
+                .chain(&[0; 5])
+                .flat_map(|word| word.to_le_bytes()),
+        );
+        for (level, &color) in colors.iter().take(levels).enumerate() {
+            for _ in 0..if level == 0 { 4 } else { 1 } {
+                bytes.extend(block(color).to_le_bytes());
+            }
+        }
+        bytes
+    };
+    for (levels, kept) in [(1, 1), (2, 1), (4, 4)] {
+        let mut builder = Builder::new();
+        let view = builder.view(&file(levels), json!({}));
+        builder.push(
+            "images",
+            json!({"bufferView": view, "mimeType": "image/ktx2"}),
+        );
+        builder.push(
+            "textures",
+            json!({"extensions": {"KHR_texture_basisu": {"source": 0}}}),
+        );
+        builder.push("materials", json!({"emissiveTexture": {"index": 0}}));
+        let loaded = builder.load().unwrap();
+        assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
+        let image = &loaded.scene.images[0];
+        assert_eq!((image.width, image.height, image.full_levels()), (8, 8, 4));
+        let found: Vec<_> = image.levels().collect();
+        assert_eq!(found.len(), kept);
+        for (level, (texels, [r, g, b])) in found.iter().zip(colors).enumerate() {
+            let [width, height] = image.level_size(level as u32);
+            assert_eq!(texels.len(), 4 * (width * height) as usize);
+            assert_eq!(texels[..4], [r, g, b, 255], "level {level}");
+        }
+    }
+}

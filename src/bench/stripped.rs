@@ -81,7 +81,8 @@ fn mean(image: &Image, alpha_mode: AlphaMode) -> [f64; 3] {
         .map(|code| srgb::decode(f64::from(code) / 255.0))
         .collect();
     let (mut sum, mut weights) = ([0.0; 3], 0.0);
-    for [r, g, b, a] in image.pixels.as_chunks::<4>().0 {
+    let full = image.levels().next().unwrap_or_default();
+    for [r, g, b, a] in full.as_chunks::<4>().0 {
         let weight = match alpha_mode {
             AlphaMode::Opaque => 1.0,
             AlphaMode::Mask { .. } | AlphaMode::Blend => f64::from(*a),

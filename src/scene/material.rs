@@ -267,8 +267,34 @@ pub struct Image {
     pub width: u32,
     /// Height in texels, at least 1.
     pub height: u32,
-    /// `4 * width * height` bytes.
+    /// `4 * width * height` bytes. What its file has of mipmaps follows, all levels down to a single texel, each half as wide
+    /// and high as the one before, rounded down; without them, they are made.
     pub pixels: Vec<u8>,
+}
+
+impl Image {
+    /// Number of levels down to a single texel.
+    #[must_use]
+    pub fn full_levels(&self) -> u32 {
+        self.width.max(self.height).max(1).ilog2() + 1
+    }
+
+    /// Width and height of a level.
+    #[must_use]
+    pub fn level_size(&self, level: u32) -> [u32; 2] {
+        [self.width, self.height].map(|side| (side >> level).max(1))
+    }
+
+    /// The levels that there are: one, or all.
+    pub fn levels(&self) -> impl Iterator<Item = &[u8]> {
+        let mut rest = &self.pixels[..];
+        (0..self.full_levels()).map_while(move |level| {
+            let [width, height] = self.level_size(level);
+            let (first, others) = rest.split_at_checked(4 * width as usize * height as usize)?;
+            rest = others;
+            Some(first)
+        })
+    }
 }
 
 impl std::fmt::Debug for Image {

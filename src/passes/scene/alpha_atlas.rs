@@ -1,6 +1,6 @@
 //! The alpha channels that the alpha test reads, in one buffer.
 
-use crate::scene::{AlphaMode, Filter, Image, Material, Sampler, Scene, Wrap};
+use crate::scene::{AlphaMode, Filter, Material, Sampler, Scene, Wrap};
 
 /// Flags of `shaders/include/alpha.glsl`.
 const TEXTURED: u32 = 1;
@@ -49,17 +49,18 @@ impl AlphaAtlas {
         }
         let table = self.words.len();
         let levels = if flags & NO_MIP == 0 {
-            image.width.max(image.height).ilog2() + 1
+            image.full_levels()
         } else {
             1
         };
         self.words.resize(table + levels as usize, 0);
-        let mut level = alpha_channel(image);
-        let mut size = [image.width, image.height];
+        let mut level = Vec::new();
         for i in 0..levels as usize {
-            if i > 0 {
-                (level, size) = halve(&level, size);
-            }
+            let size = image.level_size(i as u32);
+            level = match image.levels().nth(i) {
+                Some(given) => alpha_channel(given),
+                None => halve(&level, image.level_size((i as u32).saturating_sub(1))).0,
+            };
             self.words[table + i] = self.words.len() as u32;
             self.push(&level, size, &texture.sampler);
         }
@@ -131,8 +132,8 @@ fn wrap(i: i64, size: u32, mode: Wrap) -> usize {
     inside as usize
 }
 
-fn alpha_channel(image: &Image) -> Vec<u8> {
-    image.pixels.chunks_exact(4).map(|texel| texel[3]).collect()
+fn alpha_channel(texels: &[u8]) -> Vec<u8> {
+    texels.chunks_exact(4).map(|texel| texel[3]).collect()
 }
 
 /// The next mipmap level: means of 2 x 2 texels, of 3 where a side is odd.

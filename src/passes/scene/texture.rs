@@ -8,6 +8,8 @@ use std::sync::Arc;
 /// An image with its mipmaps.
 pub(super) struct Texture {
     pub(super) image: Image,
+    /// Levels that are there to be copied: one, or all.
+    given: u32,
 }
 
 impl Texture {
@@ -32,7 +34,7 @@ impl Texture {
                 height: source.height,
                 depth: 1,
             })
-            .mip_levels(side.ilog2() + 1)
+            .mip_levels(source.full_levels())
             .array_layers(1)
             .samples(vk::SampleCountFlags::TYPE_1)
             .usage(
@@ -42,10 +44,11 @@ impl Texture {
             );
         let image = memory.image("texture", &info, vk::ImageAspectFlags::COLOR)?;
         let upload = memory.upload("texture upload", &source.pixels)?;
-        Ok((Self { image }, upload))
+        let given = source.levels().count() as u32;
+        Ok((Self { image, given }, upload))
     }
 
-    /// Copies the first level and makes each further one from the one before, by the device's linear blit.
+    /// Copies the levels that there are and makes each further one from the one before, by the device's linear blit.
     pub(super) fn record_upload(&self, recorder: &Recorder<'_>, upload: &Buffer) {
         let (device, raw, image) = (recorder.device(), recorder.raw(), &self.image);
         let (read, write) = (
@@ -59,21 +62,34 @@ impl Texture {
             base_array_layer: 0,
             layer_count: 1,
         };
-        let extent = vk::Extent3D {
-            width: image.extent.width,
-            height: image.extent.height,
-            depth: 1,
-        };
-        let copy = [vk::BufferImageCopy::default()
-            .image_subresource(layer(0))
-            .image_extent(extent)];
-        // SAFETY: the recorder's contract; the buffer holds the whole level, which is in the layout named.
-        unsafe { device.cmd_copy_buffer_to_image(raw, upload.raw, image.raw, write, &copy) };
         let corner = |level: u32| vk::Offset3D {
             x: (image.extent.width >> level).max(1) as i32,
             y: (image.extent.height >> level).max(1) as i32,
             z: 1,
         };
+        let mut offset = 0;
+        let copies: Vec<_> = (0..self.given)
+            .map(|level| {
+                let vk::Offset3D { x, y, z } = corner(level);
+                let copy = vk::BufferImageCopy::default()
+                    .buffer_offset(offset)
+                    .image_subresource(layer(level))
+                    .image_extent(vk::Extent3D {
+                        width: x as u32,
+                        height: y as u32,
+                        depth: z as u32,
+                    });
+                offset += 4 * x as u64 * y as u64;
+                copy
+            })
+            .collect();
+        // SAFETY: the recorder's contract; the buffer holds these levels, which are in the layout named.
+        unsafe { device.cmd_copy_buffer_to_image(raw, upload.raw, image.raw, write, &copies) };
+        let shown = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
+        if self.given == image.levels {
+            recorder.transition(image, write, shown);
+            return;
+        }
         for level in 1..image.levels {
             recorder.transition_level(image, level - 1, write, read);
             let blit = [vk::ImageBlit::default()
@@ -95,7 +111,6 @@ impl Texture {
             };
         }
         let last = image.levels - 1;
-        let shown = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
         for level in 0..last {
             recorder.transition_level(image, level, read, shown);
         }

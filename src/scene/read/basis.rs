@@ -34,14 +34,18 @@ pub fn dimensions(bytes: &[u8]) -> Result<(u32, u32), String> {
         ));
     }
     // It allocates what a level says that it is inflated to.
-    let blocks = u64::from(header.width.div_ceil(4)) * u64::from(header.height.div_ceil(4));
-    if let Some(level) = header.levels.first()
-        && level.uncompressed_byte_length > BYTES_A_BLOCK * blocks
-    {
+    for (index, level) in header.levels.iter().enumerate() {
+        let blocks = |side: u32| {
+            let side = side.checked_shr(index as u32).unwrap_or(0).max(1);
+            u64::from(side.div_ceil(4))
+        };
+        let blocks = blocks(header.width) * blocks(header.height);
         let claimed = level.uncompressed_byte_length;
-        return Err(format!(
-            "claims {claimed} bytes for {blocks} blocks of 4 x 4 texels"
-        ));
+        if claimed > BYTES_A_BLOCK * blocks {
+            return Err(format!(
+                "claims {claimed} bytes for {blocks} blocks of 4 x 4 texels"
+            ));
+        }
     }
     Ok((header.width, header.height))
 }
@@ -49,14 +53,27 @@ pub fn dimensions(bytes: &[u8]) -> Result<(u32, u32), String> {
 /// Bytes of a block of UASTC.
 const BYTES_A_BLOCK: u64 = 16;
 
-/// The texels of the full image, RGBA, of a file whose [`dimensions`] were found acceptable.
+/// The texels of the full image, RGBA, and of all smaller levels where the file has them down to a single texel, of a file
+/// whose [`dimensions`] were found acceptable.
 pub fn decode(bytes: &[u8]) -> Result<Vec<u8>, String> {
     let failed = |error: Error| format!("the KTX2 image cannot be decoded: {error:?}");
+    let header = Ktx2Header::parse(bytes).ok_or("the KTX2 header is broken")?;
+    let (width, height, levels) = (header.width, header.height, header.levels.len() as u32);
     let transcode = || {
         let transcoder = Transcoder::new(bytes).map_err(failed)?;
-        transcoder
-            .transcode(0, TargetFormat::Rgba32, DecodeFlags::NONE)
-            .map_err(failed)
+        let level = |level| {
+            transcoder
+                .transcode(level, TargetFormat::Rgba32, DecodeFlags::NONE)
+                .map_err(failed)
+        };
+        let mut texels = level(0)?;
+        let all = width.max(height).max(1).ilog2() + 1;
+        if levels == all {
+            for smaller in 1..all {
+                texels.extend(level(smaller)?);
+            }
+        }
+        Ok(texels)
     };
     // The transcoder is young: what it may still panic at is to cost one image, not the process.
     catch_unwind(transcode)

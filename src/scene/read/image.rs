@@ -188,16 +188,20 @@ impl Encoded<'_> {
             Format::Basis => super::basis::decode(&self.bytes)?,
         };
         let (width, height) = self.size;
-        if pixels.len() as u64 != 4 * u64::from(width) * u64::from(height) {
+        let image = Image {
+            width,
+            height,
+            pixels,
+        };
+        let levels = image.levels().count();
+        let bytes: usize = image.levels().map(<[u8]>::len).sum();
+        let complete = levels == 1 || levels == image.full_levels() as usize;
+        if bytes != image.pixels.len() || !complete {
             return Err(format!(
                 "is not of the {width} x {height} texels that its header states"
             ));
         }
-        Ok(Image {
-            width,
-            height,
-            pixels,
-        })
+        Ok(image)
     }
 
     fn decode_picture(&self, format: ImageFormat) -> Result<Vec<u8>, String> {
