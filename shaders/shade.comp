@@ -7,7 +7,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/color.glsl"
-#include "include/studio.glsl"
+#include "include/environment.glsl"
 #include "include/tiles.glsl"
 #include "include/sites.glsl"
 #include "include/place.glsl"
@@ -182,11 +182,11 @@ void main() {
             occlusion = OCCLUSION_TEXTURE == METALLIC_ROUGHNESS_TEXTURE ? metallic_roughness.r : READ(OCCLUSION_TEXTURE, place).r;
         s.occlusion = 1.0 + factors.z * (occlusion - 1.0);
 
-        float ambient = s.occlusion * (PUNCTUAL ? STUDIO_AMBIENT : 1.0);
-        vec3 irradiance = studio_irradiance(s.normal);
+        float ambient = s.occlusion * (PUNCTUAL && !ENVIRONMENT ? STUDIO_AMBIENT : 1.0);
+        vec3 irradiance = environment_irradiance(s.normal);
         vec3 diffuse = s.diffuse * irradiance;
-        if (DIFFUSE_TRANSMISSION) diffuse += s.through * studio_irradiance(-s.normal);
-        radiance = (diffuse * remaining(reflected) + reflected * studio_reflection(reflect(-to_eye, mirror), s.alpha)) * ambient
+        if (DIFFUSE_TRANSMISSION) diffuse += s.through * environment_irradiance(-s.normal);
+        radiance = (diffuse * remaining(reflected) + reflected * environment_reflection(reflect(-to_eye, mirror), s.roughness)) * ambient
             + s.emissive;
         Sheen sheen;
         vec3 of_sheen = vec3(0.0);

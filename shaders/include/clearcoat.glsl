@@ -34,7 +34,7 @@ vec3 coat_light(Coat coat, vec3 v, vec3 l, vec3 e) {
 // Radiance that it reflects of the environment.
 vec3 coat_environment(Coat coat, vec3 v) {
     vec2 split = environment_brdf(coat.roughness, max(dot(coat.normal, v), 1e-4));
-    return min(split.x + split.y, 1.0) * studio_reflection(reflect(-v, coat.normal), coat.alpha);
+    return min(split.x + split.y, 1.0) * environment_reflection(reflect(-v, coat.normal), coat.roughness);
 }
 
 #endif

@@ -14,6 +14,8 @@ layout(set = 0, binding = 0) uniform Frame {
     mat4 transform;         // position -> (pixel x * w, pixel y * w, z, w)
     vec4 eye;               // xyz relative to the geometry's origin
     vec4 view_direction;    // xyz unit; w = 1 for a parallel projection
+    vec4 irradiance[9];     // of the environment, over pi, as spherical harmonics
+    vec4 environment[3];    // rows that turn world space to the environment's; w: factor on its map, last level of it, unused
     vec4 background;        // premultiplied linear light
     vec2 raster_scale;      // pixel position -> normalised device coordinates of the region
     vec2 raster_offset;

@@ -1,7 +1,8 @@
 //! Scenes from files and from standard input.
 
 use anyhow::Context;
-use gpc::scene::{Loaded, Scene};
+use gpc::output::decode_linear;
+use gpc::scene::{Environment, Loaded, Scene};
 use std::io::Read;
 use std::path::Path;
 
@@ -33,6 +34,16 @@ pub fn load_variant(path: &Path, variant: Option<&str>) -> anyhow::Result<Loaded
         Some(variant) => Scene::variant_from_slice(&bytes, name, base, variant)?,
         None => Scene::from_slice(&bytes, name, base)?,
     })
+}
+
+/// Reads an equirectangular image as an environment.
+pub fn environment(path: &Path) -> anyhow::Result<Environment> {
+    let file = path.display();
+    let bytes = std::fs::read(path).with_context(|| format!("{file} can't be read"))?;
+    let ([width, height], pixels) = decode_linear(&bytes, &file.to_string())?;
+    let colors: Vec<[f32; 3]> = pixels.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect();
+    Environment::from_equirectangular(width, height, &colors)
+        .with_context(|| format!("{file} is no environment"))
 }
 
 /// The scene's name for file names: its file's without the extension.

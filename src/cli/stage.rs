@@ -1,7 +1,6 @@
 //! A scene on a device and one camera, for the commands that choose their own sampling locations.
 
 use super::exit::usage;
-use super::input;
 use super::render::{self, ImageArgs, Shot};
 use super::report::{Device, Effort, Figures, Work};
 use gpc::camera::{Camera, Pinhole, Site};
@@ -25,7 +24,7 @@ impl Stage {
     pub fn open(path: &Path, image: &ImageArgs, settings: Settings) -> anyhow::Result<Self> {
         let (mut headless, (loaded, pose, warnings, camera)) =
             render::open_beside(image.device.clone(), || {
-                let loaded = input::load_variant(path, image.camera.variant.as_deref())?;
+                let loaded = image.load(path)?;
                 let pose = image.pose(&loaded, image.camera.time)?;
                 let warnings: Vec<_> = loaded
                     .warnings

@@ -282,6 +282,10 @@ impl Content for HostContent {
     fn lights(&self) -> &Buffer {
         &self.unread
     }
+
+    fn environment_map(&self) -> Option<vk::DescriptorImageInfo> {
+        None
+    }
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::{OutputError, Picture, exr};
 use crate::reference::srgb;
-use image::ImageReader;
+use image::{ImageFormat, ImageReader};
 use rayon::prelude::*;
 use std::io::Cursor;
 use std::path::Path;
@@ -77,13 +77,18 @@ pub fn decode(bytes: &[u8], name: &str) -> Result<DecodedImage, OutputError> {
     })
 }
 
-/// Decodes an EXR image's size and pixels as they are: linear light, premultiplied alpha, rows from the top; messages
-/// call it `name`.
+/// Decodes the size and pixels of an EXR or Radiance (.hdr) image as they are: linear light, premultiplied alpha, rows from
+/// the top; messages call it `name`.
 ///
 /// # Errors
-/// [`OutputError::Decode`] if it is no EXR image or broken.
+/// [`OutputError::Decode`] if it is neither or broken.
 pub fn decode_linear(bytes: &[u8], name: &str) -> Result<([u32; 2], Vec<[f32; 4]>), OutputError> {
-    exr::decode(bytes).map_err(|reason| OutputError::Decode {
+    let decoded = if bytes.starts_with(&EXR_MAGIC) {
+        exr::decode(bytes)
+    } else {
+        radiance(bytes)
+    };
+    decoded.map_err(|reason| OutputError::Decode {
         file: name.to_owned(),
         reason,
     })
@@ -95,6 +100,19 @@ fn display_referred(bytes: &[u8]) -> Result<([u32; 2], Vec<[f32; 4]>), String> {
     let image = ImageReader::new(Cursor::new(bytes))
         .with_guessed_format()
         .map_err(|error| error.to_string())?
+        .decode()
+        .map_err(|error| error.to_string())?;
+    let size = [image.width(), image.height()];
+    let pixels = image.into_rgba32f().pixels().map(|p| p.0).collect();
+    Ok((size, pixels))
+}
+
+/// Size and linear pixels of a Radiance image.
+fn radiance(bytes: &[u8]) -> Result<([u32; 2], Vec<[f32; 4]>), String> {
+    if !bytes.starts_with(b"#?") {
+        return Err("is neither an EXR nor a Radiance (.hdr) image".to_owned());
+    }
+    let image = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Hdr)
         .decode()
         .map_err(|error| error.to_string())?;
     let size = [image.width(), image.height()];

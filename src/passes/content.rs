@@ -31,4 +31,7 @@ pub trait Content: Sync {
 
     /// The buffer of lights.
     fn lights(&self) -> &Buffer;
+
+    /// The environment map; nothing where surfaces are not shaded by the engine.
+    fn environment_map(&self) -> Option<vk::DescriptorImageInfo>;
 }

@@ -8,6 +8,8 @@ pub struct FrameUniform {
     pub transform: [f32; 16],
     pub eye: [f32; 4],
     pub view_direction: [f32; 4],
+    pub irradiance: [[f32; 4]; 9],
+    pub environment: [[f32; 4]; 3],
     pub background: [f32; 4],
     pub raster_scale: [f32; 2],
     pub raster_offset: [f32; 2],
@@ -70,9 +72,13 @@ mod tests {
                 "uint" | "float" => (4, 4),
                 other => panic!("an unknown type {other}"),
             };
+            let (name, count) = match name.split_once('[') {
+                Some((name, count)) => (name, count.trim_end_matches(']').parse().unwrap()),
+                None => (name, 1),
+            };
             offset = offset.next_multiple_of(align);
             offsets.push((name.to_owned(), offset));
-            offset += size;
+            offset += size * count;
         }
         macro_rules! host {
             ($($field:ident),*) => { [$((stringify!($field).to_owned(), std::mem::offset_of!(FrameUniform, $field))),*] };
@@ -81,6 +87,8 @@ mod tests {
             transform,
             eye,
             view_direction,
+            irradiance,
+            environment,
             background,
             raster_scale,
             raster_offset,

@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 pub(super) const SLOTS: usize = 15;
 
 /// The bindings of set 0.
-const BINDINGS: [(u32, vk::DescriptorType); 44] = {
+const BINDINGS: [(u32, vk::DescriptorType); 45] = {
     use vk::DescriptorType as T;
     [
         (0, T::UNIFORM_BUFFER),
@@ -58,6 +58,7 @@ const BINDINGS: [(u32, vk::DescriptorType); 44] = {
         (43, T::UNIFORM_TEXEL_BUFFER),
         (44, T::UNIFORM_TEXEL_BUFFER),
         (45, T::STORAGE_BUFFER),
+        (46, T::COMBINED_IMAGE_SAMPLER),
     ]
 };
 

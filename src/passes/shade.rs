@@ -58,7 +58,8 @@ impl Shade {
             )
             .flag(10, lights.count > 0)
             .flag(11, lights.local)
-            .flag(12, !pixels && scene.has_blend());
+            .flag(12, !pixels && scene.has_blend())
+            .flag(17, scene.has_environment());
         let mut known: HashMap<ShadeFeatures, usize> = HashMap::new();
         let mut pipelines = Vec::new();
         let mut bins = Vec::new();

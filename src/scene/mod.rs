@@ -28,6 +28,7 @@
 //! another one is refused.
 
 mod document;
+mod environment;
 mod error;
 mod geometry;
 mod info;
@@ -41,6 +42,7 @@ mod view;
 
 use std::{path::Path, sync::Arc};
 
+pub use environment::{Environment, EnvironmentError};
 pub use error::SceneError;
 pub use geometry::{Draw, DrawClass, Geometry, GeometryError, VertexStreams};
 pub use info::{AlphaModes, AnimationInfo, CameraInfo, ImageInfo, SceneInfo, SceneNames};
@@ -66,6 +68,8 @@ pub struct Scene {
     pub textures: Vec<Texture>,
     /// The images that textures use.
     pub images: Vec<Image>,
+    /// Light from all around, in place of the studio's.
+    pub environment: Option<Arc<Environment>>,
     document: document::Document,
 }
 
@@ -131,6 +135,7 @@ impl Scene {
             materials,
             textures: Vec::new(),
             images: Vec::new(),
+            environment: None,
             document: document::Document::default(),
         }
     }

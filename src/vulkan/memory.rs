@@ -219,7 +219,7 @@ impl Memory {
         Ok(BufferView { buffer, view })
     }
 
-    /// An image with one view of all its levels.
+    /// An image with one view of all its levels and layers; a cube where it may be one.
     ///
     /// # Errors
     /// As [`Memory::buffer`].
@@ -242,6 +242,7 @@ impl Memory {
                 height: info.extent.height,
             },
             levels: info.mip_levels,
+            layers: info.array_layers,
             aspect,
         };
         // SAFETY: the image was just made from this device.
@@ -257,9 +258,15 @@ impl Memory {
             .map_err(VulkanError::of("vkBindImageMemory"))?;
         }
         image._block = Some(block);
+        let cube = vk::ImageCreateFlags::CUBE_COMPATIBLE;
+        let view_type = if info.flags.contains(cube) {
+            vk::ImageViewType::CUBE
+        } else {
+            vk::ImageViewType::TYPE_2D
+        };
         let view = vk::ImageViewCreateInfo::default()
             .image(raw)
-            .view_type(vk::ImageViewType::TYPE_2D)
+            .view_type(view_type)
             .format(info.format)
             .subresource_range(image.range());
         // SAFETY: the image is bound and the format is its own.
@@ -396,6 +403,7 @@ pub struct Image {
     pub extent: vk::Extent2D,
     /// Number of mipmap levels.
     pub levels: u32,
+    layers: u32,
     aspect: vk::ImageAspectFlags,
 }
 
@@ -407,7 +415,7 @@ impl Image {
             base_mip_level: 0,
             level_count: self.levels,
             base_array_layer: 0,
-            layer_count: 1,
+            layer_count: self.layers,
         }
     }
 }

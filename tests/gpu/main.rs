@@ -4,6 +4,7 @@ mod area;
 mod blend;
 mod coverage;
 mod detect;
+mod environment;
 mod extremes;
 mod golden;
 #[path = "../common/golden.rs"]

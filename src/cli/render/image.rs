@@ -9,7 +9,8 @@ use gpc::output::{AovKind, Format};
 use gpc::reference::srgb;
 use gpc::render::{Reference, Settings};
 use gpc::scene::{Loaded, Pose, PoseRequest, SceneError};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Size, colour, sampling, view and device.
 #[derive(Args, Clone)]
@@ -26,6 +27,13 @@ pub struct ImageArgs {
     /// Colour behind the scene: none (transparent), sRGB R,G,B of 0 to 1, or #rrggbb
     #[arg(long, value_name = "COLOUR", default_value = "none", value_parser = values::background)]
     pub background: Background,
+    /// Light from all around: an equirectangular image, .hdr or .exr, in place of the neutral studio
+    #[arg(long, value_name = "FILE")]
+    pub environment: Option<PathBuf>,
+    /// Turn it about the vertical axis, counter-clockwise seen from above
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true, value_parser = values::finite,
+        requires = "environment")]
+    pub environment_rotation: f64,
     /// Shadows of the scene's own lights: none, or exact at every sample, whatever their number and distance
     #[arg(long, default_value = "none")]
     pub shadows: Shadow,
@@ -72,6 +80,16 @@ impl ImageArgs {
             usage!("--tonemap neutral: an EXR holds light that is not tone-mapped");
         }
         Ok(format)
+    }
+
+    /// Loads a scene with the variant and the environment asked for.
+    pub fn load(&self, path: &Path) -> anyhow::Result<Loaded> {
+        let mut loaded = input::load_variant(path, self.camera.variant.as_deref())?;
+        if let Some(file) = &self.environment {
+            let turned = input::environment(file)?.turned(self.environment_rotation.to_radians());
+            loaded.scene.environment = Some(Arc::new(turned));
+        }
+        Ok(loaded)
     }
 
     /// How to render for a format.

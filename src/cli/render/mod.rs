@@ -55,7 +55,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     let mut time = first.time;
     let (headless, (loaded, mut pose, cameras)) =
         session::open_beside(image.device.clone(), || {
-            let loaded = input::load_variant(&args.scene, image.camera.variant.as_deref())?;
+            let loaded = image.load(&args.scene)?;
             clock.lap("load");
             warnings.add(&loaded.warnings);
             let pose = image.pose(&loaded, time)?;

@@ -88,6 +88,7 @@ impl Resources {
                 (binding, [info])
             })
             .collect();
+        let environment = scene.environment_map().map(|map| [map]);
         let write = |binding: u32| {
             vk::WriteDescriptorSet::default()
                 .dst_set(set.descriptor())
@@ -103,7 +104,12 @@ impl Resources {
         let images = images
             .iter()
             .map(|(binding, info)| write(*binding).image_info(info));
-        let writes: Vec<_> = texels.chain(buffers).chain(images).collect();
+        let environment = environment.as_ref().map(|map| write(46).image_info(map));
+        let writes: Vec<_> = texels
+            .chain(buffers)
+            .chain(images)
+            .chain(environment)
+            .collect();
         // SAFETY: the set was just allocated and no frame uses it; every handle is alive and outlives the set.
         unsafe { self.layout.gpu.device.update_descriptor_sets(&writes, &[]) };
     }

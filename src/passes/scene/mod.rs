@@ -2,6 +2,7 @@
 
 mod alpha_atlas;
 mod bins;
+mod environment;
 mod light;
 mod material;
 mod slots;
@@ -10,6 +11,7 @@ mod texture_set;
 mod triangles;
 
 pub use bins::ShadeFeatures;
+pub use environment::EnvironmentUniform;
 pub use light::LightFeatures;
 
 use super::pool::DescriptorPool;
@@ -20,6 +22,7 @@ use crate::vulkan::{Buffer, BufferView, Memory, Recorder, VulkanError};
 use alpha_atlas::AlphaAtlas;
 use ash::vk;
 use bins::{Bins, MaterialBin};
+use environment::GpuEnvironment;
 use glam::DVec3;
 use light::GpuLight;
 use material::MaterialTable;
@@ -43,6 +46,8 @@ pub struct GpuScene {
     is_tinted: bool,
     pub(super) lights: Buffer,
     pub(super) alpha_atlas: BufferView,
+    pub(super) environment: GpuEnvironment,
+    has_environment: bool,
     pub(super) bins: Vec<MaterialBin>,
     runs: Vec<Run>,
     triangle_count: u32,
@@ -65,6 +70,7 @@ pub struct SceneUploads {
     buffers: Vec<Upload>,
     /// Of the scene's textures, in their order.
     textures: Vec<Buffer>,
+    environment: Option<Buffer>,
 }
 
 impl SceneUploads {
@@ -75,6 +81,9 @@ impl SceneUploads {
         }
         for (texture, upload) in scene.textures.iter().zip(&self.textures) {
             texture.record_upload(recorder, upload);
+        }
+        if let Some(upload) = &self.environment {
+            scene.environment.record_upload(recorder, upload);
         }
         recorder.barrier();
         scene.uploaded.store(true, Ordering::Relaxed);
@@ -138,6 +147,8 @@ impl GpuScene {
         let float4 = vk::Format::R32G32B32A32_SFLOAT;
         let uint4 = vk::Format::R32G32B32A32_UINT;
         let (bins, pool) = bins.allocate(layout, &textures)?;
+        let (environment, environment_upload) =
+            GpuEnvironment::new(memory, scene.environment.as_deref())?;
         let mut uploader = Uploader::new(memory);
         let TextureSet {
             textures,
@@ -161,6 +172,8 @@ impl GpuScene {
                 .any(|m| m.lobes.transmission.is_some() && !m.unlit),
             lights: uploader.storage("lights", bytemuck::cast_slice(&lights))?,
             alpha_atlas: uploader.texels("alpha atlas", vk::Format::R32_UINT, &atlas.words)?,
+            environment,
+            has_environment: scene.environment.is_some(),
             bins,
             triangle_count: triangles.words.len() as u32,
             first_mask: triangles.first_of(DrawClass::Mask),
@@ -178,6 +191,7 @@ impl GpuScene {
         let uploads = SceneUploads {
             buffers: uploader.uploads,
             textures: texture_uploads,
+            environment: Some(environment_upload),
         };
         Ok((scene, uploads))
     }
@@ -212,6 +226,18 @@ impl GpuScene {
     #[must_use]
     pub fn material_vectors(&self) -> u32 {
         self.material_vectors
+    }
+
+    /// Whether surfaces are lit by an environment map in place of the studio.
+    #[must_use]
+    pub fn has_environment(&self) -> bool {
+        self.has_environment
+    }
+
+    /// What an environment sets in the uniform block.
+    #[must_use]
+    pub fn environment(&self) -> &EnvironmentUniform {
+        &self.environment.uniform
     }
 
     /// The scene's lights.
@@ -276,5 +302,9 @@ impl Content for GpuScene {
 
     fn lights(&self) -> &Buffer {
         &self.lights
+    }
+
+    fn environment_map(&self) -> Option<vk::DescriptorImageInfo> {
+        Some(self.environment.descriptor())
     }
 }

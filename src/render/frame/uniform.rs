@@ -40,6 +40,8 @@ impl Recording<'_> {
                 .to_cols_array(),
             eye: [eye.x, eye.y, eye.z, 1.0],
             view_direction: [direction.x, direction.y, direction.z, parallel],
+            irradiance: scene.environment().irradiance,
+            environment: scene.environment().axes,
             background: self.settings.background_rgba(),
             raster_scale: to_device.map(|scale| scale as f32),
             raster_offset: [0, 1].map(|axis| (-left_top[axis] * to_device[axis] - 1.0) as f32),

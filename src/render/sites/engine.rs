@@ -343,6 +343,8 @@ impl SiteEngine {
                 .to_cols_array(),
             eye: [eye.x, eye.y, eye.z, 1.0],
             view_direction: [direction.x, direction.y, direction.z, parallel],
+            irradiance: scene.environment().irradiance,
+            environment: scene.environment().axes,
             background: self.settings.background_rgba(),
             origin: [0, 1].map(|axis| (window.low[axis] as f64 + 0.5 - middle[axis]) as f32),
             size: window.size(),

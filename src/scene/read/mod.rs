@@ -177,6 +177,7 @@ fn read_scene(context: &mut Context<'_>) -> Result<Scene, Fault> {
         materials,
         textures,
         images,
+        environment: None,
         document: Document {
             default_scene,
             nodes,

@@ -128,6 +128,7 @@ impl Drawing {
                 materials: self.materials,
                 textures: self.textures,
                 images: self.images,
+                environment: None,
                 document,
             },
             warnings: warnings.into_vec(),

@@ -1,0 +1,206 @@
+//! Cubes of radiance, and what they are made from.
+
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+use std::f64::consts::{PI, TAU};
+
+/// Largest side of a face.
+const MOST: u32 = 256;
+/// Least side of a face of the finest level.
+const LEAST: u32 = 16;
+
+/// Six faces in Vulkan's order: +x, -x, +y, -y, +z, -z.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Cube {
+    /// Texels along the side of a face.
+    pub(super) side: u32,
+    /// Face by face, row by row.
+    pub(super) texels: Vec<[f32; 3]>,
+}
+
+impl Cube {
+    /// A cube whose texels are a function of face, column and row.
+    pub(super) fn new(side: u32, texel: impl Fn(u32, u32, u32) -> [f32; 3] + Sync) -> Self {
+        let texels = (0..6 * side * side)
+            .into_par_iter()
+            .map(|index| {
+                let (face, place) = (index / (side * side), index % (side * side));
+                texel(face, place % side, place / side)
+            })
+            .collect();
+        Self { side, texels }
+    }
+
+    pub(super) fn texel(&self, face: u32, x: u32, y: u32) -> Vec3 {
+        let index = (face * self.side + y) * self.side + x;
+        Vec3::from_array(self.texels[index as usize])
+    }
+
+    /// Between the nearest texels of the face that a direction falls on.
+    pub(super) fn sample(&self, direction: DVec3) -> Vec3 {
+        let (face, [a, b]) = place(direction);
+        let along = |v: f64| {
+            let at =
+                ((v + 1.0) / 2.0 * f64::from(self.side) - 0.5).clamp(0.0, f64::from(self.side - 1));
+            let low = at.floor();
+            let next = (low as u32 + 1).min(self.side - 1);
+            (low as u32, next, (at - low) as f32)
+        };
+        let ((x0, x1, u), (y0, y1, v)) = (along(a), along(b));
+        let row = |y| self.texel(face, x0, y).lerp(self.texel(face, x1, y), u);
+        row(y0).lerp(row(y1), v)
+    }
+
+    /// The middle of a texel, within -1 to 1.
+    pub(super) fn middle(&self, x: u32, y: u32) -> [f64; 2] {
+        middle(self.side, x, y)
+    }
+}
+
+pub(super) fn middle(side: u32, x: u32, y: u32) -> [f64; 2] {
+    [x, y].map(|i| (2.0 * f64::from(i) + 1.0) / f64::from(side) - 1.0)
+}
+
+/// The direction of a place on a face, not normalised.
+pub(super) fn direction(face: u32, [a, b]: [f64; 2]) -> DVec3 {
+    match face {
+        0 => DVec3::new(1.0, -b, -a),
+        1 => DVec3::new(-1.0, -b, a),
+        2 => DVec3::new(a, 1.0, b),
+        3 => DVec3::new(a, -1.0, -b),
+        4 => DVec3::new(a, -b, 1.0),
+        _ => DVec3::new(-a, -b, -1.0),
+    }
+}
+
+/// The face that a direction falls on, and where.
+fn place(d: DVec3) -> (u32, [f64; 2]) {
+    let size = d.abs();
+    if size.x >= size.y && size.x >= size.z {
+        let face = u32::from(d.x < 0.0);
+        (face, [-d.z * d.x.signum() / size.x, -d.y / size.x])
+    } else if size.y >= size.z {
+        let face = 2 + u32::from(d.y < 0.0);
+        (face, [d.x / size.y, d.z * d.y.signum() / size.y])
+    } else {
+        let face = 4 + u32::from(d.z < 0.0);
+        (face, [d.x * d.z.signum() / size.z, -d.y / size.z])
+    }
+}
+
+/// Solid angle of a texel at a place of a face, in units of that of one in the middle.
+pub(super) fn solid_angle([a, b]: [f64; 2]) -> f64 {
+    (1.0 + a * a + b * b).powf(-1.5)
+}
+
+/// An equirectangular image as a cube, and ever coarser averages of it down to a texel a face.
+pub(super) fn pyramid(width: u32, height: u32, pixels: &[[f32; 3]]) -> Vec<Cube> {
+    let side = (width / 4).next_power_of_two().clamp(LEAST, MOST);
+    // So many points a texel that none of the image falls between them.
+    let points = (width / 4).div_ceil(side).max(2);
+    let image = Image {
+        width,
+        height,
+        pixels,
+    };
+    let finest = Cube::new(side, |face, x, y| {
+        let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
+        for row in 0..points {
+            for column in 0..points {
+                let at = middle(side * points, x * points + column, y * points + row);
+                let weight = solid_angle(at);
+                sum += weight * image.towards(direction(face, at).normalize());
+                weights += weight;
+            }
+        }
+        (sum / weights).as_vec3().to_array()
+    });
+    let mut levels = vec![finest];
+    while levels[levels.len() - 1].side > 1 {
+        let coarser = halve(&levels[levels.len() - 1]);
+        levels.push(coarser);
+    }
+    levels
+}
+
+fn halve(fine: &Cube) -> Cube {
+    Cube::new(fine.side / 2, |face, x, y| {
+        let (mut sum, mut weights) = (Vec3::ZERO, 0.0);
+        for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+            let (x, y) = (2 * x + dx, 2 * y + dy);
+            let weight = solid_angle(fine.middle(x, y)) as f32;
+            sum += weight * fine.texel(face, x, y);
+            weights += weight;
+        }
+        (sum / weights).to_array()
+    })
+}
+
+/// An equirectangular image.
+struct Image<'p> {
+    width: u32,
+    height: u32,
+    pixels: &'p [[f32; 3]],
+}
+
+impl Image<'_> {
+    /// Between the nearest texels; columns go on around.
+    fn towards(&self, direction: DVec3) -> DVec3 {
+        let u = direction.x.atan2(-direction.z) / TAU + 0.5;
+        let v = direction.y.clamp(-1.0, 1.0).acos() / PI;
+        let (x, y) = (
+            u * f64::from(self.width) - 0.5,
+            (v * f64::from(self.height) - 0.5).clamp(0.0, f64::from(self.height - 1)),
+        );
+        let (left, top) = (x.floor(), y.floor());
+        let column = |x: f64| x.rem_euclid(f64::from(self.width)) as usize;
+        let rows = [
+            top as usize,
+            (top as usize + 1).min(self.height as usize - 1),
+        ];
+        let texel = |x: f64, row: usize| {
+            DVec3::from_array(self.pixels[row * self.width as usize + column(x)].map(f64::from))
+        };
+        let row = |row| texel(left, row).lerp(texel(left + 1.0, row), x - left);
+        row(rows[0]).lerp(row(rows[1]), y - top)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn directions_find_their_place_again() {
+        for face in 0..6 {
+            for at in [[0.0, 0.0], [0.7, -0.3], [-0.9, 0.2]] {
+                let (found, [a, b]) = place(direction(face, at) * 3.0);
+                assert_eq!(found, face);
+                assert!(
+                    (a - at[0]).abs() < 1e-12 && (b - at[1]).abs() < 1e-12,
+                    "{face}"
+                );
+            }
+        }
+    }
+
+    /// Each direction shows a colour of its own, from every level that tells it apart.
+    #[test]
+    fn the_middle_of_the_image_is_ahead() {
+        let (width, height) = (64, 32);
+        let pixels: Vec<[f32; 3]> = (0..width * height)
+            .map(|i| [(i % width) as f32, (i / width) as f32, 0.0])
+            .collect();
+        let cube = &pyramid(width, height, &pixels)[0];
+        for (direction, x, y) in [
+            (DVec3::NEG_Z, 31.5, 15.5),
+            (DVec3::X, 47.5, 15.5),
+            (DVec3::NEG_X, 15.5, 15.5),
+            (DVec3::new(0.0, 0.5, -1.0), 31.5, 10.78),
+        ] {
+            let found = cube.sample(direction);
+            let off = (f64::from(found.x) - x).abs() + (f64::from(found.y) - y).abs();
+            assert!(off < 0.1, "{direction}: {found}");
+        }
+    }
+}

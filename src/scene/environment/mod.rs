@@ -1,0 +1,118 @@
+//! Light from all around: an environment map, filtered for shading.
+
+mod cube;
+mod filter;
+mod harmonics;
+
+use glam::{DMat3, DVec3};
+
+use cube::Cube;
+
+/// Why an image is no environment.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum EnvironmentError {
+    /// The numbers are not those of an image.
+    #[error(
+        "{width} x {height} texels with {found} colours; an equirectangular image is at least 2 x 1, with a colour a texel"
+    )]
+    Size {
+        /// Texels across.
+        width: u32,
+        /// Texels down.
+        height: u32,
+        /// Colours given.
+        found: usize,
+    },
+    /// A colour is not a radiance.
+    #[error("texel {x}, {y} is {color}; radiance is finite and not negative")]
+    Radiance {
+        /// Column.
+        x: u32,
+        /// Row.
+        y: u32,
+        /// What was found there.
+        color: String,
+    },
+}
+
+/// What surfaces see of an environment map: for each roughness what a lobe of it averages, and what a matt surface gathers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Environment {
+    /// Level `i` of `n` is filtered for the perceptual roughness `i / (n - 1)`.
+    levels: Vec<Cube>,
+    irradiance: [[f32; 3]; 9],
+    /// World space to that of the map.
+    rotation: DMat3,
+}
+
+impl Environment {
+    /// Filters an equirectangular image, rows from the top, linear RGB. Its middle is seen along -z, its top along +y, and what
+    /// is right of the middle towards +x.
+    ///
+    /// # Errors
+    /// [`EnvironmentError`] if the size does not fit or a colour is negative or not finite.
+    pub fn from_equirectangular(
+        width: u32,
+        height: u32,
+        pixels: &[[f32; 3]],
+    ) -> Result<Self, EnvironmentError> {
+        let found = pixels.len();
+        if width < 2 || height < 1 || found as u64 != u64::from(width) * u64::from(height) {
+            return Err(EnvironmentError::Size {
+                width,
+                height,
+                found,
+            });
+        }
+        let is_radiance = |color: &[f32; 3]| color.iter().all(|x| x.is_finite() && *x >= 0.0);
+        if let Some(index) = pixels.iter().position(|color| !is_radiance(color)) {
+            return Err(EnvironmentError::Radiance {
+                x: index as u32 % width,
+                y: index as u32 / width,
+                color: format!("{:?}", pixels[index]),
+            });
+        }
+        let source = cube::pyramid(width, height, pixels);
+        Ok(Self {
+            irradiance: harmonics::irradiance(&source),
+            levels: filter::levels(&source),
+            rotation: DMat3::IDENTITY,
+        })
+    }
+
+    /// The same turned about the vertical axis, by `angle` in radians, counter-clockwise seen from above.
+    #[must_use]
+    pub fn turned(mut self, angle: f64) -> Self {
+        self.rotation *= DMat3::from_rotation_y(-angle);
+        self
+    }
+
+    /// World space to that of the map.
+    #[must_use]
+    pub fn rotation(&self) -> DMat3 {
+        self.rotation
+    }
+
+    /// Texels along the side of a face of each level, and the colours of its faces in Vulkan's order, row by row.
+    pub(crate) fn levels(&self) -> impl ExactSizeIterator<Item = (u32, &[[f32; 3]])> {
+        self.levels.iter().map(|cube| (cube.side, &cube.texels[..]))
+    }
+
+    /// Coefficients of the real spherical harmonics of the first three bands, in the map's space: what a surface gathers,
+    /// over pi, that faces a direction.
+    #[must_use]
+    pub fn irradiance(&self) -> [[f32; 3]; 9] {
+        self.irradiance
+    }
+
+    /// What a matt white surface facing the world direction `normal` reflects.
+    #[must_use]
+    pub fn irradiance_towards(&self, normal: DVec3) -> DVec3 {
+        let basis = harmonics::basis(self.rotation * normal.normalize());
+        let terms = self.irradiance.iter().zip(basis);
+        let sum: DVec3 = terms
+            .map(|(color, weight)| DVec3::from_array(color.map(f64::from)) * weight)
+            .sum();
+        sum.max(DVec3::ZERO)
+    }
+}
