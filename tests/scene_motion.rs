@@ -42,6 +42,38 @@ fn x_of_first_corner(builder: &Builder, time: f64) -> f64 {
     corners(&at(builder, Some("move"), time).geometry, 0)[0][0]
 }
 
+/// A pointer to what moves a node is another way to name it; one to anything else is said to be left out.
+#[test]
+fn pointers_move_nodes() {
+    let values = [[1., 0., 0.], [3., 0., 0.]];
+    let mut builder = animated(json!({}), "pointer", "LINEAR", &[0., 2.], &values);
+    builder.json["extensionsRequired"] = json!(["KHR_animation_pointer"]);
+    let target = |pointer: &str| json!({"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": pointer}}});
+    let channel = |builder: &mut Builder, pointer| {
+        builder.json["animations"][0]["channels"][0]["target"] = target(pointer);
+    };
+    channel(&mut builder, "/nodes/0/translation");
+    let warnings = builder.load().unwrap().warnings;
+    let animation = |w: &String| w.contains("/animations");
+    assert!(!warnings.iter().any(animation), "{warnings:?}");
+    assert!((x_of_first_corner(&builder, 1.5) - 2.5).abs() < 1e-6);
+    for (pointer, reason) in [
+        (
+            "/materials/0/emissiveFactor",
+            "/materials/0/emissiveFactor keeps its value",
+        ),
+        ("/nodes/0/camera", "/nodes/0/camera keeps its value"),
+        ("/nodes/7/translation", "which the document does not have"),
+    ] {
+        channel(&mut builder, pointer);
+        let warnings = builder.load().unwrap().warnings;
+        let place = "/animations/0/channels/0/target/extensions/KHR_animation_pointer/pointer: ";
+        let said = |w: &String| w.contains(place) && w.contains(reason);
+        assert!(warnings.iter().any(said), "{pointer}: {warnings:?}");
+        assert!(x_of_first_corner(&builder, 1.5).abs() < 1e-6);
+    }
+}
+
 #[test]
 fn linear_step_and_clamping() {
     let values = [[1., 0., 0.], [3., 0., 0.], [5., 0., 0.]];

@@ -84,7 +84,7 @@ Variation variation_of(uint member) {
 }
 
 bool high_frequency_triangle(uint of) {
-    return high_frequency(texelFetch(triangles, int(max(of, 1u) - 1u)).w);
+    return high_frequency(triangle_word(max(of, 1u) - 1u));
 }
 
 // The parts that a triangle is shaded in.

@@ -347,7 +347,8 @@ impl Frame {
         let mut shortfall = Shortfall::default();
         let counted = self.counters.read(Counter::COUNT)?;
         let tiles = width.div_ceil(8) * height.div_ceil(4);
-        shortfall.add(counted, tiles, self.plan.effort.unlisted);
+        let room = self.plan.sizes.survivor_capacity;
+        shortfall.add(counted, (tiles, room), self.plan.effort.unlisted);
         Ok(shortfall)
     }
 

@@ -2,7 +2,9 @@
 
 use super::HostError;
 use crate::passes::{AdoptedDraw, Content};
-use crate::vulkan::{Buffer, BufferView, Constants, Gpu, Memory, MemoryUse, TexelView, VulkanError};
+use crate::vulkan::{
+    Buffer, BufferView, Constants, Gpu, Memory, MemoryUse, TexelView, VulkanError,
+};
 use ash::vk;
 use std::sync::Arc;
 
@@ -253,6 +255,10 @@ impl HostContent {
 impl Content for HostContent {
     fn index_count(&self) -> u32 {
         self.triangle_capacity
+    }
+
+    fn is_instanced(&self) -> bool {
+        false
     }
 
     fn constants(&self, constants: Constants) -> Constants {

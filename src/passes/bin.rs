@@ -18,12 +18,7 @@ impl Bin {
     /// If the driver refuses one.
     pub fn new(layout: &FrameLayout, scene: &dyn Content) -> Result<Self, VulkanError> {
         let make = |code, constants| layout.compute(code, &constants, None);
-        let bin = |large| {
-            make(
-                spirv::BIN,
-                scene.constants(Constants::new().flag(0, large)),
-            )
-        };
+        let bin = |large| make(spirv::BIN, scene.constants(Constants::new().flag(0, large)));
         Ok(Self {
             arguments: make(spirv::ARGUMENTS, Constants::new().with(0, 1))?,
             small: bin(false)?,

@@ -8,6 +8,9 @@ pub trait Content: Sync {
     /// Number of indices of triangles, or the most there can be; some may stand for none.
     fn index_count(&self) -> u32;
 
+    /// Whether some triangles are drawn several times.
+    fn is_instanced(&self) -> bool;
+
     /// Adds the constants of `shaders/include/triangle.glsl`.
     fn constants(&self, constants: Constants) -> Constants;
 

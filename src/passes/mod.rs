@@ -66,9 +66,9 @@ pub use cull::Cull;
 pub use detect::{Detect, DetectMode};
 pub use encode::{Encode, Encoding};
 pub use frame::FrameUniform;
-pub use groups::Groups;
 #[cfg(feature = "gltf")]
 pub use geometry::FrameGeometry;
+pub use groups::Groups;
 pub use grow::Grow;
 pub use layout::FrameLayout;
 pub use multisample::Multisample;

@@ -1,6 +1,6 @@
 //! raster: depth and triangle ID of every pixel, by the device's rasterizer.
 
-use super::{Content, FrameLayout, GpuScene, IdViews, Resources, spirv};
+use super::{Content, FrameGeometry, FrameLayout, GpuScene, IdViews, spirv};
 use crate::scene::DrawClass;
 use crate::vulkan::{Constants, Gpu, Image, Memory, Pipeline, Recorder, Shader, VulkanError};
 use ash::vk;

@@ -136,7 +136,8 @@ impl Sample {
         let lanes = layout.gpu.limits().subgroup_size;
         let (rows, _) = kernel(&KERNELS, options.samples.min(Self::BLOCK).div_ceil(lanes));
         let by_masks = || {
-            let constants = Constants::new()
+            let constants = scene
+                .constants(Constants::new())
                 .with(0, lanes)
                 .with(1, lanes)
                 .flag(6, options.records == RecordRate::Part)

@@ -15,11 +15,7 @@ impl Setup {
     /// # Errors
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout, scene: &dyn Content) -> Result<Self, VulkanError> {
-        let pipeline = layout.compute(
-            spirv::SETUP,
-            &scene.constants(Constants::new()),
-            None,
-        )?;
+        let pipeline = layout.compute(spirv::SETUP, &scene.constants(Constants::new()), None)?;
         Ok(Self { pipeline })
     }
 

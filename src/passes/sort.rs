@@ -16,7 +16,11 @@ impl Sort {
     ///
     /// # Errors
     /// If the driver refuses one.
-    pub fn new(layout: &FrameLayout, scene: &dyn Content, one_bin: bool) -> Result<Self, VulkanError> {
+    pub fn new(
+        layout: &FrameLayout,
+        scene: &dyn Content,
+        one_bin: bool,
+    ) -> Result<Self, VulkanError> {
         let make = |code, constants| layout.compute(code, &constants, None);
         let sort = |scatter| {
             make(

@@ -4,7 +4,7 @@ use super::frame::Frame;
 use super::plan::Effort;
 use super::sites::{Casters, HostTriangles};
 use super::{RenderError, Settings, Shadows};
-use crate::passes::{Content, Encoding, FrameLayout, GpuScene, SceneUploads};
+use crate::passes::{Encoding, FrameLayout, GpuScene, SceneUploads};
 use crate::scene::{Motion, Pose, Scene};
 use crate::vulkan::{Gpu, Host, Memory, Recorder, VulkanError};
 use ash::vk;

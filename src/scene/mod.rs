@@ -18,7 +18,7 @@
 //! OBJ, STL and PLY files are read, too: their triangles, normals and base colours. Those formats
 //! have no unit, no axis that is up and no light; what they have is taken as it is.
 //!
-//! Supported extensions: `KHR_draco_mesh_compression` and `KHR_texture_basisu` (by the features
+//! Supported extensions: `KHR_animation_pointer` (to the transforms and weights of nodes), `KHR_draco_mesh_compression` and `KHR_texture_basisu` (by the features
 //! `draco` and `basisu`, on by default), `KHR_meshopt_compression`, `KHR_lights_punctual`, `KHR_materials_emissive_strength`,
 //! `KHR_materials_anisotropy`, `KHR_materials_clearcoat`, `KHR_materials_diffuse_transmission`, `KHR_materials_ior`,
 //! `KHR_materials_iridescence`, `KHR_materials_pbrSpecularGlossiness`, `KHR_materials_sheen`, `KHR_materials_specular`,

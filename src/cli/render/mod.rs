@@ -54,18 +54,17 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     let stem = input::stem(&args.scene);
 
     let mut warnings = Warnings::default();
-    let (headless, (mut film, cameras)) =
-        session::open_beside(image.device.clone(), || {
-            let loaded = image.load(&args.scene)?;
-            clock.lap("load");
-            warnings.add(&loaded.warnings);
-            let film = Film::new(image, loaded, first, &steps)?;
-            warnings.add(&film.pose.warnings);
-            let cameras = film.views(aspect)?.len();
-            template.require("camera", "cameras", cameras)?;
-            clock.lap("pose");
-            Ok((film, cameras))
-        })?;
+    let (headless, (mut film, cameras)) = session::open_beside(image.device.clone(), || {
+        let loaded = image.load(&args.scene)?;
+        clock.lap("load");
+        warnings.add(&loaded.warnings);
+        let film = Film::new(image, loaded, first, &steps)?;
+        warnings.add(&film.pose.warnings);
+        let cameras = film.views(aspect)?.len();
+        template.require("camera", "cameras", cameras)?;
+        clock.lap("pose");
+        Ok((film, cameras))
+    })?;
     clock.lap("device");
     let mut session = Session::new(headless, settings.clone());
     let device = session.device();

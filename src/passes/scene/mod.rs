@@ -179,12 +179,6 @@ impl GpuScene {
         self.geometry.triangle_count
     }
 
-    /// Whether some of its triangles are drawn several times.
-    #[must_use]
-    pub fn is_instanced(&self) -> bool {
-        self.geometry.is_instanced
-    }
-
     /// Whether some of its vertices move.
     #[must_use]
     pub fn moves(&self) -> bool {
@@ -244,6 +238,10 @@ impl GpuScene {
 impl Content for GpuScene {
     fn index_count(&self) -> u32 {
         self.geometry.index_count
+    }
+
+    fn is_instanced(&self) -> bool {
+        self.geometry.is_instanced
     }
 
     fn constants(&self, constants: Constants) -> Constants {

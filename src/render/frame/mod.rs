@@ -12,8 +12,9 @@ pub use target::Target;
 use super::plan::{Effort, Plan};
 use super::{RenderError, Settings};
 use crate::camera::Camera;
-use crate::passes::{FrameGeometry, 
-    Content, Counter, Encoding, FrameLayout, GpuScene, Locations, RasterTargets, Resources, Sample,
+use crate::passes::{
+    Content, Counter, Encoding, FrameGeometry, FrameLayout, GpuScene, Locations, RasterTargets,
+    Resources, Sample,
 };
 use crate::sampling::Pattern;
 use crate::scene::Moment;

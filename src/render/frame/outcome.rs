@@ -2,7 +2,7 @@
 
 use super::Frame;
 use super::recording::Run;
-use crate::passes::{Content, Counter};
+use crate::passes::Counter;
 use crate::render::statistics::Shortfall;
 use crate::render::{PassTime, RenderError, Statistics};
 

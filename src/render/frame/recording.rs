@@ -3,7 +3,9 @@
 use super::passes::{Multisampling, Passes, PixelShading};
 use super::target::Target;
 use crate::camera::Camera;
-use crate::passes::{FrameGeometry, Content, FrameUniform, GpuScene, RasterTargets, Resources, Shade};
+use crate::passes::{
+    Content, FrameGeometry, FrameUniform, GpuScene, RasterTargets, Resources, Shade,
+};
 use crate::render::Settings;
 use crate::render::color::display_code;
 use crate::render::engine::{RecordShading, Work, record_shading};

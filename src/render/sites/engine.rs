@@ -3,10 +3,10 @@
 use super::layout::CellSizes;
 use super::partition::Window;
 use crate::camera::Pinhole;
-use crate::passes::{FrameGeometry, 
-    Bin, Cells, Content, Counter, Cull, FrameLayout, FrameUniform, GpuScene, Groups, Locations,
-    Points, RasterTargets, RecordRate, Resolve, ResourceSizes, Resources, Sample, SampleOptions,
-    Schedule, Setup, Shade, ShadeSource, SiteData, Sort, Then,
+use crate::passes::{
+    Bin, Cells, Content, Counter, Cull, FrameGeometry, FrameLayout, FrameUniform, GpuScene, Groups,
+    Locations, Points, RasterTargets, RecordRate, Resolve, ResourceSizes, Resources, Sample,
+    SampleOptions, Schedule, Setup, Shade, ShadeSource, SiteData, Sort, Then,
 };
 use crate::render::engine::{can_settle, record_rate, record_shading};
 use crate::render::footprint::Footprints;

@@ -2,7 +2,9 @@
 
 use super::engine::cell_sizes;
 use super::partition::{Partition, Window};
-use crate::passes::{FrameGeometry, Cells, Content, FrameLayout, GpuScene, ResourceSizes, SiteSizes};
+use crate::passes::{
+    Cells, Content, FrameGeometry, FrameLayout, GpuScene, ResourceSizes, SiteSizes,
+};
 use crate::render::{RenderError, Settings, Shading};
 use std::ops::Range;
 

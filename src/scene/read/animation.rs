@@ -1,15 +1,20 @@
-//! Animations (glTF 2.0, section 3.11). A channel that cannot be read is left out with a warning.
+//! Animations (glTF 2.0, section 3.11) with pointers of `KHR_animation_pointer` to what moves nodes. A channel that cannot be
+//! read is left out with a warning.
 
 use std::{collections::HashMap, sync::Arc};
 
 use gltf::json::{
-    self,
+    self, Index,
     accessor::ComponentType,
     animation::{self, Interpolation, Property},
     validation::Checked,
 };
 
-use super::{Context, accessor::Accessor, model};
+use super::{
+    Context,
+    accessor::Accessor,
+    model::{self, Model},
+};
 use crate::scene::{
     document::{Channel, Node, Transform},
     error::Fault,
@@ -73,14 +78,17 @@ fn read_channel(
     nodes: &[Node],
     cache: &mut Cache,
 ) -> Result<Option<Channel>, Fault> {
-    let Checked::Valid(path) = target.path else {
-        return Ok(None);
+    let model = context.model;
+    let (node, path, at) = match (target.path, pointed(model, target_place)?) {
+        (Checked::Invalid, Some(pointed)) => pointed,
+        (Checked::Valid(path), _) => (target.node, path, format!("{target_place}/node")),
+        (Checked::Invalid, None) => return Ok(None),
     };
-    if model::is_nothing(target.node) {
+    if model::is_nothing(node) {
         return Ok(None);
     }
-    let (model, node) = (context.model, target.node.value());
-    model.check(&target.node, &format!("{target_place}/node"))?;
+    model.check(&node, &at)?;
+    let node = node.value();
     if path != Property::MorphTargetWeights && matches!(nodes[node].transform, Transform::Matrix(_))
     {
         let reason = format!("nodes/{node} has a matrix, so that its {path:?} cannot be animated");
@@ -132,6 +140,41 @@ fn read_channel(
         width: per_keyframe * components,
         times,
     }))
+}
+
+/// The node and property that a pointer of the target at `place` names, and where the pointer is.
+fn pointed(
+    model: &Model,
+    place: &str,
+) -> Result<Option<(Index<json::Node>, Property, String)>, Fault> {
+    let place = format!("{place}/extensions/KHR_animation_pointer/pointer");
+    let Some(pointer) = model.text(&place) else {
+        return Ok(None);
+    };
+    let parts: Vec<&str> = pointer.split('/').collect();
+    let named = match parts[..] {
+        ["", "nodes", node, property] => {
+            let property = match property {
+                "translation" => Some(Property::Translation),
+                "rotation" => Some(Property::Rotation),
+                "scale" => Some(Property::Scale),
+                "weights" => Some(Property::MorphTargetWeights),
+                _ => None,
+            };
+            node.parse().ok().zip(property)
+        }
+        _ => None,
+    };
+    match named {
+        Some((node, property)) => Ok(Some((Index::new(node), property, place))),
+        None => {
+            let reason = format!(
+                "{pointer} keeps its value: of pointers, those to the translation, rotation, scale and weights of nodes are \
+                 supported"
+            );
+            Err(Fault::new(place, reason))
+        }
+    }
 }
 
 /// All numbers of an accessor of up to four components.

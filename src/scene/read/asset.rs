@@ -10,10 +10,12 @@ use crate::scene::{
 };
 
 /// The extensions that are implemented, some by an optional feature.
-const SUPPORTED: [(&str, bool); 23] = [
+const SUPPORTED: [(&str, bool); 24] = [
     ("EXT_mesh_gpu_instancing", true),
     ("EXT_meshopt_compression", true),
     ("EXT_texture_webp", true),
+    // What a pointer names that does not move is said of each.
+    ("KHR_animation_pointer", true),
     ("KHR_draco_mesh_compression", cfg!(feature = "draco")),
     ("KHR_lights_punctual", true),
     ("KHR_materials_anisotropy", true),
@@ -55,9 +57,8 @@ const APPROXIMATED: [(&str, &str); 3] = [
 
 /// Extensions without which a file looks different; others that are not supported are metadata, or
 /// have a fallback that looks the same.
-const VISIBLE: [&str; 5] = [
+const VISIBLE: [&str; 4] = [
     "EXT_lights_image_based",
-    "KHR_animation_pointer",
     "KHR_materials_dispersion",
     "KHR_materials_subsurface",
     "KHR_materials_volume_scatter",

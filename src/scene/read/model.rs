@@ -195,6 +195,11 @@ impl Model {
         Fault::new(place, reason)
     }
 
+    /// The text at `place`.
+    pub fn text(&self, place: &str) -> Option<&str> {
+        self.value.pointer(place).and_then(Value::as_str)
+    }
+
     /// The `N` numbers at `place` in double precision, which `gltf`'s types do not have.
     pub fn numbers<const N: usize>(&self, place: &str) -> Result<Option<[f64; N]>, Fault> {
         let Some(value) = self.value.pointer(place) else {
