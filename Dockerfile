@@ -1,6 +1,6 @@
 # The command with Mesa's software driver: renders without a GPU. See docs/farm.md.
 #   docker build -t gpc .
-#   docker run --rm -v "$PWD:/work" --user "$(id -u):$(id -g)" gpc render scene.glb -o image.png
+#   docker run --rm -v "$PWD:/data" --user "$(id -u):$(id -g)" gpc render scene.glb -o image.png
 FROM rust:1-trixie AS build
 WORKDIR /source
 COPY . .
@@ -13,5 +13,5 @@ RUN apt-get update \
 COPY --from=build /source/target/release/gpc /usr/local/bin/gpc
 # Any user may render, and keeps compiled kernels between runs in one container.
 ENV XDG_CACHE_HOME=/tmp/cache
-WORKDIR /work
+WORKDIR /data
 ENTRYPOINT ["gpc"]

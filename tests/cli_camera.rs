@@ -321,7 +321,11 @@ fn what_can_not_be_is_refused_with_one_error() {
             1,
             "projector 0: sampling location 0",
         ),
-        ("project --projector map.exr", 1, "error: map.exr: invalid"),
+        (
+            "project --projector map.exr",
+            1,
+            "error: map.exr: not of a known format; it must be an EXR",
+        ),
         ("project --projector three.csv --tolerance -1", 2, "above 0"),
         (
             "project --projector three.csv --wall a.gif",

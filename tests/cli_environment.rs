@@ -83,7 +83,7 @@ fn what_is_no_environment_is_refused_by_name() {
     std::fs::write(folder.path().join("sky.hdr"), b"no sky").unwrap();
     render(folder.path(), "a.png", &["--environment", "sky.hdr"])
         .exits(1)
-        .says(&["sky.hdr", "is neither an EXR nor a Radiance (.hdr) image"]);
+        .says(&["sky.hdr", "it must be an EXR or Radiance (.hdr) image"]);
     render(folder.path(), "a.png", &["--environment", "none.exr"])
         .exits(1)
         .says(&["none.exr can't be read"]);

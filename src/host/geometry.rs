@@ -237,8 +237,8 @@ impl HostContent {
     }
 
     /// The texel buffers of `shaders/include/frame.glsl` that it has, by binding.
-    pub fn texels(&self) -> [(u32, vk::BufferView); 8] {
-        let floats = self.unread_floats.view;
+    pub fn texels(&self) -> [(u32, vk::BufferView); 10] {
+        let (floats, words) = (self.unread_floats.view, self.unread_words.view);
         [
             (1, self.positions.raw),
             (2, self.triangles.view),
@@ -246,8 +246,10 @@ impl HostContent {
             (4, floats),
             (5, floats),
             (6, floats),
-            (7, self.unread_words.view),
-            (9, self.unread_words.view),
+            (7, words),
+            (9, words),
+            (10, words),
+            (11, words),
         ]
     }
 }

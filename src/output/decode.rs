@@ -61,6 +61,7 @@ pub fn decode(bytes: &[u8], name: &str) -> Result<DecodedImage, OutputError> {
     let (size, pixels, linear) = decoded.map_err(|reason| OutputError::Decode {
         file: name.to_owned(),
         reason,
+        expected: "a PNG, JPEG or EXR image",
     })?;
     if let Some(index) = pixels.iter().position(|p| p.iter().any(|v| v.is_nan())) {
         let width = size[0] as usize;
@@ -91,6 +92,7 @@ pub fn decode_linear(bytes: &[u8], name: &str) -> Result<([u32; 2], Vec<[f32; 4]
     decoded.map_err(|reason| OutputError::Decode {
         file: name.to_owned(),
         reason,
+        expected: "an EXR or Radiance (.hdr) image",
     })
 }
 
@@ -110,7 +112,7 @@ fn display_referred(bytes: &[u8]) -> Result<([u32; 2], Vec<[f32; 4]>), String> {
 /// Size and linear pixels of a Radiance image.
 fn radiance(bytes: &[u8]) -> Result<([u32; 2], Vec<[f32; 4]>), String> {
     if !bytes.starts_with(b"#?") {
-        return Err("is neither an EXR nor a Radiance (.hdr) image".to_owned());
+        return Err("not of a known format".to_owned());
     }
     let image = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Hdr)
         .decode()

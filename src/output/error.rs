@@ -48,12 +48,14 @@ pub enum OutputError {
         source: std::io::Error,
     },
     /// The bytes are no image that is understood.
-    #[error("{file}: {reason}; it must be a PNG, JPEG or EXR image")]
+    #[error("{file}: {reason}; it must be {expected}")]
     Decode {
         /// The file.
         file: String,
         /// What is wrong.
         reason: String,
+        /// What is understood there.
+        expected: &'static str,
     },
     /// A pixel of an EXR is not a number, so that no comparison would mean anything.
     #[error("{file}: pixel ({x}, {y}) is not a number")]
