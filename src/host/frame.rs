@@ -406,6 +406,7 @@ impl Frame {
             first_mask: triangles,
             first_blend: triangles,
             sample_count: self.settings.samples,
+            survivor_capacity: self.plan.sizes.survivor_capacity,
             pair_capacity: self.plan.sizes.pair_capacity,
             list_capacity: self.plan.sizes.list_capacity,
             record_capacity: self.plan.sizes.record_capacity,

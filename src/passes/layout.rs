@@ -93,6 +93,8 @@ pub struct FrameLayout {
     pub(super) frame_set: vk::DescriptorSetLayout,
     pub(super) texture_set: vk::DescriptorSetLayout,
     pub(super) pipeline: vk::PipelineLayout,
+    /// Fixed in the layout, so that sets are whole where nothing has an environment.
+    environment_sampler: vk::Sampler,
     pipelines: Mutex<HashMap<PipelineKey, Arc<Pipeline>>>,
 }
 
@@ -105,13 +107,14 @@ impl FrameLayout {
         let stages = vk::ShaderStageFlags::VERTEX
             | vk::ShaderStageFlags::FRAGMENT
             | vk::ShaderStageFlags::COMPUTE;
-        let frame = BINDINGS.map(|(binding, kind)| {
-            vk::DescriptorSetLayoutBinding::default()
-                .binding(binding)
-                .descriptor_type(kind)
-                .descriptor_count(1)
-                .stage_flags(stages)
-        });
+        let trilinear = vk::SamplerCreateInfo::default()
+            .mag_filter(vk::Filter::LINEAR)
+            .min_filter(vk::Filter::LINEAR)
+            .mipmap_mode(vk::SamplerMipmapMode::LINEAR)
+            .address_mode_u(vk::SamplerAddressMode::CLAMP_TO_EDGE)
+            .address_mode_v(vk::SamplerAddressMode::CLAMP_TO_EDGE)
+            .address_mode_w(vk::SamplerAddressMode::CLAMP_TO_EDGE)
+            .max_lod(vk::LOD_CLAMP_NONE);
         let textures = vk::DescriptorSetLayoutBinding::default()
             .binding(0)
             .descriptor_type(vk::DescriptorType::COMBINED_IMAGE_SAMPLER)
@@ -122,6 +125,7 @@ impl FrameLayout {
             frame_set: vk::DescriptorSetLayout::null(),
             texture_set: vk::DescriptorSetLayout::null(),
             pipeline: vk::PipelineLayout::null(),
+            environment_sampler: vk::Sampler::null(),
             pipelines: Mutex::default(),
         };
         // SAFETY: plain creations on a live device; handles made before a failure are destroyed by `Drop`.
@@ -132,6 +136,23 @@ impl FrameLayout {
                     .create_descriptor_set_layout(&info, None)
                     .map_err(VulkanError::of("vkCreateDescriptorSetLayout"))
             };
+            layout.environment_sampler = gpu
+                .device
+                .create_sampler(&trilinear, None)
+                .map_err(VulkanError::of("vkCreateSampler"))?;
+            let samplers = [layout.environment_sampler];
+            let frame = BINDINGS.map(|(binding, kind)| {
+                let one = vk::DescriptorSetLayoutBinding::default()
+                    .binding(binding)
+                    .descriptor_type(kind)
+                    .descriptor_count(1)
+                    .stage_flags(stages);
+                if kind == vk::DescriptorType::COMBINED_IMAGE_SAMPLER {
+                    one.immutable_samplers(&samplers)
+                } else {
+                    one
+                }
+            });
             layout.frame_set = make(&frame)?;
             layout.texture_set = make(&[textures])?;
             let sets = [layout.frame_set, layout.texture_set];
@@ -219,6 +240,9 @@ impl Drop for FrameLayout {
             self.gpu
                 .device
                 .destroy_descriptor_set_layout(self.frame_set, None);
+            self.gpu
+                .device
+                .destroy_sampler(self.environment_sampler, None);
         }
     }
 }

@@ -1,7 +1,6 @@
 //! The environment as the shaders read it.
 
-use super::texture::DeviceSampler;
-use crate::scene::{Environment, Filter, Sampler, Wrap};
+use crate::scene::Environment;
 use crate::vulkan::{Buffer, Image, Memory, Recorder, VulkanError};
 use ash::vk;
 use half::f16;
@@ -10,7 +9,6 @@ use half::f16;
 /// environment the cube is a single black texel a face, which is not read.
 pub(in crate::passes) struct GpuEnvironment {
     image: Image,
-    sampler: DeviceSampler,
     pub(super) uniform: EnvironmentUniform,
     /// Texels along the side of each level's faces.
     sides: Vec<u32>,
@@ -66,13 +64,6 @@ impl GpuEnvironment {
             .usage(vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST);
         let image = memory.image("environment", &info, vk::ImageAspectFlags::COLOR)?;
         let upload = memory.upload("environment upload", bytemuck::cast_slice(&texels))?;
-        let sampler = Sampler {
-            mag: Filter::Linear,
-            min: Filter::Linear,
-            mip: Some(Filter::Linear),
-            wrap_u: Wrap::ClampToEdge,
-            wrap_v: Wrap::ClampToEdge,
-        };
         let uniform = environment.map_or(EnvironmentUniform::default(), |environment| {
             let rows = environment.rotation().transpose();
             let last = (sides.len() - 1) as f32;
@@ -88,7 +79,6 @@ impl GpuEnvironment {
         });
         let this = Self {
             image,
-            sampler: DeviceSampler::new(memory.gpu(), &sampler)?,
             uniform,
             sides,
         };
@@ -99,7 +89,6 @@ impl GpuEnvironment {
     pub(in crate::passes) fn descriptor(&self) -> vk::DescriptorImageInfo {
         vk::DescriptorImageInfo::default()
             .image_view(self.image.view)
-            .sampler(self.sampler.raw)
             .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)
     }
 
