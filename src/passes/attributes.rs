@@ -1,6 +1,6 @@
 //! attributes: depth, ID, normal and sampling of every pixel, where asked for.
 
-use super::{Content, FrameLayout, GpuScene, spirv};
+use super::{Content, FrameLayout, spirv};
 use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ impl Attributes {
     /// If the driver refuses it.
     pub fn new(
         layout: &FrameLayout,
-        scene: &GpuScene,
+        scene: &dyn Content,
         superpixels: bool,
         grown: bool,
     ) -> Result<Self, VulkanError> {

@@ -1,6 +1,6 @@
 //! points: colour and attributes of sites that are sampled once.
 
-use super::{Argument, Cells, Content, FrameLayout, GpuScene, spirv};
+use super::{Argument, Cells, Content, FrameLayout, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ impl Points {
     /// If the driver refuses it.
     pub fn new(
         layout: &FrameLayout,
-        scene: &GpuScene,
+        scene: &dyn Content,
         output: &Constants,
     ) -> Result<Self, VulkanError> {
         let constants = Cells::Points.constants(scene.constants(output.clone()));

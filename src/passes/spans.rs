@@ -1,6 +1,6 @@
 //! spans: rows of 8 pixels, listed by material bin.
 
-use super::{Content, FrameLayout, GpuScene, spirv};
+use super::{Content, FrameLayout, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ impl Spans {
     ///
     /// # Errors
     /// If the driver refuses one.
-    pub fn new(layout: &FrameLayout, scene: &GpuScene) -> Result<Self, VulkanError> {
+    pub fn new(layout: &FrameLayout, scene: &dyn Content) -> Result<Self, VulkanError> {
         let one_bin = scene.bin_count() == 1;
         let lanes = layout.gpu.limits().subgroup_size;
         let spans = |scatter| {
