@@ -4,15 +4,14 @@ use super::geometry::HostContent;
 use super::shading::{HostShading, ShadeSamples, VisibilitySamples};
 use super::{Draw, Geometry, HostError, Images, Options, Shared};
 use crate::passes::{
-    AdoptedCounts, AdoptedDraw, Counter, DetectMode, FrameUniform, IdViews, Locations, OwnSet,
-    Patch, Resources, Sample, VisibilityUniform,
+    AdoptedCounts, AdoptedDraw, Counter, FrameUniform, IdViews, Locations, OwnSet, Patch,
+    Resources, VisibilityUniform,
 };
-use crate::render::engine::{Engine, EngineKind, Work};
+use crate::render::engine::{Engine, EngineKind, Work, with_probes};
 use crate::render::footprint::Footprints;
 use crate::render::plan::{Effort, Plan};
 use crate::render::statistics::Shortfall;
-use crate::render::{Detection, PassTime, RenderError, Settings, Statistics};
-use crate::sampling::Pattern;
+use crate::render::{PassTime, Settings, Statistics};
 use crate::vulkan::{Buffer, Memory, MemoryUse, Pipeline, Recorder, Timings};
 use ash::vk;
 use std::sync::Arc;
@@ -116,13 +115,9 @@ impl Frame {
         )?;
         let taken = memory.used();
         let plan = Plan::whole(&settings, &content, gpu.limits(), effort, taken)?;
-        let mut locations = settings.locations()?;
+        let locations = settings.locations()?;
         let count = locations.len() as u32;
-        locations.extend(
-            Pattern::Sobol
-                .offsets(Sample::PROBES)
-                .map_err(RenderError::from)?,
-        );
+        let locations = with_probes(locations)?;
         let views = IdViews {
             ids: images.ids.view,
             blend_ids: None,
@@ -149,18 +144,9 @@ impl Frame {
             &plan,
             &output,
             &EngineKind {
-                mode: match settings.detection {
-                    Detection::Contrast => DetectMode::Contrast,
-                    Detection::Edges => DetectMode::Edges,
-                    Detection::Exact => DetectMode::Exact,
-                    Detection::Every => DetectMode::Every,
-                },
-                thin: settings.thin && settings.detection != Detection::Every,
                 farther_is_larger: !geometry.clip.reversed_depth,
-                multisampled: false,
-                samples: settings.samples,
                 growths: 0,
-                detected: false,
+                ..EngineKind::superpixels(&settings)
             },
         )?;
         // SAFETY: of the host's handles, as the caller says; the rest goes with the frame.

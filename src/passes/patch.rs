@@ -1,7 +1,7 @@
 //! patch: the colours of superpixels, drawn into a host's image.
 
 use super::{FrameLayout, spirv};
-use crate::vulkan::{Constants, Pipeline, Recorder, Shader, VulkanError};
+use crate::vulkan::{Constants, GraphicsPipeline, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -24,7 +24,16 @@ impl Patch {
         let constants = Constants::new().flag(0, encoded);
         let variant = format.as_raw() as u32;
         let pipeline = layout.cached(spirv::PATCH_FRAGMENT, &constants, variant, || {
-            pipeline(layout, &constants, format)
+            let pipeline = GraphicsPipeline {
+                vertex: spirv::PATCH_VERTEX,
+                fragment: spirv::PATCH_FRAGMENT,
+                constants: &constants,
+                samples: vk::SampleCountFlags::TYPE_1,
+                color: format,
+                depth: None,
+                dynamic: &[],
+            };
+            pipeline.make(&layout.gpu, layout.pipeline)
         })?;
         Ok(Self {
             layout: layout.clone(),
@@ -79,67 +88,4 @@ impl Patch {
             device.cmd_end_rendering(raw);
         }
     }
-}
-
-fn pipeline(
-    layout: &FrameLayout,
-    constants: &Constants,
-    format: vk::Format,
-) -> Result<Pipeline, VulkanError> {
-    let gpu = &layout.gpu;
-    let vertex = Shader::new(gpu, spirv::PATCH_VERTEX)?;
-    let fragment = Shader::new(gpu, spirv::PATCH_FRAGMENT)?;
-    let (map, data) = constants.packed();
-    let specialization = vk::SpecializationInfo::default()
-        .map_entries(&map)
-        .data(&data);
-    let stage = |stage, shader: &Shader| {
-        vk::PipelineShaderStageCreateInfo::default()
-            .stage(stage)
-            .module(shader.raw)
-            .name(c"main")
-    };
-    let stages = [
-        stage(vk::ShaderStageFlags::VERTEX, &vertex),
-        stage(vk::ShaderStageFlags::FRAGMENT, &fragment).specialization_info(&specialization),
-    ];
-    let input = vk::PipelineVertexInputStateCreateInfo::default();
-    let assembly = vk::PipelineInputAssemblyStateCreateInfo::default()
-        .topology(vk::PrimitiveTopology::TRIANGLE_LIST);
-    let viewport = vk::PipelineViewportStateCreateInfo::default()
-        .viewport_count(1)
-        .scissor_count(1);
-    let rasterization = vk::PipelineRasterizationStateCreateInfo::default().line_width(1.0);
-    let multisample = vk::PipelineMultisampleStateCreateInfo::default()
-        .rasterization_samples(vk::SampleCountFlags::TYPE_1);
-    let attachments = [vk::PipelineColorBlendAttachmentState::default()
-        .color_write_mask(vk::ColorComponentFlags::RGBA)];
-    let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments);
-    let dynamic = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
-    let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic);
-    let formats = [format];
-    let mut rendering =
-        vk::PipelineRenderingCreateInfo::default().color_attachment_formats(&formats);
-    let info = vk::GraphicsPipelineCreateInfo::default()
-        .stages(&stages)
-        .vertex_input_state(&input)
-        .input_assembly_state(&assembly)
-        .viewport_state(&viewport)
-        .rasterization_state(&rasterization)
-        .multisample_state(&multisample)
-        .color_blend_state(&blend)
-        .dynamic_state(&dynamic)
-        .layout(layout.pipeline)
-        .push_next(&mut rendering);
-    // SAFETY: all structures live until after the call; the layout covers what the shaders bind.
-    let pipelines = unsafe {
-        gpu.device
-            .create_graphics_pipelines(vk::PipelineCache::null(), &[info], None)
-    }
-    .map_err(|(_, e)| VulkanError::of("vkCreateGraphicsPipelines")(e))?;
-    Ok(Pipeline::from_raw(
-        gpu,
-        pipelines.first().copied().unwrap_or_default(),
-        vk::PipelineBindPoint::GRAPHICS,
-    ))
 }

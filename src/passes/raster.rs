@@ -2,7 +2,7 @@
 
 use super::{Content, FrameGeometry, FrameLayout, GpuScene, IdViews, spirv};
 use crate::scene::DrawClass;
-use crate::vulkan::{Constants, Gpu, Image, Memory, Pipeline, Recorder, Shader, VulkanError};
+use crate::vulkan::{Constants, GraphicsPipeline, Image, Memory, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -140,7 +140,16 @@ impl Raster {
         let constants = scene.constants(Constants::new());
         let make = |code| {
             layout.cached(code, &constants, samples.as_raw(), || {
-                pipeline(&layout.gpu, layout.pipeline, code, &constants, samples)
+                let pipeline = GraphicsPipeline {
+                    vertex: spirv::RASTER_VERTEX,
+                    fragment: code,
+                    constants: &constants,
+                    samples,
+                    color: id_format(samples),
+                    depth: Some(DEPTH),
+                    dynamic: &[vk::DynamicState::CULL_MODE],
+                };
+                pipeline.make(&layout.gpu, layout.pipeline)
             })
         };
         Ok(Self {
@@ -308,82 +317,4 @@ pub(super) fn double_sided(class: DrawClass) -> bool {
         class,
         DrawClass::OpaqueDoubleSided | DrawClass::MaskDoubleSided | DrawClass::BlendDoubleSided
     )
-}
-
-fn pipeline(
-    gpu: &Arc<Gpu>,
-    layout: vk::PipelineLayout,
-    fragment: &[u8],
-    constants: &Constants,
-    samples: vk::SampleCountFlags,
-) -> Result<Pipeline, VulkanError> {
-    let vertex = Shader::new(gpu, spirv::RASTER_VERTEX)?;
-    let fragment = Shader::new(gpu, fragment)?;
-    let (map, data) = constants.packed();
-    let specialization = vk::SpecializationInfo::default()
-        .map_entries(&map)
-        .data(&data);
-    let stage = |stage, shader: &Shader| {
-        vk::PipelineShaderStageCreateInfo::default()
-            .stage(stage)
-            .module(shader.raw)
-            .name(c"main")
-            .specialization_info(&specialization)
-    };
-    let stages = [
-        stage(vk::ShaderStageFlags::VERTEX, &vertex),
-        stage(vk::ShaderStageFlags::FRAGMENT, &fragment),
-    ];
-    let input = vk::PipelineVertexInputStateCreateInfo::default();
-    let assembly = vk::PipelineInputAssemblyStateCreateInfo::default()
-        .topology(vk::PrimitiveTopology::TRIANGLE_LIST);
-    let viewport = vk::PipelineViewportStateCreateInfo::default()
-        .viewport_count(1)
-        .scissor_count(1);
-    let rasterization = vk::PipelineRasterizationStateCreateInfo::default()
-        .polygon_mode(vk::PolygonMode::FILL)
-        .front_face(vk::FrontFace::COUNTER_CLOCKWISE)
-        .line_width(1.0);
-    let multisample =
-        vk::PipelineMultisampleStateCreateInfo::default().rasterization_samples(samples);
-    let depth = vk::PipelineDepthStencilStateCreateInfo::default()
-        .depth_test_enable(true)
-        .depth_write_enable(true)
-        .depth_compare_op(vk::CompareOp::GREATER);
-    let attachments = [vk::PipelineColorBlendAttachmentState::default()
-        .color_write_mask(vk::ColorComponentFlags::RGBA)];
-    let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments);
-    let dynamic = [
-        vk::DynamicState::VIEWPORT,
-        vk::DynamicState::SCISSOR,
-        vk::DynamicState::CULL_MODE,
-    ];
-    let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic);
-    let formats = [id_format(samples)];
-    let mut rendering = vk::PipelineRenderingCreateInfo::default()
-        .color_attachment_formats(&formats)
-        .depth_attachment_format(DEPTH);
-    let info = vk::GraphicsPipelineCreateInfo::default()
-        .stages(&stages)
-        .vertex_input_state(&input)
-        .input_assembly_state(&assembly)
-        .viewport_state(&viewport)
-        .rasterization_state(&rasterization)
-        .multisample_state(&multisample)
-        .depth_stencil_state(&depth)
-        .color_blend_state(&blend)
-        .dynamic_state(&dynamic)
-        .layout(layout)
-        .push_next(&mut rendering);
-    // SAFETY: all structures live until after the call; the layout covers what the crate's shaders bind.
-    let pipelines = unsafe {
-        gpu.device
-            .create_graphics_pipelines(vk::PipelineCache::null(), &[info], None)
-    }
-    .map_err(|(_, e)| VulkanError::of("vkCreateGraphicsPipelines")(e))?;
-    Ok(Pipeline::from_raw(
-        gpu,
-        pipelines.first().copied().unwrap_or_default(),
-        vk::PipelineBindPoint::GRAPHICS,
-    ))
 }

@@ -198,7 +198,7 @@ impl Sample {
         let first_run = wanted.len();
         if probes {
             wanted.extend(listed(Run::Rest));
-        } else if options.leaves_cells() && !options.always_blends {
+        } else if options.by_masks() {
             wanted.push((TileList::Plain, Run::Rest, &KERNELS, false));
         }
         // They take drivers the longest of all.
@@ -320,6 +320,7 @@ impl SampleOptions {
     /// Whether cells of opaque triangles are taken by masks of their samples.
     fn by_masks(&self) -> bool {
         self.cells == Cells::Pixels
+            && !self.always_blends
             && self.records != RecordRate::Sample
             && !self.apart
             && (2..=64).contains(&self.samples)

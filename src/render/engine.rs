@@ -1,11 +1,12 @@
 //! The sampling engine: from a mask of cells to their colours, in rounds.
 
 use super::plan::Plan;
-use super::{Coverage, RenderError, Settings, Shading};
+use super::{Coverage, Detection, RenderError, Settings, Shading};
 use crate::passes::{
     Bin, Cells, Content, Cull, Detect, DetectMode, FrameLayout, Grow, RecordRate, Resolve,
     Resources, Sample, SampleOptions, Schedule, Setup, Sort, Then, Thin,
 };
+use crate::sampling::Pattern;
 use crate::vulkan::{Constants, Recorder};
 use std::sync::Arc;
 
@@ -47,6 +48,26 @@ pub(crate) struct EngineKind {
     pub growths: u32,
     /// Whether `detect` compares the resolved colours.
     pub detected: bool,
+}
+
+impl EngineKind {
+    /// What finds and samples the superpixels that settings ask for.
+    pub fn superpixels(settings: &Settings) -> Self {
+        Self {
+            mode: match settings.detection {
+                Detection::Contrast => DetectMode::Contrast,
+                Detection::Edges => DetectMode::Edges,
+                Detection::Exact => DetectMode::Exact,
+                Detection::Every => DetectMode::Every,
+            },
+            thin: settings.thin && settings.detection != Detection::Every,
+            farther_is_larger: false,
+            multisampled: false,
+            samples: settings.samples,
+            growths: settings.growths(),
+            detected: false,
+        }
+    }
 }
 
 impl Engine {
@@ -211,6 +232,12 @@ pub(crate) struct Work {
     pub tiles: u32,
     /// Rounds of lists and records.
     pub rounds: u32,
+}
+
+/// Locations of a cell's samples, followed by those of a first run.
+pub(crate) fn with_probes(mut locations: Vec<[f32; 2]>) -> Result<Vec<[f32; 2]>, RenderError> {
+    locations.extend(Pattern::Sobol.offsets(Sample::PROBES)?);
+    Ok(locations)
 }
 
 /// How many records the settings' shading asks for.

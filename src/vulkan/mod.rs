@@ -15,5 +15,6 @@ pub use gpu::{Gpu, Host, Limits, SharedAllocator};
 pub use instance::{DeviceInfo, Instance, InstanceOptions};
 pub(crate) use memory::TexelView;
 pub use memory::{Buffer, BufferView, Image, Memory, MemoryUse};
+pub(crate) use pipeline::GraphicsPipeline;
 pub use pipeline::{Constants, Pipeline, Shader, compute_pipeline};
 pub use requirements::{MISSING_DRIVER_HELP, Missing, Requirements};

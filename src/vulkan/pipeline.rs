@@ -1,4 +1,4 @@
-//! Shader modules, specialisation and compute pipelines.
+//! Shader modules, specialisation and pipelines.
 
 use super::{Gpu, VulkanError};
 use ash::vk;
@@ -152,4 +152,102 @@ pub fn compute_pipeline(
     .map_err(|(_, e)| VulkanError::of("vkCreateComputePipelines")(e))?;
     let raw = pipelines.first().copied().unwrap_or_default();
     Ok(Pipeline::from_raw(gpu, raw, vk::PipelineBindPoint::COMPUTE))
+}
+
+/// A graphics pipeline of triangles without vertex buffers, into one image and, if it has a format, a depth image in which
+/// larger is nearer. Viewport and scissor are dynamic.
+pub(crate) struct GraphicsPipeline<'a> {
+    /// SPIR-V of both shaders.
+    pub vertex: &'a [u8],
+    pub fragment: &'a [u8],
+    /// Of both shaders; a shader takes those that it has.
+    pub constants: &'a Constants,
+    pub samples: vk::SampleCountFlags,
+    pub color: vk::Format,
+    pub depth: Option<vk::Format>,
+    /// What is dynamic beside viewport and scissor.
+    pub dynamic: &'a [vk::DynamicState],
+}
+
+impl GraphicsPipeline<'_> {
+    /// Makes it.
+    ///
+    /// # Errors
+    /// [`VulkanError::Call`] if the driver refuses it.
+    pub fn make(
+        &self,
+        gpu: &Arc<Gpu>,
+        layout: vk::PipelineLayout,
+    ) -> Result<Pipeline, VulkanError> {
+        let vertex = Shader::new(gpu, self.vertex)?;
+        let fragment = Shader::new(gpu, self.fragment)?;
+        let (map, data) = self.constants.packed();
+        let specialization = vk::SpecializationInfo::default()
+            .map_entries(&map)
+            .data(&data);
+        let stage = |stage, shader: &Shader| {
+            vk::PipelineShaderStageCreateInfo::default()
+                .stage(stage)
+                .module(shader.raw)
+                .name(c"main")
+                .specialization_info(&specialization)
+        };
+        let stages = [
+            stage(vk::ShaderStageFlags::VERTEX, &vertex),
+            stage(vk::ShaderStageFlags::FRAGMENT, &fragment),
+        ];
+        let input = vk::PipelineVertexInputStateCreateInfo::default();
+        let assembly = vk::PipelineInputAssemblyStateCreateInfo::default()
+            .topology(vk::PrimitiveTopology::TRIANGLE_LIST);
+        let viewport = vk::PipelineViewportStateCreateInfo::default()
+            .viewport_count(1)
+            .scissor_count(1);
+        let rasterization = vk::PipelineRasterizationStateCreateInfo::default()
+            .polygon_mode(vk::PolygonMode::FILL)
+            .front_face(vk::FrontFace::COUNTER_CLOCKWISE)
+            .line_width(1.0);
+        let multisample =
+            vk::PipelineMultisampleStateCreateInfo::default().rasterization_samples(self.samples);
+        let depth = vk::PipelineDepthStencilStateCreateInfo::default()
+            .depth_test_enable(self.depth.is_some())
+            .depth_write_enable(self.depth.is_some())
+            .depth_compare_op(vk::CompareOp::GREATER);
+        let attachments = [vk::PipelineColorBlendAttachmentState::default()
+            .color_write_mask(vk::ColorComponentFlags::RGBA)];
+        let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments);
+        let dynamic = [
+            &[vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR],
+            self.dynamic,
+        ]
+        .concat();
+        let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic);
+        let formats = [self.color];
+        let mut rendering = vk::PipelineRenderingCreateInfo::default()
+            .color_attachment_formats(&formats)
+            .depth_attachment_format(self.depth.unwrap_or(vk::Format::UNDEFINED));
+        let info = vk::GraphicsPipelineCreateInfo::default()
+            .stages(&stages)
+            .vertex_input_state(&input)
+            .input_assembly_state(&assembly)
+            .viewport_state(&viewport)
+            .rasterization_state(&rasterization)
+            .multisample_state(&multisample)
+            .depth_stencil_state(&depth)
+            .color_blend_state(&blend)
+            .dynamic_state(&dynamic)
+            .layout(layout)
+            .push_next(&mut rendering);
+        // SAFETY: all structures live until after the call; the layout covers what the crate's shaders bind.
+        let pipelines = unsafe {
+            gpu.device
+                .create_graphics_pipelines(vk::PipelineCache::null(), &[info], None)
+        }
+        .map_err(|(_, e)| VulkanError::of("vkCreateGraphicsPipelines")(e))?;
+        let raw = pipelines.first().copied().unwrap_or_default();
+        Ok(Pipeline::from_raw(
+            gpu,
+            raw,
+            vk::PipelineBindPoint::GRAPHICS,
+        ))
+    }
 }

@@ -14,9 +14,9 @@ use super::{RenderError, Settings};
 use crate::camera::Camera;
 use crate::passes::{
     Content, Counter, Encoding, FrameGeometry, FrameLayout, GpuScene, Locations, RasterTargets,
-    Resources, Sample,
+    Resources,
 };
-use crate::sampling::Pattern;
+use crate::render::engine::with_probes;
 use crate::scene::Moment;
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;
@@ -76,9 +76,9 @@ impl Frame {
             raster_samples(settings),
             scene.has_blend(),
         )?;
-        let mut locations = settings.locations()?;
+        let locations = settings.locations()?;
         let sample_count = locations.len() as u32;
-        locations.extend(Pattern::Sobol.offsets(Sample::PROBES)?);
+        let locations = with_probes(locations)?;
         let centre = Locations {
             all: &[[0.0, 0.0]],
             count: 1,

@@ -80,10 +80,8 @@ impl Passes {
         );
         let (pixels, shading) = (pixels?, shading?.map(Arc::new));
         let engine = |wanted: bool, kind: EngineKind| {
-            shading
-                .as_ref()
-                .filter(|_| wanted)
-                .map(|_| Engine::new(layout, scene, settings, plan, &output, &kind))
+            wanted
+                .then(|| Engine::new(layout, scene, settings, plan, &output, &kind))
                 .transpose()
         };
         let blended = engine(
@@ -98,44 +96,24 @@ impl Passes {
                 detected: display_codes,
             },
         )?;
-        let superpixels = engine(
-            antialiased,
-            EngineKind {
-                mode: match settings.detection {
-                    Detection::Contrast => DetectMode::Contrast,
-                    Detection::Edges => DetectMode::Edges,
-                    Detection::Exact => DetectMode::Exact,
-                    Detection::Every => DetectMode::Every,
-                },
-                thin: settings.thin && settings.detection != Detection::Every,
-                farther_is_larger: false,
-                multisampled: false,
-                samples: settings.samples,
-                growths: settings.growths(),
-                detected: false,
-            },
-        )?;
-        let multisampling = shading
-            .as_ref()
-            .filter(|_| multisampled)
-            .map(|_| -> Result<_, RenderError> {
-                Ok(Multisampling {
-                    multisample: Multisample::new(layout)?,
-                    sort: Sort::new(layout, scene, scene.bin_count() == 1)?,
-                    resolve: Resolve::for_multisample(
-                        layout,
-                        settings.samples,
-                        Then::Nothing,
-                        &output,
-                    )?,
-                })
+        let superpixels = engine(antialiased, EngineKind::superpixels(settings))?;
+        let multisampling = || -> Result<_, RenderError> {
+            Ok(Multisampling {
+                multisample: Multisample::new(layout)?,
+                sort: Sort::new(layout, scene, scene.bin_count() == 1)?,
+                resolve: Resolve::for_multisample(
+                    layout,
+                    settings.samples,
+                    Then::Nothing,
+                    &output,
+                )?,
             })
-            .transpose()?;
+        };
         Ok(Self {
             pose: scene.moves().then(|| Pose::new(layout)).transpose()?,
             raster: Raster::new(layout, raster_samples(settings), scene)?,
             pixels,
-            multisampling,
+            multisampling: multisampled.then(multisampling).transpose()?,
             shade: shading,
             blended,
             superpixels,

@@ -8,14 +8,13 @@ use crate::passes::{
     Locations, Points, RasterTargets, RecordRate, Resolve, ResourceSizes, Resources, Sample,
     SampleOptions, Schedule, Setup, Shade, ShadeSource, SiteData, Sort, Then,
 };
-use crate::render::engine::{can_settle, record_rate, record_shading};
+use crate::render::engine::{can_settle, record_rate, record_shading, with_probes};
 use crate::render::footprint::Footprints;
 use crate::render::frame::recording::SceneShading;
 use crate::render::plan::Effort;
 use crate::render::renderer::PreparedScene;
 use crate::render::statistics::Shortfall;
 use crate::render::{Coverage, PassTime, RenderError, Settings, Statistics};
-use crate::sampling::Pattern;
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings, VulkanError};
 use ash::vk;
 use glam::{DMat4, DVec2};
@@ -122,12 +121,11 @@ impl SiteEngine {
             has_blend: scene.has_blend(),
             always_blends: false,
         };
-        let mut locations = if points {
+        let locations = with_probes(if points {
             vec![[0.0; 2]]
         } else {
             settings.pattern.offsets(settings.samples)?
-        };
-        locations.extend(Pattern::Sobol.offsets(Sample::PROBES)?);
+        })?;
         let locations = Locations {
             all: &locations,
             count: options.samples,
