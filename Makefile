@@ -10,7 +10,13 @@ LAVAPIPE = ls /usr/share/vulkan/icd.d/lvp_icd*.json /etc/vulkan/icd.d/lvp_icd*.j
 # hours there.
 BENCH ?= --size 480x270 --samples 4,16,64,256 --reference 1024 --budget 4
 
-.PHONY: help demo test bench lint shaders check-shaders assets
+# Where `make install` puts the C library. Its shared object's name has the part of the version that is kept compatible.
+PREFIX ?= /usr/local
+DESTDIR ?=
+VERSION = $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
+SONAME = libgpc.so.$(basename $(VERSION))
+
+.PHONY: help demo test bench lint shaders check-shaders header assets install
 
 help:
 	@echo "make demo           build, render a scene without and with antialiasing into out/"
@@ -19,6 +25,8 @@ help:
 	@echo "make lint           check formatting, clippy's advice for each set of features, and the documentation"
 	@echo "make shaders        compile shaders/ into shaders/spirv (builds shaderc: some 10 minutes once)"
 	@echo "make check-shaders  check that shaders/spirv is what shaders/ compiles to"
+	@echo "make header         write include/gpc.h, the C header, again"
+	@echo "make install        build the C library and install it below PREFIX, which is $(PREFIX)"
 	@echo "make assets         write the scenes in assets/ again"
 
 demo:
@@ -27,8 +35,8 @@ demo:
 	@tools/demo.sh
 
 test:
-	@tools/setup.sh build lavapipe validation
-	VK_ICD_FILENAMES="$${VK_ICD_FILENAMES:-$$($(LAVAPIPE))}" $(CARGO) test --release
+	@tools/setup.sh build lavapipe validation c
+	VK_ICD_FILENAMES="$${VK_ICD_FILENAMES:-$$($(LAVAPIPE))}" $(CARGO) test --release --features capi
 
 bench:
 	@tools/setup.sh build vulkan
@@ -38,8 +46,9 @@ bench:
 lint:
 	@tools/setup.sh build
 	$(CARGO) fmt --check
-	$(CARGO) clippy --release --all-targets -- -D warnings
+	$(CARGO) clippy --release --all-targets --features capi -- -D warnings
 	$(CARGO) clippy --release --no-default-features -- -D warnings
+	$(CARGO) clippy --release --no-default-features --features capi -- -D warnings
 	$(CARGO) clippy --release --no-default-features --features gltf -- -D warnings
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --release --no-deps
 
@@ -55,3 +64,14 @@ check-shaders:
 assets:
 	@tools/setup.sh build
 	$(CARGO) run --release --example generate_assets
+
+header:
+	@tools/setup.sh build
+	GPC_HEADER=write $(CARGO) test --release --test capi header
+
+# A crate type of this build alone: `cargo build` makes neither library.
+install:
+	@tools/setup.sh build
+	$(CARGO) rustc --release --lib --no-default-features --features capi --crate-type cdylib,staticlib -- \
+		-C link-arg=-Wl,-soname,$(SONAME)
+	@tools/install.sh $(or $(CARGO_TARGET_DIR),target)/release $(VERSION) $(SONAME) $(abspath $(PREFIX)) $(DESTDIR)

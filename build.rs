@@ -7,8 +7,16 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Shaders of the example `visibility`, which is a host with materials of its own.
-const EXAMPLE: &[Variant] = &[
+/// Shaders of the example `forward`, a host in C++.
+const FORWARD: &[Variant] = &[
+    ("pose", "pose.comp", &[]),
+    ("forward_vertex", "forward.vert", &[]),
+    ("forward_fragment", "forward.frag", &[]),
+    ("samples", "samples.comp", &[]),
+];
+
+/// Shaders of the example `visibility`, a host in Rust.
+const VISIBILITY: &[Variant] = &[
     ("pose", "pose.comp", &[]),
     ("ids_vertex", "ids.vert", &[]),
     ("ids_fragment", "ids.frag", &[]),
@@ -125,6 +133,7 @@ struct Group {
 
 fn main() {
     println!("cargo:rerun-if-changed=shaders");
+    println!("cargo:rerun-if-changed=examples/forward/shaders");
     println!("cargo:rerun-if-changed=examples/visibility/shaders");
     println!("cargo:rerun-if-changed=build.rs");
     println!("cargo:rerun-if-env-changed=GPC_SPIRV");
@@ -136,7 +145,8 @@ fn main() {
         includes: root.join("shaders/include"),
         variants,
     };
-    spirv(&group("examples/visibility/shaders", EXAMPLE), &out);
+    spirv(&group("examples/forward/shaders", FORWARD), &out);
+    spirv(&group("examples/visibility/shaders", VISIBILITY), &out);
     let folder = spirv(&group("shaders", VARIANTS), &out);
     let mut code = String::new();
     for (name, source, _) in VARIANTS {

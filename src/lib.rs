@@ -2,7 +2,7 @@
 //!
 //! The feature `cli`, on by default, has what the command needs: image files ([`output`]), comparisons and benchmarks.
 //! `gltf` alone has scenes, cameras and rendering in a host's device or one of its own. What is left without either is the
-//! engine for a host's own scene and materials ([`host`]), which knows no files.
+//! engine for a host's own scene and materials ([`host`]), which knows no files; `capi` adds its functions in C.
 
 #![warn(missing_docs)]
 // The engine has what scenes of files need, too.
@@ -12,6 +12,8 @@
 pub mod bench;
 #[cfg(feature = "gltf")]
 pub mod camera;
+#[cfg(feature = "capi")]
+mod capi;
 #[cfg(feature = "cli")]
 pub mod compare;
 pub mod host;

@@ -1,28 +1,17 @@
 //! The embedding example, run as a program of its own: a host's image holds what a headless render gives.
 
+#[allow(dead_code)]
+#[path = "common/example.rs"]
+mod example;
+
 use gpc::camera::Camera;
 use gpc::reference::srgb;
 use gpc::render::{Headless, HeadlessOptions, Settings};
 use gpc::scene::{PoseRequest, Scene};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/fence.glb");
-
-/// The built example; `cargo test` builds examples beside its tests.
-fn example() -> PathBuf {
-    let test = std::env::current_exe().unwrap();
-    let profile = test.parent().and_then(Path::parent).unwrap();
-    let example = profile
-        .join("examples")
-        .join(format!("embed{}", std::env::consts::EXE_SUFFIX));
-    assert!(
-        example.is_file(),
-        "{} is missing: `cargo test` builds it, `cargo test --test embed` alone does not",
-        example.display()
-    );
-    example
-}
 
 /// sRGB codes of a headless render with the example's settings, under the validation layer.
 fn headless(width: u32, height: u32) -> Vec<[u8; 4]> {
@@ -56,23 +45,7 @@ fn headless(width: u32, height: u32) -> Vec<[u8; 4]> {
 fn a_hosts_image_holds_what_a_headless_render_gives() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("embed.png");
-    // The loader slips the validation layer under the host; without a messenger it writes to standard output.
-    let run = Command::new(example())
-        .args([Path::new(SCENE), &out])
-        .env("VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation")
-        .env(
-            "VK_LAYER_ENABLES",
-            "VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT",
-        )
-        .output()
-        .unwrap();
-    let said = String::from_utf8_lossy(&run.stdout).into_owned();
-    let complained = String::from_utf8_lossy(&run.stderr).into_owned();
-    assert!(run.status.success(), "{said}{complained}");
-    assert!(
-        !said.contains("Validation") && !complained.contains("Validation"),
-        "{said}{complained}"
-    );
+    example::validated(Command::new(example::built("embed")).args([Path::new(SCENE), &out]));
 
     let image = image::open(&out).unwrap().into_rgba8();
     let expected = headless(image.width(), image.height());

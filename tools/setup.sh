@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what the named parts of the build need and the machine lacks.
 #
-#   tools/setup.sh build|vulkan|lavapipe|validation|shaders ...
+#   tools/setup.sh build|vulkan|lavapipe|validation|shaders|c ...
 #
 # Where everything is there, it changes nothing and asks for no rights. Packages come from apt, as root or through
 # sudo without a password; elsewhere the script prints what to install and fails.
@@ -75,6 +75,13 @@ needs_validation() {
         || lacks "the Vulkan validation layer (VK_LAYER_KHRONOS_validation)" vulkan-validationlayers
 }
 
+# Programs in C++ that use the library.
+needs_c() {
+    needs_build
+    has pkg-config || lacks "pkg-config" pkg-config
+    [ -e /usr/include/vulkan/vulkan_core.h ] || lacks "Vulkan's headers" libvulkan-dev
+}
+
 needs_shaders() {
     needs_build
     has cmake || lacks "cmake" cmake
@@ -89,9 +96,9 @@ fi
 
 for part in "$@"; do
     case "$part" in
-        build | vulkan | lavapipe | validation | shaders) "needs_$part" ;;
+        build | vulkan | lavapipe | validation | shaders | c) "needs_$part" ;;
         *)
-            echo "tools/setup.sh: no part \"$part\"; there are build, vulkan, lavapipe, validation and shaders" >&2
+            echo "tools/setup.sh: no part \"$part\"; there are build, vulkan, lavapipe, validation, shaders and c" >&2
             exit 2
             ;;
     esac

@@ -35,6 +35,9 @@ pub struct VisibilitySamples {
 }
 
 impl VisibilitySamples {
+    /// Bytes from the indirect dispatch of a key to that of the next one.
+    pub const DISPATCH_STRIDE: u64 = 16;
+
     /// The set of [`super::Antialiaser::samples_layout`], to be bound for compute where the shaders expect it.
     #[must_use]
     pub fn descriptor_set(&self) -> vk::DescriptorSet {
@@ -52,7 +55,7 @@ impl VisibilitySamples {
     #[must_use]
     pub fn dispatch(&self, key: u32) -> Option<(vk::Buffer, u64)> {
         let index = u64::from(Argument::Shade as u32) + u64::from(key);
-        (key < self.keys).then_some((self.arguments, index * 16))
+        (key < self.keys).then_some((self.arguments, index * Self::DISPATCH_STRIDE))
     }
 }
 

@@ -1,0 +1,564 @@
+// A forward renderer in C++ with its own vertex format, shaders and materials, antialiased through gpc.h.
+//
+//     make install PREFIX=$PWD/out/gpc
+//     export PKG_CONFIG_PATH=out/gpc/lib/pkgconfig LD_LIBRARY_PATH=out/gpc/lib
+//     c++ -std=c++17 -O2 examples/forward/forward.cpp -o out/forward $(pkg-config --cflags --libs gpc vulkan)
+//     out/forward examples/forward/shaders/spirv out/forward.ppm
+//
+// What the library added to it: a compute shader that writes clip-space positions to a buffer, an attachment of triangle IDs,
+// a compute shader that shades the library's samples, and what is marked by `gpc` below. At the end, the picture is compared
+// with the renderer's own brute force.
+
+#include "device.hpp"
+#include "world.hpp"
+
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <memory>
+
+namespace {
+
+constexpr VkExtent2D SIZE{240, 135};
+// Samples along a pixel's side: of the brute force that takes as many as the library, and of the reference.
+constexpr uint32_t BRUTE = 8, REFERENCE = 32;
+constexpr VkFormat COLOR = VK_FORMAT_R8G8B8A8_SRGB, IDS = VK_FORMAT_R32_UINT, DEPTH = VK_FORMAT_D32_SFLOAT_S8_UINT;
+constexpr VkImageAspectFlags DEPTH_STENCIL = VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
+// The background, in linear light.
+constexpr float SKY[3] = {0.25f, 0.45f, 0.75f};
+constexpr float EYE[3] = {0.4f, 1.5f, 4.2f};
+
+// As in shaders/host.glsl.
+struct Push {
+    float eye[4];
+    uint32_t object, first_triangle, vertex_count;
+};
+
+constexpr GpcImageState UNDEFINED{VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_NONE};
+constexpr GpcImageState COLOR_DRAWN{VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                                    VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+                                    VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
+constexpr GpcImageState DEPTH_DRAWN{VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
+                                    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+                                    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT |
+                                        VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
+constexpr GpcImageState COPIED{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
+                               VK_ACCESS_2_TRANSFER_READ_BIT};
+
+class Pipelines {
+  public:
+    const Device &device;
+    VkDescriptorSetLayout set_layout{};
+    // Of the renderer's own passes: its set. Of shading samples: gpc's set, and the renderer's.
+    VkPipelineLayout layout{}, samples_layout{};
+    VkPipeline pose{}, forward[KEYS]{}, samples[KEYS]{};
+
+    Pipelines(const Device &device, const std::string &folder, VkDescriptorSetLayout gpc) : device(device), folder(folder) {
+        VkDescriptorSetLayoutBinding bindings[3]{};
+        for (uint32_t i = 0; i < 3; ++i)
+            bindings[i] = {i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_ALL, nullptr};
+        VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+        info.bindingCount = 3;
+        info.pBindings = bindings;
+        check(vkCreateDescriptorSetLayout(device.raw, &info, nullptr, &set_layout), "vkCreateDescriptorSetLayout");
+        layout = make_layout({set_layout});
+        samples_layout = make_layout({gpc, set_layout});
+        pose = make_compute("pose", layout, 0);
+        for (uint32_t key = 0; key < KEYS; ++key) {
+            forward[key] = make_forward(key);
+            samples[key] = make_compute("samples", samples_layout, key);
+        }
+    }
+
+    Pipelines(const Pipelines &) = delete;
+
+    ~Pipelines() {
+        vkDestroyPipeline(device.raw, pose, nullptr);
+        for (VkPipeline pipeline : forward) vkDestroyPipeline(device.raw, pipeline, nullptr);
+        for (VkPipeline pipeline : samples) vkDestroyPipeline(device.raw, pipeline, nullptr);
+        vkDestroyPipelineLayout(device.raw, layout, nullptr);
+        vkDestroyPipelineLayout(device.raw, samples_layout, nullptr);
+        vkDestroyDescriptorSetLayout(device.raw, set_layout, nullptr);
+    }
+
+  private:
+    std::string folder;
+
+    VkPipelineLayout make_layout(const std::vector<VkDescriptorSetLayout> &sets) const {
+        const VkPushConstantRange push{VK_SHADER_STAGE_ALL, 0, sizeof(Push)};
+        VkPipelineLayoutCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+        info.setLayoutCount = uint32_t(sets.size());
+        info.pSetLayouts = sets.data();
+        info.pushConstantRangeCount = 1;
+        info.pPushConstantRanges = &push;
+        VkPipelineLayout made;
+        check(vkCreatePipelineLayout(device.raw, &info, nullptr, &made), "vkCreatePipelineLayout");
+        return made;
+    }
+
+    VkShaderModule load(const std::string &name) const {
+        const std::string path = folder + "/" + name + ".spv";
+        std::ifstream file(path, std::ios::binary | std::ios::ate);
+        if (!file) throw std::runtime_error(path + " can't be read");
+        std::vector<uint32_t> words(size_t(file.tellg()) / 4);
+        file.seekg(0).read(reinterpret_cast<char *>(words.data()), std::streamsize(4 * words.size()));
+        VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+        info.codeSize = 4 * words.size();
+        info.pCode = words.data();
+        VkShaderModule module;
+        check(vkCreateShaderModule(device.raw, &info, nullptr, &module), "vkCreateShaderModule");
+        return module;
+    }
+
+    // A stage whose constant 0, if it has one, is the key.
+    struct Stage {
+        VkSpecializationMapEntry entry{0, 0, 4};
+        uint32_t key;
+        VkSpecializationInfo constants{1, &entry, 4, &key};
+        VkPipelineShaderStageCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
+
+        Stage(VkShaderStageFlagBits stage, VkShaderModule module, uint32_t key) : key(key) {
+            info.stage = stage;
+            info.module = module;
+            info.pName = "main";
+            info.pSpecializationInfo = &constants;
+        }
+
+        Stage(const Stage &) = delete;
+    };
+
+    VkPipeline make_compute(const std::string &name, VkPipelineLayout layout, uint32_t key) const {
+        const VkShaderModule module = load(name);
+        const Stage stage(VK_SHADER_STAGE_COMPUTE_BIT, module, key);
+        VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+        info.stage = stage.info;
+        info.layout = layout;
+        VkPipeline made;
+        check(vkCreateComputePipelines(device.raw, VK_NULL_HANDLE, 1, &info, nullptr, &made), "vkCreateComputePipelines");
+        vkDestroyShaderModule(device.raw, module, nullptr);
+        return made;
+    }
+
+    VkPipeline make_forward(uint32_t key) const {
+        const VkShaderModule modules[] = {load("forward_vertex"), load("forward_fragment")};
+        const Stage vertex(VK_SHADER_STAGE_VERTEX_BIT, modules[0], key);
+        const Stage fragment(VK_SHADER_STAGE_FRAGMENT_BIT, modules[1], key);
+        const VkPipelineShaderStageCreateInfo stages[] = {vertex.info, fragment.info};
+        const VkVertexInputBindingDescription binding{0, sizeof(Vertex), VK_VERTEX_INPUT_RATE_VERTEX};
+        const VkVertexInputAttributeDescription attributes[] = {
+            {0, 0, VK_FORMAT_R16G16B16A16_SNORM, offsetof(Vertex, position)},
+            {1, 0, VK_FORMAT_R8G8B8A8_SNORM, offsetof(Vertex, normal)},
+        };
+        VkPipelineVertexInputStateCreateInfo input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+        input.vertexBindingDescriptionCount = 1;
+        input.pVertexBindingDescriptions = &binding;
+        input.vertexAttributeDescriptionCount = 2;
+        input.pVertexAttributeDescriptions = attributes;
+        VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
+        assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+        VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
+        viewport.viewportCount = viewport.scissorCount = 1;
+        VkPipelineRasterizationStateCreateInfo raster{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
+        raster.cullMode = VK_CULL_MODE_BACK_BIT;
+        raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
+        raster.lineWidth = 1;
+        VkPipelineMultisampleStateCreateInfo multisample{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
+        multisample.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+        VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
+        depth.depthTestEnable = depth.depthWriteEnable = VK_TRUE;
+        depth.depthCompareOp = VK_COMPARE_OP_LESS;
+        // gpc: the second attachment holds IDs.
+        VkPipelineColorBlendAttachmentState blended[2]{};
+        blended[0].colorWriteMask = blended[1].colorWriteMask = 0xf;
+        VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
+        blend.attachmentCount = 2;
+        blend.pAttachments = blended;
+        const VkDynamicState states[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+        VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
+        dynamic.dynamicStateCount = 2;
+        dynamic.pDynamicStates = states;
+        const VkFormat formats[] = {COLOR, IDS};
+        VkPipelineRenderingCreateInfo rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
+        rendering.colorAttachmentCount = 2;
+        rendering.pColorAttachmentFormats = formats;
+        rendering.depthAttachmentFormat = DEPTH;
+        VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &rendering};
+        info.stageCount = 2;
+        info.pStages = stages;
+        info.pVertexInputState = &input;
+        info.pInputAssemblyState = &assembly;
+        info.pViewportState = &viewport;
+        info.pRasterizationState = &raster;
+        info.pMultisampleState = &multisample;
+        info.pDepthStencilState = &depth;
+        info.pColorBlendState = &blend;
+        info.pDynamicState = &dynamic;
+        info.layout = layout;
+        VkPipeline made;
+        check(vkCreateGraphicsPipelines(device.raw, VK_NULL_HANDLE, 1, &info, nullptr, &made), "vkCreateGraphicsPipelines");
+        for (VkShaderModule module : modules) vkDestroyShaderModule(device.raw, module, nullptr);
+        return made;
+    }
+};
+
+// Buffers that all renderers share.
+struct Meshes {
+    Buffer vertices, indices;
+
+    Meshes(const Device &device, const World &world)
+        : vertices(device, world.vertices, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT),
+          indices(device, world.indices, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT) {}
+};
+
+// sRGB codes from 0 to 1, three a pixel.
+using Picture = std::vector<double>;
+
+double encoded(double linear) {
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+
+double decoded(double code) {
+    return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
+}
+
+// Draws into images of one size, with the library or alone.
+class Renderer {
+  public:
+    Renderer(const Device &device, const World &world, const Meshes &meshes, const Pipelines &pipelines, uint32_t side,
+             const GpcAntialiaser *antialiaser)
+        : device(device), world(world), meshes(meshes), pipelines(pipelines), size{SIZE.width * side, SIZE.height * side},
+          objects(device, world.parts.size() * sizeof(Object), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT),
+          clip(device, world.position_count * VkDeviceSize(16),
+               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT),
+          color(device, size, COLOR,
+                VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_ASPECT_COLOR_BIT),
+          ids(device, size, IDS, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+              VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_ASPECT_COLOR_BIT),
+          depth(device, size, DEPTH, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT, DEPTH_STENCIL,
+                VK_IMAGE_ASPECT_DEPTH_BIT),
+          read_back(device, VkDeviceSize(4) * size.width * size.height, VK_BUFFER_USAGE_TRANSFER_DST_BIT) {
+        VkCommandBufferAllocateInfo commands_info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+        commands_info.commandPool = device.pool;
+        commands_info.commandBufferCount = 1;
+        check(vkAllocateCommandBuffers(device.raw, &commands_info, &commands), "vkAllocateCommandBuffers");
+        const VkDescriptorPoolSize pool_size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 3};
+        VkDescriptorPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+        pool_info.maxSets = 1;
+        pool_info.poolSizeCount = 1;
+        pool_info.pPoolSizes = &pool_size;
+        check(vkCreateDescriptorPool(device.raw, &pool_info, nullptr, &pool), "vkCreateDescriptorPool");
+        VkDescriptorSetAllocateInfo set_info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
+        set_info.descriptorPool = pool;
+        set_info.descriptorSetCount = 1;
+        set_info.pSetLayouts = &pipelines.set_layout;
+        check(vkAllocateDescriptorSets(device.raw, &set_info, &set), "vkAllocateDescriptorSets");
+        const VkDescriptorBufferInfo buffers[] = {{meshes.vertices.raw, 0, VK_WHOLE_SIZE},
+                                                  {objects.raw, 0, VK_WHOLE_SIZE},
+                                                  {clip.raw, 0, VK_WHOLE_SIZE}};
+        VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+        write.dstSet = set;
+        write.descriptorCount = 3;
+        write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        write.pBufferInfo = buffers;
+        vkUpdateDescriptorSets(device.raw, 1, &write, 0, nullptr);
+        if (antialiaser) prepare(antialiaser);
+    }
+
+    Renderer(const Renderer &) = delete;
+
+    ~Renderer() {
+        gpc_frame_destroy(frame);
+        vkDestroyDescriptorPool(device.raw, pool, nullptr);
+        vkFreeCommandBuffers(device.raw, device.pool, 1, &commands);
+    }
+
+    // Draws a moment and waits for it.
+    void draw(float time) {
+        const Mat4 projection = perspective(0.8f, float(SIZE.width) / float(SIZE.height), 0.1f, 100);
+        const Mat4 camera = projection * looking({EYE[0], EYE[1], EYE[2]}, {0, 0.6f, 0});
+        objects.write(world.objects(time, camera));
+        VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+        check(vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer");
+        record_pose();
+        record_forward();
+        if (frame) record_antialiasing(projection);
+        else change(color, COLOR_DRAWN, COPIED);
+        record_read_back();
+        check(vkEndCommandBuffer(commands), "vkEndCommandBuffer");
+        VkSubmitInfo submitted{VK_STRUCTURE_TYPE_SUBMIT_INFO};
+        submitted.commandBufferCount = 1;
+        submitted.pCommandBuffers = &commands;
+        check(vkQueueSubmit(device.queue, 1, &submitted, VK_NULL_HANDLE), "vkQueueSubmit");
+        check(vkQueueWaitIdle(device.queue), "vkQueueWaitIdle");
+    }
+
+    // What the library did.
+    GpcOutcome outcome() const {
+        GpcOutcome outcome{};
+        outcome.size = sizeof outcome;
+        check(gpc_frame_outcome(frame, &outcome));
+        return outcome;
+    }
+
+    // What was drawn, means of `side` x `side` pixels in linear light.
+    Picture picture(uint32_t side) const {
+        double linear[256];
+        for (int code = 0; code < 256; ++code) linear[code] = decoded(code / 255.0);
+        const auto *bytes = static_cast<const uint8_t *>(read_back.mapped);
+        Picture picture;
+        for (uint32_t y = 0; y < SIZE.height; ++y)
+            for (uint32_t x = 0; x < SIZE.width; ++x)
+                for (uint32_t channel = 0; channel < 3; ++channel) {
+                    double sum = 0;
+                    for (uint32_t line = y * side; line < (y + 1) * side; ++line)
+                        for (uint32_t column = x * side; column < (x + 1) * side; ++column)
+                            sum += linear[bytes[4 * (size_t(line) * size.width + column) + channel]];
+                    picture.push_back(encoded(sum / (side * side)));
+                }
+        return picture;
+    }
+
+  private:
+    const Device &device;
+    const World &world;
+    const Meshes &meshes;
+    const Pipelines &pipelines;
+    VkExtent2D size;
+    Buffer objects, clip;
+    Image color, ids, depth;
+    Buffer read_back;
+    VkCommandBuffer commands{};
+    VkDescriptorPool pool{};
+    VkDescriptorSet set{};
+    GpcFrame *frame{};
+
+    // gpc: what is lent for this size, once.
+    void prepare(const GpcAntialiaser *antialiaser) {
+        GpcGeometry geometry{};
+        geometry.size = sizeof geometry;
+        geometry.positions = clip.raw;
+        geometry.vertex_capacity = world.position_count;
+        geometry.indices = meshes.indices.raw;
+        geometry.index_capacity = uint32_t(world.indices.size());
+        geometry.triangle_capacity = world.triangle_count;
+        geometry.draw_capacity = uint32_t(world.parts.size());
+        geometry.keys = KEYS;
+        GpcImages images{};
+        images.size = sizeof images;
+        images.color_format = COLOR;
+        images.ids = {ids.raw, ids.view, ids.aspects, COLOR_DRAWN, COLOR_DRAWN};
+        images.depth = {depth.raw, depth.view, depth.aspects, DEPTH_DRAWN, DEPTH_DRAWN};
+        images.color = {color.raw, color.view, color.aspects, COLOR_DRAWN, COPIED};
+        GpcOptions options{};
+        options.size = sizeof options;
+        check(gpc_options_init(&options, size.width, size.height));
+        options.has_background = VK_TRUE;
+        std::memcpy(options.background, SKY, sizeof SKY);
+        check(gpc_frame_create(antialiaser, &geometry, &images, &options, &frame));
+    }
+
+    // gpc: the draws of this frame, in the order of their IDs.
+    void record_antialiasing(const Mat4 &projection) {
+        std::vector<GpcDraw> draws;
+        uint32_t first_position = 0;
+        for (const Part &part : world.parts) {
+            GpcDraw draw{};
+            draw.first_index = part.mesh.first_index;
+            draw.triangle_count = part.mesh.triangle_count;
+            draw.vertex_offset = int32_t(first_position);
+            draw.key = part.key;
+            draw.material = uint32_t(draws.size());
+            draw.detailed = VK_TRUE;
+            draws.push_back(draw);
+            first_position += part.mesh.vertex_count;
+        }
+        GpcScenery scenery{};
+        scenery.size = sizeof scenery;
+        scenery.draw_count = uint32_t(draws.size());
+        scenery.draws = draws.data();
+        std::memcpy(scenery.projection, projection.data(), sizeof scenery.projection);
+        const auto shade = [](void *user, VkCommandBuffer, const GpcVisibilitySamples *samples) noexcept {
+            static_cast<const Renderer *>(user)->record_samples(*samples);
+        };
+        check(gpc_frame_record(frame, commands, &scenery, shade, this));
+    }
+
+    // gpc: shading of samples by the renderer's materials.
+    void record_samples(const GpcVisibilitySamples &found) const noexcept {
+        const VkDescriptorSet sets[] = {found.descriptor_set, set};
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.samples_layout, 0, 2, sets, 0, nullptr);
+        push(pipelines.samples_layout, 0, 0, 0);
+        for (uint32_t key = 0; key < KEYS; ++key) {
+            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.samples[key]);
+            vkCmdDispatchIndirect(commands, found.dispatches, found.dispatch_offset + key * found.dispatch_stride);
+        }
+    }
+
+    void push(VkPipelineLayout layout, uint32_t object, uint32_t first_triangle, uint32_t vertex_count) const noexcept {
+        const Push values{{EYE[0], EYE[1], EYE[2], 1}, object, first_triangle, vertex_count};
+        vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_ALL, 0, sizeof values, &values);
+    }
+
+    void bind(VkPipelineBindPoint point) const {
+        vkCmdBindDescriptorSets(commands, point, pipelines.layout, 0, 1, &set, 0, nullptr);
+    }
+
+    // Positions of all objects in clip space.
+    void record_pose() const {
+        bind(VK_PIPELINE_BIND_POINT_COMPUTE);
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.pose);
+        for (uint32_t object = 0; object < world.parts.size(); ++object) {
+            const uint32_t count = world.parts[object].mesh.vertex_count;
+            push(pipelines.layout, object, 0, count);
+            vkCmdDispatch(commands, (count + 63) / 64, 1, 1);
+        }
+        VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+        barrier.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+        barrier.srcAccessMask = VK_ACCESS_2_SHADER_WRITE_BIT;
+        barrier.dstStageMask = VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT;
+        barrier.dstAccessMask = VK_ACCESS_2_SHADER_READ_BIT;
+        VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+        dependency.memoryBarrierCount = 1;
+        dependency.pMemoryBarriers = &barrier;
+        vkCmdPipelineBarrier2(commands, &dependency);
+    }
+
+    // Colours and, for gpc, IDs of triangles.
+    void record_forward() const {
+        change(color, UNDEFINED, COLOR_DRAWN);
+        change(ids, UNDEFINED, COLOR_DRAWN);
+        change(depth, UNDEFINED, DEPTH_DRAWN);
+        VkRenderingAttachmentInfo colors[2]{}, depths{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+        for (auto [attachment, image] : {std::pair{&colors[0], &color}, {&colors[1], &ids}, {&depths, &depth}}) {
+            attachment->sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
+            attachment->imageView = image->view;
+            attachment->imageLayout = (image == &depth ? DEPTH_DRAWN : COLOR_DRAWN).layout;
+            attachment->loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+            attachment->storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+        }
+        colors[0].clearValue.color = {{SKY[0], SKY[1], SKY[2], 1}};
+        depths.clearValue.depthStencil.depth = 1;
+        const VkRect2D area{{0, 0}, size};
+        VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
+        rendering.renderArea = area;
+        rendering.layerCount = 1;
+        rendering.colorAttachmentCount = 2;
+        rendering.pColorAttachments = colors;
+        rendering.pDepthAttachment = &depths;
+        vkCmdBeginRendering(commands, &rendering);
+        const VkViewport viewport{0, 0, float(size.width), float(size.height), 0, 1};
+        vkCmdSetViewport(commands, 0, 1, &viewport);
+        vkCmdSetScissor(commands, 0, 1, &area);
+        bind(VK_PIPELINE_BIND_POINT_GRAPHICS);
+        vkCmdBindIndexBuffer(commands, meshes.indices.raw, 0, VK_INDEX_TYPE_UINT32);
+        uint32_t first_triangle = 0;
+        for (uint32_t object = 0; object < world.parts.size(); ++object) {
+            const auto &[mesh, key, _] = world.parts[object];
+            const VkDeviceSize offset = mesh.first_vertex * sizeof(Vertex);
+            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.forward[key]);
+            vkCmdBindVertexBuffers(commands, 0, 1, &meshes.vertices.raw, &offset);
+            push(pipelines.layout, object, first_triangle, mesh.vertex_count);
+            vkCmdDrawIndexed(commands, 3 * mesh.triangle_count, 1, mesh.first_index, 0, 0);
+            first_triangle += mesh.triangle_count;
+        }
+        vkCmdEndRendering(commands);
+    }
+
+    void record_read_back() const {
+        VkBufferImageCopy region{};
+        region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+        region.imageExtent = {size.width, size.height, 1};
+        vkCmdCopyImageToBuffer(commands, color.raw, COPIED.layout, read_back.raw, 1, &region);
+        VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+        barrier.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
+        barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+        barrier.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
+        barrier.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
+        VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+        dependency.memoryBarrierCount = 1;
+        dependency.pMemoryBarriers = &barrier;
+        vkCmdPipelineBarrier2(commands, &dependency);
+    }
+
+    void change(const Image &image, const GpcImageState &from, const GpcImageState &to) const {
+        VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
+        barrier.srcStageMask = from.stage;
+        barrier.srcAccessMask = from.access;
+        barrier.dstStageMask = to.stage;
+        barrier.dstAccessMask = to.access;
+        barrier.oldLayout = from.layout;
+        barrier.newLayout = to.layout;
+        barrier.image = image.raw;
+        barrier.subresourceRange = {image.aspects, 0, 1, 0, 1};
+        VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+        dependency.imageMemoryBarrierCount = 1;
+        dependency.pImageMemoryBarriers = &barrier;
+        vkCmdPipelineBarrier2(commands, &dependency);
+    }
+};
+
+// In codes of 8 bits, as an image holds them.
+Picture rounded(Picture picture) {
+    for (double &code : picture) code = std::round(255 * code) / 255;
+    return picture;
+}
+
+// Root of the mean square difference of sRGB codes, of 0 to 1.
+double error(const Picture &picture, const Picture &truth) {
+    double sum = 0;
+    for (size_t i = 0; i < picture.size(); ++i) sum += (picture[i] - truth[i]) * (picture[i] - truth[i]);
+    return std::sqrt(sum / double(picture.size()));
+}
+
+void save(const Picture &picture, const char *path) {
+    std::ofstream file(path, std::ios::binary);
+    file << "P6\n" << SIZE.width << ' ' << SIZE.height << "\n255\n";
+    for (double code : picture) file.put(char(std::lround(255 * code)));
+    if (!file.flush()) throw std::runtime_error(std::string(path) + " can't be written");
+}
+
+void run(const std::string &shaders, const char *out) {
+    const Device device;
+    const GpcDevice lent = device.lent();
+    GpcAntialiaser *made = nullptr;
+    check(gpc_antialiaser_create(&lent, &made));
+    const std::unique_ptr<GpcAntialiaser, decltype(&gpc_antialiaser_destroy)> antialiaser(made, gpc_antialiaser_destroy);
+    const World world;
+    const Meshes meshes(device, world);
+    const Pipelines pipelines(device, shaders, gpc_antialiaser_samples_layout(made));
+
+    const float moments[] = {0, 0.5f, 1};
+    Renderer renderer(device, world, meshes, pipelines, 1, made);
+    for (float moment : moments) renderer.draw(moment);
+    const GpcOutcome outcome = renderer.outcome();
+    std::printf("%llu superpixels, %llu left over, %.1f ms of the library on the GPU, %.1f MB\n",
+                static_cast<unsigned long long>(outcome.superpixels), static_cast<unsigned long long>(outcome.left_over),
+                outcome.gpu_milliseconds, double(outcome.memory_bytes) / 1e6);
+    const auto alone = [&](uint32_t side) {
+        Renderer renderer(device, world, meshes, pipelines, side, nullptr);
+        renderer.draw(moments[2]);
+        return renderer.picture(side);
+    };
+    const Picture truth = alone(REFERENCE), antialiased = renderer.picture(1);
+    std::printf("error of one sample: %.6f\n", error(alone(1), truth));
+    std::printf("error of brute force: %.6f\n", error(rounded(alone(BRUTE)), truth));
+    std::printf("error of superpixels: %.6f\n", error(antialiased, truth));
+    std::printf("share of superpixels: %.4f\n", double(outcome.superpixels) / (SIZE.width * SIZE.height));
+    save(antialiased, out);
+}
+
+} // namespace
+
+int main(int count, char **arguments) {
+    if (count != 3) {
+        std::fprintf(stderr, "usage: %s SPIRV_FOLDER OUT.ppm\n", arguments[0]);
+        return 2;
+    }
+    try {
+        run(arguments[1], arguments[2]);
+    } catch (const std::exception &failure) {
+        std::fprintf(stderr, "%s\n", failure.what());
+        return 1;
+    }
+}

@@ -1,0 +1,15 @@
+// forward: an object's vertices, from the renderer's own format.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "host.glsl"
+layout(location = 0) in vec4 position;
+layout(location = 1) in vec4 normal;
+layout(location = 0) out vec3 place;
+layout(location = 1) out vec3 turned;
+
+void main() {
+    Object object = objects[push.object];
+    gl_Position = clip[object.first_position + gl_VertexIndex];
+    place = (object.to_world * vec4(position.xyz, 1.0)).xyz;
+    turned = mat3(object.to_world) * normal.xyz;
+}

@@ -1,0 +1,21 @@
+// The renderer's two materials, wherever they are shaded: by fragments, or at what the library samples.
+
+const uint CHECKERS = 0u, GLOSS = 1u;
+const vec3 TO_SUN = vec3(0.424, 0.848, 0.318);
+
+// The mean of a checkerboard of -1 and 1 over a box: its integral along each axis is a zigzag.
+float checkers(vec2 at, vec2 side) {
+    vec2 wide = max(side, 1e-4);
+    vec2 low = abs(mod(at - 0.5 * wide, 2.0) - 1.0), high = abs(mod(at + 0.5 * wide, 2.0) - 1.0);
+    vec2 mean = (low - high) / wide;
+    return mean.x * mean.y;
+}
+
+// Linear light from a place in the world whose change over what is shaded is dx and dy.
+vec3 light_of(uint key, vec3 color, vec3 place, vec3 normal, vec3 eye, vec3 dx, vec3 dy) {
+    vec3 n = normalize(normal);
+    vec3 diffuse = color * (0.25 + 0.75 * max(dot(n, TO_SUN), 0.0));
+    if (key == CHECKERS) return diffuse * (0.55 + 0.45 * checkers(2.0 * place.xz, 2.0 * (abs(dx.xz) + abs(dy.xz))));
+    vec3 between = normalize(TO_SUN + normalize(eye - place));
+    return diffuse + 0.6 * pow(max(dot(n, between), 0.0), 60.0);
+}

@@ -1,0 +1,22 @@
+// samples: the same materials at what the library samples; one dispatch a material.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define GPC_SET 0
+#define HOST_SET 1
+#include "gpc_visibility.glsl"
+#include "host.glsl"
+#include "materials.glsl"
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint KEY = 0u;
+
+void main() {
+    GpcSample s;
+    if (!gpc_sample(KEY, s)) return;
+    Object object = objects[s.material];
+    uvec3 v = s.vertices - object.first_position + object.first_vertex;
+    mat3 corners = mat3(object.to_world) * mat3(position_of(v.x), position_of(v.y), position_of(v.z));
+    mat3 normals = mat3(object.to_world) * mat3(normal_of(v.x), normal_of(v.y), normal_of(v.z));
+    vec3 place = corners * s.weights + object.to_world[3].xyz;
+    vec3 light = light_of(KEY, object.color.rgb, place, normals * s.weights, push.eye.xyz, corners * s.dx, corners * s.dy);
+    gpc_store(s, vec4(light, 1.0));
+}

@@ -1,0 +1,448 @@
+// gpc: antialiases the pixels of a Vulkan application's own frames that alias, shaded by its own pipelines.
+//
+// An application draws its frame as ever, and one more attachment of triangle IDs. gpc_frame_record then finds the pixels
+// that alias, samples the application's triangles there, has the application shade what the samples see, and draws the
+// resolved pixels over the aliased ones, all in the application's command buffer. docs/embedding.md is the manual.
+//
+// - Functions that can fail answer a GpcResult; gpc_last_error has the message. No error leaves anything behind, and no
+//   panic of the library crosses this boundary.
+// - Structs that are handed over begin with their size, which the application sets. Numbers of type uint32_t that stand for
+//   one of a few values name the enumeration that has them.
+// - A pointer or handle is null, which is an error where nothing else is said, or alive, of the type named and of the device
+//   lent. That it is null is found out; the rest is the application's affair, as with Vulkan itself.
+
+
+#pragma once
+
+// Made by cbindgen of src/capi; do not edit.
+
+#include <stdint.h>
+#include <vulkan/vulkan_core.h>
+
+// The version of Vulkan that instance and device are created for: 1.3, as in VkApplicationInfo.apiVersion. No extension is
+// needed.
+#define GPC_VULKAN_API_VERSION ((1 << 22) | (3 << 12))
+
+// What a function answers.
+enum GpcResult
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    // It did what was asked.
+    GPC_RESULT_SUCCESS = 0,
+    // A pointer is NULL or a handle VK_NULL_HANDLE.
+    GPC_RESULT_NULL = 1,
+    // The member `size` of a struct is not the size that the library knows: it was not set, or header and library are of
+    // different versions.
+    GPC_RESULT_STRUCT_SIZE = 2,
+    // A value is none of those possible, or contradicts another.
+    GPC_RESULT_VALUE = 3,
+    // A recording has more draws, triangles or indices than its frame was created for.
+    GPC_RESULT_CAPACITY = 4,
+    // The device, its instance or its loader lacks something that is needed.
+    GPC_RESULT_UNSUPPORTED = 5,
+    // Memory ran out, or GpcOptions.max_memory allows too little.
+    GPC_RESULT_OUT_OF_MEMORY = 6,
+    // The device was lost.
+    GPC_RESULT_DEVICE_LOST = 7,
+    // The driver refused something else.
+    GPC_RESULT_VULKAN = 8,
+    // A defect of the library. What took part in the call is to be destroyed and not used otherwise.
+    GPC_RESULT_PANIC = 9,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum GpcResult GpcResult;
+#else
+typedef uint32_t GpcResult;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// Where in a superpixel the samples lie.
+enum GpcPattern
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    // The first points of a scrambled Sobol sequence: any count.
+    GPC_PATTERN_SOBOL = 0,
+    // A turned lattice; of counts that are no square, as GPC_PATTERN_KOROBOV.
+    GPC_PATTERN_LATTICE = 1,
+    // The best lattice of rank 1: any count.
+    GPC_PATTERN_KOROBOV = 2,
+    // The centres of a square grid: square counts only.
+    GPC_PATTERN_GRID = 3,
+    // The standard locations of Vulkan: 1, 2, 4, 8 or 16 samples.
+    GPC_PATTERN_ROTATED = 4,
+    // GpcOptions.locations.
+    GPC_PATTERN_LIST = 5,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum GpcPattern GpcPattern;
+#else
+typedef uint32_t GpcPattern;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// How often the inside of a superpixel is shaded.
+enum GpcShading
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    // Once a visible triangle.
+    GPC_SHADING_TRIANGLE = 0,
+    // Once a visible triangle, but in several parts of the pixel where the colours around it vary.
+    GPC_SHADING_PART = 1,
+    // Once a sample.
+    GPC_SHADING_SAMPLE = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum GpcShading GpcShading;
+#else
+typedef uint32_t GpcShading;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// What makes a pixel a superpixel.
+enum GpcDetection
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    // A contrasting colour beside it.
+    GPC_DETECTION_CONTRAST = 0,
+    // Another triangle in a contrasting colour beside it.
+    GPC_DETECTION_EDGES = 1,
+    // Another triangle beside it.
+    GPC_DETECTION_EXACT = 2,
+    // Nothing: every pixel is one. To measure with.
+    GPC_DETECTION_EVERY = 3,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum GpcDetection GpcDetection;
+#else
+typedef uint32_t GpcDetection;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// What frames of one device share: layouts, and the pipelines made so far.
+typedef struct GpcAntialiaser GpcAntialiaser;
+
+// Pipelines and memory to antialias one frame in flight.
+typedef struct GpcFrame GpcFrame;
+
+// A device that the application lends.
+typedef struct GpcDevice {
+    // sizeof(GpcDevice).
+    uint32_t size;
+    // The family, with graphics and compute, of the queue that commands will be submitted to.
+    uint32_t queue_family;
+    // All functions of Vulkan are taken from it: of the loader that made the instance.
+    PFN_vkGetInstanceProcAddr get_instance_proc_addr;
+    // The instance, created for GPC_VULKAN_API_VERSION or later.
+    VkInstance instance;
+    // The physical device; see gpc_check_device.
+    VkPhysicalDevice physical_device;
+    // The device, created with the features that gpc_require_features sets.
+    VkDevice device;
+} GpcDevice;
+
+// Buffers of the application. They may hold something else in every frame; the library reads them when a recording is
+// executed.
+typedef struct GpcGeometry {
+    // sizeof(GpcGeometry).
+    uint32_t size;
+    // How many positions there can be. Larger indices are taken for the last.
+    uint32_t vertex_capacity;
+    // Positions in clip space, four floats each, tightly packed: the very values of the vertex shader's gl_Position. Made
+    // with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT and VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT.
+    VkBuffer positions;
+    // Where they begin, in bytes: a multiple of 16 and of the device's minStorageBufferOffsetAlignment and
+    // minTexelBufferOffsetAlignment.
+    uint64_t positions_offset;
+    // Indices of 32 bits, three a triangle. Made with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT.
+    VkBuffer indices;
+    // Where they begin, in bytes: a multiple as above.
+    uint64_t indices_offset;
+    // How many indices there can be.
+    uint32_t index_capacity;
+    // Most triangles of all draws of a frame.
+    uint32_t triangle_capacity;
+    // Most draws of a frame.
+    uint32_t draw_capacity;
+    // How many shading keys there are, 1 to 16,383.
+    uint32_t keys;
+    // VK_TRUE if y points up in clip space, as with a viewport of negative height; VK_FALSE if down, as Vulkan has it.
+    VkBool32 y_up;
+    // VK_TRUE if depth runs from 1 near to 0 far; VK_FALSE if from 0 to 1.
+    VkBool32 reversed_depth;
+} GpcGeometry;
+
+// State of an image, as in VkImageMemoryBarrier2.
+typedef struct GpcImageState {
+    // Its layout.
+    VkImageLayout layout;
+    // Stages that use it.
+    VkPipelineStageFlags2 stage;
+    // How they use it.
+    VkAccessFlags2 access;
+} GpcImageState;
+
+// An image: single-sampled, one level, one layer, of the size in GpcOptions.
+typedef struct GpcImage {
+    // The image.
+    VkImage image;
+    // A two-dimensional view of it, of one aspect.
+    VkImageView view;
+    // The aspects of the image; of a format with stencil, that too, although it is not read.
+    VkImageAspectFlags aspects;
+    // Its state when the recording begins.
+    struct GpcImageState before;
+    // Its state when the recording is done.
+    struct GpcImageState after;
+} GpcImage;
+
+// What the application has drawn, one sample a pixel.
+typedef struct GpcImages {
+    // sizeof(GpcImages).
+    uint32_t size;
+    // The format of color.view: 8, 10, 16 or 32 bits a channel as UNORM, SRGB or SFLOAT, or B10G11R11_UFLOAT.
+    VkFormat color_format;
+    // VK_TRUE if the application's shaders write sRGB codes into a format of plain numbers; VK_FALSE if the image holds
+    // linear light, or encodes it itself.
+    VkBool32 color_encoded;
+    // Triangle IDs, VK_FORMAT_R32_UINT, made with VK_IMAGE_USAGE_SAMPLED_BIT: 1 + the index of the nearest triangle in the
+    // order of the frame's draws, 0 where there is none.
+    struct GpcImage ids;
+    // Depth of the nearest triangle, of any depth format, made with VK_IMAGE_USAGE_SAMPLED_BIT; the view shows depth alone.
+    // Without GpcOptions.thin, image and view may be VK_NULL_HANDLE.
+    struct GpcImage depth;
+    // Colours, made with VK_IMAGE_USAGE_SAMPLED_BIT and VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT.
+    struct GpcImage color;
+} GpcImages;
+
+// How a frame is antialiased; gpc_options_init gives defaults.
+typedef struct GpcOptions {
+    // sizeof(GpcOptions).
+    uint32_t size;
+    // Width in pixels of the images lent.
+    uint32_t width;
+    // Their height.
+    uint32_t height;
+    // Samples of a superpixel, 1 to 1,024.
+    uint32_t samples;
+    // Where they lie: a GpcPattern.
+    uint32_t pattern;
+    // How often a superpixel is shaded: a GpcShading.
+    uint32_t shading;
+    // What makes a superpixel: a GpcDetection.
+    uint32_t detection;
+    // Differences above this, in 8-bit sRGB code values of any channel, are a contrast: 0 to 255.
+    uint32_t contrast;
+    // VK_TRUE if triangles too thin for a pixel's centre to see make superpixels too; this needs the depth image.
+    VkBool32 thin;
+    // VK_TRUE if the image holds radiance that is tone-mapped later, so that detection compares tone-mapped colours.
+    VkBool32 high_dynamic_range;
+    // VK_TRUE if textures are filtered over what each sample stands for, VK_FALSE if over the whole pixel.
+    VkBool32 sharp;
+    // VK_TRUE if `background` shows where no triangle is, VK_FALSE if that is transparent.
+    VkBool32 has_background;
+    // Linear light.
+    float background[3];
+    // How many pairs `locations` has: `samples`, with GPC_PATTERN_LIST.
+    uint32_t location_count;
+    // With GPC_PATTERN_LIST, offsets of the samples from the pixel's centre in pixels, x to the right and y down, each from
+    // -0.5 up to 0.5, read during the call alone. Otherwise ignored.
+    const float (*locations)[2];
+    // Bound on the device memory of a frame in bytes, 0 for none.
+    uint64_t max_memory;
+} GpcOptions;
+
+// A run of triangles that are shaded alike.
+typedef struct GpcDraw {
+    // Its first index.
+    uint32_t first_index;
+    // How many triangles it has.
+    uint32_t triangle_count;
+    // Added to each of its indices.
+    int32_t vertex_offset;
+    // The shading key, from 0: which of the application's pipelines shades it.
+    uint32_t key;
+    // A number of the application's, up to 65,535, which its shaders see. Triangles of one number are taken to look alike
+    // where detection compares colours.
+    uint32_t material;
+    // VK_TRUE if back faces show. A front face is counter-clockwise on the screen.
+    VkBool32 double_sided;
+    // VK_TRUE if light or paint may change within a pixel, as with a texture or a glossy surface: it is then shaded in
+    // several parts of a superpixel where the pixels around tell that it does.
+    VkBool32 detailed;
+} GpcDraw;
+
+// What a recording shows.
+typedef struct GpcScenery {
+    // sizeof(GpcScenery).
+    uint32_t size;
+    // How many draws there are.
+    uint32_t draw_count;
+    // The draws, read during the call alone. IDs count from 1 in their order. May be NULL where there are none.
+    const struct GpcDraw *draws;
+    // The projection that positions were made with, in columns: from view space, in which distances are the world's, to
+    // clip space. It tells how far apart two depths are.
+    float projection[4][4];
+} GpcScenery;
+
+// Visibility samples of a round, sorted by shading key, on the device.
+typedef struct GpcVisibilitySamples {
+    // The set of gpc_antialiaser_samples_layout, to be bound for compute where the shaders expect it.
+    VkDescriptorSet descriptor_set;
+    // Buffer of the keys' indirect dispatches, in workgroups of 64 invocations.
+    VkBuffer dispatches;
+    // Where in it, in bytes, the dispatch of key 0 is.
+    uint64_t dispatch_offset;
+    // Bytes from the dispatch of a key to that of the next one.
+    uint64_t dispatch_stride;
+    // How many keys there are.
+    uint32_t keys;
+} GpcVisibilitySamples;
+
+// Records the shading of a round's samples into a command buffer: for each key a pipeline, the samples' set, and the
+// key's indirect dispatch. It is called a fixed number of times during gpc_frame_record, on its thread, outside of a render
+// pass. Dispatches need no barrier between them: what the library wrote is visible to them, and it waits for what they
+// write. It may bind and push what it likes, must not throw or jump out, and must not use the frame. `samples` lives until
+// it returns.
+typedef void (*GpcShade)(void *user, VkCommandBuffer commands, const struct GpcVisibilitySamples *samples);
+
+// What a recording did.
+typedef struct GpcOutcome {
+    // sizeof(GpcOutcome).
+    uint32_t size;
+    // Rounds that had work.
+    uint32_t rounds;
+    // Superpixels and tiles that found no room. gpc_frame_grow makes a frame with more.
+    uint64_t left_over;
+    // Superpixels.
+    uint64_t superpixels;
+    // Triangles in all draws.
+    uint64_t triangles;
+    // Visibility samples that were shaded.
+    uint64_t visibility_samples;
+    // Bytes of device memory that the frame takes, beside what the application lends.
+    uint64_t memory_bytes;
+    // Time of the library's commands on the device in milliseconds; 0 where the queue has no timestamps.
+    double gpu_milliseconds;
+} GpcOutcome;
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+// Sets the features that the library needs to VK_TRUE, and leaves all else in the struct as it is: chain it to
+// VkDeviceCreateInfo.
+//
+// Threads: any. Errors: GPC_RESULT_NULL.
+GpcResult gpc_require_features(VkPhysicalDeviceVulkan13Features *features);
+
+// Whether a physical device has all that the library needs. `queue_family`, if not NULL, becomes the first family with
+// graphics and compute.
+//
+// Threads: any.
+// Errors: GPC_RESULT_UNSUPPORTED, with gpc_last_error listing all that is missing; GPC_RESULT_NULL.
+GpcResult gpc_check_device(PFN_vkGetInstanceProcAddr get_instance_proc_addr,
+                           VkInstance instance,
+                           VkPhysicalDevice physical_device,
+                           uint32_t *queue_family);
+
+// Makes an antialiaser in a lent device.
+//
+// Threads: any. An antialiaser may be used by several threads at once.
+// Lifetime: instance, device and the loader's library outlive the antialiaser and all frames created with it.
+// Errors: GPC_RESULT_UNSUPPORTED lists what is missing; GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_OUT_OF_MEMORY,
+// GPC_RESULT_VULKAN. `*antialiaser` is then NULL.
+GpcResult gpc_antialiaser_create(const struct GpcDevice *device,
+                                 struct GpcAntialiaser **antialiaser);
+
+// The layout of the descriptor set that shaders read visibility samples from, for the layouts of the application's own
+// pipelines. VK_NULL_HANDLE for NULL.
+//
+// Threads: any. Lifetime: that of the antialiaser and all its frames; it is the library's to destroy.
+VkDescriptorSetLayout gpc_antialiaser_samples_layout(const struct GpcAntialiaser *antialiaser);
+
+// Destroys an antialiaser; frames created with it go on. NULL does nothing.
+//
+// Threads: no other call uses the antialiaser at the time.
+void gpc_antialiaser_destroy(struct GpcAntialiaser *antialiaser);
+
+// What the last call of the calling thread that failed has to say: UTF-8, in English, for a log. Never NULL; empty where
+// none has failed.
+//
+// Threads: any. The text is the thread's own.
+// Lifetime: until the thread's next call of this library that fails, or its end.
+const char *gpc_last_error(void);
+
+// Makes the pipelines and memory of a frame. An application has one for each frame that it has in flight, and makes new
+// ones where a size or a handle changes.
+//
+// Threads: any; several frames may be created at once.
+// Lifetime: the buffers and views lent outlive the frame. The structs are read during the call alone.
+// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_VALUE, GPC_RESULT_OUT_OF_MEMORY, GPC_RESULT_DEVICE_LOST,
+// GPC_RESULT_VULKAN. `*frame` is then NULL.
+GpcResult gpc_frame_create(const struct GpcAntialiaser *antialiaser,
+                           const struct GpcGeometry *geometry,
+                           const struct GpcImages *images,
+                           const struct GpcOptions *options,
+                           struct GpcFrame **frame);
+
+// Makes a frame like this one, for the same buffers and images, with more of what its last recording lacked. Where it
+// lacked nothing, the new one has as much. The old one is still to be destroyed.
+//
+// Threads: no other call uses the frame at the time. Lifetime: the commands of its last recording are done, and the buffers
+// and views lent outlive the new frame too.
+// Errors: as gpc_frame_create. `*grown` is then NULL.
+GpcResult gpc_frame_grow(const struct GpcFrame *frame,
+                         struct GpcFrame **grown);
+
+// Records the antialiasing of what the application has drawn. It submits nothing, waits for nothing, allocates nothing on
+// the device and updates no descriptor. `commands` is being recorded, outside of a render pass, for a queue of the family
+// lent; what was bound and pushed before has to be bound and pushed again. `user` is handed to `shade`, whose shaders write
+// no memory of the library but by gpc_store.
+//
+// Threads: no other call uses the frame or the command buffer at the time. Different frames may be recorded at once.
+// Lifetime: the commands of the frame's last recording are done. The frame, the buffers, the images and what `shade` records
+// outlive the execution of the commands.
+// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_VALUE, GPC_RESULT_CAPACITY. Nothing is recorded then.
+GpcResult gpc_frame_record(struct GpcFrame *frame,
+                           VkCommandBuffer commands,
+                           const struct GpcScenery *scenery,
+                           GpcShade shade,
+                           void *user);
+
+// What the last recording did. It waits for nothing: its commands are done.
+//
+// Threads: no gpc_frame_record of the frame runs at the time.
+// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_DEVICE_LOST, GPC_RESULT_VULKAN.
+GpcResult gpc_frame_outcome(const struct GpcFrame *frame, struct GpcOutcome *outcome);
+
+// Bytes of device memory that a frame takes, beside what the application lends; 0 for NULL.
+//
+// Threads: any.
+uint64_t gpc_frame_memory_bytes(const struct GpcFrame *frame);
+
+// Destroys a frame, whose commands are done. NULL does nothing.
+//
+// Threads: no other call uses the frame at the time.
+void gpc_frame_destroy(struct GpcFrame *frame);
+
+// Defaults for images of a size: 64 samples, contrast and thin triangles detected, shading in parts. Set
+// `options->size` before.
+//
+// Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
+GpcResult gpc_options_init(struct GpcOptions *options, uint32_t width, uint32_t height);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus

@@ -1,0 +1,221 @@
+//! A lent device, and what its frames share.
+
+use super::error::{Error, GpcResult, answer};
+use super::input::{Struct, place, read};
+use crate::host::Antialiaser;
+use crate::vulkan::{Host, Requirements};
+use ash::vk;
+use std::ffi::{CStr, c_char};
+
+/// Vulkan's own type.
+///
+/// cbindgen:ignore
+pub type GetInstanceProcAddr =
+    Option<unsafe extern "system" fn(vk::Instance, *const c_char) -> vk::PFN_vkVoidFunction>;
+
+/// The version of Vulkan that instance and device are created for: 1.3, as in VkApplicationInfo.apiVersion. No extension is
+/// needed.
+pub const GPC_VULKAN_API_VERSION: u32 = (1 << 22) | (3 << 12);
+const _: () = assert!(GPC_VULKAN_API_VERSION == Requirements::API_VERSION);
+
+/// A device that the application lends.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct GpcDevice {
+    /// sizeof(GpcDevice).
+    pub size: u32,
+    /// The family, with graphics and compute, of the queue that commands will be submitted to.
+    pub queue_family: u32,
+    /// All functions of Vulkan are taken from it: of the loader that made the instance.
+    pub get_instance_proc_addr: GetInstanceProcAddr,
+    /// The instance, created for GPC_VULKAN_API_VERSION or later.
+    pub instance: vk::Instance,
+    /// The physical device; see gpc_check_device.
+    pub physical_device: vk::PhysicalDevice,
+    /// The device, created with the features that gpc_require_features sets.
+    pub device: vk::Device,
+}
+
+// SAFETY: `repr(C)`, its size first; integers, raw handles and a nullable function may have any bytes.
+unsafe impl Struct for GpcDevice {
+    const NAME: &'static str = "GpcDevice";
+}
+
+/// What frames of one device share: layouts, and the pipelines made so far.
+pub struct GpcAntialiaser {
+    pub(super) inner: Antialiaser,
+}
+
+/// Sets the features that the library needs to VK_TRUE, and leaves all else in the struct as it is: chain it to
+/// VkDeviceCreateInfo.
+///
+/// Threads: any. Errors: GPC_RESULT_NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gpc_require_features(
+    features: *mut vk::PhysicalDeviceVulkan13Features<'static>,
+) -> GpcResult {
+    answer(|| {
+        // SAFETY: passed on to the caller.
+        let features = unsafe { place(features, "features") }?;
+        let needed = Requirements::features13();
+        for (feature, needed) in [
+            (&mut features.dynamic_rendering, needed.dynamic_rendering),
+            (&mut features.synchronization2, needed.synchronization2),
+            (&mut features.maintenance4, needed.maintenance4),
+            (
+                &mut features.subgroup_size_control,
+                needed.subgroup_size_control,
+            ),
+            (
+                &mut features.shader_demote_to_helper_invocation,
+                needed.shader_demote_to_helper_invocation,
+            ),
+        ] {
+            *feature |= needed;
+        }
+        Ok(())
+    })
+}
+
+/// Whether a physical device has all that the library needs. `queue_family`, if not NULL, becomes the first family with
+/// graphics and compute.
+///
+/// Threads: any.
+/// Errors: GPC_RESULT_UNSUPPORTED, with gpc_last_error listing all that is missing; GPC_RESULT_NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gpc_check_device(
+    get_instance_proc_addr: GetInstanceProcAddr,
+    instance: vk::Instance,
+    physical_device: vk::PhysicalDevice,
+    queue_family: *mut u32,
+) -> GpcResult {
+    answer(|| {
+        // SAFETY: passed on to the caller.
+        let instance = unsafe { load_instance(get_instance_proc_addr, instance) }?;
+        if physical_device == vk::PhysicalDevice::null() {
+            return Err(Error::Null("physical_device"));
+        }
+        let missing = Requirements::missing(&instance, physical_device);
+        if !missing.is_empty() {
+            return Err(Error::Missing(missing));
+        }
+        // SAFETY: passed on to the caller.
+        if let Some(answer) = unsafe { queue_family.as_mut() } {
+            *answer = Requirements::queue_family(&instance, physical_device)
+                .ok_or(Error::Missing(vec![crate::vulkan::Missing::Queue]))?;
+        }
+        Ok(())
+    })
+}
+
+/// Makes an antialiaser in a lent device.
+///
+/// Threads: any. An antialiaser may be used by several threads at once.
+/// Lifetime: instance, device and the loader's library outlive the antialiaser and all frames created with it.
+/// Errors: GPC_RESULT_UNSUPPORTED lists what is missing; GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_OUT_OF_MEMORY,
+/// GPC_RESULT_VULKAN. `*antialiaser` is then NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gpc_antialiaser_create(
+    device: *const GpcDevice,
+    antialiaser: *mut *mut GpcAntialiaser,
+) -> GpcResult {
+    answer(|| {
+        // SAFETY: passed on to the caller.
+        let answer = unsafe { place(antialiaser, "antialiaser") }?;
+        *answer = std::ptr::null_mut();
+        // SAFETY: passed on to the caller.
+        let inner = unsafe {
+            let host = load_host(&read(device)?)?;
+            Antialiaser::new(host)
+        }?;
+        *answer = Box::into_raw(Box::new(GpcAntialiaser { inner }));
+        Ok(())
+    })
+}
+
+/// The layout of the descriptor set that shaders read visibility samples from, for the layouts of the application's own
+/// pipelines. VK_NULL_HANDLE for NULL.
+///
+/// Threads: any. Lifetime: that of the antialiaser and all its frames; it is the library's to destroy.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gpc_antialiaser_samples_layout(
+    antialiaser: *const GpcAntialiaser,
+) -> vk::DescriptorSetLayout {
+    // SAFETY: passed on to the caller.
+    let antialiaser = unsafe { antialiaser.as_ref() };
+    antialiaser.map_or(vk::DescriptorSetLayout::null(), |found| {
+        found.inner.samples_layout()
+    })
+}
+
+/// Destroys an antialiaser; frames created with it go on. NULL does nothing.
+///
+/// Threads: no other call uses the antialiaser at the time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gpc_antialiaser_destroy(antialiaser: *mut GpcAntialiaser) {
+    answer(|| {
+        if !antialiaser.is_null() {
+            // SAFETY: the caller's pointer came from `Box::into_raw` and is not used again.
+            drop(unsafe { Box::from_raw(antialiaser) });
+        }
+        Ok(())
+    });
+}
+
+/// Functions that are looked up before any is called, since calling one that is absent ends the program.
+const OF_INSTANCE: [&CStr; 3] = [
+    c"vkGetPhysicalDeviceProperties2",
+    c"vkGetPhysicalDeviceFeatures2",
+    c"vkGetDeviceProcAddr",
+];
+const OF_DEVICE: [&CStr; 2] = [c"vkCmdPipelineBarrier2", c"vkCmdBeginRendering"];
+
+/// # Safety
+/// The function and the instance are null or alive and belong together.
+unsafe fn load_instance(
+    get_instance_proc_addr: GetInstanceProcAddr,
+    instance: vk::Instance,
+) -> Result<ash::Instance, Error> {
+    let get_instance_proc_addr =
+        get_instance_proc_addr.ok_or(Error::Null("get_instance_proc_addr"))?;
+    if instance == vk::Instance::null() {
+        return Err(Error::Null("instance"));
+    }
+    for name in OF_INSTANCE {
+        // SAFETY: passed on to the caller; the name ends with a zero.
+        let found = unsafe { get_instance_proc_addr(instance, name.as_ptr()) };
+        found.ok_or(Error::Function(name.to_str().unwrap_or_default()))?;
+    }
+    let functions = ash::StaticFn {
+        get_instance_proc_addr,
+    };
+    // SAFETY: passed on to the caller.
+    Ok(unsafe { ash::Instance::load(&functions, instance) })
+}
+
+/// # Safety
+/// As [`gpc_antialiaser_create`].
+unsafe fn load_host(lent: &GpcDevice) -> Result<Host, Error> {
+    // SAFETY: passed on to the caller.
+    let instance = unsafe { load_instance(lent.get_instance_proc_addr, lent.instance) }?;
+    if lent.physical_device == vk::PhysicalDevice::null() {
+        return Err(Error::Null("GpcDevice.physical_device"));
+    }
+    if lent.device == vk::Device::null() {
+        return Err(Error::Null("GpcDevice.device"));
+    }
+    for name in OF_DEVICE {
+        // SAFETY: passed on to the caller; the name ends with a zero.
+        let found = unsafe { instance.get_device_proc_addr(lent.device, name.as_ptr()) };
+        found.ok_or(Error::Function(name.to_str().unwrap_or_default()))?;
+    }
+    // SAFETY: passed on to the caller.
+    let device = unsafe { ash::Device::load(instance.fp_v1_0(), lent.device) };
+    Ok(Host {
+        instance,
+        physical_device: lent.physical_device,
+        device,
+        queue_family: lent.queue_family,
+        allocator: None,
+    })
+}

@@ -1,0 +1,269 @@
+//! Frames in flight.
+
+use super::device::GpcAntialiaser;
+use super::error::{Error, GpcResult, answer};
+use super::geometry::{GpcDraw, GpcGeometry};
+use super::images::GpcImages;
+use super::input::{Struct, check, object, place, read};
+use super::options::GpcOptions;
+use crate::host::{Frame, Scenery, ShadeSamples, VisibilitySamples};
+use ash::vk;
+use std::ffi::c_void;
+
+/// Pipelines and memory to antialias one frame in flight.
+pub struct GpcFrame {
+    inner: Frame,
+}
+
+/// What a recording shows.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct GpcScenery {
+    /// sizeof(GpcScenery).
+    pub size: u32,
+    /// How many draws there are.
+    pub draw_count: u32,
+    /// The draws, read during the call alone. IDs count from 1 in their order. May be NULL where there are none.
+    pub draws: *const GpcDraw,
+    /// The projection that positions were made with, in columns: from view space, in which distances are the world's, to
+    /// clip space. It tells how far apart two depths are.
+    pub projection: [[f32; 4]; 4],
+}
+
+// SAFETY: `repr(C)`, its size first; numbers and raw pointers may have any bytes.
+unsafe impl Struct for GpcScenery {
+    const NAME: &'static str = "GpcScenery";
+}
+
+/// Visibility samples of a round, sorted by shading key, on the device.
+#[repr(C)]
+pub struct GpcVisibilitySamples {
+    /// The set of gpc_antialiaser_samples_layout, to be bound for compute where the shaders expect it.
+    pub descriptor_set: vk::DescriptorSet,
+    /// Buffer of the keys' indirect dispatches, in workgroups of 64 invocations.
+    pub dispatches: vk::Buffer,
+    /// Where in it, in bytes, the dispatch of key 0 is.
+    pub dispatch_offset: u64,
+    /// Bytes from the dispatch of a key to that of the next one.
+    pub dispatch_stride: u64,
+    /// How many keys there are.
+    pub keys: u32,
+}
+
+/// Records the shading of a round's samples into a command buffer: for each key a pipeline, the samples' set, and the
+/// key's indirect dispatch. It is called a fixed number of times during gpc_frame_record, on its thread, outside of a render
+/// pass. Dispatches need no barrier between them: what the library wrote is visible to them, and it waits for what they
+/// write. It may bind and push what it likes, must not throw or jump out, and must not use the frame. `samples` lives until
+/// it returns.
+pub type GpcShade = Option<
+    unsafe extern "C" fn(
+        user: *mut c_void,
+        commands: vk::CommandBuffer,
+        samples: *const GpcVisibilitySamples,
+    ),
+>;
+
+/// What a recording did.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct GpcOutcome {
+    /// sizeof(GpcOutcome).
+    pub size: u32,
+    /// Rounds that had work.
+    pub rounds: u32,
+    /// Superpixels and tiles that found no room. gpc_frame_grow makes a frame with more.
+    pub left_over: u64,
+    /// Superpixels.
+    pub superpixels: u64,
+    /// Triangles in all draws.
+    pub triangles: u64,
+    /// Visibility samples that were shaded.
+    pub visibility_samples: u64,
+    /// Bytes of device memory that the frame takes, beside what the application lends.
+    pub memory_bytes: u64,
+    /// Time of the library's commands on the device in milliseconds; 0 where the queue has no timestamps.
+    pub gpu_milliseconds: f64,
+}
+
+// SAFETY: `repr(C)`, its size first; numbers may have any bytes.
+unsafe impl Struct for GpcOutcome {
+    const NAME: &'static str = "GpcOutcome";
+}
+
+/// Makes the pipelines and memory of a frame. An application has one for each frame that it has in flight, and makes new
+/// ones where a size or a handle changes.
+///
+/// Threads: any; several frames may be created at once.
+/// Lifetime: the buffers and views lent outlive the frame. The structs are read during the call alone.
+/// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_VALUE, GPC_RESULT_OUT_OF_MEMORY, GPC_RESULT_DEVICE_LOST,
+/// GPC_RESULT_VULKAN. `*frame` is then NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gpc_frame_create(
+    antialiaser: *const GpcAntialiaser,
+    geometry: *const GpcGeometry,
+    images: *const GpcImages,
+    options: *const GpcOptions,
+    frame: *mut *mut GpcFrame,
+) -> GpcResult {
+    answer(|| {
+        // SAFETY: passed on to the caller.
+        let answer = unsafe { place(frame, "frame") }?;
+        *answer = std::ptr::null_mut();
+        // SAFETY: passed on to the caller.
+        let inner = unsafe {
+            let antialiaser = object(antialiaser, "antialiaser")?;
+            let geometry = read(geometry)?.geometry()?;
+            let images = read(images)?.images()?;
+            let options = read(options)?.options()?;
+            antialiaser.inner.prepare(&geometry, &images, &options)
+        }?;
+        *answer = Box::into_raw(Box::new(GpcFrame { inner }));
+        Ok(())
+    })
+}
+
+/// Makes a frame like this one, for the same buffers and images, with more of what its last recording lacked. Where it
+/// lacked nothing, the new one has as much. The old one is still to be destroyed.
+///
+/// Threads: no other call uses the frame at the time. Lifetime: the commands of its last recording are done, and the buffers
+/// and views lent outlive the new frame too.
+/// Errors: as gpc_frame_create. `*grown` is then NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gpc_frame_grow(
+    frame: *const GpcFrame,
+    grown: *mut *mut GpcFrame,
+) -> GpcResult {
+    answer(|| {
+        // SAFETY: passed on to the caller.
+        let answer = unsafe { place(grown, "grown") }?;
+        *answer = std::ptr::null_mut();
+        // SAFETY: passed on to the caller.
+        let inner = unsafe { object(frame, "frame")?.inner.grow() }?;
+        *answer = Box::into_raw(Box::new(GpcFrame { inner }));
+        Ok(())
+    })
+}
+
+/// Records the antialiasing of what the application has drawn. It submits nothing, waits for nothing, allocates nothing on
+/// the device and updates no descriptor. `commands` is being recorded, outside of a render pass, for a queue of the family
+/// lent; what was bound and pushed before has to be bound and pushed again. `user` is handed to `shade`, whose shaders write
+/// no memory of the library but by gpc_store.
+///
+/// Threads: no other call uses the frame or the command buffer at the time. Different frames may be recorded at once.
+/// Lifetime: the commands of the frame's last recording are done. The frame, the buffers, the images and what `shade` records
+/// outlive the execution of the commands.
+/// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_VALUE, GPC_RESULT_CAPACITY. Nothing is recorded then.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gpc_frame_record(
+    frame: *mut GpcFrame,
+    commands: vk::CommandBuffer,
+    scenery: *const GpcScenery,
+    shade: GpcShade,
+    user: *mut c_void,
+) -> GpcResult {
+    answer(|| {
+        // SAFETY: passed on to the caller.
+        let (frame, scenery) = unsafe { (place(frame, "frame")?, read(scenery)?) };
+        if commands == vk::CommandBuffer::null() {
+            return Err(Error::Null("commands"));
+        }
+        let shade = shade.ok_or(Error::Null("shade"))?;
+        let draws: &[GpcDraw] = match scenery.draw_count as usize {
+            0 => &[],
+            _ if scenery.draws.is_null() => return Err(Error::Null("GpcScenery.draws")),
+            // SAFETY: passed on to the caller; the pointer is not null.
+            count => unsafe { std::slice::from_raw_parts(scenery.draws, count) },
+        };
+        let draws: Vec<_> = draws.iter().map(GpcDraw::draw).collect::<Result<_, _>>()?;
+        let scenery = Scenery {
+            draws: &draws,
+            projection: scenery.projection,
+        };
+        // SAFETY: passed on to the caller.
+        unsafe {
+            frame
+                .inner
+                .record(commands, &scenery, &Callback { shade, user })
+        }?;
+        Ok(())
+    })
+}
+
+/// What the last recording did. It waits for nothing: its commands are done.
+///
+/// Threads: no gpc_frame_record of the frame runs at the time.
+/// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_DEVICE_LOST, GPC_RESULT_VULKAN.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gpc_frame_outcome(
+    frame: *const GpcFrame,
+    outcome: *mut GpcOutcome,
+) -> GpcResult {
+    answer(|| {
+        // SAFETY: passed on to the caller.
+        let frame = unsafe {
+            let frame = object(frame, "frame")?;
+            check(outcome)?;
+            frame
+        };
+        let found = frame.inner.outcome()?;
+        let statistics = &found.statistics;
+        // SAFETY: passed on to the caller; the struct has been found to be as large as is written.
+        unsafe {
+            outcome.write(GpcOutcome {
+                size: size_of::<GpcOutcome>() as u32,
+                rounds: u32::try_from(statistics.rounds).unwrap_or(u32::MAX),
+                left_over: found.left_over,
+                superpixels: statistics.superpixels,
+                triangles: statistics.triangles.total,
+                visibility_samples: statistics.records,
+                memory_bytes: statistics.memory_bytes,
+                gpu_milliseconds: statistics.gpu_ms(),
+            });
+        }
+        Ok(())
+    })
+}
+
+/// Bytes of device memory that a frame takes, beside what the application lends; 0 for NULL.
+///
+/// Threads: any.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gpc_frame_memory_bytes(frame: *const GpcFrame) -> u64 {
+    // SAFETY: passed on to the caller.
+    unsafe { frame.as_ref() }.map_or(0, |frame| frame.inner.memory_bytes())
+}
+
+/// Destroys a frame, whose commands are done. NULL does nothing.
+///
+/// Threads: no other call uses the frame at the time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gpc_frame_destroy(frame: *mut GpcFrame) {
+    answer(|| {
+        if !frame.is_null() {
+            // SAFETY: the caller's pointer came from `Box::into_raw` and is not used again.
+            drop(unsafe { Box::from_raw(frame) });
+        }
+        Ok(())
+    });
+}
+
+/// An application's materials behind a function of C.
+struct Callback {
+    shade: unsafe extern "C" fn(*mut c_void, vk::CommandBuffer, *const GpcVisibilitySamples),
+    user: *mut c_void,
+}
+
+impl ShadeSamples for Callback {
+    fn record(&self, commands: vk::CommandBuffer, samples: &VisibilitySamples) {
+        let (dispatches, dispatch_offset) = samples.dispatch(0).unwrap_or_default();
+        let samples = GpcVisibilitySamples {
+            descriptor_set: samples.descriptor_set(),
+            dispatches,
+            dispatch_offset,
+            dispatch_stride: VisibilitySamples::DISPATCH_STRIDE,
+            keys: samples.keys(),
+        };
+        // SAFETY: the application's function, called as documented.
+        unsafe { (self.shade)(self.user, commands, &raw const samples) };
+    }
+}

@@ -1,0 +1,196 @@
+//! How frames are antialiased.
+
+use super::error::{Error, GpcResult, answer};
+use super::input::{Struct, check, choice, flag};
+use crate::host::Options;
+use crate::render::{Detection, Shading};
+use crate::sampling::Pattern;
+use ash::vk;
+
+/// Where in a superpixel the samples lie.
+#[derive(Clone, Copy)]
+#[repr(u32)]
+pub enum GpcPattern {
+    /// The first points of a scrambled Sobol sequence: any count.
+    Sobol = 0,
+    /// A turned lattice; of counts that are no square, as GPC_PATTERN_KOROBOV.
+    Lattice = 1,
+    /// The best lattice of rank 1: any count.
+    Korobov = 2,
+    /// The centres of a square grid: square counts only.
+    Grid = 3,
+    /// The standard locations of Vulkan: 1, 2, 4, 8 or 16 samples.
+    Rotated = 4,
+    /// GpcOptions.locations.
+    List = 5,
+}
+
+/// How often the inside of a superpixel is shaded.
+#[derive(Clone, Copy)]
+#[repr(u32)]
+pub enum GpcShading {
+    /// Once a visible triangle.
+    Triangle = 0,
+    /// Once a visible triangle, but in several parts of the pixel where the colours around it vary.
+    Part = 1,
+    /// Once a sample.
+    Sample = 2,
+}
+
+/// What makes a pixel a superpixel.
+#[derive(Clone, Copy)]
+#[repr(u32)]
+pub enum GpcDetection {
+    /// A contrasting colour beside it.
+    Contrast = 0,
+    /// Another triangle in a contrasting colour beside it.
+    Edges = 1,
+    /// Another triangle beside it.
+    Exact = 2,
+    /// Nothing: every pixel is one. To measure with.
+    Every = 3,
+}
+
+/// How a frame is antialiased; gpc_options_init gives defaults.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct GpcOptions {
+    /// sizeof(GpcOptions).
+    pub size: u32,
+    /// Width in pixels of the images lent.
+    pub width: u32,
+    /// Their height.
+    pub height: u32,
+    /// Samples of a superpixel, 1 to 1,024.
+    pub samples: u32,
+    /// Where they lie: a GpcPattern.
+    pub pattern: u32,
+    /// How often a superpixel is shaded: a GpcShading.
+    pub shading: u32,
+    /// What makes a superpixel: a GpcDetection.
+    pub detection: u32,
+    /// Differences above this, in 8-bit sRGB code values of any channel, are a contrast: 0 to 255.
+    pub contrast: u32,
+    /// VK_TRUE if triangles too thin for a pixel's centre to see make superpixels too; this needs the depth image.
+    pub thin: vk::Bool32,
+    /// VK_TRUE if the image holds radiance that is tone-mapped later, so that detection compares tone-mapped colours.
+    pub high_dynamic_range: vk::Bool32,
+    /// VK_TRUE if textures are filtered over what each sample stands for, VK_FALSE if over the whole pixel.
+    pub sharp: vk::Bool32,
+    /// VK_TRUE if `background` shows where no triangle is, VK_FALSE if that is transparent.
+    pub has_background: vk::Bool32,
+    /// Linear light.
+    pub background: [f32; 3],
+    /// How many pairs `locations` has: `samples`, with GPC_PATTERN_LIST.
+    pub location_count: u32,
+    /// With GPC_PATTERN_LIST, offsets of the samples from the pixel's centre in pixels, x to the right and y down, each from
+    /// -0.5 up to 0.5, read during the call alone. Otherwise ignored.
+    pub locations: *const [f32; 2],
+    /// Bound on the device memory of a frame in bytes, 0 for none.
+    pub max_memory: u64,
+}
+
+// SAFETY: `repr(C)`, its size first; numbers and raw pointers may have any bytes.
+unsafe impl Struct for GpcOptions {
+    const NAME: &'static str = "GpcOptions";
+}
+
+/// Defaults for images of a size: 64 samples, contrast and thin triangles detected, shading in parts. Set
+/// `options->size` before.
+///
+/// Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gpc_options_init(
+    options: *mut GpcOptions,
+    width: u32,
+    height: u32,
+) -> GpcResult {
+    answer(|| {
+        let defaults = Options::new(width, height);
+        // SAFETY: passed on to the caller; the struct has been found to be as large as is written.
+        unsafe {
+            check(options)?;
+            options.write(GpcOptions {
+                size: size_of::<GpcOptions>() as u32,
+                width,
+                height,
+                samples: defaults.samples,
+                pattern: GpcPattern::Sobol as u32,
+                shading: GpcShading::Part as u32,
+                detection: GpcDetection::Contrast as u32,
+                contrast: u32::from(defaults.contrast),
+                thin: u32::from(defaults.thin),
+                high_dynamic_range: u32::from(defaults.high_dynamic_range),
+                sharp: u32::from(defaults.sharp),
+                has_background: 0,
+                background: [0.0; 3],
+                location_count: 0,
+                locations: std::ptr::null(),
+                max_memory: 0,
+            });
+        }
+        Ok(())
+    })
+}
+
+impl GpcOptions {
+    /// # Safety
+    /// With `GpcPattern::List`, `locations` shows as many as are counted.
+    pub(super) unsafe fn options(&self) -> Result<Options, Error> {
+        let shadings = [
+            (GpcShading::Triangle as u32, Shading::Triangle),
+            (GpcShading::Part as u32, Shading::Part),
+            (GpcShading::Sample as u32, Shading::Sample),
+        ];
+        let detections = [
+            (GpcDetection::Contrast as u32, Detection::Contrast),
+            (GpcDetection::Edges as u32, Detection::Edges),
+            (GpcDetection::Exact as u32, Detection::Exact),
+            (GpcDetection::Every as u32, Detection::Every),
+        ];
+        let has_background = flag("GpcOptions.has_background", self.has_background)?;
+        Ok(Options {
+            size: [self.width, self.height],
+            samples: self.samples,
+            // SAFETY: passed on to the caller.
+            pattern: unsafe { self.sample_pattern() }?,
+            shading: choice("GpcOptions.shading", self.shading, &shadings)?,
+            detection: choice("GpcOptions.detection", self.detection, &detections)?,
+            contrast: u8::try_from(self.contrast).map_err(|_| Error::Value {
+                name: "GpcOptions.contrast",
+                found: self.contrast,
+                possible: "0 to 255".to_owned(),
+            })?,
+            thin: flag("GpcOptions.thin", self.thin)?,
+            background: has_background.then_some(self.background),
+            high_dynamic_range: flag("GpcOptions.high_dynamic_range", self.high_dynamic_range)?,
+            sharp: flag("GpcOptions.sharp", self.sharp)?,
+            max_memory: (self.max_memory != 0).then_some(self.max_memory),
+        })
+    }
+
+    /// # Safety
+    /// As [`GpcOptions::options`].
+    unsafe fn sample_pattern(&self) -> Result<Pattern, Error> {
+        let patterns = [
+            (GpcPattern::Sobol as u32, Pattern::Sobol),
+            (GpcPattern::Lattice as u32, Pattern::Lattice),
+            (GpcPattern::Korobov as u32, Pattern::Korobov),
+            (GpcPattern::Grid as u32, Pattern::Grid),
+            (GpcPattern::Rotated as u32, Pattern::Rotated),
+            (GpcPattern::List as u32, Pattern::List(Vec::new())),
+        ];
+        match choice("GpcOptions.pattern", self.pattern, &patterns)? {
+            Pattern::List(_) if self.locations.is_null() => {
+                Err(Error::Null("GpcOptions.locations"))
+            }
+            Pattern::List(_) => {
+                let count = self.location_count as usize;
+                // SAFETY: passed on to the caller; the pointer is not null.
+                let found = unsafe { std::slice::from_raw_parts(self.locations, count) };
+                Ok(Pattern::List(found.to_vec()))
+            }
+            pattern => Ok(pattern),
+        }
+    }
+}
