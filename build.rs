@@ -34,6 +34,7 @@ type Variant = (
 
 const VARIANTS: &[Variant] = &[
     ("pose", "pose.comp", &[]),
+    ("stroke", "stroke.comp", &[]),
     ("raster_vertex", "raster.vert", &[]),
     ("raster_opaque", "raster.frag", &[]),
     ("raster_masked", "raster.frag", &[("MASKED", "")]),

@@ -238,14 +238,34 @@ fn ply_cannot_claim_what_is_not_there() {
 }
 
 #[test]
-fn points_of_ply_are_left_out_with_a_warning() {
-    let text = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n\
-        property float z\nend_header\n1 2 3\n";
-    let (loaded, pose) = pose(text.as_bytes());
-    assert!(pose.geometry.triangles.is_empty());
+fn vertices_of_ply_are_points_where_nothing_connects_them() {
+    let header = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
+        property float z\n";
+    let cloud = format!("{header}end_header\n1 2 3\n4 5 6\n1e60 0 0\n");
+    let (loaded, _) = pose(cloud.as_bytes());
+    assert_eq!(loaded.scene.info().points, 2);
     assert!(
-        loaded.warnings[0].contains("1 points are left out"),
+        loaded.warnings[0].contains("1 of 3"),
         "{:?}",
         loaded.warnings
     );
+    let edges = "element edge 2\nproperty int vertex1\nproperty int vertex2\nend_header\n";
+    let wires = format!("{header}{edges}0 0 0\n1 0 0\n1 1 0\n0 1\n1 2\n");
+    let (loaded, pose) = pose(wires.as_bytes());
+    let info = loaded.scene.info();
+    assert_eq!((info.points, info.lines), (0, 2));
+    assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
+    assert_eq!(pose.geometry.strokes.len(), 4 + 3 + 4);
+}
+
+#[test]
+fn lines_and_points_of_obj_are_no_faces() {
+    let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nl 1 2 3 4\np 1 3\n  f 1 2 3\r\nl -1 -2\n";
+    let (loaded, pose) = pose(text.as_bytes());
+    let info = loaded.scene.info();
+    assert_eq!((info.triangles, info.lines, info.points), (1, 4, 2));
+    assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
+    let (low, high) = pose.geometry.bounds().unwrap();
+    assert_eq!((low, high), (DVec3::ZERO, DVec3::new(1.0, 1.0, 0.0)));
+    refused(b"v 0 0 0\nl 1 2\n", "face vertex index out of bounds");
 }

@@ -3,9 +3,9 @@
 mod scene_builder;
 
 use glam::DVec3;
-use gpc::scene::{DrawClass, Instance, PoseRequest};
+use gpc::scene::{DrawClass, Instance, PoseRequest, StrokePart};
 use scene_builder::{Builder, TRIANGLE, assert_near, corners, le};
-use serde_json::json;
+use serde_json::{Value, json};
 
 const FIRST: [[f64; 3]; 3] = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]];
 
@@ -48,27 +48,111 @@ fn every_index_type() {
     }
 }
 
+/// Corners of a segment, of a joint and of a disc.
+const SEGMENT: usize = 4;
+const JOINT: usize = 3;
+const DISC: usize = StrokePart::DISC_CORNERS as usize;
+
 #[test]
-fn points_and_lines_are_counted_and_left_out() {
+fn points_and_lines_are_corners_to_place() {
+    let drawn = |mode: u32, primitive: Value| {
+        let mut builder = Builder::new();
+        let positions = builder.floats(&[TRIANGLE[0], TRIANGLE[1], TRIANGLE[2], [5.0, 5.0, 5.0]]);
+        let mut item = json!({"attributes": {"POSITION": positions}, "mode": mode});
+        if let Value::Array(indices) = primitive {
+            let indices: Vec<u16> = indices.iter().map(|i| i.as_u64().unwrap() as u16).collect();
+            item["indices"] = json!(builder.indices(&indices));
+        }
+        builder.node_with(item, json!({}));
+        let loaded = builder.load().unwrap();
+        let pose = loaded.scene.pose(&PoseRequest::default()).unwrap();
+        (pose.geometry, loaded.scene.info(), loaded.warnings)
+    };
+    for (mode, indices, anchors, corners, counts) in [
+        (0, json!([0, 1, 2]), 3, 3 * DISC, [3, 0]),
+        (0, json!(null), 4, 4 * DISC, [4, 0]),
+        // Two lines apart, and two that share a vertex.
+        (1, json!([0, 1, 2, 3]), 4, 2 * SEGMENT, [0, 2]),
+        (1, json!([0, 1, 1, 2]), 3, 2 * SEGMENT + JOINT, [0, 2]),
+        (
+            1,
+            json!([0, 1, 1, 2, 2, 0]),
+            3,
+            3 * (SEGMENT + JOINT),
+            [0, 3],
+        ),
+        (2, json!([0, 1, 2]), 3, 3 * (SEGMENT + JOINT), [0, 3]),
+        (3, json!([0, 1, 2]), 3, 2 * SEGMENT + JOINT, [0, 2]),
+        // What has no length has no direction either.
+        (3, json!([0, 1, 1, 2]), 3, 2 * SEGMENT + JOINT, [0, 2]),
+        (2, json!([0, 1, 2, 0]), 3, 3 * (SEGMENT + JOINT), [0, 3]),
+    ] {
+        let (geometry, info, warnings) = drawn(mode, indices.clone());
+        let what = format!("mode {mode}, {indices}");
+        assert!(
+            !warnings.iter().any(|w| w.contains("primitives")),
+            "{what}: {warnings:?}"
+        );
+        assert_eq!(geometry.positions.len(), anchors + corners, "{what}");
+        assert_eq!(geometry.strokes.len(), corners, "{what}");
+        assert_eq!([info.points, info.lines], counts, "{what}");
+        assert_eq!(info.triangles, 0, "{what}");
+        geometry.check(2).unwrap();
+        for (stroke, vertex) in geometry.strokes.iter().zip(anchors as u32..) {
+            assert_eq!(stroke.vertex, vertex, "{what}");
+            assert!(stroke.faces_camera);
+            let at = geometry.positions[stroke.at as usize];
+            assert_eq!(geometry.positions[vertex as usize], at, "{what}");
+            assert!((stroke.at.max(stroke.other).max(stroke.beyond) as usize) < anchors);
+        }
+    }
+    // What is beyond the vertices interrupts a line.
+    let (geometry, info, warnings) = drawn(3, json!([0, 1, 9, 2, 3, 0]));
+    assert_eq!([info.points, info.lines], [0, 3]);
+    assert_eq!(geometry.strokes.len(), 3 * SEGMENT + JOINT);
+    let said = |warnings: &[String], what: &str| warnings.iter().any(|w| w.contains(what));
+    assert!(said(&warnings, "1 of 6 vertices"), "{warnings:?}");
+    let (_, info, warnings) = drawn(1, json!([0, 1, 2]));
+    assert_eq!(info.lines, 1);
+    assert!(
+        said(&warnings, "1 of 3 indices makes no line"),
+        "{warnings:?}"
+    );
+}
+
+#[test]
+fn lines_without_normals_have_unlit_materials() {
     let mut builder = Builder::new();
     let positions = builder.floats(&TRIANGLE);
-    for mode in [0, 1, 2, 3, 4] {
+    let normals = builder.floats(&[[0.0, 1.0, 0.0]; 3]);
+    let material = builder.push("materials", json!({"alphaMode": "BLEND"}));
+    let plain = json!({"POSITION": positions});
+    for (attributes, mode) in [
+        (plain.clone(), 1),
+        (plain.clone(), 0),
+        (json!({"POSITION": positions, "NORMAL": normals}), 3),
+        (plain, 4),
+    ] {
         builder.node_with(
-            json!({"attributes": {"POSITION": positions}, "mode": mode}),
+            json!({"attributes": attributes, "mode": mode, "material": material}),
             json!({}),
         );
     }
     let loaded = builder.load().unwrap();
-    assert!(
-        loaded
-            .warnings
-            .iter()
-            .any(|w| w.contains("1 of points and 3 of lines")),
-        "{:?}",
-        loaded.warnings
-    );
+    let materials = &loaded.scene.materials;
+    assert_eq!(materials.len(), 3);
+    assert_eq!(loaded.scene.info().materials.blend, 1);
     let pose = loaded.scene.pose(&PoseRequest::default()).unwrap();
-    assert_eq!(pose.geometry.triangles.len(), 1);
+    let used: Vec<_> = pose
+        .geometry
+        .draws
+        .iter()
+        .map(|draw| draw.material)
+        .collect();
+    assert_eq!(used, [2, 0]);
+    assert!(materials[2].unlit && !materials[0].unlit);
+    let facing = pose.geometry.strokes.iter().filter(|s| s.faces_camera);
+    assert_eq!(facing.count(), SEGMENT + 3 * DISC);
 }
 
 #[test]

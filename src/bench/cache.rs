@@ -44,7 +44,8 @@ impl Fingerprint {
         (&limits.device_name, &limits.driver).hash(&mut hasher);
         // The debug format of floats is exact.
         let places = &geometry.instances;
-        format!("{camera:?} {:?} {places:?}", probe.footprint).hash(&mut hasher);
+        let strokes = (&geometry.strokes, probe.line_width, probe.point_size);
+        format!("{camera:?} {:?} {places:?} {strokes:?}", probe.footprint).hash(&mut hasher);
         hasher.write(bytemuck::cast_slice(&geometry.positions));
         hasher.write(bytemuck::cast_slice(&geometry.triangles));
         hasher.write(bytemuck::cast_slice(&image.colors));

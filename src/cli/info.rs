@@ -72,8 +72,8 @@ fn text(info: &SceneInfo) -> String {
             numbered(info.scenes.names.iter().map(name).collect())
         ),
         format!(
-            "geometry    {} triangles in {} primitives, {} meshes, {} nodes",
-            info.triangles, info.primitives, info.meshes, info.nodes
+            "geometry    {} triangles, {} lines and {} points in {} primitives, {} meshes, {} nodes",
+            info.triangles, info.lines, info.points, info.primitives, info.meshes, info.nodes
         ),
         format!(
             "variants    {}",

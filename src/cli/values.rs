@@ -1,7 +1,7 @@
 //! Values of options, from text.
 
 use glam::DVec3;
-use gpc::render::PixelRect;
+use gpc::render::{PixelRect, Settings};
 use std::ops::RangeInclusive;
 
 /// A number that is neither infinite nor NaN.
@@ -26,6 +26,15 @@ pub fn positive(text: &str) -> Result<f64, String> {
         Ok(number) if number > 0.0 => Ok(number),
         _ => Err("expected a number above 0".to_owned()),
     }
+}
+
+/// Width of lines or size of points in pixels.
+pub fn stroke(text: &str) -> Result<f64, String> {
+    let largest = Settings::LARGEST_STROKE;
+    positive(text)
+        .ok()
+        .filter(|size| *size <= f64::from(largest))
+        .ok_or_else(|| format!("expected pixels above 0 and at most {largest}, such as 1.5"))
 }
 
 /// Frames a second.

@@ -77,6 +77,7 @@ impl Options {
             },
             shadows: Shadows::None,
             max_memory: self.max_memory,
+            ..Settings::new(self.size[0], self.size[1])
         }
     }
 }

@@ -14,7 +14,7 @@ pub(super) const SLOTS: usize = 15;
 pub(super) const PUSH_BYTES: u32 = 80;
 
 /// The bindings of set 0.
-const BINDINGS: [(u32, vk::DescriptorType); 55] = {
+const BINDINGS: [(u32, vk::DescriptorType); 56] = {
     use vk::DescriptorType as T;
     [
         (0, T::UNIFORM_BUFFER),
@@ -72,6 +72,7 @@ const BINDINGS: [(u32, vk::DescriptorType); 55] = {
         (52, T::STORAGE_TEXEL_BUFFER),
         (53, T::COMBINED_IMAGE_SAMPLER),
         (54, T::UNIFORM_BUFFER),
+        (55, T::UNIFORM_TEXEL_BUFFER),
     ]
 };
 

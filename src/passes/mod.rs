@@ -1,9 +1,9 @@
 //! The passes of a frame, one file each, named like their shaders in `shaders/`.
 //!
 //! ```text
-//! pose ─▶ raster ─▶ spans ─▶ shade ─▶ thin ─▶ detect ─▶ cull ─▶ bin ─▶ schedule ─▶ setup ─▶ sample ─▶ sort ─▶ shade ─▶ resolve
-//!                   └─ pixel centres ─┘                 ▲             └─────── a round, as often as memory needs it ───────┘│
-//!                                                       └───────────────────────── grow ◀────────────────────────────────┘
+//! pose ─▶ stroke ─▶ raster ─▶ spans ─▶ shade ─▶ thin ─▶ detect ─▶ cull ─▶ bin ─▶ schedule ─▶ setup ─▶ sample ─▶ sort ─▶ shade ─▶ resolve
+//!                              └─ pixel centres ─┘                 ▲             └─────── a round, as often as memory needs it ───────┘│
+//!                                                                  └───────────────────────── grow ◀────────────────────────────────┘
 //! ```
 //! Every pass records into a caller's command buffer and reads what the pass before left on the device. They share the
 //! geometry (`geometry/`) and what else the scene has (`scene/`), the memory that they hand to each other (`resources/`), the layout of descriptors (`layout.rs`) and
@@ -45,6 +45,8 @@ mod shade;
 mod sites;
 mod sort;
 mod spans;
+#[cfg(feature = "gltf")]
+mod stroke;
 mod take;
 mod thin;
 mod upload;
@@ -91,6 +93,8 @@ pub use shade::{Shade, ShadeSource};
 pub use sites::{Cells, SiteData, SiteSizes};
 pub use sort::Sort;
 pub use spans::Spans;
+#[cfg(feature = "gltf")]
+pub use stroke::{Stroke, StrokeSizes};
 pub(crate) use take::Take;
 pub use thin::Thin;
 pub(crate) use visibility::{VisibilityUniform, visibility_layout};

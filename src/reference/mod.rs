@@ -13,6 +13,7 @@ mod exact;
 pub mod grow;
 pub mod sheen;
 pub mod srgb;
+pub mod stroke;
 pub mod tonemap;
 pub mod variation;
 pub mod visibility;

@@ -90,6 +90,12 @@ pub enum RenderError {
     /// Texture levels can't be chosen for a footprint of that side.
     #[error("texture levels for a square of {0} pixels: its side must be above 0 and at most 1")]
     Footprint(f32),
+    /// Lines or points can't be of that size.
+    #[error(
+        "lines or points of {0} pixels: their width or size must be above 0 and at most {limit}",
+        limit = super::Settings::LARGEST_STROKE
+    )]
+    Stroke(f32),
     /// The image has no pixels or too many.
     #[error("an image of {width} x {height} pixels: each side must be from 1 to {limit}")]
     Size {
@@ -145,6 +151,7 @@ impl RenderError {
                 | Self::ShadowLights { .. }
                 | Self::Attributes
                 | Self::Footprint(_)
+                | Self::Stroke(_)
                 | Self::Size { .. }
         )
     }

@@ -160,6 +160,11 @@ pub struct Settings {
     pub footprint: Footprint,
     /// Whether surfaces keep the light from others.
     pub shadows: Shadows,
+    /// Width of lines in output pixels, above 0 and at most [`Self::LARGEST_STROKE`]. Where sites are sampled, these are the
+    /// pixels of their pinhole's plane.
+    pub line_width: f32,
+    /// Diameter of points in output pixels, with the same bounds.
+    pub point_size: f32,
     /// Bound on device memory in bytes, uploads and read-back included.
     pub max_memory: Option<u64>,
 }
@@ -167,6 +172,9 @@ pub struct Settings {
 impl Settings {
     /// Default number of sub-samples.
     pub const DEFAULT_SAMPLES: u32 = 64;
+
+    /// Largest width of lines and size of points.
+    pub const LARGEST_STROKE: f32 = 1024.0;
 
     /// Default contrast threshold in code values: the more samples, the more of the error is left in pixels that are
     /// no superpixels.
@@ -196,6 +204,8 @@ impl Settings {
             attributes: false,
             footprint: Footprint::Sample,
             shadows: Shadows::None,
+            line_width: 1.0,
+            point_size: 3.0,
             max_memory: None,
         }
     }
@@ -260,6 +270,11 @@ impl Settings {
             && !(side > 0.0 && side <= 1.0)
         {
             return Err(RenderError::Footprint(side));
+        }
+        for size in [self.line_width, self.point_size] {
+            if !(size > 0.0 && size <= Self::LARGEST_STROKE) {
+                return Err(RenderError::Stroke(size));
+            }
         }
         let [width, height] = self.size;
         if !(1..=LARGEST_SIDE).contains(&width) || !(1..=LARGEST_SIDE).contains(&height) {

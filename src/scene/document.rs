@@ -11,7 +11,7 @@ use gltf::json::{
     extensions::scene::khr_materials_variants::Variant,
 };
 
-use super::{light::Light, view::SceneProjection};
+use super::{light::Light, stroke::StrokePart, surface::strokes::Corner, view::SceneProjection};
 
 /// The document of a [`Scene`](super::Scene).
 #[derive(Clone, Debug, Default)]
@@ -36,6 +36,8 @@ pub struct Document {
     pub cameras: Vec<Option<SceneProjection>>,
     /// At the origin and along -Z; `None` where a light is unusable.
     pub lights: Vec<Option<Light>>,
+    /// How many of the scene's materials, the first ones, are the file's.
+    pub file_materials: usize,
 }
 
 impl Document {
@@ -93,7 +95,7 @@ pub struct Node {
     pub visible: bool,
 }
 
-/// Triangles of one material with only the vertices that they use.
+/// Triangles, points or lines of one material with only the vertices that they use.
 #[derive(Clone, Debug, Default)]
 pub struct Primitive {
     /// Index into [`Scene::materials`](super::Scene::materials).
@@ -102,7 +104,7 @@ pub struct Primitive {
     pub triangles: Vec<[u32; 3]>,
     pub positions: Vec<[f32; 3]>,
     /// Not zero, not necessarily unit. Empty: flat, and triangle `i` has the vertices `3i`, `3i + 1`,
-    /// `3i + 2` for itself.
+    /// `3i + 2` for itself; or points or lines that face the camera.
     pub normals: Vec<[f32; 3]>,
     /// Only where the material has a normal texture.
     pub tangents: Vec<[f32; 4]>,
@@ -113,11 +115,24 @@ pub struct Primitive {
     pub targets: Vec<Target>,
     /// One for each of `JOINTS_0`, `JOINTS_1`, ...
     pub influences: Vec<Influences>,
+    /// Of points and lines, the last vertices in their order.
+    pub corners: Vec<Corner>,
 }
 
 impl Primitive {
     pub fn is_flat(&self) -> bool {
-        self.normals.is_empty()
+        self.normals.is_empty() && !self.is_strokes()
+    }
+
+    /// How many points and segments of lines it draws.
+    pub fn stroke_counts(&self) -> [usize; 2] {
+        let count = |part| self.corners.iter().filter(|c| c.part == part).count();
+        [count(StrokePart::Disc(0)), count(StrokePart::Left) / 2]
+    }
+
+    /// Whether it is of points or lines.
+    pub fn is_strokes(&self) -> bool {
+        !self.corners.is_empty()
     }
 }
 

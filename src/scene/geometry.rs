@@ -1,6 +1,7 @@
 //! Triangles of one scene at one moment, and where they are drawn.
 
 use super::material::{AlphaMode, Material};
+use super::stroke::Stroke;
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 use std::borrow::Cow;
@@ -124,6 +125,8 @@ pub struct Geometry {
     /// Where triangles are drawn, in the order of their IDs and so of their classes. Empty: each once, where its
     /// vertices are.
     pub instances: Vec<Instance>,
+    /// The vertices that are corners of points and lines; in range, in ascending order, and in world space.
+    pub strokes: Vec<Stroke>,
 }
 
 /// Why a [`Geometry`] can't be drawn.
@@ -176,6 +179,16 @@ pub enum GeometryError {
         index: usize,
         /// What is wrong with it.
         fault: InstanceFault,
+    },
+    /// A point or line refers to a vertex that there is none of.
+    #[error("stroke {stroke} has vertex {index}, and there are {vertices}")]
+    Stroke {
+        /// The first such corner.
+        stroke: usize,
+        /// The index.
+        index: u32,
+        /// How many vertices there are.
+        vertices: usize,
     },
     /// A draw has a material that there is none of.
     #[error("draw {draw} has material {material}, and there are {materials}")]
@@ -245,6 +258,16 @@ impl Geometry {
             if let Some(&index) = corners.iter().find(|index| **index as usize >= vertices) {
                 return Err(GeometryError::Index {
                     triangle,
+                    index,
+                    vertices,
+                });
+            }
+        }
+        for (stroke, corner) in self.strokes.iter().enumerate() {
+            let named = [corner.vertex, corner.at, corner.other, corner.beyond];
+            if let Some(index) = named.into_iter().find(|index| *index as usize >= vertices) {
+                return Err(GeometryError::Stroke {
+                    stroke,
                     index,
                     vertices,
                 });
@@ -391,7 +414,7 @@ impl Geometry {
     }
 
     /// The same triangles in world space and without instances: each has the same ID. IDs that stand for nothing become
-    /// triangles without area.
+    /// triangles without area, as are points and lines before a camera gives them a size.
     #[must_use]
     pub fn flat(&self) -> Cow<'_, Self> {
         if self.instances.is_empty() {

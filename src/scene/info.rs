@@ -28,6 +28,10 @@ pub struct SceneInfo {
     pub primitives: usize,
     /// Number of triangles that are drawn in the default scene, instances counted.
     pub triangles: u64,
+    /// Number of points, counted likewise.
+    pub points: u64,
+    /// Number of segments of lines, counted likewise.
+    pub lines: u64,
     /// Materials by alpha mode.
     pub materials: AlphaModes,
     /// Variants of the materials, of which one can be asked for.
@@ -101,7 +105,7 @@ pub(super) fn summarize(scene: &Scene) -> SceneInfo {
     let nodes = || drawn.iter().filter_map(|&i| Some((i, root.nodes.get(i)?)));
 
     let mut cameras = Vec::new();
-    let (mut primitives, mut triangles) = (0, 0);
+    let (mut primitives, mut triangles, mut points, mut lines) = (0, 0, 0, 0);
     for (index, node) in nodes() {
         if let Some((name, projection)) = pose::camera_of(document, node) {
             cameras.push(CameraInfo {
@@ -118,12 +122,17 @@ pub(super) fn summarize(scene: &Scene) -> SceneInfo {
         let copies = pose::copies(document, index) as u64;
         for primitive in pose::primitives_of(document, node) {
             primitives += 1;
-            triangles += copies * primitive.triangles.len() as u64;
+            if primitive.is_strokes() {
+                let [own_points, own_lines] = primitive.stroke_counts();
+                points += copies * own_points as u64;
+                lines += copies * own_lines as u64;
+            } else {
+                triangles += copies * primitive.triangles.len() as u64;
+            }
         }
     }
     let mut materials = AlphaModes::default();
-    // The last one is not the file's.
-    for material in scene.materials.iter().rev().skip(1) {
+    for material in scene.materials.iter().take(document.file_materials) {
         *match material.alpha_mode {
             AlphaMode::Opaque => &mut materials.opaque,
             AlphaMode::Mask { .. } => &mut materials.mask,
@@ -152,6 +161,8 @@ pub(super) fn summarize(scene: &Scene) -> SceneInfo {
         meshes: root.meshes.len(),
         primitives,
         triangles,
+        points,
+        lines,
         materials,
         variants: document.variants().map(str::to_owned).collect(),
         textures: scene.textures.len(),

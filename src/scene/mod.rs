@@ -15,7 +15,7 @@
 //! # Ok::<(), gpc::scene::SceneError>(())
 //! ```
 //!
-//! OBJ, STL and PLY files are read, too: their triangles, normals and base colours. Those formats
+//! OBJ, STL and PLY files are read, too: their triangles, lines, points, normals and base colours. Those formats
 //! have no unit, no axis that is up and no light; what they have is taken as it is.
 //!
 //! Supported extensions: `KHR_animation_pointer` (to the transforms and weights of nodes), `KHR_draco_mesh_compression` and `KHR_texture_basisu` (by the features
@@ -37,6 +37,7 @@ mod lobes;
 mod material;
 mod pose;
 mod read;
+mod stroke;
 mod surface;
 mod view;
 
@@ -59,13 +60,14 @@ pub use material::{
 };
 pub(crate) use pose::MotionPart;
 pub use pose::{Moment, Motion, Pose, PoseRequest};
+pub use stroke::{Stroke, StrokePart};
 pub use view::{SceneCamera, SceneProjection};
 
 /// A file's content, checked and decoded.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// The file's materials in its order, glTF's default material appended for primitives without
-    /// one; never empty.
+    /// The file's materials in its order, glTF's default material for primitives without one, and unlit copies for points
+    /// and lines without normals; never empty.
     pub materials: Vec<Material>,
     /// The textures that materials use.
     pub textures: Vec<Texture>,

@@ -27,6 +27,7 @@ mod shade;
 mod sites;
 mod soundness;
 mod stage;
+mod stroke;
 mod ties;
 mod twin;
 mod variation;

@@ -61,6 +61,7 @@ impl Mesh {
             triangles: self.triangles,
             draws,
             instances: Vec::new(),
+            strokes: Vec::new(),
         };
         let pose = Pose {
             geometry,

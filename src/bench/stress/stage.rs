@@ -203,6 +203,7 @@ impl Stage {
                 .collect(),
             draws,
             instances: Vec::new(),
+            strokes: Vec::new(),
         };
         let pose = Pose {
             geometry,

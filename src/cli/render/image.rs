@@ -37,6 +37,12 @@ pub struct ImageArgs {
     /// Shadows of the scene's own lights: none, or exact at every sample, whatever their number and distance
     #[arg(long, default_value = "none")]
     pub shadows: Shadow,
+    /// Width of lines in pixels of the image
+    #[arg(long, value_name = "PX", default_value_t = 1.0, value_parser = values::stroke)]
+    pub line_width: f64,
+    /// Diameter of points in pixels of the image
+    #[arg(long, value_name = "PX", default_value_t = 3.0, value_parser = values::stroke)]
+    pub point_size: f64,
     /// More of each pixel: depth, id, normal, superpixels, samples. Layers of an EXR; otherwise PNG files beside OUT,
     /// named like it with .depth and so on before .png
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
@@ -117,6 +123,8 @@ impl ImageArgs {
             },
             tonemapped_detection: tonemaps,
             shadows: self.shadows.shadows(),
+            line_width: self.line_width as f32,
+            point_size: self.point_size as f32,
             attributes: !self.aov.is_empty(),
             max_memory: self.max_memory,
             ..Settings::new(width, height)

@@ -14,11 +14,12 @@ pub struct FrameGeometry {
 }
 
 impl FrameGeometry {
-    /// Memory for a scene; unless it `moves`, its vertices stay as they were uploaded.
+    /// Memory for a scene; unless it `moves`, its vertices stay as they were uploaded, but for points and lines.
     ///
     /// # Errors
     /// If memory runs out or could not be mapped.
     pub fn new(memory: &Memory, scene: &GpuScene, moves: bool) -> Result<Self, VulkanError> {
+        let moves = moves || scene.geometry.strokes.is_some();
         let moving = moves.then(|| MovingVertices::new(memory, &scene.geometry));
         Ok(Self {
             placed: PlacedInstances::new(memory, &scene.geometry)?,
@@ -32,7 +33,8 @@ impl FrameGeometry {
         PlacedInstances::bytes(&scene.geometry) + MovingVertices::bytes(&scene.geometry)
     }
 
-    /// The scene's texel buffers and its own, by their bindings in `shaders/include/frame.glsl` and `shaders/pose.comp`.
+    /// The scene's texel buffers and its own, by their bindings in `shaders/include/frame.glsl`, `shaders/pose.comp` and
+    /// `shaders/stroke.comp`.
     #[must_use]
     pub fn texels(&self, scene: &GpuScene) -> Vec<(u32, vk::BufferView)> {
         let geometry = &scene.geometry;
@@ -52,15 +54,25 @@ impl FrameGeometry {
             (10, &geometry.blocks),
             (11, &self.placed.buffer),
         ];
-        if let (Some(moving), Some(motion)) = (&self.moving, &geometry.motion) {
+        if let Some(moving) = &self.moving {
             texels.extend([
-                (46, &moving.moment),
-                (47, &motion.resting),
-                (48, &motion.influences),
-                (49, &motion.displacements),
                 (50, &moving.positions),
                 (51, &moving.normals),
                 (52, &moving.tangents),
+            ]);
+            texels.extend(moving.moment.as_ref().map(|moment| (46, moment)));
+            texels.extend(
+                geometry
+                    .strokes
+                    .as_ref()
+                    .map(|strokes| (55, &strokes.corners)),
+            );
+        }
+        if let Some(motion) = &geometry.motion {
+            texels.extend([
+                (47, &motion.resting),
+                (48, &motion.influences),
+                (49, &motion.displacements),
             ]);
         }
         texels

@@ -12,7 +12,7 @@ mod moving;
 mod placed;
 
 pub use frame::FrameGeometry;
-pub(super) use moving::{GpuMotion, MovingVertices};
+pub(super) use moving::{GpuMotion, GpuStrokes, MovingVertices};
 pub(super) use placed::PlacedInstances;
 
 use super::upload::Uploader;
@@ -77,6 +77,8 @@ pub(super) struct GpuGeometry {
     places: Vec<Place>,
     /// What moves of it.
     pub(super) motion: Option<GpuMotion>,
+    /// Its points and lines.
+    pub(super) strokes: Option<GpuStrokes>,
     pub(super) has_tangents: bool,
     pub(super) is_instanced: bool,
     /// Triangles that are drawn.
@@ -136,7 +138,10 @@ impl GpuGeometry {
                 &blocks(geometry),
             )?,
             runs: runs(geometry),
-            places: places(geometry),
+            places: places(geometry, motion.is_some()),
+            strokes: (!geometry.strokes.is_empty())
+                .then(|| GpuStrokes::new(uploader, &geometry.strokes))
+                .transpose()?,
             motion: motion
                 .map(|motion| GpuMotion::new(uploader, motion))
                 .transpose()?,
@@ -172,8 +177,8 @@ fn blocks(geometry: &Geometry) -> Vec<u32> {
     blocks
 }
 
-/// All places; the world alone where nothing is instanced.
-fn places(geometry: &Geometry) -> Vec<Place> {
+/// All places; the world alone where nothing is instanced. Of what moves there, or has a size in pixels, the box is not known.
+fn places(geometry: &Geometry, moves: bool) -> Vec<Place> {
     let everywhere = [DVec3::NEG_INFINITY, DVec3::INFINITY];
     if geometry.instances.is_empty() {
         return vec![Place {
@@ -184,7 +189,11 @@ fn places(geometry: &Geometry) -> Vec<Place> {
     }
     // Instances of a mesh share its box.
     let mut boxes: HashMap<(u32, u32), [DVec3; 2]> = HashMap::new();
+    let changes = moves || !geometry.strokes.is_empty();
     let place = |instance: &Instance| {
+        if changes && instance.transform == DAffine3::IDENTITY {
+            return Place::of(instance, everywhere);
+        }
         let bounds = boxes
             .entry((instance.first_triangle, instance.triangle_count))
             .or_insert_with(|| geometry.own_box(instance).unwrap_or(everywhere));

@@ -1,8 +1,9 @@
-//! Vertices that move: what they are at rest, which belongs to the scene, and at a moment, which belongs to a frame.
+//! Vertices that move: what they are at rest, which belongs to the scene, and at a moment or for a camera, which belongs to
+//! a frame.
 
 use super::GpuGeometry;
 use crate::passes::upload::Uploader;
-use crate::scene::{Moment, Motion, MotionPart};
+use crate::scene::{Moment, Motion, MotionPart, Stroke};
 use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
@@ -41,24 +42,61 @@ impl GpuMotion {
     }
 }
 
-/// A frame's vertices, of which `pose` writes those that move.
+/// What `stroke` reads of a scene.
+pub(in crate::passes) struct GpuStrokes {
+    /// Two vectors of each corner.
+    pub(in crate::passes) corners: BufferView,
+    pub(in crate::passes) count: u32,
+}
+
+/// Set in `shaders/stroke.comp` where a corner's normal is to face the camera.
+const FACES_CAMERA: u32 = 1 << 31;
+
+impl GpuStrokes {
+    /// Allocates and fills its buffer.
+    pub(super) fn new(
+        uploader: &mut Uploader<'_>,
+        strokes: &[Stroke],
+    ) -> Result<Self, VulkanError> {
+        let vectors = |stroke: &Stroke| {
+            let flags = if stroke.faces_camera { FACES_CAMERA } else { 0 };
+            let [x, y] = stroke.part.offset().map(f32::to_bits);
+            [
+                [stroke.vertex, stroke.at, stroke.other, stroke.beyond],
+                [stroke.part.code() | flags, x, y, 0],
+            ]
+        };
+        let corners: Vec<[[u32; 4]; 2]> = strokes.iter().map(vectors).collect();
+        let uint4 = vk::Format::R32G32B32A32_UINT;
+        Ok(Self {
+            corners: uploader.texels(
+                "corners of points and lines",
+                uint4,
+                corners.as_flattened(),
+            )?,
+            count: strokes.len() as u32,
+        })
+    }
+}
+
+/// A frame's vertices, of which `pose` and `stroke` write those that move.
 pub(in crate::passes) struct MovingVertices {
     pub(in crate::passes) positions: BufferView,
     pub(in crate::passes) normals: BufferView,
     pub(in crate::passes) tangents: BufferView,
     /// Matrices and weights, which the host writes before each recording.
-    pub(in crate::passes) moment: BufferView,
+    pub(in crate::passes) moment: Option<BufferView>,
 }
 
 impl MovingVertices {
-    /// Memory for all vertices of a geometry, where some of them move.
+    /// Memory for all vertices of a geometry, where some of them move in the world or, points and lines, with the camera.
     pub(in crate::passes) fn new(
         memory: &Memory,
         geometry: &GpuGeometry,
     ) -> Result<Option<Self>, VulkanError> {
-        let Some(motion) = &geometry.motion else {
+        if geometry.motion.is_none() && geometry.strokes.is_none() {
             return Ok(None);
-        };
+        }
         let usage = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER
             | vk::BufferUsageFlags::STORAGE_TEXEL_BUFFER
             | vk::BufferUsageFlags::TRANSFER_DST;
@@ -69,34 +107,38 @@ impl MovingVertices {
         let like = |name: &str, view: &BufferView| {
             texels(name, view.buffer.size() / 16, usage, MemoryUse::Device)
         };
-        let mut moving = Self {
-            positions: like("moving positions", &geometry.positions)?,
-            normals: like("moving normals", &geometry.normals)?,
-            tangents: like("moving tangents", &geometry.tangents)?,
-            moment: texels(
+        let moment = |motion: &GpuMotion| {
+            let mut moment = texels(
                 "matrices and weights",
                 motion.vector_count,
                 vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER,
                 MemoryUse::Upload,
-            )?,
+            )?;
+            if (moment.buffer.bytes_mut().len() as u64) < motion.vector_count * 16 {
+                return Err(VulkanError::Call {
+                    call: "mapping matrices and weights",
+                    result: vk::Result::ERROR_MEMORY_MAP_FAILED,
+                });
+            }
+            Ok(moment)
         };
-        let bytes = motion.vector_count * 16;
-        if (moving.moment.buffer.bytes_mut().len() as u64) < bytes {
-            return Err(VulkanError::Call {
-                call: "mapping matrices and weights",
-                result: vk::Result::ERROR_MEMORY_MAP_FAILED,
-            });
-        }
-        Ok(Some(moving))
+        Ok(Some(Self {
+            positions: like("moving positions", &geometry.positions)?,
+            normals: like("moving normals", &geometry.normals)?,
+            tangents: like("moving tangents", &geometry.tangents)?,
+            moment: geometry.motion.as_ref().map(moment).transpose()?,
+        }))
     }
 
     /// Bytes of device memory for the vertices of a geometry.
     pub(in crate::passes) fn bytes(geometry: &GpuGeometry) -> u64 {
         let streams = [&geometry.positions, &geometry.normals, &geometry.tangents];
-        geometry.motion.as_ref().map_or(0, |motion| {
-            let vertices: u64 = streams.iter().map(|view| view.buffer.size()).sum();
-            vertices + motion.vector_count * 16
-        })
+        if geometry.motion.is_none() && geometry.strokes.is_none() {
+            return 0;
+        }
+        let vertices: u64 = streams.iter().map(|view| view.buffer.size()).sum();
+        let motion = geometry.motion.as_ref();
+        vertices + motion.map_or(0, |motion| motion.vector_count * 16)
     }
 
     /// Records copies of the vertices of the first pose, of which those that don't move stay.
@@ -114,7 +156,8 @@ impl MovingVertices {
     /// Writes a moment, while the device is done with the one before.
     pub(in crate::passes) fn write(&mut self, moment: &Moment) {
         let vectors: &[u8] = bytemuck::cast_slice(&moment.vectors);
-        if let Some(place) = self.moment.buffer.bytes_mut().get_mut(..vectors.len()) {
+        let moment = self.moment.as_mut();
+        if let Some(place) = moment.and_then(|m| m.buffer.bytes_mut().get_mut(..vectors.len())) {
             place.copy_from_slice(vectors);
         }
     }

@@ -185,6 +185,12 @@ impl GpuScene {
         self.geometry.motion.is_some()
     }
 
+    /// Whether it has points or lines.
+    #[must_use]
+    pub fn has_strokes(&self) -> bool {
+        self.geometry.strokes.is_some()
+    }
+
     /// Whether a moment is one of what moves in it.
     #[must_use]
     pub fn has_moment(&self, moment: &Moment) -> bool {

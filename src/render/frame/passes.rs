@@ -2,7 +2,7 @@
 
 use crate::passes::{
     Attributes, BoxFilter, Cells, Content, DetectMode, Encode, Encoding, FrameLayout, GpuScene,
-    Multisample, Pose, Raster, RecordRate, Resolve, Shade, ShadeSource, Sort, Spans, Then,
+    Multisample, Pose, Raster, RecordRate, Resolve, Shade, ShadeSource, Sort, Spans, Stroke, Then,
 };
 use crate::render::engine::{Engine, EngineKind, record_rate};
 use crate::render::plan::Plan;
@@ -26,6 +26,7 @@ pub(super) struct Multisampling {
 /// The pipelines of a frame, in the order in which they run.
 pub(super) struct Passes {
     pub pose: Option<Pose>,
+    pub stroke: Option<Stroke>,
     pub raster: Raster,
     pub pixels: Option<PixelShading>,
     pub multisampling: Option<Multisampling>,
@@ -111,6 +112,10 @@ impl Passes {
         };
         Ok(Self {
             pose: scene.moves().then(|| Pose::new(layout)).transpose()?,
+            stroke: scene
+                .has_strokes()
+                .then(|| Stroke::new(layout))
+                .transpose()?,
             raster: Raster::new(layout, raster_samples(settings), scene)?,
             pixels,
             multisampling: multisampled.then(multisampling).transpose()?,

@@ -2,9 +2,10 @@
 
 use super::passes::{Multisampling, Passes, PixelShading};
 use super::target::Target;
+use super::uniform::to_clip;
 use crate::camera::Camera;
 use crate::passes::{
-    Content, FrameGeometry, FrameUniform, GpuScene, RasterTargets, Resources, Shade,
+    Content, FrameGeometry, FrameUniform, GpuScene, RasterTargets, Resources, Shade, StrokeSizes,
 };
 use crate::render::Settings;
 use crate::render::color::display_code;
@@ -114,6 +115,15 @@ impl Recording<'_> {
         if let (0, Some(pose), Some(moment)) = (index, &passes.pose, self.moment) {
             pose.record(recorder, scene, self.geometry, moment);
             recorder.mark("pose");
+        }
+        if let (0, Some(stroke)) = (index, &passes.stroke) {
+            let to_clip = to_clip(scene, self.camera, self.settings);
+            let sizes = StrokeSizes {
+                line_width: self.settings.line_width * side as f32,
+                point_size: self.settings.point_size * side as f32,
+            };
+            stroke.record(recorder, scene, self.geometry, &to_clip, sizes);
+            recorder.mark("stroke");
         }
         passes.raster.record(
             recorder,

@@ -6,7 +6,7 @@ use crate::camera::Pinhole;
 use crate::passes::{
     Bin, Cells, Content, Counter, Cull, FrameGeometry, FrameLayout, FrameUniform, GpuScene, Groups,
     Locations, Points, RasterTargets, RecordRate, Resolve, ResourceSizes, Resources, Sample,
-    SampleOptions, Schedule, Setup, Shade, ShadeSource, SiteData, Sort, Then,
+    SampleOptions, Schedule, Setup, Shade, ShadeSource, SiteData, Sort, Stroke, StrokeSizes, Then,
 };
 use crate::render::engine::{can_settle, record_rate, record_shading, with_probes};
 use crate::render::footprint::Footprints;
@@ -36,6 +36,7 @@ pub(super) struct SiteEngine {
     settings: Settings,
     /// Rounds of lists and records recorded for a run.
     rounds: u32,
+    stroke: Option<Stroke>,
     cull: Cull,
     bin: Bin,
     schedule: Schedule,
@@ -162,6 +163,10 @@ impl SiteEngine {
         };
         Ok(Self {
             settings: settings.clone(),
+            stroke: scene
+                .has_strokes()
+                .then(|| Stroke::new(layout))
+                .transpose()?,
             cull: Cull::new(layout, scene)?,
             bin: Bin::new(layout, scene)?,
             schedule: Schedule::new(layout, &sample, LAYERS)?,
@@ -219,6 +224,7 @@ impl SiteEngine {
         let resources = &self.resources;
         let arguments = &resources.arguments;
         if !self.uploaded {
+            self.geometry.record_upload(recorder, scene);
             resources.record_upload(recorder);
             self.targets.record_unused(recorder);
             self.uploaded = true;
@@ -237,6 +243,14 @@ impl SiteEngine {
             recorder,
             &[(Counter::Superpixels, superpixels), (Counter::Tiles, tiles)],
         );
+        if let Some(stroke) = &self.stroke {
+            let sizes = StrokeSizes {
+                line_width: self.settings.line_width,
+                point_size: self.settings.point_size,
+            };
+            stroke.record(recorder, scene, &self.geometry, &to_clip, sizes);
+            recorder.mark("stroke");
+        }
         self.cull.record(recorder, arguments);
         recorder.mark("cull");
         self.bin.record(recorder, arguments);

@@ -25,6 +25,7 @@ impl HostTriangles {
             triangles: geometry.triangles.clone(),
             draws: geometry.draws.clone(),
             instances: geometry.instances.clone(),
+            strokes: Vec::new(),
         };
         Self {
             geometry: Mutex::new(Some(geometry)),

@@ -9,7 +9,7 @@ use std::collections::HashMap;
 
 use super::placement::Placement;
 use crate::scene::{
-    Draw, DrawClass, Geometry, Instance, Material, Scene, SceneError, VertexStreams,
+    Draw, DrawClass, Geometry, Instance, Material, Scene, SceneError, Stroke, VertexStreams,
     document::Primitive,
     error::{Fault, Warnings},
     read::MAX_ELEMENTS,
@@ -86,6 +86,7 @@ pub fn assemble(
         triangles: vec![[0; 3]; count(|p| p.primitive.triangles.len())],
         draws: draws(&jobs),
         instances: instances(&jobs, origin),
+        strokes: jobs.iter().flat_map(Job::strokes).collect(),
     };
     let indices = geometry.index_count();
     if indices > MAX_ELEMENTS {
@@ -187,7 +188,8 @@ fn jobs<'p, 'd>(
     let is_instanced = |mesh: &Primitive| {
         let copies = sharing.get(&std::ptr::from_ref(mesh)).copied().unwrap_or(0);
         let saved = copies.saturating_sub(1) * mesh.triangles.len();
-        mesh.triangles.len() >= LEAST_TRIANGLES && saved >= LEAST_SAVED
+        // Points and lines have another shape at each place.
+        mesh.triangles.len() >= LEAST_TRIANGLES && saved >= LEAST_SAVED && !mesh.is_strokes()
     };
     let mut jobs: Vec<Job<'p, 'd>> = Vec::new();
     let mut job_of: HashMap<*const Primitive, usize> = HashMap::new();
@@ -373,7 +375,8 @@ impl Job<'_, '_> {
         copy(parts.uvs, &primitive.uvs);
         copy(parts.colors, &primitive.colors);
         for (to, &[a, b, c]) in parts.triangles.iter_mut().zip(&primitive.triangles) {
-            let triangle = if placement.mirrored {
+            // Points and lines face the camera in any case.
+            let triangle = if placement.mirrored && !primitive.is_strokes() {
                 [a, c, b]
             } else {
                 [a, b, c]
@@ -413,6 +416,24 @@ impl Job<'_, '_> {
                     }
                 });
         }
+    }
+
+    /// Its corners of points and lines.
+    fn strokes(&self) -> impl Iterator<Item = Stroke> {
+        let primitive = self.placement.primitive;
+        let first = self.first_vertex;
+        let corners = primitive.positions.len() - primitive.corners.len();
+        let vertices = first + corners as u32..;
+        vertices
+            .zip(&primitive.corners)
+            .map(move |(vertex, corner)| Stroke {
+                part: corner.part,
+                vertex,
+                at: first + corner.at,
+                other: first + corner.other,
+                beyond: first + corner.beyond,
+                faces_camera: primitive.normals.is_empty(),
+            })
     }
 
     /// Normals of triangles that have three vertices each for themselves, from vertex `first` on.

@@ -200,7 +200,8 @@ impl<'d> Placement<'d> {
     /// Unit normal of vertex `v` in the world.
     #[inline]
     pub fn normal(&self, v: usize, frame: &Frame) -> [f32; 3] {
-        let normal = self.morph(v, self.primitive.normals[v], |t| &t.normals);
+        let own = self.primitive.normals.get(v).copied();
+        let normal = self.morph(v, own.unwrap_or_default(), |t| &t.normals);
         unit(frame.normals * normal, DVec3::Z)
     }
 

@@ -1,20 +1,19 @@
 //! Meshes (glTF 2.0, section 3.7). Only those that a node refers to are read.
 
+use std::collections::HashMap;
+
 use rayon::prelude::*;
 
 use gltf::json;
 
-use super::{
-    Context,
-    limits::MAX_ELEMENTS,
-    primitive::{self, Outcome},
-};
+use super::{Context, limits::MAX_ELEMENTS, primitive};
 use crate::scene::{document::Primitive, error::Fault, material::Material};
 
-/// Reads the primitives of the meshes that nodes use, all in parallel; the others stay empty.
+/// Reads the primitives of the meshes that nodes use, all in parallel; the others stay empty. Points and lines without
+/// normals have [materials](unlit_materials) of their own.
 pub fn read_all(
     context: &mut Context<'_>,
-    materials: &[Material],
+    materials: &mut Vec<Material>,
 ) -> Result<Vec<Vec<Primitive>>, Fault> {
     let root = &context.model.root;
     let mut used = vec![false; root.meshes.len()];
@@ -45,28 +44,35 @@ pub fn read_all(
         .into_par_iter()
         .map(|(mesh, item, place)| {
             let mut notes = Vec::new();
-            let outcome = primitive::read(item, &place, shared, materials, &mut notes);
-            (mesh, outcome, notes)
+            let read = primitive::read(item, &place, shared, materials, &mut notes);
+            (mesh, read, notes)
         })
         .collect();
-    let (mut points, mut lines) = (0, 0);
-    for (mesh, outcome, notes) in read {
+    for (mesh, read, notes) in read {
         context.warnings.extend(notes);
-        match outcome? {
-            Outcome::Drawn(primitive) => meshes[mesh].push(*primitive),
-            Outcome::Points => points += 1,
-            Outcome::Lines => lines += 1,
-            Outcome::Nothing => {}
-        }
+        meshes[mesh].extend(read?);
     }
-    if points + lines > 0 {
-        context.warn(&Fault::new(
-            "/meshes",
-            format!(
-                "only triangles are drawn; primitives left out: {points} of points and {lines} of \
-                 lines"
-            ),
-        ));
-    }
+    unlit_materials(materials, meshes.iter_mut().flatten());
     Ok(meshes)
+}
+
+/// Makes points and lines without normals unlit, by copies of their materials.
+pub fn unlit_materials<'p>(
+    materials: &mut Vec<Material>,
+    primitives: impl Iterator<Item = &'p mut Primitive>,
+) {
+    let mut copies = HashMap::new();
+    for primitive in primitives.filter(|p| p.is_strokes() && p.normals.is_empty()) {
+        let Some(material) = materials.get(primitive.material).filter(|m| !m.unlit) else {
+            continue;
+        };
+        let unlit = Material {
+            unlit: true,
+            ..material.clone()
+        };
+        primitive.material = *copies.entry(primitive.material).or_insert_with(|| {
+            materials.push(unlit);
+            materials.len() - 1
+        });
+    }
 }

@@ -169,7 +169,8 @@ fn read_scene(context: &mut Context<'_>) -> Result<Scene, Fault> {
     let default_scene = node::check_scenes(context, &nodes)?;
     let mut materials = material::read_all(context);
     let (textures, images) = texture::resolve(context, &mut materials);
-    let meshes = mesh::read_all(context, &materials)?;
+    let file_materials = materials.len() - 1;
+    let meshes = mesh::read_all(context, &mut materials)?;
     let skins = skin::read_all(context)?;
     skin::check_joints(&context.model.root.nodes, &meshes, &skins)?;
     let animations = animation::read_all(context, &nodes);
@@ -187,6 +188,7 @@ fn read_scene(context: &mut Context<'_>) -> Result<Scene, Fault> {
             animations,
             cameras,
             lights,
+            file_materials,
             ..Document::default()
         },
     })

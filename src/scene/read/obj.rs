@@ -1,4 +1,4 @@
-//! OBJ with the base colours of its MTL files.
+//! OBJ: polygons, lines and points, with the base colours of its MTL files.
 
 use std::{
     borrow::Cow,
@@ -7,6 +7,7 @@ use std::{
     path::Path,
 };
 
+use gltf::json::mesh::Mode;
 use tobj::{LoadError, LoadOptions};
 
 use super::{
@@ -24,8 +25,8 @@ use crate::scene::{
 const MAX_FILE: u64 = 1 << 30;
 
 /// The statements that OBJ files start with, comments aside.
-const STATEMENTS: [&[u8]; 10] = [
-    b"v", b"vt", b"vn", b"vp", b"o", b"g", b"s", b"f", b"mtllib", b"usemtl",
+const STATEMENTS: [&[u8]; 12] = [
+    b"v", b"vt", b"vn", b"vp", b"o", b"g", b"s", b"f", b"l", b"p", b"mtllib", b"usemtl",
 ];
 
 /// Whether `bytes` look like an OBJ file: the first statement is one, and the text has a vertex.
@@ -67,15 +68,36 @@ pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, Sce
             error
         })
     };
-    // With checks of overflow, the parser panics at an index before the first vertex.
-    let parse = || tobj::load_obj_buf(&mut &*bytes, &options, load_mtl);
-    let loaded = catch_unwind(AssertUnwindSafe(parse)).unwrap_or(Err(LoadError::GenericFailure));
-    let (models, materials) = loaded.map_err(|error| {
-        let reason = format!("the OBJ file is broken: {error}; export it again");
-        Fault::new("statements", reason).into_error(file)
-    })?;
+    let parse =
+        |text: &[u8], options: &LoadOptions, load_mtl: &dyn Fn(&Path) -> tobj::MTLLoadResult| {
+            // With checks of overflow, the parser panics at an index before the first vertex.
+            let parse = || tobj::load_obj_buf(&mut &*text, options, load_mtl);
+            let loaded = catch_unwind(AssertUnwindSafe(parse));
+            loaded
+                .unwrap_or(Err(LoadError::GenericFailure))
+                .map_err(|error| {
+                    let reason = format!("the OBJ file is broken: {error}; export it again");
+                    Fault::new("statements", reason).into_error(file)
+                })
+        };
+    let (faces, strokes) = split(bytes);
+    let (models, materials) = parse(&faces, &options, &load_mtl)?;
     let mut warnings = Warnings::new(file);
-    warnings.extend(faults.into_inner());
+    warnings.extend(faults.take());
+    let strokes = match strokes {
+        Some(text) => {
+            let options = LoadOptions {
+                ignore_points: false,
+                ignore_lines: false,
+                ..options
+            };
+            // Finds the same faults with the MTL files.
+            let (mut models, _) = parse(&text, &options, &load_mtl)?;
+            models.retain(|model| !model.mesh.indices.is_empty());
+            models
+        }
+        None => Vec::new(),
+    };
 
     let mut drawing = Drawing::default();
     let mut images = Images::default();
@@ -93,11 +115,20 @@ pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, Sce
     // Of shapes without a material.
     let grey = drawing.materials.len();
     drawing.materials.push(plain());
-    for tobj::Model { mesh, name } in models {
+    let models = models.into_iter().map(|model| (model, false));
+    let strokes = strokes.into_iter().map(|model| (model, true));
+    for (tobj::Model { mesh, name }, is_strokes) in models.chain(strokes) {
+        let corners: &[[u32; 3]] = mesh.indices.as_chunks().0;
+        let triangles = if is_strokes { &[] } else { corners };
+        let pairs = corners.iter().map(|&[a, b, _]| [a, b]);
+        let (points, lines) = pairs.filter(|_| is_strokes).partition(|[a, b]| a == b);
+        let points: Vec<[u32; 2]> = points;
         drawing.shapes.push(Shape {
             name: Some(name),
             material: mesh.material_id.unwrap_or(grey),
-            triangles: mesh.indices.as_chunks().0.to_vec(),
+            triangles: triangles.to_vec(),
+            lines,
+            points: points.into_iter().map(|[point, _]| point).collect(),
             positions: mesh.positions.as_chunks().0.to_vec(),
             normals: mesh.normals.as_chunks().0.to_vec(),
             uvs: mesh.texcoords.as_chunks().0.to_vec(),
@@ -105,6 +136,49 @@ pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, Sce
         });
     }
     drawing.into_scene("OBJ", file, warnings)
+}
+
+/// An OBJ file's text without lines and points; and the same without faces, where it has any: the parser takes a line of
+/// three vertices for a face, and knows no points. There each line is one of two vertices, and a point one of one.
+fn split(obj: &[u8]) -> (Cow<'_, [u8]>, Option<Vec<u8>>) {
+    let lines = || obj.split(|&byte| byte == b'\n');
+    let words = |line: &'_ [u8]| -> Vec<Vec<u8>> {
+        let words = line.split(u8::is_ascii_whitespace);
+        words
+            .filter(|word| !word.is_empty())
+            .map(<[u8]>::to_vec)
+            .collect()
+    };
+    let kind = |line: &[u8]| {
+        let mut words = line.split(u8::is_ascii_whitespace);
+        match words.find(|word| !word.is_empty()) {
+            Some(b"l") => Some(Mode::Lines),
+            Some(b"p") => Some(Mode::Points),
+            Some(b"f") => Some(Mode::Triangles),
+            _ => None,
+        }
+    };
+    let is_stroke = |line: &&[u8]| matches!(kind(line), Some(Mode::Lines | Mode::Points));
+    if !lines().any(|line| is_stroke(&line)) {
+        return (Cow::Borrowed(obj), None);
+    }
+    let faces: Vec<&[u8]> = lines().filter(|line| !is_stroke(line)).collect();
+    let mut strokes: Vec<Vec<u8>> = Vec::new();
+    for line in lines() {
+        let per_line = match kind(line) {
+            Some(Mode::Lines) => 2,
+            Some(Mode::Points) => 1,
+            Some(_) => continue,
+            None => {
+                strokes.push(line.to_vec());
+                continue;
+            }
+        };
+        let words = words(line);
+        let vertices = words.get(1..).unwrap_or(&[]).windows(per_line);
+        strokes.extend(vertices.map(|ends| [b"l ", ends.join(&b' ').as_slice()].concat()));
+    }
+    (Cow::Owned(faces.join(&b'\n')), Some(strokes.join(&b'\n')))
 }
 
 /// An MTL file whose colours have three components each, without which the parser panics. Where there

@@ -1,4 +1,4 @@
-//! PLY: polygons with normals, texture coordinates and colours of vertices.
+//! PLY: polygons and edges, or else points, with normals and colours of vertices.
 
 use std::io::Cursor;
 
@@ -40,7 +40,7 @@ fn decode(bytes: &[u8], warnings: &mut Warnings) -> Result<Drawing, Fault> {
     let header = Parser::<Vertex>::new()
         .read_header(&mut reader)
         .map_err(broken)?;
-    let (mut vertices, mut faces) = (Vec::new(), Vec::new());
+    let (mut vertices, mut faces, mut edges) = (Vec::new(), Vec::new(), Vec::new());
     for (name, element) in &header.elements {
         check(element, bytes.len())?;
         match name.as_str() {
@@ -48,10 +48,11 @@ fn decode(bytes: &[u8], warnings: &mut Warnings) -> Result<Drawing, Fault> {
                 vertices = elements::<Vertex>(&mut reader, element, &header).map_err(broken)?
             }
             "face" => faces = elements::<Face>(&mut reader, element, &header).map_err(broken)?,
+            "edge" => edges = elements::<Edge>(&mut reader, element, &header).map_err(broken)?,
             _ => drop(elements::<Skipped>(&mut reader, element, &header).map_err(broken)?),
         }
     }
-    Ok(draw(&vertices, faces, &header, warnings))
+    Ok(draw(&vertices, (faces, &edges), &header, warnings))
 }
 
 /// Fails for an element that claims more than the file has, each of which takes a byte at least.
@@ -83,7 +84,7 @@ fn elements<E: PropertyAccess>(
 
 fn draw(
     vertices: &[Vertex],
-    faces: Vec<Face>,
+    (faces, edges): (Vec<Face>, &[Edge]),
     header: &Header,
     warnings: &mut Warnings,
 ) -> Drawing {
@@ -111,13 +112,9 @@ fn draw(
             format!("{short} faces have a negative index or fewer than 3 and are left out");
         warnings.push(&Fault::new("element face", reason));
     }
-    if triangles.is_empty() && !vertices.is_empty() {
-        let reason = format!(
-            "only faces are drawn; {} points are left out",
-            vertices.len()
-        );
-        warnings.push(&Fault::new("element vertex", reason));
-    }
+    // Vertices that nothing connects are points.
+    let is_cloud = triangles.is_empty() && edges.is_empty();
+    let points = if is_cloud { vertices.len() as u32 } else { 0 };
     let stream = |present: bool| if present { vertices } else { &[] }.iter();
     let colored = has(&["red", "green", "blue"]);
     let mut material = plain();
@@ -126,6 +123,8 @@ fn draw(
     }
     let shape = Shape {
         triangles,
+        lines: edges.iter().map(|edge| edge.ends).collect(),
+        points: (0..points).collect(),
         positions: vertices
             .iter()
             .map(|v| (v.position - origin).as_vec3().to_array())
@@ -209,6 +208,31 @@ impl PropertyAccess for Face {
             return PropertyAccessResult::Ignored;
         }
         self.indices = property.to_u32_list().unwrap_or_default();
+        PropertyAccessResult::Set
+    }
+}
+
+/// A line; an index that is no whole number of 32 bits is none of a vertex.
+struct Edge {
+    ends: [u32; 2],
+}
+
+impl PropertyAccess for Edge {
+    fn new() -> Self {
+        Self {
+            ends: [u32::MAX; 2],
+        }
+    }
+
+    fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
+        let end = match name {
+            "vertex1" => 0,
+            "vertex2" => 1,
+            _ => return PropertyAccessResult::Ignored,
+        };
+        let value = number(&property).map_or(-1.0, |(value, _)| value);
+        let is_index = value.fract() == 0.0 && (0.0..f64::from(u32::MAX)).contains(&value);
+        self.ends[end] = if is_index { value as u32 } else { u32::MAX };
         PropertyAccessResult::Set
     }
 }

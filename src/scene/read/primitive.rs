@@ -1,4 +1,4 @@
-//! Mesh primitives (glTF 2.0, section 3.7.2), reduced to triangles and the vertices they use.
+//! Mesh primitives (glTF 2.0, section 3.7.2), reduced to triangles, points and lines and the vertices they use.
 
 use rayon::prelude::*;
 
@@ -20,41 +20,28 @@ use crate::scene::{
     document::Primitive,
     error::Fault,
     material::Material,
-    surface::{normals::mend_normals, tangent, triangles},
+    surface::{
+        normals::{is_usable, mend_normals},
+        strokes::{self, Strokes},
+        tangent, triangles,
+    },
 };
 
-/// What became of a primitive.
-pub enum Outcome {
-    /// It is drawn.
-    Drawn(Box<Primitive>),
-    /// Points, which are not.
-    Points,
-    /// Lines, which are not.
-    Lines,
-    /// It has nothing that could be drawn; why is among the notes.
-    Nothing,
-}
-
 /// Reads the primitive `item` at `place`. What can be mended or left out is noted; what cannot is the
-/// error.
+/// error. `None` where it has nothing that could be drawn; why is among the notes.
 pub fn read(
     item: &mesh::Primitive,
     place: &str,
     context: &Context<'_>,
     materials: &[Material],
     notes: &mut Vec<Fault>,
-) -> Result<Outcome, Fault> {
+) -> Result<Option<Primitive>, Fault> {
     let mode = context.model.valid(&item.mode, &format!("{place}/mode"))?;
-    match mode {
-        Mode::Points => return Ok(Outcome::Points),
-        Mode::Lines | Mode::LineLoop | Mode::LineStrip => return Ok(Outcome::Lines),
-        Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan => {}
-    }
     let attributes = format!("{place}/attributes");
     let Some(positions) = attribute_of(item, Semantic::Positions) else {
         let reason = "there is no POSITION; the primitive is left out";
         notes.push(Fault::new(attributes, reason));
-        return Ok(Outcome::Nothing);
+        return Ok(None);
     };
     let positions = context.accessor(positions, &format!("{attributes}/POSITION"));
     let packed = match (unpack(item, place, context), &positions) {
@@ -93,13 +80,25 @@ pub fn read(
     };
     let material = materials.get(material_index).cloned().unwrap_or_default();
 
-    let Some((mut triangles, mut sources)) = read_triangles(&reader, mode, &positions, notes)?
-    else {
-        return Ok(Outcome::Nothing);
-    };
     let targets = item.targets.as_deref().unwrap_or_default();
+    // What is decoded is a list of triangles, whatever it was encoded from.
+    let mode = reader.packed.map_or(mode, |_| Mode::Triangles);
+    let is_strokes = strokes::are_made_of(mode);
+    let shape = if is_strokes {
+        let strokes = read_strokes(&reader, mode, &positions, notes)?;
+        strokes.map(|(strokes, sources)| (strokes.triangles, strokes.corners, sources))
+    } else {
+        let read = read_triangles(&reader, mode, &positions, notes)?;
+        read.map(|(triangles, sources)| (triangles, Vec::new(), sources))
+    };
+    let Some((mut triangles, corners, mut sources)) = shape else {
+        return Ok(None);
+    };
     // Without normals, which is known only later, no two triangles share a vertex.
-    let most = sources.len().max(triangles.len() * 3) as u64;
+    let most = match is_strokes {
+        true => sources.len(),
+        false => sources.len().max(triangles.len() * 3),
+    } as u64;
     context
         .budget
         .add_vertices(most * (1 + targets.len() as u64), place)?;
@@ -108,6 +107,11 @@ pub fn read(
     let mut normals: Vec<[f32; 3]> =
         normals.map_or_else(Vec::new, |accessor| gather(&accessor, &sources));
     let shape = gather(&positions, &sources);
+    if is_strokes && !normals.iter().all(is_usable) {
+        let reason = "some normals are unusable; none is used, and what is drawn is unlit";
+        notes.push(Fault::new(attributes.as_str(), reason));
+        normals.clear();
+    }
     match mend_normals(&triangles, &shape, &mut normals) {
         0 => {}
         mended => notes.push(Fault::new(
@@ -115,7 +119,7 @@ pub fn read(
             format!("{mended} of the normals are unusable and replaced by those of the faces"),
         )),
     }
-    let shape = if normals.is_empty() {
+    let shape = if normals.is_empty() && !is_strokes {
         sources = triangles
             .as_flattened()
             .iter()
@@ -139,15 +143,17 @@ pub fn read(
         colors: reader.colors(&sources, notes),
         targets: reader.targets(targets, &sources, notes),
         influences: reader.influences(&sources, notes),
+        corners,
     };
     if let Some(uv_set) = material.tangent_uv_set() {
         let given = reader.tangents(&primitive.normals, &sources, notes);
         match given {
             Some(tangents) => primitive.tangents = tangents,
+            None if is_strokes => {}
             None => tangent::generate(&mut primitive, uv_set),
         }
     }
-    Ok(Outcome::Drawn(Box::new(primitive)))
+    Ok(Some(primitive))
 }
 
 /// Refuses compressed primitives.
@@ -205,7 +211,8 @@ pub fn claimed_triangles(item: &mesh::Primitive, context: &Context<'_>) -> u64 {
     let accessor = defining.map(|index| context.accessor(index, ""));
     match (item.mode, accessor) {
         (Checked::Valid(mode), Some(Ok(accessor))) if accessor.check_justified().is_ok() => {
-            triangles::number(mode, accessor.count) as u64
+            let (of_surfaces, of_strokes) = (triangles::number, strokes::number);
+            (of_surfaces(mode, accessor.count) + of_strokes(mode, accessor.count)) as u64
         }
         _ => 0,
     }
@@ -220,6 +227,71 @@ pub fn gather<const N: usize>(accessor: &Accessor<'_>, sources: &[u32]) -> Vec<[
         .collect()
 }
 
+/// The indices of a primitive that has any, and how many vertices it goes through.
+fn read_indices<'a>(
+    reader: &vertex::Reader<'a, '_>,
+    positions: &Accessor<'_>,
+) -> Result<(Option<Accessor<'a>>, usize), Fault> {
+    let place = reader.place;
+    let indices = match reader.packed {
+        Some(packed) => Some(Accessor::of_stream(&packed.indices, false, place)),
+        None => reader.primitive.indices.map(|index| {
+            let accessor = reader.context.accessor(index, &format!("{place}/indices"));
+            accessor?.expect_components(&[1])
+        }),
+    };
+    let indices = indices.transpose()?.map(|indices| {
+        indices.expect_type(&[ComponentType::U8, ComponentType::U16, ComponentType::U32])
+    });
+    let indices = indices.transpose()?;
+    let defining = indices.as_ref().unwrap_or(positions);
+    defining.check_justified()?;
+    let count = defining.count;
+    Ok((indices, count))
+}
+
+/// Points or lines that can be drawn, and the vertices of the file that they refer to.
+fn read_strokes(
+    reader: &vertex::Reader<'_, '_>,
+    mode: Mode,
+    positions: &Accessor<'_>,
+    notes: &mut Vec<Fault>,
+) -> Result<Option<(Strokes, Vec<u32>)>, Fault> {
+    let (indices, count) = read_indices(reader, positions)?;
+    let index = |i: usize| match &indices {
+        Some(indices) => {
+            let [index] = indices.integers(i);
+            index
+        }
+        None => i as u32,
+    };
+    let position = |v: u32| positions.floats::<3>(v as usize);
+    let bound = positions.count as u32;
+    let usable = |v: u32| v < bound && position(v).iter().all(|x| x.is_finite());
+    let path: Vec<Option<u32>> = (0..count)
+        .map(index)
+        .map(|v| Some(v).filter(|v| usable(*v)))
+        .collect();
+    let lost = path.iter().filter(|vertex| vertex.is_none()).count();
+    if lost > 0 {
+        let reason = format!(
+            "{lost} of {count} vertices are beyond the {bound} of POSITION, infinite or undefined, and are left out"
+        );
+        notes.push(Fault::new(reader.place, reason));
+    }
+    if mode == Mode::Lines && count % 2 > 0 {
+        let reason = format!("1 of {count} indices makes no line and is left out");
+        notes.push(Fault::new(reader.place, reason));
+    }
+    // What a target moves apart may have a length later.
+    let is_rigid = reader.primitive.targets.is_none();
+    let mut strokes = strokes::assemble(mode, &path, |a, b| {
+        a == b || (is_rigid && position(a) == position(b))
+    });
+    let sources = strokes.compact(positions.count);
+    Ok((!strokes.corners.is_empty()).then_some((strokes, sources)))
+}
+
 type Triangles = Vec<[u32; 3]>;
 
 /// Triangles that can be drawn, and the vertices of the file that they refer to.
@@ -230,22 +302,7 @@ fn read_triangles(
     notes: &mut Vec<Fault>,
 ) -> Result<Option<(Triangles, Vec<u32>)>, Fault> {
     let (item, place) = (reader.primitive, reader.place);
-    let indices = match reader.packed {
-        Some(packed) => Some(Accessor::of_stream(&packed.indices, false, place)),
-        None => item.indices.map(|index| {
-            let accessor = reader.context.accessor(index, &format!("{place}/indices"));
-            accessor?.expect_components(&[1])
-        }),
-    };
-    let indices = indices.transpose()?.map(|indices| {
-        indices.expect_type(&[ComponentType::U8, ComponentType::U16, ComponentType::U32])
-    });
-    let indices = indices.transpose()?;
-    // What is decoded is a list, whatever it was encoded from.
-    let mode = reader.packed.map_or(mode, |_| Mode::Triangles);
-    let defining = indices.as_ref().unwrap_or(positions);
-    defining.check_justified()?;
-    let count = defining.count;
+    let (indices, count) = read_indices(reader, positions)?;
     let (mut triangles, left_over) = match &indices {
         Some(indices) => triangles::assemble(mode, count, |i| {
             let [index] = indices.integers(i);

@@ -1,14 +1,17 @@
-//! Scenes of formats that know triangles and colours, but neither nodes nor cameras nor lights.
+//! Scenes of formats that know triangles, lines, points and colours, but neither nodes nor cameras nor lights.
 
-use gltf::json::{self, Index};
+use gltf::json::{self, Index, mesh::Mode};
 
-use super::limits::Budget;
+use super::{limits::Budget, mesh::unlit_materials};
 use crate::scene::{
     Loaded, Scene, SceneError,
     document::{Document, Node, Parts, Primitive, Transform},
     error::{Fault, Warnings},
     material::{Image, Material, Texture},
-    surface::{normals::mend_normals, triangles},
+    surface::{
+        normals::{is_usable, mend_normals},
+        strokes, triangles,
+    },
 };
 use glam::DVec3;
 
@@ -19,6 +22,8 @@ pub struct Shape {
     /// Index into the materials of the [`Drawing`]; past the end is glTF's default.
     pub material: usize,
     pub triangles: Vec<[u32; 3]>,
+    pub lines: Vec<[u32; 2]>,
+    pub points: Vec<u32>,
     pub positions: Vec<[f32; 3]>,
     pub normals: Vec<[f32; 3]>,
     /// Upwards in the image, as in OBJ and PLY.
@@ -81,18 +86,30 @@ impl Drawing {
         let root = &mut document.root;
         let mut roots = Vec::new();
         let budget = Budget::default();
+        document.file_materials = self.materials.len();
         self.materials.push(Material::default());
         for (index, shape) in self.shapes.into_iter().enumerate() {
             let place = format!("object {index}");
-            let vertices = shape.positions.len().max(3 * shape.triangles.len()) as u64;
+            let strokes = strokes::number(Mode::Lines, 2 * shape.lines.len())
+                + strokes::number(Mode::Points, shape.points.len());
+            let surfaces = shape.positions.len().max(3 * shape.triangles.len());
+            let vertices = (surfaces + 4 * strokes) as u64;
             budget
                 .add_vertices(vertices, &place)
                 .map_err(|fault| fault.into_error(file))?;
             let material = shape.material.min(self.materials.len() - 1);
             let name = shape.name.clone();
             let uses_uvs = self.materials[material].textures().next().is_some();
-            let primitive = shape.into_primitive(material, uses_uvs, &place, &mut warnings);
-            document.meshes.push(primitive.into_iter().collect());
+            let strokes = [
+                (Mode::Lines, shape.lines.as_flattened()),
+                (Mode::Points, shape.points.as_slice()),
+            ]
+            .map(|(mode, path)| {
+                shape.strokes(mode, path, (material, uses_uvs), &place, &mut warnings)
+            });
+            let surface = shape.into_primitive(material, uses_uvs, &place, &mut warnings);
+            let primitives = surface.into_iter().chain(strokes.into_iter().flatten());
+            document.meshes.push(primitives.collect());
             let mesh = root.push(json::Mesh {
                 extensions: None,
                 extras: None,
@@ -116,6 +133,8 @@ impl Drawing {
                 ..json::Node::default()
             }));
         }
+        unlit_materials(&mut self.materials, document.meshes.iter_mut().flatten());
+        let root = &mut document.root;
         let _: Index<json::Scene> = root.push(json::Scene {
             extensions: None,
             extras: None,
@@ -183,26 +202,78 @@ impl Shape {
             let corners = 0..self.triangles.len() as u32;
             self.triangles = corners.map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
         }
-        let uvs = self.uvs.iter().map(|&[u, v]| [u, 1.0 - v, 0.0, 0.0]);
-        let uvs = uvs.map(|uv| uv.map(|x| if x.is_finite() { x } else { 0.0 }));
-        let uvs: Vec<[f32; 4]> = match uses_uvs {
-            true if self.uvs.len() == count => pick(&uvs.collect::<Vec<_>>(), &sources),
-            true => vec![[0.0; 4]; sources.len()],
-            false => Vec::new(),
-        };
-        let colors = match self.colors.len() == count {
-            true => pick(&self.colors, &sources),
-            false => Vec::new(),
-        };
         Some(Primitive {
             material,
+            uvs: self.uvs_of(uses_uvs, &sources),
+            colors: self.colors_of(&sources),
             triangles: self.triangles,
             positions,
             normals,
-            uvs,
-            colors,
             ..Primitive::default()
         })
+    }
+
+    /// What can be drawn of the shape's lines or points; the rest is warned of.
+    fn strokes(
+        &self,
+        mode: Mode,
+        path: &[u32],
+        (material, uses_uvs): (usize, bool),
+        place: &str,
+        warnings: &mut Warnings,
+    ) -> Option<Primitive> {
+        let position = |v: u32| self.positions.get(v as usize).copied();
+        let usable = |v: &u32| position(*v).is_some_and(|p| p.iter().all(|x| x.is_finite()));
+        let whole: Vec<Option<u32>> = path.iter().map(|v| Some(*v).filter(usable)).collect();
+        let lost = whole.iter().filter(|vertex| vertex.is_none()).count();
+        if lost > 0 {
+            let reason = format!(
+                "{lost} of {} points or ends of lines have no position, or an infinite or undefined one, and are left out",
+                path.len()
+            );
+            warnings.push(&Fault::new(place, reason));
+        }
+        let same = |a: u32, b: u32| position(a) == position(b);
+        let mut strokes = strokes::assemble(mode, &whole, same);
+        let count = self.positions.len();
+        let sources = strokes.compact(count);
+        let mut normals = match self.normals.len() == count {
+            true => pick(&self.normals, &sources),
+            false => Vec::new(),
+        };
+        if !normals.iter().all(is_usable) {
+            normals.clear();
+        }
+        (!strokes.corners.is_empty()).then(|| Primitive {
+            material,
+            positions: pick(&self.positions, &sources),
+            normals,
+            uvs: self.uvs_of(uses_uvs, &sources),
+            colors: self.colors_of(&sources),
+            triangles: strokes.triangles,
+            corners: strokes.corners,
+            ..Primitive::default()
+        })
+    }
+
+    fn uvs_of(&self, uses_uvs: bool, sources: &[u32]) -> Vec<[f32; 4]> {
+        if !uses_uvs {
+            return Vec::new();
+        }
+        if self.uvs.len() != self.positions.len() {
+            return vec![[0.0; 4]; sources.len()];
+        }
+        let uvs = pick(&self.uvs, sources).into_iter();
+        let uvs = uvs.map(|[u, v]| [u, 1.0 - v, 0.0, 0.0]);
+        uvs.map(|uv| uv.map(|x| if x.is_finite() { x } else { 0.0 }))
+            .collect()
+    }
+
+    fn colors_of(&self, sources: &[u32]) -> Vec<[f32; 4]> {
+        match self.colors.len() == self.positions.len() {
+            true => pick(&self.colors, sources),
+            false => Vec::new(),
+        }
     }
 }
 

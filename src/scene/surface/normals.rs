@@ -2,6 +2,11 @@
 
 use glam::{DVec3, Vec3};
 
+/// Whether a normal has a direction.
+pub fn is_usable(n: &[f32; 3]) -> bool {
+    n.iter().all(|x| x.is_finite()) && n.iter().any(|&x| x != 0.0)
+}
+
 /// Replaces normals that have no direction by the mean of the normals of the faces around, weighted
 /// by area. Returns how many there were; if no normal is usable, `normals` is emptied.
 pub fn mend_normals(
@@ -9,8 +14,7 @@ pub fn mend_normals(
     positions: &[[f32; 3]],
     normals: &mut Vec<[f32; 3]>,
 ) -> usize {
-    let usable = |n: &[f32; 3]| n.iter().all(|x| x.is_finite()) && n.iter().any(|&x| x != 0.0);
-    let unusable = normals.iter().filter(|n| !usable(n)).count();
+    let unusable = normals.iter().filter(|n| !is_usable(n)).count();
     if unusable == normals.len() {
         normals.clear();
         return unusable;
@@ -27,7 +31,7 @@ pub fn mend_normals(
         }
     }
     for (normal, sum) in normals.iter_mut().zip(sums) {
-        if !usable(normal) {
+        if !is_usable(normal) {
             *normal = sum.normalize_or(DVec3::Z).as_vec3().to_array();
         }
     }

@@ -50,6 +50,8 @@ pub(super) fn caster_scene(scene: &Scene, pose: &Pose) -> (Scene, Pose) {
     let count = draws.iter().map(|draw| draw.triangle_count as usize).sum();
     geometry.triangles.truncate(count);
     geometry.draws = draws;
+    // A size in pixels is none that a light could see.
+    geometry.strokes.clear();
     let mut casting = Scene::from_materials(materials);
     casting.images = images;
     casting.textures = scene.textures.clone();

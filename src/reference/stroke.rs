@@ -1,0 +1,206 @@
+//! What lines and points cover in an image: the polygons that stand for them.
+//!
+//! A vertex is in clip space: (pixel x * w, pixel y * w, z, w), with z = w on the near plane and less beyond it. Polygons
+//! are in pixels and run counter-clockwise on the screen, whose y is down.
+
+/// A vertex in clip space.
+pub type Clip = [f64; 4];
+
+/// Longest mitre, in widths of the line; a sharper joint is cut off.
+const LONGEST_MITRE: f64 = 4.0;
+
+/// The corners of a disc's polygon.
+const DISC_CORNERS: u32 = 16;
+
+/// The part of a segment beyond the near plane; `None` if it has none.
+fn clipped(from: Clip, to: Clip) -> Option<[Clip; 2]> {
+    let before = |p: Clip| p[3] - p[2];
+    let at_plane = |front: Clip, behind: Clip| {
+        let t = before(front) / (before(front) - before(behind));
+        [0, 1, 2, 3].map(|i| front[i] + t * (behind[i] - front[i]))
+    };
+    match (before(from) >= 0.0, before(to) >= 0.0) {
+        (true, true) => Some([from, to]),
+        (true, false) => Some([from, at_plane(from, to)]),
+        (false, true) => Some([at_plane(to, from), to]),
+        (false, false) => None,
+    }
+}
+
+fn pixel(p: Clip) -> [f64; 2] {
+    [p[0] / p[3], p[1] / p[3]]
+}
+
+/// Direction and length of what is seen of the way from `p` to `q`, in pixels; `None` if it has no length.
+fn way(p: Clip, q: Clip) -> Option<([f64; 2], f64)> {
+    let [a, b] = clipped(p, q)?.map(pixel);
+    let (x, y) = (b[0] - a[0], b[1] - a[1]);
+    let length = x.hypot(y);
+    (length > 0.0).then(|| ([x / length, y / length], length))
+}
+
+fn left_of([x, y]: [f64; 2]) -> [f64; 2] {
+    [y, -x]
+}
+
+fn moved(p: [f64; 2], by: [f64; 2], factor: f64) -> [f64; 2] {
+    [p[0] + factor * by[0], p[1] + factor * by[1]]
+}
+
+/// Where a line goes on from one segment to another.
+enum Joint {
+    /// From the middle of the line to the left end of the mitre, in halves of the width.
+    Mitre([f64; 2]),
+    /// The directions of both segments, and whether the line turns right.
+    Cut([[f64; 2]; 2], bool),
+}
+
+/// The joint at `at` of the segments from `from` and to `to`, if both are seen there.
+fn joint_at(from: Clip, at: Clip, to: Clip, width: f64) -> Option<Joint> {
+    if at[2] > at[3] {
+        return None;
+    }
+    let (back, first) = way(at, from)?;
+    let (e, second) = (back.map(|x| -x), way(at, to)?);
+    let (f, second) = second;
+    let cosine = e[0] * f[0] + e[1] * f[1];
+    let sine = e[0] * f[1] - e[1] * f[0];
+    // Of half the angle.
+    let squared_cosine = 0.5 * (1.0 + cosine);
+    let fits = 0.5 * width * sine.abs() <= (1.0 + cosine) * first.min(second);
+    if squared_cosine * LONGEST_MITRE * LONGEST_MITRE >= 1.0 && fits {
+        let middle = [e[0] + f[0], e[1] + f[1]];
+        let scale = 1.0 / (2.0 * squared_cosine);
+        return Some(Joint::Mitre(left_of(middle).map(|x| x * scale)));
+    }
+    Some(Joint::Cut([e, f], sine > 0.0))
+}
+
+/// What a line `width` pixels wide covers between `from` and `to`; the line comes from `before` and goes on to `after`,
+/// if there are such.
+#[must_use]
+pub fn segment(
+    before: Option<Clip>,
+    [from, to]: [Clip; 2],
+    after: Option<Clip>,
+    width: f64,
+) -> Vec<[f64; 2]> {
+    let (Some(seen), Some((direction, _))) = (clipped(from, to), way(from, to)) else {
+        return Vec::new();
+    };
+    let left = |joint: Option<Joint>| match joint {
+        Some(Joint::Mitre(left)) => left,
+        _ => left_of(direction),
+    };
+    let start = left(before.and_then(|before| joint_at(before, from, to, width)));
+    let end = left(after.and_then(|after| joint_at(from, to, after, width)));
+    let [a, b] = seen.map(pixel);
+    let half = 0.5 * width;
+    vec![
+        moved(a, start, -half),
+        moved(b, end, -half),
+        moved(b, end, half),
+        moved(a, start, half),
+    ]
+}
+
+/// What fills the joint of two segments beside them, where a mitre would be too long.
+#[must_use]
+pub fn joint(from: Clip, at: Clip, to: Clip, width: f64) -> Vec<[f64; 2]> {
+    let Some(Joint::Cut([e, f], turns_right)) = joint_at(from, at, to, width) else {
+        return Vec::new();
+    };
+    let middle = pixel(at);
+    let (ends, side) = if turns_right {
+        ([f, e], 0.5 * width)
+    } else {
+        ([e, f], -0.5 * width)
+    };
+    let [second, third] = ends.map(|direction| moved(middle, left_of(direction), side));
+    vec![middle, second, third]
+}
+
+/// The polygon of a point of that diameter, which has the area of its disc.
+#[must_use]
+pub fn disc(at: Clip, size: f64) -> Vec<[f64; 2]> {
+    if at[2] > at[3] {
+        return Vec::new();
+    }
+    let step = std::f64::consts::TAU / f64::from(DISC_CORNERS);
+    let radius = 0.5 * size * (step / step.sin()).sqrt();
+    let corner = |k: u32| {
+        let (sin, cos) = (step * f64::from(k)).sin_cos();
+        moved(pixel(at), [cos, -sin], radius)
+    };
+    (0..DISC_CORNERS).map(corner).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(x: f64, y: f64) -> Clip {
+        [3.0 * x, 3.0 * y, 1.0, 3.0]
+    }
+
+    fn area(polygon: &[[f64; 2]]) -> f64 {
+        let next = polygon.iter().cycle().skip(1);
+        let twice: f64 = polygon
+            .iter()
+            .zip(next)
+            .map(|(p, q)| p[1] * q[0] - p[0] * q[1])
+            .sum();
+        0.5 * twice
+    }
+
+    #[test]
+    fn areas_are_widths_times_lengths() {
+        let line = segment(None, [at(1.0, 2.0), at(4.0, 6.0)], None, 0.3);
+        assert!((area(&line) - 1.5).abs() < 1e-12);
+        // A mitre gives outside what it takes inside.
+        let (a, b, c) = (at(0.0, 0.0), at(10.0, 0.0), at(10.0, 10.0));
+        let both =
+            area(&segment(None, [a, b], Some(c), 2.0)) + area(&segment(Some(a), [b, c], None, 2.0));
+        assert!((both - 40.0).abs() < 1e-12, "{both}");
+        assert!(joint(a, b, c, 2.0).is_empty());
+        let size = 5.0;
+        let disc = area(&disc(at(-3.0, 2.0), size));
+        assert!((disc - 0.25 * std::f64::consts::PI * size * size).abs() < 1e-12);
+    }
+
+    #[test]
+    fn sharp_joints_are_cut_off() {
+        let (a, b) = (at(0.0, 0.0), at(10.0, 0.0));
+        for (c, other) in [(at(0.0, 1.0), false), (at(0.0, -1.0), true)] {
+            let fill = joint(a, b, c, 2.0);
+            assert!(area(&fill) > 0.0, "{fill:?}");
+            let outside = if other { 1.0 } else { -1.0 };
+            assert!(
+                fill.iter()
+                    .all(|p| p[1] * outside >= -1.0 && p[0] >= 10.0 - 1e-12)
+            );
+        }
+        // As sharp as a mitre may be: four widths long.
+        let turn = 2.0 * (1.0_f64 / 4.0).acos();
+        let c = |turn: f64| at(10.0 + 100.0 * turn.cos(), 100.0 * turn.sin());
+        assert!(joint(at(-100.0, 0.0), b, c(turn - 1e-6), 2.0).is_empty());
+        assert!(!joint(at(-100.0, 0.0), b, c(turn + 1e-6), 2.0).is_empty());
+        // Longer than one of the segments.
+        assert!(!joint(at(9.5, 0.0), b, at(10.0, 10.0), 2.0).is_empty());
+    }
+
+    #[test]
+    fn what_lies_behind_the_near_plane_is_cut_off() {
+        // From the middle of the image to behind the eye: it leaves upwards.
+        let (from, to) = ([0.0, 0.0, 1.0, 3.0], [-100.0, -100.0, 1.0, -1.0]);
+        let line = segment(None, [from, to], None, 1.0);
+        assert_eq!(line.len(), 4);
+        let far = [[-50.0, -50.0]; 2];
+        for (p, q) in line[1..3].iter().zip(far) {
+            assert!((p[0] - q[0]).hypot(p[1] - q[1]) < 0.5 + 1e-9, "{line:?}");
+        }
+        assert!(segment(None, [to, to], None, 1.0).is_empty());
+        assert!(segment(None, [from, from], None, 1.0).is_empty());
+        assert!(disc(to, 3.0).is_empty());
+    }
+}

@@ -1,0 +1,66 @@
+//! Points and lines, which have a size in pixels and so another shape for each camera.
+
+/// A vertex of a [`Geometry`](super::Geometry) that a renderer places for each camera: a corner of a point's disc or of a
+/// line. The other vertices that it names are positions in space.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stroke {
+    /// Which corner it is.
+    pub part: StrokePart,
+    /// The vertex to place; its position is that of [`at`](Self::at) until then.
+    pub vertex: u32,
+    /// The point, or the end of a segment, that it belongs to.
+    pub at: u32,
+    /// The other end of the segment.
+    pub other: u32,
+    /// Where the line goes on from `at`; `at` itself where it ends there.
+    pub beyond: u32,
+    /// Whether its normal is to face the camera, for want of one of its own.
+    pub faces_camera: bool,
+}
+
+/// A corner of a point or line. Left and right are those of one who looks from the other end of the segment to the end
+/// that the corner belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StrokePart {
+    /// The left corner of a segment's end.
+    Left,
+    /// The right corner of a segment's end.
+    Right,
+    /// The middle of the triangle that fills a joint too sharp for a mitre.
+    JointCentre,
+    /// The next corner of that triangle, counter-clockwise.
+    JointFirst,
+    /// Its last corner.
+    JointSecond,
+    /// A corner of the regular polygon that stands for a point's disc, counted counter-clockwise.
+    Disc(u32),
+}
+
+impl StrokePart {
+    /// Corners of the polygon that stands for a disc. It has the disc's area, and its border stays within 1.3 % of the
+    /// radius of the disc's.
+    pub const DISC_CORNERS: u32 = 16;
+
+    /// The kind of corner in `shaders/stroke.comp`.
+    pub(crate) fn code(self) -> u32 {
+        match self {
+            Self::Left => 0,
+            Self::Right => 1,
+            Self::JointCentre => 2,
+            Self::JointFirst => 3,
+            Self::JointSecond => 4,
+            Self::Disc(_) => 5,
+        }
+    }
+
+    /// A disc's corner from its centre, x to the right and y down, in radii; otherwise nothing.
+    pub(crate) fn offset(self) -> [f32; 2] {
+        let Self::Disc(index) = self else {
+            return [0.0; 2];
+        };
+        let step = std::f64::consts::TAU / f64::from(Self::DISC_CORNERS);
+        let radius = (step / step.sin()).sqrt();
+        let (sin, cos) = (step * f64::from(index)).sin_cos();
+        [radius * cos, -radius * sin].map(|x| x as f32)
+    }
+}
