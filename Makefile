@@ -16,11 +16,16 @@ DESTDIR ?=
 VERSION = $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
 SONAME = libgpc.so.$(basename $(VERSION))
 
-.PHONY: help demo test bench lint shaders check-shaders header assets install
+# What `make view` opens.
+SCENE ?= assets/letters.glb
+
+.PHONY: help demo view test test-view bench lint shaders check-shaders header assets install
 
 help:
 	@echo "make demo           build, render a scene without and with antialiasing into out/"
+	@echo "make view           open a window on a scene; SCENE=... is the file"
 	@echo "make test           run all tests, without a GPU"
+	@echo "make test-view      run the tests of the window, on a display of their own"
 	@echo "make bench          measure cost and accuracy of all methods into out/bench; BENCH='...' are its options"
 	@echo "make lint           check formatting, clippy's advice for each set of features, and the documentation"
 	@echo "make shaders        compile shaders/ into shaders/spirv (builds shaderc: some 10 minutes once)"
@@ -34,9 +39,18 @@ demo:
 	$(CARGO) build --release --bin gpc
 	@tools/demo.sh
 
+view:
+	@tools/setup.sh build vulkan window
+	$(CARGO) run --release --features view --bin gpc -- view $(SCENE)
+
 test:
 	@tools/setup.sh build lavapipe validation c
 	VK_ICD_FILENAMES="$${VK_ICD_FILENAMES:-$$($(LAVAPIPE))}" $(CARGO) test --release --features capi
+
+test-view:
+	@tools/setup.sh build lavapipe validation window display
+	VK_ICD_FILENAMES="$${VK_ICD_FILENAMES:-$$($(LAVAPIPE))}" \
+		$(CARGO) test --release --features view --bin gpc --test view
 
 bench:
 	@tools/setup.sh build vulkan
@@ -47,6 +61,7 @@ lint:
 	@tools/setup.sh build
 	$(CARGO) fmt --check
 	$(CARGO) clippy --release --all-targets --features capi -- -D warnings
+	$(CARGO) clippy --release --features view --bin gpc --test view -- -D warnings
 	$(CARGO) clippy --release --no-default-features -- -D warnings
 	$(CARGO) clippy --release --no-default-features --features capi -- -D warnings
 	$(CARGO) clippy --release --no-default-features --features gltf -- -D warnings

@@ -1,6 +1,8 @@
 //! The `gpc` command.
 
 mod cli;
+#[cfg(feature = "view")]
+mod view;
 
 use std::process::ExitCode;
 

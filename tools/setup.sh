@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what the named parts of the build need and the machine lacks.
 #
-#   tools/setup.sh build|vulkan|lavapipe|validation|shaders|c ...
+#   tools/setup.sh build|vulkan|lavapipe|validation|shaders|c|window|display ...
 #
 # Where everything is there, it changes nothing and asks for no rights. Packages come from apt, as root or through
 # sudo without a password; elsewhere the script prints what to install and fails.
@@ -89,6 +89,26 @@ needs_shaders() {
     has git || lacks "git" git
 }
 
+# Windows load their libraries when they open; those of Wayland come with any desktop that uses it.
+needs_window() {
+    local name package
+    while read -r name package; do
+        has_library "$name" || lacks "$name" "$package"
+    done <<END
+libX11.so.6 libx11-6
+libX11-xcb.so.1 libx11-xcb1
+libXcursor.so.1 libxcursor1
+libXi.so.6 libxi6
+libxkbcommon-x11.so.0 libxkbcommon-x11-0
+END
+}
+
+# A display without a screen, and a mouse without a hand.
+needs_display() {
+    has Xvfb || lacks "Xvfb" xvfb
+    has xdotool || lacks "xdotool" xdotool
+}
+
 if ! has cargo; then
     echo "Rust is not installed, or cargo is not in PATH: see https://rustup.rs" >&2
     exit 1
@@ -96,9 +116,9 @@ fi
 
 for part in "$@"; do
     case "$part" in
-        build | vulkan | lavapipe | validation | shaders | c) "needs_$part" ;;
+        build | vulkan | lavapipe | validation | shaders | c | window | display) "needs_$part" ;;
         *)
-            echo "tools/setup.sh: no part \"$part\"; there are build, vulkan, lavapipe, validation, shaders and c" >&2
+            echo "tools/setup.sh: no part \"$part\"; there are build, vulkan, lavapipe, validation, shaders, c, window and display" >&2
             exit 2
             ;;
     esac

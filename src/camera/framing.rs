@@ -1,4 +1,4 @@
-//! A camera that shows a whole scene, for files without one.
+//! Cameras that stand where someone wants to look from: around a whole scene, or anywhere in it.
 
 use super::{Camera, CameraError};
 use glam::DVec3;
@@ -57,5 +57,33 @@ impl Orbit {
         // Close enough for a camera inside of the scene; reversed depth keeps its precision all the same.
         let near = 1e-4 * radius.max(distance);
         Camera::look_at(eye, center, DVec3::Y, self.fov, near)
+    }
+}
+
+/// A place to stand at and one to look at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Viewpoint {
+    /// Where the camera stands.
+    pub eye: DVec3,
+    /// What it looks at.
+    pub target: DVec3,
+    /// What is up.
+    pub up: DVec3,
+    /// Vertical field of view in degrees.
+    pub fov: f64,
+}
+
+impl Viewpoint {
+    /// A camera for a scene in the box from `low` to `high`: its near plane leaves room for what stands between eye and
+    /// target, however large the scene.
+    ///
+    /// # Errors
+    /// If these give no direction or the field of view is not within 0 to 180 degrees.
+    pub fn frame(&self, low: DVec3, high: DVec3) -> Result<Camera, CameraError> {
+        let near = 1e-3
+            * (self.target - self.eye)
+                .length()
+                .min(0.1 * (high - low).length());
+        Camera::look_at(self.eye, self.target, self.up, self.fov, near.max(1e-12))
     }
 }

@@ -17,7 +17,7 @@ pub mod set;
 mod site;
 pub mod zoom;
 
-pub use framing::Orbit;
+pub use framing::{Orbit, Viewpoint};
 pub use map::LocationMap;
 pub use pinhole::{Pinhole, PinholeError, Ray};
 pub use rig::{Rig, RigError};

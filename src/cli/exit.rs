@@ -8,7 +8,7 @@ const FAILURE: u8 = 1;
 const USAGE: u8 = 2;
 const DEVICE_FAILURE: u8 = 4;
 
-/// No device is suitable.
+/// No device is suitable, or there is no display.
 pub const NO_DEVICE: u8 = 3;
 /// A comparison is over its bound.
 pub const OVER_BOUND: u8 = 5;
@@ -31,6 +31,10 @@ pub fn code(error: &anyhow::Error) -> u8 {
     error
         .chain()
         .find_map(|cause| {
+            #[cfg(feature = "view")]
+            if cause.is::<crate::view::NoDisplay>() {
+                return Some(NO_DEVICE);
+            }
             if cause.is::<Usage>() {
                 Some(USAGE)
             } else if let Some(error) = cause.downcast_ref::<RenderError>() {

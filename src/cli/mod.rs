@@ -16,6 +16,8 @@ mod sample;
 mod stage;
 mod unzoom;
 mod values;
+#[cfg(feature = "view")]
+mod view;
 mod zoom;
 
 use clap::{Parser, Subcommand};
@@ -35,7 +37,7 @@ Exit codes:
   0  done
   1  scene, render or file error
   2  usage
-  3  no suitable device
+  3  no suitable device, or no display for a window
   4  device lost or out of memory
   5  comparison over its bound
 
@@ -65,6 +67,9 @@ enum Command {
     Bench(bench::BenchArgs),
     /// List the Vulkan devices, and what they lack
     Devices(devices::DevicesArgs),
+    /// Look at scenes in a window
+    #[cfg(feature = "view")]
+    View(Box<view::ViewArgs>),
 }
 
 impl Command {
@@ -78,6 +83,8 @@ impl Command {
             Self::Panorama(args) => &args.report,
             Self::Project(args) => &args.report,
             Self::Compare(_) | Self::Info(_) | Self::Bench(_) | Self::Devices(_) => return false,
+            #[cfg(feature = "view")]
+            Self::View(_) => return false,
         };
         report.quiet
     }
@@ -99,6 +106,8 @@ pub fn run() -> ExitCode {
         Command::Info(args) => info::run(&args),
         Command::Bench(args) => bench::run(&args),
         Command::Devices(args) => devices::run(&args),
+        #[cfg(feature = "view")]
+        Command::View(args) => view::run(*args),
     };
     match done {
         Ok(code) => code,

@@ -93,8 +93,8 @@ impl VulkanError {
         Ok(())
     }
 
-    /// Turns a result of `call` into an error.
-    pub(crate) fn of(call: &'static str) -> impl FnOnce(vk::Result) -> Self {
+    /// Turns a result of `call` into an error: a lost device and exhausted memory are told apart from all else.
+    pub fn of(call: &'static str) -> impl FnOnce(vk::Result) -> Self {
         move |result| match result {
             vk::Result::ERROR_DEVICE_LOST => Self::DeviceLost,
             vk::Result::ERROR_OUT_OF_DEVICE_MEMORY | vk::Result::ERROR_OUT_OF_HOST_MEMORY => {

@@ -82,6 +82,18 @@ pub struct SamplingArgs {
 }
 
 impl SamplingArgs {
+    /// The threshold asked for, if any.
+    #[cfg(feature = "view")]
+    pub fn asked_contrast(&self) -> Option<u8> {
+        self.contrast
+    }
+
+    /// The number of samples asked for, if any.
+    #[cfg(feature = "view")]
+    pub fn asked_samples(&self) -> Option<u32> {
+        self.samples
+    }
+
     /// The threshold asked for, or the default for the number of samples.
     pub fn contrast(&self) -> u8 {
         self.contrast

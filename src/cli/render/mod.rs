@@ -11,6 +11,8 @@ mod startup;
 mod template;
 mod view;
 
+#[cfg(feature = "view")]
+pub use args::SamplingArgs;
 pub use args::{Antialiasing, CameraArgs, RenderArgs, Tonemap};
 pub use image::ImageArgs;
 pub use save::{beside, encode, save, write};

@@ -4,7 +4,7 @@ use super::args::CameraArgs;
 use super::template::file_name_part;
 use crate::cli::exit::Usage;
 use glam::DVec3;
-use gpc::camera::{Camera, Orbit, Projection};
+use gpc::camera::{Camera, Orbit, Projection, Viewpoint};
 use gpc::scene::{Pose, SceneCamera};
 use std::collections::HashMap;
 
@@ -72,17 +72,19 @@ pub fn choose_among(
 }
 
 fn stand_at(eye: DVec3, args: &CameraArgs, (low, high): (DVec3, DVec3)) -> Result<View, Usage> {
-    let target = args.target.unwrap_or(0.5 * (low + high));
-    let up = args.up.unwrap_or(DVec3::Y);
-    let fov = args.fov.unwrap_or(Orbit::default().fov);
-    // Near enough for what stands between eye and target, however large the scene.
-    let near = 1e-3 * (target - eye).length().min(0.1 * (high - low).length());
-    let camera = Camera::look_at(eye, target, up, fov, near.max(1e-12))
+    let viewpoint = Viewpoint {
+        eye,
+        target: args.target.unwrap_or(0.5 * (low + high)),
+        up: args.up.unwrap_or(DVec3::Y),
+        fov: args.fov.unwrap_or(Orbit::default().fov),
+    };
+    let camera = viewpoint
+        .frame(low, high)
         .map_err(|error| Usage(error.to_string()))?;
     Ok(View {
         label: "eye".to_owned(),
         camera,
-        target,
+        target: viewpoint.target,
     })
 }
 

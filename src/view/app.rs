@@ -1,0 +1,100 @@
+//! The event loop's side of the viewer.
+
+use super::Options;
+use super::source::Stage;
+use super::window::View;
+use std::path::PathBuf;
+use std::time::Instant;
+use winit::application::ApplicationHandler;
+use winit::event::WindowEvent;
+use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
+use winit::window::WindowId;
+
+/// What other threads have done.
+pub enum Event {
+    /// A scene is ready, or can't be had; the number tells which was asked for.
+    Opened(u64, Box<anyhow::Result<Stage>>),
+    /// A picture was written.
+    Written(PathBuf, anyhow::Result<()>),
+}
+
+/// The viewer.
+pub struct App {
+    options: Options,
+    proxy: EventLoopProxy<Event>,
+    view: Option<View>,
+    outcome: anyhow::Result<Vec<String>>,
+}
+
+impl App {
+    pub fn new(options: Options, proxy: EventLoopProxy<Event>) -> Self {
+        Self {
+            options,
+            proxy,
+            view: None,
+            outcome: Ok(Vec::new()),
+        }
+    }
+
+    /// What the validation layer said until the window was closed.
+    pub fn close(self) -> anyhow::Result<Vec<String>> {
+        self.outcome
+    }
+
+    /// Ends the program where something that it can't do without has failed.
+    fn check(&mut self, events: &ActiveEventLoop, outcome: anyhow::Result<()>) {
+        if let Err(error) = outcome {
+            self.outcome = Err(error);
+            events.exit();
+        }
+    }
+}
+
+impl ApplicationHandler<Event> for App {
+    fn resumed(&mut self, events: &ActiveEventLoop) {
+        if self.view.is_some() {
+            return;
+        }
+        match View::new(events, self.options.clone(), self.proxy.clone()) {
+            Ok(view) => self.view = Some(view),
+            Err(error) => self.check(events, Err(error)),
+        }
+    }
+
+    fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+        let Some(view) = &mut self.view else {
+            return;
+        };
+        let outcome = view.on_event(&event);
+        if view.wants_to_quit {
+            events.exit();
+        }
+        self.check(events, outcome);
+    }
+
+    fn user_event(&mut self, events: &ActiveEventLoop, event: Event) {
+        let Some(view) = &mut self.view else {
+            return;
+        };
+        let outcome = view.on_done(event);
+        self.check(events, outcome);
+    }
+
+    fn about_to_wait(&mut self, events: &ActiveEventLoop) {
+        let Some(view) = &mut self.view else {
+            return;
+        };
+        match view.advance(Instant::now()) {
+            Ok(flow) => events.set_control_flow(flow),
+            Err(error) => self.check(events, Err(error)),
+        }
+    }
+
+    fn exiting(&mut self, _: &ActiveEventLoop) {
+        if let Some(view) = self.view.take()
+            && let Ok(messages) = &mut self.outcome
+        {
+            messages.extend(view.close());
+        }
+    }
+}

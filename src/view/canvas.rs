@@ -1,0 +1,378 @@
+//! What the window shows: pictures of the scene, and the panel over them.
+
+use super::compose::Piece;
+use super::engine::Engine;
+use super::layer::{Layer, Sight};
+use super::painter::{Painter, Painting};
+use super::picture::{self, DESTINATION, LAYERS, SOURCE, UNUSED};
+use super::slot::{SLOTS, Slot};
+use super::source::Stage;
+use super::swapchain::{Acquired, Swapchain, Turn};
+use anyhow::bail;
+use ash::vk;
+use gpc::camera::Camera;
+use gpc::render::ImageState;
+use gpc::scene::Moment;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Where the panel is drawn.
+const DRAWN: ImageState = ImageState {
+    layout: vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
+    stage: vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
+    access: vk::AccessFlags2::from_raw(
+        vk::AccessFlags2::COLOR_ATTACHMENT_READ.as_raw()
+            | vk::AccessFlags2::COLOR_ATTACHMENT_WRITE.as_raw(),
+    ),
+};
+
+/// Where the window system takes the image over, which waits for a semaphore.
+const PRESENTED: ImageState = ImageState {
+    layout: vk::ImageLayout::PRESENT_SRC_KHR,
+    stage: vk::PipelineStageFlags2::NONE,
+    access: vk::AccessFlags2::NONE,
+};
+
+/// Pictures, panel, and what shows them.
+///
+/// Fields are dropped in their order: what the device uses goes before it.
+pub struct Canvas {
+    slots: [Slot; SLOTS],
+    /// Index of the slot whose turn it is.
+    turn: usize,
+    /// The picture, or the two of a split, left first.
+    layers: Vec<Layer>,
+    stage: Option<Stage>,
+    is_uploaded: bool,
+    painter: Painter,
+    /// `None` while the window has no pixels.
+    swapchain: Option<Swapchain>,
+    pub engine: Arc<Engine>,
+}
+
+/// What is to be seen.
+pub struct Seen<'a> {
+    pub camera: Option<&'a Camera>,
+    pub moment: Option<&'a Arc<Moment>>,
+    pub pieces: &'a [Piece],
+    /// Over the others.
+    pub magnified: &'a [Piece],
+}
+
+impl Canvas {
+    /// For a window of that size.
+    pub fn new(engine: Arc<Engine>, size: [u32; 2]) -> anyhow::Result<Self> {
+        let device = &engine.device;
+        let swapchain = Swapchain::new(device, size, None)?;
+        Ok(Self {
+            slots: [Slot::new(device)?, Slot::new(device)?],
+            turn: 0,
+            layers: Vec::new(),
+            stage: None,
+            is_uploaded: false,
+            painter: Painter::new(device, swapchain.format)?,
+            swapchain: Some(swapchain),
+            engine,
+        })
+    }
+
+    /// Width and height in pixels; `None` while the window has none.
+    pub fn size(&self) -> Option<[u32; 2]> {
+        let extent = self.swapchain.as_ref()?.extent;
+        Some([extent.width, extent.height])
+    }
+
+    /// Fits the window's images to its size.
+    pub fn resize(&mut self, size: [u32; 2]) -> anyhow::Result<()> {
+        self.wait()?;
+        let older = self.swapchain.take();
+        if size.contains(&0) {
+            return Ok(());
+        }
+        let format = older.as_ref().map(|older| older.format);
+        let swapchain = Swapchain::new(&self.engine.device, size, older)?;
+        if format.is_some_and(|format| format != swapchain.format) {
+            bail!("the window changed the format of its images");
+        }
+        self.swapchain = Some(swapchain);
+        Ok(())
+    }
+
+    /// What is shown.
+    pub fn stage(&self) -> Option<&Stage> {
+        self.stage.as_ref()
+    }
+
+    /// Shows another scene.
+    pub fn set_stage(&mut self, stage: Stage) -> anyhow::Result<()> {
+        self.wait()?;
+        self.layers.clear();
+        self.stage = Some(stage);
+        self.is_uploaded = false;
+        Ok(())
+    }
+
+    /// Shows other pictures.
+    pub fn set_layers(&mut self, layers: Vec<Layer>) -> anyhow::Result<()> {
+        self.wait()?;
+        self.layers = layers;
+        Ok(())
+    }
+
+    /// All pictures are others from now on: something moved.
+    pub fn restart(&mut self, now: Instant) {
+        for layer in &mut self.layers {
+            layer.restart(now);
+        }
+    }
+
+    /// Takes back what the device has done. Says whether pictures were part of it.
+    ///
+    /// # Errors
+    /// If the device is lost, or a picture can't be finished.
+    pub fn collect(&mut self) -> anyhow::Result<bool> {
+        let mut any = false;
+        let mut outcome = Ok(());
+        for index in 0..SLOTS {
+            if self.slots[index].poll()? {
+                any |= !self.slots[index].jobs.is_empty();
+                // What fails of one picture keeps the others from nothing.
+                outcome = outcome.and(self.finish(index));
+            }
+        }
+        outcome.map(|()| any)
+    }
+
+    /// Whether the device still has something to do.
+    pub fn is_busy(&self) -> bool {
+        self.slots.iter().any(Slot::is_busy)
+    }
+
+    /// Whether the pictures have work that is due, or will be.
+    pub fn due(&self) -> Option<Instant> {
+        self.stage.as_ref()?;
+        self.layers
+            .iter()
+            .filter_map(|layer| layer.schedule.due())
+            .min()
+    }
+
+    /// Whether there is work to do again.
+    pub fn has_again(&self) -> bool {
+        self.layers.iter().any(Layer::has_again)
+    }
+
+    /// Whether every picture has all its samples.
+    pub fn rests(&self) -> bool {
+        let is_done = |layer: &Layer| layer.schedule.is_done() && !layer.has_again();
+        !self.layers.is_empty()
+            && self.layers.iter().all(is_done)
+            && self.slots.iter().all(|slot| slot.jobs.is_empty())
+    }
+
+    /// An image of the window to draw. `None` where none is free now.
+    pub fn acquire(&mut self) -> anyhow::Result<Option<Acquired>> {
+        let slot = &self.slots[self.turn];
+        let Some(swapchain) = self.swapchain.as_ref().filter(|_| !slot.is_busy()) else {
+            return Ok(None);
+        };
+        match swapchain.acquire(slot.free)? {
+            Turn::Ready(acquired) => Ok(Some(acquired)),
+            Turn::Busy => Ok(None),
+            Turn::Stale => {
+                let size = [swapchain.extent.width, swapchain.extent.height];
+                self.resize(size)?;
+                Ok(None)
+            }
+        }
+    }
+
+    /// Renders what is due, draws an image of the window and shows it.
+    ///
+    /// # Errors
+    /// If memory runs out, settings are impossible or the device is lost. An image that can't be rendered is shown without
+    /// it all the same.
+    pub fn draw(
+        &mut self,
+        acquired: &Acquired,
+        seen: &Seen<'_>,
+        painting: Painting,
+        now: Instant,
+    ) -> anyhow::Result<()> {
+        self.painter.upload(&painting)?;
+        let commands = self.slots[self.turn].begin()?;
+        // SAFETY: the commands are being recorded, and the slot keeps what they use until they are done.
+        let (rendered, painted) = unsafe {
+            let rendered = self.record_work(commands, seen, now);
+            self.record_pieces(commands, acquired, seen);
+            let device = &self.engine.device;
+            picture::change(device, commands, acquired.image, DESTINATION, DRAWN);
+            let extent = self
+                .swapchain
+                .as_ref()
+                .map_or_else(Default::default, |s| s.extent);
+            let painted = self
+                .painter
+                .record(commands, (acquired.view, extent), &painting);
+            let device = &self.engine.device;
+            picture::change(device, commands, acquired.image, DRAWN, PRESENTED);
+            (rendered, painted)
+        };
+        let slot = &mut self.slots[self.turn];
+        slot.textures = painting.textures.free;
+        slot.submit(acquired.drawn)?;
+        self.turn = (self.turn + 1) % SLOTS;
+        let presented = match &self.swapchain {
+            Some(swapchain) => swapchain.present(acquired)?,
+            None => Turn::Ready(()),
+        };
+        if matches!(presented, Turn::Stale)
+            && let Some(size) = self.size()
+        {
+            self.resize(size)?;
+        }
+        rendered.and(painted)
+    }
+
+    /// # Safety
+    /// `commands` is being recorded in the slot whose turn it is.
+    unsafe fn record_work(
+        &mut self,
+        commands: vk::CommandBuffer,
+        seen: &Seen<'_>,
+        now: Instant,
+    ) -> anyhow::Result<()> {
+        let (Some(stage), Some(camera)) = (&self.stage, seen.camera) else {
+            return Ok(());
+        };
+        let slot = &mut self.slots[self.turn];
+        if !self.is_uploaded {
+            // SAFETY: passed on to the caller; the stage is kept until the commands are done.
+            unsafe { stage.prepared.record_upload(commands) };
+            self.is_uploaded = true;
+            slot.uploads = true;
+        }
+        let sight = Sight {
+            scene: &stage.prepared,
+            camera,
+            moment: seen.moment,
+        };
+        for (index, layer) in self.layers.iter_mut().enumerate() {
+            // SAFETY: passed on to the caller; the slot keeps the job.
+            let job = unsafe { layer.record(&self.engine, commands, &sight, now) }?;
+            slot.jobs.extend(job.map(|job| (index, job)));
+        }
+        Ok(())
+    }
+
+    /// Copies the pictures to the window's image, which is then in [`DESTINATION`].
+    ///
+    /// # Safety
+    /// As for [`Self::record_work`].
+    unsafe fn record_pieces(
+        &self,
+        commands: vk::CommandBuffer,
+        acquired: &Acquired,
+        seen: &Seen<'_>,
+    ) {
+        let device = &self.engine.device;
+        let black = vk::ClearColorValue {
+            float32: [0.0, 0.0, 0.0, 1.0],
+        };
+        // SAFETY: passed on to the caller.
+        unsafe {
+            picture::change(device, commands, acquired.image, UNUSED, DESTINATION);
+            // What no picture covers: one that has not been rendered, or only for a smaller window.
+            device.handle.cmd_clear_color_image(
+                commands,
+                acquired.image,
+                DESTINATION.layout,
+                &black,
+                &[picture::COLOR],
+            );
+            for pieces in [seen.pieces, seen.magnified] {
+                // Each group is written over what was written before.
+                picture::change(device, commands, acquired.image, DESTINATION, DESTINATION);
+                for piece in pieces {
+                    self.record_piece(commands, acquired.image, piece);
+                }
+            }
+        }
+    }
+
+    /// # Safety
+    /// As for [`Self::record_work`]; the window's image is in [`DESTINATION`].
+    unsafe fn record_piece(&self, commands: vk::CommandBuffer, image: vk::Image, piece: &Piece) {
+        let Some(layer) = self.layers.get(piece.layer) else {
+            return;
+        };
+        let size = layer.picture().size();
+        let fits = |axis: usize| piece.from.corner[axis] + piece.from.size[axis] <= size[axis];
+        if !layer.picture().is_written() || !fits(0) || !fits(1) {
+            return;
+        }
+        let offsets = |rect: &super::compose::Rect| {
+            let corner = |add: [u32; 2]| vk::Offset3D {
+                x: (rect.corner[0] + add[0]) as i32,
+                y: (rect.corner[1] + add[1]) as i32,
+                z: i32::from(add[0] > 0),
+            };
+            [corner([0, 0]), corner(rect.size)]
+        };
+        let blit = [vk::ImageBlit::default()
+            .src_subresource(LAYERS)
+            .src_offsets(offsets(&piece.from))
+            .dst_subresource(LAYERS)
+            .dst_offsets(offsets(&piece.to))];
+        // SAFETY: passed on to the caller; both rectangles lie in their images.
+        unsafe {
+            self.engine.device.handle.cmd_blit_image(
+                commands,
+                layer.picture().image(),
+                SOURCE.layout,
+                image,
+                DESTINATION.layout,
+                &blit,
+                vk::Filter::NEAREST,
+            );
+        }
+    }
+
+    /// Takes back what a slot's commands used.
+    fn finish(&mut self, index: usize) -> anyhow::Result<()> {
+        let slot = &mut self.slots[index];
+        let textures = std::mem::take(&mut slot.textures);
+        let jobs = std::mem::take(&mut slot.jobs);
+        if std::mem::take(&mut slot.uploads)
+            && let Some(stage) = &mut self.stage
+        {
+            // SAFETY: the commands that uploaded it are done, and stages are changed only when none are left.
+            unsafe { stage.prepared.discard_uploads() };
+        }
+        self.painter.free(&textures)?;
+        let mut outcome = Ok(());
+        for (index, job) in jobs {
+            if let Some(layer) = self.layers.get_mut(index) {
+                outcome = outcome.and(layer.finish(&self.engine, job));
+            }
+        }
+        Ok(outcome?)
+    }
+
+    /// Waits until nothing is in flight.
+    fn wait(&mut self) -> anyhow::Result<()> {
+        self.engine.device.wait();
+        // A picture that could not be finished is about to go.
+        let _ = self.collect();
+        if self.is_busy() {
+            bail!(gpc::vulkan::VulkanError::DeviceLost);
+        }
+        Ok(())
+    }
+}
+
+impl Drop for Canvas {
+    fn drop(&mut self) {
+        self.engine.device.wait();
+    }
+}

@@ -1,0 +1,242 @@
+//! The `gpc render` command that makes the picture which is seen.
+
+use super::look::{Look, method_name};
+use super::source::Source;
+use super::standpoint::Standpoint;
+use glam::DVec3;
+use gpc::render::{Coverage, Detection, Footprint, Method, Settings, Shading};
+use gpc::sampling::Pattern;
+use std::path::Path;
+
+/// A picture to be made.
+pub struct Shot<'a> {
+    pub source: &'a Source,
+    pub standpoint: &'a Standpoint,
+    pub look: &'a Look,
+    /// The background as `--background` has it.
+    pub background: &'a str,
+    /// Moment of the animation in seconds.
+    pub time: f64,
+}
+
+impl Shot<'_> {
+    /// The command's arguments, `gpc` itself left out, to write a file.
+    pub fn arguments(&self, output: &Path) -> Vec<String> {
+        let mut arguments = Arguments(vec![
+            "render".to_owned(),
+            self.source.path.display().to_string(),
+        ]);
+        let settings = self.look.at(self.look.settings.samples, None);
+        arguments.add("-o", output.display());
+        let [width, height] = settings.size;
+        arguments.add("--size", format_args!("{width}x{height}"));
+        arguments.settings(&settings, self.background);
+        arguments.view(self);
+        arguments.0
+    }
+}
+
+struct Arguments(Vec<String>);
+
+impl Arguments {
+    fn add(&mut self, option: &str, value: impl std::fmt::Display) {
+        self.0.extend([option.to_owned(), value.to_string()]);
+    }
+
+    /// Adds a vector, exactly.
+    fn add_vector(&mut self, option: &str, vector: DVec3) {
+        let DVec3 { x, y, z } = vector;
+        // With an equals sign, a first number below 0 is no option.
+        self.0.push(format!("{option}={x},{y},{z}"));
+    }
+
+    /// Settings that differ from the command's defaults.
+    fn settings(&mut self, settings: &Settings, background: &str) {
+        let default = Settings::new(settings.size[0], settings.size[1]);
+        if settings.method != default.method {
+            self.add("--aa", method_name(settings.method));
+        }
+        if settings.method != Method::None {
+            self.add("--samples", settings.samples);
+        }
+        if settings.contrast != Settings::default_contrast(settings.samples) {
+            self.add("--contrast", settings.contrast);
+        }
+        if settings.detection != default.detection {
+            self.add("--detect", detection_name(settings.detection));
+        }
+        if settings.pattern != default.pattern {
+            self.add("--pattern", pattern_name(&settings.pattern));
+        }
+        if settings.coverage != default.coverage {
+            let name = match settings.coverage {
+                Coverage::Area => "area",
+                Coverage::Samples => "samples",
+            };
+            self.add("--coverage", name);
+        }
+        if settings.footprint == Footprint::Pixel {
+            self.add("--footprint", "pixel");
+        }
+        if settings.shading != default.shading {
+            let name = match settings.shading {
+                Shading::Triangle => "triangle",
+                Shading::Part => "part",
+                Shading::Sample => "sample",
+            };
+            self.add("--shading", name);
+        }
+        if settings.exposure != default.exposure {
+            self.0.push(format!("--exposure={}", settings.exposure));
+        }
+        if settings.line_width != default.line_width {
+            self.add("--line-width", settings.line_width);
+        }
+        if settings.point_size != default.point_size {
+            self.add("--point-size", settings.point_size);
+        }
+        if settings.background.is_some() {
+            self.add("--background", background);
+        }
+    }
+
+    /// What of the scene is seen, and where from.
+    fn view(&mut self, shot: &Shot<'_>) {
+        let request = &shot.source.request;
+        if let Some(scene) = request.scene {
+            self.add("--scene", scene);
+        }
+        if let Some(variant) = &shot.source.variant {
+            self.add("--variant", variant);
+        }
+        if let Some(animation) = &request.animation {
+            self.add("--animation", animation);
+        }
+        if shot.time > 0.0 {
+            self.add("--time", shot.time);
+        }
+        match shot.standpoint {
+            Standpoint::Camera(index) => self.add("--camera", index),
+            Standpoint::Free(turntable) => {
+                let viewpoint = turntable.viewpoint();
+                self.add_vector("--eye", viewpoint.eye);
+                self.add_vector("--target", viewpoint.target);
+                self.add("--fov", viewpoint.fov);
+            }
+        }
+    }
+}
+
+/// A rule of detection, as `--detect` has it.
+pub fn detection_name(detection: Detection) -> &'static str {
+    match detection {
+        Detection::Contrast => "contrast",
+        Detection::Edges => "edges",
+        Detection::Exact | Detection::Every => "exact",
+    }
+}
+
+/// A pattern, as `--pattern` has it.
+pub fn pattern_name(pattern: &Pattern) -> &'static str {
+    match pattern {
+        Pattern::Sobol | Pattern::List(_) => "sobol",
+        Pattern::Lattice => "lattice",
+        Pattern::Korobov => "korobov",
+        Pattern::Grid => "grid",
+        Pattern::Rotated => "rotated",
+    }
+}
+
+/// A command line for a shell.
+pub fn line(arguments: &[String]) -> String {
+    let quoted = arguments.iter().map(|argument| quote(argument));
+    std::iter::once("gpc".to_owned())
+        .chain(quoted)
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+/// A word as a POSIX shell reads it back.
+fn quote(word: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./,=:+@%".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', r"'\''"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::navigate::Turntable;
+    use super::*;
+    use gpc::scene::PoseRequest;
+
+    fn source(path: &str) -> Source {
+        Source {
+            path: path.into(),
+            variant: None,
+            request: PoseRequest::default(),
+        }
+    }
+
+    fn turntable() -> Turntable {
+        Turntable {
+            target: DVec3::new(-1.5, 0.1, 2.0),
+            azimuth: 0.0,
+            elevation: 0.0,
+            distance: 1.0,
+            fov: 40.0,
+        }
+    }
+
+    #[test]
+    fn defaults_are_left_out() {
+        let look = Look::new(Settings::new(640, 480), None);
+        let shot = Shot {
+            source: &source("a b.glb"),
+            standpoint: &Standpoint::Camera(2),
+            look: &look,
+            background: "none",
+            time: 0.0,
+        };
+        let found = line(&shot.arguments(Path::new("a.png")));
+        let expected = "gpc render 'a b.glb' -o a.png --size 640x480 --samples 64 --camera 2";
+        assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn everything_else_is_said() {
+        let settings = Settings {
+            method: Method::Superpixel,
+            samples: 1024,
+            pattern: Pattern::Lattice,
+            detection: Detection::Edges,
+            shading: Shading::Sample,
+            exposure: -0.5,
+            line_width: 2.5,
+            background: Some([0.0; 3]),
+            ..Settings::new(64, 48)
+        };
+        let look = Look::new(settings, Some(5));
+        let mut source = source("a.glb");
+        source.request.animation = Some("run".to_owned());
+        let shot = Shot {
+            source: &source,
+            standpoint: &Standpoint::Free(turntable()),
+            look: &look,
+            background: "#000000",
+            time: 0.25,
+        };
+        let found = line(&shot.arguments(Path::new("a.png")));
+        let expected = "gpc render a.glb -o a.png --size 64x48 --samples 1024 --contrast 5 --detect edges \
+             --pattern lattice --shading sample --exposure=-0.5 --line-width 2.5 --background '#000000' --animation run --time 0.25 \
+             --eye=-1.5,0.1,3 --target=-1.5,0.1,2 --fov 40";
+        assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn quotes_are_quoted() {
+        assert_eq!(quote("it's"), r"'it'\''s'");
+        assert_eq!(quote(""), "''");
+    }
+}

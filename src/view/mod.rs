@@ -1,0 +1,80 @@
+//! `gpc view`: a window in which a scene is looked at.
+//!
+//! The viewer is a host like any other. It uses the public interface of the library alone: its own device and swapchain,
+//! the renderer's passes recorded into its own command buffers, and its panel drawn over what they made.
+
+mod actions;
+mod app;
+mod canvas;
+mod command;
+mod compose;
+mod device;
+mod engine;
+mod keys;
+mod layer;
+mod look;
+mod navigate;
+mod notes;
+mod painter;
+mod panel;
+mod pick;
+mod picture;
+mod pointer;
+mod schedule;
+mod screenshot;
+mod slot;
+mod source;
+mod standpoint;
+mod swapchain;
+mod window;
+
+pub use look::{Look, default_samples};
+
+use anyhow::bail;
+use app::App;
+use gpc::scene::PoseRequest;
+use std::path::PathBuf;
+use winit::event_loop::EventLoop;
+
+/// What to look at, and how.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Files, of which the first is opened.
+    pub scenes: Vec<PathBuf>,
+    /// Variant of the materials by name.
+    pub variant: Option<String>,
+    /// Which scene of the file, and which moment of which animation.
+    pub request: PoseRequest,
+    /// Index of the scene's camera to begin with.
+    pub camera: Option<usize>,
+    /// Antialiasing, and the size of the window.
+    pub look: Look,
+    /// The background as the command line has it.
+    pub background: String,
+    /// Part of the device's name.
+    pub device: Option<String>,
+    /// Whether to work under the validation layer.
+    pub validation: bool,
+}
+
+/// There is nothing to open a window on.
+#[derive(Debug, thiserror::Error)]
+#[error("no window can be opened: {0}. Without a display, gpc render writes images to files")]
+pub struct NoDisplay(String);
+
+/// Opens the window, and returns when it is closed.
+///
+/// # Errors
+/// [`NoDisplay`] where there is no display, [`gpc::vulkan::VulkanError`] where no device can show pictures in the window;
+/// what the validation layer said, where it was asked.
+pub fn run(options: Options) -> anyhow::Result<()> {
+    let events = EventLoop::with_user_event()
+        .build()
+        .map_err(|error| NoDisplay(error.to_string()))?;
+    let mut app = App::new(options, events.create_proxy());
+    events.run_app(&mut app)?;
+    match app.close()?.first() {
+        Some(message) => bail!("the validation layer says: {message}"),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,62 @@
+//! What is said in the window for a while.
+
+use std::time::{Duration, Instant};
+
+/// Notes are seen for this long; errors until the next scene.
+const SEEN: Duration = Duration::from_secs(6);
+
+/// Sentences in the window.
+#[derive(Debug, Default)]
+pub struct Notes(Vec<Note>);
+
+/// A sentence in the window.
+#[derive(Debug)]
+pub struct Note {
+    pub text: String,
+    pub is_error: bool,
+    since: Instant,
+}
+
+impl Notes {
+    /// Says something, in the window and on standard error.
+    pub fn say(&mut self, text: impl Into<String>) {
+        let text = text.into();
+        log::info!("{text}");
+        self.add(text, false);
+    }
+
+    /// Says what went wrong, once.
+    pub fn fail(&mut self, error: &anyhow::Error) {
+        let text = format!("{error:#}");
+        if !self.0.iter().any(|note| note.is_error && note.text == text) {
+            log::error!("{text}");
+            self.add(text, true);
+        }
+    }
+
+    fn add(&mut self, text: String, is_error: bool) {
+        self.0.push(Note {
+            text,
+            is_error,
+            since: Instant::now(),
+        });
+    }
+
+    /// Forgets errors.
+    pub fn clear_errors(&mut self) {
+        self.0.retain(|note| !note.is_error);
+    }
+
+    /// What is to be seen now.
+    pub fn seen(&mut self, now: Instant) -> &[Note] {
+        self.0
+            .retain(|note| note.is_error || now < note.since + SEEN);
+        &self.0
+    }
+
+    /// When the next note goes.
+    pub fn next_change(&self) -> Option<Instant> {
+        let passing = self.0.iter().filter(|note| !note.is_error);
+        passing.map(|note| note.since + SEEN).min()
+    }
+}

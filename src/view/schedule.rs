@@ -1,0 +1,293 @@
+//! What to render next: few samples while anything moves, more and more at rest, in bands that leave time for the window.
+
+use super::look::Look;
+use gpc::render::Method;
+use std::ops::Range;
+use std::time::{Duration, Instant};
+
+/// Nothing has to have moved for this long before a picture is refined.
+const REST: Duration = Duration::from_millis(150);
+/// What a band, or a picture while something moves, should take of the device.
+const TARGET_MS: f64 = 80.0;
+/// Bands have multiples of this many rows: the height of a tile.
+const ROW_STEP: u32 = 4;
+/// Samples while something moves, from the best.
+const DRAFTS: [u32; 5] = [16, 8, 4, 2, 1];
+/// Samples on the way to those asked for.
+const STEPS: [u32; 2] = [64, 256];
+
+/// A part of the work on a picture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Work {
+    /// All of it, at once.
+    Draft {
+        /// Samples a pixel.
+        samples: u32,
+    },
+    /// Some rows of it.
+    Band {
+        /// Samples a pixel.
+        samples: u32,
+        /// The rows.
+        rows: Range<u32>,
+    },
+}
+
+/// What is left to do for a picture.
+#[derive(Debug)]
+pub struct Schedule {
+    /// Samples while something moves, from the best.
+    drafts: Vec<u32>,
+    /// Which of them is quick enough.
+    draft: usize,
+    /// Samples at rest, to those asked for.
+    steps: Vec<u32>,
+    height: u32,
+    /// When the picture last became another one.
+    changed: Instant,
+    step: Step,
+    /// Milliseconds that a row is thought to take.
+    row_ms: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Step {
+    Draft,
+    /// Rendering with so many samples, from this row on.
+    Band {
+        samples: u32,
+        row: u32,
+    },
+    Done,
+}
+
+impl Schedule {
+    /// For a picture that nothing is rendered of.
+    pub fn new(look: &Look, now: Instant) -> Self {
+        let asked = look.settings.samples;
+        let below = |samples: &u32| *samples < asked && look.can_have(*samples);
+        // Brute force shades every sample of every pixel: one at most is quick.
+        let is_brute = look.settings.method == Method::Ssaa;
+        let is_quick = |samples: &u32| below(samples) && (!is_brute || *samples == 1);
+        let mut drafts: Vec<_> = DRAFTS.into_iter().filter(is_quick).collect();
+        if drafts.is_empty() || (asked <= DRAFTS[0] && !is_brute) {
+            drafts.insert(0, asked);
+        }
+        let mut steps: Vec<_> = STEPS.into_iter().filter(below).collect();
+        steps.push(asked);
+        let height = look.settings.size[1];
+        Self {
+            drafts,
+            draft: 0,
+            steps,
+            height,
+            changed: now,
+            step: Step::Draft,
+            row_ms: TARGET_MS / f64::from(height.max(1)),
+        }
+    }
+
+    /// The picture is another one from now on.
+    pub fn restart(&mut self, now: Instant) {
+        self.changed = now;
+        self.step = Step::Draft;
+    }
+
+    /// Takes the next work that is due.
+    pub fn take(&mut self, now: Instant) -> Option<Work> {
+        match self.step {
+            Step::Draft => {
+                let samples = self.draft_samples();
+                self.step = self.after(samples);
+                Some(Work::Draft { samples })
+            }
+            Step::Band { row: 0, .. } if now < self.changed + REST => None,
+            Step::Band { samples, row } => {
+                let rows = (TARGET_MS / self.row_ms).min(f64::from(self.height)) as u32;
+                let rows = (rows / ROW_STEP * ROW_STEP).max(ROW_STEP);
+                let end = (row + rows).min(self.height);
+                self.step = if end < self.height {
+                    Step::Band { samples, row: end }
+                } else {
+                    self.after(samples)
+                };
+                Some(Work::Band {
+                    samples,
+                    rows: row..end,
+                })
+            }
+            Step::Done => None,
+        }
+    }
+
+    /// When the next work is due, if any is left.
+    pub fn due(&self) -> Option<Instant> {
+        match self.step {
+            Step::Done => None,
+            Step::Draft => Some(self.changed),
+            Step::Band { .. } => Some(self.changed + REST),
+        }
+    }
+
+    /// Whether the picture has all samples that it should have, or will have once the work taken is done.
+    pub fn is_done(&self) -> bool {
+        self.step == Step::Done
+    }
+
+    /// Learns from what work took on the device, in milliseconds.
+    pub fn learn(&mut self, work: &Work, ms: f64) {
+        match work {
+            Work::Draft { samples } => {
+                self.row_ms = 2.0 * ms / f64::from(self.height);
+                if *samples == self.draft_samples() {
+                    if ms > 1.25 * TARGET_MS && self.draft + 1 < self.drafts.len() {
+                        self.draft += 1;
+                    } else if ms < 0.4 * TARGET_MS && self.draft > 0 {
+                        self.draft -= 1;
+                    }
+                }
+            }
+            Work::Band { rows, .. } => {
+                let found = ms / f64::from(rows.end - rows.start);
+                // What a row takes differs along the image: halfway there, but never far from what was found.
+                let halfway = (self.row_ms * found).sqrt();
+                self.row_ms = halfway.clamp(0.5 * found, 2.0 * found);
+            }
+        }
+    }
+
+    /// Samples while something moves.
+    fn draft_samples(&self) -> u32 {
+        // There is always one, and the index stays among them.
+        self.drafts.get(self.draft).copied().unwrap_or(1)
+    }
+
+    /// What follows a picture with so many samples.
+    fn after(&self, done: u32) -> Step {
+        let next = self.steps.iter().find(|step| **step > done);
+        next.map_or(Step::Done, |samples| Step::Band {
+            samples: *samples,
+            row: 0,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use gpc::render::Settings;
+    use gpc::sampling::Pattern;
+
+    fn schedule(method: Method, samples: u32, height: u32, now: Instant) -> Schedule {
+        let settings = Settings {
+            method,
+            samples,
+            ..Settings::new(100, height)
+        };
+        Schedule::new(&Look::new(settings, None), now)
+    }
+
+    fn after(ms: u64, start: Instant) -> Instant {
+        start + Duration::from_millis(ms)
+    }
+
+    /// Samples and rows of all bands until the picture is done, each of which takes `ms` a row.
+    fn bands(schedule: &mut Schedule, ms: f64, now: Instant) -> Vec<(u32, Range<u32>)> {
+        let mut bands = Vec::new();
+        while let Some(work) = schedule.take(now) {
+            if let Work::Band { samples, rows } = &work {
+                schedule.learn(&work, ms * f64::from(rows.end - rows.start));
+                bands.push((*samples, rows.clone()));
+            }
+        }
+        bands
+    }
+
+    #[test]
+    fn refines_at_rest_and_every_row_once() {
+        let start = Instant::now();
+        let mut schedule = schedule(Method::Superpixel, 1024, 540, start);
+        assert_eq!(schedule.take(start), Some(Work::Draft { samples: 16 }));
+        assert_eq!(schedule.take(after(149, start)), None);
+        assert_eq!(schedule.due(), Some(after(150, start)));
+        let bands = bands(&mut schedule, 2.0, after(150, start));
+        for samples in [64, 256, 1024] {
+            let mut row = 0;
+            for (_, rows) in bands.iter().filter(|band| band.0 == samples) {
+                assert_eq!(rows.start, row);
+                assert!(rows.end == 540 || rows.end % ROW_STEP == 0);
+                row = rows.end;
+            }
+            assert_eq!(row, 540);
+        }
+        assert!(schedule.is_done() && schedule.due().is_none());
+        // Bands find their height: 80 ms are 40 rows.
+        let last = &bands[bands.len() - 2].1;
+        assert!((36..=44).contains(&(last.end - last.start)), "{last:?}");
+    }
+
+    #[test]
+    fn a_change_begins_again() {
+        let start = Instant::now();
+        let mut schedule = schedule(Method::Superpixel, 64, 100, start);
+        schedule.take(start);
+        assert!(matches!(
+            schedule.take(after(200, start)),
+            Some(Work::Band { samples: 64, .. })
+        ));
+        schedule.restart(after(210, start));
+        assert_eq!(
+            schedule.take(after(210, start)),
+            Some(Work::Draft { samples: 16 })
+        );
+        assert_eq!(schedule.take(after(300, start)), None);
+    }
+
+    #[test]
+    fn drafts_get_cheaper_until_they_are_fluid() {
+        let start = Instant::now();
+        let mut schedule = schedule(Method::Superpixel, 1024, 100, start);
+        for samples in [16, 8, 4, 2, 1, 1] {
+            schedule.restart(start);
+            let work = schedule.take(start).unwrap();
+            assert_eq!(work, Work::Draft { samples });
+            schedule.learn(&work, 200.0);
+        }
+        schedule.learn(&Work::Draft { samples: 1 }, 10.0);
+        schedule.restart(start);
+        assert_eq!(schedule.take(start), Some(Work::Draft { samples: 2 }));
+    }
+
+    #[test]
+    fn methods_with_one_number_of_samples_are_done_at_once() {
+        let start = Instant::now();
+        for (method, samples) in [(Method::None, 1), (Method::Msaa, 4), (Method::Ssaa, 1)] {
+            let mut schedule = schedule(method, samples, 100, start);
+            assert_eq!(schedule.take(start), Some(Work::Draft { samples }));
+            assert!(schedule.is_done());
+        }
+        let mut few = schedule(Method::Superpixel, 4, 100, start);
+        assert_eq!(few.take(start), Some(Work::Draft { samples: 4 }));
+        assert!(few.is_done());
+        let mut brute = schedule(Method::Ssaa, 256, 100, start);
+        assert_eq!(brute.take(start), Some(Work::Draft { samples: 1 }));
+        let samples: Vec<_> = bands(&mut brute, 0.1, after(150, start))
+            .into_iter()
+            .map(|band| band.0)
+            .collect();
+        assert_eq!(samples, [64, 256]);
+    }
+
+    #[test]
+    fn steps_are_what_the_pattern_can_have() {
+        let start = Instant::now();
+        let settings = Settings {
+            samples: 1024,
+            pattern: Pattern::Grid,
+            ..Settings::new(100, 100)
+        };
+        let schedule = Schedule::new(&Look::new(settings, None), start);
+        assert_eq!(schedule.drafts, [16, 4, 1]);
+        assert_eq!(schedule.steps, [64, 256, 1024]);
+    }
+}

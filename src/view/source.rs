@@ -1,0 +1,76 @@
+//! What is opened, in a thread of its own: reading a scene, posing it and making room for it on the device.
+
+use super::engine::Engine;
+use super::navigate::Bounds;
+use glam::DVec3;
+use gpc::render::PreparedScene;
+use gpc::scene::{Geometry, Pose, PoseRequest, Scene, SceneCamera};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Which scene, and which moment of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Source {
+    pub path: PathBuf,
+    /// Variant of the materials by name.
+    pub variant: Option<String>,
+    /// Scene of the file by index, animation by name or index, and time.
+    pub request: PoseRequest,
+}
+
+/// A scene on the device.
+pub struct Stage {
+    pub source: Source,
+    pub scene: Arc<Scene>,
+    pub prepared: PreparedScene,
+    pub cameras: Vec<SceneCamera>,
+    /// What is looked for under the pointer.
+    pub geometry: Geometry,
+    pub bounds: Bounds,
+    /// The scene's device goes after it.
+    _engine: Arc<Engine>,
+}
+
+impl Source {
+    /// Reads the scene and prepares it for the device.
+    pub fn open(&self, engine: Arc<Engine>, max_memory: Option<u64>) -> anyhow::Result<Stage> {
+        let loaded = match &self.variant {
+            Some(variant) => Scene::load_variant(&self.path, variant)?,
+            None => Scene::load(&self.path)?,
+        };
+        let pose = loaded.scene.pose(&self.request)?;
+        let prepared = engine
+            .renderer
+            .prepare_scene(&loaded.scene, &pose, max_memory)?;
+        for warning in loaded.warnings.iter().chain(&pose.warnings) {
+            log::warn!("{warning}");
+        }
+        Ok(Stage {
+            source: self.clone(),
+            scene: Arc::new(loaded.scene),
+            bounds: bounds(&pose),
+            cameras: pose.cameras,
+            geometry: pose.geometry,
+            prepared,
+            _engine: engine,
+        })
+    }
+
+    /// The file's name.
+    pub fn name(&self) -> String {
+        let name = self.path.file_name().unwrap_or(self.path.as_os_str());
+        name.to_string_lossy().into_owned()
+    }
+
+    /// The same for files made of it: without the extension.
+    pub fn stem(&self) -> String {
+        let stem = self.path.file_stem().unwrap_or(self.path.as_os_str());
+        stem.to_string_lossy().into_owned()
+    }
+}
+
+/// The box around a pose; around the origin where it is empty.
+pub fn bounds(pose: &Pose) -> Bounds {
+    let bounds = pose.geometry.bounds();
+    bounds.unwrap_or((DVec3::splat(-1.0), DVec3::ONE))
+}

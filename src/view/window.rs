@@ -1,0 +1,358 @@
+//! The window: loading scenes, and drawing what is due.
+
+use super::app::Event;
+use super::canvas::{Canvas, Seen};
+use super::compose::{self, Magnifier};
+use super::device::Device;
+use super::engine::Engine;
+use super::layer::Layer;
+use super::look::Look;
+use super::notes::Notes;
+use super::painter::Painting;
+use super::panel::{self, Facts};
+use super::pointer::Pointer;
+use super::source::{Source, Stage};
+use super::standpoint::Standpoint;
+use super::{NoDisplay, Options};
+use gpc::vulkan::VulkanError;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+use winit::dpi::PhysicalSize;
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
+use winit::keyboard::ModifiersState;
+use winit::window::Window;
+
+/// How long to wait before asking again whether the device is done.
+const POLL: Duration = Duration::from_millis(3);
+
+/// What is being loaded.
+pub struct Loading {
+    number: u64,
+    pub source: Source,
+    since: Instant,
+    /// Whether it is seen from where the scene before was.
+    keeps_view: bool,
+}
+
+/// The window with all that is in it.
+pub struct View {
+    pub options: Options,
+    pub proxy: EventLoopProxy<Event>,
+    pub canvas: Canvas,
+    pub interface: egui_winit::State,
+    pub window: Arc<Window>,
+
+    /// Files that the arrow keys go through, and which of them is shown.
+    pub scenes: Vec<PathBuf>,
+    pub scene: usize,
+    pub loading: Option<Loading>,
+    /// Loads that were begun.
+    pub loads: u64,
+
+    pub standpoint: Standpoint,
+    pub looks: Vec<Look>,
+    /// Column of the split, as a share of the width.
+    pub split: f64,
+    /// Enlargement of the magnifier, where it is on.
+    pub magnifier: Option<u32>,
+
+    pub pointer: Pointer,
+    pub modifiers: ModifiersState,
+    pub notes: Notes,
+    pub shows_keys: bool,
+    /// Whether the window has to be drawn again.
+    pub is_dirty: bool,
+    /// When the panel has to be drawn again.
+    pub repaint: Option<Instant>,
+    /// Whether the picture was said to be at rest.
+    pub rests: bool,
+    pub wants_to_quit: bool,
+}
+
+impl View {
+    pub fn new(
+        events: &ActiveEventLoop,
+        options: Options,
+        proxy: EventLoopProxy<Event>,
+    ) -> anyhow::Result<Self> {
+        let [width, height] = options.look.settings.size;
+        let attributes = Window::default_attributes()
+            .with_title("gpc")
+            .with_inner_size(PhysicalSize::new(width, height));
+        let window = events
+            .create_window(attributes)
+            .map_err(|error| NoDisplay(error.to_string()))?;
+        let window = Arc::new(window);
+        let device = Device::new(
+            window.clone(),
+            options.device.as_deref(),
+            options.validation,
+        )?;
+        let engine = Arc::new(Engine::new(Arc::new(device))?);
+        let canvas = Canvas::new(engine, window.inner_size().into())?;
+        let context = egui::Context::default();
+        context.set_visuals(egui::Visuals::dark());
+        let interface = egui_winit::State::new(
+            context,
+            egui::ViewportId::ROOT,
+            &*window,
+            Some(window.scale_factor() as f32),
+            window.theme(),
+            None,
+        );
+        let mut view = Self {
+            scenes: options.scenes.clone(),
+            looks: vec![options.look.clone()],
+            standpoint: Standpoint::Camera(options.camera.unwrap_or(0)),
+            options,
+            proxy,
+            canvas,
+            interface,
+            window,
+            scene: 0,
+            loading: None,
+            loads: 0,
+            split: 0.5,
+            magnifier: None,
+            pointer: Pointer::default(),
+            modifiers: ModifiersState::empty(),
+            notes: Notes::default(),
+            shows_keys: false,
+            is_dirty: true,
+            repaint: None,
+            rests: false,
+            wants_to_quit: false,
+        };
+        view.load(false);
+        Ok(view)
+    }
+
+    /// What the validation layer said.
+    pub fn close(self) -> Vec<String> {
+        let device = self.canvas.engine.device.clone();
+        drop(self);
+        device.validation_messages()
+    }
+
+    /// Loads the scene whose turn it is, in the background.
+    pub fn load(&mut self, keeps_view: bool) {
+        let Some(path) = self.scenes.get(self.scene) else {
+            return;
+        };
+        let source = Source {
+            path: path.clone(),
+            variant: self.options.variant.clone(),
+            request: self.options.request.clone(),
+        };
+        self.loads += 1;
+        let number = self.loads;
+        self.loading = Some(Loading {
+            number,
+            source: source.clone(),
+            since: Instant::now(),
+            keeps_view,
+        });
+        self.is_dirty = true;
+        let engine = self.canvas.engine.clone();
+        let proxy = self.proxy.clone();
+        let max_memory = self.options.look.settings.max_memory;
+        std::thread::spawn(move || {
+            let stage = source.open(engine, max_memory);
+            // Nobody waits for it once the window is closed.
+            let _ = proxy.send_event(Event::Opened(number, Box::new(stage)));
+        });
+    }
+
+    /// Takes what another thread has done.
+    pub fn on_done(&mut self, event: Event) -> anyhow::Result<()> {
+        self.is_dirty = true;
+        match event {
+            Event::Opened(number, stage) => {
+                // Another one was asked for meanwhile, or none.
+                let Some(loading) = self.loading.take_if(|loading| loading.number == number) else {
+                    return Ok(());
+                };
+                match *stage {
+                    Ok(stage) => self.set_stage(stage, loading.keeps_view)?,
+                    Err(error) => self.notes.fail(&error),
+                }
+            }
+            Event::Written(path, Ok(())) => self.notes.say(format!("wrote {}", path.display())),
+            Event::Written(_, Err(error)) => self.notes.fail(&error),
+        }
+        Ok(())
+    }
+
+    fn set_stage(&mut self, stage: Stage, keeps_view: bool) -> anyhow::Result<()> {
+        self.notes.clear_errors();
+        self.window
+            .set_title(&format!("{} - gpc", stage.source.name()));
+        if !keeps_view {
+            self.standpoint = match self.options.camera {
+                Some(index) if index < stage.cameras.len() => Standpoint::Camera(index),
+                _ => Standpoint::first(&stage.cameras, stage.bounds, self.aspect()),
+            };
+        }
+        log::debug!("shows {}", stage.source.path.display());
+        self.canvas.set_stage(stage)?;
+        self.renew_layers()
+    }
+
+    /// Makes pictures of the window's size anew.
+    pub fn renew_layers(&mut self) -> anyhow::Result<()> {
+        self.is_dirty = true;
+        self.rests = false;
+        let Some(size) = self.canvas.size() else {
+            return Ok(());
+        };
+        let now = Instant::now();
+        for look in &mut self.looks {
+            look.settings.size = size;
+        }
+        let layer = |look: &Look| Layer::new(&self.canvas.engine, look.clone(), now);
+        let layers = self
+            .looks
+            .iter()
+            .map(layer)
+            .collect::<anyhow::Result<_>>()?;
+        self.canvas.set_layers(layers)
+    }
+
+    /// Width / height of the picture.
+    pub fn aspect(&self) -> f64 {
+        let [width, height] = self.size();
+        width / height
+    }
+
+    /// Width and height of the picture in pixels.
+    pub fn size(&self) -> [f64; 2] {
+        self.canvas.size().unwrap_or([1, 1]).map(f64::from)
+    }
+
+    /// Column of the split, where there is one.
+    pub fn split_column(&self) -> Option<u32> {
+        (self.looks.len() > 1).then(|| (self.split * self.size()[0]).round() as u32)
+    }
+
+    /// Does what is due, and says when to be asked again.
+    ///
+    /// # Errors
+    /// If the device is lost or memory runs out.
+    pub fn advance(&mut self, now: Instant) -> anyhow::Result<ControlFlow> {
+        match self.canvas.collect() {
+            Ok(any) => self.is_dirty |= any,
+            Err(error) => self.report(error)?,
+        }
+        let due = self.canvas.due();
+        let is_due = |at: Option<Instant>| at.is_some_and(|at| at <= now);
+        self.is_dirty |= is_due(due) || is_due(self.repaint) || self.canvas.has_again();
+        self.is_dirty |= is_due(self.notes.next_change());
+        if self.is_dirty {
+            self.draw(now)?;
+        }
+        self.note_rest();
+        if self.is_dirty || self.canvas.is_busy() {
+            return Ok(ControlFlow::WaitUntil(now + POLL));
+        }
+        let next = [self.canvas.due(), self.repaint, self.notes.next_change()];
+        Ok(next
+            .into_iter()
+            .flatten()
+            .min()
+            .map_or(ControlFlow::Wait, ControlFlow::WaitUntil))
+    }
+
+    /// Draws the window, if one of its images is free.
+    fn draw(&mut self, now: Instant) -> anyhow::Result<()> {
+        let Some(acquired) = self.canvas.acquire()? else {
+            return Ok(());
+        };
+        self.is_dirty = false;
+        let painting = self.lay_out(now);
+        let aspect = self.aspect();
+        let camera = match self.canvas.stage() {
+            Some(stage) => Some(
+                self.standpoint
+                    .camera(&stage.cameras, stage.bounds, aspect)?,
+            ),
+            None => None,
+        };
+        let size = self.canvas.size().unwrap_or([1, 1]);
+        let split = self.split_column();
+        let magnified = self.magnifier.map_or_else(Vec::new, |factor| {
+            let place = self.pointer.place().max(glam::DVec2::ZERO);
+            let magnifier = Magnifier {
+                centre: [
+                    (place.x as u32).min(size[0].saturating_sub(1)),
+                    (place.y as u32).min(size[1].saturating_sub(1)),
+                ],
+                factor,
+            };
+            compose::magnified(size, split, magnifier)
+        });
+        let seen = Seen {
+            camera: camera.as_ref(),
+            moment: None,
+            pieces: &compose::pictures(size, split),
+            magnified: &magnified,
+        };
+        match self.canvas.draw(&acquired, &seen, painting, now) {
+            Ok(()) => Ok(()),
+            Err(error) => self.report(error),
+        }
+    }
+
+    /// Lays out the panel.
+    fn lay_out(&mut self, now: Instant) -> Painting {
+        let input = self.interface.take_egui_input(&self.window);
+        let context = self.interface.egui_ctx().clone();
+        let names = self.loading.as_ref().map(|loading| {
+            let since = now.saturating_duration_since(loading.since);
+            (loading.source.name(), since)
+        });
+        let split = self.split_column();
+        let facts = Facts {
+            notes: self.notes.seen(now),
+            loading: names.as_ref().map(|(name, since)| (name.as_str(), *since)),
+            shows_keys: self.shows_keys,
+            split,
+        };
+        let output = context.run(input, |context| panel::show(context, &facts));
+        self.interface
+            .handle_platform_output(&self.window, output.platform_output);
+        let again = output
+            .viewport_output
+            .get(&egui::ViewportId::ROOT)
+            .and_then(|viewport| now.checked_add(viewport.repaint_delay));
+        self.repaint = again;
+        Painting {
+            textures: output.textures_delta,
+            primitives: context.tessellate(output.shapes, output.pixels_per_point),
+            pixels_per_point: output.pixels_per_point,
+        }
+    }
+
+    /// Says what went wrong in the window. What nothing can go on after is handed back.
+    fn report(&mut self, error: anyhow::Error) -> anyhow::Result<()> {
+        let is_fatal = error.chain().any(|cause| {
+            let vulkan = cause.downcast_ref::<VulkanError>();
+            matches!(vulkan, Some(VulkanError::DeviceLost))
+        });
+        if is_fatal {
+            return Err(error);
+        }
+        self.notes.fail(&error);
+        self.is_dirty = true;
+        Ok(())
+    }
+
+    /// Says when the picture has all samples.
+    fn note_rest(&mut self) {
+        let rests = self.canvas.rests();
+        if rests && !self.rests {
+            log::debug!("at rest");
+        }
+        self.rests = rests;
+    }
+}
