@@ -2,8 +2,11 @@
 
 #[allow(dead_code, reason = "other tests use the rest")]
 mod cli_support;
+mod scene_builder;
 
 use cli_support::{asset, finish, gpc};
+use scene_builder::Builder;
+use serde_json::json;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
@@ -13,6 +16,8 @@ use tempfile::TempDir;
 
 /// Generous: a software driver under validation, on a machine that may be busy.
 const PATIENCE: Duration = Duration::from_secs(180);
+/// Longer than anything is said in the window.
+const NOTES_SEEN: Duration = Duration::from_secs(8);
 
 /// A display without a screen.
 struct Display {
@@ -182,6 +187,13 @@ impl<'a> Viewer<'a> {
         ]);
     }
 
+    /// Hides the panel, once the window takes keys, and waits until nothing else lies over the picture.
+    fn show_picture_alone(&mut self) {
+        self.command();
+        self.key("p");
+        std::thread::sleep(NOTES_SEEN);
+    }
+
     /// The `gpc render` command that makes the picture, by its arguments.
     fn command(&mut self) -> Vec<String> {
         let until = Instant::now() + PATIENCE;
@@ -249,6 +261,7 @@ fn what_is_seen_at_rest_is_what_the_copied_command_renders() {
     let scene = asset("letters.glb");
     let mut viewer = Viewer::open(&display, folder.path(), &[&scene, "--size", "320x200"]);
     viewer.wait_for("at rest");
+    viewer.show_picture_alone();
 
     // Turned, moved sideways and nearer; the pointer ends beside the window.
     viewer.drag("1", ["200", "80"]);
@@ -293,7 +306,7 @@ fn what_is_seen_at_rest_is_what_the_copied_command_renders() {
     assert!(command.iter().any(|word| word == "400x240"), "{command:?}");
     assert!(command.iter().any(|word| word == "none"), "{command:?}");
     // What is said goes after a while.
-    std::thread::sleep(Duration::from_secs(8));
+    std::thread::sleep(NOTES_SEEN);
     let shown = display.pixels([400, 240]);
     assert_shows(&shown, &render(folder.path(), &command, "resized.png"));
     viewer.close();
@@ -306,6 +319,7 @@ fn a_split_and_a_magnifier_show_pixels_of_both_methods() {
     let arguments = [&scene, "--size", "320x200", "--samples", "16"];
     let mut viewer = Viewer::open(&display, folder.path(), &arguments);
     viewer.wait_for("at rest");
+    viewer.show_picture_alone();
     let left = viewer.command();
     let superpixels = render(folder.path(), &left, "left.png");
     viewer.key("x");
@@ -315,7 +329,7 @@ fn a_split_and_a_magnifier_show_pixels_of_both_methods() {
     let none = render(folder.path(), &right, "right.png");
     assert_ne!(superpixels, none);
     display.input(&["mousemove", "600", "400"]);
-    std::thread::sleep(Duration::from_secs(8));
+    std::thread::sleep(NOTES_SEEN);
     let shown = display.pixels([320, 200]);
     let halves = |file: &[u8]| image::load_from_memory(file).unwrap().to_rgb8();
     let (superpixels, none) = (halves(&superpixels), halves(&none));
@@ -344,6 +358,71 @@ fn a_split_and_a_magnifier_show_pixels_of_both_methods() {
     let error = (0..3).map(|channel| block[channel].abs_diff(expected[channel]));
     assert!(error.max() <= Some(1), "{block:?}: {expected:?}");
     viewer.close();
+}
+
+#[test]
+fn a_file_that_is_written_again_is_shown_again() {
+    let (display, folder) = (Display::open(), tempfile::tempdir().unwrap());
+    let file = folder.path().join("scene.glb");
+    std::fs::copy(asset("checker.glb"), &file).unwrap();
+    let arguments = ["scene.glb", "--size", "320x200", "--samples", "4"];
+    let mut viewer = Viewer::open(&display, folder.path(), &arguments);
+    viewer.wait_for("at rest");
+    viewer.show_picture_alone();
+    let before = display.pixels([320, 200]);
+    // What can't be read is said, and the picture stays.
+    std::fs::write(&file, "no scene").unwrap();
+    viewer.wait_for("error");
+    std::fs::copy(asset("spheres.glb"), &file).unwrap();
+    viewer.wait_for("shows ");
+    viewer.wait_for("at rest");
+    std::thread::sleep(NOTES_SEEN);
+    let shown = display.pixels([320, 200]);
+    assert_ne!(shown, before);
+    let command = viewer.command();
+    assert_shows(&shown, &render(folder.path(), &command, "again.png"));
+    viewer.key("q");
+    assert!(viewer.process.wait().unwrap().success());
+}
+
+#[test]
+fn an_animation_is_played_and_shown_where_it_stops() {
+    let (display, folder) = (Display::open(), tempfile::tempdir().unwrap());
+    std::fs::write(folder.path().join("moving.glb"), moving_triangle()).unwrap();
+    let arguments = ["moving.glb", "--size", "320x200", "--samples", "16"];
+    let mut viewer = Viewer::open(&display, folder.path(), &arguments);
+    viewer.wait_for("at rest");
+    viewer.show_picture_alone();
+    let before = display.pixels([320, 200]);
+    assert!(!viewer.command().contains(&"--time".to_owned()));
+    viewer.key("space");
+    std::thread::sleep(Duration::from_secs(3));
+    viewer.key("space");
+    viewer.wait_for("at rest");
+    let command = viewer.command();
+    let time = 1 + command.iter().position(|word| word == "--time").unwrap();
+    assert!(command[time].parse::<f64>().unwrap() > 0.5, "{command:?}");
+    std::thread::sleep(NOTES_SEEN);
+    let shown = display.pixels([320, 200]);
+    assert_ne!(shown, before);
+    assert_shows(&shown, &render(folder.path(), &command, "moved.png"));
+    viewer.close();
+}
+
+/// A triangle that moves sideways for 1,000 seconds.
+fn moving_triangle() -> Vec<u8> {
+    let mut builder = Builder::new();
+    let node = builder.triangle(json!({}));
+    let times = builder.floats(&[[0.0], [1000.0]]);
+    let places = builder.floats(&[[0.0, 0.0, 0.0], [100.0, 0.0, 0.0]]);
+    builder.push(
+        "animations",
+        json!({
+            "samplers": [{"input": times, "output": places}],
+            "channels": [{"sampler": 0, "target": {"node": node, "path": "translation"}}],
+        }),
+    );
+    builder.glb()
 }
 
 #[test]

@@ -3,10 +3,10 @@
 use super::exit::usage;
 use super::render::{Antialiasing, SamplingArgs};
 use super::values;
-use crate::view::{self, Look, Options};
+use crate::view::{self, Look, Options, Source};
 use clap::Args;
 use gpc::reference::srgb;
-use gpc::render::Settings;
+use gpc::render::{HeadlessOptions, Settings};
 use gpc::scene::PoseRequest;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -62,19 +62,28 @@ pub struct ViewArgs {
 pub fn run(args: ViewArgs) -> anyhow::Result<ExitCode> {
     let look = look(&args)?;
     let validation = std::env::var_os("GPC_VALIDATION").is_some_and(|value| !value.is_empty());
+    let mut scenes = args.scenes.into_iter();
+    let Some(path) = scenes.next() else {
+        usage!("a scene is needed");
+    };
     view::run(Options {
-        scenes: args.scenes,
-        variant: args.variant,
-        request: PoseRequest {
-            scene: args.scene,
-            animation: args.animation,
-            time: args.time,
+        source: Source {
+            path,
+            variant: args.variant,
+            request: PoseRequest {
+                scene: args.scene,
+                animation: args.animation,
+                time: args.time,
+            },
         },
+        others: scenes.collect(),
         camera: args.camera,
         look,
         background: args.background,
-        device: args.device,
-        validation,
+        device: HeadlessOptions {
+            device: args.device,
+            validation,
+        },
     })?;
     Ok(ExitCode::SUCCESS)
 }

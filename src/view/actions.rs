@@ -5,14 +5,16 @@ use super::command::{Shot, line};
 use super::keys::{self, Action};
 use super::look::Look;
 use super::navigate::Turntable;
+use super::panel::Wishes;
 use super::pick;
 use super::pointer::Drag;
 use super::screenshot::{Screenshot, free_name};
+use super::source::Source;
 use super::standpoint::Standpoint;
 use super::window::View;
 use glam::DVec2;
 use gpc::camera::{Camera, Pinhole};
-use gpc::render::{HeadlessOptions, Method};
+use gpc::render::Method;
 use gpc::sampling::MAX_SAMPLES;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -75,7 +77,13 @@ impl View {
     /// Opens a file beside those that there are.
     fn open(&mut self, path: PathBuf) {
         self.scenes.push(path);
-        self.scene = self.scenes.len() - 1;
+        self.show_scene(self.scenes.len() - 1);
+    }
+
+    /// Opens a file of those that there are.
+    fn show_scene(&mut self, index: usize) {
+        self.scene = index;
+        self.source = Source::new(self.scenes[index].clone());
         self.load(false);
     }
 
@@ -83,6 +91,7 @@ impl View {
         self.is_dirty = true;
         match action {
             Action::Help => self.shows_keys = !self.shows_keys,
+            Action::Panel => self.shows_panel = !self.shows_panel,
             Action::Back => {
                 if let Some(loading) = self.loading.take() {
                     self.notes
@@ -101,7 +110,7 @@ impl View {
             Action::NextCamera => self.next_camera(),
             Action::PreviousScene => self.turn_to(self.scenes.len().saturating_sub(1)),
             Action::NextScene => self.turn_to(1),
-            Action::Reload => self.load(true),
+            Action::Reload => self.reload = Some(Instant::now()),
             Action::SetMethod(method) => {
                 let layer = self.layer_under_pointer();
                 self.looks[layer].set_method(method);
@@ -119,6 +128,9 @@ impl View {
             }
             Action::Screenshot => self.write_screenshot(),
             Action::CopyCommand => self.copy_command(),
+            Action::PlayOrPause => self.play_or_pause(),
+            Action::Slower => self.change_speed(-1),
+            Action::Faster => self.change_speed(1),
         }
         Ok(())
     }
@@ -127,8 +139,11 @@ impl View {
     fn go(&mut self, change: impl FnOnce(&mut Turntable)) {
         let aspect = self.aspect();
         if let Some(stage) = self.canvas.stage() {
-            self.standpoint
-                .go(&stage.cameras, stage.bounds, aspect, change);
+            let cameras = match &self.moment {
+                Some(moment) => &moment.cameras,
+                None => &stage.cameras,
+            };
+            self.standpoint.go(cameras, stage.bounds, aspect, change);
             self.restart();
         }
     }
@@ -188,7 +203,7 @@ impl View {
         let size = self.canvas.size().unwrap_or([1, 1]);
         let camera = self
             .standpoint
-            .camera(&stage.cameras, stage.bounds, self.aspect());
+            .camera(self.cameras(), stage.bounds, self.aspect());
         let pinhole = camera
             .ok()
             .and_then(|camera: Camera| Pinhole::from_camera(&camera, size).ok());
@@ -217,8 +232,7 @@ impl View {
     /// Goes on by so many scenes, round and round.
     fn turn_to(&mut self, by: usize) {
         if self.scenes.len() > 1 {
-            self.scene = (self.scene + by) % self.scenes.len();
-            self.load(false);
+            self.show_scene((self.scene + by) % self.scenes.len());
         }
     }
 
@@ -246,6 +260,47 @@ impl View {
         Ok(())
     }
 
+    /// Does what the user asked of the panel.
+    pub fn fulfil(&mut self, wishes: Wishes) -> anyhow::Result<()> {
+        if let Some((layer, look)) = wishes.look {
+            self.looks[layer] = look;
+            self.renew_layers()?;
+        }
+        if let Some(time) = wishes.time
+            && let Some(player) = &mut self.player
+        {
+            player.seek(time);
+            self.show_time();
+        }
+        if wishes.toggles_play {
+            self.play_or_pause();
+        }
+        if wishes.speed_steps != 0 {
+            self.change_speed(wishes.speed_steps);
+        }
+        if let Some(index) = wishes.animation {
+            self.source.request.animation = Some(index.to_string());
+            self.source.request.time = 0.0;
+            self.load(true);
+        }
+        Ok(())
+    }
+
+    fn play_or_pause(&mut self) {
+        match &mut self.player {
+            Some(player) => player.toggle(Instant::now()),
+            None => self.notes.say("the scene has no animations"),
+        }
+        self.is_dirty = true;
+    }
+
+    fn change_speed(&mut self, steps: i32) {
+        if let Some(player) = &mut self.player {
+            player.change_speed(steps);
+            self.is_dirty = true;
+        }
+    }
+
     /// Begins or ends to show two methods side by side.
     fn toggle_split(&mut self) -> anyhow::Result<()> {
         if self.looks.len() > 1 {
@@ -270,14 +325,11 @@ impl View {
         let screenshot = Screenshot {
             source: stage.source.clone(),
             scene: stage.scene.clone(),
-            time: stage.source.request.time,
+            time: self.time(),
             standpoint: self.standpoint,
             settings: look.at(look.settings.samples, None),
             output: free_name(Path::new(""), &stage.source.stem()),
-            options: HeadlessOptions {
-                device: self.options.device.clone(),
-                validation: self.options.validation,
-            },
+            options: self.device.clone(),
         };
         let proxy = self.proxy.clone();
         self.notes
@@ -298,8 +350,8 @@ impl View {
             source: &stage.source,
             standpoint: &self.standpoint,
             look: &self.looks[self.layer_under_pointer()],
-            background: &self.options.background,
-            time: stage.source.request.time,
+            background: &self.background,
+            time: self.time(),
         };
         let output = PathBuf::from(stage.source.stem()).with_extension("png");
         let command = line(&shot.arguments(&output));

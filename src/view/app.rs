@@ -14,6 +14,8 @@ use winit::window::WindowId;
 pub enum Event {
     /// A scene is ready, or can't be had; the number tells which was asked for.
     Opened(u64, Box<anyhow::Result<Stage>>),
+    /// The scene's file was written.
+    Changed,
     /// A picture was written.
     Written(PathBuf, anyhow::Result<()>),
 }

@@ -112,6 +112,11 @@ impl Canvas {
         Ok(())
     }
 
+    /// The pictures.
+    pub fn layers(&self) -> &[Layer] {
+        &self.layers
+    }
+
     /// Shows other pictures.
     pub fn set_layers(&mut self, layers: Vec<Layer>) -> anyhow::Result<()> {
         self.wait()?;

@@ -169,14 +169,9 @@ fn quote(word: &str) -> String {
 mod tests {
     use super::super::navigate::Turntable;
     use super::*;
-    use gpc::scene::PoseRequest;
 
     fn source(path: &str) -> Source {
-        Source {
-            path: path.into(),
-            variant: None,
-            request: PoseRequest::default(),
-        }
+        Source::new(path.into())
     }
 
     fn turntable() -> Turntable {

@@ -8,6 +8,7 @@ use winit::keyboard::{Key, ModifiersState, NamedKey};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
     Help,
+    Panel,
     Fit,
     LookFrom(Side),
     NextCamera,
@@ -21,6 +22,9 @@ pub enum Action {
     Magnify,
     Screenshot,
     CopyCommand,
+    PlayOrPause,
+    Slower,
+    Faster,
     Back,
     Quit,
 }
@@ -66,8 +70,9 @@ const fn named(key: NamedKey, label: &'static str, action: Action, does: &'stati
 }
 
 /// Every key.
-static BINDINGS: [Binding; 23] = [
+static BINDINGS: [Binding; 27] = [
     text("h", "H", Action::Help, "list the keys"),
+    text("p", "P", Action::Panel, "show or hide the panel"),
     named(
         NamedKey::Enter,
         "Enter",
@@ -122,6 +127,14 @@ static BINDINGS: [Binding; 23] = [
         "split between two methods; drag the line",
     ),
     text("l", "L", Action::Magnify, "magnifier: 8, 16, 32 times, off"),
+    named(
+        NamedKey::Space,
+        "Space",
+        Action::PlayOrPause,
+        "play or pause the animation",
+    ),
+    text("[", "[", Action::Slower, "play slower"),
+    text("]", "]", Action::Faster, "play faster"),
     named(
         NamedKey::ArrowLeft,
         "Left",

@@ -139,6 +139,7 @@ impl Layer {
         let is_current = job.version == self.version;
         match job.frame.statistics() {
             Ok(statistics) => {
+                log::trace!("{:?} took {:.1} ms", job.work, statistics.gpu_ms());
                 self.schedule.learn(&job.work, statistics.gpu_ms());
                 if is_current {
                     self.note(&job.work, statistics);
@@ -166,20 +167,27 @@ impl Layer {
 
     /// Adds figures of work on the picture that is seen.
     fn note(&mut self, work: &Work, statistics: Statistics) {
-        match work {
+        let is_first = match work {
             Work::Draft { samples } => {
                 self.shown = Some(*samples);
-                self.statistics = statistics;
+                true
             }
             Work::Band { samples, rows } => {
-                if rows.start == 0 {
-                    self.statistics = Statistics::default();
-                }
-                self.statistics.append(statistics);
                 let is_last = rows.end == self.picture.size()[1];
                 self.shown = is_last.then_some(*samples);
+                rows.start == 0
             }
+        };
+        if is_first {
+            self.statistics = Statistics {
+                skipped_passes: statistics.skipped_passes.clone(),
+                ..Statistics::default()
+            };
         }
+        // Of the whole picture, what no band needed.
+        let skipped = &mut self.statistics.skipped_passes;
+        skipped.retain(|pass| statistics.skipped_passes.contains(pass));
+        self.statistics.append(statistics);
     }
 
     /// A frame for some work: one that was used before, where it fits.

@@ -19,6 +19,7 @@ mod painter;
 mod panel;
 mod pick;
 mod picture;
+mod player;
 mod pointer;
 mod schedule;
 mod screenshot;
@@ -26,35 +27,33 @@ mod slot;
 mod source;
 mod standpoint;
 mod swapchain;
+mod watch;
 mod window;
 
 pub use look::{Look, default_samples};
+pub use source::Source;
 
 use anyhow::bail;
 use app::App;
-use gpc::scene::PoseRequest;
+use gpc::render::HeadlessOptions;
 use std::path::PathBuf;
 use winit::event_loop::EventLoop;
 
 /// What to look at, and how.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Files, of which the first is opened.
-    pub scenes: Vec<PathBuf>,
-    /// Variant of the materials by name.
-    pub variant: Option<String>,
-    /// Which scene of the file, and which moment of which animation.
-    pub request: PoseRequest,
+    /// What is opened first.
+    pub source: Source,
+    /// Other files that the arrow keys go to.
+    pub others: Vec<PathBuf>,
     /// Index of the scene's camera to begin with.
     pub camera: Option<usize>,
     /// Antialiasing, and the size of the window.
     pub look: Look,
     /// The background as the command line has it.
     pub background: String,
-    /// Part of the device's name.
-    pub device: Option<String>,
-    /// Whether to work under the validation layer.
-    pub validation: bool,
+    /// How devices are opened: the window's, and those that write files.
+    pub device: HeadlessOptions,
 }
 
 /// There is nothing to open a window on.

@@ -4,7 +4,7 @@ use super::engine::Engine;
 use super::navigate::Bounds;
 use glam::DVec3;
 use gpc::render::PreparedScene;
-use gpc::scene::{Geometry, Pose, PoseRequest, Scene, SceneCamera};
+use gpc::scene::{AnimationInfo, Geometry, Motion, Pose, PoseRequest, Scene, SceneCamera};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -23,6 +23,9 @@ pub struct Stage {
     pub source: Source,
     pub scene: Arc<Scene>,
     pub prepared: PreparedScene,
+    /// Where the scene has animations.
+    pub motion: Option<Motion>,
+    pub animations: Vec<AnimationInfo>,
     pub cameras: Vec<SceneCamera>,
     /// What is looked for under the pointer.
     pub geometry: Geometry,
@@ -31,17 +34,47 @@ pub struct Stage {
     _engine: Arc<Engine>,
 }
 
+impl Stage {
+    /// Index of the animation that is played.
+    pub fn animation(&self) -> usize {
+        let Some(asked) = &self.source.request.animation else {
+            return 0;
+        };
+        let named = |animation: &AnimationInfo| animation.name.as_ref() == Some(asked);
+        let index = self.animations.iter().position(named);
+        index.or_else(|| asked.parse().ok()).unwrap_or(0)
+    }
+}
+
 impl Source {
+    /// The file's own scene, as it is at first.
+    pub fn new(path: PathBuf) -> Self {
+        Self {
+            path,
+            variant: None,
+            request: PoseRequest::default(),
+        }
+    }
+
     /// Reads the scene and prepares it for the device.
     pub fn open(&self, engine: Arc<Engine>, max_memory: Option<u64>) -> anyhow::Result<Stage> {
         let loaded = match &self.variant {
             Some(variant) => Scene::load_variant(&self.path, variant)?,
             None => Scene::load(&self.path)?,
         };
-        let pose = loaded.scene.pose(&self.request)?;
-        let prepared = engine
-            .renderer
-            .prepare_scene(&loaded.scene, &pose, max_memory)?;
+        let animations = loaded.scene.info().animations;
+        let renderer = &engine.renderer;
+        let (pose, motion, prepared);
+        if animations.is_empty() {
+            pose = loaded.scene.pose(&self.request)?;
+            motion = None;
+            prepared = renderer.prepare_scene(&loaded.scene, &pose, max_memory)?;
+        } else {
+            let (posed, moving) = loaded.scene.pose_in_motion(&self.request)?;
+            let both = (&posed, &moving);
+            prepared = renderer.prepare_scene_in_motion(&loaded.scene, both, max_memory)?;
+            (pose, motion) = (posed, Some(moving));
+        }
         for warning in loaded.warnings.iter().chain(&pose.warnings) {
             log::warn!("{warning}");
         }
@@ -51,6 +84,8 @@ impl Source {
             bounds: bounds(&pose),
             cameras: pose.cameras,
             geometry: pose.geometry,
+            motion,
+            animations,
             prepared,
             _engine: engine,
         })

@@ -9,13 +9,17 @@ use super::layer::Layer;
 use super::look::Look;
 use super::notes::Notes;
 use super::painter::Painting;
-use super::panel::{self, Facts};
+use super::panel::{self, Facts, PictureFacts, SceneFacts, Wishes};
+use super::player::Player;
 use super::pointer::Pointer;
 use super::source::{Source, Stage};
 use super::standpoint::Standpoint;
+use super::watch::Watch;
 use super::{NoDisplay, Options};
+use gpc::render::HeadlessOptions;
+use gpc::scene::{Moment, SceneCamera};
 use gpc::vulkan::VulkanError;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use winit::dpi::PhysicalSize;
@@ -25,6 +29,8 @@ use winit::window::Window;
 
 /// How long to wait before asking again whether the device is done.
 const POLL: Duration = Duration::from_millis(3);
+/// How long a file has to be left alone before it is loaded again: it may be written in parts.
+const SETTLE: Duration = Duration::from_millis(300);
 
 /// What is being loaded.
 pub struct Loading {
@@ -37,21 +43,38 @@ pub struct Loading {
 
 /// The window with all that is in it.
 pub struct View {
-    pub options: Options,
     pub proxy: EventLoopProxy<Event>,
     pub canvas: Canvas,
     pub interface: egui_winit::State,
     pub window: Arc<Window>,
 
-    /// Files that the arrow keys go through, and which of them is shown.
+    /// Files that the arrow keys go through, and which of them was asked for.
     pub scenes: Vec<PathBuf>,
     pub scene: usize,
+    /// What was asked for.
+    pub source: Source,
     pub loading: Option<Loading>,
     /// Loads that were begun.
     pub loads: u64,
+    /// Tells when the scene's file changes.
+    pub watch: Option<Watch>,
+    /// When to load the scene again.
+    pub reload: Option<Instant>,
+
+    /// Where the scene has animations.
+    pub player: Option<Player>,
+    /// What is shown of the animation, unless it is the first pose.
+    pub moment: Option<Arc<Moment>>,
 
     pub standpoint: Standpoint,
+    /// Camera of the first scene to begin with.
+    pub camera: Option<usize>,
+    /// How the pictures are antialiased, left first.
     pub looks: Vec<Look>,
+    /// The background as the command line has it.
+    pub background: String,
+    /// How devices are opened.
+    pub device: HeadlessOptions,
     /// Column of the split, as a share of the width.
     pub split: f64,
     /// Enlargement of the magnifier, where it is on.
@@ -61,6 +84,7 @@ pub struct View {
     pub modifiers: ModifiersState,
     pub notes: Notes,
     pub shows_keys: bool,
+    pub shows_panel: bool,
     /// Whether the window has to be drawn again.
     pub is_dirty: bool,
     /// When the panel has to be drawn again.
@@ -86,8 +110,8 @@ impl View {
         let window = Arc::new(window);
         let device = Device::new(
             window.clone(),
-            options.device.as_deref(),
-            options.validation,
+            options.device.device.as_deref(),
+            options.device.validation,
         )?;
         let engine = Arc::new(Engine::new(Arc::new(device))?);
         let canvas = Canvas::new(engine, window.inner_size().into())?;
@@ -102,10 +126,15 @@ impl View {
             None,
         );
         let mut view = Self {
-            scenes: options.scenes.clone(),
-            looks: vec![options.look.clone()],
-            standpoint: Standpoint::Camera(options.camera.unwrap_or(0)),
-            options,
+            scenes: std::iter::once(options.source.path.clone())
+                .chain(options.others)
+                .collect(),
+            looks: vec![options.look],
+            standpoint: Standpoint::Camera(0),
+            camera: options.camera,
+            source: options.source,
+            background: options.background,
+            device: options.device,
             proxy,
             canvas,
             interface,
@@ -113,12 +142,17 @@ impl View {
             scene: 0,
             loading: None,
             loads: 0,
+            watch: None,
+            reload: None,
+            player: None,
+            moment: None,
             split: 0.5,
             magnifier: None,
             pointer: Pointer::default(),
             modifiers: ModifiersState::empty(),
             notes: Notes::default(),
             shows_keys: false,
+            shows_panel: true,
             is_dirty: true,
             repaint: None,
             rests: false,
@@ -135,16 +169,9 @@ impl View {
         device.validation_messages()
     }
 
-    /// Loads the scene whose turn it is, in the background.
+    /// Loads what was asked for, in the background.
     pub fn load(&mut self, keeps_view: bool) {
-        let Some(path) = self.scenes.get(self.scene) else {
-            return;
-        };
-        let source = Source {
-            path: path.clone(),
-            variant: self.options.variant.clone(),
-            request: self.options.request.clone(),
-        };
+        let source = self.source.clone();
         self.loads += 1;
         let number = self.loads;
         self.loading = Some(Loading {
@@ -154,14 +181,29 @@ impl View {
             keeps_view,
         });
         self.is_dirty = true;
+        self.reload = None;
+        self.watch(&source.path);
         let engine = self.canvas.engine.clone();
         let proxy = self.proxy.clone();
-        let max_memory = self.options.look.settings.max_memory;
+        let max_memory = self.looks[0].settings.max_memory;
         std::thread::spawn(move || {
             let stage = source.open(engine, max_memory);
             // Nobody waits for it once the window is closed.
             let _ = proxy.send_event(Event::Opened(number, Box::new(stage)));
         });
+    }
+
+    /// Watches the file of the scene, whether it can be loaded or not.
+    fn watch(&mut self, path: &Path) {
+        let proxy = self.proxy.clone();
+        let watch = Watch::new(path, move || {
+            // Nobody waits for it once the window is closed.
+            let _ = proxy.send_event(Event::Changed);
+        });
+        if let Err(error) = &watch {
+            log::warn!("{} is not watched: {error}", path.display());
+        }
+        self.watch = watch.ok();
     }
 
     /// Takes what another thread has done.
@@ -178,6 +220,7 @@ impl View {
                     Err(error) => self.notes.fail(&error),
                 }
             }
+            Event::Changed => self.reload = Some(Instant::now() + SETTLE),
             Event::Written(path, Ok(())) => self.notes.say(format!("wrote {}", path.display())),
             Event::Written(_, Err(error)) => self.notes.fail(&error),
         }
@@ -189,12 +232,18 @@ impl View {
         self.window
             .set_title(&format!("{} - gpc", stage.source.name()));
         if !keeps_view {
-            self.standpoint = match self.options.camera {
+            self.standpoint = match self.camera.take() {
                 Some(index) if index < stage.cameras.len() => Standpoint::Camera(index),
                 _ => Standpoint::first(&stage.cameras, stage.bounds, self.aspect()),
             };
         }
         log::debug!("shows {}", stage.source.path.display());
+        self.player = stage.motion.as_ref().map(|_| {
+            let animation = stage.animations.get(stage.animation());
+            let duration = animation.map_or(0.0, |animation| animation.duration);
+            Player::new(stage.source.request.time, duration)
+        });
+        self.moment = None;
         self.canvas.set_stage(stage)?;
         self.renew_layers()
     }
@@ -246,6 +295,11 @@ impl View {
         }
         let due = self.canvas.due();
         let is_due = |at: Option<Instant>| at.is_some_and(|at| at <= now);
+        if is_due(self.reload) {
+            self.source.request.time = self.time();
+            self.load(true);
+        }
+        self.is_dirty |= self.player.as_ref().is_some_and(Player::is_playing);
         self.is_dirty |= is_due(due) || is_due(self.repaint) || self.canvas.has_again();
         self.is_dirty |= is_due(self.notes.next_change());
         if self.is_dirty {
@@ -255,7 +309,12 @@ impl View {
         if self.is_dirty || self.canvas.is_busy() {
             return Ok(ControlFlow::WaitUntil(now + POLL));
         }
-        let next = [self.canvas.due(), self.repaint, self.notes.next_change()];
+        let next = [
+            self.canvas.due(),
+            self.repaint,
+            self.reload,
+            self.notes.next_change(),
+        ];
         Ok(next
             .into_iter()
             .flatten()
@@ -269,12 +328,18 @@ impl View {
             return Ok(());
         };
         self.is_dirty = false;
-        let painting = self.lay_out(now);
+        if let Some(player) = &mut self.player
+            && player.is_playing()
+        {
+            player.advance(now);
+            self.show_time();
+        }
+        let (painting, wishes) = self.lay_out(now);
         let aspect = self.aspect();
         let camera = match self.canvas.stage() {
             Some(stage) => Some(
                 self.standpoint
-                    .camera(&stage.cameras, stage.bounds, aspect)?,
+                    .camera(self.cameras(), stage.bounds, aspect)?,
             ),
             None => None,
         };
@@ -293,18 +358,18 @@ impl View {
         });
         let seen = Seen {
             camera: camera.as_ref(),
-            moment: None,
+            moment: self.moment.as_ref(),
             pieces: &compose::pictures(size, split),
             magnified: &magnified,
         };
-        match self.canvas.draw(&acquired, &seen, painting, now) {
-            Ok(()) => Ok(()),
-            Err(error) => self.report(error),
+        if let Err(error) = self.canvas.draw(&acquired, &seen, painting, now) {
+            self.report(error)?;
         }
+        self.fulfil(wishes)
     }
 
     /// Lays out the panel.
-    fn lay_out(&mut self, now: Instant) -> Painting {
+    fn lay_out(&mut self, now: Instant) -> (Painting, Wishes) {
         let input = self.interface.take_egui_input(&self.window);
         let context = self.interface.egui_ctx().clone();
         let names = self.loading.as_ref().map(|loading| {
@@ -316,9 +381,29 @@ impl View {
             notes: self.notes.seen(now),
             loading: names.as_ref().map(|(name, since)| (name.as_str(), *since)),
             shows_keys: self.shows_keys,
+            shows_panel: self.shows_panel,
             split,
+            scene: self.canvas.stage().map(|stage| SceneFacts {
+                name: stage.source.name(),
+                triangles: stage.prepared.triangle_count(),
+                motion: self
+                    .player
+                    .as_ref()
+                    .map(|player| (stage.animations.as_slice(), stage.animation(), player)),
+            }),
+            pictures: self
+                .canvas
+                .layers()
+                .iter()
+                .map(|layer| PictureFacts {
+                    look: &layer.look,
+                    shown: layer.shown,
+                    statistics: &layer.statistics,
+                })
+                .collect(),
         };
-        let output = context.run(input, |context| panel::show(context, &facts));
+        let mut wishes = Wishes::default();
+        let output = context.run(input, |context| wishes = panel::show(context, &facts));
         self.interface
             .handle_platform_output(&self.window, output.platform_output);
         let again = output
@@ -326,10 +411,60 @@ impl View {
             .get(&egui::ViewportId::ROOT)
             .and_then(|viewport| now.checked_add(viewport.repaint_delay));
         self.repaint = again;
-        Painting {
+        let painting = Painting {
             textures: output.textures_delta,
             primitives: context.tessellate(output.shapes, output.pixels_per_point),
             pixels_per_point: output.pixels_per_point,
+        };
+        (painting, wishes)
+    }
+
+    /// The cameras of the scene, where they are now.
+    pub fn cameras(&self) -> &[SceneCamera] {
+        match (&self.moment, self.canvas.stage()) {
+            (Some(moment), _) => &moment.cameras,
+            (None, Some(stage)) => &stage.cameras,
+            (None, None) => &[],
+        }
+    }
+
+    /// Moment of the animation in seconds.
+    pub fn time(&self) -> f64 {
+        self.player
+            .as_ref()
+            .map_or(self.source.request.time, Player::time)
+    }
+
+    /// Shows the scene at the player's time.
+    pub fn show_time(&mut self) {
+        let time = self.time();
+        let Some((stage, motion)) = self
+            .canvas
+            .stage()
+            .and_then(|stage| Some((stage, stage.motion.as_ref()?)))
+        else {
+            return;
+        };
+        match motion.at(&stage.scene, time) {
+            Ok(Some(moment)) => {
+                self.moment = Some(Arc::new(moment));
+                self.canvas.restart(Instant::now());
+                self.is_dirty = true;
+            }
+            // A light moves, or a mesh turns inside out: the scene is posed anew, which takes a while.
+            Ok(None) => {
+                if let Some(player) = &mut self.player
+                    && player.is_playing()
+                {
+                    player.toggle(Instant::now());
+                    self.notes.say(
+                        "this animation moves lights and can't be played; choose its times by hand",
+                    );
+                }
+                self.source.request.time = time;
+                self.load(true);
+            }
+            Err(error) => self.notes.fail(&error.into()),
         }
     }
 
