@@ -3,6 +3,10 @@
 //
 // A corner lies beside its point, or beside the end of its segment, in the plane through it that is parallel to the
 // image's. Segments that go on are mitred; where a mitre would be too long, the joint is filled by a triangle.
+//
+// Edges of meshes end in half a width beyond their ends, smooth ones in an eighth, so that no notch is left where they
+// meet. They are moved along the lines of sight towards the camera, by as much as the faces at the edge rise to it within
+// the line, but at most by 8 widths, and by `apart` more: so they are not hidden by the surface that they border.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -12,18 +16,22 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 50, rgba32f) uniform writeonly imageBuffer positions_out;
 layout(set = 0, binding = 51, rgba32f) uniform writeonly imageBuffer normals_out;
 // Of each corner two vectors: the vertex to place, and those of the end that it belongs to, of the segment's other end and
-// of where the line goes on, or the first of these again; what it is, and a disc's corner from its centre, floats as bits.
+// of where the line goes on, or the first of these again; what it is, and a disc's corner from its centre, floats as bits, or
+// the third vertices of the faces at an edge: from this end to the other, and back. An end stands for none.
 layout(set = 0, binding = 55) uniform utextureBuffer strokes;
 
 layout(push_constant) uniform Push {
     vec4 right;     // xyz: one pixel to the right in the image, at w = 1; w: half the width of lines in pixels
     vec4 down;      // xyz: one pixel down; w: half the size of points in pixels
     uint count;     // corners
+    float half_edge;    // half the width of edges in pixels
+    float apart;        // least distance of edges from their ends, towards the camera, in pixels
 } part;
 const uint LEFT = 0u, RIGHT = 1u, JOINT_CENTRE = 2u, JOINT_FIRST = 3u, JOINT_SECOND = 4u, DISC = 5u;
-const uint FACES_CAMERA = 1u << 31;
+const uint FACES_CAMERA = 1u << 31, EDGE = 1u << 30, SMOOTH = 1u << 29, DOUBLE_SIDED = 1u << 28, KIND = 255u;
 
 const float LONGEST_MITRE = 4.0;    // in widths of the line
+const float CREASE_END = 1.0, SMOOTH_END = 0.25, MOST_RISE = 16.0; // in halves of the width
 
 bool is_behind(vec4 clip) {
     return clip.z > clip.w;
@@ -64,6 +72,32 @@ vec2 corner(uint kind, vec4 at, vec4 other, vec4 beyond, bool goes_on, float hal
     return has_joint && !mitred && kind != JOINT_CENTRE ? (turn > 0.0 ? side : -side) : vec2(0.0);
 }
 
+// Towards the camera, from a position.
+vec3 to_camera(vec3 p) {
+    return frame.view_direction.w != 0.0 ? -frame.view_direction.xyz : frame.eye.xyz - p;
+}
+
+// Whether an edge shows: the same at both of its ends.
+bool edge_shows(uvec2 ends, uvec2 opposite, uint flags) {
+    bool turned = ends.x > ends.y;
+    uvec2 e = turned ? ends.yx : ends, o = turned ? opposite.yx : opposite;
+    vec3 a = texelFetch(positions, int(e.x)).xyz, along = texelFetch(positions, int(e.y)).xyz - a, view = to_camera(a);
+    vec3 c = texelFetch(positions, int(o.x)).xyz - a, d = texelFetch(positions, int(o.y)).xyz - a;
+    bool front = dot(cross(along, c), view) > 0.0, front_beyond = dot(cross(d, along), view) > 0.0;
+    bool exists = o.x != e.x && o.x != e.y, exists_beyond = o.y != e.x && o.y != e.y;
+    if ((flags & SMOOTH) != 0u) return front != front_beyond;
+    return (flags & DOUBLE_SIDED) != 0u || (exists && front) || (exists_beyond && front_beyond);
+}
+
+// How far the face of a third vertex rises towards the camera, to the side of the edge that it lies on, over a distance
+// across the edge in the plane parallel to the image's; all relative to an end of the edge.
+float rise(vec3 along, vec3 third, vec3 view, vec3 across, float most) {
+    vec3 normal = cross(along, third), sides = cross(view, along);
+    float facing = dot(normal, view), slope = dot(normal, across) * (dot(sides, across) * dot(sides, third) < 0.0 ? 1.0 : -1.0);
+    slope *= facing < 0.0 ? -1.0 : 1.0;
+    return slope <= 0.0 ? 0.0 : min(slope, most * abs(facing)) / max(abs(facing), 1e-37);
+}
+
 void main() {
     uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
     if (i >= part.count) return;
@@ -71,9 +105,10 @@ void main() {
     vec4 p = texelFetch(positions, int(ends.y)), q = texelFetch(positions, int(ends.z));
     vec4 at = to_clip(frame.transform, p), other = to_clip(frame.transform, q);
     vec4 beyond = to_clip(frame.transform, texelFetch(positions, int(ends.w)));
-    uint kind = shape.x & ~FACES_CAMERA;
-    bool is_line = kind != DISC, goes_on = ends.w != ends.y;
+    uint kind = shape.x & KIND;
+    bool is_line = kind != DISC, goes_on = ends.w != ends.y, is_edge = (shape.x & EDGE) != 0u;
     bool seen = !is_behind(at);
+    vec3 end = p.xyz, along = q.xyz - end;
     if (is_line && kind <= RIGHT && !seen && !is_behind(other)) {
         // The segment begins at the near plane.
         float t = to_near_plane(other, at);
@@ -82,9 +117,35 @@ void main() {
         goes_on = false;
         seen = true;
     }
-    vec2 offset = is_line ? corner(kind, at, other, beyond, goes_on, part.right.w) * part.right.w : uintBitsToFloat(shape.yz) * part.down.w;
+    float half_width = is_edge ? part.half_edge : part.right.w;
+    if (is_edge && seen) {
+        if (is_behind(other)) {
+            float t = to_near_plane(at, other);
+            q = mix(p, q, t);
+            other = mix(at, other, t);
+        }
+        // On along the edge itself, whose depth the line keeps.
+        float beyond_end = half_width * ((shape.x & SMOOTH) != 0u ? SMOOTH_END : CREASE_END), span = other.w * way_from(at, other).z;
+        float share = span > 0.0 ? beyond_end * at.w / max(span - beyond_end * (at.w - other.w), 0.5 * span) : 0.0;
+        p += (p - q) * share;
+        at += (at - other) * share;
+    }
+    vec2 offset = is_line ? corner(kind, at, other, beyond, goes_on, half_width) * half_width : uintBitsToFloat(shape.yz) * part.down.w;
+    seen = seen && (!is_edge || edge_shows(ends.yz, shape.yz, shape.x));
     // What is not seen has no area.
     offset = seen ? offset * at.w : vec2(0.0);
-    imageStore(positions_out, int(ends.x), vec4(p.xyz + offset.x * part.right.xyz + offset.y * part.down.xyz, 1.0));
+    vec3 beside = offset.x * part.right.xyz + offset.y * part.down.xyz, placed = p.xyz + beside;
+    if (is_edge && seen) {
+        vec3 view = normalize(to_camera(p.xyz));
+        float pixel = at.w * length(part.right.xyz), most = MOST_RISE * half_width * pixel;
+        vec3 c = texelFetch(positions, int(shape.y)).xyz - end, d = texelFetch(positions, int(shape.z)).xyz - end;
+        float lift = max(rise(along, c, view, beside, most), rise(along, d, view, beside, most)) + part.apart * pixel;
+        bool parallel = frame.view_direction.w != 0.0;
+        vec3 sight = to_camera(placed);
+        // No farther than half the way to the near plane.
+        float share = parallel ? lift : min(lift / max(length(to_camera(p.xyz)), 1e-37), max(0.5 * (1.0 - at.z / at.w), 0.0));
+        placed += sight * share;
+    }
+    imageStore(positions_out, int(ends.x), vec4(placed, 1.0));
     if ((shape.x & FACES_CAMERA) != 0u) imageStore(normals_out, int(ends.x), vec4(-frame.view_direction.xyz, 0.0));
 }

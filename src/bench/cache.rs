@@ -44,7 +44,8 @@ impl Fingerprint {
         (&limits.device_name, &limits.driver).hash(&mut hasher);
         // The debug format of floats is exact.
         let places = &geometry.instances;
-        let strokes = (&geometry.strokes, probe.line_width, probe.point_size);
+        let sizes = [probe.line_width, probe.point_size, probe.edge_width];
+        let strokes = (&geometry.strokes, sizes);
         format!("{camera:?} {:?} {places:?} {strokes:?}", probe.footprint).hash(&mut hasher);
         hasher.write(bytemuck::cast_slice(&geometry.positions));
         hasher.write(bytemuck::cast_slice(&geometry.triangles));

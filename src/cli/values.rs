@@ -142,15 +142,45 @@ pub fn background(text: &str) -> Result<Background, String> {
     if text == "none" {
         return Ok(Background::Transparent);
     }
-    let color = match text.strip_prefix('#') {
+    color(text).map(Background::Color).ok_or_else(|| {
+        "expected none, an sRGB colour R,G,B of 0 to 1, such as 0.8,0.9,1, or #rrggbb".to_owned()
+    })
+}
+
+/// `R,G,B` with sRGB components of 0 to 1, or `#rrggbb`.
+fn color(text: &str) -> Option<[f64; 3]> {
+    match text.strip_prefix('#') {
         Some(digits) => hexadecimal(digits),
         None => {
             numbers(text).filter(|color: &[f64; 3]| color.iter().all(|v| (0.0..=1.0).contains(v)))
         }
+    }
+}
+
+/// How edges of meshes are drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EdgeLines {
+    /// In pixels.
+    pub width: f64,
+    /// An sRGB-encoded colour, each component 0 to 1.
+    pub color: [f64; 3],
+}
+
+/// A width in pixels, and a colour or else black: `1.5` or `1.5,#204060`.
+pub fn edges(text: &str) -> Result<EdgeLines, String> {
+    let (width, colour) = match text.split_once(',') {
+        Some((width, colour)) => (width, color(colour)),
+        None => (text, Some([0.0; 3])),
     };
-    color.map(Background::Color).ok_or_else(|| {
-        "expected none, an sRGB colour R,G,B of 0 to 1, such as 0.8,0.9,1, or #rrggbb".to_owned()
-    })
+    let lines = stroke(width).ok().zip(colour);
+    lines
+        .map(|(width, color)| EdgeLines { width, color })
+        .ok_or_else(|| {
+            let largest = Settings::LARGEST_STROKE;
+            format!(
+                "expected pixels above 0 and at most {largest}, and an sRGB colour, such as 1.5 or 1.5,#204060"
+            )
+        })
 }
 
 fn hexadecimal(digits: &str) -> Option<[f64; 3]> {

@@ -5,19 +5,27 @@ use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
 use glam::{DMat4, DVec3, Vec4Swizzles};
 use std::sync::Arc;
 
+/// Least distance of edges from the surfaces that they border, towards the camera, in output pixels: enough for what is
+/// thinner than a pixel to be looked for.
+const APART: f32 = 2.0;
+
 /// Gives points and lines their size.
 pub struct Stroke {
     layout: Arc<FrameLayout>,
     pipeline: Arc<Pipeline>,
 }
 
-/// How large points and lines are, in pixels of the image that is rendered.
+/// How large points and lines are, in output pixels.
 #[derive(Clone, Copy, Debug)]
 pub struct StrokeSizes {
     /// Width of lines.
     pub line_width: f32,
     /// Diameter of points.
     pub point_size: f32,
+    /// Width of edges of meshes.
+    pub edge_width: f32,
+    /// Pixels of the image that is rendered along an output pixel's side.
+    pub side: u32,
 }
 
 impl Stroke {
@@ -45,14 +53,17 @@ impl Stroke {
             return;
         };
         let [right, down] = pixel_steps(to_clip);
+        let side = sizes.side as f32;
+        let half = |size: f32| 0.5 * side * size;
         let vector = |step: DVec3, size: f32| {
             let [x, y, z] = step.as_vec3().to_array();
-            [x, y, z, 0.5 * size].map(f32::to_bits)
+            [x, y, z, half(size)].map(f32::to_bits)
         };
         let mut words = Vec::new();
         words.extend(vector(right, sizes.line_width));
         words.extend(vector(down, sizes.point_size));
         words.push(strokes.count);
+        words.extend([half(sizes.edge_width), APART * side].map(f32::to_bits));
         recorder.push(self.layout.pipeline, &words);
         recorder.dispatch(&self.pipeline, u64::from(strokes.count.div_ceil(64)));
     }

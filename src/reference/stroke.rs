@@ -1,4 +1,4 @@
-//! What lines and points cover in an image: the polygons that stand for them.
+//! What lines and points cover in an image: the polygons that stand for them; and which edges of meshes are drawn.
 //!
 //! A vertex is in clip space: (pixel x * w, pixel y * w, z, w), with z = w on the near plane and less beyond it. Polygons
 //! are in pixels and run counter-clockwise on the screen, whose y is down.
@@ -135,6 +135,81 @@ pub fn disc(at: Clip, size: f64) -> Vec<[f64; 2]> {
     (0..DISC_CORNERS).map(corner).collect()
 }
 
+/// What an edge of a mesh that is drawn `width` pixels wide covers, where its ends do not lie far apart in depth.
+#[must_use]
+pub fn edge(ends: [Clip; 2], is_smooth: bool, width: f64) -> Vec<[f64; 2]> {
+    let [from, to] = ends;
+    let (Some(seen), Some((direction, _))) = (clipped(from, to), way(from, to)) else {
+        return Vec::new();
+    };
+    let half = 0.5 * width;
+    let beyond = if is_smooth { 0.25 * half } else { half };
+    let [a, b] = seen.map(pixel);
+    let (a, b) = (moved(a, direction, -beyond), moved(b, direction, beyond));
+    let left = left_of(direction);
+    vec![
+        moved(a, left, -half),
+        moved(b, left, -half),
+        moved(b, left, half),
+        moved(a, left, half),
+    ]
+}
+
+/// Where lines of sight come from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Eye {
+    /// A place.
+    At([f64; 3]),
+    /// A direction, along which all of them go.
+    Along([f64; 3]),
+}
+
+/// An edge of a mesh in space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Edge {
+    /// Its ends.
+    pub ends: [[f64; 3]; 2],
+    /// The third corners of the face that runs from the first end to the second, and of the one that runs back.
+    pub faces: [Option<[f64; 3]>; 2],
+    /// Whether it shows as a silhouette alone.
+    pub is_smooth: bool,
+    /// Whether it shows where its faces are seen from behind, too.
+    pub is_double_sided: bool,
+}
+
+impl Edge {
+    /// Whether it is drawn.
+    #[must_use]
+    pub fn shows(&self, eye: Eye) -> bool {
+        let minus = |p: [f64; 3], q: [f64; 3]| [0, 1, 2].map(|i| p[i] - q[i]);
+        let [a, b] = self.ends;
+        let view = match eye {
+            Eye::At(place) => minus(place, a),
+            Eye::Along(direction) => direction.map(|x| -x),
+        };
+        let [x, y, z] = minus(b, a);
+        let [front, back] = self.faces.map(|third| {
+            let third = minus(third?, a);
+            let normal = [
+                y * third[2] - z * third[1],
+                z * third[0] - x * third[2],
+                x * third[1] - y * third[0],
+            ];
+            let facing: f64 = (0..3).map(|i| normal[i] * view[i]).sum();
+            Some(facing)
+        });
+        let (front, back) = (
+            front.is_some_and(|facing| facing > 0.0),
+            back.is_some_and(|facing| facing < 0.0),
+        );
+        if self.is_smooth {
+            front != back
+        } else {
+            self.is_double_sided || front || back
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -187,6 +262,36 @@ mod tests {
         assert!(!joint(at(-100.0, 0.0), b, c(turn + 1e-6), 2.0).is_empty());
         // Longer than one of the segments.
         assert!(!joint(at(9.5, 0.0), b, at(10.0, 10.0), 2.0).is_empty());
+    }
+
+    #[test]
+    fn edges_show_where_a_face_does() {
+        let edge = Edge {
+            ends: [[0.0, -1.0, 0.0], [0.0, 1.0, 0.0]],
+            faces: [Some([-1.0, 0.0, -0.1]), Some([1.0, 0.0, -0.1])],
+            is_smooth: true,
+            is_double_sided: false,
+        };
+        let from = |x: f64, z: f64| Eye::At([x, 0.0, z]);
+        // From before, from beside and from behind.
+        let places = [from(0.0, 5.0), from(5.0, 0.0), from(0.0, -5.0)];
+        assert_eq!(places.map(|eye| edge.shows(eye)), [false, true, false]);
+        assert!(edge.shows(Eye::Along([-1.0, 0.0, 0.0])));
+        let sharp = Edge {
+            is_smooth: false,
+            ..edge
+        };
+        assert_eq!(places.map(|eye| sharp.shows(eye)), [true, true, false]);
+        let border = Edge {
+            faces: [edge.faces[0], None],
+            ..sharp
+        };
+        assert_eq!(places.map(|eye| border.shows(eye)), [true, false, false]);
+        let both = Edge {
+            is_double_sided: true,
+            ..border
+        };
+        assert_eq!(places.map(|eye| both.shows(eye)), [true; 3]);
     }
 
     #[test]

@@ -165,6 +165,8 @@ pub struct Settings {
     pub line_width: f32,
     /// Diameter of points in output pixels, with the same bounds.
     pub point_size: f32,
+    /// Width of [edges](crate::scene::Scene::add_edges) of meshes in output pixels, with the same bounds.
+    pub edge_width: f32,
     /// Bound on device memory in bytes, uploads and read-back included.
     pub max_memory: Option<u64>,
 }
@@ -206,6 +208,7 @@ impl Settings {
             shadows: Shadows::None,
             line_width: 1.0,
             point_size: 3.0,
+            edge_width: 1.0,
             max_memory: None,
         }
     }
@@ -271,7 +274,7 @@ impl Settings {
         {
             return Err(RenderError::Footprint(side));
         }
-        for size in [self.line_width, self.point_size] {
+        for size in [self.line_width, self.point_size, self.edge_width] {
             if !(size > 0.0 && size <= Self::LARGEST_STROKE) {
                 return Err(RenderError::Stroke(size));
             }

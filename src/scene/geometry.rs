@@ -265,7 +265,9 @@ impl Geometry {
         }
         for (stroke, corner) in self.strokes.iter().enumerate() {
             let named = [corner.vertex, corner.at, corner.other, corner.beyond];
-            if let Some(index) = named.into_iter().find(|index| *index as usize >= vertices) {
+            let opposite = corner.edge.iter().flat_map(|edge| edge.opposite);
+            let mut named = named.into_iter().chain(opposite);
+            if let Some(index) = named.find(|index| *index as usize >= vertices) {
                 return Err(GeometryError::Stroke {
                     stroke,
                     index,

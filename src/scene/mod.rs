@@ -28,6 +28,7 @@
 //! another one is refused.
 
 mod document;
+mod edges;
 mod environment;
 mod error;
 mod geometry;
@@ -43,6 +44,7 @@ mod view;
 
 use std::{path::Path, sync::Arc};
 
+pub use edges::Edges;
 pub use environment::{Environment, EnvironmentError};
 pub use error::SceneError;
 pub use geometry::{
@@ -60,7 +62,7 @@ pub use material::{
 };
 pub(crate) use pose::MotionPart;
 pub use pose::{Moment, Motion, Pose, PoseRequest};
-pub use stroke::{Stroke, StrokePart};
+pub use stroke::{Edge, Stroke, StrokePart};
 pub use view::{SceneCamera, SceneProjection};
 
 /// A file's content, checked and decoded.
@@ -143,6 +145,12 @@ impl Scene {
             environment: None,
             document: document::Document::default(),
         }
+    }
+
+    /// Adds lines along the edges of all meshes: creases, boundaries and, for each camera, silhouettes. They move as the
+    /// meshes do, but creases stay those of meshes at rest.
+    pub fn add_edges(&mut self, edges: &Edges) {
+        edges::add(self, edges);
     }
 
     /// The triangles, lights and cameras of one scene at one moment.

@@ -16,6 +16,39 @@ pub struct Stroke {
     pub beyond: u32,
     /// Whether its normal is to face the camera, for want of one of its own.
     pub faces_camera: bool,
+    /// What is beside the segment if it is an edge of a mesh.
+    pub edge: Option<Edge>,
+}
+
+/// The faces at an edge of a mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Edge {
+    /// The vertices of its faces that are not the edge's: of the one that runs from this end of the edge to the other
+    /// one, and of the one that runs back; an end of the edge where there is no such face.
+    pub opposite: [u32; 2],
+    /// Whether it shows as a silhouette alone: one of its faces is seen from the front, the other from behind.
+    pub is_smooth: bool,
+    /// Whether it shows where its faces are seen from behind, too.
+    pub is_double_sided: bool,
+}
+
+impl Edge {
+    /// The same seen from its other end.
+    pub(crate) fn reversed(self) -> Self {
+        let [a, b] = self.opposite;
+        Self {
+            opposite: [b, a],
+            ..self
+        }
+    }
+
+    /// The same with other numbers of vertices.
+    pub(crate) fn offset(self, first: u32) -> Self {
+        Self {
+            opposite: self.opposite.map(|v| v + first),
+            ..self
+        }
+    }
 }
 
 /// A corner of a point or line. Left and right are those of one who looks from the other end of the segment to the end

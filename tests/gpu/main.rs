@@ -4,6 +4,7 @@ mod area;
 mod blend;
 mod coverage;
 mod detect;
+mod edges;
 mod environment;
 mod extremes;
 mod golden;

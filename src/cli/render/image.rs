@@ -3,12 +3,12 @@
 use super::args::{Antialiasing, CameraArgs, SamplingArgs, Shadow, Tonemap};
 use crate::cli::exit::{Usage, usage};
 use crate::cli::input;
-use crate::cli::values::{self, Background};
+use crate::cli::values::{self, Background, EdgeLines};
 use clap::Args;
 use gpc::output::{AovKind, Format};
 use gpc::reference::srgb;
 use gpc::render::{Reference, Settings};
-use gpc::scene::{Loaded, Motion, Pose, PoseRequest, SceneError};
+use gpc::scene::{Edges, Loaded, Motion, Pose, PoseRequest, SceneError};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -43,6 +43,10 @@ pub struct ImageArgs {
     /// Diameter of points in pixels of the image
     #[arg(long, value_name = "PX", default_value_t = 3.0, value_parser = values::stroke)]
     pub point_size: f64,
+    /// Draw silhouettes, boundaries and creases of more than 30 degrees as lines of this width in pixels; black, or R,G,B of
+    /// 0 to 1, or #rrggbb
+    #[arg(long, value_name = "WIDTH[,COLOUR]", value_parser = values::edges)]
+    pub edges: Option<EdgeLines>,
     /// More of each pixel: depth, id, normal, superpixels, samples. Layers of an EXR; otherwise PNG files beside OUT,
     /// named like it with .depth and so on before .png
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
@@ -88,12 +92,18 @@ impl ImageArgs {
         Ok(format)
     }
 
-    /// Loads a scene with the variant and the environment asked for.
+    /// Loads a scene with the variant, the environment and the edges asked for.
     pub fn load(&self, path: &Path) -> anyhow::Result<Loaded> {
         let mut loaded = input::load_variant(path, self.camera.variant.as_deref())?;
         if let Some(file) = &self.environment {
             let turned = input::environment(file)?.turned(self.environment_rotation.to_radians());
             loaded.scene.environment = Some(Arc::new(turned));
+        }
+        if let Some(edges) = self.edges {
+            loaded.scene.add_edges(&Edges {
+                color: edges.color.map(|v| srgb::decode(v) as f32),
+                ..Edges::default()
+            });
         }
         Ok(loaded)
     }
@@ -125,6 +135,7 @@ impl ImageArgs {
             shadows: self.shadows.shadows(),
             line_width: self.line_width as f32,
             point_size: self.point_size as f32,
+            edge_width: self.edges.map_or(1.0, |edges| edges.width) as f32,
             attributes: !self.aov.is_empty(),
             max_memory: self.max_memory,
             ..Settings::new(width, height)

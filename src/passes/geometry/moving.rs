@@ -49,8 +49,11 @@ pub(in crate::passes) struct GpuStrokes {
     pub(in crate::passes) count: u32,
 }
 
-/// Set in `shaders/stroke.comp` where a corner's normal is to face the camera.
+/// Flags of a corner in `shaders/stroke.comp`.
 const FACES_CAMERA: u32 = 1 << 31;
+const EDGE: u32 = 1 << 30;
+const SMOOTH: u32 = 1 << 29;
+const DOUBLE_SIDED: u32 = 1 << 28;
 
 impl GpuStrokes {
     /// Allocates and fills its buffer.
@@ -59,8 +62,15 @@ impl GpuStrokes {
         strokes: &[Stroke],
     ) -> Result<Self, VulkanError> {
         let vectors = |stroke: &Stroke| {
-            let flags = if stroke.faces_camera { FACES_CAMERA } else { 0 };
-            let [x, y] = stroke.part.offset().map(f32::to_bits);
+            let flag = |bit: u32, set: bool| if set { bit } else { 0 };
+            let mut flags = flag(FACES_CAMERA, stroke.faces_camera);
+            let mut further = stroke.part.offset().map(f32::to_bits);
+            if let Some(edge) = stroke.edge {
+                flags |=
+                    EDGE | flag(SMOOTH, edge.is_smooth) | flag(DOUBLE_SIDED, edge.is_double_sided);
+                further = edge.opposite;
+            }
+            let [x, y] = further;
             [
                 [stroke.vertex, stroke.at, stroke.other, stroke.beyond],
                 [stroke.part.code() | flags, x, y, 0],

@@ -119,8 +119,10 @@ impl Recording<'_> {
         if let (0, Some(stroke)) = (index, &passes.stroke) {
             let to_clip = to_clip(scene, self.camera, self.settings);
             let sizes = StrokeSizes {
-                line_width: self.settings.line_width * side as f32,
-                point_size: self.settings.point_size * side as f32,
+                line_width: self.settings.line_width,
+                point_size: self.settings.point_size,
+                edge_width: self.settings.edge_width,
+                side,
             };
             stroke.record(recorder, scene, self.geometry, &to_clip, sizes);
             recorder.mark("stroke");

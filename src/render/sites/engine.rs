@@ -247,6 +247,8 @@ impl SiteEngine {
             let sizes = StrokeSizes {
                 line_width: self.settings.line_width,
                 point_size: self.settings.point_size,
+                edge_width: self.settings.edge_width,
+                side: 1,
             };
             stroke.record(recorder, scene, &self.geometry, &to_clip, sizes);
             recorder.mark("stroke");

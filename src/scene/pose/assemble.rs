@@ -422,6 +422,7 @@ impl Job<'_, '_> {
     fn strokes(&self) -> impl Iterator<Item = Stroke> {
         let primitive = self.placement.primitive;
         let first = self.first_vertex;
+        let mirrored = self.placement.mirrored;
         let corners = primitive.positions.len() - primitive.corners.len();
         let vertices = first + corners as u32..;
         vertices
@@ -433,6 +434,10 @@ impl Job<'_, '_> {
                 other: first + corner.other,
                 beyond: first + corner.beyond,
                 faces_camera: primitive.normals.is_empty(),
+                edge: corner.edge.map(|edge| {
+                    let edge = edge.offset(first);
+                    if mirrored { edge.reversed() } else { edge }
+                }),
             })
     }
 

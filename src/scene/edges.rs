@@ -1,0 +1,241 @@
+//! Edges of meshes, drawn as lines over them.
+
+use std::collections::HashMap;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::{
+    Material, Scene,
+    document::{Influences, Primitive, Target},
+    stroke::Edge,
+    surface::strokes::Strokes,
+};
+
+/// Which edges are drawn, and how.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Edges {
+    /// Their colour, linear light.
+    pub color: [f32; 3],
+    /// Edges whose faces turn by more than this are creases, in degrees.
+    pub crease: f64,
+}
+
+impl Edges {
+    /// The default threshold of creases in degrees.
+    pub const DEFAULT_CREASE: f64 = 30.0;
+}
+
+impl Default for Edges {
+    /// Black.
+    fn default() -> Self {
+        Self {
+            color: [0.0; 3],
+            crease: Self::DEFAULT_CREASE,
+        }
+    }
+}
+
+/// Adds the edges of all meshes of a scene to it.
+pub fn add(scene: &mut Scene, edges: &Edges) {
+    let [r, g, b] = edges.color;
+    let material = scene.materials.len();
+    scene.materials.push(Material {
+        base_color: [r, g, b, 1.0],
+        unlit: true,
+        ..Material::default()
+    });
+    let materials = &scene.materials;
+    scene.document.meshes.par_iter_mut().for_each(|mesh| {
+        let mut groups: Vec<Vec<&Primitive>> = Vec::new();
+        for primitive in mesh.iter().filter(|primitive| !primitive.is_strokes()) {
+            // Others do not move alike.
+            let alike = |other: &&Primitive| {
+                other.influences.len() == primitive.influences.len()
+                    && other.targets.len() == primitive.targets.len()
+            };
+            match groups.iter_mut().find(|g| g.first().is_some_and(alike)) {
+                Some(group) => group.push(primitive),
+                None => groups.push(vec![primitive]),
+            }
+        }
+        let drawn = groups
+            .iter()
+            .map(|group| Surface::new(group, materials).edges(edges.crease, material))
+            .filter(Primitive::is_strokes);
+        let drawn: Vec<Primitive> = drawn.collect();
+        mesh.extend(drawn);
+    });
+}
+
+/// Primitives whose vertices are one where they are at one place.
+struct Surface<'p> {
+    primitives: &'p [&'p Primitive],
+    /// Primitive and vertex.
+    vertices: Vec<(usize, usize)>,
+    faces: Vec<Face>,
+}
+
+struct Face {
+    corners: [u32; 3],
+    is_double_sided: bool,
+}
+
+/// A side of a face, in its direction.
+#[derive(Clone, Copy)]
+struct Side {
+    from: u32,
+    to: u32,
+    opposite: u32,
+    face: u32,
+}
+
+impl Side {
+    fn key(&self) -> (u32, u32) {
+        (self.from.min(self.to), self.from.max(self.to))
+    }
+}
+
+impl<'p> Surface<'p> {
+    fn new(primitives: &'p [&'p Primitive], materials: &[Material]) -> Self {
+        let mut surface = Self {
+            primitives,
+            vertices: Vec::new(),
+            faces: Vec::new(),
+        };
+        let mut at_place: HashMap<[u32; 3], u32> = HashMap::new();
+        let mut known: HashMap<[u32; 3], usize> = HashMap::new();
+        for (index, primitive) in primitives.iter().enumerate() {
+            let material = materials.get(primitive.material);
+            let is_double_sided = material.is_some_and(|material| material.double_sided);
+            let mut shared = |v: usize| {
+                // Without the sign of zero.
+                let place = primitive.positions[v].map(|x| (x + 0.0).to_bits());
+                *at_place.entry(place).or_insert_with(|| {
+                    surface.vertices.push((index, v));
+                    surface.vertices.len() as u32 - 1
+                })
+            };
+            for triangle in &primitive.triangles {
+                let corners = triangle.map(|v| shared(v as usize));
+                let [a, b, c] = corners;
+                if a == b || b == c || c == a {
+                    continue;
+                }
+                let mut sorted = corners;
+                sorted.sort_unstable();
+                let next = surface.faces.len();
+                let face = *known.entry(sorted).or_insert(next);
+                match surface.faces.get_mut(face) {
+                    // Back to back.
+                    Some(face) => face.is_double_sided = true,
+                    None => surface.faces.push(Face {
+                        corners,
+                        is_double_sided,
+                    }),
+                }
+            }
+        }
+        surface
+    }
+
+    fn position(&self, vertex: u32) -> DVec3 {
+        let (primitive, v) = self.vertices[vertex as usize];
+        DVec3::from_array(self.primitives[primitive].positions[v].map(f64::from))
+    }
+
+    /// The edges as lines of a material.
+    fn edges(&self, crease: f64, material: usize) -> Primitive {
+        let mut sides: Vec<Side> = (0..)
+            .zip(&self.faces)
+            .flat_map(|(face, Face { corners, .. })| {
+                let [a, b, c] = *corners;
+                [[a, b, c], [b, c, a], [c, a, b]].map(|[from, to, opposite]| Side {
+                    from,
+                    to,
+                    opposite,
+                    face,
+                })
+            })
+            .collect();
+        sides.par_sort_unstable_by_key(|side| (side.key(), side.face));
+        let smallest_cosine = crease.to_radians().cos();
+        let mut strokes = Strokes::default();
+        for group in sides.chunk_by(|a, b| a.key() == b.key()) {
+            let [first, rest @ ..] = group else {
+                continue;
+            };
+            let is_double_sided = |side: &Side| self.faces[side.face as usize].is_double_sided;
+            let turned = |side: &Side| side.from == first.from;
+            let second = rest.first();
+            let edge = Edge {
+                opposite: [
+                    first.opposite,
+                    second.map_or(first.from, |side| side.opposite),
+                ],
+                is_smooth: match rest {
+                    [second] => self.cosine(first, second.opposite) >= smallest_cosine,
+                    _ => false,
+                },
+                is_double_sided: group.iter().any(is_double_sided)
+                    || rest.iter().any(turned)
+                    || rest.len() > 1,
+            };
+            strokes.add_edge([first.from, first.to], edge);
+        }
+        let sources = strokes.compact(self.vertices.len());
+        let sources: Vec<(usize, usize)> =
+            sources.iter().map(|&v| self.vertices[v as usize]).collect();
+        self.primitive(strokes, &sources, material)
+    }
+
+    /// Cosine of the angle between a face and another one beyond its side.
+    fn cosine(&self, side: &Side, beyond: u32) -> f64 {
+        let [from, to] = [side.from, side.to].map(|v| self.position(v));
+        let along = to - from;
+        let normal = along.cross(self.position(side.opposite) - from);
+        let other = (-along).cross(self.position(beyond) - to);
+        normal.normalize_or_zero().dot(other.normalize_or_zero())
+    }
+
+    /// Lines with these vertices, which move as those of the surface do.
+    fn primitive(
+        &self,
+        strokes: Strokes,
+        sources: &[(usize, usize)],
+        material: usize,
+    ) -> Primitive {
+        let first = self.primitives.first();
+        let targets = (0..first.map_or(0, |p| p.targets.len())).map(|target| {
+            let displacement = |&(primitive, v): &(usize, usize)| {
+                let target = self.primitives[primitive].targets.get(target);
+                let own = target.and_then(|target| target.positions.get(v));
+                own.copied().unwrap_or_default()
+            };
+            Target {
+                positions: sources.iter().map(displacement).collect(),
+                ..Target::default()
+            }
+        });
+        let influences = (0..first.map_or(0, |p| p.influences.len())).map(|set| {
+            let sets = sources.iter().filter_map(|&(primitive, v)| {
+                let set = self.primitives[primitive].influences.get(set)?;
+                Some((*set.joints.get(v)?, *set.weights.get(v)?))
+            });
+            let (joints, weights) = sets.unzip();
+            Influences { joints, weights }
+        });
+        Primitive {
+            material,
+            positions: sources
+                .iter()
+                .map(|&(primitive, v)| self.primitives[primitive].positions[v])
+                .collect(),
+            targets: targets.collect(),
+            influences: influences.collect(),
+            triangles: strokes.triangles,
+            corners: strokes.corners,
+            ..Primitive::default()
+        }
+    }
+}
