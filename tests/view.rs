@@ -361,6 +361,58 @@ fn a_split_and_a_magnifier_show_pixels_of_both_methods() {
 }
 
 #[test]
+fn a_lens_shows_what_the_copied_zoom_makes() {
+    let (display, folder) = (Display::open(), tempfile::tempdir().unwrap());
+    let scene = asset("letters.glb");
+    let arguments = [&scene, "--size", "320x200", "--samples", "64"];
+    let mut viewer = Viewer::open(&display, folder.path(), &arguments);
+    viewer.wait_for("at rest");
+    viewer.show_picture_alone();
+    display.input(&["mousemove", "120", "90"]);
+    viewer.key("z");
+    viewer.wait_for("at rest");
+    // A click moves it, dragging sets its radius and the wheel its multiplicity.
+    viewer.drag("1", ["200", "100"]);
+    display.input(&["click", "4", "mousemove", "600", "400"]);
+    viewer.wait_for("at rest");
+    let command = viewer.command();
+    assert_eq!(command[0], "zoom");
+    for word in ["--center=160,100", "40,40"] {
+        assert!(
+            command.iter().any(|found| found == word),
+            "{word} in {command:?}"
+        );
+    }
+    let multiplicity = 1 + command
+        .iter()
+        .position(|word| word == "--multiplicity")
+        .unwrap();
+    assert!(
+        command[multiplicity].parse::<f64>().unwrap() < 0.5,
+        "{command:?}"
+    );
+    std::thread::sleep(NOTES_SEEN);
+    let shown = display.pixels([320, 200]);
+    assert_shows(&shown, &render(folder.path(), &command, "zoom.png"));
+
+    // Without the lens, what pixels hold beside their colours: superpixels are the fourth.
+    viewer.key("z");
+    let mut arguments = viewer.command();
+    for _ in 0..4 {
+        viewer.key("o");
+    }
+    viewer.wait_for("shows superpixels");
+    viewer.wait_for("at rest");
+    std::thread::sleep(NOTES_SEEN);
+    let shown = display.pixels([320, 200]);
+    arguments.extend(["--aov", "superpixels"].map(str::to_owned));
+    render(folder.path(), &arguments, "with.png");
+    let superpixels = std::fs::read(folder.path().join("with.superpixels.png")).unwrap();
+    assert_shows(&shown, &superpixels);
+    viewer.close();
+}
+
+#[test]
 fn a_file_that_is_written_again_is_shown_again() {
     let (display, folder) = (Display::open(), tempfile::tempdir().unwrap());
     let file = folder.path().join("scene.glb");

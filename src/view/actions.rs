@@ -1,19 +1,22 @@
 //! What keys and mouse do.
 
-use super::app::Event;
 use super::command::{Shot, line};
+use super::file_name::free_name;
 use super::keys::{self, Action};
+use super::lens;
 use super::look::Look;
 use super::navigate::Turntable;
 use super::panel::Wishes;
 use super::pick;
 use super::pointer::Drag;
-use super::screenshot::{Screenshot, free_name};
 use super::source::Source;
 use super::standpoint::Standpoint;
+use super::studio::Subject;
 use super::window::View;
 use glam::DVec2;
+use gpc::camera::zoom::ZoomRegion;
 use gpc::camera::{Camera, Pinhole};
+use gpc::output::AovKind;
 use gpc::render::Method;
 use gpc::sampling::MAX_SAMPLES;
 use std::path::{Path, PathBuf};
@@ -64,7 +67,10 @@ impl View {
                     MouseScrollDelta::LineDelta(_, lines) => f64::from(*lines),
                     MouseScrollDelta::PixelDelta(pixels) => pixels.y / PIXELS_A_NOTCH,
                 };
-                self.zoom(NOTCH.powf(notches), self.pointer.place());
+                let factor = NOTCH.powf(notches);
+                if !self.change_lens(|lens| lens::enlarge(lens, factor)) {
+                    self.zoom(factor, self.pointer.place());
+                }
             }
             WindowEvent::PinchGesture { delta, .. } => {
                 self.zoom(1.0 + delta, self.pointer.place());
@@ -126,6 +132,20 @@ impl View {
                     Some(factor) => Some(2 * factor),
                 };
             }
+            Action::Lens => {
+                let (place, height) = (self.pointer.place(), self.size()[1]);
+                self.cover.lens = match self.cover.lens {
+                    None => Some(lens::at(place, height)),
+                    Some(_) => None,
+                };
+                self.cover_changed()?;
+            }
+            Action::NextAttribute => {
+                self.cover.next_attribute();
+                let name = self.cover.attribute.map_or("colours", AovKind::name);
+                self.notes.say(format!("shows {name}"));
+                self.cover_changed()?;
+            }
             Action::Screenshot => self.write_screenshot(),
             Action::CopyCommand => self.copy_command(),
             Action::PlayOrPause => self.play_or_pause(),
@@ -151,7 +171,21 @@ impl View {
     /// Everything has to be rendered again.
     fn restart(&mut self) {
         self.canvas.restart(Instant::now());
-        self.is_dirty = true;
+        if let Err(error) = self.view_changed() {
+            self.notes.fail(&error);
+        }
+    }
+
+    /// Changes the lens, where there is one. Says whether there is.
+    fn change_lens(&mut self, change: impl FnOnce(&mut ZoomRegion)) -> bool {
+        let Some(lens) = &mut self.cover.lens else {
+            return false;
+        };
+        change(lens);
+        if let Err(error) = self.cover_changed() {
+            self.notes.fail(&error);
+        }
+        true
     }
 
     fn press(&mut self, button: MouseButton) {
@@ -161,11 +195,16 @@ impl View {
         let drag = match button {
             MouseButton::Left if near_split => Drag::Split,
             MouseButton::Left if self.modifiers.shift_key() => Drag::Pan,
+            MouseButton::Left if self.cover.lens.is_some() => Drag::Lens,
             MouseButton::Left => Drag::Orbit,
             MouseButton::Middle => Drag::Pan,
             MouseButton::Right => Drag::Zoom,
             _ => return,
         };
+        if drag == Drag::Lens {
+            let place = self.pointer.place();
+            self.change_lens(|lens| lens::press(lens, place));
+        }
         let is_double = self.pointer.pressed(drag, Instant::now());
         if is_double && drag == Drag::Orbit {
             self.recentre();
@@ -180,6 +219,10 @@ impl View {
             Drag::Zoom => {
                 let factor = NOTCH.powf(-by.y / PIXELS_A_NOTCH);
                 self.go(|turntable| turntable.zoom(factor, DVec2::ZERO, height));
+            }
+            Drag::Lens => {
+                let place = self.pointer.place();
+                self.change_lens(|lens| lens::drag(lens, place));
             }
             Drag::Split => {
                 self.split = (self.pointer.place().x / width).clamp(0.0, 1.0);
@@ -237,7 +280,7 @@ impl View {
     }
 
     /// Index of the picture that the pointer is over.
-    fn layer_under_pointer(&self) -> usize {
+    pub fn layer_under_pointer(&self) -> usize {
         let column = self.split_column().map(f64::from);
         usize::from(column.is_some_and(|column| self.pointer.place().x >= column))
     }
@@ -271,6 +314,13 @@ impl View {
         {
             player.seek(time);
             self.show_time();
+        }
+        if let Some(lens) = wishes.lens {
+            self.change_lens(|old| *old = lens);
+        }
+        if let Some(attribute) = wishes.attribute {
+            self.cover.attribute = attribute;
+            self.cover_changed()?;
         }
         if wishes.toggles_play {
             self.play_or_pause();
@@ -321,24 +371,10 @@ impl View {
         let Some(stage) = self.canvas.stage() else {
             return;
         };
-        let look = &self.looks[self.layer_under_pointer()];
-        let screenshot = Screenshot {
-            source: stage.source.clone(),
-            scene: stage.scene.clone(),
-            time: self.time(),
-            standpoint: self.standpoint,
-            settings: look.at(look.settings.samples, None),
-            output: free_name(Path::new(""), &stage.source.stem()),
-            options: self.device.clone(),
-        };
-        let proxy = self.proxy.clone();
-        self.notes
-            .say(format!("writing {}", screenshot.output.display()));
-        std::thread::spawn(move || {
-            let written = screenshot.write();
-            // Nobody waits for it once the window is closed.
-            let _ = proxy.send_event(Event::Written(screenshot.output, written));
-        });
+        let path = free_name(Path::new(""), &stage.source.stem());
+        let samples = self.looks[self.layer_under_pointer()].settings.samples;
+        self.notes.say(format!("writing {}", path.display()));
+        self.order(0, samples, Subject::File(path));
     }
 
     /// Puts the command that makes the picture under the pointer on the clipboard.
@@ -352,6 +388,7 @@ impl View {
             look: &self.looks[self.layer_under_pointer()],
             background: &self.background,
             time: self.time(),
+            lens: self.cover.lens.as_ref(),
         };
         let output = PathBuf::from(stage.source.stem()).with_extension("png");
         let command = line(&shot.arguments(&output));

@@ -2,8 +2,8 @@
 
 use super::Options;
 use super::source::Stage;
+use super::studio::Made;
 use super::window::View;
-use std::path::PathBuf;
 use std::time::Instant;
 use winit::application::ApplicationHandler;
 use winit::event::WindowEvent;
@@ -16,8 +16,8 @@ pub enum Event {
     Opened(u64, Box<anyhow::Result<Stage>>),
     /// The scene's file was written.
     Changed,
-    /// A picture was written.
-    Written(PathBuf, anyhow::Result<()>),
+    /// A picture that frames can't make.
+    Made(Made),
 }
 
 /// The viewer.

@@ -4,7 +4,7 @@ use super::compose::Piece;
 use super::engine::Engine;
 use super::layer::{Layer, Sight};
 use super::painter::{Painter, Painting};
-use super::picture::{self, DESTINATION, LAYERS, SOURCE, UNUSED};
+use super::picture::{self, DESTINATION, LAYERS, Picture, SOURCE, UNUSED};
 use super::slot::{SLOTS, Slot};
 use super::source::Stage;
 use super::swapchain::{Acquired, Swapchain, Turn};
@@ -42,6 +42,10 @@ pub struct Canvas {
     turn: usize,
     /// The picture, or the two of a split, left first.
     layers: Vec<Layer>,
+    /// Seen in the stead of all pictures.
+    cover: Option<Picture>,
+    /// Whether pictures get more samples at rest.
+    pub refines: bool,
     stage: Option<Stage>,
     is_uploaded: bool,
     painter: Painter,
@@ -68,6 +72,8 @@ impl Canvas {
             slots: [Slot::new(device)?, Slot::new(device)?],
             turn: 0,
             layers: Vec::new(),
+            cover: None,
+            refines: true,
             stage: None,
             is_uploaded: false,
             painter: Painter::new(device, swapchain.format)?,
@@ -124,6 +130,15 @@ impl Canvas {
         Ok(())
     }
 
+    /// Shows a picture in the stead of all others, or those again.
+    pub fn set_cover(&mut self, cover: Option<Picture>) -> anyhow::Result<()> {
+        if self.cover.is_some() {
+            self.wait()?;
+        }
+        self.cover = cover;
+        Ok(())
+    }
+
     /// All pictures are others from now on: something moved.
     pub fn restart(&mut self, now: Instant) {
         for layer in &mut self.layers {
@@ -158,6 +173,7 @@ impl Canvas {
         self.stage.as_ref()?;
         self.layers
             .iter()
+            .filter(|layer| self.refines || layer.schedule.is_draft())
             .filter_map(|layer| layer.schedule.due())
             .min()
     }
@@ -169,7 +185,14 @@ impl Canvas {
 
     /// Whether every picture has all its samples.
     pub fn rests(&self) -> bool {
-        let is_done = |layer: &Layer| layer.schedule.is_done() && !layer.has_again();
+        let is_done = |layer: &Layer| {
+            let is_finished = if self.refines {
+                layer.schedule.is_done()
+            } else {
+                !layer.schedule.is_draft()
+            };
+            is_finished && !layer.has_again()
+        };
         !self.layers.is_empty()
             && self.layers.iter().all(is_done)
             && self.slots.iter().all(|slot| slot.jobs.is_empty())
@@ -262,7 +285,14 @@ impl Canvas {
             camera,
             moment: seen.moment,
         };
+        if let Some(cover) = &mut self.cover {
+            // SAFETY: passed on to the caller; covers are changed only when no commands are left.
+            unsafe { cover.record_pixels(commands) };
+        }
         for (index, layer) in self.layers.iter_mut().enumerate() {
+            if !self.refines && !layer.schedule.is_draft() && !layer.has_again() {
+                continue;
+            }
             // SAFETY: passed on to the caller; the slot keeps the job.
             let job = unsafe { layer.record(&self.engine, commands, &sight, now) }?;
             slot.jobs.extend(job.map(|job| (index, job)));
@@ -308,12 +338,13 @@ impl Canvas {
     /// # Safety
     /// As for [`Self::record_work`]; the window's image is in [`DESTINATION`].
     unsafe fn record_piece(&self, commands: vk::CommandBuffer, image: vk::Image, piece: &Piece) {
-        let Some(layer) = self.layers.get(piece.layer) else {
+        let layer = self.layers.get(piece.layer).map(Layer::picture);
+        let Some(picture) = self.cover.as_ref().or(layer) else {
             return;
         };
-        let size = layer.picture().size();
+        let size = picture.size();
         let fits = |axis: usize| piece.from.corner[axis] + piece.from.size[axis] <= size[axis];
-        if !layer.picture().is_written() || !fits(0) || !fits(1) {
+        if !picture.is_written() || !fits(0) || !fits(1) {
             return;
         }
         let offsets = |rect: &super::compose::Rect| {
@@ -333,7 +364,7 @@ impl Canvas {
         unsafe {
             self.engine.device.handle.cmd_blit_image(
                 commands,
-                layer.picture().image(),
+                picture.image(),
                 SOURCE.layout,
                 image,
                 DESTINATION.layout,

@@ -1,9 +1,10 @@
-//! The `gpc render` command that makes the picture which is seen.
+//! The `gpc render` or `gpc zoom` command that makes the picture which is seen.
 
 use super::look::{Look, method_name};
 use super::source::Source;
 use super::standpoint::Standpoint;
 use glam::DVec3;
+use gpc::camera::zoom::{Shape, Transition, ZoomRegion};
 use gpc::render::{Coverage, Detection, Footprint, Method, Settings, Shading};
 use gpc::sampling::Pattern;
 use std::path::Path;
@@ -17,17 +18,27 @@ pub struct Shot<'a> {
     pub background: &'a str,
     /// Moment of the animation in seconds.
     pub time: f64,
+    /// A region that is enlarged.
+    pub lens: Option<&'a ZoomRegion>,
 }
 
 impl Shot<'_> {
     /// The command's arguments, `gpc` itself left out, to write a file.
     pub fn arguments(&self, output: &Path) -> Vec<String> {
         let mut arguments = Arguments(vec![
-            "render".to_owned(),
+            if self.lens.is_some() {
+                "zoom"
+            } else {
+                "render"
+            }
+            .to_owned(),
             self.source.path.display().to_string(),
         ]);
         let settings = self.look.at(self.look.settings.samples, None);
         arguments.add("-o", output.display());
+        if let Some(lens) = self.lens {
+            arguments.lens(lens);
+        }
         let [width, height] = settings.size;
         arguments.add("--size", format_args!("{width}x{height}"));
         arguments.settings(&settings, self.background);
@@ -48,6 +59,20 @@ impl Arguments {
         let DVec3 { x, y, z } = vector;
         // With an equals sign, a first number below 0 is no option.
         self.0.push(format!("{option}={x},{y},{z}"));
+    }
+
+    fn lens(&mut self, lens: &ZoomRegion) {
+        let [x, y] = lens.center;
+        self.0.push(format!("--center={x},{y}"));
+        let [rx, ry] = lens.radius;
+        self.add("--radius", format_args!("{rx},{ry}"));
+        self.add("--multiplicity", lens.multiplicity);
+        if lens.shape == Shape::Rectangle {
+            self.add("--shape", "rectangle");
+        }
+        if lens.transition == Transition::Smooth {
+            self.add("--transition", "smooth");
+        }
     }
 
     /// Settings that differ from the command's defaults.
@@ -193,6 +218,7 @@ mod tests {
             look: &look,
             background: "none",
             time: 0.0,
+            lens: None,
         };
         let found = line(&shot.arguments(Path::new("a.png")));
         let expected = "gpc render 'a b.glb' -o a.png --size 640x480 --samples 64 --camera 2";
@@ -221,11 +247,36 @@ mod tests {
             look: &look,
             background: "#000000",
             time: 0.25,
+            lens: None,
         };
         let found = line(&shot.arguments(Path::new("a.png")));
         let expected = "gpc render a.glb -o a.png --size 64x48 --samples 1024 --contrast 5 --detect edges \
              --pattern lattice --shading sample --exposure=-0.5 --line-width 2.5 --background '#000000' --animation run --time 0.25 \
              --eye=-1.5,0.1,3 --target=-1.5,0.1,2 --fov 40";
+        assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn a_lens_is_a_zoom() {
+        let look = Look::new(Settings::new(64, 48), None);
+        let lens = ZoomRegion {
+            center: [20.0, 30.0],
+            radius: [9.0, 9.0],
+            multiplicity: 0.25,
+            shape: Shape::Rectangle,
+            transition: Transition::Smooth,
+        };
+        let shot = Shot {
+            source: &source("a.glb"),
+            standpoint: &Standpoint::Camera(0),
+            look: &look,
+            background: "none",
+            time: 0.0,
+            lens: Some(&lens),
+        };
+        let found = line(&shot.arguments(Path::new("a.png")));
+        let expected = "gpc zoom a.glb -o a.png --center=20,30 --radius 9,9 --multiplicity 0.25 --shape rectangle \
+             --transition smooth --size 64x48 --samples 64 --camera 0";
         assert_eq!(found, expected);
     }
 

@@ -20,6 +20,8 @@ pub enum Action {
     FewerSamples,
     Split,
     Magnify,
+    Lens,
+    NextAttribute,
     Screenshot,
     CopyCommand,
     PlayOrPause,
@@ -70,7 +72,7 @@ const fn named(key: NamedKey, label: &'static str, action: Action, does: &'stati
 }
 
 /// Every key.
-static BINDINGS: [Binding; 27] = [
+static BINDINGS: [Binding; 29] = [
     text("h", "H", Action::Help, "list the keys"),
     text("p", "P", Action::Panel, "show or hide the panel"),
     named(
@@ -127,6 +129,18 @@ static BINDINGS: [Binding; 27] = [
         "split between two methods; drag the line",
     ),
     text("l", "L", Action::Magnify, "magnifier: 8, 16, 32 times, off"),
+    text(
+        "z",
+        "Z",
+        Action::Lens,
+        "zoom lens: click, drag its radius, wheel",
+    ),
+    text(
+        "o",
+        "O",
+        Action::NextAttribute,
+        "depth, IDs, normals, superpixels, samples",
+    ),
     named(
         NamedKey::Space,
         "Space",

@@ -5,6 +5,8 @@ use super::keys;
 use super::look::{Look, method_name};
 use super::notes::Note;
 use super::player::Player;
+use gpc::camera::zoom::{Shape, Transition, ZoomRegion};
+use gpc::output::AovKind;
 use gpc::render::{Detection, Method, Statistics};
 use gpc::sampling::Pattern;
 use gpc::scene::AnimationInfo;
@@ -19,6 +21,9 @@ pub struct Facts<'a> {
     pub shows_panel: bool,
     /// Column of the split in pixels.
     pub split: Option<u32>,
+    pub lens: Option<ZoomRegion>,
+    /// What pixels hold beside their colours, where that is seen.
+    pub attribute: Option<AovKind>,
     pub scene: Option<SceneFacts<'a>>,
     pub pictures: Vec<PictureFacts<'a>>,
 }
@@ -44,6 +49,9 @@ pub struct PictureFacts<'a> {
 pub struct Wishes {
     /// How a picture is antialiased, by the picture's index.
     pub look: Option<(usize, Look)>,
+    pub lens: Option<ZoomRegion>,
+    /// What to see of pixels: their colours, or something beside.
+    pub attribute: Option<Option<AovKind>>,
     /// Moment of the animation in seconds.
     pub time: Option<f64>,
     /// Index of the animation.
@@ -98,8 +106,43 @@ fn show_panel(ctx: &egui::Context, scene: &SceneFacts<'_>, facts: &Facts<'_>, wi
                 });
             }
             ui.separator();
+            show_cover(ui, facts, wishes);
             ui.weak("H lists the keys, P hides this");
         });
+}
+
+/// Changes what is seen in the stead of the frames.
+fn show_cover(ui: &mut egui::Ui, facts: &Facts<'_>, wishes: &mut Wishes) {
+    let name = |attribute: Option<AovKind>| attribute.map_or("colours", AovKind::name);
+    egui::ComboBox::from_label("shown")
+        .selected_text(name(facts.attribute))
+        .show_ui(ui, |ui| {
+            let all = std::iter::once(None).chain(AovKind::ALL.map(Some));
+            for attribute in all {
+                let is_chosen = attribute == facts.attribute;
+                if ui.selectable_label(is_chosen, name(attribute)).clicked() {
+                    wishes.attribute = Some(attribute);
+                }
+            }
+        });
+    let Some(mut lens) = facts.lens else {
+        return;
+    };
+    ui.label(format!(
+        "lens: {:.2} times as large",
+        1.0 / lens.multiplicity
+    ));
+    ui.horizontal(|ui| {
+        ui.selectable_value(&mut lens.shape, Shape::Circle, "circle");
+        ui.selectable_value(&mut lens.shape, Shape::Rectangle, "rectangle");
+    });
+    ui.horizontal(|ui| {
+        ui.selectable_value(&mut lens.transition, Transition::Linear, "linear");
+        ui.selectable_value(&mut lens.transition, Transition::Smooth, "smooth");
+    });
+    if Some(lens) != facts.lens {
+        wishes.lens = Some(lens);
+    }
 }
 
 fn show_player(

@@ -1,6 +1,7 @@
 //! Images that the renderer writes and the window's images are copied from.
 
 use super::device::Device;
+use super::studio::Pixels;
 use anyhow::anyhow;
 use ash::vk;
 use gpc::render::{ImageState, Target};
@@ -54,6 +55,15 @@ pub struct Picture {
     memory: Option<Allocation>,
     size: [u32; 2],
     is_written: bool,
+    /// Where pixels of the host wait to be copied from.
+    staging: Option<Staging>,
+}
+
+/// Memory that the host has written.
+struct Staging {
+    device: Arc<Device>,
+    buffer: vk::Buffer,
+    memory: Option<Allocation>,
 }
 
 impl Picture {
@@ -81,24 +91,11 @@ impl Picture {
             memory: None,
             size,
             is_written: false,
+            staging: None,
         };
         // SAFETY: the image was made from this device.
         let requirements = unsafe { device.handle.get_image_memory_requirements(image) };
-        let memory = device
-            .allocator()?
-            .lock()
-            .map_err(|_| anyhow!("the allocator's lock is poisoned"))?
-            .allocate(&AllocationCreateDesc {
-                name: "picture",
-                requirements,
-                location: MemoryLocation::GpuOnly,
-                linear: false,
-                allocation_scheme: AllocationScheme::GpuAllocatorManaged,
-            })
-            .map_err(|_| VulkanError::OutOfMemory {
-                what: "a picture".to_owned(),
-                bytes: requirements.size,
-            })?;
+        let memory = allocate(device, requirements, MemoryLocation::GpuOnly)?;
         // SAFETY: the memory is the image's alone, and freed after it.
         unsafe {
             device
@@ -108,6 +105,44 @@ impl Picture {
         }
         picture.memory = Some(memory);
         Ok(picture)
+    }
+
+    /// Holds these codes, once [`Self::record_pixels`] is executed.
+    pub fn from_pixels(device: &Arc<Device>, pixels: &Pixels) -> anyhow::Result<Self> {
+        let mut picture = Self::new(device, pixels.size)?;
+        picture.staging = Some(Staging::new(device, pixels.codes.as_flattened())?);
+        Ok(picture)
+    }
+
+    /// Records the copy of pixels of the host, if any wait.
+    ///
+    /// # Safety
+    /// `commands` is being recorded for the device outside of a render pass; the picture outlives their execution.
+    pub unsafe fn record_pixels(&mut self, commands: vk::CommandBuffer) {
+        let Some(staging) = self.staging.as_ref().filter(|_| !self.is_written) else {
+            return;
+        };
+        self.is_written = true;
+        let copy = [vk::BufferImageCopy::default()
+            .image_subresource(LAYERS)
+            .image_extent(vk::Extent3D {
+                width: self.size[0],
+                height: self.size[1],
+                depth: 1,
+            })];
+        // SAFETY: passed on to the caller; the buffer has a code for each pixel, and what the host wrote before the
+        // submission is visible to it.
+        unsafe {
+            change(&self.device, commands, self.image, UNUSED, DESTINATION);
+            self.device.handle.cmd_copy_buffer_to_image(
+                commands,
+                staging.buffer,
+                self.image,
+                DESTINATION.layout,
+                &copy,
+            );
+            change(&self.device, commands, self.image, DESTINATION, SOURCE);
+        }
     }
 
     /// Width and height in pixels.
@@ -172,6 +207,79 @@ impl Picture {
     }
 }
 
+impl Staging {
+    fn new(device: &Arc<Device>, bytes: &[u8]) -> anyhow::Result<Self> {
+        let info = vk::BufferCreateInfo::default()
+            .size(bytes.len() as u64)
+            .usage(vk::BufferUsageFlags::TRANSFER_SRC);
+        // SAFETY: a plain creation on a live device.
+        let buffer = unsafe { device.handle.create_buffer(&info, None) }
+            .map_err(VulkanError::of("vkCreateBuffer"))?;
+        let mut staging = Self {
+            device: device.clone(),
+            buffer,
+            memory: None,
+        };
+        // SAFETY: the buffer was made from this device.
+        let requirements = unsafe { device.handle.get_buffer_memory_requirements(buffer) };
+        let memory = allocate(device, requirements, MemoryLocation::CpuToGpu)?;
+        let memory = staging.memory.insert(memory);
+        // SAFETY: the memory is the buffer's alone, and freed after it.
+        unsafe {
+            device
+                .handle
+                .bind_buffer_memory(buffer, memory.memory(), memory.offset())
+                .map_err(VulkanError::of("vkBindBufferMemory"))?;
+        }
+        let mapped = memory.mapped_slice_mut();
+        mapped
+            .and_then(|mapped| mapped.get_mut(..bytes.len()))
+            .ok_or_else(|| anyhow!("the memory of pixels is not mapped"))?
+            .copy_from_slice(bytes);
+        Ok(staging)
+    }
+}
+
+impl Drop for Staging {
+    fn drop(&mut self) {
+        // SAFETY: whoever recorded commands with it keeps it until they are done.
+        unsafe { self.device.handle.destroy_buffer(self.buffer, None) };
+        free(&self.device, self.memory.take());
+    }
+}
+
+/// Memory of the shared allocator.
+fn allocate(
+    device: &Device,
+    requirements: vk::MemoryRequirements,
+    location: MemoryLocation,
+) -> anyhow::Result<Allocation> {
+    let allocation = device
+        .allocator()?
+        .lock()
+        .map_err(|_| anyhow!("the allocator's lock is poisoned"))?
+        .allocate(&AllocationCreateDesc {
+            name: "picture",
+            requirements,
+            location,
+            linear: location == MemoryLocation::CpuToGpu,
+            allocation_scheme: AllocationScheme::GpuAllocatorManaged,
+        })
+        .map_err(|_| VulkanError::OutOfMemory {
+            what: "a picture".to_owned(),
+            bytes: requirements.size,
+        })?;
+    Ok(allocation)
+}
+
+fn free(device: &Device, memory: Option<Allocation>) {
+    if let (Some(memory), Ok(allocator)) = (memory, device.allocator()) {
+        let mut allocator = allocator.lock().unwrap_or_else(PoisonError::into_inner);
+        // Freeing fails only for an allocation of another allocator.
+        let _ = allocator.free(memory);
+    }
+}
+
 /// Records the change of an image from one state to another.
 ///
 /// # Safety
@@ -202,10 +310,6 @@ impl Drop for Picture {
     fn drop(&mut self) {
         // SAFETY: whoever recorded commands with it keeps it until they are done.
         unsafe { self.device.handle.destroy_image(self.image, None) };
-        if let (Some(memory), Ok(allocator)) = (self.memory.take(), self.device.allocator()) {
-            let mut allocator = allocator.lock().unwrap_or_else(PoisonError::into_inner);
-            // Freeing fails only for an allocation of another allocator.
-            let _ = allocator.free(memory);
-        }
+        free(&self.device, self.memory.take());
     }
 }

@@ -14,6 +14,7 @@ pub enum Drag {
     Pan,
     Zoom,
     Split,
+    Lens,
 }
 
 /// The mouse's state.

@@ -120,6 +120,11 @@ impl Schedule {
         }
     }
 
+    /// Whether nothing is rendered of the picture.
+    pub fn is_draft(&self) -> bool {
+        self.step == Step::Draft
+    }
+
     /// When the next work is due, if any is left.
     pub fn due(&self) -> Option<Instant> {
         match self.step {

@@ -3,6 +3,7 @@
 use super::app::Event;
 use super::canvas::{Canvas, Seen};
 use super::compose::{self, Magnifier};
+use super::cover::Cover;
 use super::device::Device;
 use super::engine::Engine;
 use super::layer::Layer;
@@ -10,13 +11,14 @@ use super::look::Look;
 use super::notes::Notes;
 use super::painter::Painting;
 use super::panel::{self, Facts, PictureFacts, SceneFacts, Wishes};
+use super::picture::Picture;
 use super::player::Player;
 use super::pointer::Pointer;
 use super::source::{Source, Stage};
 use super::standpoint::Standpoint;
+use super::studio::{Made, Order, Pixels, Studio, Subject};
 use super::watch::Watch;
 use super::{NoDisplay, Options};
-use gpc::render::HeadlessOptions;
 use gpc::scene::{Moment, SceneCamera};
 use gpc::vulkan::VulkanError;
 use std::path::{Path, PathBuf};
@@ -73,8 +75,6 @@ pub struct View {
     pub looks: Vec<Look>,
     /// The background as the command line has it.
     pub background: String,
-    /// How devices are opened.
-    pub device: HeadlessOptions,
     /// Column of the split, as a share of the width.
     pub split: f64,
     /// Enlargement of the magnifier, where it is on.
@@ -82,6 +82,10 @@ pub struct View {
 
     pub pointer: Pointer,
     pub modifiers: ModifiersState,
+    /// What is looked at in the stead of the frames.
+    pub cover: Cover,
+    /// Makes it, and files.
+    pub studio: Studio,
     pub notes: Notes,
     pub shows_keys: bool,
     pub shows_panel: bool,
@@ -125,6 +129,11 @@ impl View {
             window.theme(),
             None,
         );
+        let deliver = proxy.clone();
+        let studio = Studio::new(options.device, move |made| {
+            // Nobody waits for it once the window is closed.
+            let _ = deliver.send_event(Event::Made(made));
+        });
         let mut view = Self {
             scenes: std::iter::once(options.source.path.clone())
                 .chain(options.others)
@@ -134,7 +143,6 @@ impl View {
             camera: options.camera,
             source: options.source,
             background: options.background,
-            device: options.device,
             proxy,
             canvas,
             interface,
@@ -150,6 +158,8 @@ impl View {
             magnifier: None,
             pointer: Pointer::default(),
             modifiers: ModifiersState::empty(),
+            cover: Cover::default(),
+            studio,
             notes: Notes::default(),
             shows_keys: false,
             shows_panel: true,
@@ -221,8 +231,13 @@ impl View {
                 }
             }
             Event::Changed => self.reload = Some(Instant::now() + SETTLE),
-            Event::Written(path, Ok(())) => self.notes.say(format!("wrote {}", path.display())),
-            Event::Written(_, Err(error)) => self.notes.fail(&error),
+            Event::Made(Made::File(path, Ok(()))) => {
+                self.notes.say(format!("wrote {}", path.display()));
+            }
+            Event::Made(Made::Pixels(number, Ok(pixels))) => self.show_made(number, &pixels)?,
+            Event::Made(Made::File(_, Err(error)) | Made::Pixels(_, Err(error))) => {
+                self.notes.fail(&error);
+            }
         }
         Ok(())
     }
@@ -265,7 +280,71 @@ impl View {
             .iter()
             .map(layer)
             .collect::<anyhow::Result<_>>()?;
-        self.canvas.set_layers(layers)
+        self.canvas.set_layers(layers)?;
+        self.view_changed()
+    }
+
+    /// What was made of another view is no longer seen, and asked for anew.
+    pub fn view_changed(&mut self) -> anyhow::Result<()> {
+        self.is_dirty = true;
+        self.canvas.set_cover(None)?;
+        self.order_cover(|cover| cover.begin(true));
+        Ok(())
+    }
+
+    /// Asks for another cover of the same view, or for none.
+    pub fn cover_changed(&mut self) -> anyhow::Result<()> {
+        self.is_dirty = true;
+        self.canvas.refines = self.cover.subject().is_none();
+        if self.canvas.refines {
+            self.canvas.set_cover(None)?;
+        }
+        self.order_cover(|cover| cover.begin(false));
+        Ok(())
+    }
+
+    /// Shows what the studio has made.
+    fn show_made(&mut self, number: u64, pixels: &Pixels) -> anyhow::Result<()> {
+        let arrival = self.cover.arrived(number);
+        if arrival.is_shown {
+            let picture = Picture::from_pixels(&self.canvas.engine.device, pixels)?;
+            self.canvas.set_cover(Some(picture))?;
+        }
+        if arrival.refines {
+            self.order_cover(Cover::refine);
+        }
+        Ok(())
+    }
+
+    /// Orders what is wanted in the stead of the frames, if anything is.
+    fn order_cover(&mut self, step: impl FnOnce(&mut Cover) -> (u64, u32)) {
+        if let Some(subject) = self.cover.subject() {
+            let (number, samples) = step(&mut self.cover);
+            let look = &self.looks[self.layer_under_pointer()];
+            let samples = if look.can_have(samples) {
+                samples.min(look.settings.samples)
+            } else {
+                look.settings.samples
+            };
+            self.order(number, samples, subject);
+        }
+    }
+
+    /// Asks the studio for a picture of what is seen, antialiased like that under the pointer.
+    pub fn order(&self, number: u64, samples: u32, subject: Subject) {
+        let Some(stage) = self.canvas.stage() else {
+            return;
+        };
+        let look = &self.looks[self.layer_under_pointer()];
+        self.studio.ask(Order {
+            number,
+            source: stage.source.clone(),
+            scene: stage.scene.clone(),
+            time: self.time(),
+            standpoint: self.standpoint,
+            settings: look.at(samples, None),
+            subject,
+        });
     }
 
     /// Width / height of the picture.
@@ -383,6 +462,8 @@ impl View {
             shows_keys: self.shows_keys,
             shows_panel: self.shows_panel,
             split,
+            lens: self.cover.lens,
+            attribute: self.cover.attribute,
             scene: self.canvas.stage().map(|stage| SceneFacts {
                 name: stage.source.name(),
                 triangles: stage.prepared.triangle_count(),
@@ -449,7 +530,9 @@ impl View {
             Ok(Some(moment)) => {
                 self.moment = Some(Arc::new(moment));
                 self.canvas.restart(Instant::now());
-                self.is_dirty = true;
+                if let Err(error) = self.view_changed() {
+                    self.notes.fail(&error);
+                }
             }
             // A light moves, or a mesh turns inside out: the scene is posed anew, which takes a while.
             Ok(None) => {
@@ -484,7 +567,7 @@ impl View {
 
     /// Says when the picture has all samples.
     fn note_rest(&mut self) {
-        let rests = self.canvas.rests();
+        let rests = self.canvas.rests() && self.cover.is_done();
         if rests && !self.rests {
             log::debug!("at rest");
         }
