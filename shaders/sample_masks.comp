@@ -217,15 +217,19 @@ void main() {
     float samples = float(frame.sample_count);
     if (EXACT_AREAS) {
         int whole_units = 0;
-        uint whole_samples = 0u;
+        uint whole_samples = 0u, sharing = covered != all ? 1u : 0u;
+        bool small = false;             // what is seen whole and too small to be trusted
         [[unroll]] for (int s = 0; s < SLOTS; s++) {
+            bool shares = seen[s].mask != uvec2(0u) && seen[s].area == 0;
             whole_units += seen[s].area;
             whole_samples += seen[s].area != 0 ? samples_of(seen[s].mask) : 0u;
+            sharing += shares ? 1u : 0u;
+            small = small || (shares && (wholes >> s & 1u) != 0u);
         }
         float whole_area = float(whole_units) * (1.0 / AREA_UNIT), left = samples - float(whole_samples);
         mend = left > 0.0 && whole_area <= 1.0 ? 1.0 : 1.0 / max(whole_area, 1e-6);
         share = max(1.0 - whole_area, 0.0) / max(left, 1.0);
-        exact = abs(whole_area - float(whole_samples) / samples) <= AGREEMENT;
+        exact = abs(whole_area - float(whole_samples) / samples) <= AGREEMENT && !(small && sharing > 1u);
     }
 
     bool writes = exists && !failed;

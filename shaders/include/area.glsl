@@ -16,7 +16,10 @@ void clip_line(vec2 normal, float distance_, vec2 n, float d, bool own, inout fl
     empty = empty || (!own && along == 0.0 && before > 0.0);
 }
 
-const float FEWEST = 6.0;                               // samples that an area to be trusted is worth
+// Samples that an area to be trusted is worth. Where a smaller one shares what is left with another surface, none is
+// trusted: samples that are lost to one piece of a thin thing are gained by the next, and areas of some pieces alone would
+// upset that balance.
+const float FEWEST = 6.0;
 const float AGREEMENT = 0.1;                            // of areas and samples, in cells
 
 // Areas are sums of integers, so that the order of vertices and triangles does not show.

@@ -96,11 +96,12 @@ struct Surfaces {
     uint parts;
     int area;
     bool whole;             // it loses no sample that it covers, so that its area is exact
+    bool small;             // it would be whole, if its area were not too small to be trusted
 };
 
 Surfaces surfaces_of(Cell cell) {
     uint lane = gl_SubgroupInvocationID;
-    Surfaces r = Surfaces(0u, 0u, 0u, 0.0, 0u, 0, false);
+    Surfaces r = Surfaces(0u, 0u, 0u, 0.0, 0u, 0, false, false);
     float left = 0.0;
     [[unroll]] for (int g = 0; g < ROWS; g++) left += id[g] != 0u ? 1.0 : 0.0;
     left = lanes_add(left);
@@ -120,10 +121,11 @@ Surfaces surfaces_of(Cell cell) {
             vec3 a = SITES ? t.a * cell.pixel[0].x + t.b * cell.pixel[0].y : t.a;
             vec3 b = SITES ? t.a * cell.pixel[1].x + t.b * cell.pixel[1].y : t.b;
             int area = area_in_cell(a, b, t.a * cell.at.x + t.b * cell.at.y + t.c, lane);
-            bool whole = holders != 0u && subgroupShuffle(nearby_covered, holder) == s.samples
-                && float(area) * float(cell.samples) >= FEWEST * AREA_UNIT;
+            bool whole = holders != 0u && subgroupShuffle(nearby_covered, holder) == s.samples;
+            bool trusted = float(area) * float(cell.samples) >= FEWEST * AREA_UNIT;
             r.area = mine ? area : r.area;
-            r.whole = mine ? whole : r.whole;
+            r.whole = mine ? whole && trusted : r.whole;
+            r.small = mine ? whole && !trusted : r.small;
         }
         r.count += some ? 1u : 0u;
         left -= s.samples;
@@ -139,6 +141,7 @@ float weigh(Surfaces s, uint samples, out bool settled) {
     if (!EXACT_AREAS) return s.samples;
     // Beyond the invocations' room to hold triangles, all go by samples.
     bool known = s.count <= LANES && nearby_count <= LANES;
+    bool small = lanes_or(s.small ? 1u : 0u) != 0u;
     bool shares = s.samples > 0.0 && !s.whole;
     float whole_area = float(lanes_add(s.whole ? s.area : 0)) * (1.0 / AREA_UNIT);
     float whole_samples = lanes_add(s.whole ? s.samples : 0.0);
@@ -149,7 +152,7 @@ float weigh(Surfaces s, uint samples, out bool settled) {
     float mend = left > 0.0 && whole_area <= 1.0 ? 1.0 : 1.0 / max(whole_area, 1e-6);
     float share = max(1.0 - whole_area, 0.0) / max(left, 1.0);
     bool agrees = abs(whole_area - whole_samples / float(samples)) <= AGREEMENT;
-    bool exact = known && agrees;
+    bool exact = known && agrees && !(small && sharing > 1.0);
     settled = RUN != PROBE || (exact && sharing <= 1.0);
     float cell_weight = float(frame.sample_count);
     return exact ? cell_weight * (s.whole ? float(s.area) * (1.0 / AREA_UNIT) * mend : s.samples * share)

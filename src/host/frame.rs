@@ -145,7 +145,6 @@ impl Frame {
             &output,
             &EngineKind {
                 farther_is_larger: !geometry.clip.reversed_depth,
-                growths: 0,
                 ..EngineKind::superpixels(&settings)
             },
         )?;
@@ -165,16 +164,18 @@ impl Frame {
             )
         };
         let (format, encoded) = (images.color.format, images.color.encoded);
+        let growths = engine.growths() as u32;
+        let rounds = plan.rounds + growths * plan.growth_rounds();
         Ok(Self {
             take: shared.take.pipeline(layout, encoded, &output)?,
-            patch: Patch::new(layout, format, encoded)?,
+            patch: Patch::new(layout, format, encoded, growths > 0)?,
             counters: memory.buffer(
                 "counter read-back",
-                Counter::BYTES,
+                Counter::BYTES * u64::from(1 + growths),
                 vk::BufferUsageFlags::TRANSFER_DST,
                 MemoryUse::Readback,
             )?,
-            timings: Timings::new(gpu, 32 + 8 * plan.rounds)?,
+            timings: Timings::new(gpu, 32 + 8 * (growths + rounds))?,
             geometry: *geometry,
             images: *images,
             options: options.clone(),
@@ -318,6 +319,21 @@ impl Frame {
         };
         self.engine.record(recorder, resources, &shading, &work);
         resources.record_keep_counters(recorder, &self.counters, 0);
+        // Centres whose colours are alike miss what superpixels beside them show.
+        let grown = FrameUniform {
+            alike: 0,
+            ..uniform
+        };
+        for growth in 0..self.engine.growths() {
+            resources.record_begin(recorder, set, &grown);
+            let work = Work {
+                rounds: self.plan.growth_rounds(),
+                ..work
+            };
+            self.engine
+                .record_growth(recorder, resources, &shading, &work, growth);
+            resources.record_keep_counters(recorder, &self.counters, 1 + growth as u64);
+        }
         recorder.barrier();
         self.images.record_draw(recorder);
         let view = self.images.color.lent.view;
@@ -328,13 +344,21 @@ impl Frame {
         Ok(())
     }
 
+    /// What the last recording counted: the superpixels that were detected, and each growth of them.
+    fn counted(&self) -> Result<impl Iterator<Item = &[u32]>, HostError> {
+        let runs = 1 + self.engine.growths();
+        let words: &[u32] = self.counters.read(runs * Counter::COUNT)?;
+        Ok(words.chunks_exact(Counter::COUNT))
+    }
+
     fn shortfall(&self) -> Result<Shortfall, HostError> {
         let [width, height] = self.settings.size;
         let mut shortfall = Shortfall::default();
-        let counted = self.counters.read(Counter::COUNT)?;
         let tiles = width.div_ceil(8) * height.div_ceil(4);
         let room = self.plan.sizes.survivor_capacity;
-        shortfall.add(counted, (tiles, room), self.plan.effort.unlisted);
+        for counters in self.counted()? {
+            shortfall.add(counters, (tiles, room), self.plan.effort.unlisted);
+        }
         Ok(shortfall)
     }
 
@@ -351,7 +375,9 @@ impl Frame {
             ..Statistics::default()
         };
         statistics.triangles.total = u64::from(self.triangles);
-        statistics.add(self.counters.read(Counter::COUNT)?);
+        for counters in self.counted()? {
+            statistics.add(counters);
+        }
         for (pass, ms) in self.timings.read()? {
             statistics.add_time(PassTime { pass, ms });
         }
@@ -398,7 +424,8 @@ impl Frame {
             record_capacity: self.plan.sizes.record_capacity,
             bin_count: self.geometry.keys + 1,
             contrast: u32::from(self.settings.contrast),
-            alike: u32::from(self.settings.contrast),
+            // Materials that are filtered over their pixel vary within it by more than centres tell.
+            alike: u32::from(self.settings.contrast).div_ceil(4),
             exposure: 1.0,
             footprint: footprints.centre,
             place_footprint: footprints.place,

@@ -12,7 +12,8 @@ pub(crate) struct Patch {
 }
 
 impl Patch {
-    /// Makes the pipeline for images of a format that hold linear light or, `encoded`, sRGB codes as plain numbers.
+    /// Makes the pipeline for images of a format that hold linear light or, `encoded`, sRGB codes as plain numbers; `grown` if
+    /// [`Grow`](super::Grow) has run.
     ///
     /// # Errors
     /// If the driver refuses it.
@@ -20,8 +21,9 @@ impl Patch {
         layout: &Arc<FrameLayout>,
         format: vk::Format,
         encoded: bool,
+        grown: bool,
     ) -> Result<Self, VulkanError> {
-        let constants = Constants::new().flag(0, encoded);
+        let constants = Constants::new().flag(0, encoded).flag(1, grown);
         let variant = format.as_raw() as u32;
         let pipeline = layout.cached(spirv::PATCH_FRAGMENT, &constants, variant, || {
             let pipeline = GraphicsPipeline {

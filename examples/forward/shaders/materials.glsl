@@ -11,11 +11,21 @@ float checkers(vec2 at, vec2 side) {
     return mean.x * mean.y;
 }
 
+// That over a parallelogram: over boxes along its longer side.
+float checkers(vec2 at, vec2 dx, vec2 dy) {
+    const float BOXES = 8.0;
+    bool wide = dot(dx, dx) > dot(dy, dy);
+    vec2 along = (wide ? dx : dy) / BOXES, side = abs(along) + abs(wide ? dy : dx);
+    float sum = 0.0;
+    for (float i = 0.5; i < BOXES; i += 1.0) sum += checkers(at + (i - 0.5 * BOXES) * along, side);
+    return sum / BOXES;
+}
+
 // Linear light from a place in the world whose change over what is shaded is dx and dy.
 vec3 light_of(uint key, vec3 color, vec3 place, vec3 normal, vec3 eye, vec3 dx, vec3 dy) {
     vec3 n = normalize(normal);
     vec3 diffuse = color * (0.25 + 0.75 * max(dot(n, TO_SUN), 0.0));
-    if (key == CHECKERS) return diffuse * (0.55 + 0.45 * checkers(2.0 * place.xz, 2.0 * (abs(dx.xz) + abs(dy.xz))));
+    if (key == CHECKERS) return diffuse * (0.55 + 0.45 * checkers(2.0 * place.xz, 2.0 * dx.xz, 2.0 * dy.xz));
     vec3 between = normalize(TO_SUN + normalize(eye - place));
     return diffuse + 0.6 * pow(max(dot(n, between), 0.0), 60.0);
 }
