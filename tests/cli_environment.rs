@@ -77,6 +77,51 @@ fn skies_light_the_scene_from_their_side() {
     );
 }
 
+/// The sky is seen where nothing else is, and scenes are antialiased before it.
+#[test]
+fn the_sky_is_seen_behind_the_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    write_exr(&at("sky.exr"));
+    let sky = ["--environment", "sky.exr", "--background"];
+    let behind = [
+        "environment",
+        "--eye",
+        "0,40,0",
+        "--target",
+        "0,40,-9",
+        "--tonemap",
+        "none",
+    ];
+    render(folder.path(), "sky.png", &[&sky[..], &behind[..]].concat()).ok();
+    let image = read(&at("sky.png")).unwrap();
+    // A quarter of the red and all of it, left and right of straight ahead.
+    let row = &image.pixels[45 * 160..46 * 160];
+    assert!((row[20][0] - 0.537).abs() < 0.01, "{:?}", row[20]);
+    assert!((row[140][0] - 1.0).abs() < 0.01, "{:?}", row[140]);
+    assert!(image.pixels.iter().all(|pixel| pixel[3] == 1.0));
+    // Over a colour that is like the sky, the scene looks the same.
+    let uniform = Rgb32FImage::from_pixel(SIZE.0, SIZE.1, Rgb([0.5; 3]));
+    uniform
+        .save_with_format(at("grey.hdr"), ImageFormat::Hdr)
+        .unwrap();
+    let plain = [
+        "--environment",
+        "grey.hdr",
+        "--tonemap",
+        "none",
+        "--background",
+    ];
+    for (name, background) in [("a.png", "environment"), ("b.png", "0.7354,0.7354,0.7354")] {
+        render(folder.path(), name, &[&plain[..], &[background]].concat()).ok();
+    }
+    let [a, b] = ["a.png", "b.png"].map(|name| read(&at(name)).unwrap());
+    assert!(compare(&a, &b).unwrap().rmse < 0.003);
+    render(folder.path(), "c.png", &["--background", "environment"])
+        .exits(2)
+        .says(&["--environment FILE"]);
+}
+
 #[test]
 fn what_is_no_environment_is_refused_by_name() {
     let folder = tempfile::tempdir().unwrap();

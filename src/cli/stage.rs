@@ -3,6 +3,7 @@
 use super::exit::usage;
 use super::render::{self, ImageArgs, Shot};
 use super::report::{Device, Effort, Figures, Work};
+use super::values::Background;
 use gpc::camera::{Camera, Pinhole, Site};
 use gpc::render::{Headless, PreparedScene, Settings};
 use serde::Serialize;
@@ -22,6 +23,9 @@ pub struct Stage {
 impl Stage {
     /// Loads a scene, poses it and puts it on the device.
     pub fn open(path: &Path, image: &ImageArgs, settings: Settings) -> anyhow::Result<Self> {
+        if image.background == Background::Environment {
+            usage!("--background environment: this command shows none; `gpc render` does");
+        }
         let (mut headless, (loaded, pose, warnings, camera)) =
             render::open_beside(image.device.clone(), || {
                 let loaded = image.load(path)?;

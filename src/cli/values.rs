@@ -135,15 +135,21 @@ pub enum Background {
     Transparent,
     /// An sRGB-encoded colour, each component 0 to 1.
     Color([f64; 3]),
+    /// The environment that lights the scene.
+    Environment,
 }
 
-/// `none`, `R,G,B` with sRGB components of 0 to 1, or `#rrggbb`.
+/// `none`, `environment`, `R,G,B` with sRGB components of 0 to 1, or `#rrggbb`.
 pub fn background(text: &str) -> Result<Background, String> {
     if text == "none" {
         return Ok(Background::Transparent);
     }
+    if text == "environment" {
+        return Ok(Background::Environment);
+    }
     color(text).map(Background::Color).ok_or_else(|| {
-        "expected none, an sRGB colour R,G,B of 0 to 1, such as 0.8,0.9,1, or #rrggbb".to_owned()
+        "expected none, environment, an sRGB colour R,G,B of 0 to 1, such as 0.8,0.9,1, or #rrggbb"
+            .to_owned()
     })
 }
 

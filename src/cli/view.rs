@@ -92,6 +92,9 @@ pub fn run(args: ViewArgs) -> anyhow::Result<ExitCode> {
 fn look(args: &ViewArgs) -> anyhow::Result<Look> {
     let background = match values::background(&args.background) {
         Ok(values::Background::Transparent) => None,
+        Ok(values::Background::Environment) => {
+            usage!("--background environment: the window shows none; `gpc render` does")
+        }
         Ok(values::Background::Color(color)) => Some(color.map(|v| srgb::decode(v) as f32)),
         Err(expected) => usage!("--background {}: {expected}", args.background),
     };

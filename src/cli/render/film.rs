@@ -8,7 +8,7 @@ use super::view::{self, View};
 use crate::cli::exit::Usage;
 use glam::DVec3;
 use gpc::render::Shadows;
-use gpc::scene::{Loaded, Motion, Pose, SceneCamera};
+use gpc::scene::{Environment, Loaded, Motion, Pose, SceneCamera};
 
 /// A scene in motion. Its first pose is put on the device once, and moved there; where that can't be, a moment is posed
 /// and put there by itself. A camera that frames the scene stays as it frames the first pose.
@@ -60,6 +60,11 @@ impl<'a> Film<'a> {
             pose,
             shown: None,
         })
+    }
+
+    /// What lights the scene from all around, unless it is the studio.
+    pub fn environment(&self) -> Option<&Environment> {
+        self.loaded.scene.environment.as_deref()
     }
 
     /// The views of what is shown.

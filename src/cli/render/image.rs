@@ -24,7 +24,7 @@ pub struct ImageArgs {
     /// How radiance becomes display colour: Khronos PBR Neutral, or clamped [default: neutral; none for .exr]
     #[arg(long)]
     pub tonemap: Option<Tonemap>,
-    /// Colour behind the scene: none (transparent), sRGB R,G,B of 0 to 1, or #rrggbb
+    /// What is behind the scene: none (transparent), sRGB R,G,B of 0 to 1, #rrggbb, or environment
     #[arg(long, value_name = "COLOUR", default_value = "none", value_parser = values::background)]
     pub background: Background,
     /// Light from all around: an equirectangular image, .hdr or .exr, in place of the neutral studio
@@ -79,6 +79,9 @@ impl ImageArgs {
     /// Refuses what can't go together, and says in what format OUT is written.
     pub fn format(&self, output: &Path) -> anyhow::Result<Format> {
         self.check_samples()?;
+        if self.background == Background::Environment && self.environment.is_none() {
+            usage!("--background environment: there is none; name one by --environment FILE");
+        }
         if input::is_standard(output) {
             if !self.aov.is_empty() {
                 usage!("--aov writes files named after OUT, and -o - has no name");
@@ -122,7 +125,7 @@ impl ImageArgs {
             footprint: self.sampling.footprint.footprint(),
             contrast: self.sampling.contrast(),
             background: match self.background {
-                Background::Transparent => None,
+                Background::Transparent | Background::Environment => None,
                 Background::Color(color) => Some(color.map(|v| srgb::decode(v) as f32)),
             },
             exposure: self.exposure as f32,

@@ -21,6 +21,7 @@ pub use view::{View, choose as choose_views};
 
 use super::exit::{Usage, usage};
 use super::input;
+use super::values::Background;
 use film::Film;
 use gpc::output::{Format, Picture, VideoWriter};
 use gpc::render::{Settings, Shadows};
@@ -83,7 +84,12 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
         warnings.add(&film.show(step.time, &mut session, &mut clock)?);
         for view in film.views(aspect)? {
             let camera = view.turned(step.turn);
-            let shot = session.shoot(&camera, args.repeat)?;
+            let mut shot = session.shoot(&camera, args.repeat)?;
+            if let (Background::Environment, Some(environment)) =
+                (image.background, film.environment())
+            {
+                shot.rendered.show_behind(environment, &camera, &settings)?;
+            }
             clock.lap("frame");
             let path = template.fill(&Fields {
                 stem: &stem,

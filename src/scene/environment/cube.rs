@@ -2,7 +2,8 @@
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
-use std::f64::consts::{PI, TAU};
+
+use super::equirectangular::Equirectangular;
 
 /// Largest side of a face.
 const MOST: u32 = 256;
@@ -94,15 +95,10 @@ pub(super) fn solid_angle([a, b]: [f64; 2]) -> f64 {
 }
 
 /// An equirectangular image as a cube, and ever coarser averages of it down to a texel a face.
-pub(super) fn pyramid(width: u32, height: u32, pixels: &[[f32; 3]]) -> Vec<Cube> {
-    let side = (width / 4).next_power_of_two().clamp(LEAST, MOST);
+pub(super) fn pyramid(image: &Equirectangular) -> Vec<Cube> {
+    let side = (image.width / 4).next_power_of_two().clamp(LEAST, MOST);
     // So many points a texel that none of the image falls between them.
-    let points = (width / 4).div_ceil(side).max(2);
-    let image = Image {
-        width,
-        height,
-        pixels,
-    };
+    let points = (image.width / 4).div_ceil(side).max(2);
     let finest = Cube::new(side, |face, x, y| {
         let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
         for row in 0..points {
@@ -136,36 +132,6 @@ fn halve(fine: &Cube) -> Cube {
     })
 }
 
-/// An equirectangular image.
-struct Image<'p> {
-    width: u32,
-    height: u32,
-    pixels: &'p [[f32; 3]],
-}
-
-impl Image<'_> {
-    /// Between the nearest texels; columns go on around.
-    fn towards(&self, direction: DVec3) -> DVec3 {
-        let u = direction.x.atan2(-direction.z) / TAU + 0.5;
-        let v = direction.y.clamp(-1.0, 1.0).acos() / PI;
-        let (x, y) = (
-            u * f64::from(self.width) - 0.5,
-            (v * f64::from(self.height) - 0.5).clamp(0.0, f64::from(self.height - 1)),
-        );
-        let (left, top) = (x.floor(), y.floor());
-        let column = |x: f64| x.rem_euclid(f64::from(self.width)) as usize;
-        let rows = [
-            top as usize,
-            (top as usize + 1).min(self.height as usize - 1),
-        ];
-        let texel = |x: f64, row: usize| {
-            DVec3::from_array(self.pixels[row * self.width as usize + column(x)].map(f64::from))
-        };
-        let row = |row| texel(left, row).lerp(texel(left + 1.0, row), x - left);
-        row(rows[0]).lerp(row(rows[1]), y - top)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -191,7 +157,12 @@ mod tests {
         let pixels: Vec<[f32; 3]> = (0..width * height)
             .map(|i| [(i % width) as f32, (i / width) as f32, 0.0])
             .collect();
-        let cube = &pyramid(width, height, &pixels)[0];
+        let image = Equirectangular {
+            width,
+            height,
+            pixels,
+        };
+        let cube = &pyramid(&image)[0];
         for (direction, x, y) in [
             (DVec3::NEG_Z, 31.5, 15.5),
             (DVec3::X, 47.5, 15.5),

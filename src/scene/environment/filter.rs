@@ -76,12 +76,16 @@ fn average(pyramid: &[Cube], lobe: &[Ray], normal: DVec3) -> Vec3 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::cube::pyramid;
+    use super::super::{cube::pyramid, equirectangular::Equirectangular};
     use super::*;
 
     #[test]
     fn what_is_alike_all_around_stays_so() {
-        let source = pyramid(64, 32, &[[0.5, 1.0, 4.0]; 64 * 32]);
+        let source = pyramid(&Equirectangular {
+            width: 64,
+            height: 32,
+            pixels: vec![[0.5, 1.0, 4.0]; 64 * 32],
+        });
         for level in levels(&source) {
             for texel in level.texels {
                 for (found, expected) in texel.iter().zip([0.5, 1.0, 4.0]) {
@@ -99,7 +103,11 @@ mod tests {
         let mut pixels = vec![[0.0; 3]; (width * height) as usize];
         // On the horizon, straight ahead.
         pixels[(63 * width + 128) as usize] = [1e4; 3];
-        let source = pyramid(width, height, &pixels);
+        let source = pyramid(&Equirectangular {
+            width,
+            height,
+            pixels,
+        });
         let all = levels(&source);
         let total = |cube: &Cube| {
             let side = cube.side;

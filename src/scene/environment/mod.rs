@@ -1,12 +1,14 @@
 //! Light from all around: an environment map, filtered for shading.
 
 mod cube;
+mod equirectangular;
 mod filter;
 mod harmonics;
 
 use glam::{DMat3, DVec3};
 
 use cube::Cube;
+use equirectangular::Equirectangular;
 
 /// Why an image is no environment.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -38,6 +40,7 @@ pub enum EnvironmentError {
 /// What surfaces see of an environment map: for each roughness what a lobe of it averages, and what a matt surface gathers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Environment {
+    image: Equirectangular,
     /// Level `i` of `n` is filtered for the perceptual roughness `i / (n - 1)`.
     levels: Vec<Cube>,
     irradiance: [[f32; 3]; 9],
@@ -72,8 +75,14 @@ impl Environment {
                 color: format!("{:?}", pixels[index]),
             });
         }
-        let source = cube::pyramid(width, height, pixels);
+        let image = Equirectangular {
+            width,
+            height,
+            pixels: pixels.to_vec(),
+        };
+        let source = cube::pyramid(&image);
         Ok(Self {
+            image,
             irradiance: harmonics::irradiance(&source),
             levels: filter::levels(&source),
             rotation: DMat3::IDENTITY,
@@ -103,6 +112,12 @@ impl Environment {
     #[must_use]
     pub fn irradiance(&self) -> [[f32; 3]; 9] {
         self.irradiance
+    }
+
+    /// Radiance of the world direction `towards`.
+    #[must_use]
+    pub fn radiance(&self, towards: DVec3) -> DVec3 {
+        self.image.towards(self.rotation * towards.normalize())
     }
 
     /// What a matt white surface facing the world direction `normal` reflects.

@@ -1,0 +1,63 @@
+//! An environment behind a scene.
+
+use super::{Reference, Rendered, Settings};
+use crate::camera::{Camera, Pinhole, PinholeError};
+use crate::reference::tonemap;
+use crate::scene::Environment;
+use glam::DVec2;
+use rayon::prelude::*;
+
+/// Lines of sight of a pixel, from its corner.
+const LINES: [DVec2; 4] = [
+    DVec2::new(0.25, 0.25),
+    DVec2::new(0.75, 0.25),
+    DVec2::new(0.25, 0.75),
+    DVec2::new(0.75, 0.75),
+];
+
+impl Rendered {
+    /// Shows an environment wherever the image is transparent; it is opaque then. Camera and settings are those that the
+    /// image was rendered with.
+    ///
+    /// # Errors
+    /// If the camera sees nothing.
+    pub fn show_behind(
+        &mut self,
+        environment: &Environment,
+        camera: &Camera,
+        settings: &Settings,
+    ) -> Result<(), PinholeError> {
+        let pinhole = Pinhole::from_camera(camera, settings.size)?;
+        let corner = settings.region.map_or([0, 0], |region| region.corner);
+        let width = self.size[0].max(1);
+        let exposure = f64::from(settings.exposure).exp2();
+        let tonemapped = settings.reference == Reference::Display && settings.tonemapped_detection;
+        let colors = self.colors.par_iter_mut().enumerate();
+        colors
+            .filter(|(_, color)| color[3] < 1.0)
+            .for_each(|(index, color)| {
+                let (x, y) = (index as u32 % width, index as u32 / width);
+                let at = DVec2::new(f64::from(corner[0] + x), f64::from(corner[1] + y));
+                let mut behind = [0.0; 3];
+                for line in LINES {
+                    let direction = pinhole.ray(at + line).direction;
+                    let radiance = (environment.radiance(direction) * exposure).to_array();
+                    let shown = if tonemapped {
+                        tonemap::neutral(radiance)
+                    } else {
+                        radiance
+                    };
+                    behind
+                        .iter_mut()
+                        .zip(shown)
+                        .for_each(|(sum, light)| *sum += light / 4.0);
+                }
+                let left = f64::from(1.0 - color[3]);
+                for (channel, light) in color.iter_mut().zip(behind) {
+                    *channel += (left * light) as f32;
+                }
+                color[3] = 1.0;
+            });
+        Ok(())
+    }
+}
