@@ -44,6 +44,13 @@ gpc project assets/fence.glb -o "$work/projector-{projector}.png" --size 480x300
     --weights --wall $out/wall.png
 cp "$work/projector-0.png" "$work/projector-0.weights.png" "$work/projector-1.png" $out
 
+# Lines: the edges of meshes.
+for aa in none superpixel; do
+    gpc render assets/spheres.glb -o "$work/edges-$aa.png" --size 480x300 --background '#a8c0d8' --edges 1.5 --aa $aa --quiet
+done
+cp "$work/edges-none.png" $out
+cp "$work/edges-superpixel.png" $out/edges.png
+
 # Shadows: what is seen, on the planes of the lights.
 for scene in letters fence; do
     gpc render assets/$scene.glb -o $out/shadows-$scene.png --size 480x300 --background '#a8c0d8' --shadows exact \

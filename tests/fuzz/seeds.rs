@@ -12,12 +12,16 @@ use super::{
 };
 
 const OBJ: &str = "mtllib none.mtl\no quad\nv 0 0 0\nv 1 0 0 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\n\
-    vt 1 0\nvn 0 0 1\nusemtl paint\nf 1/1/1 2/2/1 3/1/1 4/2/1\nf -1 -2 -3\n";
+    vt 1 0\nvn 0 0 1\nusemtl paint\nf 1/1/1 2/2/1 3/1/1 4/2/1\nf -1 -2 -3\nl 1 2/1 3\np -1 2\n";
 const STL: &str = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n\
     vertex 0 1 0\nendloop\nendfacet\nendsolid\n";
 const PLY: &str = "element vertex 3\nproperty float x\nproperty double y\nproperty short z\n\
     property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n\
     property list uchar int vertex_indices\nend_header\n";
+
+const EDGES: &str = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n\
+    property float z\nelement edge 1\nproperty int vertex1\nproperty int vertex2\nend_header\n\
+    0 0 0\n1 0 0\n0 1\n";
 
 const MTL: &str = "newmtl paint\nKa 0 0 0\nKd 0.5 0.25 1\nd 0.5\nNs 10\nillum 2\n\
     map_Kd -s 1 1 1 none.png\n";
@@ -36,6 +40,7 @@ pub fn all(folder: &Path) -> Vec<Seed> {
         made("binary.stl", binary_stl()),
         made("text.ply", ascii_ply()),
         made("binary.ply", binary_ply()),
+        made("edges.ply", EDGES.into()),
     ];
     for name in [
         "Box-Draco/Box.gltf",
@@ -109,6 +114,17 @@ fn rich() -> Builder {
         }),
         json!({"weights": [0.5], "camera": 0}),
     );
+    for mode in [0, 1, 2, 3] {
+        builder.json["meshes"][0]["primitives"]
+            .as_array_mut()
+            .into_iter()
+            .for_each(|primitives| {
+                primitives.push(json!({
+                    "attributes": {"POSITION": positions, "NORMAL": positions}, "indices": indices,
+                    "mode": mode, "targets": [{"POSITION": positions}],
+                }));
+            });
+    }
     builder.json["extensions"] = json!({
         "KHR_lights_punctual": {"lights": [{"type": "spot", "spot": {"innerConeAngle": 0.1}}]},
         "KHR_materials_variants": {"variants": [{"name": "day"}]},

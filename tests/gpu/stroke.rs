@@ -13,6 +13,7 @@ use serde_json::{Value, json};
 
 use crate::meshes::Random;
 use crate::scene_builder::Builder;
+use crate::sites::{pinhole, planar};
 use crate::stage::{camera, centre, everywhere, on_gpu, once, seen_at};
 
 const SIZE: [u32; 2] = [64, 48];
@@ -393,6 +394,27 @@ fn lines_move_with_their_nodes() {
         };
         assert!(apart(&first, &moved) > 0.5);
         assert!(apart(&moved, &expected) < 1e-3);
+    });
+}
+
+/// Sites at the centres of an image's pixels.
+#[test]
+fn sites_see_lines_as_wide() {
+    on_gpu(|gpu| {
+        let ends: Vec<_> = segments().into_iter().flatten().collect();
+        let loaded = drawn(LINES, &ends);
+        let pose = loaded.scene.pose(&PoseRequest::default()).unwrap();
+        let prepared = gpu.upload(&loaded.scene, &pose, None).unwrap();
+        for width in [0.5, 2.0] {
+            let settings = by_area(width);
+            let image = rendered(gpu, &loaded, &settings, &camera());
+            let seen = gpu
+                .sample_superpixels(&prepared, &pinhole(SIZE), &planar(SIZE), &settings)
+                .unwrap();
+            let pairs = image.colors.iter().zip(&seen.values);
+            let apart = pairs.map(|(a, b)| (a[3] - b[3]).abs()).fold(0.0, f32::max);
+            assert!(apart < 0.05, "{width}: {apart}");
+        }
     });
 }
 
