@@ -95,6 +95,7 @@ impl View {
 
     fn act(&mut self, action: Action) -> anyhow::Result<()> {
         self.is_dirty = true;
+        self.notes.clear_errors();
         match action {
             Action::Help => self.shows_keys = !self.shows_keys,
             Action::Panel => self.shows_panel = !self.shows_panel,
@@ -306,6 +307,7 @@ impl View {
     /// Does what the user asked of the panel.
     pub fn fulfil(&mut self, wishes: Wishes) -> anyhow::Result<()> {
         if let Some((layer, look)) = wishes.look {
+            self.notes.clear_errors();
             self.looks[layer] = look;
             self.renew_layers()?;
         }

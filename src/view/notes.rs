@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-/// Notes are seen for this long; errors until the next scene.
+/// Notes are seen for this long; errors until something else is asked for.
 const SEEN: Duration = Duration::from_secs(6);
 
 /// Sentences in the window.

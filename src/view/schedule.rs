@@ -11,6 +11,8 @@ const REST: Duration = Duration::from_millis(150);
 const TARGET_MS: f64 = 80.0;
 /// Bands have multiples of this many rows: the height of a tile.
 const ROW_STEP: u32 = 4;
+/// How much longer a row is thought to take with the samples of the next step, until one has been rendered.
+const STEP_COST: f64 = 2.0;
 /// Samples while something moves, from the best.
 const DRAFTS: [u32; 5] = [16, 8, 4, 2, 1];
 /// Samples on the way to those asked for.
@@ -103,6 +105,9 @@ impl Schedule {
             }
             Step::Band { row: 0, .. } if now < self.changed + REST => None,
             Step::Band { samples, row } => {
+                if row == 0 {
+                    self.row_ms *= STEP_COST;
+                }
                 let rows = (TARGET_MS / self.row_ms).min(f64::from(self.height)) as u32;
                 let rows = (rows / ROW_STEP * ROW_STEP).max(ROW_STEP);
                 let end = (row + rows).min(self.height);
@@ -143,7 +148,7 @@ impl Schedule {
     pub fn learn(&mut self, work: &Work, ms: f64) {
         match work {
             Work::Draft { samples } => {
-                self.row_ms = 2.0 * ms / f64::from(self.height);
+                self.row_ms = ms / f64::from(self.height);
                 if *samples == self.draft_samples() {
                     if ms > 1.25 * TARGET_MS && self.draft + 1 < self.drafts.len() {
                         self.draft += 1;
@@ -152,13 +157,20 @@ impl Schedule {
                     }
                 }
             }
-            Work::Band { rows, .. } => {
+            Work::Band { samples, rows } if self.is_rendering(*samples) => {
                 let found = ms / f64::from(rows.end - rows.start);
                 // What a row takes differs along the image: halfway there, but never far from what was found.
                 let halfway = (self.row_ms * found).sqrt();
                 self.row_ms = halfway.clamp(0.5 * found, 2.0 * found);
             }
+            // The last bands of a step are done when the next one has begun.
+            Work::Band { .. } => {}
         }
+    }
+
+    /// Whether the step at hand has so many samples.
+    fn is_rendering(&self, samples: u32) -> bool {
+        matches!(self.step, Step::Band { samples: at_hand, .. } if at_hand == samples)
     }
 
     /// Samples while something moves.
@@ -276,10 +288,11 @@ mod tests {
         assert!(few.is_done());
         let mut brute = schedule(Method::Ssaa, 256, 100, start);
         assert_eq!(brute.take(start), Some(Work::Draft { samples: 1 }));
-        let samples: Vec<_> = bands(&mut brute, 0.1, after(150, start))
+        let mut samples: Vec<_> = bands(&mut brute, 0.1, after(150, start))
             .into_iter()
             .map(|band| band.0)
             .collect();
+        samples.dedup();
         assert_eq!(samples, [64, 256]);
     }
 
