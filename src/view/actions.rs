@@ -1,7 +1,7 @@
 //! What keys and mouse do.
 
 use super::command::{Shot, line};
-use super::file_name::free_name;
+use super::files::{free_name, scenes_at};
 use super::keys::{self, Action};
 use super::lens;
 use super::look::Look;
@@ -43,7 +43,7 @@ impl View {
             }
             WindowEvent::RedrawRequested | WindowEvent::Occluded(false) => self.is_dirty = true,
             WindowEvent::ModifiersChanged(modifiers) => self.modifiers = modifiers.state(),
-            WindowEvent::DroppedFile(path) => self.open(path.clone()),
+            WindowEvent::DroppedFile(path) => self.open(path),
             WindowEvent::KeyboardInput { event, .. } if event.state == ElementState::Pressed => {
                 if !response.consumed
                     && let Some(action) = keys::action(&event.logical_key, self.modifiers)
@@ -80,10 +80,17 @@ impl View {
         Ok(())
     }
 
-    /// Opens a file beside those that there are.
-    fn open(&mut self, path: PathBuf) {
-        self.scenes.push(path);
-        self.show_scene(self.scenes.len() - 1);
+    /// Opens a file, or those of a folder, beside those that there are.
+    fn open(&mut self, path: &Path) {
+        match scenes_at(path) {
+            Ok(scenes) => {
+                let first = self.scenes.len();
+                self.scenes.extend(scenes);
+                self.show_scene(first);
+            }
+            Err(error) => self.notes.fail(&error),
+        }
+        self.is_dirty = true;
     }
 
     /// Opens a file of those that there are.

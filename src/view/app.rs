@@ -93,10 +93,11 @@ impl ApplicationHandler<Event> for App {
     }
 
     fn exiting(&mut self, _: &ActiveEventLoop) {
-        if let Some(view) = self.view.take()
-            && let Ok(messages) = &mut self.outcome
-        {
-            messages.extend(view.close());
+        if let Some(view) = self.view.take() {
+            let messages = view.close();
+            if let Ok(said) = &mut self.outcome {
+                said.extend(messages);
+            }
         }
     }
 }

@@ -200,7 +200,7 @@ pub const MOUSE: [(&str, &str); 6] = [
         "Double click",
         "bring what is under the pointer into the middle",
     ),
-    ("Drop a file", "open it"),
+    ("Drop a file or folder", "open it"),
 ];
 
 /// What a key asks for.

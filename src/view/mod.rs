@@ -11,7 +11,7 @@ mod compose;
 mod cover;
 mod device;
 mod engine;
-mod file_name;
+mod files;
 mod keys;
 mod layer;
 mod lens;

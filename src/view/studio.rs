@@ -15,6 +15,7 @@ use gpc::scene::{Pose, PoseRequest, Scene};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread::JoinHandle;
 
 /// What is to be made.
 #[derive(Clone, Debug)]
@@ -54,16 +55,19 @@ pub enum Made {
     File(PathBuf, anyhow::Result<()>),
 }
 
-/// Takes orders until it is dropped.
+/// Takes orders until it is dropped, which waits for what it is at and for files that were asked for: a driver can't be
+/// left in the middle of its work when the process ends.
 pub struct Studio {
-    orders: Sender<Order>,
+    /// `None` only while dropping.
+    orders: Option<Sender<Order>>,
+    thread: Option<JoinHandle<()>>,
 }
 
 impl Studio {
     /// Starts a thread that opens a device with the first order, and delivers what it makes.
     pub fn new(options: HeadlessOptions, deliver: impl Fn(Made) + Send + 'static) -> Self {
         let (orders, received) = channel();
-        std::thread::spawn(move || {
+        let thread = std::thread::spawn(move || {
             Maker {
                 shown: None,
                 headless: None,
@@ -71,13 +75,28 @@ impl Studio {
             }
             .run(&received, deliver);
         });
-        Self { orders }
+        Self {
+            orders: Some(orders),
+            thread: Some(thread),
+        }
     }
 
     /// Asks for a picture. Of those to look at that wait for their turn, the last alone is made.
     pub fn ask(&self, order: Order) {
-        // The thread ends with this sender, and not before.
-        let _ = self.orders.send(order);
+        if let Some(orders) = &self.orders {
+            // The thread ends with this sender, and not before.
+            let _ = orders.send(order);
+        }
+    }
+}
+
+impl Drop for Studio {
+    fn drop(&mut self) {
+        self.orders = None;
+        if let Some(thread) = self.thread.take() {
+            // A panic has been reported by the thread itself.
+            let _ = thread.join();
+        }
     }
 }
 

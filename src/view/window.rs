@@ -23,6 +23,7 @@ use gpc::scene::{Moment, SceneCamera};
 use gpc::vulkan::VulkanError;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 use winit::dpi::PhysicalSize;
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
@@ -56,8 +57,9 @@ pub struct View {
     /// What was asked for.
     pub source: Source,
     pub loading: Option<Loading>,
-    /// Loads that were begun.
+    /// Loads that were begun, and the threads of those that have not ended.
     pub loads: u64,
+    pub loaders: Vec<JoinHandle<()>>,
     /// Tells when the scene's file changes.
     pub watch: Option<Watch>,
     /// When to load the scene again.
@@ -150,6 +152,7 @@ impl View {
             scene: 0,
             loading: None,
             loads: 0,
+            loaders: Vec::new(),
             watch: None,
             reload: None,
             player: None,
@@ -172,10 +175,17 @@ impl View {
         Ok(view)
     }
 
-    /// What the validation layer said.
-    pub fn close(self) -> Vec<String> {
+    /// Ends everything, and hands over what the validation layer said. Threads are waited for, with the window out of sight:
+    /// a driver can't be left in the middle of its work when the process ends.
+    pub fn close(mut self) -> Vec<String> {
+        self.window.set_visible(false);
         let device = self.canvas.engine.device.clone();
+        let loaders = std::mem::take(&mut self.loaders);
         drop(self);
+        for loader in loaders {
+            // A panic has been reported by the thread itself.
+            let _ = loader.join();
+        }
         device.validation_messages()
     }
 
@@ -196,11 +206,12 @@ impl View {
         let engine = self.canvas.engine.clone();
         let proxy = self.proxy.clone();
         let max_memory = self.looks[0].settings.max_memory;
-        std::thread::spawn(move || {
+        self.loaders.retain(|loader| !loader.is_finished());
+        self.loaders.push(std::thread::spawn(move || {
             let stage = source.open(engine, max_memory);
             // Nobody waits for it once the window is closed.
             let _ = proxy.send_event(Event::Opened(number, Box::new(stage)));
-        });
+        }));
     }
 
     /// Watches the file of the scene, whether it can be loaded or not.
