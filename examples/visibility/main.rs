@@ -18,6 +18,7 @@ use device::{Device, Image};
 use glam::{Mat4, Vec3};
 use gpc::host::{Antialiaser, Options};
 use gpc::render::Shading;
+use gpc::sampling::Pattern;
 use meshes::World;
 use pipelines::Pipelines;
 use slot::{Antialiasing, SKY, Slot};
@@ -92,6 +93,11 @@ fn main() -> Result<(), Failure> {
         contrast: 2,
         ..options(SIZE)
     };
+    // Samples in the places of brute force.
+    let placed = Options {
+        pattern: Pattern::Grid,
+        ..options(SIZE)
+    };
     let last = |side: u32, options: Option<&Options>| -> Result<Image, Failure> {
         let size = SIZE.map(|pixels| pixels * side);
         let antialiasing = options.map(|options| (&antialiaser, options));
@@ -107,6 +113,10 @@ fn main() -> Result<(), Failure> {
         ("brute force", &last(BRUTE, None)?),
         ("superpixels", &own),
         ("superpixels, each sample shaded", &last(1, Some(&each))?),
+        (
+            "superpixels, samples where brute force has them",
+            &last(1, Some(&placed))?,
+        ),
     ] {
         println!("error of {what}: {:.6}", image.error(&reference));
     }

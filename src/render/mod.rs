@@ -2,6 +2,7 @@
 //!
 //! [`Renderer`] works in a host's device and command buffers; [`Headless`] owns a device and is built on it.
 
+#[cfg(feature = "gltf")]
 mod backdrop;
 mod color;
 pub(crate) mod engine;
