@@ -234,3 +234,47 @@ fn runs(geometry: &Geometry) -> Vec<Run> {
     }
     runs
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Stroke, StrokePart};
+
+    #[test]
+    fn boxes_are_known_of_what_keeps_its_place_alone() {
+        let instance = |first_triangle, first_index, transform| Instance {
+            first_triangle,
+            triangle_count: 1,
+            first_index,
+            transform,
+        };
+        let mut geometry = Geometry {
+            positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+            triangles: vec![[0, 1, 2]; 2],
+            instances: vec![
+                instance(0, 0, DAffine3::IDENTITY),
+                instance(1, 64, DAffine3::from_translation(DVec3::X)),
+            ],
+            ..Geometry::default()
+        };
+        let known = |geometry: &Geometry, moves: bool| -> Vec<bool> {
+            let places = places(geometry, moves);
+            let corners = places.iter().map(|place| place.bounds);
+            corners
+                .map(|[low, high]| low.is_finite() && high.is_finite())
+                .collect()
+        };
+        assert_eq!(known(&geometry, false), [true, true]);
+        assert_eq!(known(&geometry, true), [false, true]);
+        geometry.strokes.push(Stroke {
+            part: StrokePart::Left,
+            vertex: 2,
+            at: 0,
+            other: 1,
+            beyond: 0,
+            faces_camera: true,
+            edge: None,
+        });
+        assert_eq!(known(&geometry, false), [false, true]);
+    }
+}
