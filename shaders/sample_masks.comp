@@ -40,6 +40,12 @@ vec2 depth_range(Candidate k, vec2 at) {
     return vec2(max(depth - slope, k.far), min(depth + slope, k.near));
 }
 
+// The order of candidates: the nearer one first and, of those whose keys have the same depth, the smaller ID, since their
+// order in the list differs from run to run.
+bool comes_before(int key, uint id, int other, uint other_id) {
+    return uint(key ^ other) <= INDEX ? id < other_id : key > other;
+}
+
 // What a cell sees of a triangle.
 struct Seen {
     uvec2 mask;
@@ -76,11 +82,14 @@ void main() {
     bool failed = count > INDEX, done = !exists || failed;
     count = failed ? 0u : count;
 
-    int limit = 0x7fffffff;             // keys from there on have passed by
+    int limit = 0x7fffffff;             // keys of this depth and this ID or a smaller one, and nearer ones, have passed by
+    uint last_id = 0u;
     bool more;                          // candidates than AHEAD ones
     do {
         int keys[AHEAD + 1], least = 0;
+        uint of_keys[AHEAD];    // their triangles
         [[unroll]] for (int a = 0; a <= AHEAD; a++) keys[a] = 0;
+        [[unroll]] for (int a = 0; a < AHEAD; a++) of_keys[a] = 0u;
         uint batch = 0u;
         do {
             int o = int(first + min(batch + lane, max(count, 1u) - 1u)) * 4;
@@ -93,11 +102,17 @@ void main() {
                 [[unroll]] for (uint u = 0u; u < 4u; u++) {
                     float depth = subgroupShuffle(plane.y, j + u) * at.x + subgroupShuffle(plane.z, j + u) * at.y + subgroupShuffle(highest, j + u);
                     int key = floatBitsToInt(min(max(depth, 1e-30), subgroupShuffle(near, j + u))) & ~int(INDEX) | int(batch + j + u);
-                    key = (subgroupShuffle(touches, j + u) >> bit & 1u) != 0u && key < limit ? key : 0;
+                    uint of = subgroupShuffle(last.z, j + u);
+                    bool comes = comes_before(limit, last_id, key, of);
+                    key = (subgroupShuffle(touches, j + u) >> bit & 1u) != 0u && comes ? key : 0;
                     [[unroll]] for (int a = 0; a < AHEAD; a++) {
-                        int farther = min(keys[a], key);
-                        keys[a] = max(keys[a], key);
-                        key = farther;
+                        bool before = comes_before(key, of, keys[a], of_keys[a]);
+                        int later = before ? keys[a] : key;
+                        uint later_id = before ? of_keys[a] : of;
+                        keys[a] = before ? key : keys[a];
+                        of_keys[a] = before ? of : of_keys[a];
+                        key = later;
+                        of = later_id;
                     }
                     least |= key;
                 }
@@ -106,6 +121,7 @@ void main() {
             batch += LANES;
         } while (batch < count);
         limit = keys[AHEAD - 1];
+        last_id = of_keys[AHEAD - 1];
         bool others = least != 0;
 
         // The candidate at hand: its samples, less what nearer triangles own, and slots with which it is to be compared.

@@ -182,7 +182,7 @@ impl Settings {
     /// no superpixels.
     #[must_use]
     pub fn default_contrast(samples: u32) -> u8 {
-        if samples < 128 { 8 } else { 2 }
+        if samples < 128 { 6 } else { 1 }
     }
 
     /// Superpixel antialiasing with the defaults, at a size.

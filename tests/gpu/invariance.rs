@@ -85,6 +85,40 @@ fn runs_give_the_same_bytes() {
     });
 }
 
+/// Cells that see about as many triangles as a kernel of masks has room for, all of them about equally near, with what they
+/// hide behind them: some are left to another kernel, which measures areas otherwise, and always the same ones.
+#[test]
+fn crowded_cells_give_the_same_bytes() {
+    on_gpu(|gpu| {
+        let size = [160, 96];
+        for count in [6_000, 12_000, 24_000] {
+            let mut random = Random::new(5);
+            let mut stage = Stage::new(
+                (0..4_u8)
+                    .map(|shade| flat([0.2 * f32::from(shade), 0.5, 0.9, 1.0], AlphaMode::Opaque))
+                    .collect(),
+            );
+            for triangle in 0..count {
+                let middle = size.map(|side| random.range(-0.5, 0.5) * f64::from(side));
+                let distance = 3.0 + 0.0003 * f64::from(random.below(4) as u32);
+                let corners = [(); 3].map(|()| {
+                    let place = middle.map(|middle| middle + random.range(-1.5, 1.5));
+                    seen_at(place, distance, size[1])
+                });
+                stage.add(triangle % 4, corners);
+            }
+            let settings = Settings {
+                detection: Detection::Every,
+                ..Settings::new(size[0], size[1])
+            };
+            let first = stage.render(gpu, &settings);
+            for _ in 0..6 {
+                assert_same(&first, &stage.render(gpu, &settings), "another run");
+            }
+        }
+    });
+}
+
 #[test]
 fn the_order_of_triangles_does_not_matter() {
     on_gpu(|gpu| {

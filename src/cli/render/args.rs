@@ -59,7 +59,7 @@ pub struct SamplingArgs {
     #[arg(long, value_name = "N")]
     samples: Option<u32>,
     /// Differences of neighbours above this are a contrast, in 8-bit sRGB code values
-    /// [default: 8; 2 from 128 samples on]
+    /// [default: 6; 1 from 128 samples on]
     #[arg(long, value_name = "T")]
     contrast: Option<u8>,
     /// What makes a pixel a superpixel: a neighbour in a contrasting colour; one that also shows another triangle; or
