@@ -204,7 +204,7 @@ impl Layer {
                 if let Some(frame) = self.spare.pop() {
                     return Ok(frame);
                 }
-                self.look.at(*samples, None)
+                self.look.draft(*samples)
             }
             Work::Band { samples, rows } => self.look.at(
                 *samples,

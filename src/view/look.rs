@@ -32,6 +32,15 @@ impl Look {
         }
     }
 
+    /// Settings of a picture while something moves: with one sample of more, superpixels would be all cost and no gain.
+    pub fn draft(&self, samples: u32) -> Settings {
+        let mut settings = self.at(samples, None);
+        if samples == 1 && self.settings.samples > 1 && settings.method == Method::Superpixel {
+            settings.method = Method::None;
+        }
+        settings
+    }
+
     /// The threshold of a step with so many samples.
     pub fn contrast_at(&self, samples: u32) -> u8 {
         self.contrast
@@ -73,5 +82,35 @@ pub fn method_name(method: Method) -> &'static str {
         Method::Superpixel => "superpixel",
         Method::Ssaa => "ssaa",
         Method::Msaa => "msaa",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_draft_of_one_sample_has_no_superpixels_unless_that_is_asked_for() {
+        let method = |asked: u32, samples: u32| {
+            let settings = Settings {
+                samples: asked,
+                ..Settings::new(10, 10)
+            };
+            Look::new(settings, None).draft(samples).method
+        };
+        assert_eq!(method(64, 1), Method::None);
+        assert_eq!(method(64, 2), Method::Superpixel);
+        assert_eq!(method(1, 1), Method::Superpixel);
+    }
+
+    #[test]
+    fn the_threshold_is_that_of_the_step_unless_one_is_asked_for() {
+        let mut look = Look::new(Settings::new(10, 10), None);
+        for samples in [64, 1024] {
+            let expected = Settings::default_contrast(samples);
+            assert_eq!(look.contrast_at(samples), expected);
+        }
+        look.contrast = Some(5);
+        assert_eq!(look.at(1024, None).contrast, 5);
     }
 }

@@ -42,6 +42,8 @@ pub struct Schedule {
     drafts: Vec<u32>,
     /// Which of them is quick enough.
     draft: usize,
+    /// Which of them is the best to try: since the last rest, those before it were too slow.
+    best_draft: usize,
     /// Samples at rest, to those asked for.
     steps: Vec<u32>,
     height: u32,
@@ -81,6 +83,7 @@ impl Schedule {
         Self {
             drafts,
             draft: 0,
+            best_draft: 0,
             steps,
             height,
             changed: now,
@@ -106,6 +109,7 @@ impl Schedule {
             Step::Band { row: 0, .. } if now < self.changed + REST => None,
             Step::Band { samples, row } => {
                 if row == 0 {
+                    self.best_draft = 0;
                     self.row_ms *= STEP_COST;
                 }
                 let rows = (TARGET_MS / self.row_ms).min(f64::from(self.height)) as u32;
@@ -152,7 +156,8 @@ impl Schedule {
                 if *samples == self.draft_samples() {
                     if ms > 1.25 * TARGET_MS && self.draft + 1 < self.drafts.len() {
                         self.draft += 1;
-                    } else if ms < 0.4 * TARGET_MS && self.draft > 0 {
+                        self.best_draft = self.draft;
+                    } else if ms < 0.4 * TARGET_MS && self.draft > self.best_draft {
                         self.draft -= 1;
                     }
                 }
@@ -270,7 +275,13 @@ mod tests {
             assert_eq!(work, Work::Draft { samples });
             schedule.learn(&work, 200.0);
         }
-        schedule.learn(&Work::Draft { samples: 1 }, 10.0);
+        // What was too slow is tried again after a rest, and not before.
+        let quick = Work::Draft { samples: 1 };
+        schedule.learn(&quick, 10.0);
+        schedule.restart(start);
+        assert_eq!(schedule.take(start), Some(quick.clone()));
+        schedule.take(after(200, start));
+        schedule.learn(&quick, 10.0);
         schedule.restart(start);
         assert_eq!(schedule.take(start), Some(Work::Draft { samples: 2 }));
     }
