@@ -306,10 +306,10 @@ void main() {
             uint bits = half_ >> from & ((1u << length) - 1u);
             rest.x = upper ? 0u : rest.x & ~(bits << from);
             rest.y = upper ? rest.y & ~(bits << from) : rest.y;
-            float of = float(bitCount(bits));
+            float of = float(bitCount(bits)), filtered = length > PART ? MERGED_FILTER : 1.0;
             vec2 sum = sum_of_run(from + (upper ? 32u : 0u), bits);
             if (fits && bits != 0u)
-                records_out[at_record] = uvec4(owner, id, pack_place(sum / max(of, 1.0), max(of, 1.0) / samples), floatBitsToUint(of * each));
+                records_out[at_record] = uvec4(owner, id, pack_place(sum / max(of, 1.0), filtered * max(of, 1.0) / samples), floatBitsToUint(of * each));
             at_record += bits != 0u ? 1u : 0u;
         } while (any_lane(rest != uvec2(0u) || several != 0u));
     }

@@ -125,10 +125,14 @@ void hold_nearby(Candidate t, bool some, float covered) {
     nearby_count += some ? 1u : 0u;
 }
 
-// The place that stands for some samples of a cell.
-uint place_of(vec2 sum_of_offsets, float samples) {
+// The place that stands for some samples of a cell, shaded over so many times their area.
+uint filtered_place(vec2 sum_of_offsets, float samples, float filtered) {
     float all = float(RUN == PROBE ? PROBES : frame.sample_count);
-    return pack_place(sum_of_offsets / max(samples, 1.0), max(samples, 1.0) / all);
+    return pack_place(sum_of_offsets / max(samples, 1.0), filtered * max(samples, 1.0) / all);
+}
+
+uint place_of(vec2 sum_of_offsets, float samples) {
+    return filtered_place(sum_of_offsets, samples, 1.0);
 }
 
 bool wins(float d, uint by, int g) {

@@ -217,14 +217,16 @@ uvec2 record_surfaces(Cell cell, uint owner, out bool settled) {
             float weight_each = subgroupShuffle(each, holder);
             vec3 parts[ROWS];
             parts_of(current, parts);
-            merge_parts(parts, subgroupShuffle(shaded_in, holder) == PARTS_MERGED);
+            bool merged = subgroupShuffle(shaded_in, holder) == PARTS_MERGED;
+            merge_parts(parts, merged);
+            float filtered = merged ? MERGED_FILTER : 1.0;
             [[unroll]] for (uint h = 0u; h < ROWS; h++) {
                 if (h >= PARTS_HELD) continue;
                 vec3 part = parts[h];
                 uint present = subgroupBallot(part.z != 0.0).x;
                 if (fits && part.z != 0.0)
                     records_out[slot + uint(bitCount(present & ((1u << lane) - 1u)))] =
-                        uvec4(owner, current, place_of(part.xy, part.z), floatBitsToUint(part.z * weight_each));
+                        uvec4(owner, current, filtered_place(part.xy, part.z, filtered), floatBitsToUint(part.z * weight_each));
                 slot += uint(bitCount(present));
             }
             pending &= pending - 1u;

@@ -7,6 +7,10 @@
 // In which parts of a cell a triangle is shaded: in all, in these merged in pairs, or in one.
 const uint PARTS_ALL = 0u, PARTS_MERGED = 1u, PARTS_ONE = 2u;
 
+// Merged parts are twice as long as wide. They are shaded over the square of the longer side: over that of their own area,
+// waves along them of about their length would be read in every pair at the same phase, and none would cancel another.
+const float MERGED_FILTER = 2.0;
+
 // Two triangles that centres see, that of the pixel's own centre first, and the parts for each of them and, after that,
 // for others of its material.
 struct Variation {

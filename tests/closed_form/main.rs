@@ -17,7 +17,7 @@ const TRUTH: f64 = 0.004;
 /// texture is read with the same sharpness across as along.
 const TRUTH_BELOW: f64 = 0.002;
 /// Numbers of samples, and most that superpixels may err there beside supersampling of as many samples.
-const BESIDE_SSAA: [(u32, f64); 2] = [(64, 9.0), (256, 2.0)];
+const BESIDE_SSAA: [(u32, f64); 2] = [(64, 1.5), (256, 1.25)];
 
 fn headless() -> Headless {
     Headless::new(&HeadlessOptions::default()).unwrap()
