@@ -48,7 +48,7 @@ test:
 	VK_ICD_FILENAMES="$${VK_ICD_FILENAMES:-$$($(LAVAPIPE))}" $(CARGO) test --release --features capi
 
 test-view:
-	@tools/setup.sh build lavapipe validation window display
+	@tools/setup.sh build lavapipe validation c window display
 	VK_ICD_FILENAMES="$${VK_ICD_FILENAMES:-$$($(LAVAPIPE))}" \
 		$(CARGO) test --release --features view --bin gpc --test view
 

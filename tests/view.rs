@@ -3,237 +3,16 @@
 #[allow(dead_code, reason = "other tests use the rest")]
 mod cli_support;
 mod scene_builder;
+mod view_support;
 
 use cli_support::{asset, finish, gpc};
+use glam::DVec3;
 use scene_builder::Builder;
 use serde_json::json;
-use std::io::{BufRead, BufReader};
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::process::Command;
 use std::time::{Duration, Instant};
-use tempfile::TempDir;
-
-/// Generous: a software driver under validation, on a machine that may be busy.
-const PATIENCE: Duration = Duration::from_secs(180);
-/// Longer than anything is said in the window.
-const NOTES_SEEN: Duration = Duration::from_secs(8);
-
-/// A display without a screen.
-struct Display {
-    server: Child,
-    name: String,
-    folder: TempDir,
-}
-
-impl Display {
-    const SIZE: [usize; 2] = [640, 480];
-
-    fn open() -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        let mut server = Command::new("Xvfb")
-            .args([
-                "-displayfd",
-                "1",
-                "-screen",
-                "0",
-                "640x480x24",
-                "-nolisten",
-                "tcp",
-                "-fbdir",
-            ])
-            .arg(folder.path())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::null())
-            .spawn()
-            .expect("Xvfb can't be started");
-        let mut number = String::new();
-        BufReader::new(server.stdout.take().unwrap())
-            .read_line(&mut number)
-            .unwrap();
-        assert!(!number.trim().is_empty(), "Xvfb opened no display");
-        Self {
-            server,
-            name: format!(":{}", number.trim()),
-            folder,
-        }
-    }
-
-    /// Sends input.
-    fn input(&self, arguments: &[&str]) {
-        let status = Command::new("xdotool")
-            .args(arguments)
-            .env("DISPLAY", &self.name)
-            .stdout(Stdio::null())
-            .status()
-            .expect("xdotool can't be started");
-        assert!(status.success(), "xdotool {arguments:?}: {status}");
-    }
-
-    /// Colours of the screen's upper left part.
-    fn pixels(&self, [width, height]: [usize; 2]) -> Vec<[u8; 3]> {
-        // An XWD file: a header of big-endian words, a colour map, and rows of BGRX.
-        let bytes = std::fs::read(self.folder.path().join("Xvfb_screen0")).unwrap();
-        let word = |index: usize| {
-            let word = bytes[4 * index..4 * index + 4].try_into().unwrap();
-            u32::from_be_bytes(word) as usize
-        };
-        let (header, row, colors) = (word(0), word(12), word(19));
-        assert_eq!([word(4), word(5)], Self::SIZE);
-        let start = header + 12 * colors;
-        let pixel = |x: usize, y: usize| {
-            let at = start + y * row + 4 * x;
-            [bytes[at + 2], bytes[at + 1], bytes[at]]
-        };
-        (0..height)
-            .flat_map(|y| (0..width).map(move |x| pixel(x, y)))
-            .collect()
-    }
-}
-
-impl Drop for Display {
-    fn drop(&mut self) {
-        let _ = self.server.kill();
-        let _ = self.server.wait();
-    }
-}
-
-/// The viewer, and what it says.
-struct Viewer<'a> {
-    display: &'a Display,
-    process: Child,
-    lines: Receiver<String>,
-    said: Vec<String>,
-}
-
-impl<'a> Viewer<'a> {
-    /// Opens scenes in a window, and waits for that.
-    fn open(display: &'a Display, folder: &Path, arguments: &[&str]) -> Self {
-        let mut process = Command::new(env!("CARGO_BIN_EXE_gpc"))
-            .arg("view")
-            .args(arguments)
-            .current_dir(folder)
-            .env("DISPLAY", &display.name)
-            .env_remove("WAYLAND_DISPLAY")
-            .env("GPC_VALIDATION", "1")
-            .env("RUST_LOG", "gpc=debug")
-            .stdout(Stdio::null())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let (sender, lines) = channel();
-        let errors = BufReader::new(process.stderr.take().unwrap());
-        std::thread::spawn(move || {
-            errors
-                .lines()
-                .map_while(Result::ok)
-                .try_for_each(|line| sender.send(line))
-        });
-        let viewer = Self {
-            display,
-            process,
-            lines,
-            said: Vec::new(),
-        };
-        display.input(&["search", "--sync", "--name", "gpc$", "windowfocus"]);
-        viewer
-    }
-
-    /// The next line that holds a text.
-    fn wait_for(&mut self, text: &str) -> String {
-        let until = Instant::now() + PATIENCE;
-        self.wait_until(text, until)
-            .unwrap_or_else(|| panic!("no line with {text:?} came after {:#?}", self.said))
-    }
-
-    fn wait_until(&mut self, text: &str, until: Instant) -> Option<String> {
-        loop {
-            let left = until.saturating_duration_since(Instant::now());
-            match self.lines.recv_timeout(left) {
-                Ok(line) => {
-                    self.said.push(line.clone());
-                    if line.contains(text) {
-                        return Some(line);
-                    }
-                }
-                Err(RecvTimeoutError::Timeout) => return None,
-                Err(RecvTimeoutError::Disconnected) => {
-                    panic!("the viewer ended, having said {:#?}", self.said)
-                }
-            }
-        }
-    }
-
-    fn key(&self, key: &str) {
-        self.display.input(&["key", key]);
-    }
-
-    /// Drags with a button from the window's middle.
-    fn drag(&self, button: &str, to: [&str; 2]) {
-        self.display.input(&[
-            "mousemove",
-            "160",
-            "100",
-            "mousedown",
-            button,
-            "mousemove",
-            "170",
-            "104",
-            "mousemove",
-            to[0],
-            to[1],
-            "mouseup",
-            button,
-        ]);
-    }
-
-    /// Hides the panel, once the window takes keys, and waits until nothing else lies over the picture.
-    fn show_picture_alone(&mut self) {
-        self.command();
-        self.key("p");
-        std::thread::sleep(NOTES_SEEN);
-    }
-
-    /// The `gpc render` command that makes the picture, by its arguments.
-    fn command(&mut self) -> Vec<String> {
-        let until = Instant::now() + PATIENCE;
-        loop {
-            // The window may not have the focus yet.
-            self.key("ctrl+c");
-            let soon = Instant::now() + Duration::from_secs(3);
-            if let Some(line) = self.wait_until("copied: gpc ", soon) {
-                let (_, command) = line.split_once("copied: gpc ").unwrap();
-                return command
-                    .split(' ')
-                    .map(|word| word.trim_matches('\'').to_owned())
-                    .collect();
-            }
-            assert!(
-                Instant::now() < until,
-                "the window takes no keys: {:#?}",
-                self.said
-            );
-        }
-    }
-
-    /// Closes the window, and checks that nothing was complained of.
-    fn close(mut self) {
-        self.key("q");
-        let status = self.process.wait().unwrap();
-        self.said.extend(self.lines.try_iter());
-        assert!(status.success(), "{status}: {:#?}", self.said);
-        for line in &self.said {
-            assert!(!line.starts_with("error"), "{line}");
-        }
-    }
-}
-
-impl Drop for Viewer<'_> {
-    fn drop(&mut self) {
-        let _ = self.process.kill();
-        let _ = self.process.wait();
-    }
-}
+use view_support::{Display, Loss, NOTES_SEEN, PATIENCE, Viewer, drop_file};
 
 /// Runs a `gpc render` command, to a file of that name.
 fn render(folder: &Path, command: &[String], output: &str) -> Vec<u8> {
@@ -433,8 +212,7 @@ fn a_file_that_is_written_again_is_shown_again() {
     assert_ne!(shown, before);
     let command = viewer.command();
     assert_shows(&shown, &render(folder.path(), &command, "again.png"));
-    viewer.key("q");
-    assert!(viewer.process.wait().unwrap().success());
+    assert!(viewer.quit().success());
 }
 
 #[test]
@@ -491,17 +269,150 @@ fn what_can_not_be_opened_is_said_and_leaves_the_window_open() {
         "the window says nothing"
     );
     // The next scene can be seen all the same.
-    let until = Instant::now() + PATIENCE;
-    while viewer
-        .wait_until("shows ", Instant::now() + Duration::from_secs(3))
-        .is_none()
-    {
-        assert!(Instant::now() < until, "the window takes no keys");
-        viewer.key("Right");
-    }
+    viewer.repeat_until("shows ", |display| display.input(&["key", "Right"]));
     viewer.wait_for("at rest");
-    viewer.key("q");
-    assert!(viewer.process.wait().unwrap().success());
+    // So can this one, once it is a scene.
+    viewer.repeat_until("error: broken.glb", |display| {
+        display.input(&["key", "Left"]);
+    });
+    std::fs::copy(&scene, folder.path().join("broken.glb")).unwrap();
+    viewer.wait_for("shows broken.glb");
+    viewer.wait_for("at rest");
+    assert!(viewer.quit().success());
+}
+
+#[test]
+fn files_and_folders_that_are_dropped_are_opened() {
+    let (display, folder) = (Display::open(), tempfile::tempdir().unwrap());
+    let scenes = folder.path().join("scenes");
+    std::fs::create_dir(&scenes).unwrap();
+    for name in ["b.glb", "a.glb"] {
+        std::fs::copy(asset("checker.glb"), scenes.join(name)).unwrap();
+    }
+    let arguments = [&asset("letters.glb"), "--size", "320x200", "--samples", "4"];
+    let mut viewer = Viewer::open(&display, folder.path(), &arguments);
+    viewer.wait_for("at rest");
+    let window = display.window();
+    drop_file(&display, window, &scenes.join("b.glb"));
+    viewer.wait_for("scenes/b.glb");
+    viewer.wait_for("at rest");
+    // A folder is its scenes by name.
+    drop_file(&display, window, &scenes);
+    viewer.wait_for("scenes/a.glb");
+    viewer.wait_for("at rest");
+    viewer.key("Right");
+    viewer.wait_for("scenes/b.glb");
+    viewer.wait_for("at rest");
+    viewer.close();
+}
+
+#[test]
+fn the_view_that_options_ask_for_is_flown_through_and_hidden() {
+    let (display, folder) = (Display::open(), tempfile::tempdir().unwrap());
+    let options = "--size 320x200 --samples 16 --eye=0.5,2,6 --target=0,1,0 --fov 50 --edges 1.5,#204060 --exposure=0.5";
+    let scene = asset("letters.glb");
+    let mut arguments = vec![scene.as_str()];
+    arguments.extend(options.split(' '));
+    let mut viewer = Viewer::open(&display, folder.path(), &arguments);
+    viewer.wait_for("at rest");
+    viewer.show_picture_alone();
+    let command = viewer.command();
+    for word in ["--target=0,1,0", "50", "--exposure=0.5"] {
+        assert!(
+            command.iter().any(|found| found == word),
+            "{word} in {command:?}"
+        );
+    }
+    let ordinary = ["render", &scene, "-o", "ordinary.png"].into_iter();
+    let ordinary = ordinary
+        .chain(["--background", "#2b2f36"])
+        .chain(options.split(' '));
+    let asked: Vec<_> = ordinary.map(str::to_owned).collect();
+    std::thread::sleep(NOTES_SEEN);
+    let shown = display.pixels([320, 200]);
+    assert_shows(&shown, &render(folder.path(), &asked, "ordinary.png"));
+
+    // Forward while the key is down, then a look aside.
+    viewer.key("f");
+    viewer.wait_for("flying");
+    let eye = |command: &[String]| {
+        let word = command.iter().find_map(|word| word.strip_prefix("--eye="));
+        let numbers = word
+            .unwrap()
+            .split(',')
+            .map(|number| number.parse().unwrap());
+        DVec3::from_slice(&numbers.collect::<Vec<f64>>())
+    };
+    let start = eye(&command);
+    // A window that is busy may hear of both ends of a press at once.
+    let until = Instant::now() + PATIENCE;
+    while (eye(&viewer.command()) - start).length() < 0.05 {
+        assert!(Instant::now() < until, "the eye does not move");
+        display.input(&["keydown", "w", "sleep", "1", "keyup", "w"]);
+    }
+    viewer.drag("1", ["200", "90"]);
+    viewer.wait_for("at rest");
+    let flown = viewer.command();
+    let forward = (DVec3::new(0.0, 1.0, 0.0) - start).normalize();
+    let moved = eye(&flown) - start;
+    assert!(
+        moved.normalize().dot(forward) > 0.999,
+        "{moved} is not {forward}"
+    );
+    viewer.key("Escape");
+
+    // A window that is hidden is drawn again when it is seen.
+    let window = display.window().to_string();
+    display.input(&["windowunmap", "--sync", &window]);
+    display.input(&[
+        "windowmap",
+        "--sync",
+        &window,
+        "windowfocus",
+        "--sync",
+        &window,
+    ]);
+    display.input(&["mousemove", "600", "400"]);
+    std::thread::sleep(NOTES_SEEN);
+    let shown = display.pixels([320, 200]);
+    assert_shows(&shown, &render(folder.path(), &flown, "flown.png"));
+    viewer.close();
+}
+
+#[test]
+fn a_lost_device_is_replaced_and_one_after_the_other_ends_it() {
+    let (display, folder, loss) = (Display::open(), tempfile::tempdir().unwrap(), Loss::new());
+    let scene = asset("letters.glb");
+    let arguments = [&scene, "--size", "320x200", "--samples", "16"];
+    let mut viewer = Viewer::open_with(&display, folder.path(), &arguments, &loss.variables());
+    viewer.wait_for("at rest");
+    viewer.show_picture_alone();
+    viewer.drag("1", ["200", "80"]);
+    viewer.wait_for("at rest");
+    let command = viewer.command();
+    loss.once();
+    display.input(&["mousemove", "600", "400", "click", "1"]);
+    viewer.repeat_until("everything is made again", |display| {
+        display.input(&["mousemove", "100", "60", "mousemove", "600", "400"]);
+    });
+    viewer.wait_for("shows ");
+    viewer.wait_for("at rest");
+    // The view is what it was.
+    assert_eq!(viewer.command(), command);
+    std::thread::sleep(NOTES_SEEN);
+    let shown = display.pixels([320, 200]);
+    assert_shows(&shown, &render(folder.path(), &command, "again.png"));
+
+    loss.always();
+    viewer.key("n");
+    let status = viewer.ended();
+    viewer.read_to_end();
+    assert_eq!(status.code(), Some(4), "{:#?}", viewer.said);
+    let last = viewer.said.last().unwrap();
+    assert_eq!(
+        last,
+        "error: the device was lost; its driver may have reset it"
+    );
 }
 
 #[test]

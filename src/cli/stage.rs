@@ -27,7 +27,7 @@ impl Stage {
             usage!("--background environment: this command shows none; `gpc render` does");
         }
         let (mut headless, (loaded, pose, warnings, camera)) =
-            render::open_beside(image.device.clone(), || {
+            render::open_beside(image.device.name.clone(), || {
                 let loaded = image.load(path)?;
                 let pose = image.pose(&loaded, image.camera.time)?;
                 let warnings: Vec<_> = loaded

@@ -1,13 +1,15 @@
 //! `gpc view`.
 
-use super::exit::usage;
-use super::render::{Antialiasing, SamplingArgs};
+use super::exit::{Usage, usage};
+use super::render::{Antialiasing, AppearanceArgs, CameraArgs, DeviceArgs, SamplingArgs};
 use super::values;
-use crate::view::{self, Look, Options, Source};
+use crate::view::{self, Appearance, Look, Options, Source, Start};
 use clap::Args;
+use gpc::camera::Orbit;
 use gpc::reference::srgb;
-use gpc::render::{HeadlessOptions, Settings};
+use gpc::render::{HeadlessOptions, Settings, Shadows};
 use gpc::scene::PoseRequest;
+use std::fmt::Display;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -22,45 +24,27 @@ pub struct ViewArgs {
     /// Width and height of the window in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = values::size)]
     size: [u32; 2],
-    /// Linear factor on the light, in stops
-    #[arg(long, value_name = "EV", default_value_t = 0.0, allow_negative_numbers = true, value_parser = values::finite)]
-    exposure: f64,
     /// Colour behind the scene: none (black in the window, transparent in files), sRGB R,G,B of 0 to 1, or #rrggbb
     #[arg(long, value_name = "COLOUR", default_value = "#2b2f36")]
     background: String,
-    /// Width of lines in pixels
-    #[arg(long, value_name = "PX", default_value_t = 1.0, value_parser = values::stroke)]
-    line_width: f64,
-    /// Diameter of points in pixels
-    #[arg(long, value_name = "PX", default_value_t = 3.0, value_parser = values::stroke)]
-    point_size: f64,
-    /// Camera of the scene by index to begin with [default: the first, or else one that shows everything]
-    #[arg(long, value_name = "INDEX")]
-    camera: Option<usize>,
-    /// Scene of the file by index [default: the file's own]
-    #[arg(long, value_name = "N")]
-    scene: Option<usize>,
-    /// Variant of the materials by name [default: none]
-    #[arg(long, value_name = "NAME")]
-    variant: Option<String>,
-    /// Moment of the animation in seconds
-    #[arg(long, value_name = "S", default_value_t = 0.0, value_parser = values::not_negative)]
-    time: f64,
-    /// Animation by name or index [default: the first, where a time is given]
-    #[arg(long, value_name = "NAME")]
-    animation: Option<String>,
+    #[command(flatten)]
+    appearance: AppearanceArgs,
     #[command(flatten)]
     sampling: SamplingArgs,
-    /// Part of the device's name, in upper or lower case [default: the best device]
-    #[arg(long, value_name = "NAME", help_heading = "Device")]
-    device: Option<String>,
-    /// Bound on device memory, such as 512M or 2G
-    #[arg(long, value_name = "BYTES", value_parser = values::bytes, help_heading = "Device")]
-    max_memory: Option<u64>,
+    #[command(flatten)]
+    camera: CameraArgs,
+    #[command(flatten)]
+    device: DeviceArgs,
 }
 
 pub fn run(args: ViewArgs) -> anyhow::Result<ExitCode> {
     let look = look(&args)?;
+    let start = start(&args.camera)?;
+    let appearance = Appearance {
+        environment: args.appearance.environment()?,
+        edges: args.appearance.edges(),
+    };
+    let appearance_options = appearance_options(&args, &look);
     let validation = std::env::var_os("GPC_VALIDATION").is_some_and(|value| !value.is_empty());
     let mut scenes = args.scenes.into_iter();
     let Some(path) = scenes.next() else {
@@ -69,23 +53,60 @@ pub fn run(args: ViewArgs) -> anyhow::Result<ExitCode> {
     view::run(Options {
         source: Source {
             path,
-            variant: args.variant,
+            variant: args.camera.variant,
             request: PoseRequest {
-                scene: args.scene,
-                animation: args.animation,
-                time: args.time,
+                scene: args.camera.scene,
+                animation: args.camera.animation,
+                time: args.camera.time,
             },
         },
         others: scenes.collect(),
-        camera: args.camera,
+        start,
+        appearance,
+        appearance_options,
         look,
-        background: args.background,
         device: HeadlessOptions {
-            device: args.device,
+            device: args.device.name,
             validation,
         },
     })?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// Where the first scene is seen from at first.
+fn start(args: &CameraArgs) -> Result<Start, Usage> {
+    let default = Orbit::default();
+    let fov = args.fov.unwrap_or(default.fov);
+    if args.up.is_some() {
+        return Err(Usage(
+            "--up: the window keeps the y axis upright; `gpc render` takes it".to_owned(),
+        ));
+    }
+    if let Some(eye) = args.eye {
+        let target = args.target;
+        return Ok(Start::Place { eye, target, fov });
+    }
+    if args.azimuth.is_some() || args.elevation.is_some() || args.zoom.is_some() {
+        return Ok(Start::Around(Orbit {
+            azimuth: args.azimuth.unwrap_or(default.azimuth),
+            elevation: args.elevation.unwrap_or(default.elevation),
+            zoom: args.zoom.unwrap_or(default.zoom),
+            fov,
+        }));
+    }
+    if args.fov.is_some() {
+        return Err(Usage(
+            "--fov: the window shows cameras of the scene as they are; give --eye or --azimuth too"
+                .to_owned(),
+        ));
+    }
+    match args.camera.as_deref() {
+        None => Ok(Start::First),
+        Some("all") => Err(Usage(
+            "--camera all: the window begins with one; the key C goes on to the next".to_owned(),
+        )),
+        Some(camera) => Ok(Start::Camera(camera.to_owned())),
+    }
 }
 
 /// How pictures are antialiased, and how large the window is.
@@ -101,7 +122,7 @@ fn look(args: &ViewArgs) -> anyhow::Result<Look> {
     let [width, height] = args.size;
     let sampling = &args.sampling;
     let method = sampling.aa.method();
-    let settings = Settings {
+    let settings = args.appearance.settings(Settings {
         method,
         samples: sampling
             .asked_samples()
@@ -112,12 +133,9 @@ fn look(args: &ViewArgs) -> anyhow::Result<Look> {
         detection: sampling.detect.detection(),
         footprint: sampling.footprint.footprint(),
         background,
-        exposure: args.exposure as f32,
-        line_width: args.line_width as f32,
-        point_size: args.point_size as f32,
-        max_memory: args.max_memory,
+        max_memory: args.device.max_memory,
         ..Settings::new(width, height)
-    };
+    });
     if sampling.aa == Antialiasing::None && settings.samples != 1 {
         usage!(
             "none can't have {} samples a pixel; it can have 1",
@@ -125,4 +143,29 @@ fn look(args: &ViewArgs) -> anyhow::Result<Look> {
         );
     }
     Ok(Look::new(settings, sampling.asked_contrast()))
+}
+
+/// The options that say how scenes look, but for numbers that the settings hold.
+fn appearance_options(args: &ViewArgs, look: &Look) -> Vec<String> {
+    let appearance = &args.appearance;
+    let mut options = Vec::new();
+    // One word each: a value that begins with a minus is no option then.
+    let mut add = |option: &str, value: &dyn Display| options.push(format!("{option}={value}"));
+    if look.settings.background.is_some() {
+        add("--background", &args.background);
+    }
+    if let Some(file) = &appearance.environment {
+        add("--environment", &file.display());
+        if appearance.environment_rotation != 0.0 {
+            add("--environment-rotation", &appearance.environment_rotation);
+        }
+    }
+    if let Some(edges) = appearance.edges {
+        let [r, g, b] = edges.color;
+        add("--edges", &format_args!("{},{r},{g},{b}", edges.width));
+    }
+    if look.settings.shadows == Shadows::Exact {
+        add("--shadows", &"exact");
+    }
+    options
 }

@@ -2,33 +2,23 @@
 
 use super::command::{Shot, line};
 use super::files::{free_name, scenes_at};
+use super::fly::Way;
 use super::keys::{self, Action};
 use super::lens;
 use super::look::Look;
-use super::navigate::Turntable;
+use super::mouse::{NOTCH, PIXELS_A_NOTCH, pinched};
 use super::panel::Wishes;
-use super::pick;
-use super::pointer::Drag;
 use super::source::Source;
 use super::standpoint::Standpoint;
 use super::studio::Subject;
 use super::window::View;
 use glam::DVec2;
-use gpc::camera::zoom::ZoomRegion;
-use gpc::camera::{Camera, Pinhole};
 use gpc::output::AovKind;
 use gpc::render::Method;
 use gpc::sampling::MAX_SAMPLES;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use winit::event::{ElementState, MouseButton, MouseScrollDelta, WindowEvent};
-
-/// How much nearer a notch of the wheel brings.
-const NOTCH: f64 = 1.15;
-/// Pixels of a touchpad or of a drag that count as a notch.
-const PIXELS_A_NOTCH: f64 = 40.0;
-/// Pixels from the line of a split at which it is taken hold of.
-const GRIP: f64 = 6.0;
+use winit::event::{ElementState, KeyEvent, MouseScrollDelta, WindowEvent};
 
 impl View {
     /// Takes an event of the window.
@@ -44,11 +34,11 @@ impl View {
             WindowEvent::RedrawRequested | WindowEvent::Occluded(false) => self.is_dirty = true,
             WindowEvent::ModifiersChanged(modifiers) => self.modifiers = modifiers.state(),
             WindowEvent::DroppedFile(path) => self.open(path),
-            WindowEvent::KeyboardInput { event, .. } if event.state == ElementState::Pressed => {
-                if !response.consumed
-                    && let Some(action) = keys::action(&event.logical_key, self.modifiers)
-                {
-                    self.act(action)?;
+            WindowEvent::KeyboardInput { event, .. } => self.on_key(event, response.consumed)?,
+            WindowEvent::Focused(false) => {
+                // Keys that are let go elsewhere are not heard of.
+                if let Some(flight) = &mut self.flight {
+                    flight.stop();
                 }
             }
             WindowEvent::CursorMoved { position, .. } => {
@@ -67,17 +57,30 @@ impl View {
                     MouseScrollDelta::LineDelta(_, lines) => f64::from(*lines),
                     MouseScrollDelta::PixelDelta(pixels) => pixels.y / PIXELS_A_NOTCH,
                 };
-                let factor = NOTCH.powf(notches);
-                if !self.change_lens(|lens| lens::enlarge(lens, factor)) {
-                    self.zoom(factor, self.pointer.place());
-                }
+                self.wheel(NOTCH.powf(notches));
             }
-            WindowEvent::PinchGesture { delta, .. } => {
-                self.zoom(1.0 + delta, self.pointer.place());
-            }
+            WindowEvent::PinchGesture { delta, .. } => self.wheel(pinched(*delta)),
             _ => {}
         }
         Ok(())
+    }
+
+    fn on_key(&mut self, event: &KeyEvent, is_taken: bool) -> anyhow::Result<()> {
+        let way = Way::of(event.physical_key).filter(|_| !self.modifiers.control_key());
+        if let (Some(flight), Some(way)) = (&mut self.flight, way) {
+            match event.state {
+                ElementState::Pressed if is_taken => {}
+                ElementState::Pressed => flight.hold(way, Instant::now()),
+                ElementState::Released => flight.release(way),
+            }
+            self.is_dirty = true;
+            return Ok(());
+        }
+        let action = keys::action(&event.logical_key, self.modifiers);
+        match action.filter(|_| event.state == ElementState::Pressed && !is_taken) {
+            Some(action) => self.act(action),
+            None => Ok(()),
+        }
     }
 
     /// Opens a file, or those of a folder, beside those that there are.
@@ -112,6 +115,7 @@ impl View {
                         .say(format!("stopped loading {}", loading.source.name()));
                 }
                 self.shows_keys = false;
+                self.flight = None;
             }
             Action::Quit => self.wants_to_quit = true,
             Action::Fit => {
@@ -122,6 +126,7 @@ impl View {
             }
             Action::LookFrom(side) => self.go(|turntable| turntable.look_from(side)),
             Action::NextCamera => self.next_camera(),
+            Action::Fly => self.toggle_flight(),
             Action::PreviousScene => self.turn_to(self.scenes.len().saturating_sub(1)),
             Action::NextScene => self.turn_to(1),
             Action::Reload => self.reload = Some(Instant::now()),
@@ -161,109 +166,6 @@ impl View {
             Action::Faster => self.change_speed(1),
         }
         Ok(())
-    }
-
-    /// Moves to another place.
-    fn go(&mut self, change: impl FnOnce(&mut Turntable)) {
-        let aspect = self.aspect();
-        if let Some(stage) = self.canvas.stage() {
-            let cameras = match &self.moment {
-                Some(moment) => &moment.cameras,
-                None => &stage.cameras,
-            };
-            self.standpoint.go(cameras, stage.bounds, aspect, change);
-            self.restart();
-        }
-    }
-
-    /// Everything has to be rendered again.
-    fn restart(&mut self) {
-        self.canvas.restart(Instant::now());
-        if let Err(error) = self.view_changed() {
-            self.notes.fail(&error);
-        }
-    }
-
-    /// Changes the lens, where there is one. Says whether there is.
-    fn change_lens(&mut self, change: impl FnOnce(&mut ZoomRegion)) -> bool {
-        let Some(lens) = &mut self.cover.lens else {
-            return false;
-        };
-        change(lens);
-        if let Err(error) = self.cover_changed() {
-            self.notes.fail(&error);
-        }
-        true
-    }
-
-    fn press(&mut self, button: MouseButton) {
-        let near_split = self
-            .split_column()
-            .is_some_and(|column| (self.pointer.place().x - f64::from(column)).abs() < GRIP);
-        let drag = match button {
-            MouseButton::Left if near_split => Drag::Split,
-            MouseButton::Left if self.modifiers.shift_key() => Drag::Pan,
-            MouseButton::Left if self.cover.lens.is_some() => Drag::Lens,
-            MouseButton::Left => Drag::Orbit,
-            MouseButton::Middle => Drag::Pan,
-            MouseButton::Right => Drag::Zoom,
-            _ => return,
-        };
-        if drag == Drag::Lens {
-            let place = self.pointer.place();
-            self.change_lens(|lens| lens::press(lens, place));
-        }
-        let is_double = self.pointer.pressed(drag, Instant::now());
-        if is_double && drag == Drag::Orbit {
-            self.recentre();
-        }
-    }
-
-    fn drag(&mut self, drag: Drag, by: DVec2) {
-        let [width, height] = self.size();
-        match drag {
-            Drag::Orbit => self.go(|turntable| turntable.orbit(by, height)),
-            Drag::Pan => self.go(|turntable| turntable.pan(by, height)),
-            Drag::Zoom => {
-                let factor = NOTCH.powf(-by.y / PIXELS_A_NOTCH);
-                self.go(|turntable| turntable.zoom(factor, DVec2::ZERO, height));
-            }
-            Drag::Lens => {
-                let place = self.pointer.place();
-                self.change_lens(|lens| lens::drag(lens, place));
-            }
-            Drag::Split => {
-                self.split = (self.pointer.place().x / width).clamp(0.0, 1.0);
-                self.is_dirty = true;
-            }
-        }
-    }
-
-    /// Comes nearer to what is at a place in the window.
-    fn zoom(&mut self, factor: f64, place: DVec2) {
-        let [width, height] = self.size();
-        let pointer = place - 0.5 * DVec2::new(width, height);
-        self.go(|turntable| turntable.zoom(factor, pointer, height));
-    }
-
-    /// Brings what is under the pointer into the middle.
-    fn recentre(&mut self) {
-        let Some(stage) = self.canvas.stage() else {
-            return;
-        };
-        let size = self.canvas.size().unwrap_or([1, 1]);
-        let camera = self
-            .standpoint
-            .camera(self.cameras(), stage.bounds, self.aspect());
-        let pinhole = camera
-            .ok()
-            .and_then(|camera: Camera| Pinhole::from_camera(&camera, size).ok());
-        let hit = pinhole
-            .map(|pinhole| pinhole.ray(self.pointer.place()))
-            .and_then(|ray| pick::first_hit(&stage.geometry, &ray));
-        if let Some(point) = hit {
-            self.go(|turntable| turntable.recentre(point));
-        }
     }
 
     fn next_camera(&mut self) {
@@ -395,7 +297,7 @@ impl View {
             source: &stage.source,
             standpoint: &self.standpoint,
             look: &self.looks[self.layer_under_pointer()],
-            background: &self.background,
+            appearance: &self.appearance_options,
             time: self.time(),
             lens: self.cover.lens.as_ref(),
         };

@@ -1,6 +1,7 @@
 //! The event loop's side of the viewer.
 
 use super::Options;
+use super::losses::{Losses, is_lost};
 use super::source::Stage;
 use super::studio::Made;
 use super::window::View;
@@ -25,6 +26,7 @@ pub struct App {
     options: Options,
     proxy: EventLoopProxy<Event>,
     view: Option<View>,
+    losses: Losses,
     outcome: anyhow::Result<Vec<String>>,
 }
 
@@ -34,6 +36,7 @@ impl App {
             options,
             proxy,
             view: None,
+            losses: Losses::default(),
             outcome: Ok(Vec::new()),
         }
     }
@@ -45,10 +48,22 @@ impl App {
 
     /// Ends the program where something that it can't do without has failed.
     fn check(&mut self, events: &ActiveEventLoop, outcome: anyhow::Result<()>) {
-        if let Err(error) = outcome {
+        if let Err(error) = outcome.or_else(|error| self.recover(error)) {
             self.outcome = Err(error);
             events.exit();
         }
+    }
+
+    /// Makes everything again after the device was lost. Hands back what there is no recovering from.
+    fn recover(&mut self, error: anyhow::Error) -> anyhow::Result<()> {
+        if !is_lost(&error) || !self.losses.book(Instant::now()) {
+            return Err(error);
+        }
+        if let Some(view) = self.view.take() {
+            log::error!("{error:#}; everything is made again");
+            self.view = Some(view.reopened()?);
+        }
+        Ok(())
     }
 }
 

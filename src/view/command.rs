@@ -14,8 +14,8 @@ pub struct Shot<'a> {
     pub source: &'a Source,
     pub standpoint: &'a Standpoint,
     pub look: &'a Look,
-    /// The background as `--background` has it.
-    pub background: &'a str,
+    /// Options that say how scenes look.
+    pub appearance: &'a [String],
     /// Moment of the animation in seconds.
     pub time: f64,
     /// A region that is enlarged.
@@ -41,7 +41,8 @@ impl Shot<'_> {
         }
         let [width, height] = settings.size;
         arguments.add("--size", format_args!("{width}x{height}"));
-        arguments.settings(&settings, self.background);
+        arguments.settings(&settings);
+        arguments.0.extend_from_slice(self.appearance);
         arguments.view(self);
         arguments.0
     }
@@ -76,7 +77,7 @@ impl Arguments {
     }
 
     /// Settings that differ from the command's defaults.
-    fn settings(&mut self, settings: &Settings, background: &str) {
+    fn settings(&mut self, settings: &Settings) {
         let default = Settings::new(settings.size[0], settings.size[1]);
         if settings.method != default.method {
             self.add("--aa", method_name(settings.method));
@@ -119,9 +120,6 @@ impl Arguments {
         }
         if settings.point_size != default.point_size {
             self.add("--point-size", settings.point_size);
-        }
-        if settings.background.is_some() {
-            self.add("--background", background);
         }
     }
 
@@ -216,7 +214,7 @@ mod tests {
             source: &source("a b.glb"),
             standpoint: &Standpoint::Camera(2),
             look: &look,
-            background: "none",
+            appearance: &[],
             time: 0.0,
             lens: None,
         };
@@ -245,7 +243,7 @@ mod tests {
             source: &source,
             standpoint: &Standpoint::Free(turntable()),
             look: &look,
-            background: "#000000",
+            appearance: &["--background", "#000000"].map(str::to_owned),
             time: 0.25,
             lens: None,
         };
@@ -270,7 +268,7 @@ mod tests {
             source: &source("a.glb"),
             standpoint: &Standpoint::Camera(0),
             look: &look,
-            background: "none",
+            appearance: &[],
             time: 0.0,
             lens: Some(&lens),
         };

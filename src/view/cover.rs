@@ -1,4 +1,4 @@
-//! What is looked at in the stead of the frames: a zoom lens, or what pixels hold beside their colours.
+//! What is looked at in the stead of the frames: a zoom lens, what pixels hold beside their colours, or shadows.
 
 use super::studio::Subject;
 use gpc::camera::zoom::{ZoomMap, ZoomRegion};
@@ -12,6 +12,8 @@ const STEPS: [u32; 2] = [4, 64];
 pub struct Cover {
     pub lens: Option<ZoomRegion>,
     pub attribute: Option<AovKind>,
+    /// Whether pictures have shadows, which frames have not.
+    has_shadows: bool,
     /// Of the last order.
     number: u64,
     /// Index into [`STEPS`] of the last order.
@@ -30,13 +32,21 @@ pub struct Arrival {
 }
 
 impl Cover {
+    /// Over frames, which have no shadows, of pictures that have them or not.
+    pub fn new(has_shadows: bool) -> Self {
+        Self {
+            has_shadows,
+            ..Self::default()
+        }
+    }
+
     /// What the studio is asked for, if anything is wanted.
     pub fn subject(&self) -> Option<Subject> {
         match (self.attribute, self.lens) {
             (Some(kind), _) => Some(Subject::Attribute(kind)),
             // Lenses that the mouse makes are possible.
             (None, Some(lens)) => ZoomMap::new(vec![lens]).ok().map(Subject::Zoom),
-            (None, None) => None,
+            (None, None) => self.has_shadows.then_some(Subject::Still),
         }
     }
 
@@ -128,6 +138,15 @@ mod tests {
         assert!(cover.arrived(moved_view).is_shown);
         cover.lens = None;
         assert!(!cover.arrived(moved_view).is_shown && cover.is_done());
+    }
+
+    #[test]
+    fn pictures_with_shadows_take_the_place_of_frames() {
+        let mut cover = Cover::new(true);
+        assert!(matches!(cover.subject(), Some(Subject::Still)));
+        cover.lens = Some(lens::at(DVec2::ZERO, 100.0));
+        assert!(matches!(cover.subject(), Some(Subject::Zoom(_))));
+        assert!(Cover::new(false).subject().is_none());
     }
 
     #[test]

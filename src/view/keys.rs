@@ -12,6 +12,7 @@ pub enum Action {
     Fit,
     LookFrom(Side),
     NextCamera,
+    Fly,
     PreviousScene,
     NextScene,
     Reload,
@@ -72,7 +73,7 @@ const fn named(key: NamedKey, label: &'static str, action: Action, does: &'stati
 }
 
 /// Every key.
-static BINDINGS: [Binding; 29] = [
+static BINDINGS: [Binding; 30] = [
     text("h", "H", Action::Help, "list the keys"),
     text("p", "P", Action::Panel, "show or hide the panel"),
     named(
@@ -101,6 +102,12 @@ static BINDINGS: [Binding; 29] = [
         "look from a corner",
     ),
     text("c", "C", Action::NextCamera, "next camera of the scene"),
+    text(
+        "f",
+        "F",
+        Action::Fly,
+        "fly: WASD or arrows, E and Q; drag looks, wheel sets speed",
+    ),
     text(
         "s",
         "S",
@@ -185,7 +192,7 @@ static BINDINGS: [Binding; 29] = [
         NamedKey::Escape,
         "Esc",
         Action::Back,
-        "stop loading, or close the list",
+        "stop loading or flying, or close the list",
     ),
     text("q", "Q", Action::Quit, "quit"),
 ];

@@ -7,7 +7,7 @@ use super::schedule::{Schedule, Work};
 use ash::vk;
 use gpc::camera::Camera;
 use gpc::passes::Encoding;
-use gpc::render::{Frame, PixelRect, PreparedScene, RenderError, Statistics};
+use gpc::render::{Frame, PixelRect, PreparedScene, RenderError, Settings, Shadows, Statistics};
 use gpc::scene::Moment;
 use std::sync::Arc;
 use std::time::Instant;
@@ -213,6 +213,11 @@ impl Layer {
                     size: [self.look.settings.size[0], rows.end - rows.start],
                 }),
             ),
+        };
+        // Shadows are for pictures of the studio: frames have none.
+        let settings = Settings {
+            shadows: Shadows::None,
+            ..settings
         };
         engine
             .renderer

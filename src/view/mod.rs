@@ -12,10 +12,13 @@ mod cover;
 mod device;
 mod engine;
 mod files;
+mod fly;
 mod keys;
 mod layer;
 mod lens;
 mod look;
+mod losses;
+mod mouse;
 mod navigate;
 mod notes;
 mod painter;
@@ -34,7 +37,8 @@ mod watch;
 mod window;
 
 pub use look::{Look, default_samples};
-pub use source::Source;
+pub use source::{Appearance, Source};
+pub use standpoint::Start;
 
 use anyhow::bail;
 use app::App;
@@ -49,12 +53,14 @@ pub struct Options {
     pub source: Source,
     /// Other files that the arrow keys go to.
     pub others: Vec<PathBuf>,
-    /// Index of the scene's camera to begin with.
-    pub camera: Option<usize>,
+    /// Where the first is seen from at first.
+    pub start: Start,
+    /// What scenes are shown with.
+    pub appearance: Appearance,
+    /// The options of the command line that say the same, and what is behind the scene.
+    pub appearance_options: Vec<String>,
     /// Antialiasing, and the size of the window.
     pub look: Look,
-    /// The background as the command line has it.
-    pub background: String,
     /// How devices are opened: the window's, and those that write files.
     pub device: HeadlessOptions,
 }

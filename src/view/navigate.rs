@@ -1,7 +1,7 @@
 //! Moving about a scene: a turntable around a point, with the vertical axis upright.
 
 use glam::{DVec2, DVec3};
-use gpc::camera::{Camera, Orbit, Projection, Viewpoint};
+use gpc::camera::{Camera, CameraError, Orbit, Projection, Viewpoint};
 
 /// Degrees that dragging over the height of the image turns by.
 const DEGREES_A_HEIGHT: f64 = 180.0;
@@ -89,6 +89,33 @@ impl Turntable {
         .clamped()
     }
 
+    /// Stands where a viewpoint does, upright, and turns about its target.
+    ///
+    /// # Errors
+    /// If it looks nowhere.
+    pub fn of_viewpoint(viewpoint: &Viewpoint, bounds: Bounds) -> Result<Self, CameraError> {
+        let camera = viewpoint.frame(bounds.0, bounds.1)?;
+        Ok(Self {
+            target: viewpoint.target,
+            distance: (viewpoint.eye - viewpoint.target).length(),
+            ..Self::of_camera(&camera, bounds)
+        })
+    }
+
+    /// Sees a scene as an orbit does, in an image of `aspect` = width / height.
+    ///
+    /// # Errors
+    /// If its angles or its field of view are impossible.
+    pub fn of_orbit(orbit: &Orbit, bounds: Bounds, aspect: f64) -> Result<Self, CameraError> {
+        let camera = orbit.frame(bounds.0, bounds.1, aspect)?;
+        let target = 0.5 * (bounds.0 + bounds.1);
+        Ok(Self {
+            target,
+            distance: (camera.eye - target).length(),
+            ..Self::of_camera(&camera, bounds)
+        })
+    }
+
     /// Place and target for a camera.
     pub fn viewpoint(&self) -> Viewpoint {
         Viewpoint {
@@ -148,6 +175,22 @@ impl Turntable {
         let deeper = -shift.dot(self.backward());
         self.target = point;
         self.distance = (self.distance + deeper).max(1e-6 * self.distance);
+    }
+
+    /// Moves eye and target alike: right, up and forward.
+    pub fn fly(&mut self, by: DVec3) {
+        let (right, up) = self.across();
+        self.target += by.x * right + by.y * up - by.z * self.backward();
+    }
+
+    /// Turns the eye by a drag in pixels of an image of that height, where it stands: what is under the pointer follows it.
+    pub fn look(&mut self, drag: DVec2, height: f64) {
+        let eye = self.target + self.distance * self.backward();
+        let turn = self.fov / height * drag;
+        self.azimuth = (self.azimuth + turn.x).rem_euclid(360.0);
+        self.elevation -= turn.y;
+        *self = self.clamped();
+        self.target = eye - self.distance * self.backward();
     }
 
     /// Half of what the image's height shows at the target's distance.
@@ -248,6 +291,51 @@ mod tests {
         turned.orbit(DVec2::new(10.0, 5.0), SIZE[1]);
         let moved = seen(&turned, near);
         assert!(moved.x > 0.0 && moved.y > 0.0, "{moved}");
+    }
+
+    #[test]
+    fn flying_moves_the_eye_and_looking_turns_it() {
+        let before = turntable();
+        let mut after = before;
+        after.fly(DVec3::new(0.1, 0.2, 0.3));
+        let moved = after.viewpoint().eye - before.viewpoint().eye;
+        let (right, up) = before.across();
+        let expected = 0.1 * right + 0.2 * up - 0.3 * before.backward();
+        assert!((moved - expected).length() < 1e-9);
+        // A small drag takes what is in the middle along.
+        let mut after = before;
+        after.look(DVec2::new(4.0, -3.0), SIZE[1]);
+        assert!((after.viewpoint().eye - before.viewpoint().eye).length() < 1e-9);
+        let shift = seen(&after, before.target) - DVec2::new(4.0, -3.0);
+        assert!(shift.length() < 0.5, "{shift}");
+    }
+
+    #[test]
+    fn viewpoints_and_orbits_are_taken_over() {
+        let viewpoint = Viewpoint {
+            eye: DVec3::new(3.0, 4.0, 5.0),
+            target: DVec3::new(0.5, 0.25, -1.0),
+            up: DVec3::Y,
+            fov: 30.0,
+        };
+        let found = Turntable::of_viewpoint(&viewpoint, BOUNDS).unwrap();
+        assert!((found.viewpoint().eye - viewpoint.eye).length() < 1e-9);
+        assert_eq!((found.target, found.fov.round()), (viewpoint.target, 30.0));
+        let nowhere = Viewpoint {
+            target: viewpoint.eye,
+            ..viewpoint
+        };
+        assert!(Turntable::of_viewpoint(&nowhere, BOUNDS).is_err());
+        let orbit = Orbit {
+            azimuth: 100.0,
+            elevation: -20.0,
+            zoom: 2.0,
+            fov: 50.0,
+        };
+        let found = Turntable::of_orbit(&orbit, BOUNDS, 2.0).unwrap();
+        let expected = orbit.frame(BOUNDS.0, BOUNDS.1, 2.0).unwrap();
+        assert!((found.viewpoint().eye - expected.eye).length() < 1e-9);
+        assert!((found.azimuth - 100.0).abs() < 1e-9 && (found.elevation + 20.0).abs() < 1e-9);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::device::Device;
 use super::slot::SLOTS;
 use ash::vk;
-use egui_ash_renderer::{DynamicRendering, Options, Renderer};
+use egui_ash_renderer::{DynamicRendering, Options, Renderer, RendererError};
 use gpc::vulkan::VulkanError;
 use std::sync::Arc;
 
@@ -53,14 +53,15 @@ impl Painter {
         let changed = &painting.textures.set;
         if !changed.is_empty() {
             self.renderer
-                .set_textures(self.device.queue, self.pool, changed)?;
+                .set_textures(self.device.queue, self.pool, changed)
+                .map_err(failure)?;
         }
         Ok(())
     }
 
     /// Frees textures that no commands use any more.
     pub fn free(&mut self, textures: &[egui::TextureId]) -> anyhow::Result<()> {
-        Ok(self.renderer.free_textures(textures)?)
+        self.renderer.free_textures(textures).map_err(failure)
     }
 
     /// Records drawing over an image, which is a colour attachment before and after.
@@ -93,7 +94,15 @@ impl Painter {
         );
         // SAFETY: as above.
         unsafe { self.device.handle.cmd_end_rendering(commands) };
-        Ok(drawn?)
+        drawn.map_err(failure)
+    }
+}
+
+/// An error of the panel's renderer, of which a lost device is told apart.
+fn failure(error: RendererError) -> anyhow::Error {
+    match error {
+        RendererError::Vulkan(result) => VulkanError::of("drawing the panel")(result).into(),
+        error => error.into(),
     }
 }
 

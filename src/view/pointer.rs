@@ -11,6 +11,7 @@ const NEAR: f64 = 5.0;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drag {
     Orbit,
+    Look,
     Pan,
     Zoom,
     Split,

@@ -4,7 +4,9 @@ use super::engine::Engine;
 use super::navigate::Bounds;
 use glam::DVec3;
 use gpc::render::PreparedScene;
-use gpc::scene::{AnimationInfo, Geometry, Motion, Pose, PoseRequest, Scene, SceneCamera};
+use gpc::scene::{
+    AnimationInfo, Edges, Environment, Geometry, Motion, Pose, PoseRequest, Scene, SceneCamera,
+};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -16,6 +18,15 @@ pub struct Source {
     pub variant: Option<String>,
     /// Scene of the file by index, animation by name or index, and time.
     pub request: PoseRequest,
+}
+
+/// What scenes are shown with that their files do not say.
+#[derive(Clone, Debug, Default)]
+pub struct Appearance {
+    /// Light from all around in place of the studio.
+    pub environment: Option<Arc<Environment>>,
+    /// Which edges of meshes are drawn.
+    pub edges: Option<Edges>,
 }
 
 /// A scene on the device.
@@ -57,11 +68,22 @@ impl Source {
     }
 
     /// Reads the scene and prepares it for the device.
-    pub fn open(&self, engine: Arc<Engine>, max_memory: Option<u64>) -> anyhow::Result<Stage> {
-        let loaded = match &self.variant {
+    pub fn open(
+        &self,
+        engine: Arc<Engine>,
+        appearance: &Appearance,
+        max_memory: Option<u64>,
+    ) -> anyhow::Result<Stage> {
+        let mut loaded = match &self.variant {
             Some(variant) => Scene::load_variant(&self.path, variant)?,
             None => Scene::load(&self.path)?,
         };
+        if appearance.environment.is_some() {
+            loaded.scene.environment = appearance.environment.clone();
+        }
+        if let Some(edges) = &appearance.edges {
+            loaded.scene.add_edges(edges);
+        }
         let animations = loaded.scene.info().animations;
         let renderer = &engine.renderer;
         let (pose, motion, prepared);

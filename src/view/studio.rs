@@ -2,6 +2,7 @@
 //! beside their colours, and for files. They are made in a thread and a device of their own, so that the window never waits
 //! for them.
 
+use super::losses::is_lost;
 use super::source::{Source, bounds};
 use super::standpoint::Standpoint;
 use anyhow::{Context, bail};
@@ -10,7 +11,7 @@ use gpc::camera::set::SamplingSet;
 use gpc::camera::zoom::ZoomMap;
 use gpc::output::{self, Aov, AovKind, Format, Picture};
 use gpc::reference::srgb;
-use gpc::render::{Headless, HeadlessOptions, PreparedScene, Rendered, Settings};
+use gpc::render::{Headless, HeadlessOptions, PreparedScene, Rendered, Settings, Shadows};
 use gpc::scene::{Pose, PoseRequest, Scene};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -20,6 +21,8 @@ use std::thread::JoinHandle;
 /// What is to be made.
 #[derive(Clone, Debug)]
 pub enum Subject {
+    /// The scene, to look at.
+    Still,
     /// The scene with regions enlarged, to look at.
     Zoom(ZoomMap),
     /// What pixels hold beside their colours, to look at.
@@ -49,10 +52,34 @@ pub struct Pixels {
     pub codes: Vec<[u8; 4]>,
 }
 
+impl Pixels {
+    /// Codes of what was rendered.
+    fn new(rendered: &Rendered) -> Self {
+        let code = |[r, g, b, a]: &[f32; 4]| {
+            let [r, g, b] = [*r, *g, *b].map(|v| srgb::encode_u8(f64::from(v)));
+            [r, g, b, (a.clamp(0.0, 1.0) * 255.0).round() as u8]
+        };
+        Self {
+            size: rendered.size,
+            codes: rendered.colors.iter().map(code).collect(),
+        }
+    }
+}
+
 /// What became of an order.
 pub enum Made {
     Pixels(u64, anyhow::Result<Pixels>),
     File(PathBuf, anyhow::Result<()>),
+}
+
+impl Made {
+    /// Why there is nothing.
+    fn error(&self) -> Option<&anyhow::Error> {
+        match self {
+            Self::Pixels(_, made) => made.as_ref().err(),
+            Self::File(_, made) => made.as_ref().err(),
+        }
+    }
 }
 
 /// Takes orders until it is dropped, which waits for what it is at and for files that were asked for: a driver can't be
@@ -124,7 +151,13 @@ impl Maker {
             let last = waiting.iter().rposition(|order| !is_file(order));
             for (index, order) in waiting.iter().enumerate() {
                 if is_file(order) || Some(index) == last {
-                    deliver(self.make(order));
+                    let made = self.make(order);
+                    if made.error().is_some_and(is_lost) {
+                        // The next order opens another device.
+                        self.shown = None;
+                        self.headless = None;
+                    }
+                    deliver(made);
                 }
             }
         }
@@ -133,6 +166,7 @@ impl Maker {
     fn make(&mut self, order: &Order) -> Made {
         match &order.subject {
             Subject::File(path) => Made::File(path.clone(), self.write(order, path.clone())),
+            Subject::Still => Made::Pixels(order.number, self.still(order)),
             Subject::Zoom(map) => Made::Pixels(order.number, self.zoom(order, map)),
             Subject::Attribute(kind) => Made::Pixels(order.number, self.attribute(order, *kind)),
         }
@@ -145,6 +179,11 @@ impl Maker {
         Ok(output::write_atomically(&path, &bytes)?)
     }
 
+    fn still(&mut self, order: &Order) -> anyhow::Result<Pixels> {
+        let rendered = self.render(order, &order.settings)?;
+        Ok(Pixels::new(&rendered))
+    }
+
     fn zoom(&mut self, order: &Order, map: &ZoomMap) -> anyhow::Result<Pixels> {
         let size = order.settings.size;
         let (headless, shown) = self.show(order)?;
@@ -153,19 +192,13 @@ impl Maker {
         let rig = [(Pinhole::from_camera(&camera, size)?, set.sites())];
         let rendered = headless.render_sites(&shown.prepared, &rig, size, &order.settings)?;
         check(headless)?;
-        let code = |[r, g, b, a]: &[f32; 4]| {
-            let [r, g, b] = [*r, *g, *b].map(|v| srgb::encode_u8(f64::from(v)));
-            [r, g, b, (a.clamp(0.0, 1.0) * 255.0).round() as u8]
-        };
-        Ok(Pixels {
-            size,
-            codes: rendered.colors.iter().map(code).collect(),
-        })
+        Ok(Pixels::new(&rendered))
     }
 
     fn attribute(&mut self, order: &Order, kind: AovKind) -> anyhow::Result<Pixels> {
         let settings = Settings {
             attributes: true,
+            shadows: Shadows::None,
             ..order.settings.clone()
         };
         let rendered = self.render(order, &settings)?;
@@ -182,8 +215,13 @@ impl Maker {
     fn render(&mut self, order: &Order, settings: &Settings) -> anyhow::Result<Rendered> {
         let (headless, shown) = self.show(order)?;
         let camera = camera(order, shown)?;
-        let mut frame = headless.prepare(&shown.prepared, settings)?;
-        let rendered = headless.render(&mut frame, &camera)?;
+        let rendered = match settings.shadows {
+            Shadows::None => {
+                let mut frame = headless.prepare(&shown.prepared, settings)?;
+                headless.render(&mut frame, &camera)?
+            }
+            Shadows::Exact => headless.render_with_shadows(&shown.prepared, &camera, settings)?,
+        };
         check(headless)?;
         Ok(rendered)
     }
@@ -203,7 +241,11 @@ impl Maker {
                 time: order.time,
                 ..order.source.request.clone()
             })?;
-            let prepared = headless.upload(&order.scene, &pose, order.settings.max_memory)?;
+            let max_memory = order.settings.max_memory;
+            let mut prepared = headless.upload(&order.scene, &pose, max_memory)?;
+            if order.settings.shadows == Shadows::Exact {
+                headless.prepare_shadows(&mut prepared, &order.scene, &pose, max_memory)?;
+            }
             self.shown = Some(Shown {
                 scene: order.scene.clone(),
                 time: order.time,

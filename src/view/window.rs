@@ -6,21 +6,23 @@ use super::compose::{self, Magnifier};
 use super::cover::Cover;
 use super::device::Device;
 use super::engine::Engine;
+use super::fly::Flight;
 use super::layer::Layer;
 use super::look::Look;
+use super::losses::is_lost;
 use super::notes::Notes;
 use super::painter::Painting;
 use super::panel::{self, Facts, PictureFacts, SceneFacts, Wishes};
 use super::picture::Picture;
 use super::player::Player;
 use super::pointer::Pointer;
-use super::source::{Source, Stage};
-use super::standpoint::Standpoint;
+use super::source::{Appearance, Source, Stage};
+use super::standpoint::{Standpoint, Start};
 use super::studio::{Made, Order, Pixels, Studio, Subject};
 use super::watch::Watch;
 use super::{NoDisplay, Options};
+use gpc::render::{HeadlessOptions, Shadows};
 use gpc::scene::{Moment, SceneCamera};
-use gpc::vulkan::VulkanError;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread::JoinHandle;
@@ -71,12 +73,16 @@ pub struct View {
     pub moment: Option<Arc<Moment>>,
 
     pub standpoint: Standpoint,
-    /// Camera of the first scene to begin with.
-    pub camera: Option<usize>,
+    /// Where the first scene is seen from at first.
+    start: Option<Start>,
+    /// While keys move the eye.
+    pub flight: Option<Flight>,
     /// How the pictures are antialiased, left first.
     pub looks: Vec<Look>,
-    /// The background as the command line has it.
-    pub background: String,
+    /// What scenes are shown with.
+    appearance: Arc<Appearance>,
+    /// The options of the command line that say the same, and what is behind the scene.
+    pub appearance_options: Vec<String>,
     /// Column of the split, as a share of the width.
     pub split: f64,
     /// Enlargement of the magnifier, where it is on.
@@ -98,6 +104,11 @@ pub struct View {
     /// Whether the picture was said to be at rest.
     pub rests: bool,
     pub wants_to_quit: bool,
+
+    /// How devices are opened.
+    device: HeadlessOptions,
+    /// What the validation layer said of devices that were lost.
+    messages: Vec<String>,
 }
 
 impl View {
@@ -114,37 +125,25 @@ impl View {
             .create_window(attributes)
             .map_err(|error| NoDisplay(error.to_string()))?;
         let window = Arc::new(window);
-        let device = Device::new(
-            window.clone(),
-            options.device.device.as_deref(),
-            options.device.validation,
-        )?;
-        let engine = Arc::new(Engine::new(Arc::new(device))?);
-        let canvas = Canvas::new(engine, window.inner_size().into())?;
-        let context = egui::Context::default();
-        context.set_visuals(egui::Visuals::dark());
-        let interface = egui_winit::State::new(
-            context,
-            egui::ViewportId::ROOT,
-            &*window,
-            Some(window.scale_factor() as f32),
-            window.theme(),
-            None,
-        );
+        let canvas = canvas(&window, &options.device)?;
+        let interface = interface(&window);
         let deliver = proxy.clone();
-        let studio = Studio::new(options.device, move |made| {
+        let studio = Studio::new(options.device.clone(), move |made| {
             // Nobody waits for it once the window is closed.
             let _ = deliver.send_event(Event::Made(made));
         });
+        let cover = Cover::new(options.look.settings.shadows == Shadows::Exact);
         let mut view = Self {
             scenes: std::iter::once(options.source.path.clone())
                 .chain(options.others)
                 .collect(),
             looks: vec![options.look],
             standpoint: Standpoint::Camera(0),
-            camera: options.camera,
+            start: Some(options.start),
             source: options.source,
-            background: options.background,
+            appearance: Arc::new(options.appearance),
+            appearance_options: options.appearance_options,
+            device: options.device,
             proxy,
             canvas,
             interface,
@@ -157,11 +156,12 @@ impl View {
             reload: None,
             player: None,
             moment: None,
+            flight: None,
             split: 0.5,
             magnifier: None,
             pointer: Pointer::default(),
             modifiers: ModifiersState::empty(),
-            cover: Cover::default(),
+            cover,
             studio,
             notes: Notes::default(),
             shows_keys: false,
@@ -170,8 +170,35 @@ impl View {
             repaint: None,
             rests: false,
             wants_to_quit: false,
+            messages: Vec::new(),
         };
+        view.canvas.refines = view.cover.subject().is_none();
         view.load(false);
+        Ok(view)
+    }
+
+    /// The same view on a device that was opened again, after the one before was lost.
+    pub fn reopened(self) -> anyhow::Result<Self> {
+        let mut messages = self.messages;
+        messages.extend(self.canvas.engine.device.validation_messages());
+        let keeps_view = match &self.loading {
+            Some(loading) => loading.keeps_view,
+            None => self.canvas.stage().is_some(),
+        };
+        // The window's images go before it has others.
+        drop(self.canvas);
+        let mut view = Self {
+            canvas: canvas(&self.window, &self.device)?,
+            interface: interface(&self.window),
+            messages,
+            moment: None,
+            ..self
+        };
+        view.canvas.refines = view.cover.subject().is_none();
+        view.source.request.time = view.time();
+        view.notes
+            .say("the device was lost; everything is made again");
+        view.load(keeps_view);
         Ok(view)
     }
 
@@ -181,12 +208,14 @@ impl View {
         self.window.set_visible(false);
         let device = self.canvas.engine.device.clone();
         let loaders = std::mem::take(&mut self.loaders);
+        let mut messages = std::mem::take(&mut self.messages);
         drop(self);
         for loader in loaders {
             // A panic has been reported by the thread itself.
             let _ = loader.join();
         }
-        device.validation_messages()
+        messages.extend(device.validation_messages());
+        messages
     }
 
     /// Loads what was asked for, in the background.
@@ -205,10 +234,11 @@ impl View {
         self.watch(&source.path);
         let engine = self.canvas.engine.clone();
         let proxy = self.proxy.clone();
+        let appearance = self.appearance.clone();
         let max_memory = self.looks[0].settings.max_memory;
         self.loaders.retain(|loader| !loader.is_finished());
         self.loaders.push(std::thread::spawn(move || {
-            let stage = source.open(engine, max_memory);
+            let stage = source.open(engine, &appearance, max_memory);
             // Nobody waits for it once the window is closed.
             let _ = proxy.send_event(Event::Opened(number, Box::new(stage)));
         }));
@@ -258,10 +288,14 @@ impl View {
         self.window
             .set_title(&format!("{} - gpc", stage.source.name()));
         if !keeps_view {
-            self.standpoint = match self.camera.take() {
-                Some(index) if index < stage.cameras.len() => Standpoint::Camera(index),
-                _ => Standpoint::first(&stage.cameras, stage.bounds, self.aspect()),
-            };
+            let aspect = self.aspect();
+            let start = self.start.take().unwrap_or_default();
+            let asked = start.standpoint(&stage.cameras, stage.bounds, aspect);
+            self.standpoint = asked.unwrap_or_else(|error| {
+                self.notes.fail(&error.into());
+                Standpoint::first(&stage.cameras, stage.bounds, aspect)
+            });
+            self.flight = None;
         }
         log::debug!("shows {}", stage.source.path.display());
         self.player = stage.motion.as_ref().map(|_| {
@@ -390,6 +424,7 @@ impl View {
             self.load(true);
         }
         self.is_dirty |= self.player.as_ref().is_some_and(Player::is_playing);
+        self.is_dirty |= self.flight.as_ref().is_some_and(Flight::is_moving);
         self.is_dirty |= is_due(due) || is_due(self.repaint) || self.canvas.has_again();
         self.is_dirty |= is_due(self.notes.next_change());
         if self.is_dirty {
@@ -424,6 +459,7 @@ impl View {
             player.advance(now);
             self.show_time();
         }
+        self.fly(now);
         let (painting, wishes) = self.lay_out(now);
         let aspect = self.aspect();
         let camera = match self.canvas.stage() {
@@ -564,11 +600,7 @@ impl View {
 
     /// Says what went wrong in the window. What nothing can go on after is handed back.
     fn report(&mut self, error: anyhow::Error) -> anyhow::Result<()> {
-        let is_fatal = error.chain().any(|cause| {
-            let vulkan = cause.downcast_ref::<VulkanError>();
-            matches!(vulkan, Some(VulkanError::DeviceLost))
-        });
-        if is_fatal {
+        if is_lost(&error) {
             return Err(error);
         }
         self.notes.fail(&error);
@@ -584,4 +616,29 @@ impl View {
         }
         self.rests = rests;
     }
+}
+
+/// Opens a device that shows pictures in the window.
+fn canvas(window: &Arc<Window>, options: &HeadlessOptions) -> anyhow::Result<Canvas> {
+    let device = Device::new(
+        window.clone(),
+        options.device.as_deref(),
+        options.validation,
+    )?;
+    let engine = Engine::new(Arc::new(device))?;
+    Canvas::new(Arc::new(engine), window.inner_size().into())
+}
+
+/// Lays out the panel, from nothing: the device has none of its textures.
+fn interface(window: &Window) -> egui_winit::State {
+    let context = egui::Context::default();
+    context.set_visuals(egui::Visuals::dark());
+    egui_winit::State::new(
+        context,
+        egui::ViewportId::ROOT,
+        window,
+        Some(window.scale_factor() as f32),
+        window.theme(),
+        None,
+    )
 }

@@ -42,8 +42,8 @@ impl<'a> Film<'a> {
         steps: &[Step],
     ) -> anyhow::Result<Self> {
         // Shadows are not those of a frame, which moves.
-        let moves =
-            steps.iter().any(|step| step.time != first) && image.shadows.shadows() == Shadows::None;
+        let moves = steps.iter().any(|step| step.time != first)
+            && image.appearance.shadows.shadows() == Shadows::None;
         let (pose, motion) = if moves {
             let (pose, motion) = image.pose_in_motion(&loaded, first)?;
             (pose, Some(motion))

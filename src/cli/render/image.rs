@@ -8,7 +8,7 @@ use clap::Args;
 use gpc::output::{AovKind, Format};
 use gpc::reference::srgb;
 use gpc::render::{Reference, Settings};
-use gpc::scene::{Edges, Loaded, Motion, Pose, PoseRequest, SceneError};
+use gpc::scene::{Edges, Environment, Loaded, Motion, Pose, PoseRequest, SceneError};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -18,15 +18,33 @@ pub struct ImageArgs {
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = values::size)]
     pub size: [u32; 2],
-    /// Linear factor on the light, in stops
-    #[arg(long, value_name = "EV", default_value_t = 0.0, allow_negative_numbers = true, value_parser = values::finite)]
-    pub exposure: f64,
     /// How radiance becomes display colour: Khronos PBR Neutral, or clamped [default: neutral; none for .exr]
     #[arg(long)]
     pub tonemap: Option<Tonemap>,
     /// What is behind the scene: none (transparent), sRGB R,G,B of 0 to 1, #rrggbb, or environment
     #[arg(long, value_name = "COLOUR", default_value = "none", value_parser = values::background)]
     pub background: Background,
+    #[command(flatten)]
+    pub appearance: AppearanceArgs,
+    /// More of each pixel: depth, id, normal, superpixels, samples. Layers of an EXR; otherwise PNG files beside OUT,
+    /// named like it with .depth and so on before .png
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub aov: Vec<AovKind>,
+
+    #[command(flatten)]
+    pub sampling: SamplingArgs,
+    #[command(flatten)]
+    pub camera: CameraArgs,
+    #[command(flatten)]
+    pub device: DeviceArgs,
+}
+
+/// How a scene is lit, and how its strokes are drawn.
+#[derive(Args, Clone)]
+pub struct AppearanceArgs {
+    /// Linear factor on the light, in stops
+    #[arg(long, value_name = "EV", default_value_t = 0.0, allow_negative_numbers = true, value_parser = values::finite)]
+    pub exposure: f64,
     /// Light from all around: an equirectangular image, .hdr or .exr, in place of the neutral studio
     #[arg(long, value_name = "FILE")]
     pub environment: Option<PathBuf>,
@@ -47,21 +65,48 @@ pub struct ImageArgs {
     /// 0 to 1, or #rrggbb
     #[arg(long, value_name = "WIDTH[,COLOUR]", value_parser = values::edges)]
     pub edges: Option<EdgeLines>,
-    /// More of each pixel: depth, id, normal, superpixels, samples. Layers of an EXR; otherwise PNG files beside OUT,
-    /// named like it with .depth and so on before .png
-    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
-    pub aov: Vec<AovKind>,
+}
 
-    #[command(flatten)]
-    pub sampling: SamplingArgs,
-    #[command(flatten)]
-    pub camera: CameraArgs,
+impl AppearanceArgs {
+    /// The environment asked for, if one is.
+    pub fn environment(&self) -> anyhow::Result<Option<Arc<Environment>>> {
+        let Some(file) = &self.environment else {
+            return Ok(None);
+        };
+        let turned = input::environment(file)?.turned(self.environment_rotation.to_radians());
+        Ok(Some(Arc::new(turned)))
+    }
 
+    /// The edges asked for, if any are.
+    pub fn edges(&self) -> Option<Edges> {
+        self.edges.map(|edges| Edges {
+            color: edges.color.map(|v| srgb::decode(v) as f32),
+            ..Edges::default()
+        })
+    }
+
+    /// The settings with this appearance.
+    pub fn settings(&self, settings: Settings) -> Settings {
+        Settings {
+            exposure: self.exposure as f32,
+            shadows: self.shadows.shadows(),
+            line_width: self.line_width as f32,
+            point_size: self.point_size as f32,
+            edge_width: self.edges.map_or(1.0, |edges| edges.width) as f32,
+            ..settings
+        }
+    }
+}
+
+/// What renders.
+#[derive(Args, Clone)]
+#[command(next_help_heading = "Device")]
+pub struct DeviceArgs {
     /// Part of the device's name, in upper or lower case [default: the best device]
-    #[arg(long, value_name = "NAME", help_heading = "Device")]
-    pub device: Option<String>,
+    #[arg(long = "device", value_name = "NAME")]
+    pub name: Option<String>,
     /// Bound on device memory, such as 512M or 2G
-    #[arg(long, value_name = "BYTES", value_parser = values::bytes, help_heading = "Device")]
+    #[arg(long, value_name = "BYTES", value_parser = values::bytes)]
     pub max_memory: Option<u64>,
 }
 
@@ -79,7 +124,7 @@ impl ImageArgs {
     /// Refuses what can't go together, and says in what format OUT is written.
     pub fn format(&self, output: &Path) -> anyhow::Result<Format> {
         self.check_samples()?;
-        if self.background == Background::Environment && self.environment.is_none() {
+        if self.background == Background::Environment && self.appearance.environment.is_none() {
             usage!("--background environment: there is none; name one by --environment FILE");
         }
         if input::is_standard(output) {
@@ -98,15 +143,11 @@ impl ImageArgs {
     /// Loads a scene with the variant, the environment and the edges asked for.
     pub fn load(&self, path: &Path) -> anyhow::Result<Loaded> {
         let mut loaded = input::load_variant(path, self.camera.variant.as_deref())?;
-        if let Some(file) = &self.environment {
-            let turned = input::environment(file)?.turned(self.environment_rotation.to_radians());
-            loaded.scene.environment = Some(Arc::new(turned));
+        if let Some(environment) = self.appearance.environment()? {
+            loaded.scene.environment = Some(environment);
         }
-        if let Some(edges) = self.edges {
-            loaded.scene.add_edges(&Edges {
-                color: edges.color.map(|v| srgb::decode(v) as f32),
-                ..Edges::default()
-            });
+        if let Some(edges) = self.appearance.edges() {
+            loaded.scene.add_edges(&edges);
         }
         Ok(loaded)
     }
@@ -115,7 +156,7 @@ impl ImageArgs {
     pub fn settings(&self, format: Format) -> Settings {
         let [width, height] = self.size;
         let tonemaps = self.tonemap != Some(Tonemap::None);
-        Settings {
+        self.appearance.settings(Settings {
             method: self.sampling.aa.method(),
             samples: self.sampling.samples(),
             pattern: self.sampling.pattern.clone(),
@@ -128,21 +169,16 @@ impl ImageArgs {
                 Background::Transparent | Background::Environment => None,
                 Background::Color(color) => Some(color.map(|v| srgb::decode(v) as f32)),
             },
-            exposure: self.exposure as f32,
             reference: if tonemaps && !format.is_scene_linear() {
                 Reference::Display
             } else {
                 Reference::Scene
             },
             tonemapped_detection: tonemaps,
-            shadows: self.shadows.shadows(),
-            line_width: self.line_width as f32,
-            point_size: self.point_size as f32,
-            edge_width: self.edges.map_or(1.0, |edges| edges.width) as f32,
             attributes: !self.aov.is_empty(),
-            max_memory: self.max_memory,
+            max_memory: self.device.max_memory,
             ..Settings::new(width, height)
-        }
+        })
     }
 
     /// The AOVs asked for, each once.

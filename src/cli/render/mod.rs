@@ -15,6 +15,8 @@ mod view;
 pub use args::SamplingArgs;
 pub use args::{Antialiasing, CameraArgs, RenderArgs, Tonemap};
 pub use image::ImageArgs;
+#[cfg(feature = "view")]
+pub use image::{AppearanceArgs, DeviceArgs};
 pub use save::{beside, encode, save, write};
 pub use session::{Shot, open_beside, upload};
 pub use view::{View, choose as choose_views};
@@ -57,7 +59,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     let stem = input::stem(&args.scene);
 
     let mut warnings = Warnings::default();
-    let (headless, (mut film, cameras)) = session::open_beside(image.device.clone(), || {
+    let (headless, (mut film, cameras)) = session::open_beside(image.device.name.clone(), || {
         let loaded = image.load(&args.scene)?;
         clock.lap("load");
         warnings.add(&loaded.warnings);

@@ -1,0 +1,189 @@
+//! The mouse: what dragging and the wheel move.
+
+use super::fly::Flight;
+use super::lens;
+use super::navigate::Turntable;
+use super::pick;
+use super::pointer::Drag;
+use super::window::View;
+use glam::DVec2;
+use gpc::camera::zoom::ZoomRegion;
+use gpc::camera::{Camera, Pinhole};
+use std::time::Instant;
+use winit::event::MouseButton;
+
+/// How much nearer a notch of the wheel brings.
+pub const NOTCH: f64 = 1.15;
+/// Pixels of a touchpad or of a drag that count as a notch.
+pub const PIXELS_A_NOTCH: f64 = 40.0;
+/// Pixels from the line of a split at which it is taken hold of.
+const GRIP: f64 = 6.0;
+
+/// The factor that fingers on a touchpad ask for: what they are farther apart than before, as a share of that.
+pub fn pinched(delta: f64) -> f64 {
+    // Some systems end a gesture with a number that is none.
+    if delta.is_finite() {
+        (1.0 + delta).clamp(0.5, 2.0)
+    } else {
+        1.0
+    }
+}
+
+impl View {
+    /// Moves to another place.
+    pub fn go(&mut self, change: impl FnOnce(&mut Turntable)) {
+        let aspect = self.aspect();
+        if let Some(stage) = self.canvas.stage() {
+            let cameras = match &self.moment {
+                Some(moment) => &moment.cameras,
+                None => &stage.cameras,
+            };
+            self.standpoint.go(cameras, stage.bounds, aspect, change);
+            self.restart();
+        }
+    }
+
+    /// Everything has to be rendered again.
+    pub fn restart(&mut self) {
+        self.canvas.restart(Instant::now());
+        if let Err(error) = self.view_changed() {
+            self.notes.fail(&error);
+        }
+    }
+
+    /// Changes the lens, where there is one. Says whether there is.
+    pub fn change_lens(&mut self, change: impl FnOnce(&mut ZoomRegion)) -> bool {
+        let Some(lens) = &mut self.cover.lens else {
+            return false;
+        };
+        change(lens);
+        if let Err(error) = self.cover_changed() {
+            self.notes.fail(&error);
+        }
+        true
+    }
+
+    pub fn press(&mut self, button: MouseButton) {
+        let near_split = self
+            .split_column()
+            .is_some_and(|column| (self.pointer.place().x - f64::from(column)).abs() < GRIP);
+        let drag = match button {
+            MouseButton::Left if near_split => Drag::Split,
+            MouseButton::Left if self.modifiers.shift_key() => Drag::Pan,
+            MouseButton::Left if self.cover.lens.is_some() => Drag::Lens,
+            MouseButton::Left if self.flight.is_some() => Drag::Look,
+            MouseButton::Left => Drag::Orbit,
+            MouseButton::Middle => Drag::Pan,
+            MouseButton::Right => Drag::Zoom,
+            _ => return,
+        };
+        if drag == Drag::Lens {
+            let place = self.pointer.place();
+            self.change_lens(|lens| lens::press(lens, place));
+        }
+        let is_double = self.pointer.pressed(drag, Instant::now());
+        if is_double && drag == Drag::Orbit {
+            self.recentre();
+        }
+    }
+
+    pub fn drag(&mut self, drag: Drag, by: DVec2) {
+        let [width, height] = self.size();
+        match drag {
+            Drag::Orbit => self.go(|turntable| turntable.orbit(by, height)),
+            Drag::Look => self.go(|turntable| turntable.look(by, height)),
+            Drag::Pan => self.go(|turntable| turntable.pan(by, height)),
+            Drag::Zoom => {
+                let factor = NOTCH.powf(-by.y / PIXELS_A_NOTCH);
+                self.go(|turntable| turntable.zoom(factor, DVec2::ZERO, height));
+            }
+            Drag::Lens => {
+                let place = self.pointer.place();
+                self.change_lens(|lens| lens::drag(lens, place));
+            }
+            Drag::Split => {
+                self.split = (self.pointer.place().x / width).clamp(0.0, 1.0);
+                self.is_dirty = true;
+            }
+        }
+    }
+
+    /// Enlarges what the wheel is for: the lens, the speed of flying, or what is under the pointer.
+    pub fn wheel(&mut self, factor: f64) {
+        if self.change_lens(|lens| lens::enlarge(lens, factor)) {
+            return;
+        }
+        match &mut self.flight {
+            Some(flight) => {
+                flight.change_speed(factor);
+                let speed = flight.speed();
+                self.notes.say(format!("{speed:.3} units a second"));
+            }
+            None => self.zoom(factor, self.pointer.place()),
+        }
+        self.is_dirty = true;
+    }
+
+    /// Begins or ends flying.
+    pub fn toggle_flight(&mut self) {
+        self.flight = match (&self.flight, self.canvas.stage()) {
+            (None, Some(stage)) => {
+                let diagonal = (stage.bounds.1 - stage.bounds.0).length();
+                Some(Flight::new(diagonal))
+            }
+            _ => None,
+        };
+        self.notes.say(match self.flight {
+            Some(_) => "flying: F ends it",
+            None => "turning around the target",
+        });
+    }
+
+    /// Moves the eye to where it has flown until now.
+    pub fn fly(&mut self, now: Instant) {
+        if let Some(flight) = self.flight.as_mut().filter(|flight| flight.is_moving()) {
+            let by = flight.advance(now);
+            self.go(|turntable| turntable.fly(by));
+        }
+    }
+
+    /// Comes nearer to what is at a place in the window.
+    fn zoom(&mut self, factor: f64, place: DVec2) {
+        let [width, height] = self.size();
+        let pointer = place - 0.5 * DVec2::new(width, height);
+        self.go(|turntable| turntable.zoom(factor, pointer, height));
+    }
+
+    /// Brings what is under the pointer into the middle.
+    fn recentre(&mut self) {
+        let Some(stage) = self.canvas.stage() else {
+            return;
+        };
+        let size = self.canvas.size().unwrap_or([1, 1]);
+        let camera = self
+            .standpoint
+            .camera(self.cameras(), stage.bounds, self.aspect());
+        let pinhole = camera
+            .ok()
+            .and_then(|camera: Camera| Pinhole::from_camera(&camera, size).ok());
+        let hit = pinhole
+            .map(|pinhole| pinhole.ray(self.pointer.place()))
+            .and_then(|ray| pick::first_hit(&stage.geometry, &ray));
+        if let Some(point) = hit {
+            self.go(|turntable| turntable.recentre(point));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pinch_is_a_factor() {
+        assert_eq!(pinched(0.1), 1.1);
+        assert_eq!(pinched(-0.25), 0.75);
+        assert_eq!(pinched(f64::NAN), 1.0);
+        assert_eq!((pinched(-3.0), pinched(9.0)), (0.5, 2.0));
+    }
+}

@@ -1,0 +1,16 @@
+//! A window on a display of its own, with real input.
+
+mod display;
+mod loss;
+mod viewer;
+mod xdnd;
+
+pub use display::Display;
+pub use loss::Loss;
+pub use viewer::{NOTES_SEEN, Viewer};
+pub use xdnd::drop_file;
+
+use std::time::Duration;
+
+/// Generous: a software driver under validation, on a machine that may be busy.
+pub const PATIENCE: Duration = Duration::from_secs(180);
