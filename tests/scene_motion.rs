@@ -2,7 +2,7 @@
 
 mod scene_builder;
 
-use gpc::scene::{Pose, PoseRequest, SceneError};
+use gpc::scene::{LightKind, Pose, PoseRequest, SceneError, SceneProjection};
 use scene_builder::{Builder, TRIANGLE, assert_near, corners};
 use serde_json::{Value, json};
 
@@ -58,11 +58,12 @@ fn pointers_move_nodes() {
     assert!(!warnings.iter().any(animation), "{warnings:?}");
     assert!((x_of_first_corner(&builder, 1.5) - 2.5).abs() < 1e-6);
     for (pointer, reason) in [
+        ("/images/0/uri", "/images/0/uri keeps its value"),
+        ("/nodes/0/camera", "/nodes/0/camera keeps its value"),
         (
             "/materials/0/emissiveFactor",
-            "/materials/0/emissiveFactor keeps its value",
+            "which the document does not have",
         ),
-        ("/nodes/0/camera", "/nodes/0/camera keeps its value"),
         ("/nodes/7/translation", "which the document does not have"),
     ] {
         channel(&mut builder, pointer);
@@ -71,6 +72,173 @@ fn pointers_move_nodes() {
         let said = |w: &String| w.contains(place) && w.contains(reason);
         assert!(warnings.iter().any(said), "{pointer}: {warnings:?}");
         assert!(x_of_first_corner(&builder, 1.5).abs() < 1e-6);
+    }
+}
+
+/// A triangle of a textured material, a spot light and a camera, with a channel from time 0 to 1 for each pointer.
+fn pointed(pointers: &[(&str, Vec<f32>)]) -> Builder {
+    let mut builder = Builder::new();
+    let texture = builder.texture([255, 0, 0]);
+    let positions = builder.floats(&TRIANGLE);
+    builder.push(
+        "materials",
+        json!({
+            "pbrMetallicRoughness": {"baseColorTexture": {
+                "index": texture,
+                "extensions": {"KHR_texture_transform": {"offset": [0.5, 0.0]}},
+            }},
+            "extensions": {
+                "KHR_materials_clearcoat": {"clearcoatTexture": {"index": texture}},
+                "KHR_materials_emissive_strength": {"emissiveStrength": 2.0},
+            },
+        }),
+    );
+    builder.node_with(
+        json!({"attributes": {"POSITION": positions}, "material": 0}),
+        json!({"camera": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}}),
+    );
+    builder.json["cameras"] =
+        json!([{"type": "perspective", "perspective": {"yfov": 1.0, "znear": 0.1}}]);
+    builder.json["extensions"] = json!({"KHR_lights_punctual": {"lights": [
+        {"type": "spot", "intensity": 3.0, "color": [1.0, 0.5, 0.0], "spot": {}},
+    ]}});
+    builder.pointers(pointers);
+    builder
+}
+
+fn quarter(builder: &Builder) -> Pose {
+    let loaded = builder.load().unwrap();
+    assert_eq!(loaded.warnings, [] as [String; 0]);
+    at(builder, None, 0.25)
+}
+
+#[test]
+fn pointers_change_materials() {
+    let pose = quarter(&pointed(&[
+        (
+            "/materials/0/pbrMetallicRoughness/metallicFactor",
+            vec![0.0, 1.0],
+        ),
+        (
+            "/materials/0/extensions/KHR_materials_clearcoat/clearcoatFactor",
+            vec![0.0, 0.8],
+        ),
+        (
+            "/materials/0/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/rotation",
+            vec![0.0, 4.0 * std::f32::consts::FRAC_PI_2],
+        ),
+    ]));
+    let [(0, material)] = &pose.materials[..] else {
+        panic!("{:?}", pose.materials);
+    };
+    assert_eq!(material.metallic, 0.25);
+    let coat = material.lobes.clearcoat.unwrap();
+    assert!((coat.factor - 0.2).abs() < 1e-6 && coat.texture.is_some());
+    let [u, v] = material.base_color_texture.unwrap().transform.0;
+    let expected = [[0.0, 1.0, 0.5], [-1.0, 0.0, 0.0]];
+    let pairs = [u, v]
+        .into_iter()
+        .flatten()
+        .zip(expected.into_iter().flatten());
+    assert!(
+        pairs.clone().all(|(a, b)| (a - b).abs() < 1e-6),
+        "{u:?} {v:?}"
+    );
+
+    let pose = quarter(&pointed(&[
+        ("/materials/0/emissiveFactor", vec![0., 0.4, 4., 0., 0., 0.]),
+        (
+            "/extensions/KHR_lights_punctual/lights/0/color",
+            vec![1., 0.5, 0., 0., 0.5, 1.],
+        ),
+    ]));
+    // Factors end at 1, and strengths multiply them.
+    let emissive = pose.materials[0].1.emissive;
+    assert!(
+        (emissive[1] - 0.6).abs() < 1e-6 && emissive[2] == 2.0,
+        "{emissive:?}"
+    );
+    assert_eq!(pose.lights[0].color, [2.25, 1.5, 0.75]);
+}
+
+#[test]
+fn pointers_change_lights_and_cameras() {
+    let pose = quarter(&pointed(&[
+        (
+            "/extensions/KHR_lights_punctual/lights/0/intensity",
+            vec![3.0, 7.0],
+        ),
+        (
+            "/extensions/KHR_lights_punctual/lights/0/spot/outerConeAngle",
+            vec![0.5, 0.9],
+        ),
+        ("/cameras/0/perspective/yfov", vec![1.0, 2.0]),
+    ]));
+    assert_eq!(pose.lights[0].color, [4.0, 2.0, 0.0]);
+    let LightKind::Spot { outer_angle, .. } = pose.lights[0].kind else {
+        panic!("{:?}", pose.lights);
+    };
+    assert!((outer_angle - 0.6).abs() < 1e-6);
+    let SceneProjection::Perspective { yfov, .. } = pose.cameras[0].projection else {
+        panic!("{:?}", pose.cameras);
+    };
+    assert_eq!(yfov, 1.25);
+}
+
+#[test]
+fn pointers_hide_nodes_and_weigh_meshes() {
+    let mut builder = Builder::new();
+    builder.triangle(json!({"children": [1]}));
+    builder.triangle(json!({}));
+    let displaced = builder.floats(&[[0., 0., 2.]; 3]);
+    builder.json["meshes"][1]["primitives"][0]["targets"] = json!([{"POSITION": displaced}]);
+    builder.pointers(&[("/meshes/1/weights", vec![0.0, 1.0])]);
+    assert!((corners(&quarter(&builder).geometry, 1)[0][2] - 0.5).abs() < 1e-6);
+    builder.pointers(&[(
+        "/nodes/0/extensions/KHR_node_visibility/visible",
+        vec![1.0, 0.0],
+    )]);
+    let fault = "there is nothing between visible and not";
+    let warnings = builder.load().unwrap().warnings;
+    assert!(warnings.iter().any(|w| w.contains(fault)), "{warnings:?}");
+    builder.json["animations"][1]["samplers"][0]["interpolation"] = json!("STEP");
+    let drawn = |time| at(&builder, Some("1"), time).geometry.triangles.len();
+    assert_eq!([drawn(0.5), drawn(1.0)], [2, 0]);
+}
+
+/// What a description can't have is left out; what has no effect is said to have none.
+#[test]
+fn pointers_to_what_cannot_change_are_named() {
+    for (pointer, reason) in [
+        (
+            "/materials/0/doubleSided",
+            "/materials/0/doubleSided: invalid type",
+        ),
+        ("/materials/0/alphaMode", "invalid type"),
+        (
+            "/materials/0/extensions/KHR_materials_sheen/sheenRoughnessFactor",
+            "has no extensions/KHR_materials_sheen",
+        ),
+        (
+            "/materials/0/emissiveFactor",
+            "emissiveFactor: invalid type",
+        ),
+        (
+            "/materials/0/extensions/KHR_materials_dispersion",
+            "by itself changes nothing that is drawn",
+        ),
+        (
+            "/cameras/7/perspective/yfov",
+            "which the document does not have",
+        ),
+    ] {
+        let builder = pointed(&[(pointer, vec![0.25, 0.75])]);
+        let warnings = builder.load().unwrap().warnings;
+        assert!(
+            warnings.iter().any(|w| w.contains(reason)),
+            "{pointer}: {warnings:?}"
+        );
+        assert!(at(&builder, None, 0.5).warnings.is_empty());
     }
 }
 

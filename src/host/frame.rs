@@ -128,7 +128,7 @@ impl Frame {
             layout,
             &memory,
             &content,
-            &content.texels(),
+            (&content.texels(), content.lights()),
             &views,
             plan.sizes,
             &[Locations {

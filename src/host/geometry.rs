@@ -237,6 +237,11 @@ impl HostContent {
     }
 
     /// The texel buffers of `shaders/include/frame.glsl` that it has, by binding.
+    /// Stands for lights, which the engine does not read.
+    pub fn lights(&self) -> &Buffer {
+        &self.unread
+    }
+
     pub fn texels(&self) -> [(u32, vk::BufferView); 10] {
         let (floats, words) = (self.unread_floats.view, self.unread_words.view);
         [
@@ -290,10 +295,6 @@ impl Content for HostContent {
     /// One more than the host has, since samples of a single key would not be listed.
     fn bin_count(&self) -> u32 {
         self.keys + 1
-    }
-
-    fn lights(&self) -> &Buffer {
-        &self.unread
     }
 
     fn environment_map(&self) -> Option<vk::DescriptorImageInfo> {

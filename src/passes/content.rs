@@ -1,6 +1,6 @@
 //! What the engine's passes know of a scene, whoever made it.
 
-use crate::vulkan::{Buffer, Constants};
+use crate::vulkan::Constants;
 use ash::vk;
 
 /// Triangles, and what passes read them from.
@@ -31,9 +31,6 @@ pub trait Content: Sync {
 
     /// Number of shading keys, at least 1.
     fn bin_count(&self) -> u32;
-
-    /// The buffer of lights.
-    fn lights(&self) -> &Buffer;
 
     /// The environment map; nothing where surfaces are not shaded by the engine.
     fn environment_map(&self) -> Option<vk::DescriptorImageInfo>;

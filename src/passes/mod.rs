@@ -85,7 +85,7 @@ pub use resolve::{Resolve, Then};
 pub use resources::{IdViews, Locations, ResourceSizes, Resources, SampleSet};
 pub use sample::{RecordRate, Sample, SampleOptions, TileList};
 #[cfg(feature = "gltf")]
-pub use scene::{GpuScene, SceneUploads};
+pub use scene::{FrameLook, GpuScene, SceneUploads};
 pub use schedule::Schedule;
 pub use setup::Setup;
 #[cfg(feature = "gltf")]

@@ -91,7 +91,9 @@ impl<'a> Uploader<'a> {
 
     /// A storage buffer of these bytes.
     pub(super) fn storage(&mut self, name: &str, bytes: &[u8]) -> Result<Buffer, VulkanError> {
-        let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
+        let usage = vk::BufferUsageFlags::STORAGE_BUFFER
+            | vk::BufferUsageFlags::TRANSFER_DST
+            | vk::BufferUsageFlags::TRANSFER_SRC;
         let size = bytes.len() as u64;
         let mut buffer = self
             .memory

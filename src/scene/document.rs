@@ -2,7 +2,7 @@
 //! range but for those of cameras and lights, every number finite unless said otherwise.
 //! [`Scene::pose`](super::Scene::pose) works on this alone.
 
-use std::sync::Arc;
+use std::{fmt, sync::Arc};
 
 use glam::{DAffine3, DQuat, DVec3};
 use gltf::json::{
@@ -38,9 +38,20 @@ pub struct Document {
     pub lights: Vec<Option<Light>>,
     /// How many of the scene's materials, the first ones, are the file's.
     pub file_materials: usize,
+    /// Materials that are unlit copies, and what they are copies of.
+    pub unlit_copies: Vec<(usize, usize)>,
 }
 
 impl Document {
+    /// Whether each node is drawn, which none below a hidden one is; `own` is what each says of itself.
+    pub fn drawn(&self, mut own: Vec<bool>) -> Vec<bool> {
+        for &index in &self.order {
+            let parent = self.nodes[index].parent;
+            own[index] = own[index] && parent.is_none_or(|parent| own[parent]);
+        }
+        own
+    }
+
     /// Names of the variants of the file's materials.
     pub fn variants(&self) -> impl Iterator<Item = &str> {
         variants(&self.root)
@@ -91,7 +102,7 @@ pub struct Node {
     pub transform: Transform,
     /// `EXT_mesh_gpu_instancing`: transforms relative to the node.
     pub instances: Option<Arc<[DAffine3]>>,
-    /// `KHR_node_visibility`, that of its ancestors included; does not concern cameras.
+    /// `KHR_node_visibility`, without that of its ancestors; does not concern cameras.
     pub visible: bool,
 }
 
@@ -160,17 +171,45 @@ pub struct Skin {
     pub inverse_bind: Vec<DAffine3>,
 }
 
+/// What a channel animates.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Animated {
+    /// A property of a node.
+    Node(usize, Property),
+    /// Whether a node and what is below it are drawn.
+    Visibility(usize),
+    /// What a description has at a JSON pointer that starts from it, without the first slash.
+    Description(Described, String),
+}
+
+impl fmt::Display for Animated {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Node(_, property) => write!(f, "{property:?}"),
+            Self::Visibility(_) => f.write_str("visibility"),
+            Self::Description(_, pointer) => f.write_str(pointer),
+        }
+    }
+}
+
+/// A part of the file of whose description animations may change the numbers, by its index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Described {
+    Material(usize),
+    Light(usize),
+    Camera(usize),
+}
+
 /// Time of the last keyframe in seconds.
 pub fn duration(channels: &[Channel]) -> f64 {
     let ends = channels.iter().filter_map(|c| c.times.last());
     ends.fold(0.0, |longest, &end| longest.max(f64::from(end)))
 }
 
-/// Keyframes of one property of one node.
+/// Keyframes of one property.
 #[derive(Clone, Debug)]
 pub struct Channel {
-    pub node: usize,
-    pub path: Property,
+    pub target: Animated,
     pub interpolation: Interpolation,
     /// Seconds, ascending, at least one.
     pub times: Arc<[f32]>,
@@ -179,4 +218,27 @@ pub struct Channel {
     pub values: Arc<[f32]>,
     /// Numbers a value.
     pub width: usize,
+}
+
+impl Channel {
+    /// The value at keyframe `i`.
+    pub fn keyframe(&self, i: usize) -> Vec<f64> {
+        match self.interpolation {
+            Interpolation::CubicSpline => self.part(i, 1, 3),
+            Interpolation::Step | Interpolation::Linear => self.part(i, 0, 1),
+        }
+    }
+
+    /// The numbers of part `part` of keyframe `i`, of `parts` in all.
+    pub fn part(&self, i: usize, part: usize, parts: usize) -> Vec<f64> {
+        let start = (i * parts + part) * self.width;
+        let numbers = self.values.get(start..start + self.width);
+        let numbers = numbers.unwrap_or_default().iter();
+        numbers.map(|&x| f64::from(x)).collect()
+    }
+
+    /// Whether values are unit quaternions.
+    pub fn is_rotation(&self) -> bool {
+        matches!(self.target, Animated::Node(_, Property::Rotation))
+    }
 }

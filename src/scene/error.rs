@@ -157,6 +157,18 @@ impl Warnings {
         }
     }
 
+    /// None so far about the same file.
+    pub fn of_the_same_file(&self) -> Self {
+        Self::new(&self.file)
+    }
+
+    /// Adds those of another list.
+    pub fn append(&mut self, others: Self) {
+        let room = Self::KEPT.saturating_sub(self.list.len());
+        self.dropped += others.dropped + others.list.len().saturating_sub(room);
+        self.list.extend(others.list.into_iter().take(room));
+    }
+
     pub fn push(&mut self, fault: &Fault) {
         if self.list.len() < Self::KEPT {
             self.list.push(format!("{}: {fault}", self.file));

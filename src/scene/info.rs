@@ -102,12 +102,13 @@ pub(super) fn summarize(scene: &Scene) -> SceneInfo {
     let document = &scene.document;
     let root = &document.root;
     let drawn = pose::drawn_nodes(document, document.default_scene);
+    let visible = document.drawn(document.nodes.iter().map(|node| node.visible).collect());
     let nodes = || drawn.iter().filter_map(|&i| Some((i, root.nodes.get(i)?)));
 
     let mut cameras = Vec::new();
     let (mut primitives, mut triangles, mut points, mut lines) = (0, 0, 0, 0);
     for (index, node) in nodes() {
-        if let Some((name, projection)) = pose::camera_of(document, node) {
+        if let Some((name, projection)) = pose::camera_of(document, &document.cameras, node) {
             cameras.push(CameraInfo {
                 name,
                 kind: match projection {
@@ -116,7 +117,7 @@ pub(super) fn summarize(scene: &Scene) -> SceneInfo {
                 },
             });
         }
-        if !document.nodes[index].visible {
+        if !visible[index] {
             continue;
         }
         let copies = pose::copies(document, index) as u64;
@@ -175,8 +176,8 @@ pub(super) fn summarize(scene: &Scene) -> SceneInfo {
             })
             .collect(),
         lights: nodes()
-            .filter(|&(index, _)| document.nodes[index].visible)
-            .filter_map(|(_, node)| pose::light_of(document, node))
+            .filter(|&(index, _)| visible[index])
+            .filter_map(|(_, node)| pose::light_of(&document.lights, node))
             .count(),
         skins: root.skins.len(),
         extensions_used: root.extensions_used.clone(),

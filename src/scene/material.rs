@@ -60,6 +60,8 @@ pub struct Material {
     pub alpha_mode: AlphaMode,
     /// Draw back faces too.
     pub double_sided: bool,
+    /// Whether an animation may change its numbers: nothing is left out then for what they are now.
+    pub animated: bool,
     /// `KHR_materials_unlit`: the base colour is the result.
     pub unlit: bool,
     /// sRGB colour and linear alpha.
@@ -88,6 +90,7 @@ impl Default for Material {
             occlusion_strength: 1.0,
             alpha_mode: AlphaMode::Opaque,
             double_sided: false,
+            animated: false,
             unlit: false,
             base_color_texture: None,
             metallic_roughness_texture: None,

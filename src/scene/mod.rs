@@ -18,7 +18,8 @@
 //! OBJ, STL and PLY files are read, too: their triangles, lines, points, normals and base colours. Those formats
 //! have no unit, no axis that is up and no light; what they have is taken as it is.
 //!
-//! Supported extensions: `KHR_animation_pointer` (to the transforms and weights of nodes), `KHR_draco_mesh_compression` and `KHR_texture_basisu` (by the features
+//! Supported extensions: `KHR_animation_pointer` (into materials, lights and cameras, to the transforms, weights and
+//! visibility of nodes and the weights of meshes), `KHR_draco_mesh_compression` and `KHR_texture_basisu` (by the features
 //! `draco` and `basisu`, on by default), `KHR_meshopt_compression`, `KHR_lights_punctual`, `KHR_materials_emissive_strength`,
 //! `KHR_materials_anisotropy`, `KHR_materials_clearcoat`, `KHR_materials_diffuse_transmission`, `KHR_materials_ior`,
 //! `KHR_materials_iridescence`, `KHR_materials_pbrSpecularGlossiness`, `KHR_materials_sheen`, `KHR_materials_specular`,
@@ -78,6 +79,8 @@ pub struct Scene {
     /// Light from all around, in place of the studio's.
     pub environment: Option<Arc<Environment>>,
     document: document::Document,
+    /// What animations change.
+    descriptions: Arc<read::Descriptions>,
 }
 
 /// A scene, and what is doubtful about it.
@@ -144,6 +147,7 @@ impl Scene {
             images: Vec::new(),
             environment: None,
             document: document::Document::default(),
+            descriptions: Arc::default(),
         }
     }
 

@@ -129,6 +129,85 @@ fn film() -> Loaded {
     builder.load().unwrap()
 }
 
+/// Two textured panels beneath a spot light: colours, texture coordinates, coats and the light change, nothing moves.
+fn glow() -> Loaded {
+    let mut builder = Builder::new();
+    let texture = builder.checker([16, 16]);
+    let corners = [[-1., -1., 0.], [1., -1., 0.], [1., 1., 0.], [-1., 1., 0.]];
+    let positions = builder.floats(&corners);
+    let normals = builder.floats(&[[0., 0., 1.]; 4]);
+    let uvs = builder.floats(&[[0., 1.], [1., 1.], [1., 0.], [0., 0.]]);
+    let indices = builder.indices(&[0, 1, 2, 0, 2, 3]);
+    for (x, mode) in [(-1.1, "OPAQUE"), (1.1, "BLEND")] {
+        let material = builder.push(
+            "materials",
+            json!({
+                "alphaMode": mode,
+                "pbrMetallicRoughness": {
+                    "baseColorFactor": [1., 1., 1., 0.7], "metallicFactor": 0.0, "baseColorTexture": {"index": texture},
+                },
+                "emissiveTexture": {"index": texture},
+                "extensions": {"KHR_materials_clearcoat": {}},
+            }),
+        );
+        builder.node_with(
+            json!({
+                "attributes": {"POSITION": positions, "NORMAL": normals, "TEXCOORD_0": uvs},
+                "indices": indices, "material": material,
+            }),
+            json!({"translation": [x, 0., 0.]}),
+        );
+    }
+    builder.json["extensions"] = json!({"KHR_lights_punctual": {"lights": [{"type": "spot", "intensity": 20.0, "spot": {}}]}});
+    builder.push(
+        "nodes",
+        json!({"translation": [0., 0., 2.], "extensions": {"KHR_lights_punctual": {"light": 0}}}),
+    );
+    let transform = "emissiveTexture/extensions/KHR_texture_transform";
+    builder.pointers(&[
+        (
+            "/materials/0/pbrMetallicRoughness/baseColorFactor",
+            vec![1., 1., 1., 1., 0.2, 1., 0.1, 1.],
+        ),
+        (
+            "/materials/1/pbrMetallicRoughness/baseColorFactor",
+            vec![1., 1., 1., 0.7, 1., 0.3, 0., 0.2],
+        ),
+        (
+            "/materials/0/emissiveFactor",
+            vec![0., 0., 0., 0.5, 0., 0.5],
+        ),
+        (
+            &format!("/materials/0/{transform}/offset"),
+            vec![0., 0., 0.4, 0.2],
+        ),
+        (
+            &format!("/materials/0/{transform}/scale"),
+            vec![1., 1., 3., 2.],
+        ),
+        (
+            "/materials/1/extensions/KHR_materials_clearcoat/clearcoatFactor",
+            vec![0., 1.],
+        ),
+        (
+            "/materials/1/pbrMetallicRoughness/roughnessFactor",
+            vec![1., 0.1],
+        ),
+        (
+            "/extensions/KHR_lights_punctual/lights/0/color",
+            vec![1., 1., 1., 0.3, 0.6, 1.],
+        ),
+        (
+            "/extensions/KHR_lights_punctual/lights/0/spot/outerConeAngle",
+            vec![0.6, 1.2],
+        ),
+        ("/nodes/2/translation", vec![0., 0., 2., 1., 0.5, 1.5]),
+    ]);
+    let loaded = builder.load().unwrap();
+    assert_eq!(loaded.warnings, [] as [String; 0]);
+    loaded
+}
+
 fn at(time: f64) -> PoseRequest {
     PoseRequest {
         time,
@@ -144,7 +223,10 @@ struct Shown {
 }
 
 fn shown(gpu: &mut Headless, settings: &Settings) -> Shown {
-    let loaded = film();
+    shown_of(gpu, film(), settings)
+}
+
+fn shown_of(gpu: &mut Headless, loaded: Loaded, settings: &Settings) -> Shown {
     let (pose, motion) = loaded.scene.pose_in_motion(&at(0.0)).unwrap();
     let prepared = gpu
         .upload_in_motion(&loaded.scene, (&pose, &motion), None)
@@ -225,6 +307,25 @@ fn a_moment_depends_on_no_other() {
         let squares: f64 = pairs.map(|(a, b)| f64::from(a - b).powi(2)).sum();
         let apart = (squares / (4 * first.len()) as f64).sqrt();
         assert!(apart < 1e-3, "{apart}");
+    });
+}
+
+/// Changed materials and lights on the device give the bytes that they give when they are put there anew.
+#[test]
+fn looks_are_those_of_poses() {
+    on_gpu(|gpu| {
+        let settings = Settings {
+            method: Method::Superpixel,
+            samples: 16,
+            ..Settings::new(SIZE[0], SIZE[1])
+        };
+        let mut shown = shown_of(gpu, glow(), &settings);
+        let still = gpu.render(&mut shown.frame, &shown.camera).unwrap().colors;
+        for time in [1.0, 0.3, 0.0] {
+            let found = shown.moved(gpu, time).colors;
+            assert_eq!(found == still, time == 0.0, "at {time}");
+            assert_eq!(found, shown.posed(gpu, time).colors, "at {time}");
+        }
     });
 }
 

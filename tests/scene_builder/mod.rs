@@ -103,6 +103,38 @@ impl Builder {
         self.push("textures", json!({"source": image}))
     }
 
+    /// A checker of black and white texels; the index of a texture.
+    pub fn checker(&mut self, [width, height]: [u32; 2]) -> usize {
+        let texel = |x: u32, y: u32| image::Luma([if (x + y) % 2 == 0 { 255 } else { 0 }]);
+        let view = self.view(
+            &png_of(&image::GrayImage::from_fn(width, height, texel)),
+            json!({}),
+        );
+        let image = json!({"bufferView": view, "mimeType": "image/png"});
+        let image = self.push("images", image);
+        self.push("textures", json!({"source": image}))
+    }
+
+    /// An animation from time 0 to 1, with a channel for each pointer: its value at first and at last.
+    pub fn pointers(&mut self, pointers: &[(&str, Vec<f32>)]) {
+        let input = self.floats(&[[0.0], [1.0]]);
+        let (mut channels, mut samplers) = (Vec::new(), Vec::new());
+        for (pointer, values) in pointers {
+            channels.push(json!({"sampler": samplers.len(), "target": {
+                "path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": pointer}},
+            }}));
+            let kind = match values.len() / 2 {
+                1 => "SCALAR".to_owned(),
+                n => format!("VEC{n}"),
+            };
+            let bytes: Vec<u8> = values.iter().flat_map(|x| x.to_le_bytes()).collect();
+            let output = self.accessor(&kind, 5126, &bytes, json!({}));
+            samplers.push(json!({"input": input, "output": output}));
+        }
+        let animation = json!({"channels": channels, "samplers": samplers});
+        self.push("animations", animation);
+    }
+
     pub fn glb(&self) -> Vec<u8> {
         let mut document = self.json.clone();
         document["buffers"] = json!([{"byteLength": self.binary.len()}]);
@@ -148,10 +180,15 @@ fn merge(object: &mut Value, members: Value) {
 }
 
 pub fn png(rgb: [u8; 3]) -> Vec<u8> {
+    png_of(&image::RgbImage::from_pixel(1, 1, image::Rgb(rgb)))
+}
+
+fn png_of<P>(image: &image::ImageBuffer<P, Vec<u8>>) -> Vec<u8>
+where
+    P: image::PixelWithColorType<Subpixel = u8>,
+{
     let mut bytes = std::io::Cursor::new(Vec::new());
-    image::RgbImage::from_pixel(1, 1, image::Rgb(rgb))
-        .write_to(&mut bytes, image::ImageFormat::Png)
-        .unwrap();
+    image.write_to(&mut bytes, image::ImageFormat::Png).unwrap();
     bytes.into_inner()
 }
 

@@ -65,6 +65,7 @@ impl Mesh {
         };
         let pose = Pose {
             geometry,
+            materials: Vec::new(),
             lights: Vec::new(),
             cameras: Vec::new(),
             warnings: Vec::new(),

@@ -207,6 +207,7 @@ impl Stage {
         };
         let pose = Pose {
             geometry,
+            materials: Vec::new(),
             lights: Vec::new(),
             cameras: Vec::new(),
             warnings: Vec::new(),

@@ -49,7 +49,6 @@ impl FrameGeometry {
             (4, tangents),
             (5, &geometry.uvs),
             (6, &geometry.colors),
-            (7, &scene.materials),
             (9, &scene.alpha_atlas),
             (10, &geometry.blocks),
             (11, &self.placed.buffer),

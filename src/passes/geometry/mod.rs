@@ -12,7 +12,7 @@ mod moving;
 mod placed;
 
 pub use frame::FrameGeometry;
-pub(super) use moving::{GpuMotion, GpuStrokes, MovingVertices};
+pub(super) use moving::{GpuMotion, GpuStrokes, MovingVertices, copy};
 pub(super) use placed::PlacedInstances;
 
 use super::upload::Uploader;
@@ -151,6 +151,17 @@ impl GpuGeometry {
             index_count,
             origin: geometry.origin,
         })
+    }
+
+    /// Whether a motion moves vertices.
+    pub(super) fn is_posed(&self) -> bool {
+        let motion = self.motion.as_ref();
+        motion.is_some_and(|motion| !motion.parts.is_empty())
+    }
+
+    /// Whether vertices move, in the world or, points and lines, with the camera.
+    fn vertices_move(&self) -> bool {
+        self.is_posed() || self.strokes.is_some()
     }
 
     /// Index of the first triangle of a class or a later one; the number of indices where there is none.

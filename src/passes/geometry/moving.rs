@@ -104,7 +104,7 @@ impl MovingVertices {
         memory: &Memory,
         geometry: &GpuGeometry,
     ) -> Result<Option<Self>, VulkanError> {
-        if geometry.motion.is_none() && geometry.strokes.is_none() {
+        if !geometry.vertices_move() {
             return Ok(None);
         }
         let usage = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER
@@ -143,7 +143,7 @@ impl MovingVertices {
     /// Bytes of device memory for the vertices of a geometry.
     pub(in crate::passes) fn bytes(geometry: &GpuGeometry) -> u64 {
         let streams = [&geometry.positions, &geometry.normals, &geometry.tangents];
-        if geometry.motion.is_none() && geometry.strokes.is_none() {
+        if !geometry.vertices_move() {
             return 0;
         }
         let vertices: u64 = streams.iter().map(|view| view.buffer.size()).sum();
@@ -173,7 +173,8 @@ impl MovingVertices {
     }
 }
 
-fn copy(recorder: &Recorder<'_>, from: &Buffer, to: &Buffer) {
+/// Records a copy of all of a buffer to another that is as large.
+pub(in crate::passes) fn copy(recorder: &Recorder<'_>, from: &Buffer, to: &Buffer) {
     let region = [vk::BufferCopy::default().size(from.size())];
     // SAFETY: the recorder's contract; both buffers have that size and were created for copies.
     unsafe {

@@ -20,13 +20,13 @@ pub struct IdViews {
 }
 
 impl Resources {
-    /// Writes a set that was just allocated; `geometry` are the texel buffers that belong to a scene or to what a frame
-    /// sees of it, by binding: see `shaders/include/frame.glsl`.
+    /// Writes a set that was just allocated; `texels` by binding, and `lights`, belong to a scene or to what a frame sees of
+    /// it: see `shaders/include/frame.glsl`.
     pub(super) fn write_set(
         &self,
         set: &SampleSet,
         scene: &dyn Content,
-        geometry: &[(u32, vk::BufferView)],
+        (texels, lights): (&[(u32, vk::BufferView)], &Buffer),
         shown: &IdViews,
     ) {
         let own_texels = [
@@ -42,7 +42,7 @@ impl Resources {
             (44, &self.sites.groups),
         ]
         .map(|(binding, texels)| (binding, texels.view));
-        let texels: Vec<_> = geometry
+        let texels: Vec<_> = texels
             .iter()
             .copied()
             .chain(own_texels)
@@ -55,7 +55,7 @@ impl Resources {
         };
         let buffers = [
             (0, &set.uniform),
-            (8, scene.lights()),
+            (8, lights),
             (17, &self.display.buffer),
             (18, &self.color.buffer),
             (25, &self.candidates.buffer),

@@ -58,8 +58,8 @@ const TEXELS: vk::BufferUsageFlags = vk::BufferUsageFlags::from_raw(
 );
 
 impl Resources {
-    /// Allocates a frame's memory and one descriptor set for each list of sub-sample locations. `geometry` are the texel
-    /// buffers of `shaders/include/frame.glsl` that others own, by binding.
+    /// Allocates a frame's memory and one descriptor set for each list of sub-sample locations. `texels_of_others` are the texel buffers
+    /// of `shaders/include/frame.glsl` that others own, by binding, as they own the lights.
     ///
     /// # Errors
     /// If memory runs out or a buffer passes the device's limits.
@@ -67,7 +67,7 @@ impl Resources {
         layout: &Arc<FrameLayout>,
         memory: &Memory,
         scene: &dyn Content,
-        geometry: &[(u32, vk::BufferView)],
+        (texels_of_others, lights): (&[(u32, vk::BufferView)], &Buffer),
         ids: &IdViews,
         sizes: ResourceSizes,
         location_lists: &[Locations<'_>],
@@ -145,7 +145,7 @@ impl Resources {
             sets,
         };
         for set in &resources.sets {
-            resources.write_set(set, scene, geometry, ids);
+            resources.write_set(set, scene, (texels_of_others, lights), ids);
         }
         Ok(resources)
     }

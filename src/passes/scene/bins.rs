@@ -94,11 +94,11 @@ impl Bins {
     /// Sorts the materials of all draws into bins, and makes their textures.
     pub(super) fn new(
         scene: &Scene,
-        geometry: &Geometry,
+        (materials, geometry): (&[Material], &Geometry),
         slots: &[Slots],
         textures: &mut TextureSet<'_>,
     ) -> Result<Self, VulkanError> {
-        check(scene.materials.len(), "materials", MATERIAL_LIMIT)?;
+        check(materials.len(), "materials", MATERIAL_LIMIT)?;
         let has_colors = !geometry.streams.colors.is_empty();
         let mut bin_of = HashMap::new();
         let mut keys: Vec<BinKey> = Vec::new();
@@ -108,8 +108,7 @@ impl Bins {
                 continue;
             }
             let index = draw.material as usize;
-            let (Some(material), Some(slots)) = (scene.materials.get(index), slots.get(index))
-            else {
+            let (Some(material), Some(slots)) = (materials.get(index), slots.get(index)) else {
                 continue;
             };
             let key = BinKey {

@@ -1,7 +1,7 @@
 //! Materials as the shaders read them.
 
 use super::slots::Slots;
-use crate::scene::{AlphaMode, Lobes, Material};
+use crate::scene::{AlphaMode, Lobes, Material, TextureRole, TextureUse};
 
 /// Vectors of a material before those of its textures' coordinates.
 const FIXED: usize = 13;
@@ -9,7 +9,7 @@ const FIXED: usize = 13;
 /// The vectors of `shaders/include/material.glsl`, those of coordinates excepted.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, bytemuck::Pod, bytemuck::Zeroable)]
-struct GpuMaterial {
+pub(super) struct GpuMaterial {
     base_color: [f32; 4],
     emissive_metallic: [f32; 4],
     roughness_normal_occlusion_cutoff: [f32; 4],
@@ -25,6 +25,33 @@ struct GpuMaterial {
     specular_glossiness: [f32; 4],
 }
 
+/// What a material's row in the table has beside its numbers.
+pub(super) struct MaterialRow {
+    pub(super) slots: Slots,
+    /// Where the alpha atlas has it.
+    pub(super) alpha: [u32; 4],
+}
+
+impl MaterialRow {
+    /// The vectors of a material with these slots.
+    pub(super) fn words(&self, material: &Material) -> Vec<[u32; 4]> {
+        let fixed = GpuMaterial::new(material, self.alpha);
+        let mut words = bytemuck::cast_slice::<_, [u32; 4]>(&[fixed]).to_vec();
+        let textures: Vec<_> = material.textures().collect();
+        for slot in 0..self.slots.uses.len() {
+            let reads = |(role, _): &&(TextureRole, TextureUse)| {
+                self.slots.of_role[*role as usize].map(usize::from) == Some(slot)
+            };
+            if let Some((_, used)) = textures.iter().find(reads) {
+                let [u, v] = used.transform.0;
+                words.push([u[0], u[1], u[2], used.uv_set as f32].map(f32::to_bits));
+                words.push([v[0], v[1], v[2], 0.0].map(f32::to_bits));
+            }
+        }
+        words
+    }
+}
+
 /// The vectors of all materials.
 pub(super) struct MaterialTable {
     pub(super) words: Vec<[u32; 4]>,
@@ -34,19 +61,13 @@ pub(super) struct MaterialTable {
 
 impl MaterialTable {
     /// A table of materials, with their slots and where the alpha atlas has them.
-    pub(super) fn new(materials: &[Material], slots: &[Slots], alphas: Vec<[u32; 4]>) -> Self {
+    pub(super) fn new(materials: &[Material], slots: Vec<Slots>, alphas: Vec<[u32; 4]>) -> Self {
         let most = slots.iter().map(|slots| slots.uses.len()).max();
         // The alpha test of untextured materials reads the first coordinates, too.
         let vectors = FIXED + 2 * most.unwrap_or(0).max(1);
         let mut words = Vec::with_capacity(materials.len() * vectors);
         for ((material, slots), alpha) in materials.iter().zip(slots).zip(alphas) {
-            let fixed = GpuMaterial::new(material, alpha);
-            words.extend_from_slice(bytemuck::cast_slice::<_, [u32; 4]>(&[fixed]));
-            for (used, _) in &slots.uses {
-                let [u, v] = used.transform.0;
-                words.push([u[0], u[1], u[2], used.uv_set as f32].map(f32::to_bits));
-                words.push([v[0], v[1], v[2], 0.0].map(f32::to_bits));
-            }
+            words.extend(MaterialRow { slots, alpha }.words(material));
             words.resize(words.len().next_multiple_of(vectors), [0; 4]);
         }
         Self {
@@ -116,9 +137,10 @@ impl GpuMaterial {
 const GLOSSY_ROUGHNESS: f32 = 0.6;
 
 /// Whether light or paint may change so quickly over a material's surface that one shading place in a pixel is too few: it
-/// is textured or glossy.
+/// is textured or glossy, or may become so.
 pub(super) fn high_frequency(material: &Material) -> bool {
-    material.textures().next().is_some() || (!material.unlit && is_glossy(material))
+    let may_be_glossy = material.animated || is_glossy(material);
+    material.textures().next().is_some() || (!material.unlit && may_be_glossy)
 }
 
 fn is_glossy(material: &Material) -> bool {

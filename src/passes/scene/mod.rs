@@ -4,6 +4,7 @@ mod alpha_atlas;
 mod bins;
 mod environment;
 mod light;
+mod look;
 mod material;
 mod slots;
 mod texture;
@@ -13,6 +14,7 @@ mod triangles;
 pub use bins::ShadeFeatures;
 pub use environment::EnvironmentUniform;
 pub use light::LightFeatures;
+pub use look::FrameLook;
 
 use super::geometry::GpuGeometry;
 use super::pool::DescriptorPool;
@@ -26,6 +28,7 @@ use bins::{Bins, MaterialBin};
 use environment::GpuEnvironment;
 use glam::DVec3;
 use light::GpuLight;
+use look::ChangingLook;
 use material::MaterialTable;
 use slots::Slots;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -36,10 +39,11 @@ use triangles::Triangles;
 /// A posed scene on the device.
 pub struct GpuScene {
     pub(super) geometry: GpuGeometry,
-    pub(super) materials: BufferView,
+    materials: BufferView,
     material_vectors: u32,
     is_tinted: bool,
-    pub(super) lights: Buffer,
+    lights: Buffer,
+    changing: Option<ChangingLook>,
     pub(super) alpha_atlas: BufferView,
     pub(super) environment: GpuEnvironment,
     has_environment: bool,
@@ -95,20 +99,17 @@ impl GpuScene {
     ) -> Result<(Self, SceneUploads), VulkanError> {
         let geometry = &pose.geometry;
         let mut textures = TextureSet::new(memory);
-        let slots = scene
-            .materials
+        let looks = pose.materials(scene);
+        let slots = looks
             .iter()
             .map(|material| Slots::of(scene, material))
             .collect::<Result<Vec<_>, _>>()?;
-        let bins = Bins::new(scene, geometry, &slots, &mut textures)?;
-        let triangles = Triangles::new(scene, geometry, &bins);
+        let bins = Bins::new(scene, (&looks, geometry), &slots, &mut textures)?;
+        let triangles = Triangles::new(&looks, geometry, &bins);
         let mut atlas = AlphaAtlas::new();
-        let alphas = scene
-            .materials
-            .iter()
-            .map(|m| atlas.place(scene, m))
-            .collect();
-        let materials = MaterialTable::new(&scene.materials, &slots, alphas);
+        let alphas: Vec<_> = looks.iter().map(|m| atlas.place(scene, m)).collect();
+        let changing = motion.map(|motion| ChangingLook::new(motion, &slots, &alphas));
+        let materials = MaterialTable::new(&looks, slots, alphas);
         let lights: Vec<GpuLight> = pose
             .lights
             .iter()
@@ -133,8 +134,9 @@ impl GpuScene {
             is_tinted: geometry
                 .draws
                 .iter()
-                .filter_map(|draw| scene.materials.get(draw.material as usize))
+                .filter_map(|draw| looks.get(draw.material as usize))
                 .any(|m| m.lobes.transmission.is_some() && !m.unlit),
+            changing,
             lights: uploader.storage("lights", bytemuck::cast_slice(&lights))?,
             alpha_atlas: uploader.texels("alpha atlas", vk::Format::R32_UINT, &atlas.words)?,
             environment,
@@ -182,7 +184,7 @@ impl GpuScene {
     /// Whether some of its vertices move.
     #[must_use]
     pub fn moves(&self) -> bool {
-        self.geometry.motion.is_some()
+        self.geometry.is_posed()
     }
 
     /// Whether it has points or lines.
@@ -276,10 +278,6 @@ impl Content for GpuScene {
 
     fn bin_count(&self) -> u32 {
         (self.bins.len() as u32).max(1)
-    }
-
-    fn lights(&self) -> &Buffer {
-        &self.lights
     }
 
     fn environment_map(&self) -> Option<vk::DescriptorImageInfo> {

@@ -8,10 +8,12 @@ use crate::vulkan::VulkanError;
 pub(in crate::passes) type RoleSlots = [Option<u8>; TextureRole::COUNT];
 
 /// The slots of a material. The base colour comes first.
+#[derive(Clone)]
 pub(super) struct Slots {
     pub(super) of_role: RoleSlots,
     /// What each slot reads, and whether it is in sRGB.
     pub(super) uses: Vec<(TextureUse, bool)>,
+    is_animated: bool,
 }
 
 impl Slots {
@@ -20,6 +22,7 @@ impl Slots {
         let mut slots = Self {
             of_role: [None; TextureRole::COUNT],
             uses: Vec::new(),
+            is_animated: material.animated,
         };
         let wanted = |role| role == TextureRole::BaseColor || !material.unlit;
         let exists = |used: &TextureUse| {
@@ -31,7 +34,9 @@ impl Slots {
                 continue;
             }
             let read = (used, role.is_srgb());
-            let slot = slots.uses.iter().position(|known| *known == read);
+            // What is alike now may not stay so.
+            let shared = slots.uses.iter().position(|known| *known == read);
+            let slot = shared.filter(|_| !material.animated);
             slots.of_role[role as usize] = Some(slot.unwrap_or(slots.uses.len()) as u8);
             if slot.is_none() {
                 slots.uses.push(read);
@@ -53,6 +58,6 @@ impl Slots {
             .iter()
             .map(|(used, _)| (used.uv_set, used.transform));
         let first = places.next();
-        places.all(|place| Some(place) == first)
+        places.all(|place| Some(place) == first && !self.is_animated)
     }
 }

@@ -3,7 +3,7 @@
 use super::bins::Bins;
 use super::material::high_frequency;
 use crate::passes::raster::double_sided;
-use crate::scene::{Geometry, Scene};
+use crate::scene::{Geometry, Material};
 
 /// The bits of a triangle's last word: 16 of its material, 14 of its bin, and flags.
 const BIN_SHIFT: u32 = 16;
@@ -40,11 +40,10 @@ pub(super) struct Triangles {
 }
 
 impl Triangles {
-    pub(super) fn new(scene: &Scene, geometry: &Geometry, bins: &Bins) -> Self {
+    pub(super) fn new(materials: &[Material], geometry: &Geometry, bins: &Bins) -> Self {
         let mut last_words = vec![0_u32; geometry.triangles.len()];
         for draw in &geometry.draws {
-            let is_high_frequency = scene
-                .materials
+            let is_high_frequency = materials
                 .get(draw.material as usize)
                 .is_some_and(high_frequency);
             let flag = |bit: u32, set: bool| if set { bit } else { 0 };

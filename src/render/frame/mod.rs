@@ -13,8 +13,8 @@ use super::plan::{Effort, Plan};
 use super::{RenderError, Settings};
 use crate::camera::Camera;
 use crate::passes::{
-    Content, Counter, Encoding, FrameGeometry, FrameLayout, GpuScene, Locations, RasterTargets,
-    Resources,
+    Content, Counter, Encoding, FrameGeometry, FrameLayout, FrameLook, GpuScene, Locations,
+    RasterTargets, Resources,
 };
 use crate::render::engine::with_probes;
 use crate::scene::Moment;
@@ -36,6 +36,7 @@ pub struct Frame {
     passes: Passes,
     targets: RasterTargets,
     geometry: FrameGeometry,
+    look: FrameLook,
     resources: Resources,
     counters: Buffer,
     timings: Timings,
@@ -55,7 +56,7 @@ impl Frame {
     ) -> Result<Self, RenderError> {
         let gpu = scene.memory().gpu().clone();
         let taken = scene.memory_bytes() + beside;
-        let beside_regions = taken + FrameGeometry::bytes(scene);
+        let beside_regions = taken + FrameGeometry::bytes(scene) + FrameLook::bytes(scene);
         let plan = Plan::new(
             settings,
             &**scene,
@@ -88,11 +89,14 @@ impl Frame {
             count: sample_count,
         };
         let geometry = FrameGeometry::new(&memory, scene, true)?;
+        let look = FrameLook::new(&memory, scene)?;
+        let mut texels = geometry.texels(scene);
+        texels.push(look.texels(scene));
         let resources = Resources::new(
             layout,
             &memory,
             &**scene,
-            &geometry.texels(scene),
+            (&texels, look.lights(scene)),
             &targets.views(),
             plan.sizes,
             &[centre, locations],
@@ -108,6 +112,7 @@ impl Frame {
             passes,
             targets,
             geometry,
+            look,
             resources,
             counters: memory.buffer(
                 "counter read-back",
@@ -130,7 +135,8 @@ impl Frame {
     }
 
     /// Shows another moment of the motion that its scene was prepared with, from the next recording on: that one hands the
-    /// device the moment's matrices and weights, and nothing else. Nothing waits for the device.
+    /// device the moment's matrices and weights and what changes of materials and lights, and nothing else. Nothing waits for
+    /// the device.
     ///
     /// # Errors
     /// [`RenderError::OtherMotion`] if the moment is one of another motion.
@@ -138,6 +144,7 @@ impl Frame {
         if !self.scene.has_moment(&moment) {
             return Err(RenderError::OtherMotion);
         }
+        self.look.show(&self.scene, &moment);
         self.moment = Some(moment);
         Ok(())
     }
@@ -189,12 +196,14 @@ impl Frame {
         let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
         if !self.uploaded {
             self.geometry.record_upload(&recorder, &self.scene);
+            self.look.record_upload(&recorder, &self.scene);
             self.resources.record_upload(&recorder);
             self.uploaded = true;
         }
         if let Some(moment) = &self.moment {
             self.geometry.write_moment(moment);
         }
+        self.look.record(&recorder);
         let to_clip = uniform::to_clip(&self.scene, camera, &self.settings);
         let side = self.settings.side();
         let image = self.settings.size.map(|pixels| pixels * side);

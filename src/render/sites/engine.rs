@@ -4,9 +4,10 @@ use super::layout::CellSizes;
 use super::partition::Window;
 use crate::camera::Pinhole;
 use crate::passes::{
-    Bin, Cells, Content, Counter, Cull, FrameGeometry, FrameLayout, FrameUniform, GpuScene, Groups,
-    Locations, Points, RasterTargets, RecordRate, Resolve, ResourceSizes, Resources, Sample,
-    SampleOptions, Schedule, Setup, Shade, ShadeSource, SiteData, Sort, Stroke, StrokeSizes, Then,
+    Bin, Cells, Content, Counter, Cull, FrameGeometry, FrameLayout, FrameLook, FrameUniform,
+    GpuScene, Groups, Locations, Points, RasterTargets, RecordRate, Resolve, ResourceSizes,
+    Resources, Sample, SampleOptions, Schedule, Setup, Shade, ShadeSource, SiteData, Sort, Stroke,
+    StrokeSizes, Then,
 };
 use crate::render::engine::{can_settle, record_rate, record_shading, with_probes};
 use crate::render::footprint::Footprints;
@@ -139,11 +140,14 @@ impl SiteEngine {
             scene.has_blend(),
         )?;
         let geometry = FrameGeometry::new(&memory, scene, false)?;
+        let look = FrameLook::default();
+        let mut texels = geometry.texels(scene);
+        texels.push(look.texels(scene));
         let resources = Resources::new(
             layout,
             &memory,
             scene,
-            &geometry.texels(scene),
+            (&texels, look.lights(scene)),
             &targets.views(),
             *sizes,
             &[locations],

@@ -4,7 +4,7 @@ use glam::{DAffine3, DQuat, DVec3};
 use gltf::json::animation::Property;
 
 use super::keyframes;
-use crate::scene::document::{Channel, Document, Transform};
+use crate::scene::document::{Animated, Channel, Document, Transform};
 
 /// The nodes at one moment.
 #[derive(Debug)]
@@ -13,6 +13,8 @@ pub struct State {
     pub world: Vec<DAffine3>,
     /// Of every node, animated morph weights.
     pub weights: Vec<Option<Vec<f64>>>,
+    /// Of every node, whether it is drawn.
+    pub drawn: Vec<bool>,
 }
 
 impl State {
@@ -20,16 +22,25 @@ impl State {
         let nodes = &document.nodes;
         let mut transforms: Vec<Transform> = nodes.iter().map(|node| node.transform).collect();
         let mut weights = vec![None; nodes.len()];
+        let mut visible: Vec<bool> = nodes.iter().map(|node| node.visible).collect();
         for channel in animation {
+            let (node, property) = match channel.target {
+                Animated::Node(node, property) => (node, property),
+                Animated::Visibility(node) => {
+                    visible[node] = keyframes::sample(channel, time) != [0.0];
+                    continue;
+                }
+                Animated::Description(..) => continue,
+            };
             let value = keyframes::sample(channel, time);
-            if channel.path == Property::MorphTargetWeights {
-                weights[channel.node] = Some(value);
+            if property == Property::MorphTargetWeights {
+                weights[node] = Some(value);
                 continue;
             }
-            let Transform::Parts(parts) = &mut transforms[channel.node] else {
+            let Transform::Parts(parts) = &mut transforms[node] else {
                 continue;
             };
-            match (channel.path, value.as_slice()) {
+            match (property, value.as_slice()) {
                 (Property::Translation, &[x, y, z]) => parts.translation = DVec3::new(x, y, z),
                 (Property::Scale, &[x, y, z]) => parts.scale = DVec3::new(x, y, z),
                 (Property::Rotation, &[x, y, z, w]) => {
@@ -49,6 +60,10 @@ impl State {
                 None => local,
             };
         }
-        Self { world, weights }
+        Self {
+            world,
+            weights,
+            drawn: document.drawn(visible),
+        }
     }
 }

@@ -1,10 +1,7 @@
 //! Animated values between keyframes (glTF 2.0, section 3.11 and appendix C).
 
 use glam::DQuat;
-use gltf::json::{
-    Animation,
-    animation::{Interpolation, Property},
-};
+use gltf::json::{Animation, animation::Interpolation};
 
 use super::PoseRequest;
 use crate::scene::{
@@ -59,9 +56,9 @@ pub fn sample(channel: &Channel, time: f64) -> Vec<f64> {
     let seconds = |i: usize| times.get(i).map_or(0.0, |&t| f64::from(t));
     let after = times.partition_point(|&t| f64::from(t) <= time);
     let mut value = if after == 0 {
-        keyframe(channel, 0)
+        channel.keyframe(0)
     } else if after > last || channel.interpolation == Interpolation::Step {
-        keyframe(channel, after - 1)
+        channel.keyframe(after - 1)
     } else {
         let (start, end) = (seconds(after - 1), seconds(after));
         let fraction = (time - start) / (end - start);
@@ -70,34 +67,15 @@ pub fn sample(channel: &Channel, time: f64) -> Vec<f64> {
             _ => linear(channel, after - 1, fraction),
         }
     };
-    if channel.path == Property::Rotation {
+    if channel.is_rotation() {
         normalize(&mut value);
     }
     value
 }
 
-/// The numbers of part `part` of keyframe `i`, of `parts` in all.
-fn part(channel: &Channel, i: usize, part: usize, parts: usize) -> Vec<f64> {
-    let start = (i * parts + part) * channel.width;
-    let numbers = channel.values.get(start..start + channel.width);
-    numbers
-        .unwrap_or_default()
-        .iter()
-        .map(|&x| f64::from(x))
-        .collect()
-}
-
-/// The value at keyframe `i`.
-fn keyframe(channel: &Channel, i: usize) -> Vec<f64> {
-    match channel.interpolation {
-        Interpolation::CubicSpline => part(channel, i, 1, 3),
-        Interpolation::Step | Interpolation::Linear => part(channel, i, 0, 1),
-    }
-}
-
 fn linear(channel: &Channel, i: usize, fraction: f64) -> Vec<f64> {
-    let (from, to) = (keyframe(channel, i), keyframe(channel, i + 1));
-    if channel.path == Property::Rotation {
+    let (from, to) = (channel.keyframe(i), channel.keyframe(i + 1));
+    if channel.is_rotation() {
         let quaternion = |q: &[f64]| match *q {
             [x, y, z, w] => DQuat::from_xyzw(x, y, z, w).normalize(),
             _ => DQuat::IDENTITY,
@@ -122,10 +100,10 @@ fn spline(channel: &Channel, i: usize, t: f64, duration: f64) -> Vec<f64> {
         duration * (t3 - t2),
     ];
     let terms = [
-        part(channel, i, 1, 3),
-        part(channel, i, 2, 3),
-        part(channel, i + 1, 1, 3),
-        part(channel, i + 1, 0, 3),
+        channel.part(i, 1, 3),
+        channel.part(i, 2, 3),
+        channel.part(i + 1, 1, 3),
+        channel.part(i + 1, 0, 3),
     ];
     let mut value = vec![0.0; channel.width];
     for (weight, term) in weights.into_iter().zip(terms) {

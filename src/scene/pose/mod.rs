@@ -3,8 +3,11 @@
 mod assemble;
 mod hierarchy;
 mod keyframes;
+mod looks;
 mod motion;
 mod placement;
+
+use std::borrow::Cow;
 
 use glam::{DAffine3, DMat3, DVec3};
 use gltf::json::{Index, Node};
@@ -15,9 +18,11 @@ use super::{
     error::{Fault, Warnings},
     geometry::Geometry,
     light::Light,
+    material::Material,
     view::{SceneCamera, SceneProjection},
 };
 use assemble::MovingPlacement;
+use looks::Looks;
 use motion::Moving;
 pub use motion::{Moment, Motion, MotionPart};
 use placement::Placement;
@@ -39,6 +44,8 @@ pub struct PoseRequest {
 pub struct Pose {
     /// All triangles.
     pub geometry: Geometry,
+    /// Materials that an animation has changed, in place of the scene's of these indices, which ascend.
+    pub materials: Vec<(usize, Material)>,
     /// The lights, in the order of a depth-first walk; empty where the file has none.
     pub lights: Vec<Light>,
     /// The cameras, in the order of a depth-first walk.
@@ -47,8 +54,26 @@ pub struct Pose {
     pub warnings: Vec<String>,
 }
 
+impl Pose {
+    /// All materials of its scene, as they are at its moment.
+    #[must_use]
+    pub fn materials<'s>(&self, scene: &'s Scene) -> Cow<'s, [Material]> {
+        if self.materials.is_empty() {
+            return Cow::Borrowed(&scene.materials);
+        }
+        let mut materials = scene.materials.clone();
+        for (index, changed) in &self.materials {
+            if let Some(material) = materials.get_mut(*index) {
+                material.clone_from(changed);
+            }
+        }
+        Cow::Owned(materials)
+    }
+}
+
 /// What a moment shows, before its triangles are put together.
 struct Shown<'d> {
+    materials: Vec<(usize, Material)>,
     placements: Vec<Placement<'d>>,
     lights: Vec<Light>,
     cameras: Vec<SceneCamera>,
@@ -68,11 +93,11 @@ pub(super) fn pose_in_motion(
         time: f64::MAX,
         ..request.clone()
     };
-    let moving = Moving::new(document, keyframes::choose(document, &later)?);
+    let moving = Moving::new(scene, keyframes::choose(document, &later)?);
     let (pose, placements) = posed(scene, request, &moving)?;
     let mut warnings = Warnings::new(&document.file);
     let shown = show(scene, request, &moving, &mut warnings)?;
-    let motion = Motion::new(request, &pose, &shown, &placements);
+    let motion = Motion::new(request, &pose, &shown, (&moving, &placements));
     Ok((pose, motion))
 }
 
@@ -95,6 +120,7 @@ fn posed(
     }
     let pose = Pose {
         geometry,
+        materials: shown.materials,
         lights: shown.lights,
         cameras: shown.cameras,
         warnings: warnings.into_vec(),
@@ -121,6 +147,7 @@ fn show<'d>(
     }
     let animation = keyframes::choose(document, request)?;
     let state = hierarchy::State::new(document, animation, request.time);
+    let looks = Looks::new(scene, animation, request.time, warnings);
     let drawn = drawn_nodes(document, request.scene.or(document.default_scene));
 
     let mut placements = Vec::new();
@@ -137,11 +164,11 @@ fn show<'d>(
             ));
             continue;
         }
-        let visible = document.nodes[index].visible;
-        if let Some(light) = light_of(document, node).filter(|_| visible) {
+        let visible = state.drawn[index];
+        if let Some(light) = light_of(&looks.lights, node).filter(|_| visible) {
             lights.push(place_light(light, world));
         }
-        if let Some((name, projection)) = camera_of(document, node) {
+        if let Some((name, projection)) = camera_of(document, &looks.cameras, node) {
             match axes(world) {
                 Some(axes) => cameras.push(SceneCamera {
                     name,
@@ -160,6 +187,7 @@ fn show<'d>(
         }
     }
     Ok(Shown {
+        materials: looks.materials,
         placements,
         lights,
         cameras,
@@ -189,21 +217,22 @@ pub(super) fn drawn_nodes(document: &Document, scene: Option<usize>) -> Vec<usiz
     drawn
 }
 
-/// What the camera of a node is called, and its projection.
+/// What the camera of a node is called, and its projection, one of `cameras`.
 pub(super) fn camera_of(
     document: &Document,
+    cameras: &[Option<SceneProjection>],
     node: &Node,
 ) -> Option<(Option<String>, SceneProjection)> {
     let index = node.camera?.value();
-    let projection = *document.cameras.get(index)?.as_ref()?;
+    let projection = *cameras.get(index)?.as_ref()?;
     let name = document.root.cameras.get(index)?.name.clone();
     Some((name.or_else(|| node.name.clone()), projection))
 }
 
-/// The light of a node.
-pub(super) fn light_of<'d>(document: &'d Document, node: &Node) -> Option<&'d Light> {
+/// The light of a node, one of `lights`.
+pub(super) fn light_of<'l>(lights: &'l [Option<Light>], node: &Node) -> Option<&'l Light> {
     let extension = node.extensions.as_ref()?.khr_lights_punctual.as_ref()?;
-    document.lights.get(extension.light.value())?.as_ref()
+    lights.get(extension.light.value())?.as_ref()
 }
 
 /// The primitives of a node's mesh.

@@ -1,44 +1,61 @@
-//! What moves in a scene, and its matrices and weights at a moment: all that a device needs to move it.
+//! What moves and changes in a scene, and its matrices, weights, materials and lights at a moment: all that a device needs to
+//! show it.
 
-use std::sync::Arc;
+use std::{collections::BTreeMap, mem::discriminant, sync::Arc};
 
 use glam::{DAffine3, DVec3};
 use gltf::json::{Node, animation::Property};
 
-use super::{MovingPlacement, Placement, Pose, PoseRequest, Shown, show};
+use super::{MovingPlacement, Placement, Pose, PoseRequest, Shown, light_of, looks, show};
 use crate::scene::{
-    Light, Scene, SceneCamera, SceneError,
-    document::{Channel, Document, Target},
+    Light, Material, Scene, SceneCamera, SceneError,
+    document::{Animated, Channel, Described, Document, Target},
     error::Warnings,
 };
 
-/// Which nodes an animation moves or deforms.
+/// Which nodes an animation moves or deforms, and what else it changes.
 #[derive(Debug, Default)]
 pub struct Moving {
     /// Of every node, whether its place in the world may change; empty where nothing does.
     places: Vec<bool>,
     /// Of every node, whether its morph weights may.
     weights: Vec<bool>,
+    /// Indices of materials.
+    materials: Vec<usize>,
+    lights: bool,
 }
 
 impl Moving {
-    /// What these channels move.
-    pub fn new(document: &Document, animation: &[Channel]) -> Self {
+    /// What these channels move and change.
+    pub fn new(scene: &Scene, animation: &[Channel]) -> Self {
+        let document = &scene.document;
+        let mut lights = false;
         let mut places = vec![false; document.nodes.len()];
         let mut weights = places.clone();
         for channel in animation {
-            let of = if channel.path == Property::MorphTargetWeights {
-                &mut weights
-            } else {
-                &mut places
-            };
-            of[channel.node] = true;
+            match channel.target {
+                Animated::Node(node, Property::MorphTargetWeights) => weights[node] = true,
+                Animated::Node(node, _) => places[node] = true,
+                Animated::Description(Described::Light(_), _) => lights = true,
+                // Materials follow below; what comes and goes is posed anew.
+                Animated::Description(..) | Animated::Visibility(_) => {}
+            }
         }
         for &index in &document.order {
             let parent = document.nodes[index].parent;
             places[index] = places[index] || parent.is_some_and(|parent| places[parent]);
         }
-        Self { places, weights }
+        let carries_light = |index: usize| {
+            let node = document.root.nodes.get(index);
+            node.is_some_and(|node| light_of(&document.lights, node).is_some())
+        };
+        lights |= (0..places.len()).any(|index| places[index] && carries_light(index));
+        Self {
+            places,
+            weights,
+            materials: looks::changing_materials(scene, animation),
+            lights,
+        }
     }
 
     /// Whether what a node draws moves.
@@ -62,7 +79,12 @@ pub struct Motion {
     pub(crate) vertex_count: usize,
     request: PoseRequest,
     origin: DVec3,
+    /// Those of the first pose.
     lights: Vec<Light>,
+    /// Whether they change.
+    pub(crate) changes_lights: bool,
+    /// Indices of materials that change.
+    pub(crate) materials: Vec<usize>,
     placements: usize,
     pub(crate) parts: Vec<MotionPart>,
     /// Position, normal and tangent of each vertex as it rests in its mesh.
@@ -96,13 +118,16 @@ pub struct MotionPart {
     pub is_flat: bool,
 }
 
-/// Matrices and weights of what moves, at one moment.
+/// Matrices and weights of what moves, and the materials and lights that change, at one moment.
 #[derive(Clone, Debug)]
 pub struct Moment {
     /// Its motion's.
     pub(crate) identity: Arc<()>,
     /// The cameras, as in [`Pose::cameras`].
     pub cameras: Vec<SceneCamera>,
+    /// All that change, by index.
+    pub(crate) materials: Vec<(usize, Material)>,
+    pub(crate) lights: Vec<Light>,
     /// Three rows a matrix, to the geometry's space; and of each target with a weight that, and its index.
     pub(crate) vectors: Vec<[f32; 4]>,
     pub(crate) parts: Vec<MomentPart>,
@@ -121,7 +146,7 @@ impl Motion {
         request: &PoseRequest,
         pose: &Pose,
         shown: &Shown<'_>,
-        moving: &[MovingPlacement],
+        (moving, placed): (&Moving, &[MovingPlacement]),
     ) -> Self {
         let mut motion = Self {
             identity: Arc::new(()),
@@ -129,13 +154,15 @@ impl Motion {
             request: request.clone(),
             origin: pose.geometry.origin,
             lights: pose.lights.clone(),
+            changes_lights: moving.lights,
+            materials: moving.materials.clone(),
             placements: shown.placements.len(),
             parts: Vec::new(),
             vertices: Vec::new(),
             influences: Vec::new(),
             displacements: Vec::new(),
         };
-        for part in moving {
+        for part in placed {
             if let Some(placement) = shown.placements.get(part.placement) {
                 motion.add(part, placement);
             }
@@ -207,9 +234,9 @@ impl Motion {
         self.parts.iter().map(of).sum()
     }
 
-    /// Matrices and weights at another time, in seconds, of the animation and scene that the motion is of. `None` where
-    /// they can't lead there from the first pose, and the scene has to be posed anew: where a light moves, a mesh turns
-    /// inside out, or something goes beyond what numbers can say.
+    /// What moves and changes at another time, in seconds, of the animation and scene that the motion is of. `None` where
+    /// that can't lead there from the first pose, and the scene has to be posed anew: where a mesh turns inside out, meshes or
+    /// lights come or go, or something goes beyond what numbers can say.
     ///
     /// # Errors
     /// As [`Scene::pose`].
@@ -220,12 +247,22 @@ impl Motion {
         };
         let mut warnings = Warnings::new(&scene.document.file);
         let shown = show(scene, &request, &Moving::default(), &mut warnings)?;
-        if shown.lights != self.lights || shown.placements.len() != self.placements {
+        let kinds = |lights: &[Light]| -> Vec<_> {
+            lights
+                .iter()
+                .map(|light| discriminant(&light.kind))
+                .collect()
+        };
+        let is_alike = shown.placements.len() == self.placements
+            && kinds(&shown.lights) == kinds(&self.lights);
+        if !is_alike {
             return Ok(None);
         }
         let mut moment = Moment {
             identity: self.identity.clone(),
             cameras: shown.cameras,
+            materials: self.materials_of(scene, shown.materials),
+            lights: shown.lights,
             vectors: Vec::new(),
             parts: Vec::new(),
         };
@@ -251,6 +288,19 @@ impl Motion {
         }
         let finite = |vector: &[f32; 4]| vector.iter().all(|value| value.is_finite());
         Ok(Some(moment).filter(|moment| moment.vectors.iter().all(finite)))
+    }
+}
+
+impl Motion {
+    /// All materials that change: as `shown`, or as they are at rest.
+    fn materials_of(&self, scene: &Scene, shown: Vec<(usize, Material)>) -> Vec<(usize, Material)> {
+        let mut shown: BTreeMap<usize, Material> = shown.into_iter().collect();
+        let at_rest = |index: usize| scene.materials.get(index).cloned();
+        let material = |&index: &usize| {
+            let material = shown.remove(&index).or_else(|| at_rest(index))?;
+            Some((index, material))
+        };
+        self.materials.iter().filter_map(material).collect()
     }
 }
 

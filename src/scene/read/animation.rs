@@ -1,5 +1,5 @@
-//! Animations (glTF 2.0, section 3.11) with pointers of `KHR_animation_pointer` to what moves nodes. A channel that cannot be
-//! read is left out with a warning.
+//! Animations (glTF 2.0, section 3.11) with pointers of `KHR_animation_pointer` to nodes, materials, lights and cameras. A
+//! channel that cannot be read is left out with a warning.
 
 use std::{collections::HashMap, sync::Arc};
 
@@ -7,50 +7,60 @@ use gltf::json::{
     self, Index,
     accessor::ComponentType,
     animation::{self, Interpolation, Property},
+    extensions::scene::khr_lights_punctual::Light,
     validation::Checked,
 };
 
 use super::{
     Context,
     accessor::Accessor,
-    model::{self, Model},
+    described::{Change, Descriptions},
+    model, pointer,
 };
 use crate::scene::{
-    document::{Channel, Node, Transform},
+    document::{Animated, Channel, Described, Node, Transform},
     error::Fault,
+    light,
+    material::Material,
+    view::SceneProjection,
 };
 
-/// Numbers of accessors that were read already: samplers like to share them.
-type Cache = HashMap<String, Arc<[f32]>>;
-
-/// Reads the channels of all animations.
-pub fn read_all(context: &mut Context<'_>, nodes: &[Node]) -> Vec<Vec<Channel>> {
-    let mut cache = Cache::new();
+/// Reads the channels of all animations, and what they have to read again at each moment.
+pub fn read_all(
+    context: &mut Context<'_>,
+    nodes: &[Node],
+    materials: &[Material],
+) -> (Vec<Vec<Channel>>, Descriptions) {
+    let model = context.model;
+    let mut reader = Reader {
+        descriptions: Descriptions::new(model),
+        context,
+        nodes,
+        cache: HashMap::new(),
+        materials,
+    };
     let mut animations = Vec::new();
-    for found in context.model.all::<json::Animation>() {
+    for found in model.all::<json::Animation>() {
         let mut channels: Vec<Channel> = Vec::new();
-        let found = context.tolerate(found.map(Some), "the animation does nothing");
+        let found = reader
+            .context
+            .tolerate(found.map(Some), "the animation does nothing");
         if let Some((item, place)) = found {
             let all = item.channels.iter().enumerate();
             for (i, channel) in all.filter(|(_, c)| !model::is_nothing(c.sampler)) {
                 let read = sampler_of(channel, i, item, &place).and_then(|(sampler, at)| {
                     let target = format!("{place}/channels/{i}/target");
-                    read_channel(
-                        &channel.target,
-                        &target,
-                        sampler,
-                        &at,
-                        context,
-                        nodes,
-                        &mut cache,
-                    )
+                    read_channel(&channel.target, &target, sampler, &at, &mut reader)
                 });
-                channels.extend(context.tolerate(read, "the channel is left out"));
+                let read = reader
+                    .context
+                    .tolerate(read.map(Some), "the channel is left out");
+                channels.extend(read.into_iter().flatten());
             }
         }
         animations.push(channels);
     }
-    animations
+    (animations, reader.descriptions)
 }
 
 /// The sampler of channel `i`, and its place.
@@ -68,33 +78,58 @@ fn sampler_of<'i>(
     Ok((sampler, format!("{place}/samplers/{index}")))
 }
 
-/// `None` where the channel has no node, or animates something that no node has; both are valid.
+/// No channel where it has no node, or animates something that no node has, both of which is valid; several where a pointer
+/// leads to what nodes share.
 fn read_channel(
     target: &animation::Target,
     target_place: &str,
     sampler: &animation::Sampler,
     place: &str,
-    context: &Context<'_>,
-    nodes: &[Node],
-    cache: &mut Cache,
-) -> Result<Option<Channel>, Fault> {
-    let model = context.model;
-    let (node, path, at) = match (target.path, pointed(model, target_place)?) {
-        (Checked::Invalid, Some(pointed)) => pointed,
-        (Checked::Valid(path), _) => (target.node, path, format!("{target_place}/node")),
-        (Checked::Invalid, None) => return Ok(None),
+    reader: &mut Reader<'_, '_>,
+) -> Result<Vec<Channel>, Fault> {
+    let model = reader.context.model;
+    let (targets, at) = match (target.path, pointer::of(model, target_place)) {
+        (Checked::Invalid, Some((pointer, at))) => (pointer::targets(model, pointer, &at)?, at),
+        (Checked::Valid(path), _) if !model::is_nothing(target.node) => {
+            let at = format!("{target_place}/node");
+            model.check(&target.node, &at)?;
+            (vec![Animated::Node(target.node.value(), path)], at)
+        }
+        _ => return Ok(Vec::new()),
     };
-    if model::is_nothing(node) {
-        return Ok(None);
-    }
-    model.check(&node, &at)?;
-    let node = node.value();
-    if path != Property::MorphTargetWeights && matches!(nodes[node].transform, Transform::Matrix(_))
+    let Some(first) = targets.first() else {
+        return Ok(Vec::new());
+    };
+    if let Animated::Node(node, path) = *first
+        && path != Property::MorphTargetWeights
+        && matches!(reader.nodes[node].transform, Transform::Matrix(_))
     {
         let reason = format!("nodes/{node} has a matrix, so that its {path:?} cannot be animated");
         return Err(Fault::new(target_place, reason));
     }
-    let interpolation = model.valid(&sampler.interpolation, &format!("{place}/interpolation"))?;
+    let channel = read_keyframes(first.clone(), sampler, place, reader)?;
+    if let Animated::Description(described, pointer) = first {
+        reader.check_effect(*described, pointer, &channel, &at)?;
+    }
+    let of_target = |target| Channel {
+        target,
+        ..channel.clone()
+    };
+    Ok(targets.into_iter().map(of_target).collect())
+}
+
+/// The keyframes of the sampler at `place`.
+fn read_keyframes(
+    target: Animated,
+    sampler: &animation::Sampler,
+    place: &str,
+    reader: &mut Reader<'_, '_>,
+) -> Result<Channel, Fault> {
+    let (context, cache) = (&*reader.context, &mut reader.cache);
+    let interpolation_place = format!("{place}/interpolation");
+    let interpolation = context
+        .model
+        .valid(&sampler.interpolation, &interpolation_place)?;
     let times = context
         .accessor(sampler.input, &format!("{place}/input"))?
         .expect_components(&[1])?
@@ -107,78 +142,124 @@ fn read_channel(
         ));
     }
 
-    let components = match path {
-        Property::Translation | Property::Scale => 3,
-        Property::Rotation => 4,
-        Property::MorphTargetWeights => 1,
+    let components: &[usize] = match &target {
+        Animated::Node(_, Property::Translation | Property::Scale) => &[3],
+        Animated::Node(_, Property::Rotation) => &[4],
+        Animated::Node(_, Property::MorphTargetWeights) | Animated::Visibility(_) => &[1],
+        Animated::Description(..) => &[1, 2, 3, 4],
     };
+    if matches!(target, Animated::Visibility(_)) && interpolation != Interpolation::Step {
+        let reason = "there is nothing between visible and not: only STEP is possible";
+        return Err(Fault::new(interpolation_place, reason));
+    }
     let output = context
         .accessor(sampler.output, &format!("{place}/output"))?
-        .expect_components(&[components])?;
+        .expect_components(components)?;
     let keyframes = match interpolation {
         Interpolation::CubicSpline => 3 * times.len(),
         Interpolation::Step | Interpolation::Linear => times.len(),
     };
     let per_keyframe = output.count / keyframes;
-    let expected = if path == Property::MorphTargetWeights {
-        per_keyframe >= 1
-    } else {
-        per_keyframe == 1
+    let expected = match target {
+        Animated::Node(_, Property::MorphTargetWeights) => per_keyframe >= 1,
+        _ => per_keyframe == 1,
     };
     if !expected || output.count % keyframes != 0 {
         return Err(output.fault(format!(
-            "{} elements do not fit {} keyframes of {interpolation:?} {path:?}",
+            "{} elements do not fit {} keyframes of {interpolation:?} {target}",
             output.count,
             times.len()
         )));
     }
-    Ok(Some(Channel {
-        node,
-        path,
+    Ok(Channel {
+        target,
         interpolation,
+        width: per_keyframe * output.components,
         values: numbers(output.normalized(), cache)?,
-        width: per_keyframe * components,
         times,
-    }))
+    })
 }
 
-/// The node and property that a pointer of the target at `place` names, and where the pointer is.
-fn pointed(
-    model: &Model,
-    place: &str,
-) -> Result<Option<(Index<json::Node>, Property, String)>, Fault> {
-    let place = format!("{place}/extensions/KHR_animation_pointer/pointer");
-    let Some(pointer) = model.text(&place) else {
-        return Ok(None);
-    };
-    let parts: Vec<&str> = pointer.split('/').collect();
-    let named = match parts[..] {
-        ["", "nodes", node, property] => {
-            let property = match property {
-                "translation" => Some(Property::Translation),
-                "rotation" => Some(Property::Rotation),
-                "scale" => Some(Property::Scale),
-                "weights" => Some(Property::MorphTargetWeights),
-                _ => None,
-            };
-            node.parse().ok().zip(property)
+/// What channels are read with.
+struct Reader<'c, 'm> {
+    context: &'c mut Context<'m>,
+    nodes: &'c [Node],
+    /// Numbers of accessors that were read already: samplers like to share them.
+    cache: HashMap<String, Arc<[f32]>>,
+    descriptions: Descriptions,
+    materials: &'c [Material],
+}
+
+impl Reader<'_, '_> {
+    /// Refuses a channel whose values are none that the description can have where `pointer` leads to, and warns of one that
+    /// changes nothing.
+    fn check_effect(
+        &mut self,
+        described: Described,
+        pointer: &str,
+        channel: &Channel,
+        place: &str,
+    ) -> Result<(), Fault> {
+        const MOST: usize = 64;
+        let model = self.context.model;
+        let wrong = |fault: Fault| Fault::new(place, format!("{pointer} keeps its value: {fault}"));
+        let descriptions = &self.descriptions;
+        // Warnings of a value come when it is drawn.
+        let mut unheard = self.context.warnings.of_the_same_file();
+        let mut read = |changes: &[Change<'_>]| -> Result<Option<Looks>, Fault> {
+            Ok(match described {
+                Described::Material(index) => {
+                    let at_rest = &self.materials[index];
+                    descriptions.changed::<json::Material>(index, changes)?;
+                    let read = descriptions.material(index, changes, at_rest, &mut unheard);
+                    read.ok().map(Box::new).map(Looks::Material)
+                }
+                Described::Light(index) => {
+                    descriptions.changed::<Light>(index, changes)?;
+                    let read = descriptions.light(index, changes, &mut unheard);
+                    read.ok().map(Looks::Light)
+                }
+                Described::Camera(index) => {
+                    descriptions.changed::<json::Camera>(index, changes)?;
+                    let read = descriptions.camera(index, changes);
+                    read.ok().map(Looks::Camera)
+                }
+            })
+        };
+        match described {
+            Described::Material(i) => {
+                model.check(&Index::<json::Material>::new(i as u32), place)?
+            }
+            Described::Light(i) => model.check(&Index::<Light>::new(i as u32), place)?,
+            Described::Camera(i) => model.check(&Index::<json::Camera>::new(i as u32), place)?,
         }
-        _ => None,
-    };
-    match named {
-        Some((node, property)) => Ok(Some((Index::new(node), property, place))),
-        None => {
-            let reason = format!(
-                "{pointer} keeps its value: of pointers, those to the translation, rotation, scale and weights of nodes are \
-                 supported"
-            );
-            Err(Fault::new(place, reason))
+        let at_rest = read(&[])?;
+        let step = channel.times.len().div_ceil(MOST);
+        for keyframe in (0..channel.times.len()).step_by(step) {
+            let values = channel.keyframe(keyframe);
+            if read(&[(pointer, values)]).map_err(wrong)? != at_rest {
+                return Ok(());
+            }
         }
+        let reason = format!("{pointer} by itself changes nothing that is drawn");
+        self.context.warn(&Fault::new(place, reason));
+        Ok(())
     }
 }
 
+/// What is drawn of a description.
+#[derive(PartialEq)]
+enum Looks {
+    Material(Box<Material>),
+    Light(light::Light),
+    Camera(SceneProjection),
+}
+
 /// All numbers of an accessor of up to four components.
-fn numbers(accessor: Accessor<'_>, cache: &mut Cache) -> Result<Arc<[f32]>, Fault> {
+fn numbers(
+    accessor: Accessor<'_>,
+    cache: &mut HashMap<String, Arc<[f32]>>,
+) -> Result<Arc<[f32]>, Fault> {
     if let Some(known) = cache.get(accessor.place()) {
         return Ok(Arc::clone(known));
     }

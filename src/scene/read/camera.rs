@@ -21,7 +21,8 @@ pub fn read_all(context: &mut Context<'_>) -> Vec<Option<SceneProjection>> {
         .collect()
 }
 
-fn read(item: &Camera, place: &str, model: &Model) -> Result<SceneProjection, Fault> {
+/// Reads the camera at `place`.
+pub fn read(item: &Camera, place: &str, model: &Model) -> Result<SceneProjection, Fault> {
     let part = match model.valid(&item.type_, &format!("{place}/type"))? {
         Type::Perspective => "perspective",
         Type::Orthographic => "orthographic",

@@ -24,7 +24,8 @@ pub fn read_all(context: &mut Context<'_>) -> Vec<Option<Light>> {
     read.collect()
 }
 
-fn read(item: &Description, place: &str, context: &mut Context<'_>) -> Result<Light, Fault> {
+/// Reads the light at `place`.
+pub fn read(item: &Description, place: &str, context: &mut Context<'_>) -> Result<Light, Fault> {
     let kind = match context.model.valid(&item.type_, &format!("{place}/type"))? {
         Type::Directional => LightKind::Directional,
         Type::Point => LightKind::Point,

@@ -93,11 +93,18 @@ impl Default for DiffuseTransmissionObject {
     }
 }
 
-/// Reads the lobes of the material at `place`; one that is broken is left out with a warning.
-pub fn read(item: &material::Material, place: &str, context: &mut Context<'_>) -> Lobes {
+/// Reads the lobes of the material at `place`; one that is broken is left out with a warning. Those that have no effect are
+/// kept where the material is `animated`.
+pub fn read(
+    item: &material::Material,
+    place: &str,
+    animated: bool,
+    context: &mut Context<'_>,
+) -> Lobes {
     let mut reader = Reader {
         item,
         place,
+        animated,
         context,
     };
     Lobes {
@@ -119,6 +126,7 @@ fn unit(x: f32) -> f32 {
 struct Reader<'a, 'c, 'm> {
     item: &'a material::Material,
     place: &'a str,
+    animated: bool,
     context: &'c mut Context<'m>,
 }
 
@@ -167,7 +175,7 @@ impl Reader<'_, '_, '_> {
         let lobe: ClearcoatObject = self.other(NAME)?;
         let factor = unit(lobe.clearcoat_factor);
         let normal = lobe.clearcoat_normal_texture;
-        (factor > 0.0).then(|| Clearcoat {
+        (self.animated || factor > 0.0).then(|| Clearcoat {
             factor,
             roughness: unit(lobe.clearcoat_roughness_factor),
             normal_scale: normal.as_ref().map_or(1.0, |normal| normal.scale),
@@ -189,7 +197,7 @@ impl Reader<'_, '_, '_> {
         const NAME: &str = "KHR_materials_sheen";
         let lobe: SheenObject = self.other(NAME)?;
         let color = lobe.sheen_color_factor.map(unit);
-        (color != [0.0; 3]).then(|| Sheen {
+        (self.animated || color != [0.0; 3]).then(|| Sheen {
             color,
             roughness: unit(lobe.sheen_roughness_factor),
             color_texture: self.texture(lobe.sheen_color_texture, NAME, "sheenColorTexture"),
@@ -205,7 +213,7 @@ impl Reader<'_, '_, '_> {
         const NAME: &str = "KHR_materials_anisotropy";
         let lobe: AnisotropyObject = self.other(NAME)?;
         let strength = unit(lobe.anisotropy_strength);
-        (strength > 0.0).then(|| Anisotropy {
+        (self.animated || strength > 0.0).then(|| Anisotropy {
             strength,
             rotation: lobe.anisotropy_rotation,
             texture: self.texture(lobe.anisotropy_texture, NAME, "anisotropyTexture"),
@@ -220,7 +228,7 @@ impl Reader<'_, '_, '_> {
             lobe.iridescence_thickness_minimum,
             lobe.iridescence_thickness_maximum,
         ];
-        (factor > 0.0).then(|| Iridescence {
+        (self.animated || factor > 0.0).then(|| Iridescence {
             factor,
             ior: lobe.iridescence_ior.max(1.0),
             thickness: thickness.map(|x| x.max(0.0)),
@@ -237,7 +245,7 @@ impl Reader<'_, '_, '_> {
         const NAME: &str = "KHR_materials_diffuse_transmission";
         let lobe: DiffuseTransmissionObject = self.other(NAME)?;
         let factor = unit(lobe.diffuse_transmission_factor);
-        (factor > 0.0).then(|| DiffuseTransmission {
+        (self.animated || factor > 0.0).then(|| DiffuseTransmission {
             factor,
             color: lobe.diffuse_transmission_color_factor.map(unit),
             texture: self.texture(
@@ -269,7 +277,7 @@ impl Reader<'_, '_, '_> {
                 0.0
             }
         };
-        (factor > 0.0).then(|| Transmission {
+        (self.animated || factor > 0.0).then(|| Transmission {
             factor,
             texture: self.texture(lobe.transmission_texture, NAME, "transmissionTexture"),
             thickness: volume.thickness_factor.0.max(0.0),

@@ -8,7 +8,7 @@ use gltf::json::{
 };
 use serde_json::{Map, Value};
 
-use super::{Context, lobes, model};
+use super::{Context, lobes, model, pointer};
 use crate::scene::{
     error::Fault,
     material::{AlphaMode, Material, TextureTransform, TextureUse},
@@ -17,9 +17,11 @@ use crate::scene::{
 /// Reads all materials, glTF's default appended. Their textures are the file's: see
 /// [`texture::resolve`](super::texture::resolve).
 pub fn read_all(context: &mut Context<'_>) -> Vec<Material> {
+    let animated = pointer::animated_materials(context.model);
     let mut materials = Vec::new();
-    for found in context.model.all() {
-        let read = found.and_then(|(item, place)| read(item, &place, context).map(Some));
+    for (index, found) in context.model.all().enumerate() {
+        let animated = animated.contains(&index);
+        let read = found.and_then(|(item, place)| read(item, &place, animated, context).map(Some));
         let material = context.tolerate(read, "the material takes the defaults");
         materials.push(material.unwrap_or_default());
     }
@@ -27,7 +29,13 @@ pub fn read_all(context: &mut Context<'_>) -> Vec<Material> {
     materials
 }
 
-fn read(item: &json::Material, place: &str, context: &mut Context<'_>) -> Result<Material, Fault> {
+/// Reads the material at `place`; one that is `animated` keeps lobes that have no effect now.
+pub fn read(
+    item: &json::Material,
+    place: &str,
+    animated: bool,
+    context: &mut Context<'_>,
+) -> Result<Material, Fault> {
     let pbr = &item.pbr_metallic_roughness;
     let unit = |x: f32| x.clamp(0.0, 1.0);
     let mut texture = |info: Option<Info>, name: &str| {
@@ -36,6 +44,7 @@ fn read(item: &json::Material, place: &str, context: &mut Context<'_>) -> Result
     };
     let mut material = Material {
         name: item.name.clone(),
+        animated,
         double_sided: item.double_sided,
         base_color: pbr.base_color_factor.0.map(unit),
         metallic: unit(pbr.metallic_factor.0),
@@ -75,7 +84,7 @@ fn read(item: &json::Material, place: &str, context: &mut Context<'_>) -> Result
         if let Some(extension) = &extensions.emissive_strength {
             strength = extension.emissive_strength.0.max(0.0);
         }
-        material.lobes = lobes::read(extensions, place, context);
+        material.lobes = lobes::read(extensions, place, animated, context);
     }
     // The factor is at most 1, so that a finite strength leaves the product finite.
     material.emissive = item.emissive_factor.0.map(|x| unit(x) * strength);

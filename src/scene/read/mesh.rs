@@ -14,7 +14,7 @@ use crate::scene::{document::Primitive, error::Fault, material::Material};
 pub fn read_all(
     context: &mut Context<'_>,
     materials: &mut Vec<Material>,
-) -> Result<Vec<Vec<Primitive>>, Fault> {
+) -> Result<(Vec<Vec<Primitive>>, UnlitCopies), Fault> {
     let root = &context.model.root;
     let mut used = vec![false; root.meshes.len()];
     for mesh in root.nodes.iter().filter_map(|node| node.mesh) {
@@ -52,15 +52,18 @@ pub fn read_all(
         context.warnings.extend(notes);
         meshes[mesh].extend(read?);
     }
-    unlit_materials(materials, meshes.iter_mut().flatten());
-    Ok(meshes)
+    let copies = unlit_materials(materials, meshes.iter_mut().flatten());
+    Ok((meshes, copies))
 }
+
+/// Indices of materials, and of what they are copies of.
+pub type UnlitCopies = Vec<(usize, usize)>;
 
 /// Makes points and lines without normals unlit, by copies of their materials.
 pub fn unlit_materials<'p>(
     materials: &mut Vec<Material>,
     primitives: impl Iterator<Item = &'p mut Primitive>,
-) {
+) -> UnlitCopies {
     let mut copies = HashMap::new();
     for primitive in primitives.filter(|p| p.is_strokes() && p.normals.is_empty()) {
         let Some(material) = materials.get(primitive.material).filter(|m| !m.unlit) else {
@@ -75,4 +78,7 @@ pub fn unlit_materials<'p>(
             materials.len() - 1
         });
     }
+    let mut copies: UnlitCopies = copies.into_iter().map(|(of, copy)| (copy, of)).collect();
+    copies.sort_unstable();
+    copies
 }

@@ -12,6 +12,7 @@ mod basis;
 mod buffer;
 mod camera;
 mod container;
+mod described;
 #[cfg(feature = "draco")]
 mod draco;
 mod image;
@@ -27,6 +28,7 @@ mod node;
 mod obj;
 mod packed;
 mod ply;
+mod pointer;
 mod primitive;
 mod shape;
 mod skin;
@@ -35,12 +37,13 @@ mod texture;
 mod uri;
 mod vertex;
 
-use std::path::Path;
+use std::{path::Path, sync::Arc};
 
 use gltf::json::{self, Index};
 
 use accessor::Accessor;
 use buffer::Buffers;
+pub use described::{Change, Descriptions};
 use limits::Budget;
 pub use limits::MAX_ELEMENTS;
 use model::Model;
@@ -170,15 +173,16 @@ fn read_scene(context: &mut Context<'_>) -> Result<Scene, Fault> {
     let mut materials = material::read_all(context);
     let (textures, images) = texture::resolve(context, &mut materials);
     let file_materials = materials.len() - 1;
-    let meshes = mesh::read_all(context, &mut materials)?;
+    let (meshes, unlit_copies) = mesh::read_all(context, &mut materials)?;
     let skins = skin::read_all(context)?;
     skin::check_joints(&context.model.root.nodes, &meshes, &skins)?;
-    let animations = animation::read_all(context, &nodes);
+    let (animations, descriptions) = animation::read_all(context, &nodes, &materials);
     Ok(Scene {
         materials,
         textures,
         images,
         environment: None,
+        descriptions: Arc::new(descriptions),
         document: Document {
             default_scene,
             nodes,
@@ -189,6 +193,7 @@ fn read_scene(context: &mut Context<'_>) -> Result<Scene, Fault> {
             cameras,
             lights,
             file_materials,
+            unlit_copies,
             ..Document::default()
         },
     })

@@ -70,6 +70,7 @@ elements! {
 const HARD: &str = "POSITION";
 
 /// A document.
+#[derive(Clone, Debug, Default)]
 pub struct Model {
     /// Its content. Indices may be out of range, and enums [`Checked::Invalid`].
     pub root: Root,
@@ -126,6 +127,15 @@ impl Model {
             value,
             broken,
         })
+    }
+
+    /// A document of which some is left out, nothing of it broken.
+    pub fn of(root: Root, value: Value) -> Self {
+        Self {
+            root,
+            value,
+            broken: HashMap::new(),
+        }
     }
 
     /// The element at `index`, and its place; `from` is the place of the reference.
@@ -195,9 +205,14 @@ impl Model {
         Fault::new(place, reason)
     }
 
+    /// What was written at `place`.
+    pub fn at(&self, place: &str) -> Option<&Value> {
+        self.value.pointer(place)
+    }
+
     /// The text at `place`.
     pub fn text(&self, place: &str) -> Option<&str> {
-        self.value.pointer(place).and_then(Value::as_str)
+        self.at(place).and_then(Value::as_str)
     }
 
     /// The `N` numbers at `place` in double precision, which `gltf`'s types do not have.

@@ -30,12 +30,6 @@ pub fn read_nodes(context: &mut Context<'_>) -> Result<(Vec<Node>, Vec<usize>), 
         }
     }
     let order = order(&nodes, &model.root.nodes)?;
-    for &index in &order {
-        let hidden = nodes[index]
-            .parent
-            .is_some_and(|parent| !nodes[parent].visible);
-        nodes[index].visible &= !hidden;
-    }
     Ok((nodes, order))
 }
 

@@ -14,6 +14,7 @@ use crate::scene::{
     },
 };
 use glam::DVec3;
+use std::sync::Arc;
 
 /// One object of a file. Streams beside the positions are empty, or have as many entries.
 #[derive(Debug, Default)]
@@ -144,6 +145,7 @@ impl Drawing {
         root.asset.version = String::new();
         Ok(Loaded {
             scene: Scene {
+                descriptions: Arc::default(),
                 materials: self.materials,
                 textures: self.textures,
                 images: self.images,

@@ -30,7 +30,7 @@ pub(super) fn caster_scene(scene: &Scene, pose: &Pose) -> (Scene, Pose) {
             AlphaMode::Opaque | AlphaMode::Blend => opaque,
         }
     };
-    let materials: Vec<Material> = scene.materials.iter().map(material).collect();
+    let materials: Vec<Material> = pose.materials(scene).iter().map(material).collect();
     let used = |index: u32| {
         let images = materials.iter().filter_map(|m| m.base_color_texture);
         let texture = |used: TextureUse| scene.textures.get(used.texture as usize);
@@ -57,6 +57,7 @@ pub(super) fn caster_scene(scene: &Scene, pose: &Pose) -> (Scene, Pose) {
     casting.textures = scene.textures.clone();
     let pose = Pose {
         geometry,
+        materials: Vec::new(),
         lights: pose.lights.clone(),
         cameras: Vec::new(),
         warnings: Vec::new(),

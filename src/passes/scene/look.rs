@@ -1,0 +1,169 @@
+//! Materials and lights that change with the moment: what a scene keeps of them, and a frame's own copies.
+
+use super::light::GpuLight;
+use super::material::{GpuMaterial, MaterialRow};
+use super::{GpuScene, Slots};
+use crate::passes::geometry::copy;
+use crate::scene::{Moment, Motion};
+use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, Recorder, VulkanError};
+use ash::vk;
+
+/// Most bytes of an inline update.
+const MOST_INLINE: usize = 65_536;
+
+/// What changes of a scene's look.
+pub(super) struct ChangingLook {
+    /// Of each material that changes: its index, and what its row in the table has beside its numbers.
+    materials: Vec<(usize, MaterialRow)>,
+    lights: bool,
+}
+
+impl ChangingLook {
+    /// What a motion changes; `slots` and `alphas` are those of all materials.
+    pub(super) fn new(motion: &Motion, slots: &[Slots], alphas: &[[u32; 4]]) -> Self {
+        let row = |&index: &usize| {
+            let (slots, alpha) = (slots.get(index)?.clone(), *alphas.get(index)?);
+            Some((index, MaterialRow { slots, alpha }))
+        };
+        Self {
+            materials: motion.materials.iter().filter_map(row).collect(),
+            lights: motion.changes_lights,
+        }
+    }
+}
+
+/// A frame's own copies of the scene's materials and lights, where they change.
+#[derive(Default)]
+pub struct FrameLook {
+    materials: Option<BufferView>,
+    lights: Option<Buffer>,
+    /// What the next recording writes: into the buffer of materials or else of lights, from a byte on.
+    updates: Vec<Update>,
+}
+
+struct Update {
+    of_materials: bool,
+    first_byte: usize,
+    bytes: Vec<u8>,
+}
+
+impl FrameLook {
+    /// Memory for what changes; without any, the scene's own are shown.
+    ///
+    /// # Errors
+    /// If memory runs out.
+    pub fn new(memory: &Memory, scene: &GpuScene) -> Result<Self, VulkanError> {
+        let Some(changing) = &scene.changing else {
+            return Ok(Self::default());
+        };
+        let materials = |view: &BufferView| {
+            memory.texel_buffer(
+                "materials that change",
+                view.buffer.size() / 16,
+                vk::Format::R32G32B32A32_UINT,
+                vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
+                MemoryUse::Device,
+            )
+        };
+        let lights = |buffer: &Buffer| {
+            memory.storage_buffer(
+                "lights that change",
+                buffer.size(),
+                vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
+                MemoryUse::Device,
+            )
+        };
+        let has_materials = !changing.materials.is_empty();
+        Ok(Self {
+            materials: has_materials
+                .then(|| materials(&scene.materials))
+                .transpose()?,
+            lights: changing.lights.then(|| lights(&scene.lights)).transpose()?,
+            updates: Vec::new(),
+        })
+    }
+
+    /// Bytes that it takes for a scene.
+    #[must_use]
+    pub fn bytes(scene: &GpuScene) -> u64 {
+        scene.changing.as_ref().map_or(0, |changing| {
+            let materials = !changing.materials.is_empty();
+            let of = |buffer: &Buffer, changes| if changes { buffer.size() } else { 0 };
+            of(&scene.materials.buffer, materials) + of(&scene.lights, changing.lights)
+        })
+    }
+
+    /// The table of materials that the frame shows, by its binding in `shaders/include/frame.glsl`.
+    #[must_use]
+    pub fn texels(&self, scene: &GpuScene) -> (u32, vk::BufferView) {
+        (7, self.materials.as_ref().unwrap_or(&scene.materials).view)
+    }
+
+    /// The lights that it shows.
+    #[must_use]
+    pub fn lights<'a>(&'a self, scene: &'a GpuScene) -> &'a Buffer {
+        self.lights.as_ref().unwrap_or(&scene.lights)
+    }
+
+    /// Records copies of what there is at first, once.
+    pub(crate) fn record_upload(&self, recorder: &Recorder<'_>, scene: &GpuScene) {
+        if let Some(materials) = &self.materials {
+            copy(recorder, &scene.materials.buffer, &materials.buffer);
+        }
+        if let Some(lights) = &self.lights {
+            copy(recorder, &scene.lights, lights);
+        }
+        recorder.barrier();
+    }
+
+    /// Prepares what recordings write from now on.
+    pub(crate) fn show(&mut self, scene: &GpuScene, moment: &Moment) {
+        let Some(changing) = &scene.changing else {
+            return;
+        };
+        self.updates.clear();
+        let changed = changing.materials.iter().zip(&moment.materials);
+        for ((index, row), (_, material)) in changed {
+            let words = row.words(material);
+            self.updates.push(Update {
+                of_materials: true,
+                first_byte: index * scene.material_vectors as usize * 16,
+                bytes: bytemuck::cast_slice(&words).to_vec(),
+            });
+        }
+        if self.lights.is_some() {
+            let lights = moment.lights.iter();
+            let lights: Vec<_> = lights
+                .map(|light| GpuLight::new(light, scene.origin()))
+                .collect();
+            let chunks = bytemuck::cast_slice::<_, u8>(&lights).chunks(MOST_INLINE);
+            self.updates
+                .extend(chunks.enumerate().map(|(chunk, bytes)| Update {
+                    of_materials: false,
+                    first_byte: chunk * MOST_INLINE,
+                    bytes: bytes.to_vec(),
+                }));
+        }
+    }
+
+    /// Records what was prepared.
+    pub(crate) fn record(&self, recorder: &Recorder<'_>) {
+        for update in &self.updates {
+            let to = match update.of_materials {
+                true => self.materials.as_ref().map(|view| &view.buffer),
+                false => self.lights.as_ref(),
+            };
+            let Some(to) = to else { continue };
+            // SAFETY: the recorder's contract; the bytes lie within the buffer, as the moment has no more materials and lights
+            // than the scene, and are no more than an inline update can have.
+            unsafe {
+                let (device, raw) = (recorder.device(), recorder.raw());
+                device.cmd_update_buffer(raw, to.raw, update.first_byte as u64, &update.bytes);
+            }
+        }
+        recorder.barrier();
+    }
+}
+
+const _: () = assert!(size_of::<GpuMaterial>() + 32 * crate::passes::layout::SLOTS <= MOST_INLINE);
+const _: () = assert!(MOST_INLINE.is_multiple_of(size_of::<GpuLight>()));
