@@ -96,7 +96,7 @@ void main() {
     n = side * vec3(dot(cofactors, n), dot(cross(rows.z.xyz, rows.x.xyz), n), dot(cross(rows.x.xyz, rows.y.xyz), n));
     bool is_flat = (part.flags & FLAT) != 0u;
     vec3 normal = is_flat ? face_normal(v) : unit_or(n, vec3(0.0, 0.0, 1.0));
-    imageStore(normals_out, to, vec4(normal, 0.0));
+    imageStore(normals_out, to, vec4(normal, pow(abs(dot(rows.x.xyz, cofactors)), 1.0 / 3.0)));
     if ((part.flags & TANGENTS) == 0u) return;
     vec3 t = morphed(v, 2u);
     t = unit_or(vec3(dot(rows.x.xyz, t), dot(rows.y.xyz, t), dot(rows.z.xyz, t)), vec3(1.0, 0.0, 0.0));

@@ -166,7 +166,7 @@ void main() {
 
         if (TRANSMISSION) {
             float passes = transmitted(place);
-            through = s.diffuse * remaining(reflected) * passes * volume_passes(place);
+            through = s.diffuse * remaining(reflected) * passes * volume_passes(place, scale_of(k, w.at));
             s.diffuse *= 1.0 - passes;
         }
         if (DIFFUSE_TRANSMISSION) {

@@ -107,8 +107,11 @@ fn pointed(pointers: &[(&str, Vec<f32>)]) -> Builder {
 }
 
 fn quarter(builder: &Builder) -> Pose {
-    let loaded = builder.load().unwrap();
-    assert_eq!(loaded.warnings, [] as [String; 0]);
+    let warnings = builder.load().unwrap().warnings;
+    assert!(
+        !warnings.iter().any(|w| w.contains("/animations")),
+        "{warnings:?}"
+    );
     at(builder, None, 0.25)
 }
 

@@ -51,7 +51,7 @@ layout(set = 0, binding = 0) uniform Frame {
 // passes hand on is bound as both.
 layout(set = 0, binding = 1) uniform textureBuffer positions;
 layout(set = 0, binding = 2) uniform utextureBuffer triangles;   // vertex indices; material | bin << 16 | HIGH_FREQUENCY << 30 | double-sided << 31
-layout(set = 0, binding = 3) uniform textureBuffer normals;
+layout(set = 0, binding = 3) uniform textureBuffer normals;          // w: how much longer a length is than in the mesh
 layout(set = 0, binding = 4) uniform textureBuffer tangents;
 layout(set = 0, binding = 5) uniform textureBuffer uvs;
 layout(set = 0, binding = 6) uniform textureBuffer colors;

@@ -8,9 +8,9 @@ float transmitted(Place place) {
     return material_vector(place.material, MATERIAL_TRANSMISSION).x * READ(TRANSMISSION_TEXTURE, place).r;
 }
 
-// What a volume leaves of it.
-vec3 volume_passes(Place place) {
-    float thickness = material_vector(place.material, MATERIAL_TRANSMISSION).y * READ(THICKNESS_TEXTURE, place).g;
+// What a volume leaves of it, whose thickness is that of a mesh which is drawn so many times as large.
+vec3 volume_passes(Place place, float scale) {
+    float thickness = material_vector(place.material, MATERIAL_TRANSMISSION).y * READ(THICKNESS_TEXTURE, place).g * scale;
     return exp(-material_vector(place.material, MATERIAL_VOLUME).rgb * thickness);
 }
 

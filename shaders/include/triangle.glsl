@@ -105,6 +105,13 @@ vec3 normal_of(Triangle t, vec3 weights) {
     return n * weights * up.z;
 }
 
+// How much longer a length is in the world than in the mesh, between the vertices.
+float scale_of(Triangle t, vec3 weights) {
+    float scale = dot(vec3(texelFetch(normals, t.vertices.x).w, texelFetch(normals, t.vertices.y).w, texelFetch(normals, t.vertices.z).w), weights);
+    if (!INSTANCED) return scale;
+    return scale * pow(abs(dot(placing_row(t, 0).xyz, cross(placing_row(t, 1).xyz, placing_row(t, 2).xyz))), 1.0 / 3.0);
+}
+
 // What is between the vertices' unit tangents, and between the signs of their bitangents.
 vec4 tangent_of(Triangle t, vec3 weights) {
     mat3x4 w = mat3x4(texelFetch(tangents, t.vertices.x), texelFetch(tangents, t.vertices.y), texelFetch(tangents, t.vertices.z));

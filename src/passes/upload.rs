@@ -78,17 +78,6 @@ impl<'a> Uploader<'a> {
         Ok(view)
     }
 
-    /// A texel buffer of vectors of three and a fourth component.
-    pub(super) fn vectors(
-        &mut self,
-        name: &str,
-        data: &[[f32; 3]],
-        fourth: f32,
-    ) -> Result<BufferView, VulkanError> {
-        let wide: Vec<[f32; 4]> = data.iter().map(|&[x, y, z]| [x, y, z, fourth]).collect();
-        self.texels(name, vk::Format::R32G32B32A32_SFLOAT, &wide)
-    }
-
     /// A storage buffer of these bytes.
     pub(super) fn storage(&mut self, name: &str, bytes: &[u8]) -> Result<Buffer, VulkanError> {
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER

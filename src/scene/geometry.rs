@@ -71,6 +71,9 @@ pub struct VertexStreams {
     pub uvs: Vec<[f32; 4]>,
     /// COLOR_0, linear, straight alpha, default opaque white.
     pub colors: Vec<[f32; 4]>,
+    /// How much longer a length is in world space than in the mesh's: the cube root of how volumes grow. Only where a material
+    /// [has](Material::has_volume) a thickness.
+    pub scales: Vec<f32>,
 }
 
 /// Neighbouring triangles of a [`Geometry`] at one place.
@@ -95,6 +98,12 @@ impl Instance {
     #[must_use]
     pub fn mirrored(&self) -> bool {
         self.transform.matrix3.determinant() < 0.0
+    }
+
+    /// How much longer lengths are in the world than among its vertices: the cube root of how volumes grow.
+    #[must_use]
+    pub fn scale(&self) -> f64 {
+        self.transform.matrix3.determinant().abs().cbrt()
     }
 
     /// Indices of its triangles in [`Geometry::triangles`].
@@ -236,12 +245,14 @@ impl Geometry {
             normals,
             tangents,
             uvs,
+            scales,
             colors,
         } = &self.streams;
         for (stream, found) in [
             ("normals", normals.len()),
             ("tangents", tangents.len()),
             ("texture coordinates", uvs.len()),
+            ("scales", scales.len()),
             ("colours", colors.len()),
         ] {
             // Normals alone may not be left out.
@@ -472,6 +483,10 @@ impl Geometry {
                     let [x, y, z] = along.normalize_or(DVec3::X).as_vec3().to_array();
                     [x, y, z, w * sign as f32]
                 }));
+        }
+        if let Some(scales) = self.streams.scales.get(used.clone()) {
+            let scale = instance.scale() as f32;
+            streams.scales.extend(scales.iter().map(|s| s * scale));
         }
         if let Some(uvs) = self.streams.uvs.get(used.clone()) {
             streams.uvs.extend(uvs);

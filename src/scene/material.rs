@@ -157,6 +157,13 @@ impl Material {
         self.alpha_mode == AlphaMode::Blend || (self.lobes.transmission.is_some() && !self.unlit)
     }
 
+    /// Whether it has a thickness that light passes through.
+    #[must_use]
+    pub fn has_volume(&self) -> bool {
+        let lobe = self.lobes.transmission;
+        lobe.is_some_and(|lobe| lobe.thickness > 0.0 || self.animated)
+    }
+
     /// The UV set that tangents go along, where the surface needs tangents.
     #[must_use]
     pub fn tangent_uv_set(&self) -> Option<u32> {

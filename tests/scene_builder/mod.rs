@@ -105,7 +105,7 @@ impl Builder {
 
     /// A checker of black and white texels; the index of a texture.
     pub fn checker(&mut self, [width, height]: [u32; 2]) -> usize {
-        let texel = |x: u32, y: u32| image::Luma([if (x + y) % 2 == 0 { 255 } else { 0 }]);
+        let texel = |x: u32, y: u32| image::Luma([if (x + y).is_multiple_of(2) { 255 } else { 0 }]);
         let view = self.view(
             &png_of(&image::GrayImage::from_fn(width, height, texel)),
             json!({}),

@@ -187,6 +187,7 @@ impl Stage {
             streams: VertexStreams {
                 normals: self.triangles.iter().flat_map(|t| [normal(t); 3]).collect(),
                 tangents: Vec::new(),
+                scales: Vec::new(),
                 uvs: match self.texture {
                     Some(_) => each(&|t, corner| [t.uvs[corner][0], t.uvs[corner][1], 0.0, 0.0]),
                     None => Vec::new(),

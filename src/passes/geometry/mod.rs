@@ -117,6 +117,8 @@ impl GpuGeometry {
         };
         let colors = or_filled(&geometry.streams.colors, 1.0, filled);
         let uvs = or_filled(&geometry.streams.uvs, 0.0, filled);
+        let positions = geometry.positions.iter();
+        let positions: Vec<_> = positions.map(|&[x, y, z]| [x, y, z, 1.0]).collect();
         let float4 = vk::Format::R32G32B32A32_SFLOAT;
         let uint4 = vk::Format::R32G32B32A32_UINT;
         let index_count = geometry
@@ -126,9 +128,9 @@ impl GpuGeometry {
                 last.first_index + last.triangle_count
             });
         Ok(Self {
-            positions: uploader.vectors("positions", &geometry.positions, 1.0)?,
+            positions: uploader.texels("positions", float4, &positions)?,
             triangles: uploader.texels("triangles", uint4, records)?,
-            normals: uploader.vectors("normals", &geometry.streams.normals, 0.0)?,
+            normals: uploader.texels("normals", float4, &normals_and_scales(geometry))?,
             tangents: uploader.texels("tangents", float4, &geometry.streams.tangents)?,
             uvs: uploader.texels("texture coordinates", float4, &uvs)?,
             colors: uploader.texels("vertex colours", float4, &colors)?,
@@ -176,6 +178,14 @@ impl GpuGeometry {
     pub(super) fn constants(&self, constants: Constants) -> Constants {
         constants.flag(23, self.is_instanced)
     }
+}
+
+/// Normals and, as fourth numbers, scales.
+fn normals_and_scales(geometry: &Geometry) -> Vec<[f32; 4]> {
+    let streams = &geometry.streams;
+    let scales = streams.scales.iter().copied().chain(std::iter::repeat(1.0));
+    let pairs = streams.normals.iter().zip(scales);
+    pairs.map(|(&[x, y, z], scale)| [x, y, z, scale]).collect()
 }
 
 /// The place of each block.

@@ -82,6 +82,7 @@ pub fn assemble(
             tangents: stream(needed.tangents, vertices, [1.0, 0.0, 0.0, 1.0]),
             uvs: stream(needed.uvs, vertices, [0.0; 4]),
             colors: stream(needed.colors, vertices, [1.0; 4]),
+            scales: stream(needed.scales, vertices, 1.0),
         },
         triangles: vec![[0; 3]; count(|p| p.primitive.triangles.len())],
         draws: draws(&jobs),
@@ -122,6 +123,7 @@ struct Needed {
     tangents: bool,
     uvs: bool,
     colors: bool,
+    scales: bool,
 }
 
 impl Needed {
@@ -134,6 +136,7 @@ impl Needed {
             tangents: any(&|p| material(p, |m| m.tangent_uv_set().is_some())),
             uvs: any(&|p| material(p, |m| m.textures().next().is_some())),
             colors: any(&|p| !p.primitive.colors.is_empty()),
+            scales: any(&|p| material(p, Material::has_volume)),
         }
     }
 }
@@ -328,6 +331,7 @@ struct Parts<'g> {
     tangents: &'g mut [[f32; 4]],
     uvs: &'g mut [[f32; 4]],
     colors: &'g mut [[f32; 4]],
+    scales: &'g mut [f32],
     triangles: &'g mut [[u32; 3]],
 }
 
@@ -339,6 +343,7 @@ fn fill(jobs: &[Job<'_, '_>], geometry: &mut Geometry) {
         tangents: &mut streams.tangents,
         uvs: &mut streams.uvs,
         colors: &mut streams.colors,
+        scales: &mut streams.scales,
         triangles: &mut geometry.triangles,
     };
     let mut work = Vec::new();
@@ -352,6 +357,7 @@ fn fill(jobs: &[Job<'_, '_>], geometry: &mut Geometry) {
                 tangents: take(&mut rest.tangents, vertices),
                 uvs: take(&mut rest.uvs, vertices),
                 colors: take(&mut rest.colors, vertices),
+                scales: take(&mut rest.scales, vertices),
                 triangles: take(&mut rest.triangles, job.placement.primitive.triangles.len()),
             },
         ));
@@ -374,6 +380,9 @@ impl Job<'_, '_> {
         let primitive = placement.primitive;
         copy(parts.uvs, &primitive.uvs);
         copy(parts.colors, &primitive.colors);
+        for (v, scale) in parts.scales.iter_mut().enumerate() {
+            *scale = placement.frame(v).scale();
+        }
         for (to, &[a, b, c]) in parts.triangles.iter_mut().zip(&primitive.triangles) {
             // Points and lines face the camera in any case.
             let triangle = if placement.mirrored && !primitive.is_strokes() {

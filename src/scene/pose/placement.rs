@@ -56,6 +56,13 @@ impl Frame {
     }
 }
 
+impl Frame {
+    /// How much longer lengths become: the cube root of how volumes grow.
+    pub fn scale(&self) -> f32 {
+        self.affine.matrix3.determinant().abs().cbrt() as f32
+    }
+}
+
 impl<'d> Placement<'d> {
     /// All primitives of a node, as often as it draws them.
     pub fn of_node(
