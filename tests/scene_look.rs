@@ -4,8 +4,8 @@ mod scene_builder;
 
 use glam::{DMat3, DVec3};
 use gpc::scene::{
-    AlphaMode, Filter, LightKind, Lobes, Material, Sampler, Scene, SceneError, SceneProjection,
-    Wrap,
+    AlphaMode, Filter, LightKind, Lobes, Material, Pose, PoseRequest, Sampler, Scene, SceneError,
+    SceneProjection, Wrap,
 };
 use scene_builder::{Builder, png};
 use serde_json::json;
@@ -531,4 +531,113 @@ fn broken_lobes_are_left_out_with_a_warning() {
             loaded.warnings
         );
     }
+}
+
+/// A triangle lit from all around by a cube of one texel a face: red, green, blue, five times white, and twice black.
+fn lit_from_all_around(members: serde_json::Value) -> Builder {
+    let mut builder = Builder::new();
+    builder.triangle(json!({}));
+    let faces = [
+        [255, 0, 0, 255],
+        [0, 255, 0, 255],
+        [0, 0, 255, 255],
+        [255, 255, 255, 51],
+        [0, 0, 0, 255],
+        [0, 0, 0, 0],
+    ]
+    .map(|texel| builder.rgba(texel));
+    let mut coefficients = [[0.0; 3]; 9];
+    // What faces up gathers more of than what faces down.
+    coefficients[0] = [3.0, 3.0, 3.0];
+    coefficients[1] = [1.0, 1.0, 1.0];
+    let mut light = json!({
+        "irradianceCoefficients": coefficients, "specularImageSize": 1, "specularImages": [faces],
+    });
+    for (key, value) in members.as_object().unwrap() {
+        light[key] = value.clone();
+    }
+    builder.json["extensions"] = json!({"EXT_lights_image_based": {"lights": [light]}});
+    builder.json["extensionsRequired"] = json!(["EXT_lights_image_based"]);
+    let chosen = json!({"EXT_lights_image_based": {"light": 0}});
+    builder.json["scenes"] = json!([{"nodes": [0]}, {"nodes": [0], "extensions": chosen}]);
+    builder
+}
+
+/// The pose of a scene of the file.
+fn scene(builder: &Builder, scene: usize) -> Pose {
+    builder.pose_at(&PoseRequest {
+        scene: Some(scene),
+        ..PoseRequest::default()
+    })
+}
+
+#[test]
+fn image_based_lights_shine_from_all_around() {
+    let builder = lit_from_all_around(json!({}));
+    assert_eq!(builder.load().unwrap().warnings, [] as [String; 0]);
+    assert!(scene(&builder, 0).environment.is_none());
+    let light = scene(&builder, 1).environment.unwrap();
+    let near = |found: DVec3, expected: [f64; 3]| {
+        let expected = DVec3::from_array(expected);
+        assert!(found.abs_diff_eq(expected, 1e-5), "{found}, not {expected}");
+    };
+    near(light.radiance(DVec3::X), [1.0, 0.0, 0.0]);
+    near(light.radiance(DVec3::NEG_X), [0.0, 1.0, 0.0]);
+    near(light.radiance(DVec3::Y), [0.0, 0.0, 1.0]);
+    near(light.radiance(DVec3::NEG_Y), [5.0; 3]);
+    near(light.radiance(DVec3::NEG_Z), [0.0; 3]);
+    let pi = std::f64::consts::PI;
+    let [up, down] = [0.488_603, -0.488_603].map(|band| (3.0 * 0.282_095 + band) / pi);
+    near(light.irradiance_towards(DVec3::Y), [up; 3]);
+    near(light.irradiance_towards(DVec3::NEG_Y), [down; 3]);
+
+    // A quarter turn about the vertical, counter-clockwise from above, takes what is at +x to -z.
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    let turned = json!({"rotation": [0.0, half, 0.0, half], "intensity": 2.0});
+    let light = scene(&lit_from_all_around(turned), 1).environment.unwrap();
+    near(light.radiance(DVec3::NEG_Z), [2.0, 0.0, 0.0]);
+    near(light.irradiance_towards(DVec3::Y), [2.0 * up; 3]);
+}
+
+#[test]
+fn image_based_lights_that_are_broken_are_left_out() {
+    let place = "/extensions/EXT_lights_image_based/lights/0";
+    for (members, reason) in [
+        (
+            json!({"specularImageSize": 2}),
+            "/specularImages/0/0: is no image of 2 x 2 texels",
+        ),
+        (
+            json!({"specularImageSize": 3}),
+            ": a cube of 3 texels a side does not have 1 levels",
+        ),
+        (
+            json!({"specularImages": []}),
+            ": a cube of 1 texels a side does not have 0 levels",
+        ),
+        (
+            json!({"specularImages": [[0, 0, 0, 0, 0, 9]]}),
+            "/specularImages/0/5: refers to 9",
+        ),
+        (
+            json!({"rotation": [0, 0, 0, 0]}),
+            ": the rotation has no direction",
+        ),
+        (json!({"intensity": -1}), ", or the intensity is negative"),
+        (
+            json!({"irradianceCoefficients": [[1, 1, 1]]}),
+            "/irradianceCoefficients: invalid length",
+        ),
+    ] {
+        let builder = lit_from_all_around(members);
+        let warnings = builder.load().unwrap().warnings;
+        let said = |w: &String| w.contains(place) && w.contains(reason);
+        assert!(warnings.iter().any(said), "{reason}: {warnings:?}");
+        assert!(scene(&builder, 1).environment.is_none());
+    }
+    let mut builder = lit_from_all_around(json!({}));
+    builder.json["scenes"][1]["extensions"]["EXT_lights_image_based"]["light"] = json!(4);
+    let warnings = builder.load().unwrap().warnings;
+    let reason = "/scenes/1/extensions/EXT_lights_image_based/light: refers to light 4";
+    assert!(warnings.iter().any(|w| w.contains(reason)), "{warnings:?}");
 }

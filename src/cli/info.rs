@@ -103,11 +103,15 @@ fn text(info: &SceneInfo) -> String {
             "animations  {}",
             numbered(
                 animations
-                    .map(|a| format!("{} ({:.3} s)", name(&a.name), a.duration))
+                    .map(|a| format!("{} ({:.3} s: {})", name(&a.name), a.duration, a.changes.join(", ")))
                     .collect()
             )
         ),
-        format!("lights      {}", info.lights),
+        format!(
+            "lights      {}{}",
+            info.lights,
+            if info.environment { ", and light from all around" } else { "" }
+        ),
         format!("skins       {}", info.skins),
         format!("extensions  {}", list(info.extensions_used.clone())),
         format!("required    {}", list(info.extensions_required.clone())),

@@ -11,7 +11,10 @@ use gltf::json::{
     extensions::scene::khr_materials_variants::Variant,
 };
 
-use super::{light::Light, stroke::StrokePart, surface::strokes::Corner, view::SceneProjection};
+use super::{
+    environment::Environment, light::Light, stroke::StrokePart, surface::strokes::Corner,
+    view::SceneProjection,
+};
 
 /// The document of a [`Scene`](super::Scene).
 #[derive(Clone, Debug, Default)]
@@ -36,6 +39,8 @@ pub struct Document {
     pub cameras: Vec<Option<SceneProjection>>,
     /// At the origin and along -Z; `None` where a light is unusable.
     pub lights: Vec<Option<Light>>,
+    /// Of every scene, light from all around.
+    pub environments: Vec<Option<Arc<Environment>>>,
     /// How many of the scene's materials, the first ones, are the file's.
     pub file_materials: usize,
     /// Materials that are unlit copies, and what they are copies of.

@@ -2,7 +2,16 @@
 
 use serde::Serialize;
 
-use super::{AlphaMode, Scene, document, pose, view::SceneProjection};
+use std::collections::BTreeSet;
+
+use gltf::json::animation::Property;
+
+use super::{
+    AlphaMode, Scene,
+    document::{self, Animated, Channel, Described},
+    pose,
+    view::SceneProjection,
+};
 
 /// What a file holds.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -42,6 +51,8 @@ pub struct SceneInfo {
     pub images: Vec<ImageInfo>,
     /// Number of lights in the default scene.
     pub lights: usize,
+    /// Whether the default scene has light from all around.
+    pub environment: bool,
     /// Number of skins.
     pub skins: usize,
     /// Extensions that the file uses.
@@ -76,6 +87,9 @@ pub struct AnimationInfo {
     pub name: Option<String>,
     /// Time of its last keyframe in seconds.
     pub duration: f64,
+    /// What it changes: of nodes `transforms`, `weights` and `visibility`, and `materials`, `lights` and `cameras`; in
+    /// alphabetical order.
+    pub changes: Vec<&'static str>,
 }
 
 /// Number of materials of each alpha mode.
@@ -156,6 +170,7 @@ pub(super) fn summarize(scene: &Scene) -> SceneInfo {
             .map(|(animation, channels)| AnimationInfo {
                 name: animation.name.clone(),
                 duration: document::duration(channels),
+                changes: changes(channels),
             })
             .collect(),
         nodes: root.nodes.len(),
@@ -179,8 +194,23 @@ pub(super) fn summarize(scene: &Scene) -> SceneInfo {
             .filter(|&(index, _)| visible[index])
             .filter_map(|(_, node)| pose::light_of(&document.lights, node))
             .count(),
+        environment: pose::environment_of(document, None).is_some(),
         skins: root.skins.len(),
         extensions_used: root.extensions_used.clone(),
         extensions_required: root.extensions_required.clone(),
     }
+}
+
+/// What channels change, in words.
+fn changes(channels: &[Channel]) -> Vec<&'static str> {
+    let words = channels.iter().map(|channel| match channel.target {
+        Animated::Node(_, Property::MorphTargetWeights) => "weights",
+        Animated::Node(..) => "transforms",
+        Animated::Visibility(_) => "visibility",
+        Animated::Description(Described::Material(_), _) => "materials",
+        Animated::Description(Described::Light(_), _) => "lights",
+        Animated::Description(Described::Camera(_), _) => "cameras",
+    });
+    let words: BTreeSet<_> = words.collect();
+    words.into_iter().collect()
 }

@@ -25,7 +25,7 @@
 //! `KHR_materials_iridescence`, `KHR_materials_pbrSpecularGlossiness`, `KHR_materials_sheen`, `KHR_materials_specular`,
 //! `KHR_materials_transmission` and `KHR_materials_volume` (a tinted layer, neither refracted nor blurred, with a warning),
 //! `KHR_materials_unlit`, `KHR_materials_variants`, `KHR_mesh_quantization`, `KHR_node_visibility`, `KHR_texture_transform`,
-//! `EXT_mesh_gpu_instancing`, `EXT_meshopt_compression`, `EXT_texture_webp`. A file that requires
+//! `EXT_lights_image_based`, `EXT_mesh_gpu_instancing`, `EXT_meshopt_compression`, `EXT_texture_webp`. A file that requires
 //! another one is refused.
 
 mod document;
@@ -76,7 +76,7 @@ pub struct Scene {
     pub textures: Vec<Texture>,
     /// The images that textures use.
     pub images: Vec<Image>,
-    /// Light from all around, in place of the studio's.
+    /// Light from all around, in place of the file's own and the studio's.
     pub environment: Option<Arc<Environment>>,
     document: document::Document,
     /// What animations change.

@@ -4,13 +4,16 @@
 use std::sync::Arc;
 
 use glam::DVec3;
+use gpc::reference::srgb;
 use gpc::render::Headless;
 use gpc::sampling::Pattern;
 use gpc::scene::{
     AlphaMode, Anisotropy, Clearcoat, DiffuseTransmission, Environment, Iridescence, Lobes,
     Material, Sheen, Specular, SpecularGlossiness, Transmission,
 };
+use serde_json::json;
 
+use crate::scene_builder::Builder;
 use crate::stage::{Stage, camera, everywhere, flat, on_gpu};
 
 /// Odd, so that a pixel's centre is the image's.
@@ -252,5 +255,33 @@ fn a_bright_sky_is_not_cut_off() {
         let sky = sky(|_| [3e5; 3]);
         let found = seen(gpu, &white(0.4, Lobes::default()), &sky, 20.0);
         assert!((found[0] / 3e5 - 1.0).abs() < 2e-3, "{found:?}");
+    });
+}
+
+/// A file's own light that is alike all around is the one that an image makes.
+#[test]
+fn a_files_own_light_shines_as_an_image_does() {
+    on_gpu(|gpu| {
+        let mut builder = Builder::new();
+        builder.triangle(json!({}));
+        let faces = [(); 6].map(|()| builder.rgba([188, 188, 188, 64]));
+        let radiance = srgb::decode_u8(188) * 255.0 / 64.0;
+        let mut coefficients = [[0.0; 3]; 9];
+        coefficients[0] = [radiance * std::f64::consts::PI / 0.282_095; 3];
+        builder.json["extensions"] = json!({"EXT_lights_image_based": {"lights": [{
+            "irradianceCoefficients": coefficients, "specularImageSize": 1, "specularImages": [faces],
+        }]}});
+        let chosen = json!({"EXT_lights_image_based": {"light": 0}});
+        builder.json["scenes"] = json!([{"nodes": [0], "extensions": chosen}]);
+        let own = builder.pose().environment.unwrap();
+        let image = sky(|_| [radiance as f32; 3]);
+        for roughness in [0.0, 0.5, 1.0] {
+            let material = white(roughness, Lobes::default());
+            let found = seen(gpu, &material, &own, 30.0);
+            let expected = seen(gpu, &material, &image, 30.0);
+            let pairs = found.into_iter().zip(expected);
+            let off = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(off < 2e-3 * radiance, "{found:?}, not {expected:?}");
+        }
     });
 }

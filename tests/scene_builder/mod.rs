@@ -103,6 +103,14 @@ impl Builder {
         self.push("textures", json!({"source": image}))
     }
 
+    /// A 1 x 1 PNG with alpha; the index of an image.
+    pub fn rgba(&mut self, texel: [u8; 4]) -> usize {
+        let png = png_of(&image::RgbaImage::from_pixel(1, 1, image::Rgba(texel)));
+        let view = self.view(&png, json!({}));
+        let image = json!({"bufferView": view, "mimeType": "image/png"});
+        self.push("images", image)
+    }
+
     /// A checker of black and white texels; the index of a texture.
     pub fn checker(&mut self, [width, height]: [u32; 2]) -> usize {
         let texel = |x: u32, y: u32| image::Luma([if (x + y).is_multiple_of(2) { 255 } else { 0 }]);

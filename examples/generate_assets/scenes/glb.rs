@@ -44,6 +44,7 @@ impl Placement {
 pub struct Builder {
     lists: Map<String, Value>,
     lights: Vec<Value>,
+    environment: Option<Value>,
     extensions: BTreeSet<String>,
     binary: Vec<u8>,
 }
@@ -158,13 +159,64 @@ impl Builder {
         }))
     }
 
-    /// A texture from an encoded PNG; trilinear, repeating where `repeat` is set, else clamped.
-    pub fn texture(&mut self, png: &[u8], repeat: bool) -> usize {
+    /// An encoded PNG.
+    pub fn image(&mut self, png: &[u8]) -> usize {
         let view = self.view(png, None);
-        let image = self.push(
+        self.push(
             "images",
             json!({ "bufferView": view, "mimeType": "image/png" }),
+        )
+    }
+
+    /// Light from all around, as `EXT_lights_image_based` writes it.
+    pub fn environment(&mut self, light: Value) {
+        self.environment = Some(light);
+    }
+
+    /// An animation of one second: for each pointer its value at first, in the middle and at last.
+    pub fn animate(&mut self, name: &str, pointers: &[(String, [Vec<f32>; 3])]) {
+        let times = self.keyframes(&[vec![0.0], vec![0.5], vec![1.0]]);
+        let (mut channels, mut samplers) = (Vec::new(), Vec::new());
+        for (pointer, values) in pointers {
+            channels.push(json!({ "sampler": samplers.len(), "target": {
+                "path": "pointer", "extensions": { "KHR_animation_pointer": { "pointer": pointer } },
+            } }));
+            let output = self.keyframes(values);
+            samplers.push(json!({ "input": times, "output": output }));
+        }
+        self.extensions.insert("KHR_animation_pointer".to_owned());
+        self.push(
+            "animations",
+            json!({ "name": name, "channels": channels, "samplers": samplers }),
         );
+    }
+
+    /// As many numbers for each keyframe.
+    fn keyframes(&mut self, values: &[Vec<f32>; 3]) -> usize {
+        let bytes: Vec<_> = values
+            .iter()
+            .flatten()
+            .flat_map(|v| v.to_le_bytes())
+            .collect();
+        let view = self.view(&bytes, None);
+        let kind = match values[0].len() {
+            1 => "SCALAR".to_owned(),
+            n => format!("VEC{n}"),
+        };
+        let mut accessor = json!({
+            "bufferView": view, "componentType": FLOAT, "count": values.len(), "type": kind,
+        });
+        if kind == "SCALAR" {
+            let numbers = values.iter().flatten().copied();
+            accessor["min"] = json!([numbers.clone().fold(f32::MAX, f32::min)]);
+            accessor["max"] = json!([numbers.fold(f32::MIN, f32::max)]);
+        }
+        self.push("accessors", accessor)
+    }
+
+    /// A texture from an encoded PNG; trilinear, repeating where `repeat` is set, else clamped.
+    pub fn texture(&mut self, png: &[u8], repeat: bool) -> usize {
+        let image = self.image(png);
         let wrap = if repeat { 10497 } else { 33071 };
         let sampler = self.push(
             "samplers",
@@ -257,17 +309,28 @@ impl Builder {
             json!({ "version": "2.0", "generator": "gpc generate_assets", "extras": { "title": title } }),
         );
         document.insert("scene".into(), json!(0));
-        document.insert("scenes".into(), json!([{ "name": title, "nodes": roots }]));
+        let mut scene = json!({ "name": title, "nodes": roots });
+        let mut extensions = Map::new();
+        if let Some(environment) = self.environment {
+            const NAME: &str = "EXT_lights_image_based";
+            scene["extensions"] = json!({ NAME: { "light": 0 } });
+            extensions.insert(NAME.into(), json!({ "lights": [environment] }));
+            self.extensions.insert(NAME.to_owned());
+        }
+        document.insert("scenes".into(), json!([scene]));
         document.insert(
             "buffers".into(),
             json!([{ "byteLength": self.binary.len() }]),
         );
         if !self.lights.is_empty() {
             self.extensions.insert("KHR_lights_punctual".to_owned());
-            document.insert(
-                "extensions".into(),
-                json!({ "KHR_lights_punctual": { "lights": self.lights } }),
+            extensions.insert(
+                "KHR_lights_punctual".into(),
+                json!({ "lights": self.lights }),
             );
+        }
+        if !extensions.is_empty() {
+            document.insert("extensions".into(), extensions.into());
         }
         if !self.extensions.is_empty() {
             document.insert("extensionsUsed".into(), json!(self.extensions));

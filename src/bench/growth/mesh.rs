@@ -66,6 +66,7 @@ impl Mesh {
         let pose = Pose {
             geometry,
             materials: Vec::new(),
+            environment: None,
             lights: Vec::new(),
             cameras: Vec::new(),
             warnings: Vec::new(),

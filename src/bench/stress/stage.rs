@@ -209,6 +209,7 @@ impl Stage {
         let pose = Pose {
             geometry,
             materials: Vec::new(),
+            environment: None,
             lights: Vec::new(),
             cameras: Vec::new(),
             warnings: Vec::new(),

@@ -64,7 +64,7 @@ impl<'a> Film<'a> {
 
     /// What lights the scene from all around, unless it is the studio.
     pub fn environment(&self) -> Option<&Environment> {
-        self.loaded.scene.environment.as_deref()
+        self.pose.environment(&self.loaded.scene)
     }
 
     /// The views of what is shown.

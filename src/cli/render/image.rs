@@ -124,9 +124,6 @@ impl ImageArgs {
     /// Refuses what can't go together, and says in what format OUT is written.
     pub fn format(&self, output: &Path) -> anyhow::Result<Format> {
         self.check_samples()?;
-        if self.background == Background::Environment && self.appearance.environment.is_none() {
-            usage!("--background environment: there is none; name one by --environment FILE");
-        }
         if input::is_standard(output) {
             if !self.aov.is_empty() {
                 usage!("--aov writes files named after OUT, and -o - has no name");

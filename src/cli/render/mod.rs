@@ -65,6 +65,9 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
         warnings.add(&loaded.warnings);
         let film = Film::new(image, loaded, first, &steps)?;
         warnings.add(&film.pose.warnings);
+        if image.background == Background::Environment && film.environment().is_none() {
+            usage!("--background environment: there is none; name one by --environment FILE");
+        }
         let cameras = film.views(aspect)?.len();
         template.require("camera", "cameras", cameras)?;
         clock.lap("pose");

@@ -117,8 +117,8 @@ impl GpuScene {
             .collect();
         let uint4 = vk::Format::R32G32B32A32_UINT;
         let (bins, pool) = bins.allocate(layout, &textures)?;
-        let (environment, environment_upload) =
-            GpuEnvironment::new(memory, scene.environment.as_deref())?;
+        let surroundings = pose.environment(scene);
+        let (environment, environment_upload) = GpuEnvironment::new(memory, surroundings)?;
         let mut uploader = Uploader::new(memory);
         let device_geometry =
             GpuGeometry::new(&mut uploader, scene, (geometry, motion), &triangles.records)?;
@@ -140,7 +140,7 @@ impl GpuScene {
             lights: uploader.storage("lights", bytemuck::cast_slice(&lights))?,
             alpha_atlas: uploader.texels("alpha atlas", vk::Format::R32_UINT, &atlas.words)?,
             environment,
-            has_environment: scene.environment.is_some(),
+            has_environment: surroundings.is_some(),
             bins,
             first_mask: device_geometry.first_of(DrawClass::Mask),
             first_blend: device_geometry.first_of(DrawClass::Blend),

@@ -5,7 +5,7 @@ mod equirectangular;
 mod filter;
 mod harmonics;
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 
 use cube::Cube;
 use equirectangular::Equirectangular;
@@ -40,7 +40,8 @@ pub enum EnvironmentError {
 /// What surfaces see of an environment map: for each roughness what a lobe of it averages, and what a matt surface gathers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Environment {
-    image: Equirectangular,
+    /// What it was made of, where that was one image.
+    image: Option<Equirectangular>,
     /// Level `i` of `n` is filtered for the perceptual roughness `i / (n - 1)`.
     levels: Vec<Cube>,
     irradiance: [[f32; 3]; 9],
@@ -82,11 +83,27 @@ impl Environment {
         };
         let source = cube::pyramid(&image);
         Ok(Self {
-            image,
+            image: Some(image),
             irradiance: harmonics::irradiance(&source),
             levels: filter::levels(&source),
             rotation: DMat3::IDENTITY,
         })
+    }
+
+    /// Levels that are filtered already, each half as large as the one before: texels along the side of a face, and the colours
+    /// of its faces in Vulkan's order, row by row. The irradiance is over pi; `rotation` leads from the map to the world.
+    pub(super) fn from_levels(
+        levels: Vec<(u32, Vec<[f32; 3]>)>,
+        irradiance: [[f32; 3]; 9],
+        rotation: DQuat,
+    ) -> Self {
+        let cube = |(side, texels)| Cube { side, texels };
+        Self {
+            image: None,
+            levels: levels.into_iter().map(cube).collect(),
+            irradiance,
+            rotation: DMat3::from_quat(rotation.inverse()),
+        }
     }
 
     /// The same turned about the vertical axis, by `angle` in radians, counter-clockwise seen from above.
@@ -117,7 +134,12 @@ impl Environment {
     /// Radiance of the world direction `towards`.
     #[must_use]
     pub fn radiance(&self, towards: DVec3) -> DVec3 {
-        self.image.towards(self.rotation * towards.normalize())
+        let towards = self.rotation * towards.normalize();
+        match (&self.image, self.levels.first()) {
+            (Some(image), _) => image.towards(towards),
+            (None, Some(finest)) => finest.sample(towards).as_dvec3(),
+            (None, None) => DVec3::ZERO,
+        }
     }
 
     /// What a matt white surface facing the world direction `normal` reflects.

@@ -7,7 +7,7 @@ mod looks;
 mod motion;
 mod placement;
 
-use std::borrow::Cow;
+use std::{borrow::Cow, sync::Arc};
 
 use glam::{DAffine3, DMat3, DVec3};
 use gltf::json::{Index, Node};
@@ -15,6 +15,7 @@ use gltf::json::{Index, Node};
 use super::{
     Scene, SceneError,
     document::{Document, Primitive},
+    environment::Environment,
     error::{Fault, Warnings},
     geometry::Geometry,
     light::Light,
@@ -48,6 +49,8 @@ pub struct Pose {
     pub materials: Vec<(usize, Material)>,
     /// The lights, in the order of a depth-first walk; empty where the file has none.
     pub lights: Vec<Light>,
+    /// The file's own light from all around.
+    pub environment: Option<Arc<Environment>>,
     /// The cameras, in the order of a depth-first walk.
     pub cameras: Vec<SceneCamera>,
     /// What could not be posed, and why.
@@ -68,6 +71,13 @@ impl Pose {
             }
         }
         Cow::Owned(materials)
+    }
+
+    /// What lights it from all around unless the studio does: its scene's [environment](Scene::environment), or else the file's.
+    #[must_use]
+    pub fn environment<'s>(&'s self, scene: &'s Scene) -> Option<&'s Environment> {
+        let own = self.environment.as_deref();
+        scene.environment.as_deref().or(own)
     }
 }
 
@@ -122,10 +132,20 @@ fn posed(
         geometry,
         materials: shown.materials,
         lights: shown.lights,
+        environment: environment_of(document, request.scene),
         cameras: shown.cameras,
         warnings: warnings.into_vec(),
     };
     Ok((pose, placements))
+}
+
+/// The file's light from all around, of a scene or else the default one.
+pub(super) fn environment_of(
+    document: &Document,
+    scene: Option<usize>,
+) -> Option<Arc<Environment>> {
+    let scene = scene.or(document.default_scene)?;
+    document.environments.get(scene)?.clone()
 }
 
 /// What a scene shows at a moment.

@@ -10,7 +10,8 @@ use crate::scene::{
 };
 
 /// The extensions that are implemented, some by an optional feature.
-const SUPPORTED: [(&str, bool); 24] = [
+const SUPPORTED: [(&str, bool); 25] = [
+    ("EXT_lights_image_based", true),
     ("EXT_mesh_gpu_instancing", true),
     ("EXT_meshopt_compression", true),
     ("EXT_texture_webp", true),
@@ -57,8 +58,7 @@ const APPROXIMATED: [(&str, &str); 3] = [
 
 /// Extensions without which a file looks different; others that are not supported are metadata, or
 /// have a fallback that looks the same.
-const VISIBLE: [&str; 4] = [
-    "EXT_lights_image_based",
+const VISIBLE: [&str; 3] = [
     "KHR_materials_dispersion",
     "KHR_materials_subsurface",
     "KHR_materials_volume_scatter",

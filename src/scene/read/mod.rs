@@ -16,6 +16,7 @@ mod described;
 #[cfg(feature = "draco")]
 mod draco;
 mod image;
+mod image_based;
 mod instance;
 mod light;
 mod limits;
@@ -173,6 +174,7 @@ fn read_scene(context: &mut Context<'_>) -> Result<Scene, Fault> {
     let mut materials = material::read_all(context);
     let (textures, images) = texture::resolve(context, &mut materials);
     let file_materials = materials.len() - 1;
+    let environments = image_based::read_all(context);
     let (meshes, unlit_copies) = mesh::read_all(context, &mut materials)?;
     let skins = skin::read_all(context)?;
     skin::check_joints(&context.model.root.nodes, &meshes, &skins)?;
@@ -192,6 +194,7 @@ fn read_scene(context: &mut Context<'_>) -> Result<Scene, Fault> {
             animations,
             cameras,
             lights,
+            environments,
             file_materials,
             unlit_copies,
             ..Document::default()

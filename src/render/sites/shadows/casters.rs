@@ -59,6 +59,7 @@ pub(super) fn caster_scene(scene: &Scene, pose: &Pose) -> (Scene, Pose) {
         geometry,
         materials: Vec::new(),
         lights: pose.lights.clone(),
+        environment: None,
         cameras: Vec::new(),
         warnings: Vec::new(),
     };
