@@ -269,3 +269,45 @@ fn lines_and_points_of_obj_are_no_faces() {
     assert_eq!((low, high), (DVec3::ZERO, DVec3::new(1.0, 1.0, 0.0)));
     refused(b"v 0 0 0\nl 1 2\n", "face vertex index out of bounds");
 }
+
+#[test]
+fn strips_of_ply_keep_their_sides() {
+    let strips = "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n\
+        property uchar diffuse_red\nproperty uchar diffuse_green\nproperty uchar diffuse_blue\n\
+        element tristrips 1\nproperty list int int vertex_indices\nend_header\n\
+        0 0 0 255 0 0\n1 0 0 255 0 0\n0 1 0 255 0 0\n1 1 0 255 0 0\n0 2 0 255 0 0\n9 0 1 2 3 4 -1 0 1 3\n";
+    let (loaded, pose) = pose(strips.as_bytes());
+    assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
+    assert_eq!(pose.geometry.triangles.len(), 4);
+    for triangle in &pose.geometry.triangles {
+        let [a, b, c] =
+            triangle.map(|v| DVec3::from_array(pose.geometry.positions[v as usize].map(f64::from)));
+        assert!((b - a).cross(c - a).z > 0.0);
+    }
+    assert_eq!(pose.geometry.streams.colors[0], [1.0, 0.0, 0.0, 1.0]);
+}
+
+/// What programs write: colours of vertices, names and indices of all kinds, polygons, lines that go on, other line ends.
+#[test]
+fn obj_as_programs_write_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let mtl = "newmtl red paint\r\nKd 1 0 0\r\nmap_Kd -clamp on -s 2 3 1 -o 0.5 0.25 a b.png\r\n";
+    std::fs::write(folder.path().join("my scene.mtl"), mtl).unwrap();
+    let image = image::RgbaImage::from_pixel(2, 2, image::Rgba([1, 2, 3, 255]));
+    image.save(folder.path().join("a b.png")).unwrap();
+    let obj = "# Munchen\r\nmtllib my scene.mtl\r\no first one\r\n\
+        v\t0 0 0 1 0 0\r\nv 1 0 0 0 1 0\r\nv  1 1 0 0 0 1 \r\nv 0.5 1.5 0 1 1 1\r\nv 0 1e0 0 1 1 1\r\n\
+        vt 0 0\r\nvt 1 0 0\r\nvt 1 1\r\nusemtl red paint\r\ns off\r\n\
+        f -5/1 -4/2 -3/3 -2/3 \\\r\n  -1/3\r\nf 1//  2// 3//\r\n";
+    // Not UTF-8, as comments of old programs are not.
+    let mut obj = obj.as_bytes().to_vec();
+    obj[3] = 0xFC;
+    let loaded = load(&obj, Some(folder.path())).unwrap();
+    assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
+    let pose = loaded.scene.pose(&PoseRequest::default()).unwrap();
+    assert_eq!(pose.geometry.triangles.len(), 4);
+    let used = loaded.scene.materials[0].base_color_texture.unwrap();
+    // Of v from the top, 1 - (3 (1 - v) + 0.25).
+    assert_eq!(used.transform.0, [[2.0, 0.0, 0.5], [0.0, 3.0, -2.25]]);
+    assert_eq!(pose.geometry.streams.colors[0], [1.0, 0.0, 0.0, 1.0]);
+}

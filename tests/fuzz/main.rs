@@ -19,22 +19,37 @@ use std::{
     time::{Duration, Instant},
 };
 
-use gpc::scene::{PoseRequest, Scene};
+use gpc::output::decode_linear;
+use gpc::scene::{Edges, Environment, PoseRequest, Scene};
 use mutate::Mutator;
 
 /// Longest that a file of these sizes may take.
 const SLOWEST: Duration = Duration::from_secs(20);
 
-/// Loads and poses a file; whether it is drawable.
-pub fn exercise(bytes: &[u8], base: Option<&Path>) -> bool {
+/// Loads a file, adds edges and poses it, at a moment and in motion; whether it is drawable. A sky is one if it lights a scene.
+pub fn exercise(name: &str, bytes: &[u8], base: Option<&Path>) -> bool {
+    if name.starts_with("sky") {
+        let decoded = decode_linear(bytes, "fuzz");
+        return decoded.is_ok_and(|([width, height], pixels)| {
+            let colors: Vec<_> = pixels.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect();
+            // Filtering depends on the size alone, and takes long.
+            colors.len() > 1 << 10
+                || Environment::from_equirectangular(width, height, &colors).is_ok()
+        });
+    }
     let Ok(loaded) = Scene::from_slice(bytes, "fuzz", base) else {
         return false;
     };
+    let mut scene = loaded.scene;
+    scene.add_edges(&Edges::default());
     let request = PoseRequest {
         time: 0.5,
         ..PoseRequest::default()
     };
-    loaded.scene.pose(&request).is_ok()
+    match scene.pose_in_motion(&request) {
+        Ok((_, motion)) => motion.at(&scene, 0.25).is_ok(),
+        Err(_) => false,
+    }
 }
 
 /// A file, and the folder that its URIs start from.
@@ -67,7 +82,7 @@ fn mutated_files_end_in_a_scene_or_an_error() {
                 std::fs::write(path, mutator.mutate(beside, &seeds)).unwrap();
             }
             let before = Instant::now();
-            let result = catch_unwind(|| exercise(&bytes, seed.base.as_deref()));
+            let result = catch_unwind(|| exercise(&seed.name, &bytes, seed.base.as_deref()));
             let took = before.elapsed();
             if result.is_err() || took > SLOWEST {
                 let path = std::env::temp_dir().join(format!("fuzz-{executions}-{}", seed.name));

@@ -1,7 +1,11 @@
 //! The files that mutations start from: one of each format and extension.
 
-use std::path::{Path, PathBuf};
+use std::{
+    io::Cursor,
+    path::{Path, PathBuf},
+};
 
+use image::{ImageFormat, Rgb, Rgb32FImage};
 use serde_json::json;
 
 use super::{
@@ -39,7 +43,10 @@ pub fn all(folder: &Path) -> Vec<Seed> {
         made("text.stl", STL.into()),
         made("binary.stl", binary_stl()),
         made("text.ply", ascii_ply()),
-        made("binary.ply", binary_ply()),
+        made("binary.ply", binary_ply(false)),
+        made("swapped.ply", binary_ply(true)),
+        made("sky.hdr", sky(ImageFormat::Hdr)),
+        made("sky.exr", sky(ImageFormat::OpenExr)),
         made("edges.ply", EDGES.into()),
     ];
     for name in [
@@ -100,7 +107,13 @@ fn rich() -> Builder {
         "materials",
         json!({
             "normalTexture": {"index": texture}, "alphaMode": "MASK",
-            "extensions": {"KHR_materials_pbrSpecularGlossiness": {"glossinessFactor": 0.5}},
+            "extensions": {
+                "KHR_materials_pbrSpecularGlossiness": {"glossinessFactor": 0.5},
+                "KHR_materials_clearcoat": {"clearcoatFactor": 1, "clearcoatTexture": {"index": texture}},
+                "KHR_materials_ior": {"ior": 1.2},
+                "KHR_materials_transmission": {"transmissionFactor": 1},
+                "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 2},
+            },
         }),
     );
     let node = builder.node_with(
@@ -143,7 +156,27 @@ fn rich() -> Builder {
                            "KHR_node_visibility": {"visible": true}},
         }),
     );
-    builder.push("scenes", json!({"nodes": [0, 1]}));
+    let faces = [(); 6].map(|()| builder.rgba([9, 8, 7, 6]));
+    builder.json["extensions"]["EXT_lights_image_based"] = json!({"lights": [{
+        "irradianceCoefficients": vec![[1, 1, 1]; 9], "specularImageSize": 1, "specularImages": [faces],
+    }]});
+    builder.push(
+        "scenes",
+        json!({"nodes": [0, 1], "extensions": {"EXT_lights_image_based": {"light": 0}}}),
+    );
+    builder.pointers(&[
+        ("/materials/0/normalTexture/scale", vec![1.0, 2.0]),
+        (
+            "/materials/0/extensions/KHR_materials_volume/attenuationDistance",
+            vec![1.0, 0.0],
+        ),
+        (
+            "/extensions/KHR_lights_punctual/lights/0/spot/outerConeAngle",
+            vec![0.2, 1.0],
+        ),
+        ("/cameras/0/perspective/yfov", vec![0.5, 1.0]),
+        ("/meshes/0/weights", vec![0.0, 1.0]),
+    ]);
     let (input, output) = (builder.floats(&[[0.], [1.]]), builder.floats(&[[0.; 3]; 2]));
     builder.push(
         "animations",
@@ -172,15 +205,28 @@ fn ascii_ply() -> Vec<u8> {
     format!("ply\nformat ascii 1.0\n{PLY}{rows}").into_bytes()
 }
 
-fn binary_ply() -> Vec<u8> {
-    let mut bytes = format!("ply\nformat binary_little_endian 1.0\n{PLY}").into_bytes();
+fn binary_ply(swapped: bool) -> Vec<u8> {
+    let order = if swapped { "big" } else { "little" };
+    let mut bytes = format!("ply\nformat binary_{order}_endian 1.0\n{PLY}").into_bytes();
+    let mut push = |number: &[u8]| match swapped {
+        true => bytes.extend(number.iter().rev()),
+        false => bytes.extend(number),
+    };
     for [x, y, z] in TRIANGLE {
-        bytes.extend(x.to_le_bytes());
-        bytes.extend(f64::from(y).to_le_bytes());
-        bytes.extend((z as i16).to_le_bytes());
-        bytes.extend([255, 0, 188]);
+        push(&x.to_le_bytes());
+        push(&f64::from(y).to_le_bytes());
+        push(&(z as i16).to_le_bytes());
+        [255, 0, 188].iter().for_each(|color| push(&[*color]));
     }
-    bytes.push(3);
-    bytes.extend([0_i32, 1, 2].iter().flat_map(|i| i.to_le_bytes()));
+    push(&[3]);
+    [0_i32, 1, 2].iter().for_each(|i| push(&i.to_le_bytes()));
     bytes
+}
+
+/// An equirectangular image.
+fn sky(format: ImageFormat) -> Vec<u8> {
+    let sky = Rgb32FImage::from_fn(8, 4, |x, y| Rgb([x as f32, 0.5, 2.0 * y as f32]));
+    let mut bytes = Cursor::new(Vec::new());
+    sky.write_to(&mut bytes, format).unwrap();
+    bytes.into_inner()
 }

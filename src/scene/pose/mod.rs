@@ -49,7 +49,7 @@ pub struct Pose {
     pub materials: Vec<(usize, Material)>,
     /// The lights, in the order of a depth-first walk; empty where the file has none.
     pub lights: Vec<Light>,
-    /// The file's own light from all around.
+    /// The file's own light from all around (`EXT_lights_image_based`), the faces of whose cube are as Vulkan has them.
     pub environment: Option<Arc<Environment>>,
     /// The cameras, in the order of a depth-first walk.
     pub cameras: Vec<SceneCamera>,

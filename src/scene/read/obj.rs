@@ -57,7 +57,7 @@ pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, Sce
         let fetched = uri::fetch(&name, base, MAX_FILE);
         let fetched = fetched.map_err(|reason| (reason, LoadError::OpenFileFailed));
         let parsed = fetched.and_then(|bytes| {
-            tobj::load_mtl_buf(&mut complete_colours(&bytes).as_slice())
+            tobj::load_mtl_buf(&mut complete_colours(&plain_text(&bytes)).as_slice())
                 .map_err(|error| (format!("the MTL file is broken: {error}"), error))
         });
         parsed.map_err(|(reason, error)| {
@@ -80,7 +80,8 @@ pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, Sce
                     Fault::new("statements", reason).into_error(file)
                 })
         };
-    let (faces, strokes) = split(bytes);
+    let text = plain_text(bytes);
+    let (faces, strokes) = split(&text);
     let (models, materials) = parse(&faces, &options, &load_mtl)?;
     let mut warnings = Warnings::new(file);
     warnings.extend(faults.take());
@@ -136,6 +137,14 @@ pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, Sce
         });
     }
     drawing.into_scene("OBJ", file, warnings)
+}
+
+/// Text as the parser takes it: of Unicode, where other bytes are none of a number, and each statement in a line of its own.
+fn plain_text(bytes: &[u8]) -> Vec<u8> {
+    let text = String::from_utf8_lossy(bytes);
+    text.replace("\\\r\n", " ")
+        .replace("\\\n", " ")
+        .into_bytes()
 }
 
 /// An OBJ file's text without lines and points; and the same without faces, where it has any: the parser takes a line of
@@ -214,6 +223,55 @@ fn opaque(colors: &[f32]) -> Vec<[f32; 4]> {
     colors.iter().map(opaque).collect()
 }
 
+/// The file that a map names, and where its options place it: `-s` multiplies coordinates and `-o` adds to them. Others say
+/// nothing of a base colour that is drawn.
+fn placed(map: &str) -> (&str, TextureTransform) {
+    let (mut scale, mut offset) = ([1.0; 2], [0.0; 2]);
+    let mut rest = map.trim();
+    let next = |text: &'_ str| -> Option<(String, usize)> {
+        let word = text.split_ascii_whitespace().next()?;
+        let start = text.find(word)?;
+        Some((word.to_owned(), start + word.len()))
+    };
+    while rest.trim_start().starts_with('-') {
+        let Some((option, end)) = next(rest) else {
+            break;
+        };
+        rest = &rest[end..];
+        let (most, are_numbers) = match option.as_str() {
+            "-o" | "-s" | "-t" => (3, true),
+            "-mm" => (2, true),
+            _ => (1, false),
+        };
+        let mut numbers = Vec::new();
+        for _ in 0..most {
+            let Some((word, end)) = next(rest) else {
+                break;
+            };
+            match word.parse::<f32>() {
+                Ok(number) => numbers.push(number),
+                Err(_) if are_numbers => break,
+                Err(_) => {}
+            }
+            rest = &rest[end..];
+        }
+        let place = match option.as_str() {
+            "-s" => &mut scale,
+            "-o" => &mut offset,
+            _ => continue,
+        };
+        place.iter_mut().zip(numbers).for_each(|(to, x)| *to = x);
+    }
+    // The format's v points up.
+    let rows = [
+        [scale[0], 0.0, offset[0]],
+        [0.0, scale[1], 1.0 - scale[1] - offset[1]],
+    ];
+    let is_finite = rows.as_flattened().iter().all(|x| x.is_finite());
+    let transform = is_finite.then_some(TextureTransform(rows));
+    (rest.trim(), transform.unwrap_or_default())
+}
+
 fn read_material(
     item: &tobj::Material,
     base: Option<&Path>,
@@ -239,6 +297,7 @@ fn read_material(
         material.alpha_mode = AlphaMode::Blend;
     }
     if let Some(name) = &item.diffuse_texture {
+        let (name, transform) = placed(name);
         // Programs of Windows write its separators.
         let uri = name.replace('\\', "/");
         let image =
@@ -248,7 +307,7 @@ fn read_material(
                 material.base_color_texture = Some(TextureUse {
                     texture: textures.len() as u32,
                     uv_set: 0,
-                    transform: TextureTransform::default(),
+                    transform,
                 });
                 textures.push(Texture {
                     image,

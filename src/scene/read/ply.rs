@@ -1,4 +1,4 @@
-//! PLY: polygons and edges, or else points, with normals and colours of vertices.
+//! PLY: polygons, strips of triangles and edges, or else points, with normals and colours of vertices.
 
 use std::io::Cursor;
 
@@ -40,7 +40,8 @@ fn decode(bytes: &[u8], warnings: &mut Warnings) -> Result<Drawing, Fault> {
     let header = Parser::<Vertex>::new()
         .read_header(&mut reader)
         .map_err(broken)?;
-    let (mut vertices, mut faces, mut edges) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut vertices, mut edges) = (Vec::new(), Vec::new());
+    let (mut faces, mut strips) = (Vec::new(), Vec::new());
     for (name, element) in &header.elements {
         check(element, bytes.len())?;
         match name.as_str() {
@@ -48,11 +49,15 @@ fn decode(bytes: &[u8], warnings: &mut Warnings) -> Result<Drawing, Fault> {
                 vertices = elements::<Vertex>(&mut reader, element, &header).map_err(broken)?
             }
             "face" => faces = elements::<Face>(&mut reader, element, &header).map_err(broken)?,
+            "tristrips" => {
+                strips = elements::<Strip>(&mut reader, element, &header).map_err(broken)?
+            }
             "edge" => edges = elements::<Edge>(&mut reader, element, &header).map_err(broken)?,
             _ => drop(elements::<Skipped>(&mut reader, element, &header).map_err(broken)?),
         }
     }
-    Ok(draw(&vertices, (faces, &edges), &header, warnings))
+    let triangles = triangles(&faces, &strips, warnings);
+    Ok(draw(&vertices, triangles, &edges, &header))
 }
 
 /// Fails for an element that claims more than the file has, each of which takes a byte at least.
@@ -82,22 +87,8 @@ fn elements<E: PropertyAccess>(
     Parser::<E>::new().read_payload_for_element(reader, element, header)
 }
 
-fn draw(
-    vertices: &[Vertex],
-    (faces, edges): (Vec<Face>, &[Edge]),
-    header: &Header,
-    warnings: &mut Warnings,
-) -> Drawing {
-    let has = |names: &[&str]| {
-        let element = header.elements.get("vertex");
-        let has = |name: &&str| element.is_some_and(|e| e.properties.contains_key(*name));
-        names.iter().all(has)
-    };
-    let finite = |v: &&Vertex| v.position.is_finite();
-    let origin = vertices
-        .iter()
-        .find(finite)
-        .map_or(DVec3::ZERO, |v| v.position);
+/// Polygons as fans, and strips, where every other triangle has two vertices exchanged.
+fn triangles(faces: &[Face], strips: &[Strip], warnings: &mut Warnings) -> Vec<[u32; 3]> {
     let (mut triangles, mut short) = (Vec::new(), 0);
     for Face { indices } in faces {
         match indices.as_slice() {
@@ -112,11 +103,34 @@ fn draw(
             format!("{short} faces have a negative index or fewer than 3 and are left out");
         warnings.push(&Fault::new("element face", reason));
     }
+    let strips = strips.iter().flat_map(|strip| &strip.parts);
+    triangles.extend(strips.flat_map(|strip| {
+        let corners = strip.as_slice().windows(3).enumerate();
+        corners.map(|(i, c)| match i % 2 {
+            0 => [c[0], c[1], c[2]],
+            _ => [c[1], c[0], c[2]],
+        })
+    }));
+    triangles
+}
+
+fn draw(vertices: &[Vertex], triangles: Vec<[u32; 3]>, edges: &[Edge], header: &Header) -> Drawing {
+    let has = |names: &[&str]| {
+        let element = header.elements.get("vertex");
+        let has = |name: &&str| element.is_some_and(|e| e.properties.contains_key(*name));
+        names.iter().all(has)
+    };
+    let finite = |v: &&Vertex| v.position.is_finite();
+    let origin = vertices
+        .iter()
+        .find(finite)
+        .map_or(DVec3::ZERO, |v| v.position);
     // Vertices that nothing connects are points.
     let is_cloud = triangles.is_empty() && edges.is_empty();
     let points = if is_cloud { vertices.len() as u32 } else { 0 };
     let stream = |present: bool| if present { vertices } else { &[] }.iter();
-    let colored = has(&["red", "green", "blue"]);
+    let colored =
+        has(&["red", "green", "blue"]) || has(&["diffuse_red", "diffuse_green", "diffuse_blue"]);
     let mut material = plain();
     if colored {
         material.base_color = [1.0; 4];
@@ -168,9 +182,9 @@ impl PropertyAccess for Vertex {
             "nx" => self.normal[0] = value as f32,
             "ny" => self.normal[1] = value as f32,
             "nz" => self.normal[2] = value as f32,
-            "red" => self.color[0] = linear(value / most),
-            "green" => self.color[1] = linear(value / most),
-            "blue" => self.color[2] = linear(value / most),
+            "red" | "diffuse_red" => self.color[0] = linear(value / most),
+            "green" | "diffuse_green" => self.color[1] = linear(value / most),
+            "blue" | "diffuse_blue" => self.color[2] = linear(value / most),
             _ => return PropertyAccessResult::Ignored,
         }
         PropertyAccessResult::Set
@@ -204,12 +218,39 @@ impl PropertyAccess for Face {
     }
 
     fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
-        if !matches!(name, "vertex_indices" | "vertex_index") {
+        if !is_indices(name) {
             return PropertyAccessResult::Ignored;
         }
         self.indices = property.to_u32_list().unwrap_or_default();
         PropertyAccessResult::Set
     }
+}
+
+/// Strips of triangles in one list, each of which a negative index ends.
+#[derive(Default)]
+struct Strip {
+    parts: Vec<Vec<u32>>,
+}
+
+impl PropertyAccess for Strip {
+    fn new() -> Self {
+        Self::default()
+    }
+
+    fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
+        let (true, Property::ListInt(indices)) = (is_indices(name), property) else {
+            return PropertyAccessResult::Ignored;
+        };
+        let parts = indices.split(|index| *index < 0);
+        let whole = |part: &[i32]| part.iter().map(|index| *index as u32).collect();
+        self.parts = parts.map(whole).collect();
+        PropertyAccessResult::Set
+    }
+}
+
+/// Whether a list is of indices of vertices.
+fn is_indices(name: &str) -> bool {
+    matches!(name, "vertex_indices" | "vertex_index")
 }
 
 /// A line; an index that is no whole number of 32 bits is none of a vertex.
