@@ -45,8 +45,8 @@ pub fn all(folder: &Path) -> Vec<Seed> {
         made("text.ply", ascii_ply()),
         made("binary.ply", binary_ply(false)),
         made("swapped.ply", binary_ply(true)),
-        made("sky.hdr", sky(ImageFormat::Hdr)),
-        made("sky.exr", sky(ImageFormat::OpenExr)),
+        made("sky.hdr", hdr()),
+        made("sky.exr", exr(folder)),
         made("edges.ply", EDGES.into()),
     ];
     for name in [
@@ -223,10 +223,18 @@ fn binary_ply(swapped: bool) -> Vec<u8> {
     bytes
 }
 
-/// An equirectangular image.
-fn sky(format: ImageFormat) -> Vec<u8> {
+/// An equirectangular image of 8 x 4 texels.
+fn hdr() -> Vec<u8> {
     let sky = Rgb32FImage::from_fn(8, 4, |x, y| Rgb([x as f32, 0.5, 2.0 * y as f32]));
     let mut bytes = Cursor::new(Vec::new());
-    sky.write_to(&mut bytes, format).unwrap();
+    sky.write_to(&mut bytes, ImageFormat::Hdr).unwrap();
     bytes.into_inner()
+}
+
+/// The same in another format.
+fn exr(folder: &Path) -> Vec<u8> {
+    let path = folder.join("sky.exr");
+    let texel = |x: usize, y: usize| (x as f32, 0.5_f32, 2.0 * y as f32);
+    exr::prelude::write_rgb_file(&path, 8, 4, texel).unwrap();
+    std::fs::read(path).unwrap()
 }
