@@ -72,7 +72,7 @@ fn draco_that_cannot_be_decoded_gives_way_to_uncompressed_data() {
     assert_eq!(builder.pose().geometry.triangles.len(), 1);
 }
 
-/// The bytes of a KTX2 file with one block of UASTC.
+/// The bytes of a KTX2 file of one block in the UASTC format, which claims to be compressed by Zstandard.
 fn ktx2(width: u32, height: u32, faces: u32, claimed: u64) -> Vec<u8> {
     let mut bytes = b"\xABKTX 20\xBB\r\n\x1A\n".to_vec();
     // No Vulkan format, bytes, size, neither depth nor layers, one level, Zstandard.
@@ -83,7 +83,7 @@ fn ktx2(width: u32, height: u32, faces: u32, claimed: u64) -> Vec<u8> {
     bytes.extend(words.iter().flat_map(|word| word.to_le_bytes()));
     let level = [148_u64, 16, claimed];
     bytes.extend(level.iter().flat_map(|word| word.to_le_bytes()));
-    // UASTC in sRGB, blocks of 4 x 4.
+    // The descriptor: colour model UASTC, primaries of BT.709, transfer function of sRGB, blocks of 4 x 4 texels.
     let words = [
         44_u32,
         0,
@@ -198,7 +198,7 @@ fn etc1s_and_uastc_have_their_colours() {
 /// Mipmaps that a file has down to a single texel are kept; too few of them are not.
 #[test]
 fn ktx2_keeps_its_levels() {
-    // A block of UASTC in one colour: its mode, and eight bits of each channel.
+    // A UASTC block of mode 8, which holds one colour: five bits of the mode, then eight for each channel.
     let block = |[r, g, b]: [u8; 3]| {
         let channels = [r, g, b, 255].map(u128::from);
         let shifted = channels.iter().zip([5, 13, 21, 29]);

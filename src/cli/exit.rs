@@ -76,7 +76,7 @@ fn of_scene(error: &SceneError) -> u8 {
     }
 }
 
-/// An error and its causes, but for those that the error quotes itself.
+/// An error and its causes, but for those that the error quotes itself, and the option that it is about.
 pub fn message(error: &anyhow::Error) -> String {
     let mut message = error.to_string();
     for cause in error.chain().skip(1).map(ToString::to_string) {
@@ -84,7 +84,21 @@ pub fn message(error: &anyhow::Error) -> String {
             message = format!("{message}: {cause}");
         }
     }
+    if error.chain().any(is_of_memory) {
+        message += "; --max-memory BYTES is the bound";
+    }
     message
+}
+
+/// Whether a bound on device memory has to do with an error.
+fn is_of_memory(cause: &(dyn std::error::Error + 'static)) -> bool {
+    let is_full = |error: &VulkanError| matches!(error, VulkanError::OutOfMemory { .. });
+    match cause.downcast_ref::<RenderError>() {
+        Some(RenderError::Memory { .. } | RenderError::Unfinished { .. }) => true,
+        Some(RenderError::Vulkan(error)) => is_full(error),
+        Some(_) => false,
+        None => cause.downcast_ref::<VulkanError>().is_some_and(is_full),
+    }
 }
 
 /// Whether whoever read our standard output has had enough, as `head` does.

@@ -108,7 +108,7 @@ pub enum RenderError {
     },
     /// Not even the smallest part of the image fits.
     #[error(
-        "{needed} bytes of device memory are needed at the least, and --max-memory allows {allowed}"
+        "{needed} bytes of device memory are needed at the least, and the bound on it allows {allowed}"
     )]
     Memory {
         /// The least that will do.
@@ -119,7 +119,7 @@ pub enum RenderError {
     /// Lists of records outgrew their memory in every round, or lists of triangles what a kernel can walk: one pixel
     /// shows tens of thousands of them.
     #[error(
-        "{cells} superpixels have more records than fit in memory, even in parts, or more triangles in them than can be listed; ask for a larger image or fewer samples, or give more memory with --max-memory"
+        "{cells} superpixels have more records than fit in memory, even in parts, or more triangles in them than can be listed; ask for a larger image or fewer samples, or allow more memory"
     )]
     Unfinished {
         /// How many superpixels or tiles are left.

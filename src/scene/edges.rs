@@ -160,6 +160,8 @@ impl<'p> Surface<'p> {
             .collect();
         sides.par_sort_unstable_by_key(|side| (side.key(), side.face));
         let smallest_cosine = crease.to_radians().cos();
+        let deforms = |p: &&Primitive| !p.targets.is_empty() || !p.influences.is_empty();
+        let deforms = self.primitives.iter().any(deforms);
         let mut strokes = Strokes::default();
         for group in sides.chunk_by(|a, b| a.key() == b.key()) {
             let [first, rest @ ..] = group else {
@@ -168,6 +170,14 @@ impl<'p> Surface<'p> {
             let is_double_sided = |side: &Side| self.faces[side.face as usize].is_double_sided;
             let turned = |side: &Side| side.from == first.from;
             let second = rest.first();
+            if let [second] = rest
+                && !deforms
+                && !turned(second)
+                && self.is_flat(first, second.opposite)
+            {
+                // No view shows one of its faces alone.
+                continue;
+            }
             let edge = Edge {
                 opposite: [
                     first.opposite,
@@ -191,11 +201,25 @@ impl<'p> Surface<'p> {
 
     /// Cosine of the angle between a face and another one beyond its side.
     fn cosine(&self, side: &Side, beyond: u32) -> f64 {
+        let [normal, other] = self.normals(side, beyond);
+        normal.dot(other)
+    }
+
+    /// Whether a face and another one beyond its side lie in a plane, but for what positions are rounded by.
+    fn is_flat(&self, side: &Side, beyond: u32) -> bool {
+        /// Largest sine of the angle between them.
+        const ROUNDED: f64 = 1e-4;
+        let [normal, other] = self.normals(side, beyond);
+        normal.dot(other) > 0.0 && normal.cross(other).length() < ROUNDED
+    }
+
+    /// Normals of a face and another one beyond its side; zero of one without area.
+    fn normals(&self, side: &Side, beyond: u32) -> [DVec3; 2] {
         let [from, to] = [side.from, side.to].map(|v| self.position(v));
         let along = to - from;
         let normal = along.cross(self.position(side.opposite) - from);
         let other = (-along).cross(self.position(beyond) - to);
-        normal.normalize_or_zero().dot(other.normalize_or_zero())
+        [normal, other].map(DVec3::normalize_or_zero)
     }
 
     /// Lines with these vertices, which move as those of the surface do.

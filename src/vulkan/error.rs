@@ -30,7 +30,7 @@ pub enum VulkanError {
     DeviceLost,
     /// Memory ran out.
     #[error(
-        "out of memory: {what} of {bytes} bytes could not be allocated; try a smaller size, fewer samples or --max-memory"
+        "out of memory: {what} of {bytes} bytes could not be allocated; ask for a smaller image, fewer samples or another bound on memory"
     )]
     OutOfMemory {
         /// What the memory was for.
