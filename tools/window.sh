@@ -1,6 +1,6 @@
 #!/bin/sh
-# Makes docs/window.png, the picture of the window in the README. Needs ffmpeg beside what tools/setup.sh window display
-# installs.
+# Makes docs/window.png, the picture of the window in the README, and docs/window.webp, the animation in the gallery. Needs
+# ffmpeg beside what tools/setup.sh window display installs.
 set -eu
 cd "$(dirname "$0")/.."
 gpc=${GPC:-target/release/gpc}
@@ -18,22 +18,95 @@ export DISPLAY
 # How often the viewer has said something.
 count() { grep -c "$1" "$work/said" || true; }
 
-RUST_LOG=gpc=debug "$gpc" view assets/fence.glb --size 960x540 --samples 64 --background '#a8c0d8' 2>"$work/said" &
-viewer=$!
-xdotool search --sync --name 'gpc$' windowfocus
-until [ "$(count 'at rest')" -gt 0 ]; do sleep 0.2; done
-# The window takes keys once it has the focus.
-until [ "$(count copied)" -gt 0 ]; do
-    xdotool key ctrl+c
-    sleep 1
-done
+# Opens the window on the fences, of a size.
+open() {
+    RUST_LOG=gpc=debug "$gpc" view assets/fence.glb --size "$1" --samples 64 --background '#a8c0d8' 2>"$work/said" &
+    viewer=$!
+    xdotool search --sync --name 'gpc$' windowfocus
+    until [ "$(count 'at rest')" -gt 0 ]; do sleep 0.2; done
+    # The window takes keys once it has the focus.
+    until [ "$(count copied)" -gt 0 ]; do
+        xdotool key ctrl+c
+        sleep 1
+    done
+}
+
+# Sends input, and waits for the picture at rest.
+settle() {
+    said=$(count 'at rest')
+    xdotool "$@"
+    until [ "$(count 'at rest')" -gt "$said" ]; do sleep 0.2; done
+}
+
+# Writes what is seen, without the pointer, to a file.
+grab() { ffmpeg -loglevel error -y -f x11grab -draw_mouse 0 -video_size "$1" -i "$DISPLAY" -frames:v 1 "$2"; }
 
 # Superpixels left of the line, none right of it, and both under the magnifier.
-said=$(count 'at rest')
-xdotool key x
-until [ "$(count 'at rest')" -gt "$said" ]; do sleep 0.2; done
+open 960x540
+settle key x
 xdotool mousemove 480 270 mousedown 1 mousemove 500 270 mousemove 640 270 mouseup 1 mousemove 640 300 key l
 # What was said by then goes after a while.
 sleep 7
-# The pointer itself is left out.
-ffmpeg -loglevel error -y -f x11grab -draw_mouse 0 -video_size 960x540 -i "$DISPLAY" -frames:v 1 docs/window.png
+grab 960x540 docs/window.png
+xdotool key q
+wait "$viewer"
+
+# The animation: a picture for each step.
+frames=0
+frame() {
+    frames=$((frames + 1))
+    grab 640x400 "$work/$(printf %03d $frames).png"
+}
+# Shows what is seen for so many steps.
+hold() {
+    frame
+    last="$work/$(printf %03d $frames).png"
+    for _ in $(seq 2 "$1"); do
+        frames=$((frames + 1))
+        cp "$last" "$work/$(printf %03d $frames).png"
+    done
+}
+# Moves the pointer from a place by steps, each of them a picture.
+move() { # X Y DX DY STEPS
+    for step in $(seq 1 "$5"); do
+        xdotool mousemove $(($1 + step * $3)) $(($2 + step * $4))
+        sleep 0.4
+        frame
+    done
+}
+open 640x400
+settle key p
+sleep 7
+hold 6
+# A turn around the fences, refined at its end.
+xdotool mousemove 320 200 mousedown 1
+move 320 200 -14 2 12
+settle mouseup 1
+hold 6
+# The line between superpixels and none.
+settle key x
+xdotool mousemove 320 200 mousedown 1
+move 320 200 16 0 8
+move 448 200 -16 0 16
+xdotool mouseup 1
+# The magnifier along it.
+xdotool key l
+move 192 120 0 16 10
+xdotool key l key l key l
+settle key x
+hold 4
+# A lens.
+xdotool mousemove 250 220
+settle key z
+hold 3
+for _ in 1 2 3 4; do
+    settle click 4
+    frame
+done
+for x in 270 290 310 330 350 370; do
+    settle mousemove $x 200 click 1
+    frame
+done
+hold 8
+ffmpeg -loglevel error -y -framerate 8 -i "$work/%03d.png" -c:v libwebp_anim -loop 0 -quality 55 -compression_level 6 \
+    docs/window.webp

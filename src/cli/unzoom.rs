@@ -2,15 +2,14 @@
 
 use super::exit::{Usage, usage};
 use super::report::ReportArgs;
-use super::zoom::{KEYWORD, Record, check_window};
+use super::zoom::check_window;
 use super::{compare as text, input, print};
-use anyhow::Context;
 use clap::Args;
 use gpc::camera::LocationMap;
-use gpc::camera::zoom::{Window, ZoomMap, ZoomRegion};
+use gpc::camera::zoom::{Window, ZoomRegion};
 use gpc::compare::Comparison;
 use gpc::output::{self, DecodedImage, Format, Picture};
-use gpc::resample::Photograph;
+use gpc::resample::Zoomed;
 use gpc::{compare, output::OutputError};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -74,17 +73,13 @@ pub fn run(args: &UnzoomArgs) -> anyhow::Result<ExitCode> {
         path: args.image.clone(),
         source,
     })?;
-    let photograph = Photograph::from(&output::decode(&bytes, &name)?);
-    let record = find_record(&bytes, &name, photograph.size())?;
-    let map = ZoomMap::new(record.regions.clone()).with_context(|| name.clone())?;
-    let window = window(args, &record)?;
+    let zoomed = Zoomed::decode(&bytes, &name)?;
+    let regions = zoomed.map().regions();
+    let window = window(args, zoomed.photograph().size(), regions)?;
     let start = Instant::now();
-    let pixels = photograph.resample(window.size, |place| {
-        let place = map.inverse(window.location(place));
-        let back = map.jacobian(place).inverse();
-        (place, back * window.jacobian(place))
+    let pixels = zoomed.photograph().resample(window.size, |place| {
+        zoomed.place(window.location(place), window.jacobian(place))
     });
-
     let wall_ms = 1e3 * start.elapsed().as_secs_f64();
     let picture = Picture::new(window.size, &pixels)?;
     let bytes = output::encode(format, &picture, &[])?;
@@ -110,42 +105,27 @@ pub fn run(args: &UnzoomArgs) -> anyhow::Result<ExitCode> {
         output: args.output.display().to_string(),
         size: window.size,
         region: (!args.whole).then_some(args.region),
-        regions: record.regions,
+        regions: regions.to_vec(),
         wall_ms,
         comparison,
     })?;
     Ok(ExitCode::SUCCESS)
 }
 
-fn find_record(bytes: &[u8], name: &str, size: [u32; 2]) -> anyhow::Result<Record> {
-    let text = output::find_text(bytes, KEYWORD).with_context(|| {
-        format!("{name}: it holds no zoom; give a PNG as gpc zoom wrote it, not converted")
-    })?;
-    let record: Record = serde_json::from_str(&text)
-        .with_context(|| format!("{name}: the zoom that it holds can't be read"))?;
-    if record.size != size {
-        let [[width, height], [found_width, found_height]] = [record.size, size];
-        anyhow::bail!(
-            "{name}: its zoom is one of {width} x {height} pixels, but it has {found_width} x {found_height}; give it as gpc zoom wrote it"
-        );
-    }
-    Ok(record)
-}
-
 /// The part of the plane that is asked for.
-fn window(args: &UnzoomArgs, record: &Record) -> Result<Window, Usage> {
+fn window(args: &UnzoomArgs, size: [u32; 2], regions: &[ZoomRegion]) -> Result<Window, Usage> {
     if args.whole {
         return Ok(Window {
-            size: record.size,
+            size,
             corner: [0.0, 0.0],
             step: 1.0,
         });
     }
-    let Some(region) = record.regions.get(args.region) else {
+    let Some(region) = regions.get(args.region) else {
         return Err(Usage(format!(
             "--region {}: regions are counted from 0, and the image has {}",
             args.region,
-            record.regions.len()
+            regions.len()
         )));
     };
     let window = region.window();

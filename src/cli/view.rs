@@ -13,13 +13,13 @@ use std::fmt::Display;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Opens a window in which scenes are looked at; H lists the keys.
+/// Opens a window in which scenes and photographs are looked at; H lists the keys.
 ///
 /// While anything moves few samples are taken, and at rest more and more, up to those asked for.
 #[derive(Args)]
 pub struct ViewArgs {
-    /// Scene files; the arrow keys go from one to the next
-    #[arg(id = "file", value_name = "SCENE", required = true)]
+    /// Scenes, photographs (PNG or JPEG) and images of gpc zoom; the arrow keys go from one to the next
+    #[arg(id = "file", value_name = "SCENE|IMAGE", required = true)]
     scenes: Vec<PathBuf>,
     /// Width and height of the window in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = values::size)]

@@ -135,3 +135,9 @@ fn show_straight([r, g, b, a]: [f32; 4]) -> [f32; 4] {
     let over_black = |v: f32| srgb::encode(srgb::decode(f64::from(v)) * f64::from(a)) as f32;
     [over_black(r), over_black(g), over_black(b), a]
 }
+
+/// Whether a file that starts with these bytes, at least three, is a PNG or a JPEG.
+#[must_use]
+pub fn is_image(start: &[u8]) -> bool {
+    start.starts_with(b"\x89PN") || start.starts_with(b"\xff\xd8\xff")
+}

@@ -7,8 +7,10 @@
 
 mod footprint;
 mod wall;
+mod zoomed;
 
 pub use wall::light_on_wall;
+pub use zoomed::{Zoomed, ZoomedError};
 
 use crate::output::{DecodedImage, Picture};
 use crate::reference::srgb;

@@ -1,19 +1,20 @@
 //! What keys and mouse do.
 
-use super::command::{Shot, line};
+use super::command::{Shot, line, unzoom_photo, zoom_photo};
 use super::files::{free_name, scenes_at};
 use super::fly::Way;
 use super::keys::{self, Action};
-use super::lens;
+use super::lens::Lenses;
 use super::look::Look;
 use super::mouse::{NOTCH, PIXELS_A_NOTCH, pinched};
+use super::overlay::Overlay;
 use super::panel::Wishes;
-use super::source::Source;
+use super::photo::Framing;
+use super::source::{Source, Stage};
 use super::standpoint::Standpoint;
-use super::studio::Subject;
+use super::studio::{Order, Subject, Task};
 use super::window::View;
 use glam::DVec2;
-use gpc::output::AovKind;
 use gpc::render::Method;
 use gpc::sampling::MAX_SAMPLES;
 use std::path::{Path, PathBuf};
@@ -47,6 +48,9 @@ impl View {
                     self.drag(drag, by);
                 }
                 self.is_dirty |= self.magnifier.is_some();
+                if self.easel.as_ref().is_some_and(|easel| easel.unzooms) {
+                    self.cover_changed()?;
+                }
             }
             WindowEvent::MouseInput { state, button, .. } => match state {
                 ElementState::Pressed if !response.consumed => self.press(*button),
@@ -119,6 +123,11 @@ impl View {
             }
             Action::Quit => self.wants_to_quit = true,
             Action::Fit => {
+                let size = self.canvas.size().unwrap_or([1, 1]);
+                let photo = self.easel.as_ref();
+                if let Some(photo) = photo.map(|easel| easel.photo.photograph().size()) {
+                    self.reframe(|framing| *framing = Framing::fitting(photo, size));
+                }
                 if let Some(bounds) = self.canvas.stage().map(|stage| stage.bounds) {
                     let aspect = self.aspect();
                     self.go(|turntable| turntable.fit(bounds, aspect));
@@ -146,18 +155,25 @@ impl View {
                 };
             }
             Action::Lens => {
-                let (place, height) = (self.pointer.place(), self.size()[1]);
-                self.cover.lens = match self.cover.lens {
-                    None => Some(lens::at(place, height)),
-                    Some(_) => None,
-                };
+                if self.cover.lenses.regions().is_empty() {
+                    self.add_lens()?;
+                } else {
+                    self.cover.lenses = Lenses::default();
+                    self.cover_changed()?;
+                }
+            }
+            Action::AddLens => self.add_lens()?,
+            Action::RemoveLens => {
+                self.cover.lenses.remove();
                 self.cover_changed()?;
             }
-            Action::NextAttribute => {
-                self.cover.next_attribute();
-                let name = self.cover.attribute.map_or("colours", AovKind::name);
-                self.notes.say(format!("shows {name}"));
+            Action::Tint => {
+                self.cover.tints = !self.cover.tints;
                 self.cover_changed()?;
+            }
+            Action::Unzoom => self.toggle_unzoom()?,
+            Action::NextOverlay => {
+                self.set_overlay(Overlay::next(self.cover.overlay))?;
             }
             Action::Screenshot => self.write_screenshot(),
             Action::CopyCommand => self.copy_command(),
@@ -166,6 +182,36 @@ impl View {
             Action::Faster => self.change_speed(1),
         }
         Ok(())
+    }
+
+    fn add_lens(&mut self) -> anyhow::Result<()> {
+        let place = self.plane_place(self.pointer.place());
+        let height = self.size()[1]
+            * self
+                .easel
+                .as_ref()
+                .map_or(1.0, |easel| easel.framing.step());
+        self.cover.lenses.add(place, height);
+        self.cover_changed()
+    }
+
+    /// Begins or ends to unzoom what is under the pointer.
+    fn toggle_unzoom(&mut self) -> anyhow::Result<()> {
+        match &mut self.easel {
+            Some(easel) if easel.photo.zoomed().is_some() => {
+                easel.unzooms = !easel.unzooms;
+                self.cover_changed()?;
+            }
+            _ => self.notes.say("only an image of gpc zoom can be unzoomed"),
+        }
+        Ok(())
+    }
+
+    fn set_overlay(&mut self, overlay: Option<Overlay>) -> anyhow::Result<()> {
+        self.cover.overlay = overlay;
+        let name = overlay.map_or("colours", Overlay::name);
+        self.notes.say(format!("shows {name}"));
+        self.cover_changed()
     }
 
     fn next_camera(&mut self) {
@@ -226,12 +272,14 @@ impl View {
             player.seek(time);
             self.show_time();
         }
-        if let Some(lens) = wishes.lens {
-            self.change_lens(|old| *old = lens);
+        if let Some((shape, transition)) = wishes.lens {
+            self.change_lens(|lenses| lenses.set(shape, transition));
         }
-        if let Some(attribute) = wishes.attribute {
-            self.cover.attribute = attribute;
-            self.cover_changed()?;
+        if let Some(action) = wishes.action {
+            self.act(action)?;
+        }
+        if let Some(overlay) = wishes.overlay {
+            self.set_overlay(overlay)?;
         }
         if wishes.toggles_play {
             self.play_or_pause();
@@ -279,10 +327,21 @@ impl View {
 
     /// Writes the picture under the pointer with all its samples, as `gpc render` does.
     fn write_screenshot(&mut self) {
-        let Some(stage) = self.canvas.stage() else {
+        let path = free_name(Path::new(""), &self.source.stem());
+        if let Some(easel) = &self.easel {
+            let Some(map) = self.cover.lenses.map() else {
+                self.notes
+                    .say("no lens changes the photograph: there is nothing to write");
+                return;
+            };
+            let task = Task::PhotoFile(easel.whole(map), path.clone());
+            self.studio.ask(Order { number: 0, task });
+            self.notes.say(format!("writing {}", path.display()));
             return;
-        };
-        let path = free_name(Path::new(""), &stage.source.stem());
+        }
+        if self.canvas.stage().is_none() {
+            return;
+        }
         let samples = self.looks[self.layer_under_pointer()].settings.samples;
         self.notes.say(format!("writing {}", path.display()));
         self.order(0, samples, Subject::File(path));
@@ -290,20 +349,36 @@ impl View {
 
     /// Puts the command that makes the picture under the pointer on the clipboard.
     fn copy_command(&mut self) {
-        let Some(stage) = self.canvas.stage() else {
-            return;
+        let output = PathBuf::from(self.source.stem()).with_extension("png");
+        let lenses = self.cover.lenses.regions();
+        let arguments = match (&self.easel, self.canvas.stage()) {
+            (Some(easel), _) if easel.unzooms => {
+                let region = easel.region_at(self.pointer.place());
+                unzoom_photo(&easel.photo.path, region, &output)
+            }
+            (Some(_), _) if lenses.is_empty() => {
+                self.notes
+                    .say("no lens changes the photograph: there is nothing to copy");
+                return;
+            }
+            (Some(easel), _) => zoom_photo(&easel.photo.path, lenses, &output),
+            (None, Some(stage)) => self.shot(stage).arguments(&output),
+            (None, None) => return,
         };
-        let shot = Shot {
+        let command = line(&arguments);
+        self.interface.set_clipboard_text(command.clone());
+        self.notes.say(format!("copied: {command}"));
+    }
+
+    /// What is seen of the scene under the pointer.
+    fn shot<'a>(&'a self, stage: &'a Stage) -> Shot<'a> {
+        Shot {
             source: &stage.source,
             standpoint: &self.standpoint,
             look: &self.looks[self.layer_under_pointer()],
             appearance: &self.appearance_options,
             time: self.time(),
-            lens: self.cover.lens.as_ref(),
-        };
-        let output = PathBuf::from(stage.source.stem()).with_extension("png");
-        let command = line(&shot.arguments(&output));
-        self.interface.set_clipboard_text(command.clone());
-        self.notes.say(format!("copied: {command}"));
+            lenses: self.cover.lenses.regions(),
+        }
     }
 }

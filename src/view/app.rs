@@ -2,7 +2,7 @@
 
 use super::Options;
 use super::losses::{Losses, is_lost};
-use super::source::Stage;
+use super::source::Opened;
 use super::studio::Made;
 use super::window::View;
 use std::time::Instant;
@@ -13,9 +13,9 @@ use winit::window::WindowId;
 
 /// What other threads have done.
 pub enum Event {
-    /// A scene is ready, or can't be had; the number tells which was asked for.
-    Opened(u64, Box<anyhow::Result<Stage>>),
-    /// The scene's file was written.
+    /// A file is loaded, or can't be; the number tells which was asked for.
+    Opened(u64, Box<anyhow::Result<Opened>>),
+    /// The file was written.
     Changed,
     /// A picture that frames can't make.
     Made(Made),

@@ -109,11 +109,11 @@ impl Canvas {
         self.stage.as_ref()
     }
 
-    /// Shows another scene.
-    pub fn set_stage(&mut self, stage: Stage) -> anyhow::Result<()> {
+    /// Shows another scene, or none.
+    pub fn set_stage(&mut self, stage: Option<Stage>) -> anyhow::Result<()> {
         self.wait()?;
         self.layers.clear();
-        self.stage = Some(stage);
+        self.stage = stage;
         self.is_uploaded = false;
         Ok(())
     }
@@ -270,6 +270,10 @@ impl Canvas {
         seen: &Seen<'_>,
         now: Instant,
     ) -> anyhow::Result<()> {
+        if let Some(cover) = &mut self.cover {
+            // SAFETY: passed on to the caller; covers are changed only when no commands are left.
+            unsafe { cover.record_pixels(commands) };
+        }
         let (Some(stage), Some(camera)) = (&self.stage, seen.camera) else {
             return Ok(());
         };
@@ -285,10 +289,6 @@ impl Canvas {
             camera,
             moment: seen.moment,
         };
-        if let Some(cover) = &mut self.cover {
-            // SAFETY: passed on to the caller; covers are changed only when no commands are left.
-            unsafe { cover.record_pixels(commands) };
-        }
         for (index, layer) in self.layers.iter_mut().enumerate() {
             if !self.refines && !layer.schedule.is_draft() && !layer.has_again() {
                 continue;

@@ -18,27 +18,25 @@ pub struct Shot<'a> {
     pub appearance: &'a [String],
     /// Moment of the animation in seconds.
     pub time: f64,
-    /// A region that is enlarged.
-    pub lens: Option<&'a ZoomRegion>,
+    /// Regions that are enlarged.
+    pub lenses: &'a [ZoomRegion],
 }
 
 impl Shot<'_> {
     /// The command's arguments, `gpc` itself left out, to write a file.
     pub fn arguments(&self, output: &Path) -> Vec<String> {
         let mut arguments = Arguments(vec![
-            if self.lens.is_some() {
-                "zoom"
-            } else {
+            if self.lenses.is_empty() {
                 "render"
+            } else {
+                "zoom"
             }
             .to_owned(),
             self.source.path.display().to_string(),
         ]);
         let settings = self.look.at(self.look.settings.samples, None);
         arguments.add("-o", output.display());
-        if let Some(lens) = self.lens {
-            arguments.lens(lens);
-        }
+        arguments.lenses(self.lenses);
         let [width, height] = settings.size;
         arguments.add("--size", format_args!("{width}x{height}"));
         arguments.settings(&settings);
@@ -46,6 +44,25 @@ impl Shot<'_> {
         arguments.view(self);
         arguments.0
     }
+}
+
+/// The arguments that make the picture of a photograph, `gpc` itself left out.
+pub fn zoom_photo(photo: &Path, lenses: &[ZoomRegion], output: &Path) -> Vec<String> {
+    let mut arguments = Arguments(vec!["zoom".to_owned(), photo.display().to_string()]);
+    arguments.add("-o", output.display());
+    arguments.lenses(lenses);
+    arguments.0
+}
+
+/// The arguments that unzoom a region of an image, or all of it, `gpc` itself left out.
+pub fn unzoom_photo(photo: &Path, region: Option<usize>, output: &Path) -> Vec<String> {
+    let mut arguments = Arguments(vec!["unzoom".to_owned(), photo.display().to_string()]);
+    arguments.add("-o", output.display());
+    match region {
+        Some(region) => arguments.add("--region", region),
+        None => arguments.0.push("--whole".to_owned()),
+    }
+    arguments.0
 }
 
 struct Arguments(Vec<String>);
@@ -62,17 +79,30 @@ impl Arguments {
         self.0.push(format!("{option}={x},{y},{z}"));
     }
 
-    fn lens(&mut self, lens: &ZoomRegion) {
-        let [x, y] = lens.center;
-        self.0.push(format!("--center={x},{y}"));
-        let [rx, ry] = lens.radius;
-        self.add("--radius", format_args!("{rx},{ry}"));
-        self.add("--multiplicity", lens.multiplicity);
-        if lens.shape == Shape::Rectangle {
-            self.add("--shape", "rectangle");
+    fn lenses(&mut self, lenses: &[ZoomRegion]) {
+        for lens in lenses {
+            let [x, y] = lens.center;
+            self.0.push(format!("--center={x},{y}"));
+            let [rx, ry] = lens.radius;
+            self.add("--radius", format_args!("{rx},{ry}"));
+            self.add("--multiplicity", lens.multiplicity);
         }
-        if lens.transition == Transition::Smooth {
-            self.add("--transition", "smooth");
+        // Where one differs from the default, all are said.
+        if lenses.iter().any(|lens| lens.shape != Shape::default()) {
+            for lens in lenses {
+                let name = match lens.shape {
+                    Shape::Circle => "circle",
+                    Shape::Rectangle => "rectangle",
+                };
+                self.add("--shape", name);
+            }
+        }
+        let is_smooth = |lens: &ZoomRegion| lens.transition == Transition::Smooth;
+        if lenses.iter().any(is_smooth) {
+            for lens in lenses {
+                let name = if is_smooth(lens) { "smooth" } else { "linear" };
+                self.add("--transition", name);
+            }
         }
     }
 
@@ -216,7 +246,7 @@ mod tests {
             look: &look,
             appearance: &[],
             time: 0.0,
-            lens: None,
+            lenses: &[],
         };
         let found = line(&shot.arguments(Path::new("a.png")));
         let expected = "gpc render 'a b.glb' -o a.png --size 640x480 --samples 64 --camera 2";
@@ -245,7 +275,7 @@ mod tests {
             look: &look,
             appearance: &["--background", "#000000"].map(str::to_owned),
             time: 0.25,
-            lens: None,
+            lenses: &[],
         };
         let found = line(&shot.arguments(Path::new("a.png")));
         let expected = "gpc render a.glb -o a.png --size 64x48 --samples 1024 --contrast 5 --detect edges \
@@ -270,12 +300,36 @@ mod tests {
             look: &look,
             appearance: &[],
             time: 0.0,
-            lens: Some(&lens),
+            lenses: &[lens],
         };
         let found = line(&shot.arguments(Path::new("a.png")));
         let expected = "gpc zoom a.glb -o a.png --center=20,30 --radius 9,9 --multiplicity 0.25 --shape rectangle \
              --transition smooth --size 64x48 --samples 64 --camera 0";
         assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn photographs_have_lenses_and_are_unzoomed() {
+        let lens = |x: f64, transition: Transition| ZoomRegion {
+            center: [x, 30.0],
+            radius: [9.0, 9.0],
+            multiplicity: 0.25,
+            shape: Shape::Circle,
+            transition,
+        };
+        let lenses = [
+            lens(-1.0, Transition::Linear),
+            lens(5.0, Transition::Smooth),
+        ];
+        let (photo, output) = (Path::new("a.jpg"), Path::new("b.png"));
+        assert_eq!(
+            line(&zoom_photo(photo, &lenses, output)),
+            "gpc zoom a.jpg -o b.png --center=-1,30 --radius 9,9 --multiplicity 0.25 \
+             --center=5,30 --radius 9,9 --multiplicity 0.25 --transition linear --transition smooth"
+        );
+        let unzoom = |region| line(&unzoom_photo(photo, region, output));
+        assert_eq!(unzoom(Some(1)), "gpc unzoom a.jpg -o b.png --region 1");
+        assert_eq!(unzoom(None), "gpc unzoom a.jpg -o b.png --whole");
     }
 
     #[test]

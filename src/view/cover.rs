@@ -1,23 +1,35 @@
-//! What is looked at in the stead of the frames: a zoom lens, what pixels hold beside their colours, or shadows.
+//! What is looked at in the stead of the frames: zoom lenses, what pixels hold beside their colours, shadows, or a
+//! photograph.
 
+use super::lens::Lenses;
+use super::overlay::Overlay;
 use super::studio::Subject;
-use gpc::camera::zoom::{ZoomMap, ZoomRegion};
-use gpc::output::AovKind;
+use std::time::{Duration, Instant};
 
-/// Samples of the first picture, and of the one that follows where nothing has changed meanwhile.
+/// Samples of the first pictures, before those asked for.
 const STEPS: [u32; 2] = [4, 64];
+/// Nothing has to have changed for this long before a picture of more samples is begun: it can't be stopped.
+const REST: Duration = Duration::from_millis(700);
 
 /// What is wanted, and how much of it is there.
 #[derive(Debug, Default)]
 pub struct Cover {
-    pub lens: Option<ZoomRegion>,
-    pub attribute: Option<AovKind>,
+    pub lenses: Lenses,
+    /// Whether their transitions are coloured.
+    pub tints: bool,
+    pub overlay: Option<Overlay>,
     /// Whether pictures have shadows, which frames have not.
-    has_shadows: bool,
+    pub has_shadows: bool,
+    /// Whether there are no frames, but a photograph.
+    pub is_photo: bool,
     /// Of the last order.
     number: u64,
-    /// Index into [`STEPS`] of the last order.
+    /// Samples of the orders since the last change, in turn.
+    steps: Vec<u32>,
+    /// Index of the last order's.
     step: usize,
+    /// When to order the next one, where it waits.
+    due: Option<Instant>,
     /// Number of the first order since something moved.
     first: u64,
     is_done: bool,
@@ -27,136 +39,154 @@ pub struct Cover {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Arrival {
     pub is_shown: bool,
-    /// Whether to ask for a better one.
+    /// Whether to ask for a better one at once.
     pub refines: bool,
 }
 
 impl Cover {
-    /// Over frames, which have no shadows, of pictures that have them or not.
-    pub fn new(has_shadows: bool) -> Self {
+    /// Over frames, which have no shadows, of pictures that have them or not; or of a photograph.
+    pub fn new(has_shadows: bool, is_photo: bool) -> Self {
         Self {
             has_shadows,
+            is_photo,
             ..Self::default()
         }
     }
 
-    /// What the studio is asked for, if anything is wanted.
+    /// What of a scene the studio is asked for, if anything is wanted.
     pub fn subject(&self) -> Option<Subject> {
-        match (self.attribute, self.lens) {
-            (Some(kind), _) => Some(Subject::Attribute(kind)),
-            // Lenses that the mouse makes are possible.
-            (None, Some(lens)) => ZoomMap::new(vec![lens]).ok().map(Subject::Zoom),
+        match (self.overlay, self.lenses.map()) {
+            (Some(overlay), _) => Some(Subject::Overlay(overlay)),
+            (None, Some(map)) => Some(Subject::Zoom(map, self.tints)),
             (None, None) => self.has_shadows.then_some(Subject::Still),
         }
     }
 
-    /// Whether all that is wanted is seen.
-    pub fn is_done(&self) -> bool {
-        self.subject().is_none() || self.is_done
+    /// Whether frames are hidden.
+    pub fn is_wanted(&self) -> bool {
+        self.is_photo || self.subject().is_some()
     }
 
-    /// Number and samples of the first order after a change: of the view, or of the lens alone.
-    pub fn begin(&mut self, view_changed: bool) -> (u64, u32) {
+    /// Whether all that is wanted is seen.
+    pub fn is_done(&self) -> bool {
+        !self.is_wanted() || self.is_done
+    }
+
+    /// Number and samples of the first order after a change: of the view, or of the lenses alone. `asked` are the samples of
+    /// the last.
+    pub fn begin(&mut self, view_changed: bool, asked: u32) -> (u64, u32) {
+        let needs_all = self.is_photo || self.overlay.is_some_and(Overlay::needs_all_samples);
+        let below = |samples: &u32| *samples < asked && !needs_all;
+        self.steps = STEPS.into_iter().filter(below).collect();
+        self.steps.push(asked);
         self.step = 0;
-        self.next_order(view_changed)
+        let order = self.next_order();
+        if view_changed {
+            self.first = self.number;
+        }
+        order
     }
 
     /// Number and samples of the order that follows.
     pub fn refine(&mut self) -> (u64, u32) {
         self.step += 1;
-        self.next_order(false)
+        self.next_order()
+    }
+
+    /// When to order what follows, if it waits.
+    pub fn due(&self) -> Option<Instant> {
+        self.due
     }
 
     /// What to do with the picture of an order.
-    pub fn arrived(&mut self, number: u64) -> Arrival {
+    pub fn arrived(&mut self, number: u64, now: Instant) -> Arrival {
         let is_last = number == self.number;
-        let refines = is_last && self.step + 1 < STEPS.len();
-        self.is_done = is_last && !refines;
+        let next = self.steps.get(self.step + 1).filter(|_| is_last);
+        let waits = next.is_some_and(|samples| *samples > STEPS[1]);
+        self.due = waits.then(|| now + REST);
+        self.is_done = is_last && next.is_none();
         Arrival {
-            is_shown: number >= self.first && self.subject().is_some(),
-            refines,
+            is_shown: number >= self.first && self.is_wanted(),
+            refines: next.is_some() && !waits,
         }
     }
 
-    fn next_order(&mut self, view_changed: bool) -> (u64, u32) {
+    fn next_order(&mut self) -> (u64, u32) {
         self.number += 1;
         self.is_done = false;
-        if view_changed {
-            self.first = self.number;
-        }
-        (self.number, STEPS[self.step])
-    }
-
-    /// Goes on to what else pixels hold, and at last to their colours.
-    pub fn next_attribute(&mut self) {
-        let all = AovKind::ALL;
-        let index = self
-            .attribute
-            .and_then(|kind| all.iter().position(|known| *known == kind));
-        self.attribute = match index {
-            None => all.first().copied(),
-            Some(index) => all.get(index + 1).copied(),
-        };
+        self.due = None;
+        let samples = self.steps.get(self.step).copied().unwrap_or(1);
+        (self.number, samples)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::lens;
     use super::*;
     use glam::DVec2;
 
     fn cover() -> Cover {
-        Cover {
-            lens: Some(lens::at(DVec2::ZERO, 100.0)),
-            ..Cover::default()
-        }
+        let mut cover = Cover::default();
+        cover.lenses.add(DVec2::ZERO, 100.0);
+        cover
     }
 
     #[test]
     fn pictures_are_refined_where_nothing_changes() {
+        let now = Instant::now();
         let mut cover = cover();
-        let (first, samples) = cover.begin(true);
+        let (first, samples) = cover.begin(true, 1024);
         assert_eq!(samples, 4);
-        let arrival = cover.arrived(first);
+        let arrival = cover.arrived(first, now);
         assert!(arrival.is_shown && arrival.refines && !cover.is_done());
         let (second, samples) = cover.refine();
         assert_eq!(samples, 64);
-        let arrival = cover.arrived(second);
-        assert!(arrival.is_shown && !arrival.refines && cover.is_done());
+        // The last one waits.
+        let arrival = cover.arrived(second, now);
+        assert!(arrival.is_shown && !arrival.refines && !cover.is_done());
+        assert_eq!(cover.due(), Some(now + REST));
+        let (third, samples) = cover.refine();
+        assert_eq!((samples, cover.due()), (1024, None));
+        assert!(!cover.arrived(third, now).refines && cover.is_done());
+    }
+
+    #[test]
+    fn few_samples_and_photographs_take_fewer_pictures() {
+        let now = Instant::now();
+        let mut cover = cover();
+        let (first, _) = cover.begin(true, 64);
+        assert!(cover.arrived(first, now).refines);
+        let (second, samples) = cover.refine();
+        assert_eq!(samples, 64);
+        assert!(!cover.arrived(second, now).refines && cover.is_done());
+        cover.overlay = Some(Overlay::Error);
+        assert_eq!(cover.begin(false, 64).1, 64);
+        let mut photo = Cover::new(false, true);
+        let (first, _) = photo.begin(true, 1);
+        assert!(!photo.is_done() && photo.arrived(first, now).is_shown && photo.is_done());
     }
 
     #[test]
     fn older_lenses_are_shown_and_older_views_are_not() {
+        let now = Instant::now();
         let mut cover = cover();
-        let (first, _) = cover.begin(true);
-        let (moved_lens, _) = cover.begin(false);
-        let arrival = cover.arrived(first);
+        let (first, _) = cover.begin(true, 64);
+        let (moved_lens, _) = cover.begin(false, 64);
+        let arrival = cover.arrived(first, now);
         assert!(arrival.is_shown && !arrival.refines);
-        let (moved_view, _) = cover.begin(true);
-        assert!(!cover.arrived(moved_lens).is_shown);
-        assert!(cover.arrived(moved_view).is_shown);
-        cover.lens = None;
-        assert!(!cover.arrived(moved_view).is_shown && cover.is_done());
+        let (moved_view, _) = cover.begin(true, 64);
+        assert!(!cover.arrived(moved_lens, now).is_shown);
+        assert!(cover.arrived(moved_view, now).is_shown);
+        cover.lenses.remove();
+        assert!(!cover.arrived(moved_view, now).is_shown && cover.is_done());
     }
 
     #[test]
     fn pictures_with_shadows_take_the_place_of_frames() {
-        let mut cover = Cover::new(true);
+        let mut cover = Cover::new(true, false);
         assert!(matches!(cover.subject(), Some(Subject::Still)));
-        cover.lens = Some(lens::at(DVec2::ZERO, 100.0));
-        assert!(matches!(cover.subject(), Some(Subject::Zoom(_))));
-        assert!(Cover::new(false).subject().is_none());
-    }
-
-    #[test]
-    fn attributes_go_round() {
-        let mut cover = Cover::default();
-        for kind in AovKind::ALL {
-            cover.next_attribute();
-            assert_eq!(cover.attribute, Some(kind));
-        }
-        cover.next_attribute();
-        assert_eq!(cover.attribute, None);
+        cover.lenses.add(DVec2::ZERO, 100.0);
+        assert!(matches!(cover.subject(), Some(Subject::Zoom(..))));
+        assert!(!Cover::new(false, false).is_wanted());
     }
 }

@@ -22,7 +22,11 @@ pub enum Action {
     Split,
     Magnify,
     Lens,
-    NextAttribute,
+    AddLens,
+    RemoveLens,
+    Tint,
+    Unzoom,
+    NextOverlay,
     Screenshot,
     CopyCommand,
     PlayOrPause,
@@ -73,7 +77,7 @@ const fn named(key: NamedKey, label: &'static str, action: Action, does: &'stati
 }
 
 /// Every key.
-static BINDINGS: [Binding; 30] = [
+static BINDINGS: [Binding; 34] = [
     text("h", "H", Action::Help, "list the keys"),
     text("p", "P", Action::Panel, "show or hide the panel"),
     named(
@@ -142,11 +146,25 @@ static BINDINGS: [Binding; 30] = [
         Action::Lens,
         "zoom lens: click, drag its radius, wheel",
     ),
+    text("a", "A", Action::AddLens, "one more lens at the pointer"),
+    named(
+        NamedKey::Delete,
+        "Delete",
+        Action::RemoveLens,
+        "remove the lens at hand",
+    ),
+    text("t", "T", Action::Tint, "colour the transitions of lenses"),
+    text(
+        "u",
+        "U",
+        Action::Unzoom,
+        "unzoom an image of gpc zoom under the pointer",
+    ),
     text(
         "o",
         "O",
-        Action::NextAttribute,
-        "depth, IDs, normals, superpixels, samples",
+        Action::NextOverlay,
+        "depth, IDs, normals, superpixels, samples, triangles, error",
     ),
     named(
         NamedKey::Space,
@@ -185,7 +203,7 @@ static BINDINGS: [Binding; 30] = [
         control: true,
         label: "Ctrl+C",
         action: Action::CopyCommand,
-        does: "copy the gpc render command that makes this picture",
+        does: "copy the command that makes this picture",
     },
     named(NamedKey::F1, "F1", Action::Help, "list the keys"),
     named(

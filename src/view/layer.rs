@@ -140,7 +140,8 @@ impl Layer {
         match job.frame.statistics() {
             Ok(statistics) => {
                 log::trace!("{:?} took {:.1} ms", job.work, statistics.gpu_ms());
-                self.schedule.learn(&job.work, statistics.gpu_ms());
+                self.schedule
+                    .learn(&job.work, statistics.gpu_ms(), Instant::now());
                 if is_current {
                     self.note(&job.work, statistics);
                 }

@@ -1,13 +1,13 @@
 //! The mouse: what dragging and the wheel move.
 
 use super::fly::Flight;
-use super::lens;
+use super::lens::Lenses;
 use super::navigate::Turntable;
+use super::photo::Framing;
 use super::pick;
 use super::pointer::Drag;
 use super::window::View;
 use glam::DVec2;
-use gpc::camera::zoom::ZoomRegion;
 use gpc::camera::{Camera, Pinhole};
 use std::time::Instant;
 use winit::event::MouseButton;
@@ -51,16 +51,36 @@ impl View {
         }
     }
 
-    /// Changes the lens, where there is one. Says whether there is.
-    pub fn change_lens(&mut self, change: impl FnOnce(&mut ZoomRegion)) -> bool {
-        let Some(lens) = &mut self.cover.lens else {
+    /// Changes the lenses, where there are any. Says whether there are.
+    pub fn change_lens(&mut self, change: impl FnOnce(&mut Lenses)) -> bool {
+        if self.cover.lenses.regions().is_empty() {
             return false;
-        };
-        change(lens);
+        }
+        change(&mut self.cover.lenses);
         if let Err(error) = self.cover_changed() {
             self.notes.fail(&error);
         }
         true
+    }
+
+    /// Shows another part of the photograph, where there is one. Says whether there is.
+    pub fn reframe(&mut self, change: impl FnOnce(&mut Framing)) -> bool {
+        let Some(easel) = &mut self.easel else {
+            return false;
+        };
+        change(&mut easel.framing);
+        if let Err(error) = self.view_changed() {
+            self.notes.fail(&error);
+        }
+        true
+    }
+
+    /// The place of the picture under one of the window: in pixels of the photograph, where that is shown.
+    pub fn plane_place(&self, pointer: DVec2) -> DVec2 {
+        match &self.easel {
+            Some(easel) => easel.framing.place(pointer),
+            None => pointer,
+        }
     }
 
     pub fn press(&mut self, button: MouseButton) {
@@ -70,7 +90,8 @@ impl View {
         let drag = match button {
             MouseButton::Left if near_split => Drag::Split,
             MouseButton::Left if self.modifiers.shift_key() => Drag::Pan,
-            MouseButton::Left if self.cover.lens.is_some() => Drag::Lens,
+            MouseButton::Left if !self.cover.lenses.regions().is_empty() => Drag::Lens,
+            MouseButton::Left if self.easel.is_some() => Drag::Pan,
             MouseButton::Left if self.flight.is_some() => Drag::Look,
             MouseButton::Left => Drag::Orbit,
             MouseButton::Middle => Drag::Pan,
@@ -78,8 +99,8 @@ impl View {
             _ => return,
         };
         if drag == Drag::Lens {
-            let place = self.pointer.place();
-            self.change_lens(|lens| lens::press(lens, place));
+            let place = self.plane_place(self.pointer.place());
+            self.change_lens(|lenses| lenses.press(place));
         }
         let is_double = self.pointer.pressed(drag, Instant::now());
         if is_double && drag == Drag::Orbit {
@@ -92,14 +113,18 @@ impl View {
         match drag {
             Drag::Orbit => self.go(|turntable| turntable.orbit(by, height)),
             Drag::Look => self.go(|turntable| turntable.look(by, height)),
-            Drag::Pan => self.go(|turntable| turntable.pan(by, height)),
+            Drag::Pan => {
+                if !self.reframe(|framing| framing.pan(by)) {
+                    self.go(|turntable| turntable.pan(by, height));
+                }
+            }
             Drag::Zoom => {
                 let factor = NOTCH.powf(-by.y / PIXELS_A_NOTCH);
-                self.go(|turntable| turntable.zoom(factor, DVec2::ZERO, height));
+                self.zoom(factor, 0.5 * DVec2::new(width, height));
             }
             Drag::Lens => {
-                let place = self.pointer.place();
-                self.change_lens(|lens| lens::drag(lens, place));
+                let place = self.plane_place(self.pointer.place());
+                self.change_lens(|lenses| lenses.drag(place));
             }
             Drag::Split => {
                 self.split = (self.pointer.place().x / width).clamp(0.0, 1.0);
@@ -110,7 +135,7 @@ impl View {
 
     /// Enlarges what the wheel is for: the lens, the speed of flying, or what is under the pointer.
     pub fn wheel(&mut self, factor: f64) {
-        if self.change_lens(|lens| lens::enlarge(lens, factor)) {
+        if self.change_lens(|lenses| lenses.enlarge(factor)) {
             return;
         }
         match &mut self.flight {
@@ -149,6 +174,9 @@ impl View {
 
     /// Comes nearer to what is at a place in the window.
     fn zoom(&mut self, factor: f64, place: DVec2) {
+        if self.reframe(|framing| framing.zoom(factor, place)) {
+            return;
+        }
         let [width, height] = self.size();
         let pointer = place - 0.5 * DVec2::new(width, height);
         self.go(|turntable| turntable.zoom(factor, pointer, height));

@@ -1,12 +1,14 @@
 //! What lies over the picture: the panel, notes, and the list of keys.
 
 use super::command::detection_name;
-use super::keys;
+use super::heat;
+use super::keys::{self, Action};
+use super::lens::Lenses;
 use super::look::{Look, method_name};
 use super::notes::Note;
+use super::overlay::Overlay;
 use super::player::Player;
-use gpc::camera::zoom::{Shape, Transition, ZoomRegion};
-use gpc::output::AovKind;
+use gpc::camera::zoom::{Shape, Transition};
 use gpc::render::{Detection, Method, Statistics};
 use gpc::sampling::Pattern;
 use gpc::scene::AnimationInfo;
@@ -15,17 +17,41 @@ use std::time::Duration;
 /// What there is to tell.
 pub struct Facts<'a> {
     pub notes: &'a [Note],
-    /// Name of what is being loaded, and for how long.
-    pub loading: Option<(&'a str, Duration)>,
+    pub loading: Option<LoadingFacts<'a>>,
     pub shows_keys: bool,
     pub shows_panel: bool,
     /// Column of the split in pixels.
     pub split: Option<u32>,
-    pub lens: Option<ZoomRegion>,
-    /// What pixels hold beside their colours, where that is seen.
-    pub attribute: Option<AovKind>,
+    pub lenses: &'a Lenses,
+    /// Whether their transitions are coloured.
+    pub tints: bool,
+    /// What is seen of pixels in the stead of their colours.
+    pub overlay: Option<Overlay>,
+    /// What there is to say of it.
+    pub figures: Option<&'a str>,
+    /// Whether a better picture is being made.
+    pub is_refining: bool,
+    pub photo: Option<PhotoFacts>,
     pub scene: Option<SceneFacts<'a>>,
     pub pictures: Vec<PictureFacts<'a>>,
+}
+
+/// What is being loaded.
+pub struct LoadingFacts<'a> {
+    pub name: &'a str,
+    pub since: Duration,
+    pub step: &'static str,
+    /// Of all that is to be done.
+    pub share: f32,
+}
+
+/// What is known of the photograph.
+pub struct PhotoFacts {
+    pub name: String,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Whether it can be unzoomed.
+    pub is_zoomed: bool,
 }
 
 /// What is known of the scene.
@@ -49,9 +75,12 @@ pub struct PictureFacts<'a> {
 pub struct Wishes {
     /// How a picture is antialiased, by the picture's index.
     pub look: Option<(usize, Look)>,
-    pub lens: Option<ZoomRegion>,
-    /// What to see of pixels: their colours, or something beside.
-    pub attribute: Option<Option<AovKind>>,
+    /// Outline and transition of the lens at hand.
+    pub lens: Option<(Shape, Transition)>,
+    /// What a key would do.
+    pub action: Option<Action>,
+    /// What to see of pixels: their colours, or something else.
+    pub overlay: Option<Option<Overlay>>,
     /// Moment of the animation in seconds.
     pub time: Option<f64>,
     /// Index of the animation.
@@ -72,8 +101,8 @@ pub fn show(ctx: &egui::Context, facts: &Facts<'_>) -> Wishes {
     if let Some(column) = facts.split {
         show_split(ctx, column);
     }
-    if let Some(scene) = facts.scene.as_ref().filter(|_| facts.shows_panel) {
-        show_panel(ctx, scene, facts, &mut wishes);
+    if facts.shows_panel && (facts.scene.is_some() || facts.photo.is_some()) {
+        show_panel(ctx, facts, &mut wishes);
     }
     show_notes(ctx, facts);
     if facts.shows_keys {
@@ -82,67 +111,135 @@ pub fn show(ctx: &egui::Context, facts: &Facts<'_>) -> Wishes {
     wishes
 }
 
-fn show_panel(ctx: &egui::Context, scene: &SceneFacts<'_>, facts: &Facts<'_>, wishes: &mut Wishes) {
+fn show_panel(ctx: &egui::Context, facts: &Facts<'_>, wishes: &mut Wishes) {
     egui::Window::new("panel")
         .title_bar(false)
         .resizable(false)
         .default_pos([8.0, 8.0])
         .show(ctx, |ui| {
-            ui.strong(&scene.name);
-            ui.label(format!("{} triangles", scene.triangles));
-            if let Some((animations, chosen, player)) = scene.motion {
-                ui.separator();
-                show_player(ui, animations, chosen, player, wishes);
+            if let Some(photo) = &facts.photo {
+                let [width, height] = photo.size;
+                ui.strong(&photo.name);
+                ui.label(format!("{width} x {height} pixels"));
+                if photo.is_zoomed {
+                    ui.label("zoomed: U unzooms it under the pointer");
+                }
             }
-            for (index, picture) in facts.pictures.iter().enumerate() {
+            if let Some(scene) = &facts.scene {
+                show_scene(ui, scene, facts, wishes);
                 ui.separator();
-                ui.push_id(index, |ui| {
-                    let mut look = picture.look.clone();
-                    edit(ui, &mut look);
-                    if look != *picture.look {
-                        wishes.look = Some((index, look));
-                    }
-                    show_figures(ui, picture);
-                });
+                show_overlay(ui, facts, wishes);
             }
-            ui.separator();
-            show_cover(ui, facts, wishes);
+            show_lenses(ui, facts, wishes);
+            if facts.is_refining {
+                ui.weak("being made in the background");
+            }
             ui.weak("H lists the keys, P hides this");
         });
 }
 
-/// Changes what is seen in the stead of the frames.
-fn show_cover(ui: &mut egui::Ui, facts: &Facts<'_>, wishes: &mut Wishes) {
-    let name = |attribute: Option<AovKind>| attribute.map_or("colours", AovKind::name);
+fn show_scene(ui: &mut egui::Ui, scene: &SceneFacts<'_>, facts: &Facts<'_>, wishes: &mut Wishes) {
+    ui.strong(&scene.name);
+    ui.label(format!("{} triangles", scene.triangles));
+    if let Some((animations, chosen, player)) = scene.motion {
+        ui.separator();
+        show_player(ui, animations, chosen, player, wishes);
+    }
+    for (index, picture) in facts.pictures.iter().enumerate() {
+        ui.separator();
+        ui.push_id(index, |ui| {
+            let mut look = picture.look.clone();
+            edit(ui, &mut look);
+            if look != *picture.look {
+                wishes.look = Some((index, look));
+            }
+            show_figures(ui, picture);
+        });
+    }
+}
+
+/// Changes what is seen of pixels.
+fn show_overlay(ui: &mut egui::Ui, facts: &Facts<'_>, wishes: &mut Wishes) {
+    let name = |overlay: Option<Overlay>| overlay.map_or("colours", Overlay::name);
     egui::ComboBox::from_label("shown")
-        .selected_text(name(facts.attribute))
+        .selected_text(name(facts.overlay))
         .show_ui(ui, |ui| {
-            let all = std::iter::once(None).chain(AovKind::ALL.map(Some));
-            for attribute in all {
-                let is_chosen = attribute == facts.attribute;
-                if ui.selectable_label(is_chosen, name(attribute)).clicked() {
-                    wishes.attribute = Some(attribute);
+            let all = std::iter::once(None).chain(Overlay::ALL.map(Some));
+            for overlay in all {
+                let is_chosen = overlay == facts.overlay;
+                if ui.selectable_label(is_chosen, name(overlay)).clicked() {
+                    wishes.overlay = Some(overlay);
                 }
             }
         });
-    let Some(mut lens) = facts.lens else {
+    if let Some(overlay) = facts.overlay.filter(|overlay| !overlay.scale().is_empty()) {
+        show_scale(ui, overlay.scale());
+    }
+    if let Some(figures) = facts.figures {
+        ui.label(figures);
+    }
+}
+
+/// The colours of a heat map, and what they stand for.
+fn show_scale(ui: &mut egui::Ui, marks: &[(f64, &str)]) {
+    const SIZE: egui::Vec2 = egui::vec2(200.0, 26.0);
+    const BAR: f32 = 10.0;
+    const STRIPES: u32 = 50;
+    let (response, painter) = ui.allocate_painter(SIZE, egui::Sense::hover());
+    let area = response.rect.shrink2(egui::vec2(8.0, 0.0));
+    let at = |share: f32| area.left() + share * area.width();
+    for stripe in 0..STRIPES {
+        let share = |stripe: u32| stripe as f32 / STRIPES as f32;
+        let [r, g, b] = heat::color(f64::from(share(stripe)) + 0.5 / f64::from(STRIPES));
+        let ends = [at(share(stripe)), at(share(stripe + 1))];
+        let stripe = egui::Rect::from_x_y_ranges(ends[0]..=ends[1], area.top()..=area.top() + BAR);
+        painter.rect_filled(stripe, 0.0, egui::Color32::from_rgb(r, g, b));
+    }
+    for (share, text) in marks {
+        painter.text(
+            egui::pos2(at(*share as f32), area.bottom()),
+            egui::Align2::CENTER_BOTTOM,
+            text,
+            egui::FontId::proportional(11.0),
+            ui.visuals().text_color(),
+        );
+    }
+}
+
+/// Changes the lens at hand, and how many there are.
+fn show_lenses(ui: &mut egui::Ui, facts: &Facts<'_>, wishes: &mut Wishes) {
+    let lenses = facts.lenses.regions();
+    let Some(lens) = lenses.get(facts.lenses.active()) else {
         return;
     };
+    ui.separator();
     ui.label(format!(
-        "lens: {:.2} times as large",
+        "lens {} of {}: {:.2} times as large",
+        facts.lenses.active() + 1,
+        lenses.len(),
         1.0 / lens.multiplicity
     ));
+    let (mut shape, mut transition) = (lens.shape, lens.transition);
     ui.horizontal(|ui| {
-        ui.selectable_value(&mut lens.shape, Shape::Circle, "circle");
-        ui.selectable_value(&mut lens.shape, Shape::Rectangle, "rectangle");
+        ui.selectable_value(&mut shape, Shape::Circle, "circle");
+        ui.selectable_value(&mut shape, Shape::Rectangle, "rectangle");
     });
     ui.horizontal(|ui| {
-        ui.selectable_value(&mut lens.transition, Transition::Linear, "linear");
-        ui.selectable_value(&mut lens.transition, Transition::Smooth, "smooth");
+        ui.selectable_value(&mut transition, Transition::Linear, "linear");
+        ui.selectable_value(&mut transition, Transition::Smooth, "smooth");
     });
-    if Some(lens) != facts.lens {
-        wishes.lens = Some(lens);
+    if (shape, transition) != (lens.shape, lens.transition) {
+        wishes.lens = Some((shape, transition));
     }
+    ui.horizontal(|ui| {
+        if ui.button("Remove").clicked() {
+            wishes.action = Some(Action::RemoveLens);
+        }
+        let mut tints = facts.tints;
+        if ui.checkbox(&mut tints, "transition in colour").changed() {
+            wishes.action = Some(Action::Tint);
+        }
+    });
 }
 
 fn show_player(
@@ -299,11 +396,14 @@ fn show_notes(ctx: &egui::Context, facts: &Facts<'_>) {
     }
     overlay("notes", egui::Align2::LEFT_BOTTOM).show(ctx, |ui| {
         ui.set_max_width(0.7 * ctx.content_rect().width());
-        if let Some((name, since)) = facts.loading {
-            ui.label(format!(
-                "Loading {name}: {} s. Esc stops it.",
-                since.as_secs()
-            ));
+        if let Some(loading) = &facts.loading {
+            ui.label(format!("Loading {}: {}", loading.name, loading.step));
+            let waited = format!("{} s; Esc stops it", loading.since.as_secs());
+            ui.add(
+                egui::ProgressBar::new(loading.share)
+                    .text(waited)
+                    .desired_width(240.0),
+            );
             ctx.request_repaint_after(Duration::from_millis(250));
         }
         for note in facts.notes {

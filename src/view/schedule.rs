@@ -9,6 +9,10 @@ use std::time::{Duration, Instant};
 const REST: Duration = Duration::from_millis(150);
 /// What a band, or a picture while something moves, should take of the device.
 const TARGET_MS: f64 = 80.0;
+/// Pictures in a row that take too long before the next ones have fewer samples: other programs may be busy for a moment.
+const MOST_SLOW: u32 = 2;
+/// What was too slow is not tried again for so long, unless there was a rest.
+const AGAIN: Duration = Duration::from_secs(2);
 /// Bands have multiples of this many rows: the height of a tile.
 const ROW_STEP: u32 = 4;
 /// How much longer a row is thought to take with the samples of the next step, until one has been rendered.
@@ -40,10 +44,14 @@ pub enum Work {
 pub struct Schedule {
     /// Samples while something moves, from the best.
     drafts: Vec<u32>,
+    /// Samples of the one that is the picture at rest, if one is.
+    final_draft: Option<u32>,
     /// Which of them is quick enough.
     draft: usize,
-    /// Which of them is the best to try: since the last rest, those before it were too slow.
-    best_draft: usize,
+    /// How many pictures in a row were too slow.
+    slow: u32,
+    /// When the one before it was found to be too slow.
+    too_slow: Option<Instant>,
     /// Samples at rest, to those asked for.
     steps: Vec<u32>,
     height: u32,
@@ -77,13 +85,17 @@ impl Schedule {
         if drafts.is_empty() || (asked <= DRAFTS[0] && !is_brute) {
             drafts.insert(0, asked);
         }
+        let is_final = |samples: &u32| look.draft(*samples) == look.at(asked, None);
+        let final_draft = drafts.iter().copied().find(is_final);
         let mut steps: Vec<_> = STEPS.into_iter().filter(below).collect();
         steps.push(asked);
         let height = look.settings.size[1];
         Self {
             drafts,
+            final_draft,
             draft: 0,
-            best_draft: 0,
+            slow: 0,
+            too_slow: None,
             steps,
             height,
             changed: now,
@@ -103,13 +115,19 @@ impl Schedule {
         match self.step {
             Step::Draft => {
                 let samples = self.draft_samples();
-                self.step = self.after(samples);
+                self.step = match (self.final_draft == Some(samples), self.steps.first()) {
+                    (false, Some(first)) => Step::Band {
+                        samples: *first,
+                        row: 0,
+                    },
+                    _ => Step::Done,
+                };
                 Some(Work::Draft { samples })
             }
             Step::Band { row: 0, .. } if now < self.changed + REST => None,
             Step::Band { samples, row } => {
                 if row == 0 {
-                    self.best_draft = 0;
+                    self.too_slow = None;
                     self.row_ms *= STEP_COST;
                 }
                 let rows = (TARGET_MS / self.row_ms).min(f64::from(self.height)) as u32;
@@ -149,17 +167,12 @@ impl Schedule {
     }
 
     /// Learns from what work took on the device, in milliseconds.
-    pub fn learn(&mut self, work: &Work, ms: f64) {
+    pub fn learn(&mut self, work: &Work, ms: f64, now: Instant) {
         match work {
             Work::Draft { samples } => {
                 self.row_ms = ms / f64::from(self.height);
                 if *samples == self.draft_samples() {
-                    if ms > 1.25 * TARGET_MS && self.draft + 1 < self.drafts.len() {
-                        self.draft += 1;
-                        self.best_draft = self.draft;
-                    } else if ms < 0.4 * TARGET_MS && self.draft > self.best_draft {
-                        self.draft -= 1;
-                    }
+                    self.learn_draft(ms, now);
                 }
             }
             Work::Band { samples, rows } if self.is_rendering(*samples) => {
@@ -170,6 +183,25 @@ impl Schedule {
             }
             // The last bands of a step are done when the next one has begun.
             Work::Band { .. } => {}
+        }
+    }
+
+    /// Goes on to drafts of fewer samples where these are too slow more than once in a row, and back to more where these are
+    /// quick, but not at once to what was too slow.
+    fn learn_draft(&mut self, ms: f64, now: Instant) {
+        if ms <= 1.25 * TARGET_MS {
+            self.slow = 0;
+            let may_try = self.too_slow.is_none_or(|then| now > then + AGAIN);
+            if ms < 0.6 * TARGET_MS && self.draft > 0 && may_try {
+                self.draft -= 1;
+            }
+            return;
+        }
+        self.slow += 1;
+        if self.slow >= MOST_SLOW && self.draft + 1 < self.drafts.len() {
+            self.draft += 1;
+            self.slow = 0;
+            self.too_slow = Some(now);
         }
     }
 
@@ -218,7 +250,7 @@ mod tests {
         let mut bands = Vec::new();
         while let Some(work) = schedule.take(now) {
             if let Work::Band { samples, rows } = &work {
-                schedule.learn(&work, ms * f64::from(rows.end - rows.start));
+                schedule.learn(&work, ms * f64::from(rows.end - rows.start), now);
                 bands.push((*samples, rows.clone()));
             }
         }
@@ -269,21 +301,41 @@ mod tests {
     fn drafts_get_cheaper_until_they_are_fluid() {
         let start = Instant::now();
         let mut schedule = schedule(Method::Superpixel, 1024, 100, start);
-        for samples in [16, 8, 4, 2, 1, 1] {
-            schedule.restart(start);
-            let work = schedule.take(start).unwrap();
+        let draft = |schedule: &mut Schedule, ms: f64, now: Instant| {
+            schedule.restart(now);
+            let work = schedule.take(now).unwrap();
+            schedule.learn(&work, ms, now);
+            work
+        };
+        // One that is slow is no reason, two in a row are.
+        for (ms, samples) in [(200.0, 16), (90.0, 16), (200.0, 16), (200.0, 16), (90.0, 8)] {
+            let work = draft(&mut schedule, ms, start);
             assert_eq!(work, Work::Draft { samples });
-            schedule.learn(&work, 200.0);
         }
-        // What was too slow is tried again after a rest, and not before.
-        let quick = Work::Draft { samples: 1 };
-        schedule.learn(&quick, 10.0);
-        schedule.restart(start);
-        assert_eq!(schedule.take(start), Some(quick.clone()));
-        schedule.take(after(200, start));
-        schedule.learn(&quick, 10.0);
-        schedule.restart(start);
-        assert_eq!(schedule.take(start), Some(Work::Draft { samples: 2 }));
+        for samples in [8, 8, 4, 4, 2, 2, 1, 1, 1] {
+            let work = draft(&mut schedule, 200.0, start);
+            assert_eq!(work, Work::Draft { samples });
+        }
+        // What was too slow is tried again after a while, and not before.
+        let soon = after(1000, start);
+        assert_eq!(draft(&mut schedule, 10.0, soon), Work::Draft { samples: 1 });
+        assert_eq!(draft(&mut schedule, 10.0, soon), Work::Draft { samples: 1 });
+        let later = after(2001, start);
+        draft(&mut schedule, 10.0, later);
+        assert_eq!(
+            draft(&mut schedule, 90.0, later),
+            Work::Draft { samples: 2 }
+        );
+        // Or after a rest.
+        for _ in 0..2 {
+            draft(&mut schedule, 200.0, later);
+        }
+        schedule.take(after(2200, start));
+        draft(&mut schedule, 10.0, later);
+        assert_eq!(
+            draft(&mut schedule, 90.0, later),
+            Work::Draft { samples: 2 }
+        );
     }
 
     #[test]
@@ -294,9 +346,14 @@ mod tests {
             assert_eq!(schedule.take(start), Some(Work::Draft { samples }));
             assert!(schedule.is_done());
         }
+        // Drafts of superpixels are cheaper than what is asked for.
         let mut few = schedule(Method::Superpixel, 4, 100, start);
         assert_eq!(few.take(start), Some(Work::Draft { samples: 4 }));
-        assert!(few.is_done());
+        let rest = after(150, start);
+        assert!(matches!(
+            few.take(rest),
+            Some(Work::Band { samples: 4, .. })
+        ));
         let mut brute = schedule(Method::Ssaa, 256, 100, start);
         assert_eq!(brute.take(start), Some(Work::Draft { samples: 1 }));
         let mut samples: Vec<_> = bands(&mut brute, 0.1, after(150, start))

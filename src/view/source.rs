@@ -2,6 +2,8 @@
 
 use super::engine::Engine;
 use super::navigate::Bounds;
+use super::photo::Photo;
+use super::progress::{Progress, Step};
 use glam::DVec3;
 use gpc::render::PreparedScene;
 use gpc::scene::{
@@ -27,6 +29,12 @@ pub struct Appearance {
     pub environment: Option<Arc<Environment>>,
     /// Which edges of meshes are drawn.
     pub edges: Option<Edges>,
+}
+
+/// What a file holds.
+pub enum Opened {
+    Scene(Box<Stage>),
+    Photo(Photo),
 }
 
 /// A scene on the device.
@@ -67,13 +75,19 @@ impl Source {
         }
     }
 
-    /// Reads the scene and prepares it for the device.
+    /// Reads a scene and prepares it for the device, or reads a photograph.
     pub fn open(
         &self,
         engine: Arc<Engine>,
         appearance: &Appearance,
         max_memory: Option<u64>,
-    ) -> anyhow::Result<Stage> {
+        progress: &Progress,
+    ) -> anyhow::Result<Opened> {
+        let is_photo = Photo::is_in(&self.path);
+        progress.begin(Step::Read)?;
+        if is_photo {
+            return Ok(Opened::Photo(Photo::open(&self.path)?));
+        }
         let mut loaded = match &self.variant {
             Some(variant) => Scene::load_variant(&self.path, variant)?,
             None => Scene::load(&self.path)?,
@@ -84,23 +98,26 @@ impl Source {
         if let Some(edges) = &appearance.edges {
             loaded.scene.add_edges(edges);
         }
+        progress.begin(Step::Pose)?;
         let animations = loaded.scene.info().animations;
         let renderer = &engine.renderer;
         let (pose, motion, prepared);
         if animations.is_empty() {
             pose = loaded.scene.pose(&self.request)?;
             motion = None;
+            progress.begin(Step::Prepare)?;
             prepared = renderer.prepare_scene(&loaded.scene, &pose, max_memory)?;
         } else {
             let (posed, moving) = loaded.scene.pose_in_motion(&self.request)?;
             let both = (&posed, &moving);
+            progress.begin(Step::Prepare)?;
             prepared = renderer.prepare_scene_in_motion(&loaded.scene, both, max_memory)?;
             (pose, motion) = (posed, Some(moving));
         }
         for warning in loaded.warnings.iter().chain(&pose.warnings) {
             log::warn!("{warning}");
         }
-        Ok(Stage {
+        Ok(Opened::Scene(Box::new(Stage {
             source: self.clone(),
             scene: Arc::new(loaded.scene),
             bounds: bounds(&pose),
@@ -110,7 +127,7 @@ impl Source {
             animations,
             prepared,
             _engine: engine,
-        })
+        })))
     }
 
     /// The file's name.

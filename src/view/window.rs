@@ -11,19 +11,20 @@ use super::layer::Layer;
 use super::look::Look;
 use super::losses::is_lost;
 use super::notes::Notes;
+use super::open::Loading;
 use super::painter::Painting;
-use super::panel::{self, Facts, PictureFacts, SceneFacts, Wishes};
-use super::picture::Picture;
+use super::panel::{self, Facts, LoadingFacts, PhotoFacts, PictureFacts, SceneFacts, Wishes};
+use super::photo::Easel;
 use super::player::Player;
 use super::pointer::Pointer;
-use super::source::{Appearance, Source, Stage};
+use super::source::{Appearance, Source};
 use super::standpoint::{Standpoint, Start};
-use super::studio::{Made, Order, Pixels, Studio, Subject};
+use super::studio::{Made, Studio};
 use super::watch::Watch;
 use super::{NoDisplay, Options};
 use gpc::render::{HeadlessOptions, Shadows};
 use gpc::scene::{Moment, SceneCamera};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
@@ -36,15 +37,6 @@ use winit::window::Window;
 const POLL: Duration = Duration::from_millis(3);
 /// How long a file has to be left alone before it is loaded again: it may be written in parts.
 const SETTLE: Duration = Duration::from_millis(300);
-
-/// What is being loaded.
-pub struct Loading {
-    number: u64,
-    pub source: Source,
-    since: Instant,
-    /// Whether it is seen from where the scene before was.
-    keeps_view: bool,
-}
 
 /// The window with all that is in it.
 pub struct View {
@@ -74,13 +66,13 @@ pub struct View {
 
     pub standpoint: Standpoint,
     /// Where the first scene is seen from at first.
-    start: Option<Start>,
+    pub start: Option<Start>,
     /// While keys move the eye.
     pub flight: Option<Flight>,
     /// How the pictures are antialiased, left first.
     pub looks: Vec<Look>,
     /// What scenes are shown with.
-    appearance: Arc<Appearance>,
+    pub appearance: Arc<Appearance>,
     /// The options of the command line that say the same, and what is behind the scene.
     pub appearance_options: Vec<String>,
     /// Column of the split, as a share of the width.
@@ -90,8 +82,11 @@ pub struct View {
 
     pub pointer: Pointer,
     pub modifiers: ModifiersState,
-    /// What is looked at in the stead of the frames.
+    /// What is looked at in the stead of the frames, and what there is to say of it.
     pub cover: Cover,
+    pub cover_figures: Option<String>,
+    /// In the stead of a scene.
+    pub easel: Option<Easel>,
     /// Makes it, and files.
     pub studio: Studio,
     pub notes: Notes,
@@ -132,7 +127,7 @@ impl View {
             // Nobody waits for it once the window is closed.
             let _ = deliver.send_event(Event::Made(made));
         });
-        let cover = Cover::new(options.look.settings.shadows == Shadows::Exact);
+        let cover = Cover::new(options.look.settings.shadows == Shadows::Exact, false);
         let mut view = Self {
             scenes: std::iter::once(options.source.path.clone())
                 .chain(options.others)
@@ -162,6 +157,8 @@ impl View {
             pointer: Pointer::default(),
             modifiers: ModifiersState::empty(),
             cover,
+            cover_figures: None,
+            easel: None,
             studio,
             notes: Notes::default(),
             shows_keys: false,
@@ -172,7 +169,7 @@ impl View {
             wants_to_quit: false,
             messages: Vec::new(),
         };
-        view.canvas.refines = view.cover.subject().is_none();
+        view.canvas.refines = !view.cover.is_wanted();
         view.load(false);
         Ok(view)
     }
@@ -183,7 +180,7 @@ impl View {
         messages.extend(self.canvas.engine.device.validation_messages());
         let keeps_view = match &self.loading {
             Some(loading) => loading.keeps_view,
-            None => self.canvas.stage().is_some(),
+            None => self.canvas.stage().is_some() || self.easel.is_some(),
         };
         // The window's images go before it has others.
         drop(self.canvas);
@@ -194,7 +191,7 @@ impl View {
             moment: None,
             ..self
         };
-        view.canvas.refines = view.cover.subject().is_none();
+        view.canvas.refines = !view.cover.is_wanted();
         view.source.request.time = view.time();
         view.notes
             .say("the device was lost; everything is made again");
@@ -218,59 +215,11 @@ impl View {
         messages
     }
 
-    /// Loads what was asked for, in the background.
-    pub fn load(&mut self, keeps_view: bool) {
-        let source = self.source.clone();
-        self.loads += 1;
-        let number = self.loads;
-        self.loading = Some(Loading {
-            number,
-            source: source.clone(),
-            since: Instant::now(),
-            keeps_view,
-        });
-        self.is_dirty = true;
-        self.reload = None;
-        self.watch(&source.path);
-        let engine = self.canvas.engine.clone();
-        let proxy = self.proxy.clone();
-        let appearance = self.appearance.clone();
-        let max_memory = self.looks[0].settings.max_memory;
-        self.loaders.retain(|loader| !loader.is_finished());
-        self.loaders.push(std::thread::spawn(move || {
-            let stage = source.open(engine, &appearance, max_memory);
-            // Nobody waits for it once the window is closed.
-            let _ = proxy.send_event(Event::Opened(number, Box::new(stage)));
-        }));
-    }
-
-    /// Watches the file of the scene, whether it can be loaded or not.
-    fn watch(&mut self, path: &Path) {
-        let proxy = self.proxy.clone();
-        let watch = Watch::new(path, move || {
-            // Nobody waits for it once the window is closed.
-            let _ = proxy.send_event(Event::Changed);
-        });
-        if let Err(error) = &watch {
-            log::warn!("{} is not watched: {error}", path.display());
-        }
-        self.watch = watch.ok();
-    }
-
     /// Takes what another thread has done.
     pub fn on_done(&mut self, event: Event) -> anyhow::Result<()> {
         self.is_dirty = true;
         match event {
-            Event::Opened(number, stage) => {
-                // Another one was asked for meanwhile, or none.
-                let Some(loading) = self.loading.take_if(|loading| loading.number == number) else {
-                    return Ok(());
-                };
-                match *stage {
-                    Ok(stage) => self.set_stage(stage, loading.keeps_view)?,
-                    Err(error) => self.notes.fail(&error),
-                }
-            }
+            Event::Opened(number, opened) => self.opened(number, *opened)?,
             Event::Changed => self.reload = Some(Instant::now() + SETTLE),
             Event::Made(Made::File(path, Ok(()))) => {
                 self.notes.say(format!("wrote {}", path.display()));
@@ -281,31 +230,6 @@ impl View {
             }
         }
         Ok(())
-    }
-
-    fn set_stage(&mut self, stage: Stage, keeps_view: bool) -> anyhow::Result<()> {
-        self.notes.clear_errors();
-        self.window
-            .set_title(&format!("{} - gpc", stage.source.name()));
-        if !keeps_view {
-            let aspect = self.aspect();
-            let start = self.start.take().unwrap_or_default();
-            let asked = start.standpoint(&stage.cameras, stage.bounds, aspect);
-            self.standpoint = asked.unwrap_or_else(|error| {
-                self.notes.fail(&error.into());
-                Standpoint::first(&stage.cameras, stage.bounds, aspect)
-            });
-            self.flight = None;
-        }
-        log::debug!("shows {}", stage.source.path.display());
-        self.player = stage.motion.as_ref().map(|_| {
-            let animation = stage.animations.get(stage.animation());
-            let duration = animation.map_or(0.0, |animation| animation.duration);
-            Player::new(stage.source.request.time, duration)
-        });
-        self.moment = None;
-        self.canvas.set_stage(stage)?;
-        self.renew_layers()
     }
 
     /// Makes pictures of the window's size anew.
@@ -327,69 +251,6 @@ impl View {
             .collect::<anyhow::Result<_>>()?;
         self.canvas.set_layers(layers)?;
         self.view_changed()
-    }
-
-    /// What was made of another view is no longer seen, and asked for anew.
-    pub fn view_changed(&mut self) -> anyhow::Result<()> {
-        self.is_dirty = true;
-        self.canvas.set_cover(None)?;
-        self.order_cover(|cover| cover.begin(true));
-        Ok(())
-    }
-
-    /// Asks for another cover of the same view, or for none.
-    pub fn cover_changed(&mut self) -> anyhow::Result<()> {
-        self.is_dirty = true;
-        self.canvas.refines = self.cover.subject().is_none();
-        if self.canvas.refines {
-            self.canvas.set_cover(None)?;
-        }
-        self.order_cover(|cover| cover.begin(false));
-        Ok(())
-    }
-
-    /// Shows what the studio has made.
-    fn show_made(&mut self, number: u64, pixels: &Pixels) -> anyhow::Result<()> {
-        let arrival = self.cover.arrived(number);
-        if arrival.is_shown {
-            let picture = Picture::from_pixels(&self.canvas.engine.device, pixels)?;
-            self.canvas.set_cover(Some(picture))?;
-        }
-        if arrival.refines {
-            self.order_cover(Cover::refine);
-        }
-        Ok(())
-    }
-
-    /// Orders what is wanted in the stead of the frames, if anything is.
-    fn order_cover(&mut self, step: impl FnOnce(&mut Cover) -> (u64, u32)) {
-        if let Some(subject) = self.cover.subject() {
-            let (number, samples) = step(&mut self.cover);
-            let look = &self.looks[self.layer_under_pointer()];
-            let samples = if look.can_have(samples) {
-                samples.min(look.settings.samples)
-            } else {
-                look.settings.samples
-            };
-            self.order(number, samples, subject);
-        }
-    }
-
-    /// Asks the studio for a picture of what is seen, antialiased like that under the pointer.
-    pub fn order(&self, number: u64, samples: u32, subject: Subject) {
-        let Some(stage) = self.canvas.stage() else {
-            return;
-        };
-        let look = &self.looks[self.layer_under_pointer()];
-        self.studio.ask(Order {
-            number,
-            source: stage.source.clone(),
-            scene: stage.scene.clone(),
-            time: self.time(),
-            standpoint: self.standpoint,
-            settings: look.at(samples, None),
-            subject,
-        });
     }
 
     /// Width / height of the picture.
@@ -427,6 +288,9 @@ impl View {
         self.is_dirty |= self.flight.as_ref().is_some_and(Flight::is_moving);
         self.is_dirty |= is_due(due) || is_due(self.repaint) || self.canvas.has_again();
         self.is_dirty |= is_due(self.notes.next_change());
+        if is_due(self.cover.due()) {
+            self.refine_cover();
+        }
         if self.is_dirty {
             self.draw(now)?;
         }
@@ -438,6 +302,7 @@ impl View {
             self.canvas.due(),
             self.repaint,
             self.reload,
+            self.cover.due(),
             self.notes.next_change(),
         ];
         Ok(next
@@ -500,17 +365,32 @@ impl View {
         let context = self.interface.egui_ctx().clone();
         let names = self.loading.as_ref().map(|loading| {
             let since = now.saturating_duration_since(loading.since);
-            (loading.source.name(), since)
+            (loading.source.name(), since, loading.progress.step())
         });
         let split = self.split_column();
         let facts = Facts {
             notes: self.notes.seen(now),
-            loading: names.as_ref().map(|(name, since)| (name.as_str(), *since)),
+            loading: names
+                .as_ref()
+                .map(|(name, since, (step, share))| LoadingFacts {
+                    name,
+                    since: *since,
+                    step: step.name(),
+                    share: *share,
+                }),
             shows_keys: self.shows_keys,
             shows_panel: self.shows_panel,
             split,
-            lens: self.cover.lens,
-            attribute: self.cover.attribute,
+            lenses: &self.cover.lenses,
+            tints: self.cover.tints,
+            overlay: self.cover.overlay,
+            figures: self.cover_figures.as_deref(),
+            is_refining: !self.cover.is_done(),
+            photo: self.easel.as_ref().map(|easel| PhotoFacts {
+                name: self.source.name(),
+                size: easel.photo.photograph().size(),
+                is_zoomed: easel.photo.zoomed().is_some(),
+            }),
             scene: self.canvas.stage().map(|stage| SceneFacts {
                 name: stage.source.name(),
                 triangles: stage.prepared.triangle_count(),
@@ -608,13 +488,15 @@ impl View {
         Ok(())
     }
 
-    /// Says when the picture has all samples.
+    /// Says when the picture that is seen has all samples.
     fn note_rest(&mut self) {
-        let rests = self.canvas.rests() && self.cover.is_done();
-        if rests && !self.rests {
+        let is_drawn = self.easel.is_some() || self.canvas.rests();
+        if !(is_drawn && self.cover.is_done()) {
+            self.rests = false;
+        } else if !self.rests && !self.is_dirty && !self.canvas.is_busy() {
+            self.rests = true;
             log::debug!("at rest");
         }
-        self.rests = rests;
     }
 }
 

@@ -7,7 +7,7 @@ mod xdnd;
 
 pub use display::Display;
 pub use loss::Loss;
-pub use viewer::{NOTES_SEEN, Viewer};
+pub use viewer::Viewer;
 pub use xdnd::drop_file;
 
 use std::time::Duration;

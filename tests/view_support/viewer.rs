@@ -8,9 +8,6 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
-/// Longer than anything is said in the window.
-pub const NOTES_SEEN: Duration = Duration::from_secs(8);
-
 /// The viewer, and what it says.
 pub struct Viewer<'a> {
     display: &'a Display,
@@ -128,11 +125,15 @@ impl<'a> Viewer<'a> {
         ]);
     }
 
-    /// Hides the panel, once the window takes keys, and waits until nothing else lies over the picture.
+    /// Waits until the window has the focus, and takes keys: then it answers when asked for a command.
+    pub fn focus(&mut self, answer: &str) {
+        self.repeat_until(answer, |display| display.input(&["key", "ctrl+c"]));
+    }
+
+    /// Hides the panel.
     pub fn show_picture_alone(&mut self) {
-        self.command();
+        self.focus("copied: ");
         self.key("p");
-        std::thread::sleep(NOTES_SEEN);
     }
 
     /// The `gpc render` command that makes the picture, by its arguments.
@@ -155,6 +156,20 @@ impl<'a> Viewer<'a> {
     /// Takes all that it has said and was not waited for, once it has ended.
     pub fn read_to_end(&mut self) {
         self.said.extend(self.lines.iter());
+    }
+
+    /// Takes what it has said since.
+    pub fn read(&mut self) {
+        self.said.extend(self.lines.try_iter());
+    }
+
+    /// Main memory that it uses.
+    pub fn memory_bytes(&self) -> u64 {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", self.process.id()));
+        let status = status.expect("the viewer has ended");
+        let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"));
+        let number = line.and_then(|line| line.split_whitespace().next());
+        1024 * number.unwrap().parse::<u64>().unwrap()
     }
 
     /// Waits until the program ends.

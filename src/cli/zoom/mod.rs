@@ -1,11 +1,9 @@
 //! `gpc zoom`.
 
 mod args;
-mod record;
 mod steps;
 
 pub use args::ZoomArgs;
-pub use record::{KEYWORD, Record};
 
 use super::exit::{Usage, usage};
 use super::render::Shot;
@@ -17,7 +15,7 @@ use gpc::camera::zoom::{Window, ZoomMap, ZoomRegion};
 use gpc::camera::{LocationMap, Pinhole};
 use gpc::output::{self, Format, Picture};
 use gpc::render::{Rendered, Statistics};
-use gpc::resample::Photograph;
+use gpc::resample::{Photograph, Zoomed};
 use serde::Serialize;
 use std::fs::File;
 use std::io::Read;
@@ -27,7 +25,7 @@ use std::time::Instant;
 use steps::Step;
 
 /// An image, the steps to it, and what is said of it.
-struct Zoomed {
+struct Outcome {
     result: Rendered,
     steps: Vec<Step>,
     figures: Report,
@@ -62,7 +60,7 @@ pub fn run(args: &ZoomArgs) -> anyhow::Result<ExitCode> {
     if args.steps && input::is_standard(&args.output) {
         usage!("--steps writes files named after OUT, and -o - has no name");
     }
-    let Zoomed {
+    let Outcome {
         result,
         steps,
         figures,
@@ -78,8 +76,7 @@ pub fn run(args: &ZoomArgs) -> anyhow::Result<ExitCode> {
     }
     let mut bytes = render::encode(&args.output, format, &result, &args.image.aovs())?;
     if matches!(format, Format::Png8 | Format::Png16) {
-        let record = serde_json::to_string(&Record::new(result.size, &map))?;
-        bytes = output::add_text(&bytes, KEYWORD, &record)?;
+        bytes = Zoomed::add_map(&bytes, result.size, &map)?;
     }
     render::write(&args.output, &bytes)?;
     args.report.print(&figures)?;
@@ -104,11 +101,11 @@ fn is_picture(path: &Path) -> bool {
         && File::open(path)
             .and_then(|mut file| file.read_exact(&mut start))
             .is_ok();
-    read && (start == *b"\x89PN" || start == *b"\xff\xd8\xff")
+    read && output::is_image(&start)
 }
 
 /// Zooms into a photograph.
-fn photograph(args: &ZoomArgs, map: &ZoomMap) -> anyhow::Result<Zoomed> {
+fn photograph(args: &ZoomArgs, map: &ZoomMap) -> anyhow::Result<Outcome> {
     if !args.image.aov.is_empty() {
         usage!("--aov: a photograph holds nothing but colours");
     }
@@ -134,7 +131,7 @@ fn photograph(args: &ZoomArgs, map: &ZoomMap) -> anyhow::Result<Zoomed> {
         regions: map.regions().to_vec(),
         wall_ms,
     };
-    Ok(Zoomed {
+    Ok(Outcome {
         result,
         steps,
         figures,
@@ -142,7 +139,7 @@ fn photograph(args: &ZoomArgs, map: &ZoomMap) -> anyhow::Result<Zoomed> {
 }
 
 /// Samples a scene where the pixels look.
-fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<Zoomed> {
+fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<Outcome> {
     let size = args.image.size;
     if args.steps {
         for (index, region) in map.regions().iter().enumerate() {
@@ -188,7 +185,7 @@ fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<Zoome
         }
     }
     stage.finish()?;
-    Ok(Zoomed {
+    Ok(Outcome {
         result,
         steps,
         figures: Report::Scene(Box::new(figures)),

@@ -1,0 +1,100 @@
+//! What the studio is asked for, and shows in the stead of frames.
+
+use super::cover::Cover;
+use super::picture::Picture;
+use super::studio::{Order, Pixels, SceneTask, Subject, Task};
+use super::window::View;
+use std::time::Instant;
+
+impl View {
+    /// What was made of another view is no longer seen, and asked for anew.
+    pub fn view_changed(&mut self) -> anyhow::Result<()> {
+        self.is_dirty = true;
+        // A photograph has no frames to be seen meanwhile.
+        if !self.cover.is_photo {
+            self.canvas.set_cover(None)?;
+        }
+        self.begin_cover(true);
+        Ok(())
+    }
+
+    /// Asks for another cover of the same view, or for none.
+    pub fn cover_changed(&mut self) -> anyhow::Result<()> {
+        self.is_dirty = true;
+        self.canvas.refines = !self.cover.is_wanted();
+        if self.canvas.refines {
+            self.canvas.set_cover(None)?;
+        }
+        self.begin_cover(false);
+        Ok(())
+    }
+
+    /// Shows what the studio has made.
+    pub fn show_made(&mut self, number: u64, pixels: &Pixels) -> anyhow::Result<()> {
+        let arrival = self.cover.arrived(number, Instant::now());
+        if arrival.is_shown {
+            let picture = Picture::from_pixels(&self.canvas.engine.device, pixels)?;
+            self.canvas.set_cover(Some(picture))?;
+            self.cover_figures.clone_from(&pixels.figures);
+        }
+        if arrival.refines {
+            self.order_cover(Cover::refine);
+        }
+        Ok(())
+    }
+
+    /// Orders the first picture of what is wanted in the stead of the frames, if anything is.
+    fn begin_cover(&mut self, view_changed: bool) {
+        self.cover_figures = None;
+        let look = &self.looks[self.layer_under_pointer()];
+        let asked = look.settings.samples;
+        self.order_cover(|cover| cover.begin(view_changed, asked));
+    }
+
+    /// Orders the next one, which has waited.
+    pub fn refine_cover(&mut self) {
+        self.order_cover(Cover::refine);
+    }
+
+    fn order_cover(&mut self, step: impl FnOnce(&mut Cover) -> (u64, u32)) {
+        if let Some(easel) = &self.easel {
+            let size = self.canvas.size().unwrap_or([1, 1]);
+            let (lenses, tints) = (&self.cover.lenses, self.cover.tints);
+            let view = easel.view(size, lenses.map(), tints, self.pointer.place());
+            let (number, _) = step(&mut self.cover);
+            self.studio.ask(Order {
+                number,
+                task: Task::Photo(view),
+            });
+        } else if let Some(subject) = self.cover.subject() {
+            let (number, samples) = step(&mut self.cover);
+            let look = &self.looks[self.layer_under_pointer()];
+            let samples = if look.can_have(samples) {
+                samples
+            } else {
+                look.settings.samples
+            };
+            self.order(number, samples, subject);
+        }
+    }
+
+    /// Asks the studio for a picture of what is seen of the scene, antialiased like that under the pointer.
+    pub fn order(&self, number: u64, samples: u32, subject: Subject) {
+        let Some(stage) = self.canvas.stage() else {
+            return;
+        };
+        let look = &self.looks[self.layer_under_pointer()];
+        let task = SceneTask {
+            source: stage.source.clone(),
+            scene: stage.scene.clone(),
+            time: self.time(),
+            standpoint: self.standpoint,
+            settings: look.at(samples, None),
+            subject,
+        };
+        self.studio.ask(Order {
+            number,
+            task: Task::Scene(Box::new(task)),
+        });
+    }
+}
