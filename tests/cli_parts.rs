@@ -44,21 +44,17 @@ fn a_region_is_cut_from_the_image() {
 fn shares_are_together_the_sequence() {
     let folder = tempfile::tempdir().unwrap();
     let read = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
-    for (name, sequence) in [
-        ("turn", &["--turntable", "7"][..]),
-        ("move", &["--frames", "3..9", "--fps", "12"]),
+    for (name, scene, sequence) in [
+        ("turn", "environment", &["--turntable", "7"][..]),
+        ("move", "pointer", &["--frames", "3..9", "--fps", "12"]),
     ] {
         let whole = format!("whole-{name}-{{frame}}.png");
-        render(
-            folder.path(),
-            "letters",
-            &[sequence, &["-o", &whole]].concat(),
-        );
+        render(folder.path(), scene, &[sequence, &["-o", &whole]].concat());
         let mut written = Vec::new();
         for shard in ["1/3", "2/3", "3/3"] {
             let part = format!("part-{name}-{{frame}}.png");
             let options = [sequence, &["-o", &part, "--shard", shard, "--json"]].concat();
-            let json = render(folder.path(), "letters", &options).json();
+            let json = render(folder.path(), scene, &options).json();
             let images = json["images"].as_array().unwrap();
             written.extend(images.iter().map(|image| image["output"].clone()));
         }
@@ -75,6 +71,11 @@ fn shares_are_together_the_sequence() {
             );
         }
     }
+    // What the device changed is what is there at that time.
+    let still = ["-o", "still.png", "--time", "0.5"];
+    render(folder.path(), "pointer", &still);
+    assert!(read("still.png") == read("whole-move-0006.png"));
+    assert!(read("still.png") != read("whole-move-0003.png"));
 }
 
 #[test]

@@ -197,6 +197,16 @@ fn pointers_hide_nodes_and_weigh_meshes() {
     builder.json["meshes"][1]["primitives"][0]["targets"] = json!([{"POSITION": displaced}]);
     builder.pointers(&[("/meshes/1/weights", vec![0.0, 1.0])]);
     assert!((corners(&quarter(&builder).geometry, 1)[0][2] - 0.5).abs() < 1e-6);
+    builder.json["animations"] = json!([]);
+    builder.pointers(&[("/nodes/1/weights/0", vec![0.0, 2.0])]);
+    assert!((corners(&quarter(&builder).geometry, 1)[0][2] - 1.0).abs() < 1e-6);
+    builder.json["animations"] = json!([]);
+    builder.pointers(&[("/meshes/1/weights/1", vec![0.0, 1.0])]);
+    let fault = "there is no weight 1: the mesh has 1 morph targets";
+    let warnings = builder.load().unwrap().warnings;
+    assert!(warnings.iter().any(|w| w.contains(fault)), "{warnings:?}");
+    builder.json["animations"] = json!([]);
+    builder.pointers(&[("/meshes/1/weights", vec![0.0, 1.0])]);
     builder.pointers(&[(
         "/nodes/0/extensions/KHR_node_visibility/visible",
         vec![1.0, 0.0],

@@ -57,6 +57,16 @@ impl Document {
         own
     }
 
+    /// Morph weights of a node where nothing animates them: its own, or else those of its mesh.
+    pub fn weights(&self, node: usize) -> Vec<f64> {
+        let node = self.root.nodes.get(node);
+        let mesh = node.and_then(|node| self.root.get(node.mesh?));
+        let own = node.and_then(|node| node.weights.as_ref());
+        let weights = own.or_else(|| mesh?.weights.as_ref());
+        let weights = weights.into_iter().flatten();
+        weights.copied().map(f64::from).collect()
+    }
+
     /// Names of the variants of the file's materials.
     pub fn variants(&self) -> impl Iterator<Item = &str> {
         variants(&self.root)
@@ -181,6 +191,8 @@ pub struct Skin {
 pub enum Animated {
     /// A property of a node.
     Node(usize, Property),
+    /// One morph weight of a node, by its index.
+    Weight(usize, usize),
     /// Whether a node and what is below it are drawn.
     Visibility(usize),
     /// What a description has at a JSON pointer that starts from it, without the first slash.
@@ -191,6 +203,7 @@ impl fmt::Display for Animated {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Node(_, property) => write!(f, "{property:?}"),
+            Self::Weight(..) => f.write_str("a weight"),
             Self::Visibility(_) => f.write_str("visibility"),
             Self::Description(_, pointer) => f.write_str(pointer),
         }

@@ -204,7 +204,7 @@ pub(super) fn summarize(scene: &Scene) -> SceneInfo {
 /// What channels change, in words.
 fn changes(channels: &[Channel]) -> Vec<&'static str> {
     let words = channels.iter().map(|channel| match channel.target {
-        Animated::Node(_, Property::MorphTargetWeights) => "weights",
+        Animated::Node(_, Property::MorphTargetWeights) | Animated::Weight(..) => "weights",
         Animated::Node(..) => "transforms",
         Animated::Visibility(_) => "visibility",
         Animated::Description(Described::Material(_), _) => "materials",

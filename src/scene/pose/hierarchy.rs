@@ -26,6 +26,15 @@ impl State {
         for channel in animation {
             let (node, property) = match channel.target {
                 Animated::Node(node, property) => (node, property),
+                Animated::Weight(node, target) => {
+                    let all = weights[node].get_or_insert_with(|| document.weights(node));
+                    all.resize(all.len().max(target + 1), 0.0);
+                    all[target] = keyframes::sample(channel, time)
+                        .first()
+                        .copied()
+                        .unwrap_or(0.0);
+                    continue;
+                }
                 Animated::Visibility(node) => {
                     visible[node] = keyframes::sample(channel, time) != [0.0];
                     continue;

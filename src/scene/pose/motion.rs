@@ -34,7 +34,9 @@ impl Moving {
         let mut weights = places.clone();
         for channel in animation {
             match channel.target {
-                Animated::Node(node, Property::MorphTargetWeights) => weights[node] = true,
+                Animated::Node(node, Property::MorphTargetWeights) | Animated::Weight(node, _) => {
+                    weights[node] = true;
+                }
                 Animated::Node(node, _) => places[node] = true,
                 Animated::Description(Described::Light(_), _) => lights = true,
                 // Materials follow below; what comes and goes is posed anew.

@@ -76,13 +76,8 @@ impl<'d> Placement<'d> {
         if primitives.is_empty() {
             return Vec::new();
         }
-        let mesh = node.mesh.and_then(|mesh| document.root.get(mesh));
-        let wide = |weights: &Vec<f32>| weights.iter().copied().map(f64::from).collect();
         let animated = state.weights.get(index).cloned().flatten();
-        let weights: Vec<f64> = animated
-            .or_else(|| node.weights.as_ref().map(wide))
-            .or_else(|| mesh?.weights.as_ref().map(wide))
-            .unwrap_or_default();
+        let weights = animated.unwrap_or_else(|| document.weights(index));
         let targets: Vec<Arc<[_]>> = primitives
             .iter()
             .map(|primitive| {

@@ -145,7 +145,9 @@ fn read_keyframes(
     let components: &[usize] = match &target {
         Animated::Node(_, Property::Translation | Property::Scale) => &[3],
         Animated::Node(_, Property::Rotation) => &[4],
-        Animated::Node(_, Property::MorphTargetWeights) | Animated::Visibility(_) => &[1],
+        Animated::Node(_, Property::MorphTargetWeights)
+        | Animated::Weight(..)
+        | Animated::Visibility(_) => &[1],
         Animated::Description(..) => &[1, 2, 3, 4],
     };
     if matches!(target, Animated::Visibility(_)) && interpolation != Interpolation::Step {

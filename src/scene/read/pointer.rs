@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use gltf::json::{Index, Node, animation::Property};
+use gltf::json::{Index, Mesh, Node, animation::Property};
 
-use super::model::{Model, is_nothing};
+use super::model::Model;
 use crate::scene::{
     document::{Animated, Described},
     error::Fault,
@@ -42,32 +42,60 @@ pub fn targets(model: &Model, pointer: &str, place: &str) -> Result<Vec<Animated
         Fault::new(place, reason)
     })?;
     let check_node = |node: usize| model.get(Index::<Node>::new(node as u32), place).map(drop);
-    match &pointed {
-        Pointed::MeshWeights(mesh) => {
-            model.check(&Index::<gltf::json::Mesh>::new(*mesh as u32), place)?;
+    match pointed {
+        Pointed::Target(target) => {
+            match target {
+                Animated::Weight(node, weight) => {
+                    check_node(node)?;
+                    check_weight(model, model.root.nodes[node].mesh, weight, place)?;
+                }
+                Animated::Node(node, _) | Animated::Visibility(node) => check_node(node)?,
+                Animated::Description(..) => {}
+            }
+            Ok(vec![target])
         }
-        Pointed::Target(Animated::Node(node, _) | Animated::Visibility(node)) => check_node(*node)?,
-        Pointed::Target(Animated::Description(..)) => {}
-    }
-    Ok(match pointed {
-        Pointed::Target(target) => vec![target],
-        Pointed::MeshWeights(mesh) => {
+        Pointed::Mesh(mesh, weight) => {
+            let mesh = Index::<Mesh>::new(mesh as u32);
+            model.check(&mesh, place)?;
+            if let Some(weight) = weight {
+                check_weight(model, Some(mesh), weight, place)?;
+            }
+            let target = |node: usize| match weight {
+                Some(weight) => Animated::Weight(node, weight),
+                None => Animated::Node(node, Property::MorphTargetWeights),
+            };
             let nodes = model.root.nodes.iter().enumerate();
-            nodes
-                .filter(|(_, node)| {
-                    let drawn = node.mesh.filter(|drawn| !is_nothing(*drawn));
-                    drawn.is_some_and(|drawn| drawn.value() == mesh) && node.weights.is_none()
-                })
-                .map(|(node, _)| Animated::Node(node, Property::MorphTargetWeights))
-                .collect()
+            let sharing = nodes.filter(|(_, node)| {
+                node.mesh.map(|drawn| drawn.value()) == Some(mesh.value()) && node.weights.is_none()
+            });
+            Ok(sharing.map(|(node, _)| target(node)).collect())
         }
-    })
+    }
+}
+
+/// Fails unless a mesh has a morph target of that index.
+fn check_weight(
+    model: &Model,
+    mesh: Option<Index<Mesh>>,
+    weight: usize,
+    place: &str,
+) -> Result<(), Fault> {
+    let mesh = mesh.and_then(|mesh| model.root.get(mesh));
+    let primitives = mesh.into_iter().flat_map(|mesh| &mesh.primitives);
+    let targets = primitives.filter_map(|primitive| primitive.targets.as_ref().map(Vec::len));
+    match targets.max().unwrap_or(0) {
+        count if weight < count => Ok(()),
+        count => Err(Fault::new(
+            place,
+            format!("there is no weight {weight}: the mesh has {count} morph targets"),
+        )),
+    }
 }
 
 enum Pointed {
     Target(Animated),
-    /// Weights of all nodes that draw the mesh and have none of their own.
-    MeshWeights(usize),
+    /// All weights, or one, of the nodes that draw the mesh and have none of their own.
+    Mesh(usize, Option<usize>),
 }
 
 /// What a pointer means; nothing where it is none that is supported.
@@ -97,7 +125,11 @@ fn parse(pointer: &str) -> Option<Pointed> {
             };
             Animated::Node(index(node)?, property)
         }
-        ["", "meshes", mesh, "weights"] => return Some(Pointed::MeshWeights(index(mesh)?)),
+        ["", "nodes", node, "weights", weight] => Animated::Weight(index(node)?, index(weight)?),
+        ["", "meshes", mesh, "weights"] => return Some(Pointed::Mesh(index(mesh)?, None)),
+        ["", "meshes", mesh, "weights", weight] => {
+            return Some(Pointed::Mesh(index(mesh)?, Some(index(weight)?)));
+        }
         ["", "materials", at, ref rest @ ..] => description(Described::Material, at, rest)?,
         ["", "cameras", at, ref rest @ ..] => description(Described::Camera, at, rest)?,
         [
