@@ -6,8 +6,8 @@
 //!                                                                  └───────────────────────── grow ◀────────────────────────────────┘
 //! ```
 //! Every pass records into a caller's command buffer and reads what the pass before left on the device. They share the
-//! geometry (`geometry/`) and what else the scene has (`scene/`), the memory that they hand to each other (`resources/`), the layout of descriptors (`layout.rs`) and
-//! the twins of what shaders include (`frame.rs`, `counters.rs`, `sites.rs`).
+//! geometry (`geometry/`) and what else the scene has (`scene/`), the memory that they hand to each other (`resources/`),
+//! the layout of descriptors (`layout.rs`) and the twins of what shaders include (`frame.rs`, `counters.rs`, `sites.rs`).
 
 mod adopt;
 mod attributes;
