@@ -612,6 +612,10 @@ fn image_based_lights_that_are_broken_are_left_out() {
             ": a cube of 3 texels a side does not have 1 levels",
         ),
         (
+            json!({"specularImageSize": 0x8000_0000_u32}),
+            ": a cube of 2147483648 texels a side is larger than 4096",
+        ),
+        (
             json!({"specularImages": []}),
             ": a cube of 1 texels a side does not have 0 levels",
         ),

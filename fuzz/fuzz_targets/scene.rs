@@ -5,16 +5,20 @@
 
 #![no_main]
 
-use gpc::scene::{PoseRequest, Scene};
+use gpc::scene::{Edges, PoseRequest, Scene};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
     if let Ok(loaded) = Scene::from_slice(bytes, "fuzz", None) {
+        let mut scene = loaded.scene;
+        scene.add_edges(&Edges::default());
         let request = PoseRequest {
             time: 0.5,
             ..PoseRequest::default()
         };
         // An error is as good as a pose.
-        let _ = loaded.scene.pose(&request);
+        if let Ok((_, motion)) = scene.pose_in_motion(&request) {
+            let _ = motion.at(&scene, 0.25);
+        }
     }
 });

@@ -30,11 +30,19 @@ pub struct Descriptions {
 impl Descriptions {
     /// Those of a document.
     pub fn new(model: &Model) -> Self {
-        let part = |place: &str| model.at(place).cloned().unwrap_or_default();
+        let all = |place: &str| -> Vec<Value> {
+            let elements = model.at(place).and_then(Value::as_array);
+            let short = |element: &Value| match weight(element) <= MOST {
+                true => element.clone(),
+                false => Value::Null,
+            };
+            elements.into_iter().flatten().map(short).collect()
+        };
+        let lights = all(khr_lights_punctual::Light::PLACE);
         let value = json!({
-            "materials": part("/materials"),
-            "cameras": part("/cameras"),
-            "extensions": {"KHR_lights_punctual": part("/extensions/KHR_lights_punctual")},
+            "materials": all(json::Material::PLACE),
+            "cameras": all(Camera::PLACE),
+            "extensions": {"KHR_lights_punctual": {"lights": lights}},
         });
         let root = Root {
             // Materials refer to them.
@@ -111,11 +119,33 @@ impl Descriptions {
     ) -> Result<(T, String), Fault> {
         let place = format!("{}/{index}", T::PLACE);
         let mut value = self.model.at(&place).cloned().unwrap_or_default();
+        if value.is_null() {
+            let reason = "has a description that is too long to be read at each moment";
+            return Err(Fault::new(place, reason));
+        }
         for (pointer, numbers) in changes {
             change(&mut value, pointer, numbers)
                 .ok_or_else(|| Fault::new(&place, format!("has no {pointer}")))?;
         }
         Ok((typed(&value, &place)?, place))
+    }
+}
+
+/// Heaviest description: it is read again at each moment, and for each channel.
+const MOST: usize = 1 << 12;
+
+/// How many values there are in one, a long text counted as many.
+fn weight(value: &Value) -> usize {
+    const TEXT: usize = 16;
+    match value {
+        Value::Array(array) => 1 + array.iter().map(weight).sum::<usize>(),
+        Value::Object(object) => {
+            let members = object.iter();
+            let members = members.map(|(key, value)| key.len() / TEXT + weight(value));
+            1 + members.sum::<usize>()
+        }
+        Value::String(text) => 1 + text.len() / TEXT,
+        Value::Null | Value::Bool(_) | Value::Number(_) => 1,
     }
 }
 

@@ -11,6 +11,8 @@ use crate::reference::srgb;
 use crate::scene::{environment::Environment, error::Fault, material::Image};
 
 const NAME: &str = "EXT_lights_image_based";
+/// Most texels along the side of a face: what all devices have.
+const MAX_SIDE: u32 = 4096;
 
 /// A light of the extension.
 #[derive(Deserialize)]
@@ -63,6 +65,10 @@ fn read(index: usize, from: &str, context: &mut Context<'_>) -> Result<Environme
     let item: LightObject = model::typed(value, &place)?;
     let size = item.specular_image_size;
     let levels = item.specular_images.len();
+    if size > MAX_SIDE {
+        let reason = format!("a cube of {size} texels a side is larger than {MAX_SIDE}");
+        return Err(Fault::new(place, reason));
+    }
     if !size.is_power_of_two() || levels == 0 || levels > size.ilog2() as usize + 1 {
         let reason = format!("a cube of {size} texels a side does not have {levels} levels");
         return Err(Fault::new(place, reason));
@@ -90,7 +96,7 @@ fn read(index: usize, from: &str, context: &mut Context<'_>) -> Result<Environme
     let mut cubes = Vec::new();
     for (level, faces) in places.chunks(6).enumerate() {
         let side = size >> level;
-        let mut texels = Vec::with_capacity(6 * (side * side) as usize);
+        let mut texels = Vec::new();
         for (face, image) in faces.iter().enumerate() {
             let image = image.and_then(|image| decoded.get(image as usize));
             let fits = |image: &&Image| image.width == side && image.height == side;
