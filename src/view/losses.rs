@@ -1,5 +1,6 @@
 //! Devices that are lost: how often everything is made again.
 
+use ash::vk;
 use gpc::render::RenderError;
 use gpc::vulkan::VulkanError;
 use std::time::{Duration, Instant};
@@ -21,14 +22,23 @@ impl Losses {
     }
 }
 
-/// Whether an error says that the device is lost.
+/// Whether an error says that the device is lost, or the window's surface, which goes with it.
 pub fn is_lost(error: &anyhow::Error) -> bool {
     error.chain().any(|cause| {
         let vulkan = match cause.downcast_ref::<RenderError>() {
             Some(RenderError::Vulkan(error)) => Some(error),
             _ => cause.downcast_ref::<VulkanError>(),
         };
-        matches!(vulkan, Some(VulkanError::DeviceLost))
+        matches!(
+            vulkan,
+            Some(
+                VulkanError::DeviceLost
+                    | VulkanError::Call {
+                        result: vk::Result::ERROR_SURFACE_LOST_KHR,
+                        ..
+                    }
+            )
+        )
     })
 }
 
@@ -53,5 +63,8 @@ mod tests {
         assert!(is_lost(&anyhow::Error::from(rendering).context("drawing")));
         assert!(!is_lost(&anyhow::anyhow!("the device was lost")));
         assert!(!is_lost(&VulkanError::NoValidation.into()));
+        let call = |result| is_lost(&VulkanError::of("vkQueuePresentKHR")(result).into());
+        assert!(call(vk::Result::ERROR_SURFACE_LOST_KHR));
+        assert!(!call(vk::Result::ERROR_FORMAT_NOT_SUPPORTED));
     }
 }

@@ -352,6 +352,7 @@ fn edit(ui: &mut egui::Ui, look: &mut Look) {
 fn show_figures(ui: &mut egui::Ui, picture: &PictureFacts<'_>) {
     let statistics = picture.statistics;
     match picture.shown {
+        Some(1) => ui.label("one sample a pixel"),
         Some(samples) => ui.label(format!("{samples} samples a pixel")),
         None => ui.label("being refined"),
     };
