@@ -75,38 +75,41 @@ move() { # X Y DX DY STEPS
     done
 }
 open 640x400
-settle key p
+xdotool key p
 sleep 7
 hold 6
-# A turn around the fences, refined at its end.
-xdotool mousemove 320 200 mousedown 1
-move 320 200 -14 2 12
-settle mouseup 1
-hold 6
+# Along the fences, refined at the end.
+xdotool mousemove 320 210
+for _ in 1 2 3; do
+    settle click 4
+    frame
+done
+hold 5
 # The line between superpixels and none.
 settle key x
 xdotool mousemove 320 200 mousedown 1
 move 320 200 16 0 8
-move 448 200 -16 0 16
+move 448 200 -32 0 8
+move 192 200 28 0 8
 xdotool mouseup 1
 # The magnifier along it.
 xdotool key l
-move 192 120 0 16 10
+move 416 150 0 10 10
 xdotool key l key l key l
 settle key x
 hold 4
 # A lens.
-xdotool mousemove 250 220
+xdotool mousemove 470 220
 settle key z
 hold 3
 for _ in 1 2 3 4; do
     settle click 4
     frame
 done
-for x in 270 290 310 330 350 370; do
-    settle mousemove $x 200 click 1
+for x in 450 430 410 390 370 350; do
+    settle mousemove $x 210 click 1
     frame
 done
 hold 8
-ffmpeg -loglevel error -y -framerate 8 -i "$work/%03d.png" -c:v libwebp_anim -loop 0 -quality 55 -compression_level 6 \
+ffmpeg -loglevel error -y -framerate 8 -i "$work/%03d.png" -c:v libwebp_anim -loop 0 -quality 75 -compression_level 6 \
     docs/window.webp
