@@ -19,13 +19,14 @@ SONAME = libgpc.so.$(basename $(VERSION))
 # What `make view` opens.
 SCENE ?= assets/letters.glb
 
-.PHONY: help demo view test test-view bench lint shaders check-shaders header assets install
+.PHONY: help demo view test test-view test-drivers bench lint shaders check-shaders header assets install
 
 help:
 	@echo "make demo           build, render a scene without and with antialiasing into out/"
 	@echo "make view           open a window on a scene; SCENE=... is the file"
 	@echo "make test           run all tests, without a GPU"
 	@echo "make test-view      run the tests of the window, on a display of their own"
+	@echo "make test-drivers   run the tests of the passes on every driver that can be had here"
 	@echo "make bench          measure cost and accuracy of all methods into out/bench; BENCH='...' are its options"
 	@echo "make lint           check formatting, clippy's advice for each set of features, and the documentation"
 	@echo "make shaders        compile shaders/ into shaders/spirv (builds shaderc: some 10 minutes once)"
@@ -51,6 +52,11 @@ test-view:
 	@tools/setup.sh build lavapipe validation c window display
 	VK_ICD_FILENAMES="$${VK_ICD_FILENAMES:-$$($(LAVAPIPE))}" \
 		$(CARGO) test --release --features view --bin gpc --test view
+
+# Takes an hour: each driver compiles all shaders.
+test-drivers:
+	@tools/setup.sh build lavapipe validation
+	@tools/test-drivers.sh $(DRIVERS)
 
 bench:
 	@tools/setup.sh build vulkan

@@ -61,7 +61,9 @@ const VARIANTS: &[Variant] = &[
     ("arguments", "arguments.comp", &[]),
     ("sample_1", "sample.comp", &[("ROWS", "1")]),
     ("sample_2", "sample.comp", &[("ROWS", "2")]),
+    ("sample_4", "sample.comp", &[("ROWS", "4")]),
     ("sample_8", "sample.comp", &[("ROWS", "8")]),
+    ("sample_16", "sample.comp", &[("ROWS", "16")]),
     ("sample_masks_16", "sample_masks.comp", &[("SAMPLES", "16")]),
     ("sample_masks_64", "sample_masks.comp", &[("SAMPLES", "64")]),
     (
@@ -75,9 +77,19 @@ const VARIANTS: &[Variant] = &[
         &[("ROWS", "2"), ("CHAINED", "")],
     ),
     (
+        "sample_chained_4",
+        "sample.comp",
+        &[("ROWS", "4"), ("CHAINED", "")],
+    ),
+    (
         "sample_chained_8",
         "sample.comp",
         &[("ROWS", "8"), ("CHAINED", "")],
+    ),
+    (
+        "sample_chained_16",
+        "sample.comp",
+        &[("ROWS", "16"), ("CHAINED", "")],
     ),
     (
         "sample_unlisted_1",
@@ -90,9 +102,19 @@ const VARIANTS: &[Variant] = &[
         &[("ROWS", "2"), ("UNLISTED", "")],
     ),
     (
+        "sample_unlisted_4",
+        "sample.comp",
+        &[("ROWS", "4"), ("UNLISTED", "")],
+    ),
+    (
         "sample_unlisted_8",
         "sample.comp",
         &[("ROWS", "8"), ("UNLISTED", "")],
+    ),
+    (
+        "sample_unlisted_16",
+        "sample.comp",
+        &[("ROWS", "16"), ("UNLISTED", "")],
     ),
     (
         "sample_chained_unlisted_1",
@@ -105,9 +127,19 @@ const VARIANTS: &[Variant] = &[
         &[("ROWS", "2"), ("CHAINED", ""), ("UNLISTED", "")],
     ),
     (
+        "sample_chained_unlisted_4",
+        "sample.comp",
+        &[("ROWS", "4"), ("CHAINED", ""), ("UNLISTED", "")],
+    ),
+    (
         "sample_chained_unlisted_8",
         "sample.comp",
         &[("ROWS", "8"), ("CHAINED", ""), ("UNLISTED", "")],
+    ),
+    (
+        "sample_chained_unlisted_16",
+        "sample.comp",
+        &[("ROWS", "16"), ("CHAINED", ""), ("UNLISTED", "")],
     ),
     ("sort", "sort.comp", &[]),
     ("shade", "shade.comp", &[]),

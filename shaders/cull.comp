@@ -21,7 +21,7 @@ uint append(uint counter, bool wanted) {
 
 void main() {
     uint outside = 0u, backfacing = 0u, degenerate = 0u, untouching = 0u;
-    uint first = gl_WorkGroupID.x * 64u * PER_INVOCATION + gl_LocalInvocationID.x;
+    uint first = (gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u) * 64u * PER_INVOCATION + gl_LocalInvocationID.x;
     uint step_ = 0u;
     do {
         uint t = first + step_ * 64u;

@@ -37,7 +37,7 @@ bool differs(uint id_a, uint id_b, uint blend_a, uint blend_b, uint color_a, uin
 }
 
 void main() {
-    uint tile = gl_GlobalInvocationID.x;
+    uint tile = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
     uint tile_count = frame.tiles.x * frame.tiles.y;
     bool inside = tile < tile_count;
     tile = min(tile, tile_count - 1u);
@@ -114,7 +114,7 @@ void main() {
 
     if (inside) masks[tile] = word;
     uint pixels = subgroupAdd(uint(bitCount(word & interior_mask(base, 0))));
-    uint busy = uint(bitCount(subgroupBallot(word != 0u).x)) + uint(bitCount(subgroupBallot(word != 0u).y));
+    uint busy = subgroupBallotBitCount(subgroupBallot(word != 0u));
     if (subgroupElect() && busy != 0u) {
         atomicAdd(counters[COUNTER_SUPERPIXELS], pixels);
         atomicAdd(counters[COUNTER_TILES], busy);

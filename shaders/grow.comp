@@ -11,7 +11,7 @@ layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint BEYOND = 0u;     // pixels around the region's own that grow too, for a growth that follows
 
 void main() {
-    uint tile = gl_GlobalInvocationID.x;
+    uint tile = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
     uint tile_count = frame.tiles.x * frame.tiles.y;
     bool inside = tile < tile_count;
     tile = min(tile, tile_count - 1u);

@@ -33,6 +33,7 @@ void write(uvec2 pixel, vec4 c) {
 }
 
 void main() {
+    if (in_other_subgroups(LANES)) return;
     uint number = gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u;
     if (number >= counters[COUNTER_PLAIN_TILES + LIST]) return;
     uint lane = gl_SubgroupInvocationID;

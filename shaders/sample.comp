@@ -58,6 +58,7 @@ shared uint kept[3072];                                 // by cell, then entry
 #endif
 
 void main() {
+    if (in_other_subgroups(LANES)) return;
     uint samples = RUN == PROBE ? PROBES : frame.sample_count;
     uint first_sample = RUN == PROBE ? frame.sample_count : 0u;
     uint blocks = (samples + BLOCK - 1u) / BLOCK, headers_a_cell = (frame.sample_count + BLOCK - 1u) / BLOCK;

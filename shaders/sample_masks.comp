@@ -57,6 +57,7 @@ struct Seen {
 };
 
 void main() {
+    if (in_other_subgroups(LANES)) return;
     uint number = gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u;
     if (number >= counters[COUNTER_PLAIN_TILES]) return;
     uint lane = gl_SubgroupInvocationID;

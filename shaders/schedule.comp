@@ -25,7 +25,7 @@ const uint CROWD = LAYERS * 4u;
 void main() {
     uint lane = gl_SubgroupInvocationID;
     uint tile_count = frame.tiles.x * frame.tiles.y;
-    bool any_tile = counters[COUNTER_TILES] != 0u;
+    bool any_tile = counters[COUNTER_TILES] != 0u && !in_other_subgroups(LANES);
     uint start = any_tile ? counters[COUNTER_NEXT_TILE] : tile_count;
     uint previous = any_tile ? counters[COUNTER_ROUND_FIRST] : tile_count;
     // Lists of the round before are spent.

@@ -8,6 +8,7 @@
 #include "include/frame.glsl"
 #include "include/color.glsl"
 #include "include/environment.glsl"
+#include "include/finite.glsl"
 #include "include/tiles.glsl"
 #include "include/sites.glsl"
 #include "include/place.glsl"
@@ -231,7 +232,7 @@ void main() {
     }
     radiance *= frame.exposure;
     // What a hostile material makes of a pixel stays in that pixel's range.
-    radiance = mix(clamp(radiance, vec3(0.0), vec3(3e38)), vec3(0.0), isnan(radiance));
+    radiance = mix(clamp(radiance, vec3(0.0), vec3(3e38)), vec3(0.0), bvec3(is_nan(radiance.r), is_nan(radiance.g), is_nan(radiance.b)));
 
     if (PIXELS) {
         vec4 c = to_output(vec4(radiance, 1.0));

@@ -14,14 +14,15 @@ layout(constant_id = 2) const bool ONE_BIN = false;
 
 const uint NONE = ~0u;
 
-// The least value of 8 neighbouring invocations.
+// The least value of 8 neighbouring invocations, or of a subgroup of 4.
 uint octet_min(uint v) {
     v = min(v, subgroupShuffleXor(v, 1u));
     v = min(v, subgroupShuffleXor(v, 2u));
-    return min(v, subgroupShuffleXor(v, 4u));
+    return LANES < 8u ? v : min(v, subgroupShuffleXor(v, 4u));
 }
 
 void main() {
+    if (in_other_subgroups(64u)) return;
     uint lane = gl_SubgroupInvocationID;
     uint columns = (frame.size.x + 7u) / 8u;
     uint span_count = columns * frame.size.y;
@@ -30,23 +31,25 @@ void main() {
     uint bin[8];
     [[unroll]] for (uint s = 0u; s < 8u; s++) {
         uint span = first_span + (s * LANES + lane) / 8u;
-        uvec2 pixel = split(span, columns) * uvec2(8u, 1u) + uvec2(lane % 8u, 0u);
+        uvec2 pixel = split(span, columns) * uvec2(8u, 1u) + uvec2((s * LANES + lane) % 8u, 0u);
         bool inside = span < span_count && pixel.x < frame.size.x;
         uint id = texelFetch(ids, ivec2(inside ? pixel : uvec2(0u)), 0).x;
         id = inside ? id : 0u;
         bin[s] = id == 0u ? NONE : ONE_BIN ? 0u : triangle_word(id - 1u) >> 16 & 0x3fffu;
     }
 
-    // This invocation's span was seen in step `my_step` by the invocations from `my_source` on.
-    const uint SPANS_A_STEP = LANES / 8u;
-    uint my_step = lane / SPANS_A_STEP, my_source = lane % SPANS_A_STEP * 8u;
+    // This invocation's span was seen in step `my_step`, or the STEPS_A_SPAN ones from there on, by the invocations from
+    // `my_source` on.
+    const uint SPANS_A_STEP = LANES < 8u ? 1u : LANES / 8u, STEPS_A_SPAN = LANES < 8u ? 8u / LANES : 1u;
+    uint my_step = lane / SPANS_A_STEP * STEPS_A_SPAN, my_source = lane % SPANS_A_STEP * 8u;
     uint done = NONE;       // bins up to this one are listed; none at first
     bool more;
     do {
         uint mine = NONE;
         [[unroll]] for (uint s = 0u; s < 8u; s++) {
             uint next = octet_min(done == NONE || bin[s] > done ? bin[s] : NONE);
-            mine = my_step == s ? subgroupShuffle(next, my_source) : mine;
+            uint there = subgroupShuffle(next, my_source);
+            mine = s - my_step < STEPS_A_SPAN ? min(mine, there) : mine;
         }
         // The least bin of all spans goes first, so that each bin costs one atomic a subgroup.
         uint current = lanes_min(mine);

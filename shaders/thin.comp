@@ -30,7 +30,7 @@ float height_of(vec2 a, vec2 b, vec2 c) {
 }
 
 void select_thin() {
-    uint first = gl_WorkGroupID.x * 64u * PER_INVOCATION + gl_LocalInvocationID.x, step_ = 0u;
+    uint first = (gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u) * 64u * PER_INVOCATION + gl_LocalInvocationID.x, step_ = 0u;
     do {
         uint t = first + step_ * 64u;
         bool exists = t < frame.triangle_count;

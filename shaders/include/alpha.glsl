@@ -7,6 +7,7 @@
 // before the levels.
 #ifndef ALPHA_GLSL
 #define ALPHA_GLSL
+#include "finite.glsl"
 #include "material.glsl"
 #include "triangle.glsl"
 
@@ -98,7 +99,7 @@ bool alpha_passes(AlphaTest test, vec2 p) {
     float alpha = dot(test.opacity, at) * w;
     vec2 uv = vec2(dot(test.u, at), dot(test.v, at)) * w;
     uv = vec2(alpha_wrap(uv.x, test.flags >> 8 & 3u), alpha_wrap(uv.y, test.flags >> 10 & 3u));
-    uv = mix(uv, vec2(0.0), isnan(uv));
+    uv = mix(uv, vec2(0.0), bvec2(is_nan(uv.x), is_nan(uv.y)));
     float low = alpha_bilinear(test.first.x, test.size_low, uv, test.nearest);
     float high = alpha_bilinear(test.first.y, test.size_high, uv, test.nearest);
     float texel = mix(low, high, test.level_blend);

@@ -40,18 +40,24 @@ float part_of_line(int line, vec2 normal, float distance_, vec3 a, vec3 b, vec3 
     return empty || !(from < to) ? 0.0 : 0.5 * distance_ * (to - from);
 }
 
-// The area of a triangle that is the same for all invocations of the subgroup: each takes a line.
+// The same of the line of an invocation, as an integer.
+int units_of_line(uint line, vec3 a, vec3 b, vec3 c) {
+    uint side = line - 3u;
+    vec2 side_normal = vec2(side == 0u ? 1.0 : side == 1u ? -1.0 : 0.0, side == 2u ? 1.0 : side == 3u ? -1.0 : 0.0);
+    vec2 normal = line == 0u ? vec2(a.x, b.x) : line == 1u ? vec2(a.y, b.y) : line == 2u ? vec2(a.z, b.z) : side_normal;
+    float distance_ = line == 0u ? c.x : line == 1u ? c.y : line == 2u ? c.z : 0.5;
+    return int(round(part_of_line(int(line), normal, distance_, a, b, c) * AREA_UNIT));
+}
+
+// The area of a triangle that is the same for all invocations of the subgroup: each takes a line, or two.
 int area_in_cell(vec3 a, vec3 b, vec3 c, uint lane) {
     vec3 inverse = 1.0 / sqrt(max(a * a + b * b, vec3(1e-37)));
     a *= inverse;
     b *= inverse;
     c *= inverse;
-    uint side = lane - 3u;
-    vec2 side_normal = vec2(side == 0u ? 1.0 : side == 1u ? -1.0 : 0.0, side == 2u ? 1.0 : side == 3u ? -1.0 : 0.0);
-    vec2 normal = lane == 0u ? vec2(a.x, b.x) : lane == 1u ? vec2(a.y, b.y) : lane == 2u ? vec2(a.z, b.z) : side_normal;
-    float distance_ = lane == 0u ? c.x : lane == 1u ? c.y : lane == 2u ? c.z : 0.5;
-    float part = part_of_line(int(lane), normal, distance_, a, b, c);
-    return clamp(lanes_add(int(round(part * AREA_UNIT))), 0, int(AREA_UNIT));
+    int units = units_of_line(lane, a, b, c);
+    if (LANES < 8u) units += units_of_line(lane + LANES, a, b, c);
+    return clamp(lanes_add(units), 0, int(AREA_UNIT));
 }
 
 // The same for the triangle of each invocation, in a cell of its own.

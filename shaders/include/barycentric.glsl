@@ -1,6 +1,7 @@
 // Perspective-correct barycentric coordinates at a pixel position, with their screen-space derivatives.
 #ifndef BARYCENTRIC_GLSL
 #define BARYCENTRIC_GLSL
+#include "finite.glsl"
 
 struct Barycentric {
     vec3 at;    // weights of the three vertices, sum 1
@@ -27,7 +28,7 @@ Barycentric barycentric(vec4 c0, vec4 c1, vec4 c2, vec2 p) {
     // MSAA): attributes stay within the triangle's range.
     r.at = clamp(r.at, vec3(0.0), vec3(1.0));
     r.at /= r.at.x + r.at.y + r.at.z;
-    bool broken = isnan(sum) || isinf(inverse) || isnan(r.at.x + r.at.y + r.at.z);
+    bool broken = !is_finite(inverse) || is_nan(r.at.x + r.at.y + r.at.z);
     if (broken) {
         r.at = vec3(1.0, 0.0, 0.0);
         r.dx = vec3(0.0);

@@ -1,51 +1,66 @@
-// Reductions over a subgroup of LANES invocations. Small subgroups are those of CPU devices, where a shuffle is
-// almost free and a built-in reduction is a loop; large ones have it in hardware.
+// Reductions over the LANES invocations of a workgroup that is one subgroup. Small subgroups are those of CPU devices, where
+// a shuffle is almost free and a built-in reduction is a loop; large ones have it in hardware.
+#ifndef LANES_GLSL
+#define LANES_GLSL
 
-layout(constant_id = 1) const uint LANES = 8u;          // subgroup size
+layout(constant_id = 1) const uint LANES = 8u;          // 4, 8, 16 or 32: where subgroups are larger, as many of them are used
 const bool BY_SHUFFLE = LANES <= 8u;
+
+layout(constant_id = 24) const bool UNSURE = false;     // of the subgroups: the device can't be asked for their size
+
+// Whether the device runs a workgroup of so many invocations in other subgroups than it was made for. It is then counted,
+// and the host discards the frame.
+bool in_other_subgroups(uint invocations) {
+    if (!UNSURE) return false;
+    bool others = gl_NumSubgroups * LANES != invocations || gl_SubgroupInvocationID >= LANES;
+    if (others) counters[COUNTER_SUBGROUPS] = 1u;
+    return others;
+}
 
 float lanes_add(float v) {
     if (!BY_SHUFFLE) return subgroupAdd(v);
     v += subgroupShuffleXor(v, 1u);
     v += subgroupShuffleXor(v, 2u);
-    return v + subgroupShuffleXor(v, 4u);
+    return LANES < 8u ? v : v + subgroupShuffleXor(v, 4u);
 }
 
 int lanes_add(int v) {
     if (!BY_SHUFFLE) return subgroupAdd(v);
     v += subgroupShuffleXor(v, 1u);
     v += subgroupShuffleXor(v, 2u);
-    return v + subgroupShuffleXor(v, 4u);
+    return LANES < 8u ? v : v + subgroupShuffleXor(v, 4u);
 }
 
 uint lanes_min(uint v) {
     if (!BY_SHUFFLE) return subgroupMin(v);
     v = min(v, subgroupShuffleXor(v, 1u));
     v = min(v, subgroupShuffleXor(v, 2u));
-    return min(v, subgroupShuffleXor(v, 4u));
+    return LANES < 8u ? v : min(v, subgroupShuffleXor(v, 4u));
 }
 
 float lanes_min(float v) {
     if (!BY_SHUFFLE) return subgroupMin(v);
     v = min(v, subgroupShuffleXor(v, 1u));
     v = min(v, subgroupShuffleXor(v, 2u));
-    return min(v, subgroupShuffleXor(v, 4u));
+    return LANES < 8u ? v : min(v, subgroupShuffleXor(v, 4u));
 }
 
 float lanes_max(float v) {
     if (!BY_SHUFFLE) return subgroupMax(v);
     v = max(v, subgroupShuffleXor(v, 1u));
     v = max(v, subgroupShuffleXor(v, 2u));
-    return max(v, subgroupShuffleXor(v, 4u));
+    return LANES < 8u ? v : max(v, subgroupShuffleXor(v, 4u));
 }
 
 uint lanes_or(uint v) {
     if (!BY_SHUFFLE) return subgroupOr(v);
     v |= subgroupShuffleXor(v, 1u);
     v |= subgroupShuffleXor(v, 2u);
-    return v | subgroupShuffleXor(v, 4u);
+    return LANES < 8u ? v : v | subgroupShuffleXor(v, 4u);
 }
 
 uint lanes_add(uint v) {
     return uint(lanes_add(int(v)));
 }
+
+#endif

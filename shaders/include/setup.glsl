@@ -7,6 +7,7 @@
 // Coefficients are relative to `center`, so that their rounding is that of small numbers.
 #ifndef SETUP_GLSL
 #define SETUP_GLSL
+#include "finite.glsl"
 
 struct Edge { float a, b, c; };
 
@@ -64,7 +65,7 @@ Setup setup_triangle(vec4 c0, vec4 c1, vec4 c2, vec2 center, bool cull) {
         float det = dot(vec3(h0.c, h1.c, h2.c), vec3(v0.w, v1.w, v2.w));
         // det scales with w^3; where the unprojected sum cancels to 0 the triangle is seen edge-on.
         s.facing = det < 0.0;
-        s.valid = det != 0.0 && !isnan(det) && !isinf(det);
+        s.valid = det != 0.0 && is_finite(det);
         float inverse = 1.0 / det;
         precise vec3 depth = (vec3(h0.a, h0.b, h0.c) * v0.z + vec3(h1.a, h1.b, h1.c) * v1.z + vec3(h2.a, h2.b, h2.c) * v2.z) * inverse;
         s.depth = depth;

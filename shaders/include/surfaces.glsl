@@ -13,6 +13,9 @@ struct Surface {
     uint parts;             // BY_PART: a bit for each that sees it
 };
 
+// Surfaces that invocations hold, one each: as many on all devices of 8 or more, so that images agree.
+const uint HELD = LANES < 8u ? LANES : 8u;
+
 // Parts of a block: runs of neighbouring samples, at most 32 of them (src/passes/sample.rs chooses their length).
 const uint PARTS_A_ROW = LANES > PART ? LANES / PART : 1u, ROWS_A_PART = PART > LANES ? PART / LANES : 1u;
 const uint PART_LANES = PART < LANES ? PART : LANES, PART_ROWS = ROWS_A_PART < uint(ROWS) ? uint(ROWS) / ROWS_A_PART : 1u;
@@ -64,8 +67,10 @@ void parts_of(uint wanted, out vec3 sums[ROWS]) {
 }
 
 // Neighbouring parts are merged where an invocation holds both of them, since on CPU devices shuffles would cost as much as
-// all else here, or where they are held by other invocations. Parts of fewer samples are few as they are.
-const bool WITHIN = PARTS_HELD > 1u && PARTS_A_ROW <= 2u, ACROSS = PARTS_HELD == 1u && PART_LANES < LANES;
+// all else here, or where they are held by other invocations. Parts of fewer samples are few as they are; those of more are
+// of cells that have the most samples, and are left apart.
+const bool MERGES = PART == 4u;
+const bool WITHIN = MERGES && PARTS_HELD > 1u, ACROSS = MERGES && PARTS_HELD == 1u && PART_LANES < LANES;
 
 void merge_parts(inout vec3 parts[ROWS], bool merge) {
     if (WITHIN) {
@@ -108,7 +113,7 @@ Surfaces surfaces_of(Cell cell) {
     uint seen = 0u;
     do {
         Surface s = surface_after(seen);
-        bool some = s.id != ~0u, mine = some && r.count == lane;
+        bool some = s.id != ~0u, mine = some && r.count == lane && lane < HELD;
         r.id = mine ? s.id : r.id;
         r.place = mine ? place_of(s.sum, s.samples) : r.place;
         r.samples = mine ? s.samples : r.samples;
@@ -140,7 +145,7 @@ float weigh(Surfaces s, uint samples, out bool settled) {
     settled = true;
     if (!EXACT_AREAS) return s.samples;
     // Beyond the invocations' room to hold triangles, all go by samples.
-    bool known = s.count <= LANES && nearby_count <= LANES;
+    bool known = s.count <= HELD && nearby_count <= HELD;
     bool small = lanes_or(s.small ? 1u : 0u) != 0u;
     bool shares = s.samples > 0.0 && !s.whole;
     float whole_area = float(lanes_add(s.whole ? s.area : 0)) * (1.0 / AREA_UNIT);
@@ -177,7 +182,7 @@ uvec2 record_surfaces(Cell cell, uint owner, out bool settled) {
     uint lane = gl_SubgroupInvocationID;
     Surfaces held = surfaces_of(cell);
     float weight = weigh(held, cell.samples, settled);
-    bool holds = lane < held.count;
+    bool holds = lane < min(held.count, HELD);
     uint shaded_in = PARTS_ALL;
     bool several = BY_PART && holds && high_frequency_triangle(held.id);
     if (BY_PART && !SITES) {
@@ -189,7 +194,7 @@ uvec2 record_surfaces(Cell cell, uint owner, out bool settled) {
     // What is shaded in many places takes all samples to choose them from.
     settled = settled && (RUN != PROBE || !subgroupAny(several));
     trips += 2u * held.count;
-    uint beyond = held.count - min(held.count, LANES);
+    uint beyond = held.count - min(held.count, HELD);
     uint used = beyond + lanes_add(several ? uint(bitCount(held.parts)) : single ? 1u : 0u);
     bool fits;
     uint base = allocate_records(settled ? used : 0u, fits);

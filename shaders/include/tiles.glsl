@@ -1,6 +1,7 @@
 // Which tiles of 8 x 4 pixels a triangle touches; `cull` and `bin` decide alike.
 #ifndef TILES_GLSL
 #define TILES_GLSL
+#include "finite.glsl"
 #include "setup.glsl"
 
 struct Footprint {
@@ -29,7 +30,7 @@ Footprint footprint_of(vec4 c0, vec4 c1, vec4 c2) {
         v0.x > limit.x * v0.w && v1.x > limit.x * v1.w && v2.x > limit.x * v2.w,
         v0.y > limit.y * v0.w && v1.y > limit.y * v1.w && v2.y > limit.y * v2.w);
     bool clipped = (v0.z > v0.w && v1.z > v1.w && v2.z > v2.w) || (v0.z < 0.0 && v1.z < 0.0 && v2.z < 0.0);
-    bool finite = !(isnan(v0.x + v0.y + v0.z + v0.w + v1.x + v1.y + v1.z + v1.w + v2.x + v2.y + v2.z + v2.w));
+    bool finite = !is_nan(v0.x + v0.y + v0.z + v0.w + v1.x + v1.y + v1.z + v1.w + v2.x + v2.y + v2.z + v2.w);
     f.outside = any(before) || any(after) || clipped || !finite;
     low = f.unprojected ? vec2(0.0) : low;
     high = f.unprojected ? limit : high;

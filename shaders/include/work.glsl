@@ -17,9 +17,9 @@ uint first_entry(uint list) {
     return list * (SITES ? frame.group_count : frame.tiles.x * frame.tiles.y * PARTS_OF_TILE);
 }
 
-uint work_entry(uint owner, uint part) { return owner << 2 | part; }
-uint entry_owner(uint entry) { return entry >> 2; }
-uint entry_part(uint entry) { return entry & 3u; }
+uint work_entry(uint owner, uint part) { return owner << 3 | part; }
+uint entry_owner(uint entry) { return entry >> 3; }
+uint entry_part(uint entry) { return entry & 7u; }
 
 // Bit number of a word's set bit number `cell`, from 0; 31 where it has no more than that.
 uint bit_of_cell(uint word, uint cell) {

@@ -11,7 +11,7 @@ use crate::render::engine::{Engine, EngineKind, Work, with_probes};
 use crate::render::footprint::Footprints;
 use crate::render::plan::{Effort, Plan};
 use crate::render::statistics::Shortfall;
-use crate::render::{PassTime, Settings, Statistics};
+use crate::render::{PassTime, RenderError, Settings, Statistics};
 use crate::vulkan::{Buffer, Memory, MemoryUse, Pipeline, Recorder, Timings};
 use ash::vk;
 use std::sync::Arc;
@@ -91,7 +91,7 @@ impl Frame {
         geometry.check(gpu)?;
         images.check(options.thin)?;
         let [width, height] = settings.size;
-        let most = TRIPS * 32 * u64::from(gpu.limits().subgroup_size);
+        let most = TRIPS * 32 * u64::from(gpu.limits().lanes);
         if u64::from(width) * u64::from(height) > most {
             return Err(HostError::Count {
                 what: "the number of pixels",
@@ -358,6 +358,7 @@ impl Frame {
         let room = self.plan.sizes.survivor_capacity;
         for counters in self.counted()? {
             shortfall.add(counters, (tiles, room), self.plan.effort.unlisted);
+            shortfall.add_subgroups(counters);
         }
         Ok(shortfall)
     }
@@ -365,7 +366,7 @@ impl Frame {
     /// What the last recording did. Call it when its commands are done, at any time later: it waits for nothing.
     ///
     /// # Errors
-    /// If what was counted or timed can't be read.
+    /// If what was counted or timed can't be read, or the driver ran kernels in subgroups that they were not made for.
     pub fn outcome(&self) -> Result<Outcome, HostError> {
         let [width, height] = self.settings.size;
         let mut statistics = Statistics {
@@ -381,9 +382,13 @@ impl Frame {
         for (pass, ms) in self.timings.read()? {
             statistics.add_time(PassTime { pass, ms });
         }
+        let shortfall = self.shortfall()?;
+        shortfall
+            .check_subgroups(self.plan.sizes.lanes)
+            .map_err(RenderError::from)?;
         Ok(Outcome {
             statistics,
-            left_over: self.shortfall()?.left(),
+            left_over: shortfall.left(),
         })
     }
 

@@ -84,8 +84,8 @@ impl Adopt {
     ) {
         /// Draws of an inline update, which can have 65,536 bytes.
         const AT_ONCE: usize = 65_536 / size_of::<AdoptedDraw>();
-        let (device, raw) = (recorder.device(), recorder.raw());
         recorder.barrier();
+        let (device, raw) = (recorder.device(), recorder.raw());
         for (chunk, draws) in draws.chunks(AT_ONCE).enumerate() {
             let offset = (chunk * 65_536) as u64;
             let bytes = bytemuck::cast_slice(draws);

@@ -34,6 +34,8 @@ pub enum Counter {
     MaskedLeft,
     /// Cells with more candidates than loops may have trips.
     Stalled,
+    /// Whether a kernel was run in other subgroups than it was made for. It stays: those before it alone are cleared.
+    Subgroups,
 }
 
 impl Counter {
@@ -41,6 +43,8 @@ impl Counter {
     pub const COUNT: usize = 32;
     /// Bytes of the buffer of counters.
     pub(crate) const BYTES: u64 = 4 * Self::COUNT as u64;
+    /// Bytes of those that are cleared before each run.
+    pub(crate) const CLEARED_BYTES: u64 = 4 * Self::Subgroups as u64;
 }
 
 /// Indices of indirect dispatches.
@@ -123,6 +127,7 @@ mod tests {
             C::PlainLeft,
             C::MaskedLeft,
             C::Stalled,
+            C::Subgroups,
         ] {
             let name = format!("COUNTER_{}", shouted(&format!("{counter:?}")));
             assert_eq!(shader_constant(&name), Some(counter as usize), "{name}");

@@ -16,7 +16,7 @@ impl Groups {
     /// # Errors
     /// If the driver refuses one.
     pub fn new(layout: &FrameLayout, sample: &Sample) -> Result<Self, VulkanError> {
-        let lanes = layout.gpu.limits().subgroup_size;
+        let lanes = layout.gpu.limits().lanes;
         let make = |code, constants| layout.compute(code, &constants, None);
         Ok(Self {
             pipeline: make(

@@ -1,7 +1,7 @@
 //! The layout of the descriptor sets and pipelines that all passes share, and the pipelines made so far.
 
 use super::pool::DescriptorPool;
-use crate::vulkan::{Constants, Gpu, PUSH_STAGES, Pipeline, VulkanError, compute_pipeline};
+use crate::vulkan::{Constants, Gpu, Limits, PUSH_STAGES, Pipeline, VulkanError, compute_pipeline};
 use ash::vk;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -173,6 +173,22 @@ impl FrameLayout {
         Ok(Arc::new(layout))
     }
 
+    /// The size of the subgroups of kernels that count on them.
+    pub(super) fn subgroup(&self) -> Option<u32> {
+        Some(self.gpu.limits().subgroup_size)
+    }
+
+    /// Adds the constants of `shaders/include/lanes.glsl`, where `lanes` invocations of a subgroup are used.
+    pub(super) fn lane_constants(&self, constants: Constants, lanes: u32) -> Constants {
+        let Limits {
+            subgroup_size,
+            can_require_subgroup_size,
+            ..
+        } = *self.gpu.limits();
+        let sure = can_require_subgroup_size && lanes == subgroup_size;
+        constants.with(1, lanes).flag(24, !sure)
+    }
+
     /// A compute pipeline of one of the crate's shaders; `subgroup` fixes the size of its subgroups.
     pub(super) fn compute(
         &self,
@@ -245,5 +261,37 @@ impl Drop for FrameLayout {
                 .device
                 .destroy_sampler(self.environment_sampler, None);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::vulkan::Requirements;
+
+    #[test]
+    fn devices_are_asked_for_as_many_descriptors_as_there_are() {
+        use vk::DescriptorType as T;
+        let slots = std::iter::repeat_n(T::COMBINED_IMAGE_SAMPLER, SLOTS);
+        let all: Vec<_> = BINDINGS
+            .iter()
+            .map(|(_, kind)| *kind)
+            .chain(slots)
+            .collect();
+        let count = |kinds: &[T]| all.iter().filter(|kind| kinds.contains(kind)).count() as u32;
+        assert_eq!(count(&[T::STORAGE_BUFFER]), Requirements::STORAGE_BUFFERS);
+        assert_eq!(
+            count(&[
+                T::SAMPLED_IMAGE,
+                T::COMBINED_IMAGE_SAMPLER,
+                T::UNIFORM_TEXEL_BUFFER
+            ]),
+            Requirements::SAMPLED_IMAGES
+        );
+        assert_eq!(all.len() as u32 + 1, Requirements::RESOURCES);
+        // Every device has 4 storage images, 12 uniform buffers and 16 samplers.
+        assert!(count(&[T::STORAGE_TEXEL_BUFFER]) <= 4);
+        assert!(count(&[T::UNIFORM_BUFFER]) <= 12);
+        assert!(count(&[T::COMBINED_IMAGE_SAMPLER]) <= 16);
     }
 }

@@ -17,7 +17,7 @@ impl Multisample {
     pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
         let pipeline = layout.compute(
             spirv::MULTISAMPLE,
-            &Constants::new().with(1, layout.gpu.limits().subgroup_size),
+            &Constants::new().with(1, layout.gpu.limits().lanes),
             None,
         )?;
         Ok(Self { pipeline })

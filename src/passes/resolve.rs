@@ -82,18 +82,17 @@ impl Resolve {
         then: Then,
         output: &Constants,
     ) -> Result<Arc<Pipeline>, VulkanError> {
-        let lanes = layout.gpu.limits().subgroup_size;
-        let constants = output
-            .clone()
+        let lanes = layout.gpu.limits().lanes;
+        let constants = layout
+            .lane_constants(output.clone(), lanes)
             .with(0, lanes)
-            .with(1, lanes)
             .with(2, block)
             .flag(3, chained)
             .with(4, list as u32)
             .flag(5, then == Then::Detect)
             .flag(6, probed)
             .flag(7, then == Then::Grow);
-        layout.compute(spirv::RESOLVE, &constants, Some(lanes))
+        layout.compute(spirv::RESOLVE, &constants, layout.subgroup())
     }
 
     /// Records it over the tiles of the round.

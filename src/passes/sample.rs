@@ -81,29 +81,37 @@ pub struct Sample {
 }
 
 /// A kernel for each number of register rows that there is, least first.
-type Kernels = [(u32, &'static [u8]); 3];
+type Kernels = [(u32, &'static [u8]); 5];
 
 const KERNELS: Kernels = [
     (1, spirv::SAMPLE_1),
     (2, spirv::SAMPLE_2),
+    (4, spirv::SAMPLE_4),
     (8, spirv::SAMPLE_8),
+    (16, spirv::SAMPLE_16),
 ];
 /// Kernels that hold the samples of a cell as a mask, by how many these can be.
 const MASKS: [(u32, &[u8]); 2] = [(16, spirv::SAMPLE_MASKS_16), (64, spirv::SAMPLE_MASKS_64)];
 const UNLISTED: Kernels = [
     (1, spirv::SAMPLE_UNLISTED_1),
     (2, spirv::SAMPLE_UNLISTED_2),
+    (4, spirv::SAMPLE_UNLISTED_4),
     (8, spirv::SAMPLE_UNLISTED_8),
+    (16, spirv::SAMPLE_UNLISTED_16),
 ];
 const CHAINED: Kernels = [
     (1, spirv::SAMPLE_CHAINED_1),
     (2, spirv::SAMPLE_CHAINED_2),
+    (4, spirv::SAMPLE_CHAINED_4),
     (8, spirv::SAMPLE_CHAINED_8),
+    (16, spirv::SAMPLE_CHAINED_16),
 ];
 const CHAINED_UNLISTED: Kernels = [
     (1, spirv::SAMPLE_CHAINED_UNLISTED_1),
     (2, spirv::SAMPLE_CHAINED_UNLISTED_2),
+    (4, spirv::SAMPLE_CHAINED_UNLISTED_4),
     (8, spirv::SAMPLE_CHAINED_UNLISTED_8),
+    (16, spirv::SAMPLE_CHAINED_UNLISTED_16),
 ];
 
 /// Blocks of several cells that a subgroup takes, as in `shaders/sample.comp`.
@@ -111,11 +119,12 @@ const BLOCKS_AT_ONCE: u32 = 4;
 
 /// The smallest kernel of at least as many rows, or else the largest.
 fn kernel(kernels: &Kernels, rows: u32) -> (u32, &'static [u8]) {
-    let [first, second, third] = *kernels;
-    [first, second]
-        .into_iter()
+    let largest = kernels[kernels.len() - 1];
+    kernels
+        .iter()
+        .copied()
         .find(|(has, _)| *has >= rows)
-        .unwrap_or(third)
+        .unwrap_or(largest)
 }
 
 impl Sample {
@@ -133,13 +142,13 @@ impl Sample {
         scene: &dyn Content,
         options: &SampleOptions,
     ) -> Result<Self, VulkanError> {
-        let lanes = layout.gpu.limits().subgroup_size;
+        let lanes = layout.gpu.limits().lanes;
         let (rows, _) = kernel(&KERNELS, options.samples.min(Self::BLOCK).div_ceil(lanes));
         let by_masks = || {
-            let constants = scene
-                .constants(Constants::new())
+            let constants = scene.constants(Constants::new());
+            let constants = layout
+                .lane_constants(constants, lanes)
                 .with(0, lanes)
-                .with(1, lanes)
                 .flag(6, options.records == RecordRate::Part)
                 .flag(7, options.exact_areas)
                 .with(8, options.part_samples());
@@ -149,18 +158,17 @@ impl Sample {
             } else {
                 many.1
             };
-            let pipeline = layout.compute(code, &constants, Some(lanes))?;
+            let pipeline = layout.compute(code, &constants, layout.subgroup())?;
             Ok((TileList::Plain, pipeline))
         };
         let make = |(list, run, kernels, mask): &(TileList, Run, &Kernels, bool)| {
             if *list == TileList::Plain && *run == Run::Whole && options.by_masks() {
                 return by_masks();
             }
-            let constants = options
-                .cells
-                .constants(scene.constants(Constants::new()))
+            let constants = options.cells.constants(scene.constants(Constants::new()));
+            let constants = layout
+                .lane_constants(constants, lanes)
                 .with(0, lanes)
-                .with(1, lanes)
                 .flag(2, options.records == RecordRate::Sample)
                 .flag(3, *mask)
                 .with(4, *list as u32)
@@ -170,7 +178,7 @@ impl Sample {
                 .with(8, options.part_samples())
                 .flag(9, options.apart);
             let code = kernel(kernels, rows).1;
-            Ok::<_, VulkanError>((*list, layout.compute(code, &constants, Some(lanes))?))
+            Ok::<_, VulkanError>((*list, layout.compute(code, &constants, layout.subgroup())?))
         };
         let probes = options.probes();
         let listed = |run: Run| {

@@ -17,19 +17,18 @@ impl Schedule {
     /// # Errors
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout, sample: &Sample, layers: u32) -> Result<Self, VulkanError> {
-        let lanes = layout.gpu.limits().subgroup_size;
+        let lanes = layout.gpu.limits().lanes;
         let records = sample.options().records;
-        let constants = sample
-            .options()
-            .cells
-            .constants(sample.subgroups().clone())
+        let cells = sample.options().cells;
+        let constants = cells.constants(sample.subgroups().clone());
+        let constants = layout
+            .lane_constants(constants, lanes)
             .with(0, lanes)
-            .with(1, lanes)
             .with(2, sample.block())
             .flag(3, records == RecordRate::Sample)
             .with(4, layers)
             .with(5, sample.parts());
-        let pipeline = layout.compute(spirv::SCHEDULE, &constants, Some(lanes))?;
+        let pipeline = layout.compute(spirv::SCHEDULE, &constants, layout.subgroup())?;
         Ok(Self { pipeline })
     }
 

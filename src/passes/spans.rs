@@ -13,20 +13,23 @@ pub struct Spans {
 }
 
 impl Spans {
+    /// Invocations of a workgroup, which may be several subgroups.
+    const WORKGROUP: u32 = 64;
+
     /// Makes the pipelines.
     ///
     /// # Errors
     /// If the driver refuses one.
     pub fn new(layout: &FrameLayout, scene: &dyn Content) -> Result<Self, VulkanError> {
         let one_bin = scene.bin_count() == 1;
-        let lanes = layout.gpu.limits().subgroup_size;
+        let size = layout.gpu.limits().subgroup_size.min(Self::WORKGROUP);
         let spans = |scatter| {
-            let constants = Constants::new()
+            let constants = scene.constants(Constants::new());
+            let constants = layout
+                .lane_constants(constants, size)
                 .flag(0, scatter)
-                .with(1, lanes)
                 .flag(2, one_bin);
-            let constants = scene.constants(constants);
-            layout.compute(spirv::SPANS, &constants, Some(lanes))
+            layout.compute(spirv::SPANS, &constants, layout.subgroup())
         };
         let arguments = Constants::new().with(0, 4);
         Ok(Self {

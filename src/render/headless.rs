@@ -6,7 +6,9 @@ use super::{Frame, RenderError, Settings, Statistics, Target};
 use crate::camera::Camera;
 use crate::passes::GpuScene;
 use crate::scene::{Motion, Pose, Scene};
-use crate::vulkan::{Buffer, Gpu, Instance, InstanceOptions, Memory, MemoryUse, VulkanError};
+use crate::vulkan::{
+    Buffer, Gpu, Instance, InstanceOptions, Limits, Memory, MemoryUse, VulkanError,
+};
 use ash::vk;
 use std::sync::Arc;
 
@@ -136,10 +138,21 @@ impl Headless {
     /// # Errors
     /// [`VulkanError`] if there is no suitable device, listing what is missing.
     pub fn new(options: &HeadlessOptions) -> Result<Self, VulkanError> {
+        Self::within(options, |_| ())
+    }
+
+    /// As [`Headless::new`], in a device whose limits `lower` has lowered: so one device stands for others.
+    ///
+    /// # Errors
+    /// As [`Headless::new`].
+    pub fn within(
+        options: &HeadlessOptions,
+        lower: impl FnOnce(&mut Limits),
+    ) -> Result<Self, VulkanError> {
         let instance = Instance::new(InstanceOptions {
             validation: options.validation,
         })?;
-        let gpu = instance.create_gpu(options.device.as_deref())?;
+        let gpu = instance.create_gpu_within(options.device.as_deref(), lower)?;
         let renderer = Renderer::in_gpu(gpu.clone())?;
         // SAFETY: the queue family is the one the device was created with; handles made before a failure are
         // destroyed by `Drop`.
@@ -298,8 +311,13 @@ impl Headless {
             colors: output.colors.handle(),
             attributes: output.attributes.as_ref().map(Buffer::handle),
         };
-        // SAFETY: the last submission was waited for; frame and target outlive this one, which is waited for.
-        let submitted = self.submit(|commands| unsafe { frame.record(camera, commands, &target) });
+        // A submission for each region, so that none takes longer than systems let a device work on one.
+        let submitted = (0..frame.regions()).try_for_each(|region| {
+            // SAFETY: the last submission was waited for; frame and target outlive this one, which is waited for.
+            self.submit(|commands| unsafe {
+                frame.record_regions(camera, commands, &target, region..region + 1);
+            })
+        });
         let rendered = submitted.and_then(|()| {
             let mut statistics = frame.statistics()?;
             statistics.memory_bytes += output.memory.used();

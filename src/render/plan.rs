@@ -181,9 +181,9 @@ impl Plan {
             let mut plan = Self::with_region(settings, scene, limits, encoding, effort, region)?;
             let pixels = u64::from(plan.sizes.pixels());
             let needed = plan.shrink(scene, settings, allowed);
-            // Colours, records and candidates are storage buffers.
-            let largest = plan.sizes.largest_storage();
-            let fits = pixels <= most && largest <= limits.max_storage_bytes;
+            let fits = pixels <= most
+                && plan.sizes.largest_storage() <= limits.max_storage_bytes
+                && plan.sizes.largest_texels() <= limits.max_texel_elements;
             if fits && allowed.is_none_or(|allowed| needed <= allowed) {
                 return Ok(plan);
             }
@@ -213,9 +213,10 @@ impl Plan {
         let allowed = settings.max_memory.map(|limit| limit.saturating_sub(taken));
         let mut plan = Self::with_region(settings, scene, limits, None, effort, settings.size)?;
         let needed = plan.shrink(scene, settings, allowed);
-        let largest = plan.sizes.largest_storage();
-        let limit = limits.max_storage_bytes;
-        VulkanError::check_limit("the largest list of a frame", largest, "bytes", limit)?;
+        let what = "the largest list of a frame";
+        let (bytes, texels) = (plan.sizes.largest_storage(), plan.sizes.largest_texels());
+        VulkanError::check_limit(what, bytes, "bytes", limits.max_storage_bytes)?;
+        VulkanError::check_limit(what, texels, "elements", limits.max_texel_elements)?;
         match allowed {
             Some(allowed) if needed > allowed => Err(RenderError::Memory {
                 needed: needed + taken,
@@ -295,10 +296,11 @@ impl Plan {
             Method::None | Method::Ssaa => 0,
         };
         let samples_cells = detects || scene.has_blend();
-        let at_most = |room: u64, bytes: u64| {
+        let at_most = |room: u64, most: u64| {
             let room = if samples_cells { room } else { 0 };
-            (room * u64::from(effort.lists)).min(limits.max_storage_bytes / bytes) as u32
+            (room * u64::from(effort.lists)).min(most) as u32
         };
+        let most_listed = ResourceSizes::most_pairs(limits);
         let triangles = u64::from(scene.index_count());
         let (most_pairs, most_candidates) = if scene.is_instanced() {
             (tiles * TILE_PAIRS, tiles * TILE_CANDIDATES)
@@ -316,11 +318,13 @@ impl Plan {
         };
         let sizes = ResourceSizes {
             region: outer,
+            lanes: limits.lanes,
             sites: None,
             // What survives is in a pair at the least.
-            survivor_capacity: at_most(pairs, 4).min(scene.index_count()),
-            pair_capacity: at_most(pairs, ResourceSizes::PAIR_BYTES),
-            list_capacity: at_most(candidates, ResourceSizes::CANDIDATE_BYTES),
+            survivor_capacity: at_most(pairs, limits.max_storage_bytes / 4)
+                .min(scene.index_count()),
+            pair_capacity: at_most(pairs, most_listed),
+            list_capacity: at_most(candidates, ResourceSizes::most_candidates(limits)),
             record_capacity: records as u32,
             filtered: filtered as u32,
             attributes: settings.attributes,
@@ -336,8 +340,7 @@ impl Plan {
                 .max(pairs.div_ceil(candidates) as u32),
             layers: effort.layers,
             effort,
-            lists_can_grow: u64::from(sizes.pair_capacity)
-                < limits.max_storage_bytes / ResourceSizes::PAIR_BYTES,
+            lists_can_grow: u64::from(sizes.pair_capacity) < most_listed,
         })
     }
 

@@ -2,6 +2,7 @@
 
 use super::RenderError;
 use crate::passes::Counter;
+use crate::vulkan::VulkanError;
 
 /// GPU time of one pass.
 #[derive(Clone, Debug, PartialEq)]
@@ -138,6 +139,8 @@ pub(crate) struct Shortfall {
     pub unlisted: u64,
     /// Triangles that found no room among those that may touch a cell, or are thin.
     pub dropped: u64,
+    /// Whether the device ran kernels in other subgroups than they were made for, which no effort mends.
+    pub other_subgroups: bool,
 }
 
 impl Shortfall {
@@ -158,13 +161,27 @@ impl Shortfall {
         self.dropped += u64::from(listed.saturating_sub(room));
     }
 
+    /// Adds what kernels found of the subgroups that they were run in, as counters say at any later time.
+    pub fn add_subgroups(&mut self, counters: &[u32]) {
+        self.other_subgroups |= counters.get(Counter::Subgroups as usize) != Some(&0);
+    }
+
     /// Cells and tiles that are left.
     pub fn left(&self) -> u64 {
         self.waiting + self.crowded + self.stalled + self.unlisted + self.dropped
     }
 
+    /// Fails where kernels that count on subgroups of `lanes` invocations had others.
+    pub fn check_subgroups(&self, lanes: u32) -> Result<(), VulkanError> {
+        if self.other_subgroups {
+            return Err(VulkanError::Subgroups { lanes });
+        }
+        Ok(())
+    }
+
     /// Fails where anything is left.
-    pub fn check(&self) -> Result<(), RenderError> {
+    pub fn check(&self, lanes: u32) -> Result<(), RenderError> {
+        self.check_subgroups(lanes)?;
         match self.left() {
             0 => Ok(()),
             cells => Err(RenderError::Unfinished { cells }),

@@ -2,6 +2,7 @@
 
 use super::{Buffer, Gpu, Image, Pipeline, VulkanError};
 use ash::vk;
+use std::cell::Cell;
 use std::sync::Arc;
 
 /// The stages that push constants are for.
@@ -13,6 +14,9 @@ pub(crate) const PUSH_STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_
 pub struct Recorder<'a> {
     gpu: &'a Gpu,
     raw: vk::CommandBuffer,
+    /// A barrier that is still to be recorded, before the next command. A mark goes before it: some drivers take the time
+    /// of a timestamp no earlier than at the barrier that follows it.
+    pending: Cell<bool>,
     timings: Option<&'a mut Timings>,
 }
 
@@ -26,10 +30,27 @@ impl<'a> Recorder<'a> {
         raw: vk::CommandBuffer,
         timings: Option<&'a mut Timings>,
     ) -> Self {
-        Self { gpu, raw, timings }
+        Self {
+            gpu,
+            raw,
+            pending: Cell::new(false),
+            timings,
+        }
     }
 
+    /// The command buffer, to record into it until the next [`Self::barrier`].
     pub(crate) fn raw(&self) -> vk::CommandBuffer {
+        if self.pending.take() {
+            let all = vk::PipelineStageFlags2::ALL_COMMANDS;
+            let barriers = [vk::MemoryBarrier2::default()
+                .src_stage_mask(all)
+                .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
+                .dst_stage_mask(all)
+                .dst_access_mask(vk::AccessFlags2::MEMORY_READ | vk::AccessFlags2::MEMORY_WRITE)];
+            let info = vk::DependencyInfo::default().memory_barriers(&barriers);
+            // SAFETY: `new`'s contract; synchronization2 is enabled.
+            unsafe { self.gpu.device.cmd_pipeline_barrier2(self.raw, &info) };
+        }
         self.raw
     }
 
@@ -39,15 +60,7 @@ impl<'a> Recorder<'a> {
 
     /// Everything before is visible to everything after.
     pub fn barrier(&self) {
-        let all = vk::PipelineStageFlags2::ALL_COMMANDS;
-        let barriers = [vk::MemoryBarrier2::default()
-            .src_stage_mask(all)
-            .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
-            .dst_stage_mask(all)
-            .dst_access_mask(vk::AccessFlags2::MEMORY_READ | vk::AccessFlags2::MEMORY_WRITE)];
-        let info = vk::DependencyInfo::default().memory_barriers(&barriers);
-        // SAFETY: `new`'s contract; synchronization2 is enabled.
-        unsafe { self.gpu.device.cmd_pipeline_barrier2(self.raw, &info) };
+        self.pending.set(true);
     }
 
     /// Moves an image to another layout, after all before and ahead of all after.
@@ -90,7 +103,7 @@ impl<'a> Recorder<'a> {
             .subresource_range(range)];
         let info = vk::DependencyInfo::default().image_memory_barriers(&barriers);
         // SAFETY: `new`'s contract; synchronization2 is enabled.
-        unsafe { self.gpu.device.cmd_pipeline_barrier2(self.raw, &info) };
+        unsafe { self.gpu.device.cmd_pipeline_barrier2(self.raw(), &info) };
     }
 
     /// Binds a pipeline.
@@ -99,7 +112,7 @@ impl<'a> Recorder<'a> {
         unsafe {
             self.gpu
                 .device
-                .cmd_bind_pipeline(self.raw, pipeline.bind_point, pipeline.raw)
+                .cmd_bind_pipeline(self.raw(), pipeline.bind_point, pipeline.raw)
         };
     }
 
@@ -117,7 +130,7 @@ impl<'a> Recorder<'a> {
         unsafe {
             self.gpu
                 .device
-                .cmd_dispatch(self.raw, groups.min(32768) as u32, rows, 1)
+                .cmd_dispatch(self.raw(), groups.min(32768) as u32, rows, 1)
         };
     }
 
@@ -134,7 +147,7 @@ impl<'a> Recorder<'a> {
         unsafe {
             self.gpu
                 .device
-                .cmd_dispatch_indirect(self.raw, arguments.raw, u64::from(index) * 16)
+                .cmd_dispatch_indirect(self.raw(), arguments.raw, u64::from(index) * 16)
         };
     }
 
@@ -145,17 +158,22 @@ impl<'a> Recorder<'a> {
         unsafe {
             self.gpu
                 .device
-                .cmd_push_constants(self.raw, layout, PUSH_STAGES, 0, bytes)
+                .cmd_push_constants(self.raw(), layout, PUSH_STAGES, 0, bytes)
         };
     }
 
     /// Fills a buffer with zeros.
     pub fn clear(&self, buffer: &Buffer) {
-        // SAFETY: `new`'s contract; the buffer was created as a transfer destination.
+        self.clear_first(buffer, vk::WHOLE_SIZE);
+    }
+
+    /// Fills the first `bytes` bytes of a buffer with zeros.
+    pub fn clear_first(&self, buffer: &Buffer, bytes: u64) {
+        // SAFETY: `new`'s contract; the buffer was created as a transfer destination, and callers know its size.
         unsafe {
             self.gpu
                 .device
-                .cmd_fill_buffer(self.raw, buffer.raw, 0, vk::WHOLE_SIZE, 0)
+                .cmd_fill_buffer(self.raw(), buffer.raw, 0, bytes, 0)
         };
     }
 
@@ -166,11 +184,25 @@ impl<'a> Recorder<'a> {
         }
     }
 
+    /// Goes on timing, in a command buffer that follows the one before.
+    pub fn go_on(&mut self) {
+        if let Some(timings) = self.timings.as_deref_mut() {
+            timings.mark(self.gpu, self.raw, None);
+        }
+    }
+
     /// Begins timing.
     pub fn begin(&mut self) {
         if let Some(timings) = self.timings.as_deref_mut() {
             timings.begin(self.gpu, self.raw);
         }
+    }
+}
+
+impl Drop for Recorder<'_> {
+    fn drop(&mut self) {
+        // What the caller records next comes after the last barrier too.
+        self.raw();
     }
 }
 

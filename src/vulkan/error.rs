@@ -50,6 +50,14 @@ pub enum VulkanError {
         /// The device's limit.
         limit: u64,
     },
+    /// The driver runs workgroups in subgroups that kernels were not made for.
+    #[error(
+        "the driver runs workgroups of {lanes} invocations in several subgroups, and can't be asked for others; another driver of the device may have VkPhysicalDeviceVulkan13Properties::requiredSubgroupSizeStages with compute shaders"
+    )]
+    Subgroups {
+        /// Invocations of a subgroup that kernels were made for.
+        lanes: u32,
+    },
     /// The validation layer was asked for and is not installed.
     #[error(
         "the validation layer VK_LAYER_KHRONOS_validation is not installed (Debian: vulkan-validationlayers)"

@@ -30,7 +30,9 @@ pub struct Limits {
     pub device_name: String,
     /// Name and version of the driver.
     pub driver: String,
-    /// Invocations in a subgroup, as every subgroup kernel is run: 8, 16 or 32.
+    /// Invocations of a subgroup that kernels use: 4, 8, 16 or 32.
+    pub lanes: u32,
+    /// Invocations in a subgroup, as pipelines ask for; at least `lanes`. Where it is more, the others idle.
     pub subgroup_size: u32,
     /// Whether a compute pipeline can be told its subgroup size.
     pub can_require_subgroup_size: bool,
@@ -70,7 +72,7 @@ impl Gpu {
     /// - The device was created with the features of [`Requirements::features13`].
     pub unsafe fn new(host: Host) -> Result<Arc<Self>, VulkanError> {
         // SAFETY: passed on to the caller.
-        unsafe { Self::owning(host, None) }
+        unsafe { Self::owning(host, None, |_| ()) }
     }
 
     /// # Safety
@@ -78,6 +80,7 @@ impl Gpu {
     pub(super) unsafe fn owning(
         host: Host,
         owner: Option<Arc<Instance>>,
+        lower: impl FnOnce(&mut Limits),
     ) -> Result<Arc<Self>, VulkanError> {
         let Host {
             instance,
@@ -86,7 +89,8 @@ impl Gpu {
             queue_family,
             allocator,
         } = host;
-        let limits = limits(&instance, physical_device, queue_family);
+        let mut limits = limits(&instance, physical_device, queue_family);
+        lower(&mut limits);
         let missing: Vec<Missing> = Requirements::missing(&instance, physical_device);
         if !missing.is_empty() {
             return Err(VulkanError::Missing {
@@ -153,6 +157,18 @@ impl Drop for Gpu {
     }
 }
 
+/// How many invocations of a subgroup kernels use, and how many a subgroup has, where it usually has `usual` and from
+/// `least` to `most`.
+fn lanes_and_size(usual: u32, [least, most]: [u32; 2], can_require: bool) -> (u32, u32) {
+    if can_require {
+        let size = usual.clamp(4, 32).clamp(least, most);
+        (size.min(32), size)
+    } else {
+        // The least that may come fits in all others.
+        (least.clamp(4, 32), usual)
+    }
+}
+
 fn limits(instance: &ash::Instance, device: vk::PhysicalDevice, queue_family: u32) -> Limits {
     let mut driver = vk::PhysicalDeviceDriverProperties::default();
     let mut subgroup = vk::PhysicalDeviceSubgroupProperties::default();
@@ -167,6 +183,14 @@ fn limits(instance: &ash::Instance, device: vk::PhysicalDevice, queue_family: u3
         instance.get_physical_device_queue_family_properties(device)
     };
     let basic = properties.properties;
+    let can_require_subgroup_size = control
+        .required_subgroup_size_stages
+        .contains(vk::ShaderStageFlags::COMPUTE);
+    let (lanes, subgroup_size) = lanes_and_size(
+        subgroup.subgroup_size,
+        [control.min_subgroup_size, control.max_subgroup_size],
+        can_require_subgroup_size,
+    );
     let timestamps = families
         .get(queue_family as usize)
         .is_some_and(|family| family.timestamp_valid_bits > 0);
@@ -181,13 +205,9 @@ fn limits(instance: &ash::Instance, device: vk::PhysicalDevice, queue_family: u3
             text(driver.driver_name_as_c_str()),
             text(driver.driver_info_as_c_str())
         ),
-        subgroup_size: subgroup
-            .subgroup_size
-            .clamp(8, 32)
-            .clamp(control.min_subgroup_size, control.max_subgroup_size),
-        can_require_subgroup_size: control
-            .required_subgroup_size_stages
-            .contains(vk::ShaderStageFlags::COMPUTE),
+        lanes,
+        subgroup_size,
+        can_require_subgroup_size,
         max_image_side: basic.limits.max_image_dimension2_d,
         max_texel_elements: u64::from(basic.limits.max_texel_buffer_elements),
         buffer_alignment: basic
@@ -203,5 +223,24 @@ fn limits(instance: &ash::Instance, device: vk::PhysicalDevice, queue_family: u3
         sample_counts: basic.limits.framebuffer_color_sample_counts
             & basic.limits.framebuffer_depth_sample_counts
             & basic.limits.sampled_image_color_sample_counts,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::lanes_and_size;
+
+    #[test]
+    fn lanes_fit_in_the_subgroups_that_come() {
+        let of = |usual, range, can_require| lanes_and_size(usual, range, can_require);
+        assert_eq!(of(8, [8, 8], true), (8, 8));
+        assert_eq!(of(4, [4, 4], true), (4, 4));
+        assert_eq!(of(32, [8, 32], true), (32, 32));
+        assert_eq!(of(64, [32, 64], true), (32, 32));
+        assert_eq!(of(64, [64, 64], true), (32, 64));
+        assert_eq!(of(128, [64, 128], true), (32, 64));
+        assert_eq!(of(32, [8, 32], false), (8, 32));
+        assert_eq!(of(64, [64, 64], false), (32, 64));
+        assert_eq!(of(4, [1, 4], false), (4, 4));
     }
 }

@@ -1,6 +1,6 @@
 //! An instance and device of our own, for callers without one.
 
-use super::gpu::{Gpu, Host};
+use super::gpu::{Gpu, Host, Limits};
 use super::{Missing, Requirements, VulkanError};
 use ash::vk;
 use std::ffi::{CStr, c_void};
@@ -249,6 +249,18 @@ impl Instance {
     /// # Errors
     /// [`VulkanError::NoDevice`] lists every device and what it lacks; [`VulkanError::Call`] if creation fails.
     pub fn create_gpu(self: &Arc<Self>, name: Option<&str>) -> Result<Arc<Gpu>, VulkanError> {
+        self.create_gpu_within(name, |_| ())
+    }
+
+    /// As [`Instance::create_gpu`], with limits that `lower` has lowered: so one device stands for others.
+    ///
+    /// # Errors
+    /// As [`Instance::create_gpu`].
+    pub fn create_gpu_within(
+        self: &Arc<Self>,
+        name: Option<&str>,
+        lower: impl FnOnce(&mut Limits),
+    ) -> Result<Arc<Gpu>, VulkanError> {
         let mut found = Vec::new();
         let mut suitable = Vec::new();
         for device in self.physical_devices()? {
@@ -305,7 +317,7 @@ impl Instance {
             allocator: None,
         };
         // SAFETY: the handles are alive, belong together, and the Gpu keeps the instance and owns the device.
-        unsafe { Gpu::owning(host, Some(self.clone())) }
+        unsafe { Gpu::owning(host, Some(self.clone()), lower) }
     }
 }
 

@@ -276,6 +276,15 @@ impl Memory {
     }
 }
 
+/// The allocation, where host and device see what the other writes without flushing. Memory to upload from and to read back
+/// from always is so; that of the device may be mapped and not so.
+fn coherent(allocation: &Allocation) -> Option<&Allocation> {
+    let flags = allocation.memory_properties();
+    flags
+        .contains(vk::MemoryPropertyFlags::HOST_COHERENT)
+        .then_some(allocation)
+}
+
 /// A buffer and its memory.
 pub struct Buffer {
     gpu: Arc<Gpu>,
@@ -298,12 +307,12 @@ impl Buffer {
         self.size
     }
 
-    /// The mapped bytes; empty for device memory that the host can't see.
+    /// The mapped bytes; empty for device memory that the host can't see, or not without flushing it.
     #[must_use]
     pub fn bytes(&self) -> &[u8] {
         self.block
             .as_ref()
-            .and_then(|block| block.allocation.as_ref()?.mapped_slice())
+            .and_then(|block| coherent(block.allocation.as_ref()?)?.mapped_slice())
             .and_then(|all| all.get(..self.size as usize))
             .unwrap_or(&[])
     }
@@ -322,11 +331,12 @@ impl Buffer {
             })
     }
 
-    /// The mapped bytes, to be written before the device reads them.
+    /// The mapped bytes, to be written before the device reads them; empty as [`Buffer::bytes`].
     pub fn bytes_mut(&mut self) -> &mut [u8] {
         let size = self.size as usize;
         self.block
             .as_mut()
+            .filter(|block| block.allocation.as_ref().and_then(coherent).is_some())
             .and_then(|block| block.allocation.as_mut()?.mapped_slice_mut())
             .and_then(|all| all.get_mut(..size))
             .unwrap_or(&mut [])

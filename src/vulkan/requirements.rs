@@ -25,8 +25,8 @@ pub enum Missing {
     /// Subgroups of compute shaders lack an operation.
     #[error("subgroup {0} operations in compute shaders")]
     Subgroup(&'static str),
-    /// Subgroups are too small or too large.
-    #[error("subgroups of 8 to 32 invocations (it has {0})")]
+    /// Subgroups are too small.
+    #[error("subgroups of 4 invocations or more (it has {0})")]
     SubgroupSize(u32),
     /// A format can't be used as needed.
     #[error("the format {0} as {1}")]
@@ -96,6 +96,12 @@ const BUFFER_FORMATS: [(vk::Format, &str, vk::FormatFeatureFlags, &str); 7] = [
 impl Requirements {
     /// The API version to create the instance and device with.
     pub const API_VERSION: u32 = vk::API_VERSION_1_3;
+    /// Storage buffers that a pipeline's layout shows to a stage.
+    pub(crate) const STORAGE_BUFFERS: u32 = 20;
+    /// Images and texel buffers that it shows to be read.
+    pub(crate) const SAMPLED_IMAGES: u32 = 45;
+    /// All that it shows, and an attachment.
+    pub(crate) const RESOURCES: u32 = 72;
 
     /// Features to enable at device creation, as they stand in Vulkan 1.3's structures:
     /// `dynamicRendering`, `synchronization2`, `maintenance4`, `subgroupSizeControl` and
@@ -162,7 +168,7 @@ impl Requirements {
                 missing.push(Missing::Subgroup(name));
             }
         }
-        if size_control.min_subgroup_size > 32 || size_control.max_subgroup_size < 8 {
+        if size_control.max_subgroup_size < 4 {
             missing.push(Missing::SubgroupSize(subgroup.subgroup_size));
         }
         for (format, name, flag, what) in BUFFER_FORMATS {
@@ -174,26 +180,26 @@ impl Requirements {
         }
         for (name, needed, found) in [
             (
-                "maxTexelBufferElements",
-                1 << 24,
-                u64::from(limits.max_texel_buffer_elements),
+                "maxPerStageDescriptorStorageBuffers",
+                Self::STORAGE_BUFFERS,
+                limits.max_per_stage_descriptor_storage_buffers,
             ),
             (
-                "maxPerStageDescriptorStorageBuffers",
-                20,
-                u64::from(limits.max_per_stage_descriptor_storage_buffers),
+                "maxPerStageDescriptorSampledImages",
+                Self::SAMPLED_IMAGES,
+                limits.max_per_stage_descriptor_sampled_images,
             ),
             (
                 "maxPerStageResources",
-                64,
-                u64::from(limits.max_per_stage_resources),
+                Self::RESOURCES,
+                limits.max_per_stage_resources,
             ),
         ] {
             if found < needed {
                 missing.push(Missing::Limit {
                     name,
-                    needed,
-                    found,
+                    needed: needed.into(),
+                    found: found.into(),
                 });
             }
         }

@@ -110,17 +110,18 @@ impl Resources {
                 sizes.work_owners() * ResourceSizes::MARK_BYTES,
             )?,
             tiles: storage("tiles", tiles * 16)?,
-            tile_lists: storage(
-                "tile lists",
-                sizes.work_owners() * ResourceSizes::WORK_BYTES,
-            )?,
+            tile_lists: storage("tile lists", sizes.work_bytes())?,
             survivors: storage("survivors", u64::from(sizes.survivor_capacity) * 4)?,
             pairs: texels(
                 "pairs",
                 u64::from(sizes.pair_capacity),
                 vk::Format::R32G32_UINT,
             )?,
-            candidates: texels("candidates", u64::from(sizes.list_capacity) * 4, uint4)?,
+            candidates: texels(
+                "candidates",
+                u64::from(sizes.list_capacity) * ResourceSizes::CANDIDATE_TEXELS,
+                uint4,
+            )?,
             headers: storage("record headers", records * 8)?,
             records: texels("visibility records", records, uint4)?,
             shaded: texels("shaded records", records, float4)?,

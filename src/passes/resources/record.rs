@@ -6,11 +6,12 @@ use crate::vulkan::{Buffer, Recorder};
 use ash::vk;
 
 impl Resources {
-    /// Copies the locations to the device, once.
+    /// Copies the locations to the device and clears all counters, once.
     pub fn record_upload(&self, recorder: &Recorder<'_>) {
         for set in &self.sets {
             set.upload.record(recorder);
         }
+        recorder.clear(&self.counters);
         recorder.barrier();
     }
 
@@ -31,7 +32,7 @@ impl Resources {
                 bytemuck::bytes_of(uniform),
             )
         };
-        recorder.clear(&self.counters);
+        recorder.clear_first(&self.counters, Counter::CLEARED_BYTES);
         recorder.clear(&self.tiles);
         recorder.barrier();
         self.record_bind(recorder, set);
@@ -106,24 +107,24 @@ impl Resources {
     ) {
         /// Pixels written inline; the rest is copied from what is there, twice as much each time.
         const SEED: u64 = 4096;
-        let (device, raw) = (recorder.device(), recorder.raw());
+        let device = recorder.device();
         let (color, display) = (self.color.buffer.raw, self.display.buffer.raw);
         let total = u64::from(pixels);
         // SAFETY: the recorder's contract; the seed has the 65,536 bytes that an inline update can have, sizes are
         // multiples of 4, and each copy reads what the copies before it wrote and writes past it.
         unsafe {
-            device.cmd_fill_buffer(raw, display, 0, vk::WHOLE_SIZE, code);
+            device.cmd_fill_buffer(recorder.raw(), display, 0, vk::WHOLE_SIZE, code);
             if background == [0.0; 4] {
-                device.cmd_fill_buffer(raw, color, 0, vk::WHOLE_SIZE, 0);
+                device.cmd_fill_buffer(recorder.raw(), color, 0, vk::WHOLE_SIZE, 0);
             } else {
                 let mut filled = SEED.min(total);
                 let seed = vec![background; filled as usize];
-                device.cmd_update_buffer(raw, color, 0, bytemuck::cast_slice(&seed));
+                device.cmd_update_buffer(recorder.raw(), color, 0, bytemuck::cast_slice(&seed));
                 while filled < total {
                     recorder.barrier();
                     let size = filled.min(total - filled) * 16;
                     let part = [vk::BufferCopy::default().dst_offset(filled * 16).size(size)];
-                    device.cmd_copy_buffer(raw, color, color, &part);
+                    device.cmd_copy_buffer(recorder.raw(), color, color, &part);
                     filled = (2 * filled).min(total);
                 }
             }

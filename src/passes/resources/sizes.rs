@@ -1,12 +1,15 @@
 //! How much room a frame needs.
 
 use crate::passes::SiteSizes;
+use crate::vulkan::Limits;
 
 /// How much room a frame needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ResourceSizes {
     /// Largest region, in pixels.
     pub region: [u32; 2],
+    /// Invocations of a subgroup: an entry of a work list is as many cells.
+    pub lanes: u32,
     /// Sites of a region, where cells are these instead of pixels.
     pub sites: Option<SiteSizes>,
     /// Triangles that may touch a cell, or are thin.
@@ -28,13 +31,25 @@ pub struct ResourceSizes {
 impl ResourceSizes {
     /// Bytes of a pair.
     pub const PAIR_BYTES: u64 = 8;
+    /// Elements of a candidate in a texel buffer.
+    pub const CANDIDATE_TEXELS: u64 = 4;
     /// Bytes of a candidate.
-    pub const CANDIDATE_BYTES: u64 = 64;
-    /// Bytes of the work lists for a tile or group of sites: six lists of up to four entries.
-    pub const WORK_BYTES: u64 = 96;
-
+    pub const CANDIDATE_BYTES: u64 = 16 * Self::CANDIDATE_TEXELS;
     /// Bytes of the marks of a tile or group of sites: three words.
     pub const MARK_BYTES: u64 = 12;
+
+    /// Most pairs that a buffer of the device holds.
+    #[must_use]
+    pub fn most_pairs(limits: &Limits) -> u64 {
+        (limits.max_storage_bytes / Self::PAIR_BYTES).min(limits.max_texel_elements)
+    }
+
+    /// Most candidates that a buffer of the device holds.
+    #[must_use]
+    pub fn most_candidates(limits: &Limits) -> u64 {
+        let texels = limits.max_texel_elements / Self::CANDIDATE_TEXELS;
+        (limits.max_storage_bytes / Self::CANDIDATE_BYTES).min(texels)
+    }
 
     /// Bytes of the largest storage buffer.
     #[must_use]
@@ -44,7 +59,7 @@ impl ResourceSizes {
         let candidates = u64::from(self.list_capacity) * Self::CANDIDATE_BYTES;
         let attributes = if self.attributes { 2 * colors } else { 0 };
         let pairs = u64::from(self.pair_capacity) * Self::PAIR_BYTES;
-        let work = self.work_owners() * Self::WORK_BYTES;
+        let work = self.work_bytes();
         [attributes, colors, records, candidates, pairs, work]
             .into_iter()
             .fold(0, u64::max)
@@ -69,6 +84,37 @@ impl ResourceSizes {
         self.tiles().max(groups).into()
     }
 
+    /// Bytes of the work lists: six of them, with as many entries for an owner as its cells may fill.
+    pub(super) fn work_bytes(&self) -> u64 {
+        let entries = if self.sites.is_some() {
+            1
+        } else {
+            32 / self.lanes
+        };
+        self.work_owners() * 6 * 4 * u64::from(entries)
+    }
+
+    /// Elements of the largest texel buffer.
+    #[must_use]
+    pub fn largest_texels(&self) -> u64 {
+        let [records, pairs, candidates] =
+            [self.record_capacity, self.pair_capacity, self.list_capacity].map(u64::from);
+        let [sites, cells] = self
+            .sites
+            .map_or([0; 2], |sites| [sites.sites, sites.cells])
+            .map(u64::from);
+        [
+            self.colors(),
+            records,
+            pairs,
+            candidates * Self::CANDIDATE_TEXELS,
+            2 * sites,
+            2 * cells,
+        ]
+        .into_iter()
+        .fold(0, u64::max)
+    }
+
     /// Tiles of 8 x 4 pixels of a region.
     #[must_use]
     pub fn tiles(&self) -> u32 {
@@ -83,7 +129,8 @@ impl ResourceSizes {
         let records = u64::from(self.record_capacity);
         pixels * (16 + 4 + 4 + 4)
             + tiles * 20
-            + self.work_owners() * (Self::MARK_BYTES + Self::WORK_BYTES)
+            + self.work_owners() * Self::MARK_BYTES
+            + self.work_bytes()
             + u64::from(self.list_capacity) * Self::CANDIDATE_BYTES
             + u64::from(self.pair_capacity) * Self::PAIR_BYTES
             + records * 40

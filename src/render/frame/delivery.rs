@@ -50,7 +50,13 @@ impl Recording<'_> {
         let [width, height] = region.size().map(u64::from);
         let [left, top] = self.place(region).map(u64::from);
         let target_row = u64::from(self.settings.output_size()[0]);
-        let rows: Vec<_> = (0..height)
+        // Rows that follow one another in both are one.
+        let (rows, width) = if width == row(region) && width == target_row {
+            (1, width * height)
+        } else {
+            (height, width)
+        };
+        let rows: Vec<_> = (0..rows)
             .map(|y| {
                 vk::BufferCopy::default()
                     .src_offset((first_wanted(region) + y * row(region)) * bytes)

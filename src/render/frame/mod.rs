@@ -22,6 +22,7 @@ use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;
 use passes::{Passes, raster_samples};
 use recording::{Recording, Run};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Pipelines and memory for frames of one scene, which it keeps alive, of one size and method.
@@ -103,7 +104,7 @@ impl Frame {
         )?;
         let passes = Passes::new(layout, scene, settings, &plan, encoding)?;
         let regions = plan.regions.len() as u64;
-        let marks = regions as u32 * (16 + Run::ALL.len() as u32 * (4 + 8 * plan.rounds)) + 8;
+        let marks = regions as u32 * (17 + Run::ALL.len() as u32 * (4 + 8 * plan.rounds)) + 8;
         Ok(Self {
             scene: scene.clone(),
             moment: None,
@@ -116,7 +117,7 @@ impl Frame {
             resources,
             counters: memory.buffer(
                 "counter read-back",
-                regions * Run::ALL.len() as u64 * Counter::BYTES,
+                Run::slots(plan.regions.len()) as u64 * Counter::BYTES,
                 vk::BufferUsageFlags::TRANSFER_DST,
                 MemoryUse::Readback,
             )?,
@@ -191,6 +192,27 @@ impl Frame {
     /// - The frame, which keeps its scene alive, outlives the execution of the commands; so do the target's handles.
     /// - The target's handles are of the settings' output size, and as [`Target`] says.
     pub unsafe fn record(&mut self, camera: &Camera, commands: vk::CommandBuffer, target: &Target) {
+        let regions = 0..self.regions();
+        // SAFETY: passed on to the caller.
+        unsafe { self.record_regions(camera, commands, target, regions) };
+    }
+
+    /// Regions that the image is made in.
+    pub(super) fn regions(&self) -> usize {
+        self.plan.regions.len()
+    }
+
+    /// As [`Frame::record`], some of the regions: those of an image may be recorded into several command buffers.
+    ///
+    /// # Safety
+    /// As [`Frame::record`]; and the regions before are recorded, and executed before these.
+    pub(super) unsafe fn record_regions(
+        &mut self,
+        camera: &Camera,
+        commands: vk::CommandBuffer,
+        target: &Target,
+        regions: Range<usize>,
+    ) {
         let gpu = self.memory.gpu().clone();
         // SAFETY: passed on to the caller.
         let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
@@ -221,6 +243,6 @@ impl Frame {
             camera,
             target,
         };
-        recording.record(&mut recorder);
+        recording.record(&mut recorder, regions);
     }
 }

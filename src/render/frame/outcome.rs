@@ -17,6 +17,9 @@ impl Frame {
                 shortfall.add(counters, (tiles, room), unlisted);
             }
         }
+        let slots = Run::slots(self.plan.regions.len());
+        let words: &[u32] = self.counters.read(slots * Counter::COUNT)?;
+        shortfall.add_subgroups(words.rchunks_exact(Counter::COUNT).next().unwrap_or(&[]));
         Ok(shortfall)
     }
 
@@ -60,7 +63,7 @@ impl Frame {
             ..Statistics::default()
         };
         statistics.triangles.total = self.scene.triangle_count();
-        self.shortfall()?.check()?;
+        self.shortfall()?.check(self.plan.sizes.lanes)?;
         for (tiles, run, counters) in self.counted()? {
             if !self.records(run) || run == Run::Blended {
                 continue;

@@ -13,6 +13,7 @@ use crate::render::engine::{RecordShading, Work, record_shading};
 use crate::render::plan::{Plan, Region};
 use crate::scene::Moment;
 use crate::vulkan::{Buffer, Recorder};
+use std::ops::Range;
 
 /// Descriptor set with one sample at the pixel's centre.
 const CENTRE: usize = 0;
@@ -42,6 +43,11 @@ impl Run {
     /// Where the counters of a region's run are kept.
     fn slot(self, region: usize) -> u64 {
         (Self::ALL.len() * region + self as usize) as u64
+    }
+
+    /// Slots for the counters of so many regions; the last one is for those that the frame ends with.
+    pub fn slots(regions: usize) -> usize {
+        Self::ALL.len() * regions + 1
     }
 }
 
@@ -75,13 +81,26 @@ impl RecordShading for SceneShading<'_> {
 }
 
 impl Recording<'_> {
-    pub fn record(&self, recorder: &mut Recorder<'_>) {
-        self.target.record_begin(recorder);
-        recorder.begin();
-        for (index, region) in self.plan.regions.iter().enumerate() {
-            self.record_region(recorder, index, region);
+    /// Records some of the frame's regions; the first and the last one begin and end the frame.
+    pub fn record(&self, recorder: &mut Recorder<'_>, regions: Range<usize>) {
+        if regions.start == 0 {
+            self.target.record_begin(recorder);
+            recorder.begin();
+        } else {
+            recorder.go_on();
         }
-        self.target.record_end(recorder);
+        let count = self.plan.regions.len();
+        for (index, region) in self.plan.regions.iter().enumerate() {
+            if regions.contains(&index) {
+                self.record_region(recorder, index, region);
+            }
+        }
+        if regions.end == count {
+            let last = Run::slots(count) as u64 - 1;
+            self.resources
+                .record_keep_counters(recorder, self.counters, last);
+            self.target.record_end(recorder);
+        }
     }
 
     fn record_region(&self, recorder: &mut Recorder<'_>, index: usize, region: &Region) {

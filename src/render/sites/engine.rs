@@ -66,7 +66,7 @@ pub(super) struct SiteValues<'a> {
 
 /// How sites share cells and groups on a device.
 pub(super) fn cell_sizes(layout: &FrameLayout, cells: Cells, samples: u32) -> CellSizes {
-    let lanes = layout.gpu.limits().subgroup_size;
+    let lanes = layout.gpu.limits().lanes;
     let in_cell = match cells {
         Cells::Points | Cells::Occluders => POINTS_IN_CELL.next_multiple_of(lanes),
         Cells::Superpixels | Cells::Pixels => 1,
@@ -320,6 +320,7 @@ impl SiteEngine {
         let mut shortfall = Shortfall::default();
         let room = self.resources.sizes().survivor_capacity;
         shortfall.add(self.counted()?, (window.tile_count(), room), true);
+        shortfall.add_subgroups(self.counted()?);
         Ok(shortfall)
     }
 
@@ -334,7 +335,8 @@ impl SiteEngine {
         window: &Window,
         total: &mut Statistics,
     ) -> Result<(), RenderError> {
-        self.shortfall(window)?.check()?;
+        self.shortfall(window)?
+            .check(self.resources.sizes().lanes)?;
         total.add(self.counted()?);
         total.tiles += u64::from(window.tile_count());
         total.regions += 1;

@@ -45,9 +45,8 @@ impl SitePlan {
             let most = runs.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
             let sizes = sizes(layout, scene, settings, cells, windows, most as u64);
             let needed = taken + sizes.bytes() + FrameGeometry::bytes(scene);
-            let texels = 4 * u64::from(sizes.list_capacity).max(most as u64);
             let fits = sizes.largest_storage() <= limits.max_storage_bytes
-                && texels <= limits.max_texel_elements;
+                && sizes.largest_texels() <= limits.max_texel_elements;
             if fits && settings.max_memory.is_none_or(|allowed| needed <= allowed) {
                 return Ok(Self { runs, sizes });
             }
@@ -95,17 +94,17 @@ fn sizes(
     let triangles = scene.triangle_count();
     let pairs = (triangles * 4 + tiles * 16).clamp(1 << 14, MOST_PAIRS);
     let candidates = (triangles * 3 + tiles * 8).clamp(1 << 14, MOST_CANDIDATES);
-    let at_most = |room: u64, bytes: u64| room.min(limits.max_storage_bytes / bytes) as u32;
     ResourceSizes {
         region,
+        lanes: limits.lanes,
         sites: Some(SiteSizes {
             sites: most as u32,
             cells: cell_count as u32,
             groups: group_count as u32,
         }),
         survivor_capacity: scene.index_count(),
-        pair_capacity: at_most(pairs, ResourceSizes::PAIR_BYTES),
-        list_capacity: at_most(candidates, ResourceSizes::CANDIDATE_BYTES),
+        pair_capacity: pairs.min(ResourceSizes::most_pairs(limits)) as u32,
+        list_capacity: candidates.min(ResourceSizes::most_candidates(limits)) as u32,
         record_capacity: records.clamp(1 << 16, MOST_RECORDS) as u32,
         filtered: 0,
         attributes: cells.are_points(),

@@ -1,0 +1,217 @@
+//! One device as if it were others: with larger and smaller subgroups, and with the limits that every device has.
+
+use gpc::render::{
+    Coverage, Headless, HeadlessOptions, Method, RenderError, Rendered, Settings, Shading,
+};
+use gpc::sampling::Pattern;
+use gpc::scene::{AlphaMode, Instance, Material};
+use gpc::vulkan::{Limits, VulkanError};
+
+use crate::scenes::ball_over_checker;
+use crate::stage::{Stage, camera, everywhere, flat, on_gpu};
+
+/// Runs a test on a device of lower limits; fails if the validation layer has anything to say about it.
+fn within(lower: impl FnOnce(&mut Limits), test: impl FnOnce(&mut Headless)) {
+    let options = HeadlessOptions {
+        validation: true,
+        ..HeadlessOptions::default()
+    };
+    let mut gpu = Headless::within(&options, lower).unwrap();
+    test(&mut gpu);
+    assert_eq!(gpu.validation_messages(), Vec::<String>::new());
+}
+
+/// As many lanes as subgroups have invocations.
+fn lanes() -> u32 {
+    let mut lanes = 0;
+    on_gpu(|gpu| lanes = gpu.gpu().limits().lanes);
+    lanes
+}
+
+/// Panes before alpha-tested triangles before a checkerboard, so that each kernel has tiles of its own.
+fn layered() -> Stage {
+    let mut stage = ball_over_checker();
+    for mode in [AlphaMode::Mask { cutoff: 0.5 }, AlphaMode::Blend] {
+        let material = stage.materials.len();
+        stage.materials.push(flat([0.9, 0.3, 0.2, 0.6], mode));
+        for k in 0..6_u8 {
+            let [x, y] = [f32::from(k % 3) - 1.4, f32::from(k / 3) - 0.9];
+            let z = -3.0 - f32::from(k) * 0.1 - material as f32 * 0.3;
+            let corners = [[x, y, z], [x + 0.9, y + 0.13, z], [x + 0.2, y + 0.8, z]];
+            stage.add(material, corners);
+        }
+    }
+    stage
+}
+
+/// The largest difference of colours, and the root of the mean square of all.
+fn differences(found: &Rendered, expected: &Rendered) -> (f32, f64) {
+    assert_eq!(found.colors.len(), expected.colors.len());
+    let pairs = found.colors.iter().zip(&expected.colors);
+    let differences = pairs.flat_map(|(a, b)| [0, 1, 2, 3].map(|i| (a[i] - b[i]).abs()));
+    let (mut largest, mut squares, mut count) = (0.0, 0.0, 0.0);
+    for difference in differences {
+        largest = f32::max(largest, difference);
+        squares += f64::from(difference).powi(2);
+        count += 1.0;
+    }
+    (largest, (squares / count).sqrt())
+}
+
+/// Half of each subgroup idles, as on devices whose subgroups are larger than kernels use. With 4 invocations, cells that see
+/// more than 4 surfaces go by samples instead of areas.
+#[test]
+fn larger_subgroups_make_the_same_image() {
+    if lanes() == 4 {
+        return;
+    }
+    let stage = layered();
+    for (samples, shading, coverage) in [
+        (8, Shading::Triangle, Coverage::Samples),
+        (64, Shading::Triangle, Coverage::Area),
+        (256, Shading::Triangle, Coverage::Area),
+        (16, Shading::Sample, Coverage::Samples),
+    ] {
+        let settings = Settings {
+            shading,
+            coverage,
+            ..everywhere([64, 48], Pattern::Sobol, samples)
+        };
+        let mut expected = None;
+        on_gpu(|gpu| expected = Some(stage.render(gpu, &settings)));
+        let expected = expected.unwrap();
+        within(
+            |limits| limits.lanes /= 2,
+            |gpu| {
+                let found = stage.render(gpu, &settings);
+                let (largest, mean) = differences(&found, &expected);
+                let what = format!("{samples} samples, {shading:?}, {coverage:?}");
+                if coverage == Coverage::Area && gpu.gpu().limits().lanes < 8 {
+                    assert!(mean < 1e-3, "{what}: colours differ by {mean}");
+                } else {
+                    assert!(largest < 1e-5, "{what}: colours differ by {largest}");
+                }
+            },
+        );
+    }
+}
+
+/// Kernels that find subgroups smaller than they were made for say so: no image is made of what they did.
+#[test]
+fn other_subgroups_are_an_error() {
+    let stage = ball_over_checker();
+    let lowered: [fn(&mut Limits); 2] = [
+        // All kernels but those that list spans.
+        |limits| limits.lanes *= 2,
+        // Those that list spans.
+        |limits| limits.subgroup_size *= 2,
+    ];
+    for (lower, method) in lowered.into_iter().zip([Method::Superpixel, Method::None]) {
+        within(
+            |limits| {
+                limits.can_require_subgroup_size = false;
+                lower(limits);
+            },
+            |gpu| {
+                let settings = Settings {
+                    method,
+                    ..Settings::new(64, 48)
+                };
+                let (scene, pose) = stage.build();
+                let prepared = gpu.upload(&scene, &pose, None).unwrap();
+                let mut frame = gpu.prepare(&prepared, &settings).unwrap();
+                let failed = gpu.render(&mut frame, &camera());
+                assert!(
+                    matches!(
+                        failed,
+                        Err(RenderError::Vulkan(VulkanError::Subgroups { .. }))
+                    ),
+                    "{:?}",
+                    failed.map(|rendered| rendered.statistics)
+                );
+            },
+        );
+    }
+}
+
+/// The least that any device has.
+fn guaranteed(limits: &mut Limits) {
+    limits.max_texel_elements = 1 << 16;
+    limits.max_storage_bytes = 1 << 27;
+}
+
+/// More pixels, records and candidates than a texel buffer holds: the image is made in regions.
+#[test]
+fn small_texel_buffers_make_the_same_image() {
+    let stage = layered();
+    let settings = everywhere([320, 240], Pattern::Sobol, 16);
+    let mut expected = None;
+    on_gpu(|gpu| expected = Some(stage.render(gpu, &settings)));
+    let expected = expected.unwrap();
+    assert_eq!(expected.statistics.regions, 1);
+    within(guaranteed, |gpu| {
+        let found = stage.render(gpu, &settings);
+        assert!(found.statistics.regions > 1);
+        assert!(found.colors == expected.colors);
+    });
+}
+
+/// A scene that no texel buffer holds is refused by name, not drawn in part.
+#[test]
+fn scenes_beyond_texel_buffers_are_refused() {
+    let mut stage = Stage::new(vec![Material::default()]);
+    for _ in 0..=1 << 16 {
+        stage.add(0, [[-1.0, -1.0, -5.0], [1.0, -1.0, -5.0], [0.0, 1.0, -5.0]]);
+    }
+    let (scene, pose) = stage.build();
+    within(guaranteed, |gpu| {
+        let refused = gpu.upload(&scene, &pose, None).err();
+        assert!(
+            matches!(
+                refused,
+                Some(RenderError::Vulkan(VulkanError::TooLarge {
+                    limit: 65_536,
+                    ..
+                }))
+            ),
+            "{refused:?}"
+        );
+    });
+}
+
+/// Dispatches over more than 32,768 workgroups have a second row.
+#[test]
+fn the_last_of_many_triangles_is_sampled() {
+    // A triangle for each of 32,768 workgroups of 64 invocations that take 8 each, and some.
+    const MANY: u32 = (1 << 24) + 64;
+    const MESH: u32 = 1 << 16;
+    let mut stage = Stage::new(vec![flat([1.0; 4], AlphaMode::Opaque)]);
+    stage.add(0, [[-1.0, -1.0, -5.0], [1.0, -1.0, -5.0], [0.1, 1.0, -5.0]]);
+    for _ in 1..MESH {
+        stage.add(0, [[0.0, 0.0, 9.0], [1.0, 0.0, 9.0], [0.0, 1.0, 9.0]]);
+    }
+    let (scene, mut pose) = stage.build();
+    let instance = |first_triangle, triangle_count, first_index| Instance {
+        first_triangle,
+        triangle_count,
+        first_index,
+        transform: glam::DAffine3::IDENTITY,
+    };
+    // The triangle that shows comes last.
+    let mut first_index = 0;
+    while first_index < MANY {
+        let some = instance(64, MESH - 64, first_index);
+        pose.geometry.instances.push(some);
+        first_index += (MESH - 64).next_multiple_of(Instance::ALIGNMENT);
+    }
+    pose.geometry.instances.push(instance(0, 1, first_index));
+    on_gpu(|gpu| {
+        let prepared = gpu.upload(&scene, &pose, None).unwrap();
+        let mut frame = gpu.prepare(&prepared, &Settings::new(48, 32)).unwrap();
+        let rendered = gpu.render(&mut frame, &camera()).unwrap();
+        assert_eq!(rendered.statistics.triangles.drawn, 1);
+        assert!(rendered.statistics.superpixels > 20);
+        let partly = rendered.colors.iter().filter(|c| c[3] > 0.1 && c[3] < 0.9);
+        assert!(partly.count() > 10);
+    });
+}
