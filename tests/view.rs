@@ -707,5 +707,6 @@ fn without_a_display_the_command_that_needs_none_is_named() {
         .env_remove("WAYLAND_SOCKET")
         .output()
         .unwrap();
-    finish(output).exits(3).says(&["gpc render"]);
+    let said = finish(output).exits(3).says(&["gpc render", "DISPLAY"]);
+    assert!(!said.stderr.contains(".rs:"), "{}", said.stderr);
 }

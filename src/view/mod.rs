@@ -78,6 +78,20 @@ pub struct Options {
 #[error("no window can be opened: {0}. Without a display, gpc render writes images to files")]
 pub struct NoDisplay(String);
 
+impl NoDisplay {
+    /// Of what winit says, without the line of its source that says it.
+    fn new(error: &dyn std::error::Error) -> Self {
+        let said = error.to_string();
+        let reason = match said.split_once("os error at ") {
+            Some((_, at_line)) => at_line
+                .split_once(": ")
+                .map_or(at_line, |(_, reason)| reason),
+            None => &said,
+        };
+        Self(reason.trim_end_matches('.').into())
+    }
+}
+
 /// Opens the window, and returns when it is closed.
 ///
 /// # Errors
@@ -86,7 +100,7 @@ pub struct NoDisplay(String);
 pub fn run(options: Options) -> anyhow::Result<()> {
     let events = EventLoop::with_user_event()
         .build()
-        .map_err(|error| NoDisplay(error.to_string()))?;
+        .map_err(|error| NoDisplay::new(&error))?;
     let mut app = App::new(options, events.create_proxy());
     events.run_app(&mut app)?;
     match app.close()?.first() {

@@ -118,7 +118,7 @@ impl View {
             .with_inner_size(PhysicalSize::new(width, height));
         let window = events
             .create_window(attributes)
-            .map_err(|error| NoDisplay(error.to_string()))?;
+            .map_err(|error| NoDisplay::new(&error))?;
         let window = Arc::new(window);
         let canvas = canvas(&window, &options.device)?;
         let interface = interface(&window);
