@@ -222,7 +222,7 @@ uvec2 record_surfaces(Cell cell, uint owner, out bool settled) {
             float weight_each = subgroupShuffle(each, holder);
             vec3 parts[ROWS];
             parts_of(current, parts);
-            bool merged = subgroupShuffle(shaded_in, holder) == PARTS_MERGED;
+            bool merged = (WITHIN || ACROSS) && subgroupShuffle(shaded_in, holder) == PARTS_MERGED;
             merge_parts(parts, merged);
             float filtered = merged ? MERGED_FILTER : 1.0;
             [[unroll]] for (uint h = 0u; h < ROWS; h++) {
