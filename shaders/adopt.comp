@@ -2,6 +2,8 @@
 // Reads: the host's indices, draws. Writes: triangles. Indices that are out of range are clamped: what they draw is
 // wrong, and nothing else is.
 #version 460
+#extension GL_GOOGLE_include_directive : require
+#include "include/workgroup.glsl"
 layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 0) readonly buffer Indices { uint indices[]; };
 layout(std430, set = 0, binding = 1) readonly buffer Draws { uvec4 draws[]; };      // first triangle, first index, vertex offset, word
@@ -18,7 +20,7 @@ uint vertex(uint index, uint offset) {
 }
 
 void main() {
-    uint t = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    uint t = invocation_number();
     if (t >= push.triangle_count) return;
     // The last draw that begins at the triangle or before it.
     uint d = 0u, step_ = 1u << uint(findMSB(push.draw_count));

@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
+#include "include/workgroup.glsl"
 #include "include/barycentric.glsl"
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
@@ -12,7 +13,7 @@ layout(constant_id = 1) const bool GROWN = false;       // masks hold those that
 layout(std430, set = 0, binding = 36) writeonly buffer AttributesOut { uvec4 attributes_out[]; };
 
 void main() {
-    uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    uint i = invocation_number();
     // Under supersampling, what the grid's middle sees of an output pixel.
     uint side = frame.side;
     uvec2 size = frame.size / side;

@@ -5,6 +5,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
+#include "include/workgroup.glsl"
 #include "include/tiles.glsl"
 #include "include/triangle.glsl"
 #include "include/pairs.glsl"
@@ -13,7 +14,7 @@ layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool LARGE = false;   // a workgroup a triangle, not an invocation
 
 void main() {
-    uint i = LARGE ? gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u : gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    uint i = LARGE ? workgroup_number() : invocation_number();
     if (i >= min(counters[LARGE ? COUNTER_LARGE : COUNTER_SURVIVORS], frame.survivor_capacity)) return;
     uint t = survivors[LARGE ? frame.survivor_capacity - 1u - i : i];
     Triangle corners = triangle_at(t);

@@ -3,13 +3,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
+#include "include/workgroup.glsl"
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 35, rgba32f) uniform writeonly imageBuffer filtered;
 
 layout(push_constant) uniform Push { uint side; } push;
 
 void main() {
-    uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    uint i = invocation_number();
     uvec2 size = frame.size / push.side;
     if (i >= size.x * size.y) return;
     uvec2 low = split(i, size.x) * push.side;

@@ -5,6 +5,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
+#include "include/workgroup.glsl"
 #include "include/tiles.glsl"
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
@@ -21,7 +22,7 @@ uint append(uint counter, bool wanted) {
 
 void main() {
     uint outside = 0u, backfacing = 0u, degenerate = 0u, untouching = 0u;
-    uint first = (gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u) * 64u * PER_INVOCATION + gl_LocalInvocationID.x;
+    uint first = workgroup_number() * 64u * PER_INVOCATION + gl_LocalInvocationID.x;
     uint step_ = 0u;
     do {
         uint t = first + step_ * 64u;

@@ -7,6 +7,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
+#include "include/workgroup.glsl"
 #include "include/contrast.glsl"
 #include "include/interior.glsl"
 layout(local_size_x = 64) in;
@@ -37,7 +38,7 @@ bool differs(uint id_a, uint id_b, uint blend_a, uint blend_b, uint color_a, uin
 }
 
 void main() {
-    uint tile = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    uint tile = invocation_number();
     uint tile_count = frame.tiles.x * frame.tiles.y;
     bool inside = tile < tile_count;
     tile = min(tile, tile_count - 1u);

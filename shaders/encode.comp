@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
+#include "include/workgroup.glsl"
 #include "include/color.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint FORMAT = 0u;
@@ -10,7 +11,7 @@ const uint RGBA8_SRGB = 0u, RGBA16F = 1u;
 layout(std430, set = 0, binding = 37) writeonly buffer Encoded { uint encoded[]; };
 
 void main() {
-    uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    uint i = invocation_number();
     if (i >= frame.size.x * frame.size.y) return;
     vec4 c = color[i];
     if (FORMAT == RGBA8_SRGB) {

@@ -3,12 +3,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
+#include "include/workgroup.glsl"
 #include "include/tiles.glsl"
 #include "include/work.glsl"
 layout(local_size_x = 64) in;
 
 void main() {
-    uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    uint i = invocation_number();
     uint flags = tiles[texelFetch(site_groups, int(min(i, frame.group_count - 1u))).x].w;
     bool placed = i < frame.group_count && (flags & TILE_PLACED) != 0u;
     uint needs = (flags & TILE_LISTED) == 0u ? 3u : (flags & TILE_HAS_BLEND) != 0u ? 2u : (flags & TILE_HAS_MASK) != 0u ? 1u : 0u;

@@ -6,12 +6,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
+#include "include/workgroup.glsl"
 #include "include/interior.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint BEYOND = 0u;     // pixels around the region's own that grow too, for a growth that follows
 
 void main() {
-    uint tile = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    uint tile = invocation_number();
     uint tile_count = frame.tiles.x * frame.tiles.y;
     bool inside = tile < tile_count;
     tile = min(tile, tile_count - 1u);

@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
+#include "include/workgroup.glsl"
 #include "include/tiles.glsl"
 #include "include/work.glsl"
 layout(local_size_x = 64) in;
@@ -13,7 +14,7 @@ uint sample_id(ivec2 pixel, int s) {
 }
 
 void main() {
-    uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    uint i = invocation_number();
     uint tile_count = frame.tiles.x * frame.tiles.y;
     uint tile = i / 32u, bit = i % 32u;
     bool exists = tile < tile_count;

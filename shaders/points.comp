@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
+#include "include/workgroup.glsl"
 #include "include/tiles.glsl"
 #include "include/color.glsl"
 #include "include/barycentric.glsl"
@@ -14,7 +15,7 @@ layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 36) writeonly buffer AttributesOut { uvec4 attributes_out[]; };
 
 void main() {
-    uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    uint i = invocation_number();
     if (i >= min(counters[COUNTER_RECORDS], frame.record_capacity)) return;
     uvec4 record = texelFetch(records, int(i));
     if ((record.x & POINT_VALUE) == 0u) return;

@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
+#include "include/workgroup.glsl"
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 
@@ -83,7 +84,7 @@ vec3 face_normal(uint v) {
 }
 
 void main() {
-    uint v = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    uint v = invocation_number();
     if (v >= part.count) return;
     int to = int(part.first_vertex + v);
     Rows rows = blended(v);

@@ -6,6 +6,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
+#include "include/workgroup.glsl"
 #include "include/tiles.glsl"
 #include "include/color.glsl"
 #include "include/composite.glsl"
@@ -34,7 +35,7 @@ void write(uvec2 pixel, vec4 c) {
 
 void main() {
     if (in_other_subgroups(LANES)) return;
-    uint number = gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u;
+    uint number = workgroup_number();
     if (number >= counters[COUNTER_PLAIN_TILES + LIST]) return;
     uint lane = gl_SubgroupInvocationID;
     uint entry = tile_lists[first_entry(LIST) + number], owner = entry_owner(entry);

@@ -28,6 +28,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
+#include "include/workgroup.glsl"
 #include "include/work.glsl"
 layout(local_size_x_id = 0) in;
 layout(constant_id = 2) const bool PER_SAMPLE = false;
@@ -64,7 +65,7 @@ void main() {
     uint blocks = (samples + BLOCK - 1u) / BLOCK, headers_a_cell = (frame.sample_count + BLOCK - 1u) / BLOCK;
     // A subgroup's share of an entry: (blocks, cells).
     uint spans = (blocks + BLOCKS_AT_ONCE - 1u) / BLOCKS_AT_ONCE;
-    uvec2 work = split(gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u, spans * (LANES / CELLS_AT_ONCE));
+    uvec2 work = split(workgroup_number(), spans * (LANES / CELLS_AT_ONCE));
     if (work.y >= counters[RUN == REST ? COUNTER_PLAIN_LEFT + LIST : COUNTER_PLAIN_TILES + LIST]) return;
     uvec2 share = split(work.x, spans);
     uint lane = gl_SubgroupInvocationID;

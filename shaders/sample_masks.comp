@@ -11,6 +11,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
+#include "include/workgroup.glsl"
 #include "include/work.glsl"
 layout(local_size_x_id = 0) in;
 layout(constant_id = 6) const bool BY_PART = false;     // as in sample.comp
@@ -58,7 +59,7 @@ struct Seen {
 
 void main() {
     if (in_other_subgroups(LANES)) return;
-    uint number = gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u;
+    uint number = workgroup_number();
     if (number >= counters[COUNTER_PLAIN_TILES]) return;
     uint lane = gl_SubgroupInvocationID;
     uint entry = tile_lists[first_entry(LIST) + number], tile = entry_owner(entry);
@@ -275,7 +276,7 @@ void main() {
         float of = float(samples_of(t.mask));
         float weight = EXACT_AREAS && exact ? samples * (t.area != 0 ? float(t.area) * (1.0 / AREA_UNIT) * mend : of * share) : of;
         if (fits && t.id != ~0u)
-            records_out[at_record] = uvec4(owner, t.id, pack_place(sum_of_offsets(t.mask) / max(of, 1.0), max(of, 1.0) / samples), floatBitsToUint(weight));
+            records_out[at_record] = uvec4(owner, t.id, place_of_samples(sum_of_offsets(t.mask), of, samples, 1.0), floatBitsToUint(weight));
         at_record += t.id != ~0u ? 1u : 0u;
         singles -= min(singles, 1u);
     } while (any_lane(singles != 0u));
@@ -310,7 +311,7 @@ void main() {
             float of = float(bitCount(bits)), filtered = length > PART ? MERGED_FILTER : 1.0;
             vec2 sum = sum_of_run(from + (upper ? 32u : 0u), bits);
             if (fits && bits != 0u)
-                records_out[at_record] = uvec4(owner, id, pack_place(sum / max(of, 1.0), filtered * max(of, 1.0) / samples), floatBitsToUint(of * each));
+                records_out[at_record] = uvec4(owner, id, place_of_samples(sum, of, samples, filtered), floatBitsToUint(of * each));
             at_record += bits != 0u ? 1u : 0u;
         } while (any_lane(rest != uvec2(0u) || several != 0u));
     }

@@ -5,6 +5,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
+#include "include/workgroup.glsl"
 #include "include/tiles.glsl"
 #include "include/touches.glsl"
 #include "include/triangle.glsl"
@@ -12,7 +13,7 @@
 layout(local_size_x = 64) in;
 
 void main() {
-    uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    uint i = invocation_number();
     if (i >= min(counters[COUNTER_PAIRS], frame.pair_capacity)) return;
     uvec2 pair = texelFetch(pairs, int(i)).xy;
     uint tile_index = pair_tile(pair);

@@ -6,6 +6,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
+#include "include/workgroup.glsl"
 #include "include/color.glsl"
 #include "include/environment.glsl"
 #include "include/finite.glsl"
@@ -48,7 +49,7 @@ layout(push_constant) uniform Push { uint bin; } push;
 const float STUDIO_AMBIENT = 0.06;
 
 void main() {
-    uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    uint i = invocation_number();
     uint entry = PIXELS ? i / 8u : i;
     uint source;
     if (ONE_BIN && !PIXELS) {

@@ -4,12 +4,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
+#include "include/workgroup.glsl"
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool SCATTER = false;
 
 void main() {
-    uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    uint i = invocation_number();
     uint count = min(counters[COUNTER_RECORDS], frame.record_capacity);
     uint id = i < count ? texelFetch(records, int(i)).y : 0u;
     uint bin = id == 0u ? ~0u : triangle_word(id - 1u) >> 16 & 0x3fffu;

@@ -6,6 +6,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
+#include "include/workgroup.glsl"
 #include "include/lanes.glsl"
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
@@ -26,7 +27,7 @@ void main() {
     uint lane = gl_SubgroupInvocationID;
     uint columns = (frame.size.x + 7u) / 8u;
     uint span_count = columns * frame.size.y;
-    uint first_span = (gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u) * 64u + gl_SubgroupID * LANES;
+    uint first_span = workgroup_number() * 64u + gl_SubgroupID * LANES;
 
     uint bin[8];
     [[unroll]] for (uint s = 0u; s < 8u; s++) {

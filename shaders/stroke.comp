@@ -10,6 +10,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
+#include "include/workgroup.glsl"
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 
@@ -99,7 +100,7 @@ float rise(vec3 along, vec3 third, vec3 view, vec3 across, float most) {
 }
 
 void main() {
-    uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    uint i = invocation_number();
     if (i >= part.count) return;
     uvec4 ends = texelFetch(strokes, int(2u * i)), shape = texelFetch(strokes, int(2u * i + 1u));
     vec4 p = texelFetch(positions, int(ends.y)), q = texelFetch(positions, int(ends.z));

@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
+#include "include/workgroup.glsl"
 #include "include/color.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool ENCODED = false;
@@ -13,7 +14,7 @@ vec3 srgb_decode(vec3 c) {
 }
 
 void main() {
-    uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    uint i = invocation_number();
     if (i >= frame.size.x * frame.size.y) return;
     vec4 c = texelFetch(host_image, ivec2(split(i, frame.size.x)), 0);
     c.rgb = ENCODED ? srgb_decode(clamp(c.rgb, vec3(0.0), vec3(1.0))) : c.rgb;

@@ -11,6 +11,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
+#include "include/workgroup.glsl"
 #include "include/tiles.glsl"
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
@@ -30,7 +31,7 @@ float height_of(vec2 a, vec2 b, vec2 c) {
 }
 
 void select_thin() {
-    uint first = (gl_WorkGroupID.x + gl_WorkGroupID.y * 32768u) * 64u * PER_INVOCATION + gl_LocalInvocationID.x, step_ = 0u;
+    uint first = workgroup_number() * 64u * PER_INVOCATION + gl_LocalInvocationID.x, step_ = 0u;
     do {
         uint t = first + step_ * 64u;
         bool exists = t < frame.triangle_count;
@@ -78,7 +79,7 @@ vec3 projected(vec4 vertex) {
 }
 
 void walk() {
-    uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * 32768u * 64u;
+    uint i = invocation_number();
     if (i >= min(counters[COUNTER_THIN], frame.survivor_capacity)) return;
     uint t = survivors[i];
     Triangle k = triangle_at(t);

@@ -40,7 +40,7 @@ float part_of_line(int line, vec2 normal, float distance_, vec3 a, vec3 b, vec3 
     return empty || !(from < to) ? 0.0 : 0.5 * distance_ * (to - from);
 }
 
-// The same of the line of an invocation, as an integer.
+// The same as an integer.
 int units_of_line(uint line, vec3 a, vec3 b, vec3 c) {
     uint side = line - 3u;
     vec2 side_normal = vec2(side == 0u ? 1.0 : side == 1u ? -1.0 : 0.0, side == 2u ? 1.0 : side == 3u ? -1.0 : 0.0);
@@ -49,12 +49,17 @@ int units_of_line(uint line, vec3 a, vec3 b, vec3 c) {
     return int(round(part_of_line(int(line), normal, distance_, a, b, c) * AREA_UNIT));
 }
 
-// The area of a triangle that is the same for all invocations of the subgroup: each takes a line, or two.
-int area_in_cell(vec3 a, vec3 b, vec3 c, uint lane) {
+// Makes edge functions of unit length.
+void normalize_edges(inout vec3 a, inout vec3 b, inout vec3 c) {
     vec3 inverse = 1.0 / sqrt(max(a * a + b * b, vec3(1e-37)));
     a *= inverse;
     b *= inverse;
     c *= inverse;
+}
+
+// The area of a triangle that is the same for all invocations of the subgroup: each takes a line, or two.
+int area_in_cell(vec3 a, vec3 b, vec3 c, uint lane) {
+    normalize_edges(a, b, c);
     int units = units_of_line(lane, a, b, c);
     if (LANES < 8u) units += units_of_line(lane + LANES, a, b, c);
     return clamp(lanes_add(units), 0, int(AREA_UNIT));
@@ -62,17 +67,9 @@ int area_in_cell(vec3 a, vec3 b, vec3 c, uint lane) {
 
 // The same for the triangle of each invocation, in a cell of its own.
 int area_in_own_cell(vec3 a, vec3 b, vec3 c) {
-    vec3 inverse = 1.0 / sqrt(max(a * a + b * b, vec3(1e-37)));
-    a *= inverse;
-    b *= inverse;
-    c *= inverse;
+    normalize_edges(a, b, c);
     int area = 0;
-    [[unroll]] for (int line = 0; line < 7; line++) {
-        vec2 side = vec2(line == 3 ? 1.0 : line == 4 ? -1.0 : 0.0, line == 5 ? 1.0 : line == 6 ? -1.0 : 0.0);
-        vec2 normal = line < 3 ? vec2(a[min(line, 2)], b[min(line, 2)]) : side;
-        float distance_ = line < 3 ? c[min(line, 2)] : 0.5;
-        area += int(round(part_of_line(line, normal, distance_, a, b, c) * AREA_UNIT));
-    }
+    [[unroll]] for (uint line = 0u; line < 7u; line++) area += units_of_line(line, a, b, c);
     return clamp(area, 0, int(AREA_UNIT));
 }
 

@@ -127,8 +127,7 @@ void hold_nearby(Candidate t, bool some, float covered) {
 
 // The place that stands for some samples of a cell, shaded over so many times their area.
 uint filtered_place(vec2 sum_of_offsets, float samples, float filtered) {
-    float all = float(RUN == PROBE ? PROBES : frame.sample_count);
-    return pack_place(sum_of_offsets / max(samples, 1.0), filtered * max(samples, 1.0) / all);
+    return place_of_samples(sum_of_offsets, samples, float(RUN == PROBE ? PROBES : frame.sample_count), filtered);
 }
 
 uint place_of(vec2 sum_of_offsets, float samples) {

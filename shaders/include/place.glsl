@@ -10,6 +10,11 @@ uint pack_place(vec2 offset, float share) {
     return uint(q.x & 0xfff) | uint(q.y & 0xfff) << 12 | uint(round(clamp(-8.0 * log2(share), 0.0, 255.0))) << 24;
 }
 
+// The place that stands for samples of a cell that has `all`: in their middle, filtered over so many times their area.
+uint place_of_samples(vec2 sum_of_offsets, float samples, float all, float filtered) {
+    return pack_place(sum_of_offsets / max(samples, 1.0), filtered * max(samples, 1.0) / all);
+}
+
 vec2 place_location(uint place) {
     return vec2(ivec2(place << 20, place << 8) >> 20) * (1.0 / 4096.0);
 }

@@ -1,6 +1,7 @@
 //! Values of options, from text.
 
 use glam::DVec3;
+use gpc::reference::srgb;
 use gpc::render::{PixelRect, Settings};
 use std::ops::RangeInclusive;
 
@@ -151,6 +152,11 @@ pub fn background(text: &str) -> Result<Background, String> {
         "expected none, environment, an sRGB colour R,G,B of 0 to 1, such as 0.8,0.9,1, or #rrggbb"
             .to_owned()
     })
+}
+
+/// An sRGB-encoded colour as linear light.
+pub fn linear(color: [f64; 3]) -> [f32; 3] {
+    color.map(|v| srgb::decode(v) as f32)
 }
 
 /// `R,G,B` with sRGB components of 0 to 1, or `#rrggbb`.

@@ -6,7 +6,6 @@ use super::values;
 use crate::view::{self, Appearance, Look, Options, Source, Start};
 use clap::Args;
 use gpc::camera::Orbit;
-use gpc::reference::srgb;
 use gpc::render::{HeadlessOptions, Settings, Shadows};
 use gpc::scene::PoseRequest;
 use std::fmt::Display;
@@ -116,7 +115,7 @@ fn look(args: &ViewArgs) -> anyhow::Result<Look> {
         Ok(values::Background::Environment) => {
             usage!("--background environment: the window shows none; `gpc render` does")
         }
-        Ok(values::Background::Color(color)) => Some(color.map(|v| srgb::decode(v) as f32)),
+        Ok(values::Background::Color(color)) => Some(values::linear(color)),
         Err(expected) => usage!("--background {}: {expected}", args.background),
     };
     let [width, height] = args.size;

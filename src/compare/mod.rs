@@ -7,6 +7,7 @@
 use crate::output::DecodedImage;
 use nv_flip::{FlipImageRgb8, FlipPool};
 use serde::Serialize;
+use std::sync::LazyLock;
 
 /// Differences between two images.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -64,6 +65,17 @@ pub fn compare(reference: &DecodedImage, image: &DecodedImage) -> Result<Compari
     })
 }
 
+/// The colour of a share of a scale, as sRGB codes: from black at 0 through purple and orange to light yellow at 1. What lies
+/// beyond an end has its colour.
+#[must_use]
+pub fn heat_color(share: f32) -> [u8; 3] {
+    static PALETTE: LazyLock<Vec<[u8; 3]>> =
+        LazyLock::new(|| nv_flip::magma_lut().to_vec().as_chunks::<3>().0.to_vec());
+    let top = PALETTE.len().saturating_sub(1);
+    let index = (share.clamp(0.0, 1.0) * top as f32).round() as usize;
+    PALETTE.get(index).copied().unwrap_or_default()
+}
+
 /// The FLIP error map in the colours of its authors (black through purple and orange to light yellow), as sRGB.
 /// Where alpha differs by more than FLIP sees, it shows that difference.
 ///
@@ -75,18 +87,11 @@ pub fn heatmap(
 ) -> Result<Vec<[u8; 3]>, CompareError> {
     check_size(reference, image)?;
     let errors = error_map(reference, image).to_vec();
-    let palette = nv_flip::magma_lut().to_vec();
-    let (palette, _) = palette.as_chunks::<3>();
-    let top = palette.len().saturating_sub(1);
     let alphas = reference.pixels.iter().zip(&image.pixels);
     Ok(errors
         .iter()
         .zip(alphas)
-        .map(|(error, (a, b))| {
-            let error = error.max((a[3] - b[3]).abs()).clamp(0.0, 1.0);
-            let index = (error * top as f32).round() as usize;
-            palette.get(index).copied().unwrap_or_default()
-        })
+        .map(|(error, (a, b))| heat_color(error.max((a[3] - b[3]).abs())))
         .collect())
 }
 
@@ -115,4 +120,28 @@ fn error_map(reference: &DecodedImage, image: &DecodedImage) -> nv_flip::FlipIma
         bytes(image),
         nv_flip::DEFAULT_PIXELS_PER_DEGREE,
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_is_lighter() {
+        let light = |share| {
+            let channels = heat_color(share).map(u32::from);
+            channels.iter().sum::<u32>()
+        };
+        let lights: Vec<_> = (0..=8_u8)
+            .map(|eighth| light(f32::from(eighth) / 8.0))
+            .collect();
+        assert!(
+            lights.is_sorted() && lights[0] < 30 && lights[8] > 500,
+            "{lights:?}"
+        );
+        assert_eq!(
+            (heat_color(-1.0), heat_color(7.0)),
+            (heat_color(0.0), heat_color(1.0))
+        );
+    }
 }

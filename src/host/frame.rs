@@ -7,7 +7,7 @@ use crate::passes::{
     AdoptedCounts, AdoptedDraw, Counter, FrameUniform, IdViews, Locations, OwnSet, Patch,
     Resources, VisibilityUniform,
 };
-use crate::render::engine::{Engine, EngineKind, Work, with_probes};
+use crate::render::engine::{Engine, EngineKind, Growing, Work, with_probes};
 use crate::render::footprint::Footprints;
 use crate::render::plan::{Effort, Plan};
 use crate::render::statistics::Shortfall;
@@ -319,21 +319,18 @@ impl Frame {
         };
         self.engine.record(recorder, resources, &shading, &work);
         resources.record_keep_counters(recorder, &self.counters, 0);
-        // Centres whose colours are alike miss what superpixels beside them show.
-        let grown = FrameUniform {
-            alike: 0,
-            ..uniform
-        };
-        for growth in 0..self.engine.growths() {
-            resources.record_begin(recorder, set, &grown);
-            let work = Work {
+        let growing = Growing {
+            resources,
+            set,
+            uniform,
+            work: Work {
                 rounds: self.plan.growth_rounds(),
                 ..work
-            };
-            self.engine
-                .record_growth(recorder, resources, &shading, &work, growth);
-            resources.record_keep_counters(recorder, &self.counters, 1 + growth as u64);
-        }
+            },
+            counters: &self.counters,
+            first_slot: 1,
+        };
+        self.engine.record_growths(recorder, &shading, &growing);
         recorder.barrier();
         self.images.record_draw(recorder);
         let view = self.images.color.lent.view;

@@ -236,12 +236,12 @@ impl HostContent {
         &self.triangles.buffer
     }
 
-    /// The texel buffers of `shaders/include/frame.glsl` that it has, by binding.
     /// Stands for lights, which the engine does not read.
     pub fn lights(&self) -> &Buffer {
         &self.unread
     }
 
+    /// The texel buffers of `shaders/include/frame.glsl` that it has, by binding.
     pub fn texels(&self) -> [(u32, vk::BufferView); 10] {
         let (floats, words) = (self.unread_floats.view, self.unread_words.view);
         [

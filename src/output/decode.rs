@@ -4,7 +4,8 @@ use super::{OutputError, Picture, exr};
 use crate::reference::srgb;
 use image::{ImageFormat, ImageReader};
 use rayon::prelude::*;
-use std::io::Cursor;
+use std::fs::File;
+use std::io::{Cursor, Read};
 use std::path::Path;
 
 /// An image as a display shows it: sRGB-encoded colour of 0 to 1 over black, and alpha.
@@ -136,8 +137,10 @@ fn show_straight([r, g, b, a]: [f32; 4]) -> [f32; 4] {
     [over_black(r), over_black(g), over_black(b), a]
 }
 
-/// Whether a file that starts with these bytes, at least three, is a PNG or a JPEG.
+/// Whether a file starts like a PNG or a JPEG; false where it can't be read.
 #[must_use]
-pub fn is_image(start: &[u8]) -> bool {
-    start.starts_with(b"\x89PN") || start.starts_with(b"\xff\xd8\xff")
+pub fn is_image(path: &Path) -> bool {
+    let mut start = [0; 3];
+    let read = File::open(path).and_then(|mut file| file.read_exact(&mut start));
+    read.is_ok() && (start == *b"\x89PN" || start == *b"\xff\xd8\xff")
 }

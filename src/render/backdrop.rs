@@ -1,6 +1,6 @@
 //! An environment behind a scene.
 
-use super::{Reference, Rendered, Settings};
+use super::{Rendered, Settings};
 use crate::camera::{Camera, Pinhole, PinholeError};
 use crate::reference::tonemap;
 use crate::scene::Environment;
@@ -31,7 +31,7 @@ impl Rendered {
         let corner = settings.region.map_or([0, 0], |region| region.corner);
         let width = self.size[0].max(1);
         let exposure = f64::from(settings.exposure).exp2();
-        let tonemapped = settings.reference == Reference::Display && settings.tonemapped_detection;
+        let tonemaps = settings.tonemaps();
         let colors = self.colors.par_iter_mut().enumerate();
         colors
             .filter(|(_, color)| color[3] < 1.0)
@@ -42,7 +42,7 @@ impl Rendered {
                 for line in LINES {
                     let direction = pinhole.ray(at + line).direction;
                     let radiance = (environment.radiance(direction) * exposure).to_array();
-                    let shown = if tonemapped {
+                    let shown = if tonemaps {
                         tonemap::neutral(radiance)
                     } else {
                         radiance

@@ -11,14 +11,18 @@ impl Settings {
         self.background.map_or([0.0; 4], |[r, g, b]| [r, g, b, 1.0])
     }
 
+    /// Whether colours of the image are tone-mapped.
+    pub(super) fn tonemaps(&self) -> bool {
+        self.reference == Reference::Display && self.tonemapped_detection
+    }
+
     /// The constants of `shaders/include/color.glsl`, and of `shaders/shade.comp` and `shaders/include/tint.glsl` what is
     /// the same for all materials of a scene.
     pub(crate) fn color_constants(&self, scene: &dyn Content) -> Constants {
-        let tonemap = self.reference == Reference::Display && self.tonemapped_detection;
         Constants::new()
             .flag(15, self.filters_boxes())
             .flag(16, scene.is_tinted())
-            .flag(30, tonemap)
+            .flag(30, self.tonemaps())
             .flag(31, self.tonemapped_detection)
     }
 }

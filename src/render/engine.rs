@@ -3,11 +3,11 @@
 use super::plan::Plan;
 use super::{Coverage, Detection, RenderError, Settings, Shading};
 use crate::passes::{
-    Bin, Cells, Content, Cull, Detect, DetectMode, FrameLayout, Grow, RecordRate, Resolve,
-    Resources, Sample, SampleOptions, Schedule, Setup, Sort, Then, Thin,
+    Bin, Cells, Content, Cull, Detect, DetectMode, FrameLayout, FrameUniform, Grow, RecordRate,
+    Resolve, Resources, Sample, SampleOptions, SampleSet, Schedule, Setup, Sort, Then, Thin,
 };
 use crate::sampling::Pattern;
-use crate::vulkan::{Constants, Recorder};
+use crate::vulkan::{Buffer, Constants, Recorder};
 use std::sync::Arc;
 
 /// Shades visibility records: writes the radiance of each to its place in the buffer of shaded records.
@@ -176,25 +176,37 @@ impl Engine {
         self.record_rounds(recorder, resources, shading, work);
     }
 
-    /// How often [`Self::record_growth`] has to follow.
+    /// How often superpixels grow.
     pub fn growths(&self) -> usize {
         self.growths.len()
     }
 
-    /// Records growth number `growth`: the sampling and shading of pixels that contrast with the superpixels beside them.
-    /// The region has begun again, after [`Self::record`] or the growth before.
-    pub fn record_growth(
+    /// Records all growths, after [`Self::record`]: the sampling and shading of pixels that contrast with the superpixels
+    /// beside them.
+    pub fn record_growths(
         &self,
         recorder: &mut Recorder<'_>,
-        resources: &Resources,
         shading: &dyn RecordShading,
-        work: &Work,
-        growth: usize,
+        growing: &Growing<'_>,
     ) {
-        if let Some(grow) = self.growths.get(growth) {
+        let Growing {
+            resources,
+            set,
+            work,
+            counters,
+            ..
+        } = growing;
+        // Centres whose colours are alike miss what superpixels beside them show.
+        let uniform = FrameUniform {
+            alike: 0,
+            ..growing.uniform
+        };
+        for (slot, grow) in (growing.first_slot..).zip(&self.growths) {
+            resources.record_begin(recorder, set, &uniform);
             grow.record(recorder, work.tiles);
             recorder.mark("grow");
             self.record_rounds(recorder, resources, shading, work);
+            resources.record_keep_counters(recorder, counters, slot);
         }
     }
 
@@ -232,6 +244,19 @@ pub(crate) struct Work {
     pub tiles: u32,
     /// Rounds of lists and records.
     pub rounds: u32,
+}
+
+/// What superpixels of a region grow in.
+pub(crate) struct Growing<'a> {
+    pub resources: &'a Resources,
+    pub set: &'a SampleSet,
+    /// That of the region's sampling.
+    pub uniform: FrameUniform,
+    /// With the rounds of a growth.
+    pub work: Work,
+    /// Where what each growth counts is kept, from a slot on.
+    pub counters: &'a Buffer,
+    pub first_slot: u64,
 }
 
 /// Locations of a cell's samples, followed by those of a first run.

@@ -170,12 +170,12 @@ impl<'p> Surface<'p> {
             let is_double_sided = |side: &Side| self.faces[side.face as usize].is_double_sided;
             let turned = |side: &Side| side.from == first.from;
             let second = rest.first();
-            if let [second] = rest
-                && !deforms
-                && !turned(second)
-                && self.is_flat(first, second.opposite)
-            {
-                // No view shows one of its faces alone.
+            let normals = match rest {
+                [second] => Some(self.normals(first, second.opposite)),
+                _ => None,
+            };
+            // No view shows one of two faces in a plane alone.
+            if !deforms && normals.is_some_and(is_flat) && !rest.iter().any(turned) {
                 continue;
             }
             let edge = Edge {
@@ -183,10 +183,8 @@ impl<'p> Surface<'p> {
                     first.opposite,
                     second.map_or(first.from, |side| side.opposite),
                 ],
-                is_smooth: match rest {
-                    [second] => self.cosine(first, second.opposite) >= smallest_cosine,
-                    _ => false,
-                },
+                is_smooth: normals
+                    .is_some_and(|[normal, other]| normal.dot(other) >= smallest_cosine),
                 is_double_sided: group.iter().any(is_double_sided)
                     || rest.iter().any(turned)
                     || rest.len() > 1,
@@ -197,20 +195,6 @@ impl<'p> Surface<'p> {
         let sources: Vec<(usize, usize)> =
             sources.iter().map(|&v| self.vertices[v as usize]).collect();
         self.primitive(strokes, &sources, material)
-    }
-
-    /// Cosine of the angle between a face and another one beyond its side.
-    fn cosine(&self, side: &Side, beyond: u32) -> f64 {
-        let [normal, other] = self.normals(side, beyond);
-        normal.dot(other)
-    }
-
-    /// Whether a face and another one beyond its side lie in a plane, but for what positions are rounded by.
-    fn is_flat(&self, side: &Side, beyond: u32) -> bool {
-        /// Largest sine of the angle between them.
-        const ROUNDED: f64 = 1e-4;
-        let [normal, other] = self.normals(side, beyond);
-        normal.dot(other) > 0.0 && normal.cross(other).length() < ROUNDED
     }
 
     /// Normals of a face and another one beyond its side; zero of one without area.
@@ -262,4 +246,11 @@ impl<'p> Surface<'p> {
             ..Primitive::default()
         }
     }
+}
+
+/// Whether faces of these normals lie in a plane, but for what positions are rounded by.
+fn is_flat([normal, other]: [DVec3; 2]) -> bool {
+    /// Largest sine of the angle between them.
+    const ROUNDED: f64 = 1e-4;
+    normal.dot(other) > 0.0 && normal.cross(other).length() < ROUNDED
 }

@@ -90,6 +90,11 @@ pub struct Instance {
     pub transform: DAffine3,
 }
 
+/// How much longer a transform makes lengths: the cube root of how volumes grow.
+pub(super) fn length_scale(transform: &DAffine3) -> f64 {
+    transform.matrix3.determinant().abs().cbrt()
+}
+
 impl Instance {
     /// IDs of instances start at multiples of this, plus 1.
     pub const ALIGNMENT: u32 = 64;
@@ -103,7 +108,7 @@ impl Instance {
     /// How much longer lengths are in the world than among its vertices: the cube root of how volumes grow.
     #[must_use]
     pub fn scale(&self) -> f64 {
-        self.transform.matrix3.determinant().abs().cbrt()
+        length_scale(&self.transform)
     }
 
     /// Indices of its triangles in [`Geometry::triangles`].

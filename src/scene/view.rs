@@ -29,6 +29,18 @@ pub enum SceneProjection {
     },
 }
 
+impl SceneCamera {
+    /// Index of the camera of that name, or else of that index.
+    #[must_use]
+    pub fn find(cameras: &[Self], asked: &str) -> Option<usize> {
+        let by_name = cameras
+            .iter()
+            .position(|camera| camera.name.as_deref() == Some(asked));
+        let by_index = || asked.parse().ok().filter(|index| *index < cameras.len());
+        by_name.or_else(by_index)
+    }
+}
+
 /// A camera placed in the world, at the moment of the pose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneCamera {

@@ -123,7 +123,7 @@ impl View {
             }
             Action::Quit => self.wants_to_quit = true,
             Action::Fit => {
-                let size = self.canvas.size().unwrap_or([1, 1]);
+                let size = self.pixels();
                 let photo = self.easel.as_ref();
                 if let Some(photo) = photo.map(|easel| easel.photo.photograph().size()) {
                     self.reframe(|framing| *framing = Framing::fitting(photo, size));

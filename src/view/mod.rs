@@ -13,7 +13,6 @@ mod device;
 mod engine;
 mod files;
 mod fly;
-mod heat;
 mod inbox;
 mod keys;
 mod layer;

@@ -32,13 +32,10 @@ pub fn pinched(delta: f64) -> f64 {
 impl View {
     /// Moves to another place.
     pub fn go(&mut self, change: impl FnOnce(&mut Turntable)) {
-        let aspect = self.aspect();
-        if let Some(stage) = self.canvas.stage() {
-            let cameras = match &self.moment {
-                Some(moment) => &moment.cameras,
-                None => &stage.cameras,
-            };
-            self.standpoint.go(cameras, stage.bounds, aspect, change);
+        if let Some(bounds) = self.canvas.stage().map(|stage| stage.bounds) {
+            let mut standpoint = self.standpoint;
+            standpoint.go(self.cameras(), bounds, self.aspect(), change);
+            self.standpoint = standpoint;
             self.restart();
         }
     }
@@ -187,7 +184,7 @@ impl View {
         let Some(stage) = self.canvas.stage() else {
             return;
         };
-        let size = self.canvas.size().unwrap_or([1, 1]);
+        let size = self.pixels();
         let camera = self
             .standpoint
             .camera(self.cameras(), stage.bounds, self.aspect());

@@ -117,7 +117,7 @@ impl View {
     }
 
     fn set_photo(&mut self, photo: Photo, keeps_view: bool) -> anyhow::Result<()> {
-        let mut easel = Easel::new(photo, self.canvas.size().unwrap_or([1, 1]));
+        let mut easel = Easel::new(photo, self.pixels());
         if let Some(before) = self.easel.as_ref().filter(|_| keeps_view) {
             easel.framing = before.framing;
             easel.unzooms = before.unzooms;

@@ -58,7 +58,7 @@ impl View {
 
     fn order_cover(&mut self, step: impl FnOnce(&mut Cover) -> (u64, u32)) {
         if let Some(easel) = &self.easel {
-            let size = self.canvas.size().unwrap_or([1, 1]);
+            let size = self.pixels();
             let (lenses, tints) = (&self.cover.lenses, self.cover.tints);
             let view = easel.view(size, lenses.map(), tints, self.pointer.place());
             let (number, _) = step(&mut self.cover);

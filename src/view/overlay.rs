@@ -1,6 +1,6 @@
 //! What can be seen of pixels in the stead of their colours.
 
-use super::heat;
+use gpc::compare::heat_color;
 use gpc::output::AovKind;
 
 /// What is seen of pixels.
@@ -85,14 +85,16 @@ pub fn triangles(ids: &mut [u32]) -> [u8; 4] {
         }
     }
     let doublings = f64::from(distinct.max(1)).log2();
-    opaque(heat::color(doublings / f64::from(MOST_TRIANGLES).log2()))
+    opaque(heat_color(
+        (doublings / f64::from(MOST_TRIANGLES).log2()) as f32,
+    ))
 }
 
 /// The colour of the largest difference of two pixels' channels.
 pub fn error(first: [u8; 4], second: [u8; 4]) -> [u8; 4] {
     let differences = first.iter().zip(second).map(|(a, b)| a.abs_diff(b));
     let largest = differences.max().unwrap_or(0);
-    opaque(heat::color(f64::from(largest) / f64::from(LARGEST_ERROR)))
+    opaque(heat_color(f32::from(largest) / f32::from(LARGEST_ERROR)))
 }
 
 fn opaque([r, g, b]: [u8; 3]) -> [u8; 4] {
@@ -116,16 +118,16 @@ mod tests {
     #[test]
     fn triangles_are_counted_once_and_nothing_is_none() {
         let count = |mut ids: Vec<u32>| triangles(&mut ids);
-        assert_eq!(count(vec![0, 0, 0]), opaque(heat::color(0.0)));
-        assert_eq!(count(vec![7, 7, 0]), opaque(heat::color(0.0)));
-        assert_eq!(count(vec![7, 9, 7, 9, 0]), opaque(heat::color(0.25)));
-        assert_eq!(count((1..=16).collect()), opaque(heat::color(1.0)));
+        assert_eq!(count(vec![0, 0, 0]), opaque(heat_color(0.0)));
+        assert_eq!(count(vec![7, 7, 0]), opaque(heat_color(0.0)));
+        assert_eq!(count(vec![7, 9, 7, 9, 0]), opaque(heat_color(0.25)));
+        assert_eq!(count((1..=16).collect()), opaque(heat_color(1.0)));
     }
 
     #[test]
     fn the_largest_channel_is_the_error() {
         let error = error([10, 20, 30, 255], [10, 12, 32, 255]);
-        assert_eq!(error, opaque(heat::color(0.5)));
+        assert_eq!(error, opaque(heat_color(0.5)));
     }
 
     #[test]

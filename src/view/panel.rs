@@ -1,7 +1,6 @@
 //! What lies over the picture: the panel, notes, and the list of keys.
 
 use super::command::detection_name;
-use super::heat;
 use super::keys::{self, Action};
 use super::lens::Lenses;
 use super::look::{Look, method_name};
@@ -9,6 +8,7 @@ use super::notes::Note;
 use super::overlay::Overlay;
 use super::player::Player;
 use gpc::camera::zoom::{Shape, Transition};
+use gpc::compare::heat_color;
 use gpc::render::{Detection, Method, Statistics};
 use gpc::sampling::Pattern;
 use gpc::scene::AnimationInfo;
@@ -190,7 +190,7 @@ fn show_scale(ui: &mut egui::Ui, marks: &[(f64, &str)]) {
     let at = |share: f32| area.left() + share * area.width();
     for stripe in 0..STRIPES {
         let share = |stripe: u32| stripe as f32 / STRIPES as f32;
-        let [r, g, b] = heat::color(f64::from(share(stripe)) + 0.5 / f64::from(STRIPES));
+        let [r, g, b] = heat_color(share(stripe) + 0.5 / STRIPES as f32);
         let ends = [at(share(stripe)), at(share(stripe + 1))];
         let stripe = egui::Rect::from_x_y_ranges(ends[0]..=ends[1], area.top()..=area.top() + BAR);
         painter.rect_filled(stripe, 0.0, egui::Color32::from_rgb(r, g, b));

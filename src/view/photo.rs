@@ -7,8 +7,6 @@ use gpc::camera::LocationMap;
 use gpc::camera::zoom::{Window, ZoomMap};
 use gpc::output;
 use gpc::resample::{Photograph, Zoomed};
-use std::fs::File;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -31,13 +29,6 @@ enum Image {
 }
 
 impl Photo {
-    /// Whether a file starts like a PNG or a JPEG.
-    pub fn is_in(path: &Path) -> bool {
-        let mut start = [0; 3];
-        let read = File::open(path).and_then(|mut file| file.read_exact(&mut start));
-        read.is_ok() && output::is_image(&start)
-    }
-
     /// Reads a file.
     pub fn open(path: &Path) -> anyhow::Result<Self> {
         let name = path.display().to_string();
@@ -285,7 +276,7 @@ mod tests {
         }
         let file = tempfile::NamedTempFile::new().unwrap();
         std::fs::write(file.path(), png).unwrap();
-        assert!(Photo::is_in(file.path()));
+        assert!(output::is_image(file.path()));
         Easel::new(Photo::open(file.path()).unwrap(), SIZE)
     }
 

@@ -83,7 +83,7 @@ impl Source {
         max_memory: Option<u64>,
         progress: &Progress,
     ) -> anyhow::Result<Opened> {
-        let is_photo = Photo::is_in(&self.path);
+        let is_photo = gpc::output::is_image(&self.path);
         progress.begin(Step::Read)?;
         if is_photo {
             return Ok(Opened::Photo(Photo::open(&self.path)?));

@@ -63,19 +63,14 @@ impl Start {
 }
 
 fn find(asked: &str, cameras: &[SceneCamera]) -> Result<usize, NoStart> {
-    let named = |camera: &SceneCamera| camera.name.as_deref() == Some(asked);
-    let by_name = cameras.iter().position(named);
-    let index = by_name.or_else(|| asked.parse().ok());
-    index
-        .filter(|index| *index < cameras.len())
-        .ok_or_else(|| NoStart::Camera {
-            asked: asked.to_owned(),
-            found: match cameras.len() {
-                0 => "none".to_owned(),
-                1 => "camera 0 alone".to_owned(),
-                count => format!("those from 0 to {}", count - 1),
-            },
-        })
+    SceneCamera::find(cameras, asked).ok_or_else(|| NoStart::Camera {
+        asked: asked.to_owned(),
+        found: match cameras.len() {
+            0 => "none".to_owned(),
+            1 => "camera 0 alone".to_owned(),
+            count => format!("those from 0 to {}", count - 1),
+        },
+    })
 }
 
 /// Where a scene is seen from.

@@ -261,7 +261,12 @@ impl View {
 
     /// Width and height of the picture in pixels.
     pub fn size(&self) -> [f64; 2] {
-        self.canvas.size().unwrap_or([1, 1]).map(f64::from)
+        self.pixels().map(f64::from)
+    }
+
+    /// The same as whole numbers; a window without a size has one pixel.
+    pub fn pixels(&self) -> [u32; 2] {
+        self.canvas.size().unwrap_or([1, 1])
     }
 
     /// Column of the split, where there is one.
@@ -334,7 +339,7 @@ impl View {
             ),
             None => None,
         };
-        let size = self.canvas.size().unwrap_or([1, 1]);
+        let size = self.pixels();
         let split = self.split_column();
         let magnified = self.magnifier.map_or_else(Vec::new, |factor| {
             let place = self.pointer.place().max(glam::DVec2::ZERO);
@@ -456,19 +461,16 @@ impl View {
         match motion.at(&stage.scene, time) {
             Ok(Some(moment)) => {
                 self.moment = Some(Arc::new(moment));
-                self.canvas.restart(Instant::now());
-                if let Err(error) = self.view_changed() {
-                    self.notes.fail(&error);
-                }
+                self.restart();
             }
-            // A light moves, or a mesh turns inside out: the scene is posed anew, which takes a while.
+            // A mesh turns inside out, or something comes or goes: the scene is posed anew, which takes a while.
             Ok(None) => {
                 if let Some(player) = &mut self.player
                     && player.is_playing()
                 {
                     player.toggle(Instant::now());
                     self.notes.say(
-                        "this animation moves lights and can't be played; choose its times by hand",
+                        "this animation turns meshes inside out, or has something come and go: it can't be played; choose its times by hand",
                     );
                 }
                 self.source.request.time = time;

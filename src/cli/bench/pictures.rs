@@ -3,6 +3,7 @@
 use anyhow::Context;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use gpc::compare::heat_color;
 use gpc::output::{self, DecodedImage};
 use image::ExtendedColorType;
 use image::codecs::jpeg::JpegEncoder;
@@ -62,14 +63,9 @@ impl ErrorMap {
     /// From black (none) through purple and orange to light yellow ([`BRIGHTEST`] and above). The scale is that of the
     /// error's root, since most errors are small.
     pub fn colors(&self) -> Vec<[f32; 3]> {
-        let palette = nv_flip::magma_lut().to_vec();
-        let (palette, _) = palette.as_chunks::<3>();
-        let top = palette.len().saturating_sub(1) as f32;
         let color = |error: &f32| {
-            let index = ((error / BRIGHTEST).clamp(0.0, 1.0).sqrt() * top).round() as usize;
-            palette
-                .get(index)
-                .map_or([0.0; 3], |rgb| rgb.map(|code| f32::from(code) / 255.0))
+            let share = (error / BRIGHTEST).clamp(0.0, 1.0).sqrt();
+            heat_color(share).map(|code| f32::from(code) / 255.0)
         };
         self.errors.iter().map(color).collect()
     }

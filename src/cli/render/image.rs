@@ -6,7 +6,6 @@ use crate::cli::input;
 use crate::cli::values::{self, Background, EdgeLines};
 use clap::Args;
 use gpc::output::{AovKind, Format};
-use gpc::reference::srgb;
 use gpc::render::{Reference, Settings};
 use gpc::scene::{Edges, Environment, Loaded, Motion, Pose, PoseRequest, SceneError};
 use std::path::{Path, PathBuf};
@@ -80,7 +79,7 @@ impl AppearanceArgs {
     /// The edges asked for, if any are.
     pub fn edges(&self) -> Option<Edges> {
         self.edges.map(|edges| Edges {
-            color: edges.color.map(|v| srgb::decode(v) as f32),
+            color: values::linear(edges.color),
             ..Edges::default()
         })
     }
@@ -164,7 +163,7 @@ impl ImageArgs {
             contrast: self.sampling.contrast(),
             background: match self.background {
                 Background::Transparent | Background::Environment => None,
-                Background::Color(color) => Some(color.map(|v| srgb::decode(v) as f32)),
+                Background::Color(color) => Some(values::linear(color)),
             },
             reference: if tonemaps && !format.is_scene_linear() {
                 Reference::Display

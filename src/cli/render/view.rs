@@ -107,11 +107,7 @@ fn orbit(args: &CameraArgs, (low, high): (DVec3, DVec3), aspect: f64) -> Result<
 }
 
 fn find(asked: &str, cameras: &[SceneCamera]) -> Result<usize, Usage> {
-    let named = |camera: &SceneCamera| camera.name.as_deref() == Some(asked);
-    if let Some(index) = cameras.iter().position(named) {
-        return Ok(index);
-    }
-    if let Some(index) = asked.parse().ok().filter(|index| *index < cameras.len()) {
+    if let Some(index) = SceneCamera::find(cameras, asked) {
         return Ok(index);
     }
     let known: Vec<_> = cameras

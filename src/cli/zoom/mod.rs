@@ -17,8 +17,6 @@ use gpc::output::{self, Format, Picture};
 use gpc::render::{Rendered, Statistics};
 use gpc::resample::{Photograph, Zoomed};
 use serde::Serialize;
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
@@ -96,12 +94,7 @@ pub fn check_window(index: usize, window: &Window) -> Result<(), Usage> {
 
 /// Whether a file starts like a PNG or a JPEG. What can't be read is left to the loader of scenes to complain about.
 fn is_picture(path: &Path) -> bool {
-    let mut start = [0; 3];
-    let read = !input::is_standard(path)
-        && File::open(path)
-            .and_then(|mut file| file.read_exact(&mut start))
-            .is_ok();
-    read && output::is_image(&start)
+    !input::is_standard(path) && output::is_image(path)
 }
 
 /// Zooms into a photograph.

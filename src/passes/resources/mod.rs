@@ -58,8 +58,8 @@ const TEXELS: vk::BufferUsageFlags = vk::BufferUsageFlags::from_raw(
 );
 
 impl Resources {
-    /// Allocates a frame's memory and one descriptor set for each list of sub-sample locations. `texels_of_others` are the texel buffers
-    /// of `shaders/include/frame.glsl` that others own, by binding, as they own the lights.
+    /// Allocates a frame's memory and one descriptor set for each list of sub-sample locations. `texels_of_others` are the
+    /// texel buffers of `shaders/include/frame.glsl` that others own, by binding, as they own the lights.
     ///
     /// # Errors
     /// If memory runs out or a buffer passes the device's limits.

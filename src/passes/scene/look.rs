@@ -148,6 +148,9 @@ impl FrameLook {
 
     /// Records what was prepared.
     pub(crate) fn record(&self, recorder: &Recorder<'_>) {
+        if self.updates.is_empty() {
+            return;
+        }
         for update in &self.updates {
             let to = match update.of_materials {
                 true => self.materials.as_ref().map(|view| &view.buffer),

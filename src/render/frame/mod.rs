@@ -222,10 +222,12 @@ impl Frame {
             self.resources.record_upload(&recorder);
             self.uploaded = true;
         }
-        if let Some(moment) = &self.moment {
-            self.geometry.write_moment(moment);
+        if regions.start == 0 {
+            if let Some(moment) = &self.moment {
+                self.geometry.write_moment(moment);
+            }
+            self.look.record(&recorder);
         }
-        self.look.record(&recorder);
         let to_clip = uniform::to_clip(&self.scene, camera, &self.settings);
         let side = self.settings.side();
         let image = self.settings.size.map(|pixels| pixels * side);

@@ -5,11 +5,11 @@ use super::target::Target;
 use super::uniform::to_clip;
 use crate::camera::Camera;
 use crate::passes::{
-    Content, FrameGeometry, FrameUniform, GpuScene, RasterTargets, Resources, Shade, StrokeSizes,
+    Content, FrameGeometry, GpuScene, RasterTargets, Resources, Shade, StrokeSizes,
 };
 use crate::render::Settings;
 use crate::render::color::display_code;
-use crate::render::engine::{RecordShading, Work, record_shading};
+use crate::render::engine::{Growing, RecordShading, Work, record_shading};
 use crate::render::plan::{Plan, Region};
 use crate::scene::Moment;
 use crate::vulkan::{Buffer, Recorder};
@@ -37,9 +37,6 @@ impl Run {
         Self::Grown,
         Self::GrownAgain,
     ];
-    /// Those of superpixels that grew.
-    const GROWN: [Self; 2] = [Self::Grown, Self::GrownAgain];
-
     /// Where the counters of a region's run are kept.
     fn slot(self, region: usize) -> u64 {
         (Self::ALL.len() * region + self as usize) as u64
@@ -90,10 +87,9 @@ impl Recording<'_> {
             recorder.go_on();
         }
         let count = self.plan.regions.len();
-        for (index, region) in self.plan.regions.iter().enumerate() {
-            if regions.contains(&index) {
-                self.record_region(recorder, index, region);
-            }
+        let all = self.plan.regions.iter().enumerate();
+        for (index, region) in all.take(regions.end).skip(regions.start) {
+            self.record_region(recorder, index, region);
         }
         if regions.end == count {
             let last = Run::slots(count) as u64 - 1;
@@ -188,17 +184,18 @@ impl Recording<'_> {
             resources.record_begin(recorder, locations, &owned);
             engine.record(recorder, resources, &shading, &work);
             resources.record_keep_counters(recorder, self.counters, Run::Superpixels.slot(index));
-            // Centres whose colours are alike miss what superpixels beside them show.
-            let grown = FrameUniform { alike: 0, ..owned };
-            for (growth, run) in Run::GROWN.into_iter().enumerate().take(engine.growths()) {
-                resources.record_begin(recorder, locations, &grown);
-                let work = Work {
+            let growing = Growing {
+                resources,
+                set: locations,
+                uniform: owned,
+                work: Work {
                     rounds: self.plan.growth_rounds(),
                     ..work
-                };
-                engine.record_growth(recorder, resources, &shading, &work, growth);
-                resources.record_keep_counters(recorder, self.counters, run.slot(index));
-            }
+                },
+                counters: self.counters,
+                first_slot: Run::Grown.slot(index),
+            };
+            engine.record_growths(recorder, &shading, &growing);
         }
         if let Some(attributes) = &passes.attributes {
             attributes.record(recorder, filtered);

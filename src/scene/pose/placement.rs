@@ -6,7 +6,10 @@ use glam::{DAffine3, DMat3, DVec3, Vec3};
 use gltf::json::Node;
 
 use super::{copies, hierarchy::State, motion::Moving, primitives_of};
-use crate::scene::document::{Document, Primitive, Target};
+use crate::scene::{
+    document::{Document, Primitive, Target},
+    geometry::length_scale,
+};
 
 /// A primitive and its way into the world.
 #[derive(Clone, Debug)]
@@ -54,12 +57,10 @@ impl Frame {
             sign,
         }
     }
-}
 
-impl Frame {
-    /// How much longer lengths become: the cube root of how volumes grow.
+    /// How much longer lengths become.
     pub fn scale(&self) -> f32 {
-        self.affine.matrix3.determinant().abs().cbrt() as f32
+        length_scale(&self.affine) as f32
     }
 }
 
