@@ -9,7 +9,6 @@ use std::path::{Path, PathBuf};
 
 /// Shaders of the example `forward`, a host in C++.
 const FORWARD: &[Variant] = &[
-    ("pose", "pose.comp", &[]),
     ("forward_vertex", "forward.vert", &[]),
     ("forward_fragment", "forward.frag", &[]),
     ("samples", "samples.comp", &[]),
@@ -23,6 +22,12 @@ const VISIBILITY: &[Variant] = &[
     ("screen_vertex", "screen.vert", &[]),
     ("screen_fragment", "screen.frag", &[]),
     ("samples", "samples.comp", &[]),
+];
+
+/// Shaders of the tests' host.
+const HOST: &[Variant] = &[
+    ("samples", "samples.comp", &[]),
+    ("corners", "corners.comp", &[]),
 ];
 
 /// Name of the compiled shader, its source, its macro definitions.
@@ -150,6 +155,7 @@ const VARIANTS: &[Variant] = &[
     ("attributes", "attributes.comp", &[]),
     ("encode", "encode.comp", &[]),
     ("adopt", "adopt.comp", &[]),
+    ("transform", "transform.comp", &[]),
     ("take", "take.comp", &[]),
     ("patch_vertex", "patch.vert", &[]),
     ("patch_fragment", "patch.frag", &[]),
@@ -168,6 +174,7 @@ fn main() {
     println!("cargo:rerun-if-changed=shaders");
     println!("cargo:rerun-if-changed=examples/forward/shaders");
     println!("cargo:rerun-if-changed=examples/visibility/shaders");
+    println!("cargo:rerun-if-changed=tests/gpu/host/shaders");
     println!("cargo:rerun-if-changed=build.rs");
     println!("cargo:rerun-if-env-changed=GPC_SPIRV");
     let root =
@@ -180,6 +187,7 @@ fn main() {
     };
     spirv(&group("examples/forward/shaders", FORWARD), &out);
     spirv(&group("examples/visibility/shaders", VISIBILITY), &out);
+    spirv(&group("tests/gpu/host/shaders", HOST), &out);
     let folder = spirv(&group("shaders", VARIANTS), &out);
     let mut code = String::new();
     for (name, source, _) in VARIANTS {

@@ -38,7 +38,7 @@ enum GpcResult
     GPC_RESULT_STRUCT_SIZE = 2,
     // A value is none of those possible, or contradicts another.
     GPC_RESULT_VALUE = 3,
-    // A recording has more draws, triangles or indices than its frame was created for.
+    // A recording has more draws, triangles, vertices or indices than its frame was created for.
     GPC_RESULT_CAPACITY = 4,
     // The device, its instance or its loader lacks something that is needed.
     GPC_RESULT_UNSUPPORTED = 5,
@@ -56,6 +56,25 @@ enum GpcResult
 typedef enum GpcResult GpcResult;
 #else
 typedef uint32_t GpcResult;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// What positions are.
+enum GpcPositionSpace
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    // Four floats in clip space: the very values of the vertex shader's gl_Position.
+    GPC_POSITION_SPACE_CLIP = 0,
+    // Three floats in a space of each draw's own, from which GpcDraw.to_clip leads to clip space.
+    GPC_POSITION_SPACE_OBJECT = 1,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum GpcPositionSpace GpcPositionSpace;
+#else
+typedef uint32_t GpcPositionSpace;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -157,17 +176,26 @@ typedef struct GpcDevice {
 typedef struct GpcGeometry {
     // sizeof(GpcGeometry).
     uint32_t size;
-    // How many positions there can be. Larger indices are taken for the last.
+    // How many vertices there can be. Larger indices are taken for the last.
     uint32_t vertex_capacity;
-    // Positions in clip space, four floats each, tightly packed: the very values of the vertex shader's gl_Position. Made
-    // with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT and VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT.
+    // Positions of vertices, made with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT; where they lie in clip space and 16 bytes apart,
+    // with VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT too.
     VkBuffer positions;
-    // Where they begin, in bytes: a multiple of 16 and of the device's minStorageBufferOffsetAlignment and
-    // minTexelBufferOffsetAlignment.
+    // Where the first one is, in bytes: a multiple of 4.
     uint64_t positions_offset;
-    // Indices of 32 bits, three a triangle. Made with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT.
+    // Bytes from one to the next: a multiple of 4, and at least those of a position.
+    uint32_t position_stride;
+    // What they are: a GpcPositionSpace.
+    uint32_t position_space;
+    // With GPC_POSITION_SPACE_OBJECT, most vertices of all draws of a frame, those that several draws have counted for each.
+    // Otherwise ignored.
+    uint32_t position_capacity;
+    // VK_INDEX_TYPE_UINT16 or VK_INDEX_TYPE_UINT32.
+    VkIndexType index_type;
+    // Indices, three a triangle. Made with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT. The buffer of those of 16 bits reaches to a
+    // multiple of 4 bytes.
     VkBuffer indices;
-    // Where they begin, in bytes: a multiple as above.
+    // Where they begin, in bytes: a multiple of an index's size.
     uint64_t indices_offset;
     // How many indices there can be.
     uint32_t index_capacity;
@@ -271,6 +299,11 @@ typedef struct GpcDraw {
     uint32_t triangle_count;
     // Added to each of its indices.
     int32_t vertex_offset;
+    // With GPC_POSITION_SPACE_OBJECT, how many vertices it has, from `vertex_offset` on. Larger indices are taken for the
+    // last. Otherwise ignored.
+    uint32_t vertex_count;
+    // With GPC_POSITION_SPACE_OBJECT, the matrix that leads from there to clip space, in columns. Otherwise ignored.
+    float to_clip[4][4];
     // The shading key, from 0: which of the application's pipelines shades it.
     uint32_t key;
     // A number of the application's, up to 65,535, which its shaders see. Triangles of one number are taken to look alike
@@ -291,7 +324,7 @@ typedef struct GpcScenery {
     uint32_t draw_count;
     // The draws, read during the call alone. IDs count from 1 in their order. May be NULL where there are none.
     const struct GpcDraw *draws;
-    // The projection that positions were made with, in columns: from view space, in which distances are the world's, to
+    // The projection that positions in clip space were made with, in columns: from view space, in which distances are the world's, to
     // clip space. It tells how far apart two depths are.
     float projection[4][4];
 } GpcScenery;

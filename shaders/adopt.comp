@@ -1,36 +1,34 @@
 // adopt: a host's triangles, in the order of its draws, as the other passes read them.
-// Reads: the host's indices, draws. Writes: triangles. Indices that are out of range are clamped: what they draw is
-// wrong, and nothing else is.
+// Reads: draws, the host's indices. Writes: triangles, and the draw of each. Indices that are out of range are clamped: what
+// they draw is wrong, and nothing else is.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/workgroup.glsl"
+#include "include/draws.glsl"
 layout(local_size_x = 64) in;
-layout(std430, set = 0, binding = 0) readonly buffer Indices { uint indices[]; };
-layout(std430, set = 0, binding = 1) readonly buffer Draws { uvec4 draws[]; };      // first triangle, first index, vertex offset, word
+layout(constant_id = 0) const bool SHORT = false;       // indices have 16 bits
+layout(std430, set = 0, binding = 1) readonly buffer Indices { uint indices[]; };
 layout(std430, set = 0, binding = 2) writeonly buffer TrianglesOut { uvec4 triangles_out[]; };
+layout(std430, set = 0, binding = 3) writeonly buffer DrawOfOut { uint draw_of_out[]; };
 layout(push_constant) uniform Push {
     uint triangle_count;
     uint draw_count;
+    uint first_index;       // in the buffer, of those that there are
     uint index_count;
-    uint vertex_count;
 } push;
 
-uint vertex(uint index, uint offset) {
-    return min(indices[min(index, push.index_count - 1u)] + offset, push.vertex_count - 1u);
+uint position(Draw draw, uint index) {
+    uint at = push.first_index + min(index, push.index_count - 1u);
+    uint found = SHORT ? indices[at >> 1] >> 16u * (at & 1u) & 0xffffu : indices[at];
+    return draw.first_position + min(found + draw.vertex_offset, draw.last_position);
 }
 
 void main() {
     uint t = invocation_number();
     if (t >= push.triangle_count) return;
-    // The last draw that begins at the triangle or before it.
-    uint d = 0u, step_ = 1u << uint(findMSB(push.draw_count));
-    do {
-        uint next = d + step_;
-        bool begins = next < push.draw_count && draws[min(next, push.draw_count - 1u)].x <= t;
-        d = begins ? next : d;
-        step_ >>= 1;
-    } while (step_ > 0u);
-    uvec4 draw = draws[d];
-    uint index = draw.y + 3u * (t - draw.x);
-    triangles_out[t] = uvec4(vertex(index, draw.z), vertex(index + 1u, draw.z), vertex(index + 2u, draw.z), draw.w);
+    uint d = draw_of(t, push.draw_count);
+    Draw draw = draws[d];
+    uint index = draw.first_index + 3u * (t - draw.first_triangle);
+    triangles_out[t] = uvec4(position(draw, index), position(draw, index + 1u), position(draw, index + 2u), draw.word);
+    draw_of_out[t] = d;
 }

@@ -5,9 +5,9 @@
 //     c++ -std=c++17 -O2 examples/forward/forward.cpp -o out/forward $(pkg-config --cflags --libs gpc vulkan)
 //     out/forward examples/forward/shaders/spirv out/forward.ppm
 //
-// What the library added to it: a compute shader that writes clip-space positions to a buffer, an attachment of triangle IDs,
-// a compute shader that shades the library's samples, and what is marked by `gpc` below. At the end, the picture is compared
-// with the renderer's own brute force.
+// What the library added to it: an attachment of triangle IDs, positions that its vertex shader computes by the library's
+// function, a compute shader that shades the library's samples, and what is marked by `gpc` below. At the end, the picture is
+// compared with the renderer's own brute force.
 
 #include "device.hpp"
 #include "world.hpp"
@@ -31,7 +31,7 @@ constexpr float EYE[3] = {0.4f, 1.5f, 4.2f};
 // As in shaders/host.glsl.
 struct Push {
     float eye[4];
-    uint32_t object, first_triangle, vertex_count;
+    uint32_t object, first_triangle;
 };
 
 constexpr GpcImageState UNDEFINED{VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_NONE};
@@ -51,19 +51,18 @@ class Pipelines {
     VkDescriptorSetLayout set_layout{};
     // Of the renderer's own passes: its set. Of shading samples: gpc's set, and the renderer's.
     VkPipelineLayout layout{}, samples_layout{};
-    VkPipeline pose{}, forward[KEYS]{}, samples[KEYS]{};
+    VkPipeline forward[KEYS]{}, samples[KEYS]{};
 
     Pipelines(const Device &device, const std::string &folder, VkDescriptorSetLayout gpc) : device(device), folder(folder) {
-        VkDescriptorSetLayoutBinding bindings[3]{};
-        for (uint32_t i = 0; i < 3; ++i)
+        VkDescriptorSetLayoutBinding bindings[2]{};
+        for (uint32_t i = 0; i < 2; ++i)
             bindings[i] = {i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_ALL, nullptr};
         VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
-        info.bindingCount = 3;
+        info.bindingCount = 2;
         info.pBindings = bindings;
         check(vkCreateDescriptorSetLayout(device.raw, &info, nullptr, &set_layout), "vkCreateDescriptorSetLayout");
         layout = make_layout({set_layout});
         samples_layout = make_layout({gpc, set_layout});
-        pose = make_compute("pose", layout, 0);
         for (uint32_t key = 0; key < KEYS; ++key) {
             forward[key] = make_forward(key);
             samples[key] = make_compute("samples", samples_layout, key);
@@ -73,7 +72,6 @@ class Pipelines {
     Pipelines(const Pipelines &) = delete;
 
     ~Pipelines() {
-        vkDestroyPipeline(device.raw, pose, nullptr);
         for (VkPipeline pipeline : forward) vkDestroyPipeline(device.raw, pipeline, nullptr);
         for (VkPipeline pipeline : samples) vkDestroyPipeline(device.raw, pipeline, nullptr);
         vkDestroyPipelineLayout(device.raw, layout, nullptr);
@@ -146,7 +144,7 @@ class Pipelines {
         const VkPipelineShaderStageCreateInfo stages[] = {vertex.info, fragment.info};
         const VkVertexInputBindingDescription binding{0, sizeof(Vertex), VK_VERTEX_INPUT_RATE_VERTEX};
         const VkVertexInputAttributeDescription attributes[] = {
-            {0, 0, VK_FORMAT_R16G16B16A16_SNORM, offsetof(Vertex, position)},
+            {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, position)},
             {1, 0, VK_FORMAT_R8G8B8A8_SNORM, offsetof(Vertex, normal)},
         };
         VkPipelineVertexInputStateCreateInfo input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
@@ -229,8 +227,6 @@ class Renderer {
              const GpcAntialiaser *antialiaser, GpcPattern pattern)
         : device(device), world(world), meshes(meshes), pipelines(pipelines), size{SIZE.width * side, SIZE.height * side},
           objects(device, world.parts.size() * sizeof(Object), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT),
-          clip(device, world.position_count * VkDeviceSize(16),
-               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT),
           color(device, size, COLOR,
                 VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                 VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_ASPECT_COLOR_BIT),
@@ -243,7 +239,7 @@ class Renderer {
         commands_info.commandPool = device.pool;
         commands_info.commandBufferCount = 1;
         check(vkAllocateCommandBuffers(device.raw, &commands_info, &commands), "vkAllocateCommandBuffers");
-        const VkDescriptorPoolSize pool_size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 3};
+        const VkDescriptorPoolSize pool_size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2};
         VkDescriptorPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
         pool_info.maxSets = 1;
         pool_info.poolSizeCount = 1;
@@ -255,11 +251,10 @@ class Renderer {
         set_info.pSetLayouts = &pipelines.set_layout;
         check(vkAllocateDescriptorSets(device.raw, &set_info, &set), "vkAllocateDescriptorSets");
         const VkDescriptorBufferInfo buffers[] = {{meshes.vertices.raw, 0, VK_WHOLE_SIZE},
-                                                  {objects.raw, 0, VK_WHOLE_SIZE},
-                                                  {clip.raw, 0, VK_WHOLE_SIZE}};
+                                                  {objects.raw, 0, VK_WHOLE_SIZE}};
         VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
         write.dstSet = set;
-        write.descriptorCount = 3;
+        write.descriptorCount = 2;
         write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
         write.pBufferInfo = buffers;
         vkUpdateDescriptorSets(device.raw, 1, &write, 0, nullptr);
@@ -278,12 +273,12 @@ class Renderer {
     void draw(float time) {
         const Mat4 projection = perspective(0.8f, float(SIZE.width) / float(SIZE.height), 0.1f, 100);
         const Mat4 camera = projection * looking({EYE[0], EYE[1], EYE[2]}, {0, 0.6f, 0});
-        objects.write(world.objects(time, camera));
+        const std::vector<Object> shown = world.objects(time, camera);
+        objects.write(shown);
         VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
         check(vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer");
-        record_pose();
         record_forward();
-        if (frame) record_antialiasing(projection);
+        if (frame) record_antialiasing(shown, projection);
         else change(color, COLOR_DRAWN, COPIED);
         record_read_back();
         check(vkEndCommandBuffer(commands), "vkEndCommandBuffer");
@@ -326,7 +321,7 @@ class Renderer {
     const Meshes &meshes;
     const Pipelines &pipelines;
     VkExtent2D size;
-    Buffer objects, clip;
+    Buffer objects;
     Image color, ids, depth;
     Buffer read_back;
     VkCommandBuffer commands{};
@@ -338,9 +333,14 @@ class Renderer {
     void prepare(const GpcAntialiaser *antialiaser, GpcPattern pattern) {
         GpcGeometry geometry{};
         geometry.size = sizeof geometry;
-        geometry.positions = clip.raw;
-        geometry.vertex_capacity = world.position_count;
+        geometry.positions = meshes.vertices.raw;
+        geometry.positions_offset = offsetof(Vertex, position);
+        geometry.position_stride = sizeof(Vertex);
+        geometry.position_space = GPC_POSITION_SPACE_OBJECT;
+        geometry.position_capacity = world.vertex_count;
+        geometry.vertex_capacity = uint32_t(world.vertices.size());
         geometry.indices = meshes.indices.raw;
+        geometry.index_type = VK_INDEX_TYPE_UINT16;
         geometry.index_capacity = uint32_t(world.indices.size());
         geometry.triangle_capacity = world.triangle_count;
         geometry.draw_capacity = uint32_t(world.parts.size());
@@ -361,19 +361,19 @@ class Renderer {
     }
 
     // gpc: the draws of this frame, in the order of their IDs.
-    void record_antialiasing(const Mat4 &projection) {
+    void record_antialiasing(const std::vector<Object> &shown, const Mat4 &projection) {
         std::vector<GpcDraw> draws;
-        uint32_t first_position = 0;
         for (const Part &part : world.parts) {
             GpcDraw draw{};
             draw.first_index = part.mesh.first_index;
             draw.triangle_count = part.mesh.triangle_count;
-            draw.vertex_offset = int32_t(first_position);
+            draw.vertex_offset = int32_t(part.mesh.first_vertex);
+            draw.vertex_count = part.mesh.vertex_count;
+            std::memcpy(draw.to_clip, shown[draws.size()].to_clip.data(), sizeof draw.to_clip);
             draw.key = part.key;
             draw.material = uint32_t(draws.size());
             draw.detailed = VK_TRUE;
             draws.push_back(draw);
-            first_position += part.mesh.vertex_count;
         }
         GpcScenery scenery{};
         scenery.size = sizeof scenery;
@@ -390,40 +390,20 @@ class Renderer {
     void record_samples(const GpcVisibilitySamples &found) const noexcept {
         const VkDescriptorSet sets[] = {found.descriptor_set, set};
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.samples_layout, 0, 2, sets, 0, nullptr);
-        push(pipelines.samples_layout, 0, 0, 0);
+        push(pipelines.samples_layout, 0, 0);
         for (uint32_t key = 0; key < KEYS; ++key) {
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.samples[key]);
             vkCmdDispatchIndirect(commands, found.dispatches, found.dispatch_offset + key * found.dispatch_stride);
         }
     }
 
-    void push(VkPipelineLayout layout, uint32_t object, uint32_t first_triangle, uint32_t vertex_count) const noexcept {
-        const Push values{{EYE[0], EYE[1], EYE[2], 1}, object, first_triangle, vertex_count};
+    void push(VkPipelineLayout layout, uint32_t object, uint32_t first_triangle) const noexcept {
+        const Push values{{EYE[0], EYE[1], EYE[2], 1}, object, first_triangle};
         vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_ALL, 0, sizeof values, &values);
     }
 
     void bind(VkPipelineBindPoint point) const {
         vkCmdBindDescriptorSets(commands, point, pipelines.layout, 0, 1, &set, 0, nullptr);
-    }
-
-    // Positions of all objects in clip space.
-    void record_pose() const {
-        bind(VK_PIPELINE_BIND_POINT_COMPUTE);
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.pose);
-        for (uint32_t object = 0; object < world.parts.size(); ++object) {
-            const uint32_t count = world.parts[object].mesh.vertex_count;
-            push(pipelines.layout, object, 0, count);
-            vkCmdDispatch(commands, (count + 63) / 64, 1, 1);
-        }
-        VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-        barrier.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-        barrier.srcAccessMask = VK_ACCESS_2_SHADER_WRITE_BIT;
-        barrier.dstStageMask = VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT;
-        barrier.dstAccessMask = VK_ACCESS_2_SHADER_READ_BIT;
-        VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-        dependency.memoryBarrierCount = 1;
-        dependency.pMemoryBarriers = &barrier;
-        vkCmdPipelineBarrier2(commands, &dependency);
     }
 
     // Colours and, for gpc, IDs of triangles.
@@ -453,14 +433,14 @@ class Renderer {
         vkCmdSetViewport(commands, 0, 1, &viewport);
         vkCmdSetScissor(commands, 0, 1, &area);
         bind(VK_PIPELINE_BIND_POINT_GRAPHICS);
-        vkCmdBindIndexBuffer(commands, meshes.indices.raw, 0, VK_INDEX_TYPE_UINT32);
+        vkCmdBindIndexBuffer(commands, meshes.indices.raw, 0, VK_INDEX_TYPE_UINT16);
         uint32_t first_triangle = 0;
         for (uint32_t object = 0; object < world.parts.size(); ++object) {
             const auto &[mesh, key, _] = world.parts[object];
             const VkDeviceSize offset = mesh.first_vertex * sizeof(Vertex);
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.forward[key]);
             vkCmdBindVertexBuffers(commands, 0, 1, &meshes.vertices.raw, &offset);
-            push(pipelines.layout, object, first_triangle, mesh.vertex_count);
+            push(pipelines.layout, object, first_triangle);
             vkCmdDrawIndexed(commands, 3 * mesh.triangle_count, 1, mesh.first_index, 0, 0);
             first_triangle += mesh.triangle_count;
         }

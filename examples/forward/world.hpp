@@ -54,9 +54,9 @@ inline Mat4 perspective(float height_angle, float aspect, float near, float far)
     return {{{f / aspect, 0, 0, 0}, {0, -f, 0, 0}, {0, 0, far / (near - far), -1}, {0, 0, near * far / (near - far), 0}}};
 }
 
-// A vertex of 12 bytes: coordinates are from -1 to 1, and objects scale them.
+// A vertex of 16 bytes.
 struct Vertex {
-    int16_t position[4];
+    float position[3];
     int8_t normal[4];
 };
 
@@ -64,7 +64,6 @@ struct Vertex {
 struct Object {
     Mat4 to_clip, to_world;
     float color[4];
-    uint32_t first_vertex, first_position, padding[2];
 };
 
 struct Mesh {
@@ -82,9 +81,10 @@ struct Part {
 
 struct World {
     std::vector<Vertex> vertices;
-    std::vector<uint32_t> indices;
+    std::vector<uint16_t> indices;
     std::vector<Part> parts;
-    uint32_t position_count = 0, triangle_count = 0;
+    // Of all parts.
+    uint32_t vertex_count = 0, triangle_count = 0;
 
     World() {
         const Mesh floor = grid(1, 1, [](float u, float v) {
@@ -109,16 +109,12 @@ struct World {
     // Where each part is at a time, in seconds.
     std::vector<Object> objects(float time, const Mat4 &to_clip) const {
         std::vector<Object> objects;
-        uint32_t first_position = 0;
         for (uint32_t number = 0; number < parts.size(); ++number) {
             const Part &part = parts[number];
             Object object{};
             object.to_world = place(number, time);
             object.to_clip = to_clip * object.to_world;
             for (int i = 0; i < 3; ++i) object.color[i] = part.color[i];
-            object.first_vertex = part.mesh.first_vertex;
-            object.first_position = first_position;
-            first_position += part.mesh.vertex_count;
             objects.push_back(object);
         }
         return objects;
@@ -138,7 +134,7 @@ struct World {
 
     void add(const Part &part) {
         parts.push_back(part);
-        position_count += part.mesh.vertex_count;
+        vertex_count += part.mesh.vertex_count;
         triangle_count += part.mesh.triangle_count;
     }
 
@@ -151,7 +147,7 @@ struct World {
                 const auto [position, normal] = at(float(column) / float(columns), float(row) / float(rows));
                 Vertex vertex{};
                 for (int i = 0; i < 3; ++i) {
-                    vertex.position[i] = int16_t(std::lround(32767 * position[i]));
+                    vertex.position[i] = position[i];
                     vertex.normal[i] = int8_t(std::lround(127 * normal[i]));
                 }
                 vertices.push_back(vertex);
@@ -160,7 +156,7 @@ struct World {
         for (uint32_t row = 0; row < rows; ++row) {
             for (uint32_t column = 0; column < columns; ++column) {
                 const uint32_t a = row * (columns + 1) + column, b = a + 1, c = a + columns + 1, d = c + 1;
-                indices.insert(indices.end(), {a, d, b, a, c, d});
+                for (uint32_t index : {a, d, b, a, c, d}) indices.push_back(uint16_t(index));
             }
         }
         return mesh;

@@ -139,6 +139,7 @@ impl<'a> World<'a> {
                 material: index as u16,
                 double_sided: false,
                 detailed: key != GLOW,
+                ..Draw::default()
             });
             posed += mesh.vertex_count;
         }

@@ -8,7 +8,7 @@ use ash::vk;
 use glam::Mat4;
 use gpc::host::{
     Antialiaser, ClipSpace, ColorImage, Frame, Geometry, ImageState, Images, LentImage, Options,
-    Scenery,
+    PositionSpace, Scenery,
 };
 
 /// What the library prepared for a slot.
@@ -163,9 +163,12 @@ impl<'a> Slot<'a> {
         Geometry {
             positions: self.positions.raw,
             positions_offset: 0,
+            position_stride: 16,
+            position_space: PositionSpace::Clip,
             vertex_capacity: world.posed_count,
             indices: world.indices.raw,
             indices_offset: 0,
+            index_type: vk::IndexType::UINT32,
             index_capacity: world.index_count,
             triangle_capacity: world.triangle_count,
             draw_capacity: world.draws.len() as u32,

@@ -40,13 +40,16 @@ layout(set = GPC_SET, binding = 0) uniform GpcFrame {
 layout(std430, set = GPC_SET, binding = 1) readonly buffer GpcKeys { uvec4 gpc_keys[]; };           // samples, first in the order
 layout(std430, set = GPC_SET, binding = 2) readonly buffer GpcOrder { uint gpc_order[]; };          // indices of records
 layout(std430, set = GPC_SET, binding = 3) readonly buffer GpcRecords { uvec4 gpc_records[]; };
-layout(std430, set = GPC_SET, binding = 4) readonly buffer GpcTriangles { uvec4 gpc_triangles[]; }; // three vertices; material | key << 16 | flags
+layout(std430, set = GPC_SET, binding = 4) readonly buffer GpcTriangles { uvec4 gpc_triangles[]; }; // three positions; material | key << 16 | flags
 layout(std430, set = GPC_SET, binding = 5) readonly buffer GpcPositions { vec4 gpc_positions[]; };  // clip space
 layout(std430, set = GPC_SET, binding = 6) writeonly buffer GpcShaded { vec4 gpc_shaded[]; };
+layout(std430, set = GPC_SET, binding = 7) readonly buffer GpcDraws { uvec4 gpc_draws[]; };         // two each; in the second, what leads from a position to the vertex
+layout(std430, set = GPC_SET, binding = 8) readonly buffer GpcDrawOf { uint gpc_draw_of[]; };       // of each triangle
 
 struct GpcSample {
     uint record;        // index, for gpc_store
     uint triangle;      // index in the order of the frame's draws
+    uint draw;          // index of its draw
     uint material;      // that of its draw
     uvec3 vertices;     // indices, the draw's vertex offset added
     vec2 position;      // in the image, in pixels from its upper left corner, y down
@@ -64,7 +67,8 @@ bool gpc_sample(uint key, out GpcSample s) {
     uvec4 record = gpc_records[s.record];
     s.triangle = max(record.y, 1u) - 1u;
     uvec4 words = gpc_triangles[s.triangle];
-    s.vertices = words.xyz;
+    s.draw = gpc_draw_of[s.triangle];
+    s.vertices = words.xyz + gpc_draws[2u * s.draw + 1u].z;
     s.material = words.w & 0xffffu;
     vec2 centred = vec2(record.x & 0xffffu, record.x >> 16) + 0.5 - gpc_frame.half_size + place_location(record.z);
     s.position = centred + gpc_frame.half_size;

@@ -21,7 +21,7 @@ pub enum GpcResult {
     StructSize = 2,
     /// A value is none of those possible, or contradicts another.
     Value = 3,
-    /// A recording has more draws, triangles or indices than its frame was created for.
+    /// A recording has more draws, triangles, vertices or indices than its frame was created for.
     Capacity = 4,
     /// The device, its instance or its loader lacks something that is needed.
     Unsupported = 5,
@@ -82,7 +82,9 @@ impl Error {
             Self::Panic(_) => GpcResult::Panic,
             Self::Host(error) => match error {
                 HostError::NullHandle(_) => GpcResult::Null,
-                HostError::Capacity { .. } | HostError::Indices { .. } => GpcResult::Capacity,
+                HostError::Capacity { .. }
+                | HostError::Indices { .. }
+                | HostError::Vertices { .. } => GpcResult::Capacity,
                 HostError::Render(RenderError::Vulkan(error)) => match error {
                     VulkanError::Missing { .. } => GpcResult::Unsupported,
                     VulkanError::OutOfMemory { .. } => GpcResult::OutOfMemory,

@@ -25,7 +25,7 @@ pub struct GpcScenery {
     pub draw_count: u32,
     /// The draws, read during the call alone. IDs count from 1 in their order. May be NULL where there are none.
     pub draws: *const GpcDraw,
-    /// The projection that positions were made with, in columns: from view space, in which distances are the world's, to
+    /// The projection that positions in clip space were made with, in columns: from view space, in which distances are the world's, to
     /// clip space. It tells how far apart two depths are.
     pub projection: [[f32; 4]; 4],
 }

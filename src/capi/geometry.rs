@@ -1,9 +1,19 @@
 //! Triangles that the application lends.
 
 use super::error::Error;
-use super::input::{Struct, flag};
-use crate::host::{ClipSpace, Draw, Geometry};
+use super::input::{Struct, choice, flag};
+use crate::host::{ClipSpace, Draw, Geometry, PositionSpace};
 use ash::vk;
+
+/// What positions are.
+#[derive(Clone, Copy)]
+#[repr(u32)]
+pub enum GpcPositionSpace {
+    /// Four floats in clip space: the very values of the vertex shader's gl_Position.
+    Clip = 0,
+    /// Three floats in a space of each draw's own, from which GpcDraw.to_clip leads to clip space.
+    Object = 1,
+}
 
 /// Buffers of the application. They may hold something else in every frame; the library reads them when a recording is
 /// executed.
@@ -12,17 +22,26 @@ use ash::vk;
 pub struct GpcGeometry {
     /// sizeof(GpcGeometry).
     pub size: u32,
-    /// How many positions there can be. Larger indices are taken for the last.
+    /// How many vertices there can be. Larger indices are taken for the last.
     pub vertex_capacity: u32,
-    /// Positions in clip space, four floats each, tightly packed: the very values of the vertex shader's gl_Position. Made
-    /// with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT and VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT.
+    /// Positions of vertices, made with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT; where they lie in clip space and 16 bytes apart,
+    /// with VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT too.
     pub positions: vk::Buffer,
-    /// Where they begin, in bytes: a multiple of 16 and of the device's minStorageBufferOffsetAlignment and
-    /// minTexelBufferOffsetAlignment.
+    /// Where the first one is, in bytes: a multiple of 4.
     pub positions_offset: u64,
-    /// Indices of 32 bits, three a triangle. Made with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT.
+    /// Bytes from one to the next: a multiple of 4, and at least those of a position.
+    pub position_stride: u32,
+    /// What they are: a GpcPositionSpace.
+    pub position_space: u32,
+    /// With GPC_POSITION_SPACE_OBJECT, most vertices of all draws of a frame, those that several draws have counted for each.
+    /// Otherwise ignored.
+    pub position_capacity: u32,
+    /// VK_INDEX_TYPE_UINT16 or VK_INDEX_TYPE_UINT32.
+    pub index_type: vk::IndexType,
+    /// Indices, three a triangle. Made with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT. The buffer of those of 16 bits reaches to a
+    /// multiple of 4 bytes.
     pub indices: vk::Buffer,
-    /// Where they begin, in bytes: a multiple as above.
+    /// Where they begin, in bytes: a multiple of an index's size.
     pub indices_offset: u64,
     /// How many indices there can be.
     pub index_capacity: u32,
@@ -45,12 +64,24 @@ unsafe impl Struct for GpcGeometry {
 
 impl GpcGeometry {
     pub(super) fn geometry(&self) -> Result<Geometry, Error> {
+        let spaces = [
+            (GpcPositionSpace::Clip as u32, PositionSpace::Clip),
+            (
+                GpcPositionSpace::Object as u32,
+                PositionSpace::Object {
+                    capacity: self.position_capacity,
+                },
+            ),
+        ];
         Ok(Geometry {
             positions: self.positions,
             positions_offset: self.positions_offset,
+            position_stride: self.position_stride,
+            position_space: choice("GpcGeometry.position_space", self.position_space, &spaces)?,
             vertex_capacity: self.vertex_capacity,
             indices: self.indices,
             indices_offset: self.indices_offset,
+            index_type: self.index_type,
             index_capacity: self.index_capacity,
             triangle_capacity: self.triangle_capacity,
             draw_capacity: self.draw_capacity,
@@ -73,6 +104,11 @@ pub struct GpcDraw {
     pub triangle_count: u32,
     /// Added to each of its indices.
     pub vertex_offset: i32,
+    /// With GPC_POSITION_SPACE_OBJECT, how many vertices it has, from `vertex_offset` on. Larger indices are taken for the
+    /// last. Otherwise ignored.
+    pub vertex_count: u32,
+    /// With GPC_POSITION_SPACE_OBJECT, the matrix that leads from there to clip space, in columns. Otherwise ignored.
+    pub to_clip: [[f32; 4]; 4],
     /// The shading key, from 0: which of the application's pipelines shades it.
     pub key: u32,
     /// A number of the application's, up to 65,535, which its shaders see. Triangles of one number are taken to look alike
@@ -91,6 +127,8 @@ impl GpcDraw {
             first_index: self.first_index,
             triangle_count: self.triangle_count,
             vertex_offset: self.vertex_offset,
+            vertex_count: self.vertex_count,
+            to_clip: self.to_clip,
             key: self.key,
             material: u16::try_from(self.material).map_err(|_| Error::Value {
                 name: "GpcDraw.material",

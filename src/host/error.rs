@@ -23,8 +23,8 @@ pub enum HostError {
         /// What it can be.
         most: u32,
     },
-    /// A buffer's offset is not a multiple of what the device asks for.
-    #[error("{what} is {offset} bytes; the device asks for multiples of {alignment}")]
+    /// A buffer's offset is not a multiple of the size of what it holds.
+    #[error("{what} is {offset} bytes; it can be a multiple of {alignment}")]
     Alignment {
         /// The offset.
         what: &'static str,
@@ -32,6 +32,20 @@ pub enum HostError {
         offset: u64,
         /// What it has to be a multiple of.
         alignment: u64,
+    },
+    /// Positions lie closer together than they are long, or apart by no whole number of floats.
+    #[error("position_stride is {found} bytes; it can be any multiple of 4 from {least} on")]
+    Stride {
+        /// What it is.
+        found: u32,
+        /// The least that it can be.
+        least: u32,
+    },
+    /// Indices are of a type that is not read.
+    #[error("index_type is {found:?}; it can be UINT16 or UINT32")]
+    IndexType {
+        /// What it is.
+        found: vk::IndexType,
     },
     /// The colour image has a format that can't be drawn to or read.
     #[error(
@@ -49,7 +63,7 @@ pub enum HostError {
     /// A frame has more of something than it was prepared for.
     #[error("{found} {what}; the frame was prepared for {capacity}")]
     Capacity {
-        /// Draws or triangles.
+        /// Draws, triangles or vertices.
         what: &'static str,
         /// How many there are.
         found: u64,
@@ -65,6 +79,26 @@ pub enum HostError {
         end: u64,
         /// How many there are.
         indices: u32,
+    },
+    /// A draw, of positions in object space, has no vertices, or some that there are none of.
+    #[error(
+        "draw {draw} has the vertices from {first} to before {end}; it needs at least one, of those from 0 to before {vertices}"
+    )]
+    Vertices {
+        /// The draw, by its place in the list.
+        draw: usize,
+        /// Its first vertex.
+        first: i64,
+        /// One past its last.
+        end: i64,
+        /// How many there are.
+        vertices: u32,
+    },
+    /// A number of a draw's matrix is not finite.
+    #[error("the matrix of draw {draw} has a number that is not finite")]
+    Matrix {
+        /// The draw, by its place in the list.
+        draw: usize,
     },
     /// A draw has a shading key that there is none of.
     #[error("draw {draw} has shading key {key}, and there are {keys}")]

@@ -1,11 +1,12 @@
 //! One of a host's frames in flight.
 
-use super::geometry::HostContent;
+use super::adoption::Adoption;
+use super::content::HostContent;
+use super::draw::PlacedDraws;
 use super::shading::{HostShading, ShadeSamples, VisibilitySamples};
 use super::{Draw, Geometry, HostError, Images, Options, Shared};
 use crate::passes::{
-    AdoptedCounts, AdoptedDraw, Counter, FrameUniform, IdViews, Locations, OwnSet, Patch,
-    Resources, VisibilityUniform,
+    Counter, FrameUniform, IdViews, Locations, OwnSet, Patch, Resources, VisibilityUniform,
 };
 use crate::render::engine::{Engine, EngineKind, Growing, Work, with_probes};
 use crate::render::footprint::Footprints;
@@ -21,7 +22,7 @@ use std::sync::Arc;
 pub struct Scenery<'a> {
     /// Runs of triangles. IDs count from 1 in their order.
     pub draws: &'a [Draw],
-    /// The projection that positions were made with, in columns: from view space, in which distances are the world's, to
+    /// The projection that positions in clip space were made with, in columns: from view space, in which distances are the world's, to
     /// clip space. It tells how far apart two depths are.
     pub projection: [[f32; 4]; 4],
 }
@@ -45,11 +46,10 @@ pub struct Frame {
     _content: HostContent,
     resources: Resources,
     engine: Engine,
+    adoption: Adoption,
     take: Pipeline,
     patch: Patch,
-    draws: Buffer,
     visibility: Buffer,
-    adopt_set: OwnSet,
     take_set: OwnSet,
     visibility_set: OwnSet,
     counters: Buffer,
@@ -102,16 +102,13 @@ impl Frame {
         let memory = Memory::new(gpu.clone(), settings.max_memory);
         // SAFETY: passed on to the caller.
         let content = unsafe { HostContent::new(gpu, &memory, geometry) }?;
-        let device_buffer = |name, bytes, usage| {
-            let usage = usage | vk::BufferUsageFlags::TRANSFER_DST;
-            memory.buffer(name, bytes, usage, MemoryUse::Device)
-        };
-        let draw_bytes = u64::from(geometry.draw_capacity) * size_of::<AdoptedDraw>() as u64;
-        let draws = device_buffer("draws", draw_bytes, vk::BufferUsageFlags::STORAGE_BUFFER)?;
-        let visibility = device_buffer(
+        // SAFETY: passed on to the caller.
+        let adoption = unsafe { Adoption::new(shared, &memory, geometry, &content) }?;
+        let visibility = memory.buffer(
             "visibility uniform",
             size_of::<VisibilityUniform>() as u64,
-            vk::BufferUsageFlags::UNIFORM_BUFFER,
+            vk::BufferUsageFlags::UNIFORM_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
+            MemoryUse::Device,
         )?;
         let taken = memory.used();
         let plan = Plan::whole(&settings, &content, gpu.limits(), effort, taken)?;
@@ -149,17 +146,16 @@ impl Frame {
             },
         )?;
         // SAFETY: of the host's handles, as the caller says; the rest goes with the frame.
-        let (adopt_set, take_set, visibility_set) = unsafe {
+        let (take_set, visibility_set) = unsafe {
             (
-                shared
-                    .adopt
-                    .set(geometry.indices_info(), &draws, content.triangles())?,
                 shared.take.set(images.color.lent.view)?,
                 resources.visibility_set(
                     &shared.visibility,
                     &visibility,
                     content.triangles(),
-                    geometry.positions_info(),
+                    content.positions_info(),
+                    &adoption.draws,
+                    content.draw_of(),
                 )?,
             )
         };
@@ -184,9 +180,8 @@ impl Frame {
             _content: content,
             resources,
             engine,
-            draws,
+            adoption,
             visibility,
-            adopt_set,
             take_set,
             visibility_set,
             memory,
@@ -250,7 +245,8 @@ impl Frame {
         scenery: &Scenery<'_>,
         shading: &dyn ShadeSamples,
     ) -> Result<(), HostError> {
-        let (draws, triangles) = self.geometry.adopted(scenery.draws)?;
+        let placed = PlacedDraws::new(&self.geometry, scenery.draws)?;
+        let triangles = placed.triangles;
         if !scenery
             .projection
             .as_flattened()
@@ -275,26 +271,10 @@ impl Frame {
         }
         recorder.begin();
         self.images.record_begin(recorder);
-        let counts = AdoptedCounts {
-            triangles,
-            draws: draws.len() as u32,
-            indices: self.geometry.index_capacity,
-            vertices: self.geometry.vertex_capacity,
-        };
-        self.shared
-            .adopt
-            .record(recorder, &self.adopt_set, &self.draws, &draws, counts);
-        recorder.mark("adopt");
+        self.adoption.record(recorder, &placed);
         let visible = visibility_uniform(&self.geometry, &self.settings);
-        // SAFETY: the recorder's contract; the buffer has the block's size.
-        unsafe {
-            gpu.device.cmd_update_buffer(
-                commands,
-                self.visibility.handle(),
-                0,
-                bytemuck::bytes_of(&visible),
-            );
-        }
+        recorder.barrier();
+        recorder.update(&self.visibility, bytemuck::bytes_of(&visible));
         resources.record_begin(recorder, set, &uniform);
         let [width, height] = self.settings.size;
         let sets = [set.descriptor(), self.take_set.raw];

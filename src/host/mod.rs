@@ -5,14 +5,17 @@
 //! ([`ShadeSamples`]), and draws the resolved pixels over the aliased ones.
 //!
 //! ```text
-//! application          colour, triangle IDs, depth      pipelines of its materials         colour
-//!                               │                                 ▲    │                     ▲
-//! Frame::record       adopt ─▶ take ─▶ detect ─▶ cull, bin ─▶ [ sample ─▶ sort ─▶ resolve ] ─▶ patch
-//!                                                              └──────── rounds ──────────┘
+//! application                colour, triangle IDs, depth      pipelines of its materials         colour
+//!                                     │                                 ▲    │                     ▲
+//! Frame::record  transform, adopt ─▶ take ─▶ detect ─▶ cull, bin ─▶ [ sample ─▶ sort ─▶ resolve ] ─▶ patch
+//!                                                                    └──────── rounds ──────────┘
 //! ```
 //!
 //! Nothing here knows a material, a light or a file. `docs/embedding.md` is the manual.
 
+mod adoption;
+mod content;
+mod draw;
 mod error;
 mod frame;
 mod geometry;
@@ -21,14 +24,15 @@ mod options;
 mod shading;
 
 pub use crate::render::ImageState;
+pub use draw::Draw;
 pub use error::HostError;
 pub use frame::{Frame, Outcome, Scenery};
-pub use geometry::{ClipSpace, Draw, Geometry};
+pub use geometry::{ClipSpace, Geometry, PositionSpace};
 pub use images::{ColorImage, Images, LentImage};
 pub use options::Options;
 pub use shading::{SHADER_INCLUDES, ShadeSamples, VisibilitySamples};
 
-use crate::passes::{Adopt, FrameLayout, SetLayout, Take, visibility_layout};
+use crate::passes::{Adopt, FrameLayout, SetLayout, Take, Transform, visibility_layout};
 use crate::vulkan::{Gpu, Host, VulkanError};
 use ash::vk;
 use std::sync::Arc;
@@ -42,6 +46,7 @@ pub(crate) struct Shared {
     gpu: Arc<Gpu>,
     frame: Arc<FrameLayout>,
     adopt: Adopt,
+    transform: Transform,
     take: Take,
     visibility: SetLayout,
 }
@@ -57,11 +62,19 @@ impl Antialiaser {
     /// - The device was created with [`crate::vulkan::Requirements::features13`] enabled.
     pub unsafe fn new(host: Host) -> Result<Self, VulkanError> {
         // SAFETY: passed on to the caller.
-        let gpu = unsafe { Gpu::new(host) }?;
+        Self::in_gpu(unsafe { Gpu::new(host) }?)
+    }
+
+    /// In a device that another part of the library works in.
+    ///
+    /// # Errors
+    /// If the driver refuses the layouts.
+    pub fn in_gpu(gpu: Arc<Gpu>) -> Result<Self, VulkanError> {
         let frame = FrameLayout::new(&gpu)?;
         Ok(Self {
             shared: Arc::new(Shared {
                 adopt: Adopt::new(&gpu)?,
+                transform: Transform::new(&gpu)?,
                 take: Take::new(&frame)?,
                 visibility: visibility_layout(&gpu)?,
                 frame,

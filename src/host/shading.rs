@@ -6,8 +6,9 @@ use crate::vulkan::Recorder;
 use ash::vk;
 
 /// Names and text of the GLSL includes for a host's shaders: `gpc_visibility.glsl`, which says how a visibility sample is
-/// laid out and what to do with it, `gpc_texture.glsl`, which filters textures over it, and what they include.
-pub const SHADER_INCLUDES: [(&str, &str); 4] = [
+/// laid out and what to do with it, `gpc_texture.glsl`, which filters textures over it, `gpc_position.glsl`, which places
+/// vertices as the library does, and what they include.
+pub const SHADER_INCLUDES: [(&str, &str); 6] = [
     (
         "gpc_visibility.glsl",
         include_str!("../../shaders/include/gpc_visibility.glsl"),
@@ -17,12 +18,20 @@ pub const SHADER_INCLUDES: [(&str, &str); 4] = [
         include_str!("../../shaders/include/gpc_texture.glsl"),
     ),
     (
+        "gpc_position.glsl",
+        include_str!("../../shaders/include/gpc_position.glsl"),
+    ),
+    (
         "place.glsl",
         include_str!("../../shaders/include/place.glsl"),
     ),
     (
         "barycentric.glsl",
         include_str!("../../shaders/include/barycentric.glsl"),
+    ),
+    (
+        "finite.glsl",
+        include_str!("../../shaders/include/finite.glsl"),
     ),
 ];
 

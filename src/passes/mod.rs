@@ -17,6 +17,7 @@ mod content;
 mod counters;
 mod cull;
 mod detect;
+mod draws;
 mod encode;
 mod frame;
 #[cfg(feature = "gltf")]
@@ -49,6 +50,7 @@ mod spans;
 mod stroke;
 mod take;
 mod thin;
+mod transform;
 mod upload;
 mod visibility;
 
@@ -58,7 +60,7 @@ mod spirv {
     include!(concat!(env!("OUT_DIR"), "/spirv.rs"));
 }
 
-pub(crate) use adopt::{Adopt, AdoptedCounts, AdoptedDraw};
+pub(crate) use adopt::{Adopt, AdoptedCounts};
 pub use attributes::Attributes;
 pub use bin::Bin;
 pub use box_filter::BoxFilter;
@@ -66,6 +68,7 @@ pub use content::Content;
 pub use counters::{Argument, Counter};
 pub use cull::Cull;
 pub use detect::{Detect, DetectMode};
+pub(crate) use draws::{Draws, HostDraw};
 pub use encode::{Encode, Encoding};
 pub use frame::FrameUniform;
 #[cfg(feature = "gltf")]
@@ -97,4 +100,5 @@ pub use spans::Spans;
 pub use stroke::{Stroke, StrokeSizes};
 pub(crate) use take::Take;
 pub use thin::Thin;
+pub(crate) use transform::{Transform, TransformedCounts};
 pub(crate) use visibility::{VisibilityUniform, visibility_layout};

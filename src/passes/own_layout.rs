@@ -1,7 +1,7 @@
 //! Layouts of descriptor sets beside the frame's, and of pipelines that bind them.
 
 use super::pool::DescriptorPool;
-use crate::vulkan::{Gpu, VulkanError};
+use crate::vulkan::{Buffer, Gpu, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -143,9 +143,46 @@ impl PipelineLayout {
     }
 }
 
+impl PipelineLayout {
+    /// Binds sets and pushes constants; both are of this layout.
+    pub fn bind(
+        &self,
+        recorder: &Recorder<'_>,
+        sets: &[vk::DescriptorSet],
+        push: &impl bytemuck::NoUninit,
+    ) {
+        let (device, raw) = (recorder.device(), recorder.raw());
+        // SAFETY: the recorder's contract; sets and constants are of this layout.
+        unsafe {
+            device.cmd_bind_descriptor_sets(
+                raw,
+                vk::PipelineBindPoint::COMPUTE,
+                self.raw,
+                0,
+                sets,
+                &[],
+            );
+            device.cmd_push_constants(
+                raw,
+                self.raw,
+                vk::ShaderStageFlags::COMPUTE,
+                0,
+                bytemuck::bytes_of(push),
+            );
+        }
+    }
+}
+
 impl Drop for PipelineLayout {
     fn drop(&mut self) {
         // SAFETY: owners drop the layout after the pipelines that were made with it are done.
         unsafe { self.gpu.device.destroy_pipeline_layout(self.raw, None) };
     }
+}
+
+/// All of a buffer, for a descriptor.
+pub(super) fn whole(buffer: &Buffer) -> vk::DescriptorBufferInfo {
+    vk::DescriptorBufferInfo::default()
+        .buffer(buffer.handle())
+        .range(vk::WHOLE_SIZE)
 }

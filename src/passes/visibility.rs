@@ -1,7 +1,8 @@
 //! What a host's shaders see of a frame: the set of `shaders/include/gpc_visibility.glsl`.
 
 use super::Resources;
-use super::own_layout::{OwnSet, SetLayout};
+use super::draws::Draws;
+use super::own_layout::{OwnSet, SetLayout, whole};
 use crate::vulkan::{Buffer, Gpu, VulkanError};
 use ash::vk;
 use std::sync::Arc;
@@ -19,28 +20,25 @@ pub(crate) struct VisibilityUniform {
 
 /// The set's layout, which hosts make their pipelines with.
 pub(crate) fn visibility_layout(gpu: &Arc<Gpu>) -> Result<SetLayout, VulkanError> {
-    let mut kinds = [vk::DescriptorType::STORAGE_BUFFER; 7];
+    let mut kinds = [vk::DescriptorType::STORAGE_BUFFER; 9];
     kinds[0] = vk::DescriptorType::UNIFORM_BUFFER;
     SetLayout::new(gpu, &kinds)
 }
 
 impl Resources {
-    /// A set that shows these resources, triangles, and a host's positions.
+    /// A set that shows these resources, triangles, positions in clip space, draws and the draw of each triangle.
     ///
     /// # Safety
-    /// The host's buffer outlives the set's use.
+    /// Positions that are the host's outlive the set's use.
     pub(crate) unsafe fn visibility_set(
         &self,
         layout: &SetLayout,
         uniform: &Buffer,
         triangles: &Buffer,
         positions: vk::DescriptorBufferInfo,
+        draws: &Draws,
+        draw_of: &Buffer,
     ) -> Result<OwnSet, VulkanError> {
-        let whole = |buffer: &Buffer| {
-            vk::DescriptorBufferInfo::default()
-                .buffer(buffer.handle())
-                .range(vk::WHOLE_SIZE)
-        };
         let set = layout.allocate()?;
         let buffers = [
             whole(uniform),
@@ -50,6 +48,8 @@ impl Resources {
             whole(triangles),
             positions,
             whole(&self.shaded.buffer),
+            whole(&draws.table),
+            whole(draw_of),
         ];
         // SAFETY: the set is new; of the host's buffer as the caller says, ours go with the frame.
         unsafe { set.write_buffers(&buffers) };

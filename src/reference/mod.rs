@@ -15,5 +15,6 @@ pub mod sheen;
 pub mod srgb;
 pub mod stroke;
 pub mod tonemap;
+pub mod transform;
 pub mod variation;
 pub mod visibility;

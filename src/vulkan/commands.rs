@@ -162,6 +162,21 @@ impl<'a> Recorder<'a> {
         };
     }
 
+    /// Writes bytes, a multiple of four, to the beginning of a buffer.
+    pub(crate) fn update(&self, buffer: &Buffer, bytes: &[u8]) {
+        /// Bytes that an inline update can have.
+        const AT_ONCE: usize = 65_536;
+        for (chunk, bytes) in (0..).zip(bytes.chunks(AT_ONCE)) {
+            let offset = chunk * AT_ONCE as u64;
+            // SAFETY: `new`'s contract; the buffer was created as a transfer destination, and callers know its size.
+            unsafe {
+                self.gpu
+                    .device
+                    .cmd_update_buffer(self.raw(), buffer.raw, offset, bytes)
+            };
+        }
+    }
+
     /// Fills a buffer with zeros.
     pub fn clear(&self, buffer: &Buffer) {
         self.clear_first(buffer, vk::WHOLE_SIZE);

@@ -124,6 +124,18 @@ impl Gpu {
         }))
     }
 
+    /// The device's functions, for commands of one's own.
+    #[must_use]
+    pub fn device(&self) -> &ash::Device {
+        &self.device
+    }
+
+    /// The family of the queue that commands are submitted to.
+    #[must_use]
+    pub fn queue_family(&self) -> u32 {
+        self.queue_family
+    }
+
     /// Properties of the device.
     #[must_use]
     pub fn limits(&self) -> &Limits {

@@ -418,6 +418,18 @@ pub struct Image {
 }
 
 impl Image {
+    /// The handle.
+    #[must_use]
+    pub fn handle(&self) -> vk::Image {
+        self.raw
+    }
+
+    /// The view of all of it.
+    #[must_use]
+    pub fn view(&self) -> vk::ImageView {
+        self.view
+    }
+
     /// All of the image.
     pub fn range(&self) -> vk::ImageSubresourceRange {
         vk::ImageSubresourceRange {

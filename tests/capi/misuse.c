@@ -172,7 +172,7 @@ static void recordings(GpcFrame *frame) {
     VkCommandBufferAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, .commandBufferCount = 1};
     VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     VkCommandBuffer commands;
-    GpcDraw draws[2] = {{.triangle_count = 2}, {.first_index = 6, .triangle_count = 2}};
+    GpcDraw draws[2] = {{.triangle_count = 2, .vertex_count = 3}, {.first_index = 6, .triangle_count = 2, .vertex_count = 3}};
     GpcScenery scenery = {.size = sizeof scenery, .draw_count = 2, .draws = draws};
     GpcOutcome outcome = {.size = 0};
     int calls = 0;
@@ -200,6 +200,15 @@ static void recordings(GpcFrame *frame) {
     draws[1].triangle_count = 3;
     ANSWERS(RECORD, GPC_RESULT_CAPACITY, "draw 1 reads indices up to 15, and there are 12");
     draws[1].triangle_count = 2;
+    draws[1].vertex_offset = 10;
+    ANSWERS(RECORD, GPC_RESULT_CAPACITY, "draw 1 has the vertices from 10 to before 13");
+    draws[1].vertex_offset = 6;
+    draws[1].vertex_count = 4;
+    ANSWERS(RECORD, GPC_RESULT_CAPACITY, "7 vertices; the frame was prepared for 6");
+    draws[1].vertex_count = 3;
+    draws[1].to_clip[3][1] = 0.0f / (scenery.projection[3][0]);
+    ANSWERS(RECORD, GPC_RESULT_VALUE, "the matrix of draw 1 has a number that is not finite");
+    draws[1].to_clip[3][1] = 0;
     scenery.projection[2][1] = 0.0f / (scenery.projection[3][0]);
     ANSWERS(RECORD, GPC_RESULT_VALUE, "not finite");
     scenery.projection[2][1] = 0;
@@ -216,7 +225,9 @@ static void frames(void) {
     GpcImage ids = make_image(VK_FORMAT_R32_UINT, &memory[2]), color = make_image(VK_FORMAT_R8G8B8A8_UNORM, &memory[3]);
     GpcGeometry geometry = {.size = sizeof geometry,
                             .vertex_capacity = VERTICES,
+                            .position_stride = 16,
                             .indices = indices,
+                            .index_type = VK_INDEX_TYPE_UINT32,
                             .index_capacity = INDICES,
                             .triangle_capacity = 4,
                             .draw_capacity = 2,
@@ -236,9 +247,26 @@ static void frames(void) {
     geometry.keys = 0;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "keys is 0");
     geometry.keys = 1;
-    geometry.positions_offset = 4;
-    ANSWERS(CREATE, GPC_RESULT_VALUE, "positions_offset is 4 bytes");
+    geometry.positions_offset = 2;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "positions_offset is 2 bytes; it can be a multiple of 4");
     geometry.positions_offset = 0;
+    geometry.position_stride = 12;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "position_stride is 12 bytes; it can be any multiple of 4 from 16 on");
+    geometry.position_space = 2;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcGeometry.position_space is 2; it can be 0, 1");
+    geometry.position_space = GPC_POSITION_SPACE_OBJECT;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "the capacity of positions in object space is 0");
+    geometry.position_capacity = 6;
+    geometry.position_stride = 14;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "position_stride is 14 bytes; it can be any multiple of 4 from 12 on");
+    geometry.position_stride = 16;
+    geometry.index_type = VK_INDEX_TYPE_NONE_KHR;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "index_type is NONE_KHR; it can be UINT16 or UINT32");
+    geometry.index_type = VK_INDEX_TYPE_UINT16;
+    geometry.indices_offset = 1;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "indices_offset is 1 bytes; it can be a multiple of 2");
+    geometry.index_type = VK_INDEX_TYPE_UINT32;
+    geometry.indices_offset = 0;
     geometry.y_up = 3;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcGeometry.y_up is 3");
     geometry.y_up = VK_TRUE;

@@ -12,6 +12,7 @@ mod golden;
 #[path = "../common/golden.rs"]
 mod goldens;
 mod grow;
+mod host;
 mod instances;
 mod invariance;
 mod lobes;

@@ -12,8 +12,8 @@ layout(constant_id = 0) const uint KEY = 0u;
 void main() {
     GpcSample s;
     if (!gpc_sample(KEY, s)) return;
-    Object object = objects[s.material];
-    uvec3 v = s.vertices - object.first_position + object.first_vertex;
+    Object object = objects[s.draw];
+    uvec3 v = s.vertices;
     mat3 corners = mat3(object.to_world) * mat3(position_of(v.x), position_of(v.y), position_of(v.z));
     mat3 normals = mat3(object.to_world) * mat3(normal_of(v.x), normal_of(v.y), normal_of(v.z));
     vec3 place = corners * s.weights + object.to_world[3].xyz;

@@ -1,0 +1,31 @@
+// transform: positions of a host's vertices in clip space, from where and as it has them.
+// Reads: draws, the host's vertices, matrices. Writes: positions. OBJECT: a vertex is three floats, and each draw has its
+// own, multiplied by its matrix; otherwise it is four floats in clip space. Twin: `gpc::reference::transform`.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define BY_POSITION
+#include "include/workgroup.glsl"
+#include "include/draws.glsl"
+#include "include/gpc_position.glsl"
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const bool OBJECT = false;
+layout(std430, set = 0, binding = 1) readonly buffer Vertices { uint vertices[]; };
+layout(std430, set = 0, binding = 2) readonly buffer Matrices { mat4 matrices[]; };
+layout(std430, set = 0, binding = 3) writeonly buffer PositionsOut { uvec4 positions_out[]; };
+layout(push_constant) uniform Push {
+    uint position_count;
+    uint draw_count;
+    uint first_word;        // of the first vertex
+    uint stride;            // in words
+} push;
+
+void main() {
+    uint i = invocation_number();
+    if (i >= push.position_count) return;
+    uint d = OBJECT ? draw_of(i, push.draw_count) : 0u;
+    uint vertex = OBJECT ? i + draws[d].shift : i;
+    uint word = push.first_word + vertex * push.stride;
+    uvec3 xyz = uvec3(vertices[word], vertices[word + 1u], vertices[word + 2u]);
+    positions_out[i] = OBJECT ? floatBitsToUint(gpc_clip_position(matrices[d], uintBitsToFloat(xyz)))
+                              : uvec4(xyz, vertices[word + 3u]);
+}

@@ -1,0 +1,346 @@
+//! What a host draws.
+
+use super::{Geometry, HostError, PositionSpace};
+use crate::passes::HostDraw;
+
+/// A run of triangles that are shaded alike.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Draw {
+    /// Its first index.
+    pub first_index: u32,
+    /// How many triangles it has.
+    pub triangle_count: u32,
+    /// Added to each of its indices.
+    pub vertex_offset: i32,
+    /// Where positions are in object space, how many vertices it has, from `vertex_offset` on. Larger indices are taken for
+    /// the last. Otherwise not read.
+    pub vertex_count: u32,
+    /// Where positions are in object space, the matrix that leads from there to clip space, in columns. Otherwise not read.
+    pub to_clip: [[f32; 4]; 4],
+    /// The shading key: which of the host's pipelines shades it.
+    pub key: u32,
+    /// A number of the host's, which its shaders see. Triangles of one number are taken to look alike where detection
+    /// compares colours.
+    pub material: u16,
+    /// Whether back faces show. A front face is counter-clockwise on the screen.
+    pub double_sided: bool,
+    /// Whether light or paint may change within a pixel, as with a texture or a glossy surface: it is then shaded in
+    /// several parts of a superpixel where the pixels around tell that it does.
+    pub detailed: bool,
+}
+
+impl Default for Draw {
+    /// Nothing, with the identity for a matrix.
+    fn default() -> Self {
+        Self {
+            first_index: 0,
+            triangle_count: 0,
+            vertex_offset: 0,
+            vertex_count: 0,
+            to_clip: std::array::from_fn(|column| {
+                std::array::from_fn(|row| if row == column { 1.0 } else { 0.0 })
+            }),
+            key: 0,
+            material: 0,
+            double_sided: false,
+            detailed: false,
+        }
+    }
+}
+
+/// Bits of a triangle's last word: see `shaders/include/frame.glsl`.
+const KEY_SHIFT: u32 = 16;
+const DETAILED: u32 = 1 << 30;
+const DOUBLE_SIDED: u32 = 1 << 31;
+
+/// A frame's draws as the device reads them.
+pub(super) struct PlacedDraws {
+    pub draws: Vec<HostDraw>,
+    /// One a draw where positions are in object space; otherwise none.
+    pub matrices: Vec<[[f32; 4]; 4]>,
+    /// Triangles of all.
+    pub triangles: u32,
+    /// Positions in clip space.
+    pub positions: u32,
+}
+
+impl PlacedDraws {
+    /// Those of a frame.
+    ///
+    /// # Errors
+    /// The first draw that does not fit.
+    pub fn new(geometry: &Geometry, draws: &[Draw]) -> Result<Self, HostError> {
+        let capacity = |what, found, capacity| HostError::Capacity {
+            what,
+            found,
+            capacity,
+        };
+        if draws.len() > geometry.draw_capacity as usize {
+            let found = draws.len() as u64;
+            return Err(capacity("draws", found, geometry.draw_capacity));
+        }
+        let in_clip = geometry.position_space == PositionSpace::Clip;
+        let mut placed = Self {
+            draws: Vec::with_capacity(draws.len()),
+            matrices: Vec::new(),
+            triangles: 0,
+            positions: if in_clip { geometry.vertex_capacity } else { 0 },
+        };
+        for (number, draw) in draws.iter().enumerate() {
+            draw.check(geometry, number)?;
+            let vertices = if in_clip || draw.triangle_count == 0 {
+                0
+            } else {
+                draw.vertex_count
+            };
+            let triangles = u64::from(placed.triangles) + u64::from(draw.triangle_count);
+            let positions = u64::from(placed.positions) + u64::from(vertices);
+            if triangles > u64::from(geometry.triangle_capacity) {
+                return Err(capacity("triangles", triangles, geometry.triangle_capacity));
+            }
+            if positions > u64::from(geometry.position_capacity()) {
+                let most = geometry.position_capacity();
+                return Err(capacity("vertices", positions, most));
+            }
+            let offset = draw.vertex_offset.cast_unsigned();
+            let common = HostDraw {
+                first_triangle: placed.triangles,
+                first_index: draw.first_index,
+                word: draw.word(),
+                ..HostDraw::default()
+            };
+            placed.draws.push(if in_clip {
+                HostDraw {
+                    vertex_offset: offset,
+                    last_position: geometry.vertex_capacity - 1,
+                    ..common
+                }
+            } else {
+                placed.matrices.push(draw.to_clip);
+                HostDraw {
+                    first_position: placed.positions,
+                    last_position: vertices.saturating_sub(1),
+                    shift: offset.wrapping_sub(placed.positions),
+                    ..common
+                }
+            });
+            placed.triangles = triangles as u32;
+            placed.positions = positions as u32;
+        }
+        Ok(placed)
+    }
+}
+
+impl Draw {
+    fn check(&self, geometry: &Geometry, draw: usize) -> Result<(), HostError> {
+        let end = u64::from(self.first_index) + 3 * u64::from(self.triangle_count);
+        if end > u64::from(geometry.index_capacity) {
+            return Err(HostError::Indices {
+                draw,
+                end,
+                indices: geometry.index_capacity,
+            });
+        }
+        if self.key >= geometry.keys {
+            return Err(HostError::Key {
+                draw,
+                key: self.key,
+                keys: geometry.keys,
+            });
+        }
+        if geometry.position_space == PositionSpace::Clip || self.triangle_count == 0 {
+            return Ok(());
+        }
+        let first = i64::from(self.vertex_offset);
+        let end = first + i64::from(self.vertex_count);
+        let exist = first >= 0 && end <= i64::from(geometry.vertex_capacity);
+        if !exist || self.vertex_count == 0 {
+            return Err(HostError::Vertices {
+                draw,
+                first,
+                end,
+                vertices: geometry.vertex_capacity,
+            });
+        }
+        if !self.to_clip.as_flattened().iter().all(|n| n.is_finite()) {
+            return Err(HostError::Matrix { draw });
+        }
+        Ok(())
+    }
+
+    fn word(&self) -> u32 {
+        let flag = |bit: u32, set: bool| if set { bit } else { 0 };
+        u32::from(self.material)
+            | self.key << KEY_SHIFT
+            | flag(DETAILED, self.detailed)
+            | flag(DOUBLE_SIDED, self.double_sided)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::ClipSpace;
+    use super::*;
+    use ash::vk::{self, Handle};
+
+    fn geometry() -> Geometry {
+        Geometry {
+            positions: vk::Buffer::from_raw(1),
+            positions_offset: 0,
+            position_stride: 16,
+            position_space: PositionSpace::Clip,
+            vertex_capacity: 100,
+            indices: vk::Buffer::from_raw(2),
+            indices_offset: 0,
+            index_type: vk::IndexType::UINT32,
+            index_capacity: 60,
+            triangle_capacity: 12,
+            draw_capacity: 3,
+            keys: 2,
+            clip: ClipSpace::default(),
+        }
+    }
+
+    fn in_object_space() -> Geometry {
+        Geometry {
+            position_space: PositionSpace::Object { capacity: 40 },
+            ..geometry()
+        }
+    }
+
+    fn draw(first_index: u32, triangle_count: u32, key: u32) -> Draw {
+        Draw {
+            first_index,
+            triangle_count,
+            key,
+            ..Draw::default()
+        }
+    }
+
+    fn with_vertices(vertex_offset: i32, vertex_count: u32) -> Draw {
+        Draw {
+            vertex_offset,
+            vertex_count,
+            ..draw(0, 1, 0)
+        }
+    }
+
+    #[test]
+    fn draws_follow_each_other() {
+        let draws = [draw(30, 4, 1), draw(0, 0, 0), draw(0, 7, 0)];
+        let placed = PlacedDraws::new(&geometry(), &draws).unwrap();
+        assert_eq!(placed.triangles, 11);
+        let firsts: Vec<_> = placed
+            .draws
+            .iter()
+            .map(|d| (d.first_triangle, d.first_index))
+            .collect();
+        assert_eq!(firsts, [(0, 30), (4, 0), (4, 0)]);
+        assert_eq!(placed.draws[0].word, 1 << KEY_SHIFT);
+        assert!(placed.matrices.is_empty());
+    }
+
+    #[test]
+    fn flags_and_numbers_have_bits_of_their_own() {
+        let all = Draw {
+            material: u16::MAX,
+            double_sided: true,
+            detailed: true,
+            vertex_offset: -1,
+            ..draw(0, 1, 1)
+        };
+        let placed = PlacedDraws::new(&geometry(), &[all]).unwrap();
+        assert_eq!(placed.draws[0].word, 0xffff | 1 << 16 | 1 << 30 | 1 << 31);
+        assert_eq!(placed.draws[0].vertex_offset, u32::MAX);
+    }
+
+    #[test]
+    fn draws_in_object_space_have_positions_of_their_own() {
+        let draws = [
+            with_vertices(60, 20),
+            draw(0, 0, 0),
+            with_vertices(3, 5),
+            with_vertices(60, 15),
+        ];
+        let geometry = Geometry {
+            draw_capacity: 4,
+            ..in_object_space()
+        };
+        let placed = PlacedDraws::new(&geometry, &draws).unwrap();
+        assert_eq!(placed.positions, 40);
+        assert_eq!(placed.matrices.len(), 4);
+        let places: Vec<_> = placed
+            .draws
+            .iter()
+            .map(|d| {
+                let vertex = d.first_position.wrapping_add(d.shift);
+                (d.first_position, d.last_position, vertex)
+            })
+            .collect();
+        assert_eq!(places, [(0, 19, 60), (20, 0, 0), (20, 4, 3), (25, 14, 60)]);
+    }
+
+    #[test]
+    fn draws_that_do_not_fit_are_named() {
+        let refused = |draws: &[Draw]| {
+            let placed = PlacedDraws::new(&geometry(), draws);
+            placed.err().unwrap().to_string()
+        };
+        assert_eq!(
+            refused(&[draw(0, 1, 0), draw(30, 11, 0)]),
+            "draw 1 reads indices up to 63, and there are 60"
+        );
+        assert_eq!(
+            refused(&[draw(u32::MAX, 1, 0)]),
+            "draw 0 reads indices up to 4294967298, and there are 60"
+        );
+        assert_eq!(
+            refused(&[draw(0, 1, 2)]),
+            "draw 0 has shading key 2, and there are 2"
+        );
+        assert_eq!(
+            refused(&[draw(0, 10, 0), draw(0, 3, 0)]),
+            "13 triangles; the frame was prepared for 12"
+        );
+        assert_eq!(
+            refused(&[draw(0, 1, 0); 4]),
+            "4 draws; the frame was prepared for 3"
+        );
+    }
+
+    #[test]
+    fn draws_in_object_space_that_do_not_fit_are_named() {
+        let refused = |draws: &[Draw]| {
+            let placed = PlacedDraws::new(&in_object_space(), draws);
+            placed.err().unwrap().to_string()
+        };
+        let broken = Draw {
+            to_clip: [[f32::NAN; 4]; 4],
+            ..with_vertices(0, 1)
+        };
+        for (draws, message) in [
+            (
+                vec![with_vertices(0, 1), with_vertices(95, 6)],
+                "draw 1 has the vertices from 95 to before 101; it needs at least one, of those from 0 to before 100",
+            ),
+            (
+                vec![with_vertices(-1, 6)],
+                "draw 0 has the vertices from -1 to before 5; it needs at least one, of those from 0 to before 100",
+            ),
+            (
+                vec![with_vertices(7, 0)],
+                "draw 0 has the vertices from 7 to before 7; it needs at least one, of those from 0 to before 100",
+            ),
+            (
+                vec![with_vertices(0, 30), with_vertices(0, 11)],
+                "41 vertices; the frame was prepared for 40",
+            ),
+            (
+                vec![broken],
+                "the matrix of draw 0 has a number that is not finite",
+            ),
+        ] {
+            assert_eq!(refused(&draws), message);
+        }
+    }
+}

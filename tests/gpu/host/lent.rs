@@ -1,0 +1,115 @@
+//! Buffers that are lent as they are.
+
+use super::machine::{Machine, Seen};
+use super::world::{PLACED, Way, World};
+use crate::stage::on_gpu;
+
+fn bits(colors: &[[f32; 4]]) -> Vec<[u32; 4]> {
+    let pixels = colors.iter();
+    pixels.map(|color| color.map(f32::to_bits)).collect()
+}
+
+fn corners(world: &World) -> Vec<[u32; 4]> {
+    let corners = world.corners();
+    bits(corners.as_flattened())
+}
+
+const WAYS: [Way; 5] = [
+    // Not where a descriptor may begin.
+    Way {
+        positions_offset: 20,
+        ..PLACED
+    },
+    Way {
+        stride: 28,
+        short_indices: true,
+        ..PLACED
+    },
+    Way {
+        object_space: true,
+        stride: 12,
+        ..PLACED
+    },
+    Way {
+        object_space: true,
+        positions_offset: 36,
+        stride: 20,
+        short_indices: true,
+        indices_offset: 6,
+    },
+    Way {
+        object_space: true,
+        stride: 16,
+        indices_offset: 4,
+        ..PLACED
+    },
+];
+
+/// The picture has antialiasing in it, and the host's attributes; whatever way it is lent, all its bits are the same.
+#[test]
+fn every_way_to_lend_gives_the_same_picture() {
+    on_gpu(|gpu| {
+        let world = World::new();
+        let (machine, drawn) = (Machine::new(gpu, &world), world.drawn());
+        let Seen {
+            colors, outcome, ..
+        } = machine.see(&PLACED, &drawn);
+        assert_eq!(outcome.left_over, 0);
+        let pixels = drawn.colors.len() as u64;
+        let superpixels = outcome.statistics.superpixels;
+        assert!((pixels / 8..pixels).contains(&superpixels), "{superpixels}");
+        let changed = (colors.iter().zip(&drawn.colors)).filter(|(now, before)| now != before);
+        assert!(changed.count() > pixels as usize / 10);
+        for way in WAYS {
+            let found = machine.see(&way, &drawn);
+            assert!(bits(&found.colors) == bits(&colors), "{way:?}");
+            let now = found.outcome.statistics.superpixels;
+            assert_eq!(now, superpixels, "{way:?}");
+        }
+    });
+}
+
+#[test]
+fn positions_are_the_twins() {
+    on_gpu(|gpu| {
+        let world = World::new();
+        let (machine, drawn) = (Machine::new(gpu, &world), world.drawn());
+        for way in WAYS.iter().chain([&PLACED]) {
+            let found = machine.see(way, &drawn);
+            assert!(bits(&found.corners) == corners(&world), "{way:?}");
+        }
+    });
+}
+
+/// Of a draw where positions are in object space, of all otherwise.
+#[test]
+fn indices_out_of_range_are_the_last_vertex() {
+    on_gpu(|gpu| {
+        let world = World::new();
+        let (machine, drawn) = (Machine::new(gpu, &world), world.drawn());
+        for way in &WAYS {
+            let mut lent = world.lent(way);
+            let size = if way.short_indices { 2 } else { 4 };
+            // The second corner of the first triangle.
+            let place = way.indices_offset as usize + size;
+            lent.indices[place..place + size].fill(0xf0);
+            let corners = |draw: usize, vertex: usize| {
+                let part = &world.parts[draw];
+                world.meshes[part.mesh]
+                    .clip(&part.to_clip)
+                    .nth(vertex)
+                    .unwrap()
+            };
+            let last = if way.object_space {
+                0
+            } else {
+                world.parts.len() - 1
+            };
+            let vertices = world.meshes[world.parts[last].mesh].vertex_count();
+            let found = machine.see_lent(way, &lent, &drawn);
+            assert_eq!(found.corners[0], corners(0, 0), "{way:?}");
+            assert_eq!(found.corners[1], corners(last, vertices - 1), "{way:?}");
+            assert_eq!(found.corners[2], corners(0, 2), "{way:?}");
+        }
+    });
+}

@@ -1,0 +1,420 @@
+//! The host's Vulkan objects: what it makes, lends and reads back.
+
+use super::world::{Drawn, Lent, SIZE, SKY, Way, World, projection};
+use ash::vk;
+use gpc::host::{
+    Antialiaser, ClipSpace, ColorImage, Frame, Geometry, ImageState, Images, LentImage, Options,
+    Outcome, PositionSpace, Scenery, ShadeSamples, VisibilitySamples,
+};
+use gpc::render::Headless;
+use gpc::vulkan::{Buffer, Gpu, Image, Memory, MemoryUse, Recorder};
+use std::sync::Arc;
+
+/// What a frame came to.
+pub struct Seen {
+    pub colors: Vec<[f32; 4]>,
+    /// Corners of all triangles in clip space, as the library has them.
+    pub corners: Vec<[f32; 4]>,
+    pub outcome: Outcome,
+}
+
+/// Shades, and keeps the corners of triangles.
+struct Shading<'a> {
+    device: &'a ash::Device,
+    layout: vk::PipelineLayout,
+    set: vk::DescriptorSet,
+    samples: vk::Pipeline,
+    corners: vk::Pipeline,
+    triangles: u32,
+}
+
+impl ShadeSamples for Shading<'_> {
+    fn record(&self, commands: vk::CommandBuffer, found: &VisibilitySamples) {
+        let sets = [found.descriptor_set(), self.set];
+        let (compute, device) = (vk::PipelineBindPoint::COMPUTE, self.device);
+        // SAFETY: the commands are being recorded; all handles outlive their execution.
+        unsafe {
+            device.cmd_bind_descriptor_sets(commands, compute, self.layout, 0, &sets, &[]);
+            device.cmd_bind_pipeline(commands, compute, self.corners);
+            device.cmd_push_constants(
+                commands,
+                self.layout,
+                vk::ShaderStageFlags::COMPUTE,
+                0,
+                &self.triangles.to_ne_bytes(),
+            );
+            device.cmd_dispatch(commands, (3 * self.triangles).div_ceil(64), 1, 1);
+            device.cmd_bind_pipeline(commands, compute, self.samples);
+            let (arguments, offset) = found.dispatch(0).unwrap();
+            device.cmd_dispatch_indirect(commands, arguments, offset);
+        }
+    }
+}
+
+/// A host of a world.
+pub struct Machine<'a> {
+    gpu: Arc<Gpu>,
+    memory: Memory,
+    antialiaser: Antialiaser,
+    world: &'a World,
+    pool: vk::CommandPool,
+    descriptors: vk::DescriptorPool,
+    set_layout: vk::DescriptorSetLayout,
+    layout: vk::PipelineLayout,
+    pipelines: [vk::Pipeline; 2],
+}
+
+const STORAGE: vk::BufferUsageFlags = vk::BufferUsageFlags::from_raw(
+    vk::BufferUsageFlags::STORAGE_BUFFER.as_raw()
+        | vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER.as_raw(),
+);
+const WRITTEN: ImageState = ImageState {
+    layout: vk::ImageLayout::TRANSFER_DST_OPTIMAL,
+    stage: vk::PipelineStageFlags2::COPY,
+    access: vk::AccessFlags2::TRANSFER_WRITE,
+};
+const COPIED: ImageState = ImageState {
+    layout: vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
+    stage: vk::PipelineStageFlags2::COPY,
+    access: vk::AccessFlags2::TRANSFER_READ,
+};
+
+macro_rules! spirv {
+    ($name:literal) => {
+        include_bytes!(concat!("shaders/spirv/", $name, ".spv"))
+    };
+}
+
+impl<'a> Machine<'a> {
+    pub fn new(headless: &Headless, world: &'a World) -> Self {
+        let gpu = headless.gpu().clone();
+        let antialiaser = Antialiaser::in_gpu(gpu.clone()).unwrap();
+        let device = gpu.device();
+        let compute = vk::ShaderStageFlags::COMPUTE;
+        // SAFETY: plain creations on a live device.
+        unsafe {
+            let info = vk::CommandPoolCreateInfo::default().queue_family_index(gpu.queue_family());
+            let pool = device.create_command_pool(&info, None).unwrap();
+            let sizes = [vk::DescriptorPoolSize {
+                ty: vk::DescriptorType::STORAGE_BUFFER,
+                descriptor_count: 3,
+            }];
+            let info = vk::DescriptorPoolCreateInfo::default()
+                .max_sets(1)
+                .pool_sizes(&sizes);
+            let descriptors = device.create_descriptor_pool(&info, None).unwrap();
+            let bindings = [0, 1, 2].map(|binding| {
+                vk::DescriptorSetLayoutBinding::default()
+                    .binding(binding)
+                    .descriptor_type(vk::DescriptorType::STORAGE_BUFFER)
+                    .descriptor_count(1)
+                    .stage_flags(compute)
+            });
+            let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
+            let set_layout = device.create_descriptor_set_layout(&info, None).unwrap();
+            let sets = [antialiaser.samples_layout(), set_layout];
+            let push = [vk::PushConstantRange {
+                stage_flags: compute,
+                offset: 0,
+                size: 4,
+            }];
+            let info = vk::PipelineLayoutCreateInfo::default()
+                .set_layouts(&sets)
+                .push_constant_ranges(&push);
+            let layout = device.create_pipeline_layout(&info, None).unwrap();
+            let pipeline = |code: &[u8]| {
+                let words = ash::util::read_spv(&mut std::io::Cursor::new(code)).unwrap();
+                let info = vk::ShaderModuleCreateInfo::default().code(&words);
+                let module = device.create_shader_module(&info, None).unwrap();
+                let stage = vk::PipelineShaderStageCreateInfo::default()
+                    .stage(compute)
+                    .module(module)
+                    .name(c"main");
+                let info = vk::ComputePipelineCreateInfo::default()
+                    .stage(stage)
+                    .layout(layout);
+                let cache = vk::PipelineCache::null();
+                let made = device.create_compute_pipelines(cache, &[info], None);
+                device.destroy_shader_module(module, None);
+                made.unwrap()[0]
+            };
+            let pipelines = [pipeline(spirv!("samples")), pipeline(spirv!("corners"))];
+            Self {
+                memory: Memory::new(gpu.clone(), None),
+                antialiaser,
+                world,
+                pool,
+                descriptors,
+                set_layout,
+                layout,
+                pipelines,
+                gpu,
+            }
+        }
+    }
+
+    /// The picture of the world, lent in some way, with what the host has drawn of it.
+    pub fn see(&self, way: &Way, drawn: &Drawn) -> Seen {
+        self.see_lent(way, &self.world.lent(way), drawn)
+    }
+
+    /// The same with buffers of the caller's.
+    pub fn see_lent(&self, way: &Way, lent: &Lent, drawn: &Drawn) -> Seen {
+        let positions = self.filled(&lent.positions);
+        let indices = self.filled(&lent.indices);
+        let paints = self.filled(bytemuck::cast_slice(&lent.paints));
+        let of_draws: Vec<_> = (self.world.parts.iter())
+            .map(|part| [part.color[0], part.color[1], part.color[2], 1.0])
+            .collect();
+        let of_draws = self.filled(bytemuck::cast_slice(&of_draws));
+        let corner_bytes = 48 * u64::from(lent.triangle_count);
+        let corners = self.read_back(corner_bytes);
+        let color_bytes = 16 * drawn.colors.len() as u64;
+        let read_back = self.read_back(color_bytes);
+        let (plain, deep) = (vk::ImageAspectFlags::COLOR, vk::ImageAspectFlags::DEPTH);
+        let ids = self.image(vk::Format::R32_UINT, plain);
+        let depth = self.image(vk::Format::D32_SFLOAT, deep);
+        let color = self.image(vk::Format::R32G32B32A32_SFLOAT, plain);
+        let pictures = [
+            (&ids, plain, self.filled(bytemuck::cast_slice(&drawn.ids))),
+            (
+                &depth,
+                deep,
+                self.filled(bytemuck::cast_slice(&drawn.depths)),
+            ),
+            (
+                &color,
+                plain,
+                self.filled(bytemuck::cast_slice(&drawn.colors)),
+            ),
+        ];
+        let geometry = Geometry {
+            positions: positions.handle(),
+            positions_offset: way.positions_offset,
+            position_stride: way.stride,
+            position_space: if way.object_space {
+                PositionSpace::Object {
+                    capacity: lent.drawn_vertices,
+                }
+            } else {
+                PositionSpace::Clip
+            },
+            vertex_capacity: lent.vertex_count,
+            indices: indices.handle(),
+            indices_offset: way.indices_offset,
+            index_type: lent.index_type,
+            index_capacity: lent.index_count,
+            triangle_capacity: lent.triangle_count,
+            draw_capacity: lent.draws.len() as u32,
+            keys: 1,
+            clip: ClipSpace {
+                y_up: false,
+                reversed_depth: true,
+            },
+        };
+        let lend = |image: &Image, aspects, after| LentImage {
+            image: image.handle(),
+            view: image.view(),
+            aspects,
+            before: WRITTEN,
+            after,
+        };
+        let images = Images {
+            ids: lend(&ids, plain, WRITTEN),
+            depth: Some(lend(&depth, deep, WRITTEN)),
+            color: ColorImage {
+                lent: lend(&color, plain, COPIED),
+                format: vk::Format::R32G32B32A32_SFLOAT,
+                encoded: false,
+            },
+        };
+        let options = Options {
+            background: Some(SKY),
+            ..Options::new(SIZE[0], SIZE[1])
+        };
+        // SAFETY: what is lent is as it says, and outlives the frame.
+        let mut frame = unsafe { self.antialiaser.prepare(&geometry, &images, &options) }.unwrap();
+        let shading = Shading {
+            device: self.gpu.device(),
+            layout: self.layout,
+            set: self.set([&of_draws, &paints, &corners]),
+            samples: self.pipelines[0],
+            corners: self.pipelines[1],
+            triangles: lent.triangle_count,
+        };
+        let scenery = Scenery {
+            draws: &lent.draws,
+            projection: projection(),
+        };
+        self.run(
+            &mut frame,
+            &scenery,
+            &shading,
+            &pictures,
+            (&color, &read_back),
+        );
+        let outcome = frame.outcome().unwrap();
+        let pixels = drawn.colors.len();
+        Seen {
+            colors: read_back.read(pixels).unwrap().to_vec(),
+            corners: corners
+                .read(3 * lent.triangle_count as usize)
+                .unwrap()
+                .to_vec(),
+            outcome,
+        }
+    }
+
+    /// Fills images, has them antialiased, and copies one of them.
+    fn run(
+        &self,
+        frame: &mut Frame,
+        scenery: &Scenery<'_>,
+        shading: &Shading<'_>,
+        pictures: &[(&Image, vk::ImageAspectFlags, Buffer)],
+        (shown, read_back): (&Image, &Buffer),
+    ) {
+        let device = self.gpu.device();
+        let region = |aspect_mask| {
+            [vk::BufferImageCopy::default()
+                .image_subresource(vk::ImageSubresourceLayers {
+                    aspect_mask,
+                    mip_level: 0,
+                    base_array_layer: 0,
+                    layer_count: 1,
+                })
+                .image_extent(vk::Extent3D {
+                    width: SIZE[0],
+                    height: SIZE[1],
+                    depth: 1,
+                })]
+        };
+        // SAFETY: the commands are waited for; all handles outlive them.
+        unsafe {
+            let info = vk::CommandBufferAllocateInfo::default()
+                .command_pool(self.pool)
+                .command_buffer_count(1);
+            let commands = device.allocate_command_buffers(&info).unwrap()[0];
+            let info = vk::CommandBufferBeginInfo::default();
+            device.begin_command_buffer(commands, &info).unwrap();
+            for (image, aspect, bytes) in pictures {
+                let recorder = Recorder::new(&self.gpu, commands, None);
+                recorder.transition(image, vk::ImageLayout::UNDEFINED, WRITTEN.layout);
+                device.cmd_copy_buffer_to_image(
+                    commands,
+                    bytes.handle(),
+                    image.handle(),
+                    WRITTEN.layout,
+                    &region(*aspect),
+                );
+            }
+            frame.record(commands, scenery, shading).unwrap();
+            device.cmd_copy_image_to_buffer(
+                commands,
+                shown.handle(),
+                COPIED.layout,
+                read_back.handle(),
+                &region(vk::ImageAspectFlags::COLOR),
+            );
+            let barriers = [vk::MemoryBarrier2::default()
+                .src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
+                .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
+                .dst_stage_mask(vk::PipelineStageFlags2::HOST)
+                .dst_access_mask(vk::AccessFlags2::HOST_READ)];
+            let info = vk::DependencyInfo::default().memory_barriers(&barriers);
+            device.cmd_pipeline_barrier2(commands, &info);
+            device.end_command_buffer(commands).unwrap();
+            let buffers = [commands];
+            let submits = [vk::SubmitInfo::default().command_buffers(&buffers)];
+            let queue = device.get_device_queue(self.gpu.queue_family(), 0);
+            device
+                .queue_submit(queue, &submits, vk::Fence::null())
+                .unwrap();
+            device.queue_wait_idle(queue).unwrap();
+            device.free_command_buffers(self.pool, &[commands]);
+        }
+    }
+
+    /// A set of the host's that shows these buffers; the one before goes.
+    fn set(&self, buffers: [&Buffer; 3]) -> vk::DescriptorSet {
+        let device = self.gpu.device();
+        let layouts = [self.set_layout];
+        // SAFETY: the pool's sets are not in use; the buffers outlive that of the new one.
+        unsafe {
+            let flags = vk::DescriptorPoolResetFlags::empty();
+            device
+                .reset_descriptor_pool(self.descriptors, flags)
+                .unwrap();
+            let info = vk::DescriptorSetAllocateInfo::default()
+                .descriptor_pool(self.descriptors)
+                .set_layouts(&layouts);
+            let set = device.allocate_descriptor_sets(&info).unwrap()[0];
+            let infos = buffers.map(|buffer| {
+                vk::DescriptorBufferInfo::default()
+                    .buffer(buffer.handle())
+                    .range(vk::WHOLE_SIZE)
+            });
+            let write = vk::WriteDescriptorSet::default()
+                .dst_set(set)
+                .descriptor_type(vk::DescriptorType::STORAGE_BUFFER)
+                .buffer_info(&infos);
+            device.update_descriptor_sets(&[write], &[]);
+            set
+        }
+    }
+
+    fn filled(&self, bytes: &[u8]) -> Buffer {
+        let usage = STORAGE | vk::BufferUsageFlags::TRANSFER_SRC;
+        let size = bytes.len() as u64;
+        let buffer = self.memory.buffer("lent", size, usage, MemoryUse::Upload);
+        let mut buffer = buffer.unwrap();
+        buffer.bytes_mut()[..bytes.len()].copy_from_slice(bytes);
+        buffer
+    }
+
+    fn read_back(&self, bytes: u64) -> Buffer {
+        let usage = STORAGE | vk::BufferUsageFlags::TRANSFER_DST;
+        let buffer = self
+            .memory
+            .buffer("read back", bytes, usage, MemoryUse::Readback);
+        buffer.unwrap()
+    }
+
+    fn image(&self, format: vk::Format, aspect: vk::ImageAspectFlags) -> Image {
+        let drawn = if aspect == vk::ImageAspectFlags::COLOR {
+            vk::ImageUsageFlags::COLOR_ATTACHMENT
+        } else {
+            vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT
+        };
+        let copied = vk::ImageUsageFlags::TRANSFER_SRC | vk::ImageUsageFlags::TRANSFER_DST;
+        let info = vk::ImageCreateInfo::default()
+            .image_type(vk::ImageType::TYPE_2D)
+            .format(format)
+            .extent(vk::Extent3D {
+                width: SIZE[0],
+                height: SIZE[1],
+                depth: 1,
+            })
+            .mip_levels(1)
+            .array_layers(1)
+            .samples(vk::SampleCountFlags::TYPE_1)
+            .usage(vk::ImageUsageFlags::SAMPLED | drawn | copied);
+        self.memory.image("lent", &info, aspect).unwrap()
+    }
+}
+
+impl Drop for Machine<'_> {
+    fn drop(&mut self) {
+        let device = self.gpu.device();
+        // SAFETY: all commands are done.
+        unsafe {
+            for pipeline in self.pipelines {
+                device.destroy_pipeline(pipeline, None);
+            }
+            device.destroy_pipeline_layout(self.layout, None);
+            device.destroy_descriptor_set_layout(self.set_layout, None);
+            device.destroy_descriptor_pool(self.descriptors, None);
+            device.destroy_command_pool(self.pool, None);
+        }
+    }
+}

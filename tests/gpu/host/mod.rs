@@ -1,0 +1,5 @@
+//! A host that works in the library's device, and the pictures that it gets, whatever way it lends what it has.
+
+mod lent;
+mod machine;
+mod world;

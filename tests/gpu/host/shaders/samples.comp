@@ -1,0 +1,15 @@
+// samples: the colour of a draw, in the shade that its vertices have.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define GPC_SET 0
+#include "gpc_visibility.glsl"
+#include "host.glsl"
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint KEY = 0u;
+
+void main() {
+    GpcSample s;
+    if (!gpc_sample(KEY, s)) return;
+    float paint = dot(vec3(paints[s.vertices.x], paints[s.vertices.y], paints[s.vertices.z]), s.weights);
+    gpc_store(s, vec4(colors[s.draw].rgb * paint, 1.0));
+}

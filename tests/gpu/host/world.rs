@@ -1,0 +1,299 @@
+//! What the tests' host shows, and what its own renderer would draw of it.
+
+use ash::vk;
+use gpc::host::Draw;
+use gpc::reference::transform::clip_position;
+use gpc::reference::visibility::{Surface, nearest};
+
+pub const SIZE: [u32; 2] = [64, 64];
+/// Linear light where nothing is.
+pub const SKY: [f32; 3] = [0.1, 0.3, 0.7];
+
+/// In columns.
+pub type Matrix = [[f32; 4]; 4];
+
+/// Vertices in a space of their own, how bright each is, and triangles.
+pub struct Mesh {
+    positions: Vec<[f32; 3]>,
+    paints: Vec<f32>,
+    indices: Vec<u32>,
+}
+
+/// One of what is shown.
+pub struct Part {
+    pub mesh: usize,
+    pub to_clip: Matrix,
+    pub color: [f32; 3],
+}
+
+pub struct World {
+    pub meshes: Vec<Mesh>,
+    pub parts: Vec<Part>,
+}
+
+/// How vertices and indices are lent.
+#[derive(Clone, Copy, Debug)]
+pub struct Way {
+    /// Whether positions are in object space; otherwise the host has placed them itself.
+    pub object_space: bool,
+    pub positions_offset: u64,
+    pub stride: u32,
+    pub short_indices: bool,
+    pub indices_offset: u64,
+}
+
+/// As a host that does all by itself lends it.
+pub const PLACED: Way = Way {
+    object_space: false,
+    positions_offset: 0,
+    stride: 16,
+    short_indices: false,
+    indices_offset: 0,
+};
+
+/// Buffers and draws of a world.
+pub struct Lent {
+    pub positions: Vec<u8>,
+    pub vertex_count: u32,
+    /// Of each vertex.
+    pub paints: Vec<f32>,
+    pub indices: Vec<u8>,
+    pub index_type: vk::IndexType,
+    pub index_count: u32,
+    pub draws: Vec<Draw>,
+    pub triangle_count: u32,
+    /// Vertices of all draws.
+    pub drawn_vertices: u32,
+}
+
+/// What the host's own renderer draws, a pixel each: its triangle's ID, depth and colour.
+pub struct Drawn {
+    pub ids: Vec<u32>,
+    pub depths: Vec<f32>,
+    pub colors: Vec<[f32; 4]>,
+}
+
+pub fn product(a: &Matrix, b: &Matrix) -> Matrix {
+    std::array::from_fn(|column| {
+        std::array::from_fn(|row| (0..4).map(|i| a[i][row] * b[column][i]).sum())
+    })
+}
+
+/// A perspective, y down, depth from 1 near to 0 far away.
+pub fn projection() -> Matrix {
+    let mut matrix = [[0.0; 4]; 4];
+    (matrix[0][0], matrix[1][1]) = (1.3, -1.3);
+    (matrix[2][3], matrix[3][2]) = (-1.0, 0.1);
+    matrix
+}
+
+/// Turned around an axis through the eye's direction and the vertical one, and moved.
+fn placed(around: f32, turned: f32, at: [f32; 3]) -> Matrix {
+    let ((s, c), (t, d)) = (around.sin_cos(), turned.sin_cos());
+    [
+        [c * d, s, -c * t, 0.0],
+        [-s * d, c, s * t, 0.0],
+        [t, 0.0, d, 0.0],
+        [at[0], at[1], at[2], 1.0],
+    ]
+}
+
+impl World {
+    /// Blades, some thinner than a pixel, before sheets, each mesh shown several times.
+    pub fn new() -> Self {
+        let mut blades = Mesh {
+            positions: vec![[0.0; 3]],
+            paints: vec![0.2],
+            indices: Vec::new(),
+        };
+        for blade in 0..9_u32 {
+            let (angle, wide) = (0.7 * blade as f32, 0.01 + 0.012 * blade as f32);
+            for (side, paint) in [(-wide, 0.5), (wide, 1.0)] {
+                let (s, c) = (angle + side).sin_cos();
+                blades.positions.push([c, s, 0.1 * s]);
+                blades.paints.push(paint);
+            }
+            blades.indices.extend([0, 2 * blade + 1, 2 * blade + 2]);
+        }
+        let mut sheet = Mesh {
+            positions: Vec::new(),
+            paints: Vec::new(),
+            indices: Vec::new(),
+        };
+        for row in 0..5_u32 {
+            for column in 0..5_u32 {
+                let (x, y) = (column as f32 / 2.0 - 1.0, row as f32 / 2.0 - 1.0);
+                sheet.positions.push([x, y, 0.2 * (3.0 * x + y).sin()]);
+                sheet.paints.push(0.3 + 0.15 * row as f32);
+                if row < 4 && column < 4 {
+                    let a = 5 * row + column;
+                    sheet.indices.extend([a, a + 6, a + 1, a, a + 5, a + 6]);
+                }
+            }
+        }
+        let part = |mesh, number: u32| {
+            let n = number as f32;
+            let at = [
+                (2.3 * n).sin() * 0.8,
+                (1.7 * n).cos() * 0.7,
+                -2.0 - 0.37 * n,
+            ];
+            Part {
+                mesh,
+                to_clip: product(&projection(), &placed(0.31 + n, 0.4 * n, at)),
+                color: [1.0, 0.3 + 0.1 * n, 1.0 - 0.13 * n],
+            }
+        };
+        Self {
+            meshes: vec![blades, sheet],
+            parts: (0..7).map(|n| part(usize::from(n % 3 == 2), n)).collect(),
+        }
+    }
+
+    /// The buffers of a way.
+    pub fn lent(&self, way: &Way) -> Lent {
+        let mut vertices: Vec<Vec<f32>> = Vec::new();
+        let mut paints = Vec::new();
+        let mut indices: Vec<u32> = Vec::new();
+        let mut of_meshes = Vec::new();
+        for mesh in &self.meshes {
+            of_meshes.push((vertices.len(), indices.len()));
+            indices.extend(&mesh.indices);
+            if way.object_space {
+                vertices.extend(mesh.positions.iter().map(|p| p.to_vec()));
+                paints.extend(&mesh.paints);
+            }
+        }
+        let mut drawn_vertices = 0;
+        let mut draws = Vec::new();
+        for (number, part) in self.parts.iter().enumerate() {
+            let mesh = &self.meshes[part.mesh];
+            let (first_vertex, first_index) = of_meshes[part.mesh];
+            let first_vertex = if way.object_space {
+                first_vertex
+            } else {
+                let first = vertices.len();
+                vertices.extend(mesh.clip(&part.to_clip).map(|p| p.to_vec()));
+                paints.extend(&mesh.paints);
+                first
+            };
+            drawn_vertices += mesh.positions.len() as u32;
+            draws.push(Draw {
+                first_index: first_index as u32,
+                triangle_count: mesh.indices.len() as u32 / 3,
+                vertex_offset: first_vertex as i32,
+                vertex_count: mesh.positions.len() as u32,
+                to_clip: part.to_clip,
+                material: number as u16,
+                double_sided: true,
+                ..Draw::default()
+            });
+        }
+        // What lies between is not read as anything finite.
+        let mut positions = vec![0xff; way.positions_offset as usize];
+        for vertex in &vertices {
+            let end = positions.len() + way.stride as usize;
+            positions.extend(bytemuck::cast_slice::<f32, u8>(vertex));
+            positions.resize(end, 0xff);
+        }
+        let mut index_bytes = vec![0xff; way.indices_offset as usize];
+        for &index in &indices {
+            if way.short_indices {
+                index_bytes.extend((index as u16).to_ne_bytes());
+            } else {
+                index_bytes.extend(index.to_ne_bytes());
+            }
+        }
+        index_bytes.resize(index_bytes.len().next_multiple_of(4), 0xff);
+        Lent {
+            positions,
+            vertex_count: vertices.len() as u32,
+            paints,
+            indices: index_bytes,
+            index_type: if way.short_indices {
+                vk::IndexType::UINT16
+            } else {
+                vk::IndexType::UINT32
+            },
+            index_count: indices.len() as u32,
+            triangle_count: draws.iter().map(|draw| draw.triangle_count).sum(),
+            draws,
+            drawn_vertices,
+        }
+    }
+
+    /// The corners of all triangles in clip space, in the order of the draws.
+    pub fn corners(&self) -> Vec<[[f32; 4]; 3]> {
+        let of_part = |part: &Part| {
+            let mesh = &self.meshes[part.mesh];
+            let places: Vec<_> = mesh.clip(&part.to_clip).collect();
+            let triangles = mesh.indices.chunks_exact(3);
+            triangles
+                .map(|t| [0, 1, 2].map(|corner| places[t[corner] as usize]))
+                .collect::<Vec<_>>()
+        };
+        self.parts.iter().flat_map(of_part).collect()
+    }
+
+    /// Colour and paints of each triangle, in the same order.
+    fn looks(&self) -> Vec<([f32; 3], [f32; 3])> {
+        let of_part = |part: &Part| {
+            let mesh = &self.meshes[part.mesh];
+            let triangles = mesh.indices.chunks_exact(3);
+            let color = part.color;
+            triangles
+                .map(|t| {
+                    (
+                        color,
+                        [0, 1, 2].map(|corner| mesh.paints[t[corner] as usize]),
+                    )
+                })
+                .collect::<Vec<_>>()
+        };
+        self.parts.iter().flat_map(of_part).collect()
+    }
+
+    /// What the centres of pixels see.
+    pub fn drawn(&self) -> Drawn {
+        let half = SIZE.map(|side| 0.5 * side as f32);
+        let in_pixels = |[x, y, z, w]: [f32; 4]| [x * half[0], y * half[1], z, w];
+        let surfaces: Vec<_> = (1..)
+            .zip(self.corners())
+            .filter_map(|(id, corners)| Surface::new(id, corners.map(in_pixels), true))
+            .collect();
+        let looks = self.looks();
+        let mut drawn = Drawn {
+            ids: Vec::new(),
+            depths: Vec::new(),
+            colors: Vec::new(),
+        };
+        for pixel in 0..SIZE[0] * SIZE[1] {
+            let at = [pixel % SIZE[0], pixel / SIZE[0]];
+            let centre = [0, 1].map(|axis| f64::from(at[axis]) + 0.5 - f64::from(half[axis]));
+            let hit = nearest(&surfaces, centre).nearest;
+            drawn.ids.push(hit.map_or(0, |hit| hit.id));
+            drawn.depths.push(hit.map_or(0.0, |hit| hit.depth as f32));
+            let color = hit.map_or(SKY, |hit| {
+                let surface = surfaces.iter().find(|surface| surface.id() == hit.id);
+                let factors = surface.unwrap().edges().factors(centre);
+                let (color, paints) = looks[hit.id as usize - 1];
+                let sum: f64 = factors.iter().sum();
+                let paint: f64 = (0..3).map(|i| factors[i] * f64::from(paints[i])).sum();
+                color.map(|channel| channel * (paint / sum) as f32)
+            });
+            drawn.colors.push([color[0], color[1], color[2], 1.0]);
+        }
+        drawn
+    }
+}
+
+impl Mesh {
+    pub fn vertex_count(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Its vertices in clip space.
+    pub fn clip(&self, to_clip: &Matrix) -> impl Iterator<Item = [f32; 4]> {
+        self.positions.iter().map(|p| clip_position(*to_clip, *p))
+    }
+}
