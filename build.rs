@@ -157,6 +157,7 @@ const VARIANTS: &[Variant] = &[
     ("adopt", "adopt.comp", &[]),
     ("transform", "transform.comp", &[]),
     ("take", "take.comp", &[]),
+    ("centres", "centres.comp", &[]),
     ("patch_vertex", "patch.vert", &[]),
     ("patch_fragment", "patch.frag", &[]),
 ];

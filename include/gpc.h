@@ -235,7 +235,7 @@ typedef struct GpcImage {
     struct GpcImageState after;
 } GpcImage;
 
-// What the application has drawn, one sample a pixel.
+// What the application has drawn, one sample a pixel, and where its picture goes.
 typedef struct GpcImages {
     // sizeof(GpcImages).
     uint32_t size;
@@ -245,7 +245,8 @@ typedef struct GpcImages {
     // linear light, or encodes it itself.
     VkBool32 color_encoded;
     // Triangle IDs, VK_FORMAT_R32_UINT, made with VK_IMAGE_USAGE_SAMPLED_BIT: 1 + the index of the nearest triangle in the
-    // order of the frame's draws, 0 where there is none.
+    // order of the frame's draws, 0 where there is none. Where image and view are VK_NULL_HANDLE, here and of depth, the
+    // library draws both for itself.
     struct GpcImage ids;
     // Depth of the nearest triangle, of any depth format, made with VK_IMAGE_USAGE_SAMPLED_BIT; the view shows depth alone.
     // Without GpcOptions.thin, image and view may be VK_NULL_HANDLE.
@@ -272,12 +273,16 @@ typedef struct GpcOptions {
     uint32_t detection;
     // Differences above this, in 8-bit sRGB code values of any channel, are a contrast: 0 to 255.
     uint32_t contrast;
-    // VK_TRUE if triangles too thin for a pixel's centre to see make superpixels too; this needs the depth image.
+    // VK_TRUE if triangles too thin for a pixel's centre to see make superpixels too; where IDs are lent, this needs depth,
+    // too.
     VkBool32 thin;
     // VK_TRUE if the image holds radiance that is tone-mapped later, so that detection compares tone-mapped colours.
     VkBool32 high_dynamic_range;
     // VK_TRUE if textures are filtered over what each sample stands for, VK_FALSE if over the whole pixel.
     VkBool32 sharp;
+    // VK_TRUE if the application's shading makes the colours of all pixels, so that the colour image may hold anything before;
+    // VK_FALSE if of superpixels alone, which are drawn over what it holds.
+    VkBool32 shade_all;
     // VK_TRUE if `background` shows where no triangle is, VK_FALSE if that is transparent.
     VkBool32 has_background;
     // Linear light.

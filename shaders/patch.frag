@@ -1,11 +1,12 @@
-// patch: the colours of superpixels, drawn into a host's image; all other pixels keep what they hold.
-// Reads: masks, marks, color. ENCODED: as for take.
+// patch: the colours of superpixels, drawn into a host's image; all other pixels keep what they hold. ALL: those of all
+// pixels. Reads: masks, marks, color. ENCODED: as for take.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/color.glsl"
 layout(constant_id = 0) const bool ENCODED = false;
 layout(constant_id = 1) const bool GROWN = false;       // masks hold those that `grow` added alone
+layout(constant_id = 2) const bool ALL = false;
 layout(std430, set = 0, binding = 18) readonly buffer ColorIn { vec4 color_in[]; };
 layout(std430, set = 0, binding = 20) readonly buffer MasksIn { uint masks_in[]; };
 layout(std430, set = 0, binding = 41) readonly buffer MarksIn { uint marks_in[]; };
@@ -15,7 +16,7 @@ void main() {
     uvec2 pixel = min(uvec2(gl_FragCoord.xy), frame.size - 1u);
     uint tile = pixel.y / 4u * frame.tiles.x + pixel.x / 8u, word = masks_in[tile];
     if (GROWN) word |= marks_in[2u * frame.tiles.x * frame.tiles.y + tile];
-    if ((word >> (pixel.y % 4u * 8u + pixel.x % 8u) & 1u) == 0u) discard;
+    if (!ALL && (word >> (pixel.y % 4u * 8u + pixel.x % 8u) & 1u) == 0u) discard;
     vec4 c = color_in[pixel.y * frame.size.x + pixel.x];
     drawn = vec4(ENCODED ? srgb_encode(c.rgb) : c.rgb, c.a);
 }

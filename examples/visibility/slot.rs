@@ -190,7 +190,7 @@ impl<'a> Slot<'a> {
             after,
         };
         Images {
-            ids: lent(&self.ids, SHOWN, SHOWN),
+            ids: Some(lent(&self.ids, SHOWN, SHOWN)),
             depth: Some(lent(&self.depth, DEPTH_DRAWN, SHOWN)),
             color: ColorImage {
                 lent: lent(&self.color, COLOR_DRAWN, COPIED),

@@ -33,7 +33,7 @@ pub struct GpcImage {
     pub after: GpcImageState,
 }
 
-/// What the application has drawn, one sample a pixel.
+/// What the application has drawn, one sample a pixel, and where its picture goes.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct GpcImages {
@@ -45,7 +45,8 @@ pub struct GpcImages {
     /// linear light, or encodes it itself.
     pub color_encoded: vk::Bool32,
     /// Triangle IDs, VK_FORMAT_R32_UINT, made with VK_IMAGE_USAGE_SAMPLED_BIT: 1 + the index of the nearest triangle in the
-    /// order of the frame's draws, 0 where there is none.
+    /// order of the frame's draws, 0 where there is none. Where image and view are VK_NULL_HANDLE, here and of depth, the
+    /// library draws both for itself.
     pub ids: GpcImage,
     /// Depth of the nearest triangle, of any depth format, made with VK_IMAGE_USAGE_SAMPLED_BIT; the view shows depth alone.
     /// Without GpcOptions.thin, image and view may be VK_NULL_HANDLE.
@@ -80,16 +81,17 @@ impl GpcImage {
         }
     }
 
-    fn is_absent(&self) -> bool {
-        self.image == vk::Image::null() && self.view == vk::ImageView::null()
+    fn lent_if_there(&self) -> Option<LentImage> {
+        let absent = self.image == vk::Image::null() && self.view == vk::ImageView::null();
+        (!absent).then(|| self.lent())
     }
 }
 
 impl GpcImages {
     pub(super) fn images(&self) -> Result<Images, Error> {
         Ok(Images {
-            ids: self.ids.lent(),
-            depth: (!self.depth.is_absent()).then(|| self.depth.lent()),
+            ids: self.ids.lent_if_there(),
+            depth: self.depth.lent_if_there(),
             color: ColorImage {
                 lent: self.color.lent(),
                 format: self.color_format,

@@ -71,12 +71,16 @@ pub struct GpcOptions {
     pub detection: u32,
     /// Differences above this, in 8-bit sRGB code values of any channel, are a contrast: 0 to 255.
     pub contrast: u32,
-    /// VK_TRUE if triangles too thin for a pixel's centre to see make superpixels too; this needs the depth image.
+    /// VK_TRUE if triangles too thin for a pixel's centre to see make superpixels too; where IDs are lent, this needs depth,
+    /// too.
     pub thin: vk::Bool32,
     /// VK_TRUE if the image holds radiance that is tone-mapped later, so that detection compares tone-mapped colours.
     pub high_dynamic_range: vk::Bool32,
     /// VK_TRUE if textures are filtered over what each sample stands for, VK_FALSE if over the whole pixel.
     pub sharp: vk::Bool32,
+    /// VK_TRUE if the application's shading makes the colours of all pixels, so that the colour image may hold anything before;
+    /// VK_FALSE if of superpixels alone, which are drawn over what it holds.
+    pub shade_all: vk::Bool32,
     /// VK_TRUE if `background` shows where no triangle is, VK_FALSE if that is transparent.
     pub has_background: vk::Bool32,
     /// Linear light.
@@ -122,6 +126,7 @@ pub unsafe extern "C" fn gpc_options_init(
                 thin: u32::from(defaults.thin),
                 high_dynamic_range: u32::from(defaults.high_dynamic_range),
                 sharp: u32::from(defaults.sharp),
+                shade_all: u32::from(defaults.shade_all),
                 has_background: 0,
                 background: [0.0; 3],
                 location_count: 0,
@@ -165,6 +170,7 @@ impl GpcOptions {
             background: has_background.then_some(self.background),
             high_dynamic_range: flag("GpcOptions.high_dynamic_range", self.high_dynamic_range)?,
             sharp: flag("GpcOptions.sharp", self.sharp)?,
+            shade_all: flag("GpcOptions.shade_all", self.shade_all)?,
             max_memory: (self.max_memory != 0).then_some(self.max_memory),
         })
     }

@@ -51,7 +51,6 @@ impl Default for Draw {
 /// Bits of a triangle's last word: see `shaders/include/frame.glsl`.
 const KEY_SHIFT: u32 = 16;
 const DETAILED: u32 = 1 << 30;
-const DOUBLE_SIDED: u32 = 1 << 31;
 
 /// A frame's draws as the device reads them.
 pub(super) struct PlacedDraws {
@@ -131,6 +130,16 @@ impl PlacedDraws {
     }
 }
 
+impl PlacedDraws {
+    /// The draws, and how many triangles each has.
+    pub fn counted(&self) -> impl Iterator<Item = (&HostDraw, u32)> {
+        let next = self.draws.iter().skip(1).map(|draw| draw.first_triangle);
+        let ends = next.chain([self.triangles]);
+        let draws = self.draws.iter().zip(ends);
+        draws.map(|(draw, end)| (draw, end - draw.first_triangle))
+    }
+}
+
 impl Draw {
     fn check(&self, geometry: &Geometry, draw: usize) -> Result<(), HostError> {
         let end = u64::from(self.first_index) + 3 * u64::from(self.triangle_count);
@@ -173,7 +182,7 @@ impl Draw {
         u32::from(self.material)
             | self.key << KEY_SHIFT
             | flag(DETAILED, self.detailed)
-            | flag(DOUBLE_SIDED, self.double_sided)
+            | flag(HostDraw::DOUBLE_SIDED, self.double_sided)
     }
 }
 
@@ -237,6 +246,8 @@ mod tests {
             .collect();
         assert_eq!(firsts, [(0, 30), (4, 0), (4, 0)]);
         assert_eq!(placed.draws[0].word, 1 << KEY_SHIFT);
+        let counts: Vec<_> = placed.counted().map(|(_, triangles)| triangles).collect();
+        assert_eq!(counts, [4, 0, 7]);
         assert!(placed.matrices.is_empty());
     }
 

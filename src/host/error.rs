@@ -60,6 +60,9 @@ pub enum HostError {
         "thin triangles are found by depth: lend the depth image, or set Options::thin to false"
     )]
     NoDepth,
+    /// Depth is of no use without IDs.
+    #[error("depth is lent without IDs: lend both, or neither to have both drawn")]
+    NoIds,
     /// A frame has more of something than it was prepared for.
     #[error("{found} {what}; the frame was prepared for {capacity}")]
     Capacity {

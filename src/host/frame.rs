@@ -1,19 +1,21 @@
 //! One of a host's frames in flight.
 
 use super::adoption::Adoption;
+use super::base::Base;
 use super::content::HostContent;
 use super::draw::PlacedDraws;
 use super::shading::{HostShading, ShadeSamples, VisibilitySamples};
-use super::{Draw, Geometry, HostError, Images, Options, Shared};
+use super::{Draw, Geometry, HostError, Images, LentImage, Options, Shared};
 use crate::passes::{
-    Counter, FrameUniform, IdViews, Locations, OwnSet, Patch, Resources, VisibilityUniform,
+    Counter, FrameUniform, IdViews, Locations, OwnSet, Patch, Patched, RasterTargets, Resources,
+    VisibilityUniform,
 };
 use crate::render::engine::{Engine, EngineKind, Growing, Work, with_probes};
 use crate::render::footprint::Footprints;
 use crate::render::plan::{Effort, Plan};
 use crate::render::statistics::Shortfall;
 use crate::render::{PassTime, RenderError, Settings, Statistics};
-use crate::vulkan::{Buffer, Memory, MemoryUse, Pipeline, Recorder, Timings};
+use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;
 use std::sync::Arc;
 
@@ -47,10 +49,9 @@ pub struct Frame {
     resources: Resources,
     engine: Engine,
     adoption: Adoption,
-    take: Pipeline,
+    base: Base,
     patch: Patch,
     visibility: Buffer,
-    take_set: OwnSet,
     visibility_set: OwnSet,
     counters: Buffer,
     timings: Timings,
@@ -115,11 +116,20 @@ impl Frame {
         let locations = settings.locations()?;
         let count = locations.len() as u32;
         let locations = with_probes(locations)?;
-        let views = IdViews {
-            ids: images.ids.view,
+        let own_targets = || {
+            let single = vk::SampleCountFlags::TYPE_1;
+            RasterTargets::new(&memory, width, height, single, false)
+        };
+        let own = images.ids.is_none().then(own_targets).transpose()?;
+        let lent = |ids: LentImage| IdViews {
+            ids: ids.view,
             blend_ids: None,
             depth: images.depth.map(|depth| depth.view),
             placeholder: None,
+        };
+        let own_views = own.as_ref().map(RasterTargets::views);
+        let Some(views) = images.ids.map(lent).or(own_views) else {
+            return Err(HostError::NoIds);
         };
         let resources = Resources::new(
             layout,
@@ -141,14 +151,14 @@ impl Frame {
             &plan,
             &output,
             &EngineKind {
-                farther_is_larger: !geometry.clip.reversed_depth,
+                farther_is_larger: own.is_none() && !geometry.clip.reversed_depth,
                 ..EngineKind::superpixels(&settings)
             },
         )?;
         // SAFETY: of the host's handles, as the caller says; the rest goes with the frame.
-        let (take_set, visibility_set) = unsafe {
+        let (base, visibility_set) = unsafe {
             (
-                shared.take.set(images.color.lent.view)?,
+                Base::new(shared, &content, images, options, own, &output)?,
                 resources.visibility_set(
                     &shared.visibility,
                     &visibility,
@@ -159,19 +169,25 @@ impl Frame {
                 )?,
             )
         };
-        let (format, encoded) = (images.color.format, images.color.encoded);
         let growths = engine.growths() as u32;
-        let rounds = plan.rounds + growths * plan.growth_rounds();
+        let shadings = plan.rounds
+            + growths * plan.growth_rounds()
+            + Base::shadings(options, width * height, plan.sizes.record_capacity);
+        let patched = match (options.shade_all, growths) {
+            (true, _) => Patched::All,
+            (false, 0) => Patched::Superpixels,
+            (false, _) => Patched::Grown,
+        };
         Ok(Self {
-            take: shared.take.pipeline(layout, encoded, &output)?,
-            patch: Patch::new(layout, format, encoded, growths > 0)?,
+            base,
+            patch: Patch::new(layout, images.color.format, images.color.encoded, patched)?,
             counters: memory.buffer(
                 "counter read-back",
                 Counter::BYTES * u64::from(1 + growths),
                 vk::BufferUsageFlags::TRANSFER_DST,
                 MemoryUse::Readback,
             )?,
-            timings: Timings::new(gpu, 32 + 8 * (growths + rounds))?,
+            timings: Timings::new(gpu, 32 + 8 * (growths + shadings))?,
             geometry: *geometry,
             images: *images,
             options: options.clone(),
@@ -182,7 +198,6 @@ impl Frame {
             engine,
             adoption,
             visibility,
-            take_set,
             visibility_set,
             memory,
             uploaded: false,
@@ -225,7 +240,7 @@ impl Frame {
         }
     }
 
-    /// Records the antialiasing of a frame that the host has drawn. It submits nothing, waits for nothing, allocates
+    /// Records the antialiasing of a frame, of which the host has drawn what it lends. It submits nothing, waits for nothing, allocates
     /// nothing on the device and updates no descriptor.
     ///
     /// # Errors
@@ -235,7 +250,8 @@ impl Frame {
     /// - `commands` is being recorded, outside of a render pass, for the device of the antialiaser and a queue family with
     ///   graphics and compute. What was bound and pushed before has to be bound and pushed again.
     /// - The commands of this frame's last recording are done: its memory is used again.
-    /// - Images are in the states named, and hold what the host has drawn of the same draws and positions.
+    /// - Images are in the states named. Those of IDs and depth and, without [`Options::shade_all`], of colours hold what the
+    ///   host has drawn of the same draws and positions.
     /// - Writes to the lent buffers by the device were recorded into the same queue before, or made visible to it.
     /// - The frame, the buffers, the images and what `shading` records outlive the execution of the commands.
     /// - What `shading` records is valid, and writes no memory of the frame but by `gpc_store`.
@@ -272,17 +288,6 @@ impl Frame {
         recorder.begin();
         self.images.record_begin(recorder);
         self.adoption.record(recorder, &placed);
-        let visible = visibility_uniform(&self.geometry, &self.settings);
-        recorder.barrier();
-        recorder.update(&self.visibility, bytemuck::bytes_of(&visible));
-        resources.record_begin(recorder, set, &uniform);
-        let [width, height] = self.settings.size;
-        let sets = [set.descriptor(), self.take_set.raw];
-        self.shared
-            .take
-            .record(recorder, &self.take, sets, width * height);
-        resources.record_bind(recorder, set);
-        recorder.mark("take");
         let shading = HostShading {
             shading,
             samples: VisibilitySamples {
@@ -292,6 +297,28 @@ impl Frame {
             },
             set,
         };
+        let footprints = Footprints::new(&self.settings, self.settings.samples);
+        let visible = |place_side, boxes| VisibilityUniform {
+            scale: scale(&self.geometry, self.settings.size),
+            half_size: self.settings.size.map(|side| 0.5 * side as f32),
+            place_side,
+            boxes: u32::from(boxes),
+            padding: [0; 2],
+        };
+        let (at_centres, at_places) = (
+            visible(footprints.centre, false),
+            visible(footprints.place, self.settings.filters_boxes()),
+        );
+        recorder.barrier();
+        recorder.update(&self.visibility, bytemuck::bytes_of(&at_centres));
+        resources.record_begin(recorder, set, &uniform);
+        let seen = (&uniform, &placed);
+        self.base
+            .record(recorder, &self.shared, (resources, set), seen, &shading);
+        recorder.barrier();
+        recorder.update(&self.visibility, bytemuck::bytes_of(&at_places));
+        // What the centres counted is not of superpixels.
+        resources.record_begin(recorder, set, &uniform);
         let work = Work {
             triangles,
             tiles: uniform.tiles[0] * uniform.tiles[1],
@@ -391,6 +418,7 @@ impl Frame {
             .try_into()
             .unwrap_or_default(),
             background: self.settings.background_rgba(),
+            raster_scale: half.map(|half| 1.0 / half),
             origin: half.map(|half| 0.5 - half),
             size: [width, height],
             tiles: [width.div_ceil(8), height.div_ceil(4)],
@@ -423,16 +451,6 @@ impl Frame {
 fn scale(geometry: &Geometry, size: [u32; 2]) -> [f32; 2] {
     let [x, y] = size.map(|side| 0.5 * side as f32);
     [x, if geometry.clip.y_up { -y } else { y }]
-}
-
-fn visibility_uniform(geometry: &Geometry, settings: &Settings) -> VisibilityUniform {
-    VisibilityUniform {
-        scale: scale(geometry, settings.size),
-        half_size: settings.size.map(|side| 0.5 * side as f32),
-        place_side: Footprints::new(settings, settings.samples).place,
-        boxes: u32::from(settings.filters_boxes()),
-        padding: [0; 2],
-    }
 }
 
 /// Factor on a depth, and constant, by which a surface nearer by a pixel's width has a larger depth.

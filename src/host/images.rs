@@ -32,12 +32,12 @@ pub struct ColorImage {
     pub encoded: bool,
 }
 
-/// What the host has drawn, one sample a pixel.
+/// What the host has drawn, one sample a pixel, and where its picture goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Images {
     /// Triangle IDs, `R32_UINT`, made with `SAMPLED`: 1 + the index of the nearest triangle in the order of the frame's
-    /// draws, 0 where there is none.
-    pub ids: LentImage,
+    /// draws, 0 where there is none. Without them, the library draws IDs and depth for itself.
+    pub ids: Option<LentImage>,
     /// Depth of the nearest triangle, of any depth format, made with `SAMPLED`; the view shows depth alone.
     pub depth: Option<LentImage>,
     /// Colours.
@@ -81,11 +81,16 @@ impl LentImage {
 
 impl Images {
     pub(super) fn check(&self, thin: bool) -> Result<(), HostError> {
-        self.ids.check("the image of IDs", "the view of IDs")?;
+        if let Some(ids) = &self.ids {
+            ids.check("the image of IDs", "the view of IDs")?;
+        }
         if let Some(depth) = &self.depth {
             depth.check("the image of depth", "the view of depth")?;
-        } else if thin {
-            return Err(HostError::NoDepth);
+        }
+        match (&self.ids, &self.depth) {
+            (Some(_), None) if thin => return Err(HostError::NoDepth),
+            (None, Some(_)) => return Err(HostError::NoIds),
+            _ => {}
         }
         let ColorImage {
             lent,
@@ -103,7 +108,7 @@ impl Images {
     }
 
     fn read(&self) -> impl Iterator<Item = &LentImage> {
-        std::iter::once(&self.ids).chain(&self.depth)
+        self.ids.iter().chain(&self.depth)
     }
 
     /// Readies all of them for reading.
@@ -144,7 +149,7 @@ mod tests {
             after: state,
         };
         Images {
-            ids: lent,
+            ids: Some(lent),
             depth: Some(lent),
             color: ColorImage {
                 lent,
@@ -162,12 +167,17 @@ mod tests {
             spoil(&mut images);
             images.check(true).unwrap_err().to_string()
         };
-        let ids = refused(&|images| images.ids.image = vk::Image::null());
+        let ids = refused(&|images| {
+            let ids = images.ids.as_mut();
+            ids.unwrap().image = vk::Image::null();
+        });
         assert_eq!(ids, "the image of IDs is VK_NULL_HANDLE");
         let view = refused(&|images| images.color.lent.view = vk::ImageView::null());
         assert_eq!(view, "the view of colours is VK_NULL_HANDLE");
         let depth = refused(&|images| images.depth = None);
         assert!(depth.starts_with("thin triangles are found by depth"));
+        let alone = refused(&|images| images.ids = None);
+        assert!(alone.starts_with("depth is lent without IDs"));
         let integers = refused(&|images| images.color.format = vk::Format::R8G8B8A8_UINT);
         assert!(integers.starts_with("a colour image of format R8G8B8A8_UINT"));
         let twice = refused(&|images| images.color.format = vk::Format::B8G8R8A8_SRGB);

@@ -14,6 +14,7 @@
 //! Nothing here knows a material, a light or a file. `docs/embedding.md` is the manual.
 
 mod adoption;
+mod base;
 mod content;
 mod draw;
 mod error;

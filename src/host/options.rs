@@ -20,7 +20,7 @@ pub struct Options {
     pub detection: Detection,
     /// Differences above this, in 8-bit sRGB code values of any channel, are a contrast.
     pub contrast: u8,
-    /// Whether triangles too thin for a pixel's centre to see make superpixels too; this needs the depth image.
+    /// Whether triangles too thin for a pixel's centre to see make superpixels too; where IDs are lent, this needs depth, too.
     pub thin: bool,
     /// Linear light that shows where no triangle is; `None` is transparent. A sky with more than one colour is drawn as
     /// triangles.
@@ -30,6 +30,9 @@ pub struct Options {
     /// Whether textures are filtered over what each sample stands for, so that the image converges to the scene as it is;
     /// otherwise over the whole pixel.
     pub sharp: bool,
+    /// Whether the host's shading makes the colours of all pixels, so that the colour image may hold anything before;
+    /// otherwise of superpixels alone, which are drawn over what it holds.
+    pub shade_all: bool,
     /// Bound on the device memory of a frame in bytes.
     pub max_memory: Option<u64>,
 }
@@ -49,6 +52,7 @@ impl Options {
             background: None,
             high_dynamic_range: false,
             sharp: true,
+            shade_all: false,
             max_memory: None,
         }
     }

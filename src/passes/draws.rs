@@ -23,6 +23,16 @@ pub(crate) struct HostDraw {
     pub padding: u32,
 }
 
+impl HostDraw {
+    /// The bit of a word that says that back faces show.
+    pub const DOUBLE_SIDED: u32 = 1 << 31;
+
+    /// Whether back faces show.
+    pub fn is_double_sided(&self) -> bool {
+        self.word & Self::DOUBLE_SIDED != 0
+    }
+}
+
 /// Draws, and a matrix for each where positions are in object space.
 pub(crate) struct Draws {
     pub(super) table: Buffer,

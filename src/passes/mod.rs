@@ -13,6 +13,7 @@ mod adopt;
 mod attributes;
 mod bin;
 mod box_filter;
+mod centres;
 mod content;
 mod counters;
 mod cull;
@@ -32,7 +33,6 @@ mod points;
 mod pool;
 #[cfg(feature = "gltf")]
 mod pose;
-#[cfg(feature = "gltf")]
 mod raster;
 mod resolve;
 mod resources;
@@ -64,6 +64,7 @@ pub(crate) use adopt::{Adopt, AdoptedCounts};
 pub use attributes::Attributes;
 pub use bin::Bin;
 pub use box_filter::BoxFilter;
+pub(crate) use centres::Centres;
 pub use content::Content;
 pub use counters::{Argument, Counter};
 pub use cull::Cull;
@@ -78,12 +79,12 @@ pub use grow::Grow;
 pub use layout::FrameLayout;
 pub use multisample::Multisample;
 pub(crate) use own_layout::{OwnSet, SetLayout};
-pub(crate) use patch::Patch;
+pub(crate) use patch::{Patch, Patched};
 pub use points::Points;
 #[cfg(feature = "gltf")]
 pub use pose::Pose;
-#[cfg(feature = "gltf")]
 pub use raster::{Raster, RasterTargets};
+pub(crate) use raster::{RasterPush, RasterRun};
 pub use resolve::{Resolve, Then};
 pub use resources::{IdViews, Locations, ResourceSizes, Resources, SampleSet};
 pub use sample::{RecordRate, Sample, SampleOptions, TileList};

@@ -1,19 +1,29 @@
-//! patch: the colours of superpixels, drawn into a host's image.
+//! patch: the colours of superpixels, or of all pixels, drawn into a host's image.
 
 use super::{FrameLayout, spirv};
 use crate::vulkan::{Constants, GraphicsPipeline, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// Draws superpixels and leaves all other pixels as they are.
+/// Which pixels [`Patch`] draws; all others stay as they are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Patched {
+    /// Superpixels.
+    Superpixels,
+    /// Superpixels, of which [`Grow`](super::Grow) has added some.
+    Grown,
+    /// All.
+    All,
+}
+
+/// Draws colours into an image.
 pub(crate) struct Patch {
     layout: Arc<FrameLayout>,
     pipeline: Arc<Pipeline>,
 }
 
 impl Patch {
-    /// Makes the pipeline for images of a format that hold linear light or, `encoded`, sRGB codes as plain numbers; `grown` if
-    /// [`Grow`](super::Grow) has run.
+    /// Makes the pipeline for images of a format that hold linear light or, `encoded`, sRGB codes as plain numbers.
     ///
     /// # Errors
     /// If the driver refuses it.
@@ -21,9 +31,12 @@ impl Patch {
         layout: &Arc<FrameLayout>,
         format: vk::Format,
         encoded: bool,
-        grown: bool,
+        patched: Patched,
     ) -> Result<Self, VulkanError> {
-        let constants = Constants::new().flag(0, encoded).flag(1, grown);
+        let constants = Constants::new()
+            .flag(0, encoded)
+            .flag(1, patched == Patched::Grown)
+            .flag(2, patched == Patched::All);
         let variant = format.as_raw() as u32;
         let pipeline = layout.cached(spirv::PATCH_FRAGMENT, &constants, variant, || {
             let pipeline = GraphicsPipeline {

@@ -1,7 +1,7 @@
 //! raster: depth and triangle ID of every pixel, by the device's rasterizer.
 
-use super::{Content, FrameGeometry, FrameLayout, GpuScene, IdViews, spirv};
-use crate::scene::DrawClass;
+use super::layout::PUSH_BYTES;
+use super::{Content, FrameLayout, IdViews, spirv};
 use crate::vulkan::{Constants, GraphicsPipeline, Image, Memory, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
@@ -114,7 +114,31 @@ fn id_format(samples: vk::SampleCountFlags) -> vk::Format {
     }
 }
 
-/// Draws a scene's triangles, class by class.
+/// `Push` in `shaders/raster.vert`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct RasterPush {
+    /// To pixel-scaled clip space.
+    pub matrix: [f32; 16],
+    /// What leads from an index to a triangle, end of the indices, flags, 0.
+    pub words: [u32; 4],
+}
+
+const _: () = assert!(size_of::<RasterPush>() == PUSH_BYTES as usize);
+
+/// Neighbouring triangles that are drawn at once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct RasterRun {
+    pub push: RasterPush,
+    pub first_index: u32,
+    pub triangle_count: u32,
+    pub double_sided: bool,
+    pub masked: bool,
+    /// Whether they are composited, and drawn behind all others.
+    pub blended: bool,
+}
+
+/// Draws runs of triangles.
 pub struct Raster {
     layout: Arc<FrameLayout>,
     opaque: Arc<Pipeline>,
@@ -122,14 +146,14 @@ pub struct Raster {
 }
 
 impl Raster {
-    /// Makes the pipelines that the scene needs.
+    /// Makes the pipelines that a scene needs.
     ///
     /// # Errors
     /// If the driver refuses one.
     pub fn new(
         layout: &Arc<FrameLayout>,
         samples: vk::SampleCountFlags,
-        scene: &GpuScene,
+        scene: &dyn Content,
     ) -> Result<Self, VulkanError> {
         let bytes = samples != vk::SampleCountFlags::TYPE_1;
         let (opaque, masked) = if bytes {
@@ -161,11 +185,11 @@ impl Raster {
 
     /// Records it for the upper left `size` pixels, of which those from `drawn[0]` to before `drawn[1]` are drawn, and
     /// the others stay empty; afterwards the IDs can be read by shaders.
-    pub fn record(
+    pub(crate) fn record(
         &self,
         recorder: &Recorder<'_>,
         set: vk::DescriptorSet,
-        (scene, geometry): (&GpuScene, &FrameGeometry),
+        runs: impl Iterator<Item = RasterRun> + Clone,
         targets: &RasterTargets,
         size: [u32; 2],
         drawn: [[u32; 2]; 2],
@@ -186,13 +210,11 @@ impl Raster {
         self.draw(
             recorder,
             set,
-            scene,
-            geometry,
+            runs.clone().filter(|run| !run.blended),
             targets,
             &targets.ids,
             [area, scissor],
             vk::AttachmentLoadOp::CLEAR,
-            |class| class < DrawClass::Blend,
         );
         recorder.transition(&targets.ids, draw, read);
         if let Some(blend_ids) = &targets.blend_ids {
@@ -201,13 +223,11 @@ impl Raster {
             self.draw(
                 recorder,
                 set,
-                scene,
-                geometry,
+                runs.filter(|run| run.blended),
                 targets,
                 blend_ids,
                 [area, scissor],
                 vk::AttachmentLoadOp::LOAD,
-                |class| class >= DrawClass::Blend,
             );
             recorder.transition(blend_ids, draw, read);
         }
@@ -223,13 +243,11 @@ impl Raster {
         &self,
         recorder: &Recorder<'_>,
         set: vk::DescriptorSet,
-        scene: &GpuScene,
-        geometry: &FrameGeometry,
+        runs: impl Iterator<Item = RasterRun>,
         targets: &RasterTargets,
         ids: &Image,
         [area, scissor]: [vk::Rect2D; 2],
         depth_load: vk::AttachmentLoadOp,
-        wanted: impl Fn(DrawClass) -> bool,
     ) {
         let (device, raw) = (recorder.device(), recorder.raw());
         let color = [vk::RenderingAttachmentInfo::default()
@@ -269,23 +287,19 @@ impl Raster {
                 &[],
             );
         }
-        for run in scene.geometry.runs.iter().filter(|run| wanted(run.class)) {
-            let Some(place) = geometry.placed.draw(run.place) else {
-                continue;
-            };
-            let masked = matches!(run.class, DrawClass::Mask | DrawClass::MaskDoubleSided);
+        for run in runs {
             recorder.bind(
                 self.masked
                     .as_ref()
-                    .filter(|_| masked)
+                    .filter(|_| run.masked)
                     .unwrap_or(&self.opaque),
             );
-            let cull = if double_sided(run.class) {
+            let cull = if run.double_sided {
                 vk::CullModeFlags::NONE
             } else {
                 vk::CullModeFlags::BACK
             };
-            recorder.push(self.layout.pipeline, bytemuck::cast_slice(&[*place]));
+            recorder.push(self.layout.pipeline, bytemuck::cast_slice(&[run.push]));
             // SAFETY: as above; the shader reads 3 vertices a triangle of the run.
             unsafe {
                 device.cmd_set_cull_mode(raw, cull);
@@ -309,12 +323,4 @@ fn rectangle(low: [u32; 2], high: [u32; 2]) -> vk::Rect2D {
             height: high[1] - low[1],
         },
     }
-}
-
-/// Whether a class shows back faces.
-pub(super) fn double_sided(class: DrawClass) -> bool {
-    matches!(
-        class,
-        DrawClass::OpaqueDoubleSided | DrawClass::MaskDoubleSided | DrawClass::BlendDoubleSided
-    )
 }

@@ -276,7 +276,14 @@ static void frames(void) {
     images.color_format = VK_FORMAT_R8G8B8A8_UNORM;
     images.depth.image = ids.image;
     ANSWERS(CREATE, GPC_RESULT_NULL, "the view of depth is VK_NULL_HANDLE");
+    images.depth.view = color.view;
+    images.ids.image = VK_NULL_HANDLE;
+    ANSWERS(CREATE, GPC_RESULT_NULL, "the image of IDs is VK_NULL_HANDLE");
+    images.ids.view = VK_NULL_HANDLE;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "depth is lent without IDs");
+    images.ids = ids;
     images.depth.image = VK_NULL_HANDLE;
+    images.depth.view = VK_NULL_HANDLE;
     options.pattern = 6;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcOptions.pattern is 6; it can be 0, 1, 2, 3, 4, 5");
     options.pattern = GPC_PATTERN_LIST;

@@ -1,8 +1,8 @@
 //! A frame's own part of the geometry.
 
-use super::{MovingVertices, PlacedInstances};
-use crate::passes::GpuScene;
-use crate::scene::Moment;
+use super::{MovingVertices, PlacedInstances, double_sided};
+use crate::passes::{GpuScene, RasterRun};
+use crate::scene::{DrawClass, Moment};
 use crate::vulkan::{Memory, Recorder, VulkanError};
 use ash::vk;
 use glam::DMat4;
@@ -78,6 +78,24 @@ impl FrameGeometry {
             .into_iter()
             .map(|(binding, texels)| (binding, texels.view))
             .collect()
+    }
+
+    /// A scene's triangles as [`Raster`](crate::passes::Raster) draws them, but for what the camera does not see.
+    pub(crate) fn runs<'a>(
+        &'a self,
+        scene: &'a GpuScene,
+    ) -> impl Iterator<Item = RasterRun> + Clone + 'a {
+        let runs = scene.geometry.runs.iter();
+        runs.filter_map(|run| {
+            Some(RasterRun {
+                push: *self.placed.draw(run.place)?,
+                first_index: run.first_index,
+                triangle_count: run.triangle_count,
+                double_sided: double_sided(run.class),
+                masked: matches!(run.class, DrawClass::Mask | DrawClass::MaskDoubleSided),
+                blended: run.class >= DrawClass::Blend,
+            })
+        })
     }
 
     /// Records copies of vertices of which some will move, once.

@@ -256,6 +256,14 @@ fn runs(geometry: &Geometry) -> Vec<Run> {
     runs
 }
 
+/// Whether a class shows back faces.
+pub(super) fn double_sided(class: DrawClass) -> bool {
+    matches!(
+        class,
+        DrawClass::OpaqueDoubleSided | DrawClass::MaskDoubleSided | DrawClass::BlendDoubleSided
+    )
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

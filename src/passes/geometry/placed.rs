@@ -1,7 +1,7 @@
 //! Instances as one camera sees them.
 
 use super::GpuGeometry;
-use crate::passes::layout::PUSH_BYTES;
+use crate::passes::raster::RasterPush;
 use crate::vulkan::{BufferView, Memory, MemoryUse, VulkanError};
 use ash::vk;
 use glam::{DAffine3, DMat4, DVec3, DVec4};
@@ -14,20 +14,9 @@ pub(in crate::passes) struct PlacedInstances {
     /// Of each instance its words, four columns to clip space, three rows to the geometry's space; nothing where nothing
     /// is instanced.
     pub(in crate::passes) buffer: BufferView,
-    draws: Vec<PlacedDraw>,
+    draws: Vec<RasterPush>,
     hidden: Vec<bool>,
 }
-
-/// What the vertex shader is told of a place: `Push` in `shaders/raster.vert`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-pub(in crate::passes) struct PlacedDraw {
-    /// To pixel-scaled clip space.
-    matrix: [f32; 16],
-    words: [u32; 4],
-}
-
-const _: () = assert!(size_of::<PlacedDraw>() == PUSH_BYTES as usize);
 
 impl PlacedInstances {
     /// Memory for the instances of a geometry.
@@ -44,7 +33,7 @@ impl PlacedInstances {
                 vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER,
                 MemoryUse::Upload,
             )?,
-            draws: vec![PlacedDraw::default(); geometry.places.len()],
+            draws: vec![RasterPush::default(); geometry.places.len()],
             hidden: vec![false; geometry.places.len()],
         };
         if placed.vectors(instances).len() < instances {
@@ -81,7 +70,7 @@ impl PlacedInstances {
         let draws = self.draws.iter_mut().zip(&mut self.hidden);
         for ((draw, hidden), place) in draws.zip(&geometry.places) {
             let matrix = *to_clip * DMat4::from(place.transform);
-            *draw = PlacedDraw {
+            *draw = RasterPush {
                 matrix: matrix.as_mat4().to_cols_array(),
                 words: place.words,
             };
@@ -112,7 +101,7 @@ impl PlacedInstances {
     }
 
     /// What the vertex shader is told of a place; nothing where it is not seen.
-    pub(in crate::passes) fn draw(&self, place: u32) -> Option<&PlacedDraw> {
+    pub(in crate::passes) fn draw(&self, place: u32) -> Option<&RasterPush> {
         let is_hidden = self.hidden.get(place as usize).copied()?;
         self.draws.get(place as usize).filter(|_| !is_hidden)
     }

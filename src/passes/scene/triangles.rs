@@ -2,7 +2,7 @@
 
 use super::bins::Bins;
 use super::material::high_frequency;
-use crate::passes::raster::double_sided;
+use crate::passes::geometry::double_sided;
 use crate::scene::{Geometry, Material};
 
 /// The bits of a triangle's last word: 16 of its material, 14 of its bin, and flags.

@@ -145,7 +145,7 @@ impl Recording<'_> {
         passes.raster.record(
             recorder,
             main.descriptor(),
-            (scene, self.geometry),
+            self.geometry.runs(scene),
             self.targets,
             [width, height],
             region

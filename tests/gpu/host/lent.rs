@@ -1,8 +1,9 @@
 //! Buffers that are lent as they are.
 
-use super::machine::{Machine, Seen};
-use super::world::{PLACED, Way, World};
+use super::machine::{Base, Machine, Seen};
+use super::world::{PLACED, SIZE, Way, World};
 use crate::stage::on_gpu;
+use gpc::host::Options;
 
 fn bits(colors: &[[f32; 4]]) -> Vec<[u32; 4]> {
     let pixels = colors.iter();
@@ -53,7 +54,7 @@ fn every_way_to_lend_gives_the_same_picture() {
         let (machine, drawn) = (Machine::new(gpu, &world), world.drawn());
         let Seen {
             colors, outcome, ..
-        } = machine.see(&PLACED, &drawn);
+        } = machine.see(&PLACED, Base::All(&drawn));
         assert_eq!(outcome.left_over, 0);
         let pixels = drawn.colors.len() as u64;
         let superpixels = outcome.statistics.superpixels;
@@ -61,7 +62,7 @@ fn every_way_to_lend_gives_the_same_picture() {
         let changed = (colors.iter().zip(&drawn.colors)).filter(|(now, before)| now != before);
         assert!(changed.count() > pixels as usize / 10);
         for way in WAYS {
-            let found = machine.see(&way, &drawn);
+            let found = machine.see(&way, Base::All(&drawn));
             assert!(bits(&found.colors) == bits(&colors), "{way:?}");
             let now = found.outcome.statistics.superpixels;
             assert_eq!(now, superpixels, "{way:?}");
@@ -75,7 +76,7 @@ fn positions_are_the_twins() {
         let world = World::new();
         let (machine, drawn) = (Machine::new(gpu, &world), world.drawn());
         for way in WAYS.iter().chain([&PLACED]) {
-            let found = machine.see(way, &drawn);
+            let found = machine.see(way, Base::All(&drawn));
             assert!(bits(&found.corners) == corners(&world), "{way:?}");
         }
     });
@@ -87,6 +88,7 @@ fn indices_out_of_range_are_the_last_vertex() {
     on_gpu(|gpu| {
         let world = World::new();
         let (machine, drawn) = (Machine::new(gpu, &world), world.drawn());
+        let options = Options::new(SIZE[0], SIZE[1]);
         for way in &WAYS {
             let mut lent = world.lent(way);
             let size = if way.short_indices { 2 } else { 4 };
@@ -106,7 +108,7 @@ fn indices_out_of_range_are_the_last_vertex() {
                 world.parts.len() - 1
             };
             let vertices = world.meshes[world.parts[last].mesh].vertex_count();
-            let found = machine.see_lent(way, &lent, &drawn);
+            let found = machine.see_lent(way, &lent, Base::All(&drawn), options.clone());
             assert_eq!(found.corners[0], corners(0, 0), "{way:?}");
             assert_eq!(found.corners[1], corners(last, vertices - 1), "{way:?}");
             assert_eq!(found.corners[2], corners(0, 2), "{way:?}");

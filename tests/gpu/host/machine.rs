@@ -51,6 +51,34 @@ impl ShadeSamples for Shading<'_> {
     }
 }
 
+/// What a host has drawn before it calls the library.
+#[derive(Clone, Copy)]
+pub enum Base<'a> {
+    /// IDs, depth and colours.
+    All(&'a Drawn),
+    /// Colours.
+    Colors(&'a Drawn),
+    /// IDs and depth.
+    Ids(&'a Drawn),
+    Nothing,
+}
+
+impl Base<'_> {
+    fn ids(&self) -> Option<&Drawn> {
+        match self {
+            Self::All(drawn) | Self::Ids(drawn) => Some(drawn),
+            Self::Colors(_) | Self::Nothing => None,
+        }
+    }
+
+    fn colors(&self) -> Option<&Drawn> {
+        match self {
+            Self::All(drawn) | Self::Colors(drawn) => Some(drawn),
+            Self::Ids(_) | Self::Nothing => None,
+        }
+    }
+}
+
 /// A host of a world.
 pub struct Machine<'a> {
     gpu: Arc<Gpu>,
@@ -68,6 +96,11 @@ const STORAGE: vk::BufferUsageFlags = vk::BufferUsageFlags::from_raw(
     vk::BufferUsageFlags::STORAGE_BUFFER.as_raw()
         | vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER.as_raw(),
 );
+const UNDEFINED: ImageState = ImageState {
+    layout: vk::ImageLayout::UNDEFINED,
+    stage: vk::PipelineStageFlags2::ALL_COMMANDS,
+    access: vk::AccessFlags2::NONE,
+};
 const WRITTEN: ImageState = ImageState {
     layout: vk::ImageLayout::TRANSFER_DST_OPTIMAL,
     stage: vk::PipelineStageFlags2::COPY,
@@ -153,13 +186,15 @@ impl<'a> Machine<'a> {
         }
     }
 
-    /// The picture of the world, lent in some way, with what the host has drawn of it.
-    pub fn see(&self, way: &Way, drawn: &Drawn) -> Seen {
-        self.see_lent(way, &self.world.lent(way), drawn)
+    /// The picture of the world, lent in some way, over what the host has drawn of it.
+    pub fn see(&self, way: &Way, base: Base<'_>) -> Seen {
+        let options = Options::new(SIZE[0], SIZE[1]);
+        self.see_lent(way, &self.world.lent(way), base, options)
     }
 
-    /// The same with buffers of the caller's.
-    pub fn see_lent(&self, way: &Way, lent: &Lent, drawn: &Drawn) -> Seen {
+    /// The same of buffers of the caller's.
+    pub fn see_lent(&self, way: &Way, lent: &Lent, base: Base<'_>, options: Options) -> Seen {
+        let size = options.size;
         let positions = self.filled(&lent.positions);
         let indices = self.filled(&lent.indices);
         let paints = self.filled(bytemuck::cast_slice(&lent.paints));
@@ -169,25 +204,22 @@ impl<'a> Machine<'a> {
         let of_draws = self.filled(bytemuck::cast_slice(&of_draws));
         let corner_bytes = 48 * u64::from(lent.triangle_count);
         let corners = self.read_back(corner_bytes);
-        let color_bytes = 16 * drawn.colors.len() as u64;
-        let read_back = self.read_back(color_bytes);
+        let pixels = size[0] as usize * size[1] as usize;
+        let read_back = self.read_back(16 * pixels as u64);
         let (plain, deep) = (vk::ImageAspectFlags::COLOR, vk::ImageAspectFlags::DEPTH);
-        let ids = self.image(vk::Format::R32_UINT, plain);
-        let depth = self.image(vk::Format::D32_SFLOAT, deep);
-        let color = self.image(vk::Format::R32G32B32A32_SFLOAT, plain);
-        let pictures = [
-            (&ids, plain, self.filled(bytemuck::cast_slice(&drawn.ids))),
-            (
-                &depth,
-                deep,
-                self.filled(bytemuck::cast_slice(&drawn.depths)),
-            ),
-            (
-                &color,
-                plain,
-                self.filled(bytemuck::cast_slice(&drawn.colors)),
-            ),
-        ];
+        let ids = self.image(size, vk::Format::R32_UINT, plain);
+        let depth = self.image(size, vk::Format::D32_SFLOAT, deep);
+        let color = self.image(size, vk::Format::R32G32B32A32_SFLOAT, plain);
+        let mut pictures = Vec::new();
+        if let Some(drawn) = base.ids() {
+            let (numbers, depths) = (&drawn.ids, &drawn.depths);
+            pictures.push((&ids, plain, self.filled(bytemuck::cast_slice(numbers))));
+            pictures.push((&depth, deep, self.filled(bytemuck::cast_slice(depths))));
+        }
+        if let Some(drawn) = base.colors() {
+            let colors = self.filled(bytemuck::cast_slice(&drawn.colors));
+            pictures.push((&color, plain, colors));
+        }
         let geometry = Geometry {
             positions: positions.handle(),
             positions_offset: way.positions_offset,
@@ -212,25 +244,27 @@ impl<'a> Machine<'a> {
                 reversed_depth: true,
             },
         };
-        let lend = |image: &Image, aspects, after| LentImage {
+        let lend = |image: &Image, aspects, before, after| LentImage {
             image: image.handle(),
             view: image.view(),
             aspects,
-            before: WRITTEN,
+            before,
             after,
         };
+        let before = base.colors().map_or(UNDEFINED, |_| WRITTEN);
         let images = Images {
-            ids: lend(&ids, plain, WRITTEN),
-            depth: Some(lend(&depth, deep, WRITTEN)),
+            ids: (base.ids()).map(|_| lend(&ids, plain, WRITTEN, WRITTEN)),
+            depth: (base.ids()).map(|_| lend(&depth, deep, WRITTEN, WRITTEN)),
             color: ColorImage {
-                lent: lend(&color, plain, COPIED),
+                lent: lend(&color, plain, before, COPIED),
                 format: vk::Format::R32G32B32A32_SFLOAT,
                 encoded: false,
             },
         };
         let options = Options {
             background: Some(SKY),
-            ..Options::new(SIZE[0], SIZE[1])
+            shade_all: base.colors().is_none(),
+            ..options
         };
         // SAFETY: what is lent is as it says, and outlives the frame.
         let mut frame = unsafe { self.antialiaser.prepare(&geometry, &images, &options) }.unwrap();
@@ -247,6 +281,7 @@ impl<'a> Machine<'a> {
             projection: projection(),
         };
         self.run(
+            size,
             &mut frame,
             &scenery,
             &shading,
@@ -254,7 +289,6 @@ impl<'a> Machine<'a> {
             (&color, &read_back),
         );
         let outcome = frame.outcome().unwrap();
-        let pixels = drawn.colors.len();
         Seen {
             colors: read_back.read(pixels).unwrap().to_vec(),
             corners: corners
@@ -268,6 +302,7 @@ impl<'a> Machine<'a> {
     /// Fills images, has them antialiased, and copies one of them.
     fn run(
         &self,
+        size: [u32; 2],
         frame: &mut Frame,
         scenery: &Scenery<'_>,
         shading: &Shading<'_>,
@@ -284,8 +319,8 @@ impl<'a> Machine<'a> {
                     layer_count: 1,
                 })
                 .image_extent(vk::Extent3D {
-                    width: SIZE[0],
-                    height: SIZE[1],
+                    width: size[0],
+                    height: size[1],
                     depth: 1,
                 })]
         };
@@ -380,7 +415,7 @@ impl<'a> Machine<'a> {
         buffer.unwrap()
     }
 
-    fn image(&self, format: vk::Format, aspect: vk::ImageAspectFlags) -> Image {
+    fn image(&self, size: [u32; 2], format: vk::Format, aspect: vk::ImageAspectFlags) -> Image {
         let drawn = if aspect == vk::ImageAspectFlags::COLOR {
             vk::ImageUsageFlags::COLOR_ATTACHMENT
         } else {
@@ -391,8 +426,8 @@ impl<'a> Machine<'a> {
             .image_type(vk::ImageType::TYPE_2D)
             .format(format)
             .extent(vk::Extent3D {
-                width: SIZE[0],
-                height: SIZE[1],
+                width: size[0],
+                height: size[1],
                 depth: 1,
             })
             .mip_levels(1)

@@ -1,5 +1,6 @@
 //! A host that works in the library's device, and the pictures that it gets, whatever way it lends what it has.
 
+mod base;
 mod lent;
 mod machine;
 mod world;

@@ -1,0 +1,30 @@
+// centres: the centres of pixels as visibility records, where nobody has drawn colours. Runs twice over a band of pixels:
+// LIST them, each a record of the whole pixel, and once these are shaded, GATHER their colours.
+// Reads: ids; shaded. Writes: records; color, display.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "include/frame.glsl"
+#include "include/workgroup.glsl"
+#include "include/color.glsl"
+#include "include/place.glsl"
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const bool GATHER = false;
+layout(push_constant) uniform Push {
+    uint first;         // pixel of the band
+    uint count;
+} band;
+
+void main() {
+    uint i = invocation_number();
+    if (i >= band.count) return;
+    uvec2 pixel = split(band.first + i, frame.size.x);
+    uint id = texelFetch(ids, ivec2(pixel), 0).x;
+    if (GATHER) {
+        vec4 c = id == 0u ? frame.background : to_output(vec4(texelFetch(shaded, int(i)).rgb, 1.0));
+        color[band.first + i] = c;
+        display_out[band.first + i] = display_code(c);
+    } else {
+        records_out[i] = uvec4(pixel.x | pixel.y << 16, id, pack_place(vec2(0.0), 1.0), floatBitsToUint(1.0));
+        if (i == 0u) counters[COUNTER_RECORDS] = band.count;
+    }
+}
