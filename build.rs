@@ -156,6 +156,8 @@ const VARIANTS: &[Variant] = &[
     ("encode", "encode.comp", &[]),
     ("adopt", "adopt.comp", &[]),
     ("transform", "transform.comp", &[]),
+    ("coordinates", "coordinates.comp", &[]),
+    ("alpha_map", "alpha_map.comp", &[]),
     ("take", "take.comp", &[]),
     ("centres", "centres.comp", &[]),
     ("patch_vertex", "patch.vert", &[]),

@@ -171,6 +171,26 @@ typedef struct GpcDevice {
     VkDevice device;
 } GpcDevice;
 
+// What a draw's alpha is tested by: a surface is there where the map's alpha, between texels and levels, is at least the
+// cutoff.
+typedef struct GpcAlphaMap {
+    // A two-dimensional view of an image made with VK_IMAGE_USAGE_SAMPLED_BIT, of floats or normalised numbers. Its fourth
+    // component is alpha; that of a view may be any of the image.
+    VkImageView view;
+    // Width in texels, up to 65,535.
+    uint32_t width;
+    // Height in texels, up to 65,535.
+    uint32_t height;
+    // How many mipmap levels there are; 1 for none.
+    uint32_t levels;
+    // What is beyond the image along u: VK_SAMPLER_ADDRESS_MODE_REPEAT, MIRRORED_REPEAT or CLAMP_TO_EDGE.
+    VkSamplerAddressMode address_u;
+    // The same along v.
+    VkSamplerAddressMode address_v;
+    // The least alpha that is there.
+    float cutoff;
+} GpcAlphaMap;
+
 // Buffers of the application. They may hold something else in every frame; the library reads them when a recording is
 // executed.
 typedef struct GpcGeometry {
@@ -209,6 +229,19 @@ typedef struct GpcGeometry {
     VkBool32 y_up;
     // VK_TRUE if depth runs from 1 near to 0 far; VK_FALSE if from 0 to 1.
     VkBool32 reversed_depth;
+    // Where there are alpha maps, texture coordinates of the vertices, two floats each. Made with
+    // VK_BUFFER_USAGE_STORAGE_BUFFER_BIT. Otherwise ignored.
+    VkBuffer coordinates;
+    // Where those of the first vertex are, in bytes: a multiple of 4.
+    uint64_t coordinates_offset;
+    // Bytes from one vertex to the next: a multiple of 4, at least 8.
+    uint32_t coordinates_stride;
+    // How many alpha maps there are.
+    uint32_t alpha_map_count;
+    // What draws are tested by that are not opaque, read during the call alone. The library reads the images, in
+    // VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, when a frame's first recording is executed, and keeps what they hold then. May
+    // be NULL where there are none.
+    const struct GpcAlphaMap *alpha_maps;
 } GpcGeometry;
 
 // State of an image, as in VkImageMemoryBarrier2.
@@ -309,6 +342,8 @@ typedef struct GpcDraw {
     uint32_t vertex_count;
     // With GPC_POSITION_SPACE_OBJECT, the matrix that leads from there to clip space, in columns. Otherwise ignored.
     float to_clip[4][4];
+    // 1 + the index of the alpha map that says where it is, 0 where it is opaque. Draws with alpha maps are the last.
+    uint32_t alpha_map;
     // The shading key, from 0: which of the application's pipelines shades it.
     uint32_t key;
     // A number of the application's, up to 65,535, which its shaders see. Triangles of one number are taken to look alike

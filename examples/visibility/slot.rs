@@ -173,6 +173,8 @@ impl<'a> Slot<'a> {
             triangle_capacity: world.triangle_count,
             draw_capacity: world.draws.len() as u32,
             keys: KEYS,
+            coordinates: None,
+            alpha_maps: Vec::new(),
             clip: ClipSpace {
                 y_up: true,
                 reversed_depth: true,

@@ -10,7 +10,7 @@ struct Draw {
     uint first_position;    // among those in clip space
     uint last_position;     // of its own, counted from the first
     uint shift;             // from a position to the host's vertex, modulo 2^32
-    uint padding;
+    uint material;          // the host's number
 };
 
 layout(std430, set = 0, binding = 0) readonly buffer Draws { Draw draws[]; };

@@ -40,10 +40,10 @@ layout(set = GPC_SET, binding = 0) uniform GpcFrame {
 layout(std430, set = GPC_SET, binding = 1) readonly buffer GpcKeys { uvec4 gpc_keys[]; };           // samples, first in the order
 layout(std430, set = GPC_SET, binding = 2) readonly buffer GpcOrder { uint gpc_order[]; };          // indices of records
 layout(std430, set = GPC_SET, binding = 3) readonly buffer GpcRecords { uvec4 gpc_records[]; };
-layout(std430, set = GPC_SET, binding = 4) readonly buffer GpcTriangles { uvec4 gpc_triangles[]; }; // three positions; material | key << 16 | flags
+layout(std430, set = GPC_SET, binding = 4) readonly buffer GpcTriangles { uvec4 gpc_triangles[]; }; // three positions; key << 16 and flags
 layout(std430, set = GPC_SET, binding = 5) readonly buffer GpcPositions { vec4 gpc_positions[]; };  // clip space
 layout(std430, set = GPC_SET, binding = 6) writeonly buffer GpcShaded { vec4 gpc_shaded[]; };
-layout(std430, set = GPC_SET, binding = 7) readonly buffer GpcDraws { uvec4 gpc_draws[]; };         // two each; in the second, what leads from a position to the vertex
+layout(std430, set = GPC_SET, binding = 7) readonly buffer GpcDraws { uvec4 gpc_draws[]; };         // two each; in the second, what leads from a position to the vertex, and the material
 layout(std430, set = GPC_SET, binding = 8) readonly buffer GpcDrawOf { uint gpc_draw_of[]; };       // of each triangle
 
 struct GpcSample {
@@ -68,8 +68,9 @@ bool gpc_sample(uint key, out GpcSample s) {
     s.triangle = max(record.y, 1u) - 1u;
     uvec4 words = gpc_triangles[s.triangle];
     s.draw = gpc_draw_of[s.triangle];
-    s.vertices = words.xyz + gpc_draws[2u * s.draw + 1u].z;
-    s.material = words.w & 0xffffu;
+    uvec4 draw = gpc_draws[2u * s.draw + 1u];
+    s.vertices = words.xyz + draw.z;
+    s.material = draw.w;
     vec2 centred = vec2(record.x & 0xffffu, record.x >> 16) + 0.5 - gpc_frame.half_size + place_location(record.z);
     s.position = centred + gpc_frame.half_size;
     vec4 scale = vec4(gpc_frame.scale, 1.0, 1.0);

@@ -2,7 +2,7 @@
 
 use super::error::Error;
 use super::input::{Struct, choice, flag};
-use crate::host::{ClipSpace, Draw, Geometry, PositionSpace};
+use crate::host::{AlphaMap, ClipSpace, Coordinates, Draw, Geometry, PositionSpace};
 use ash::vk;
 
 /// What positions are.
@@ -13,6 +13,28 @@ pub enum GpcPositionSpace {
     Clip = 0,
     /// Three floats in a space of each draw's own, from which GpcDraw.to_clip leads to clip space.
     Object = 1,
+}
+
+/// What a draw's alpha is tested by: a surface is there where the map's alpha, between texels and levels, is at least the
+/// cutoff.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct GpcAlphaMap {
+    /// A two-dimensional view of an image made with VK_IMAGE_USAGE_SAMPLED_BIT, of floats or normalised numbers. Its fourth
+    /// component is alpha; that of a view may be any of the image.
+    pub view: vk::ImageView,
+    /// Width in texels, up to 65,535.
+    pub width: u32,
+    /// Height in texels, up to 65,535.
+    pub height: u32,
+    /// How many mipmap levels there are; 1 for none.
+    pub levels: u32,
+    /// What is beyond the image along u: VK_SAMPLER_ADDRESS_MODE_REPEAT, MIRRORED_REPEAT or CLAMP_TO_EDGE.
+    pub address_u: vk::SamplerAddressMode,
+    /// The same along v.
+    pub address_v: vk::SamplerAddressMode,
+    /// The least alpha that is there.
+    pub cutoff: f32,
 }
 
 /// Buffers of the application. They may hold something else in every frame; the library reads them when a recording is
@@ -55,15 +77,48 @@ pub struct GpcGeometry {
     pub y_up: vk::Bool32,
     /// VK_TRUE if depth runs from 1 near to 0 far; VK_FALSE if from 0 to 1.
     pub reversed_depth: vk::Bool32,
+    /// Where there are alpha maps, texture coordinates of the vertices, two floats each. Made with
+    /// VK_BUFFER_USAGE_STORAGE_BUFFER_BIT. Otherwise ignored.
+    pub coordinates: vk::Buffer,
+    /// Where those of the first vertex are, in bytes: a multiple of 4.
+    pub coordinates_offset: u64,
+    /// Bytes from one vertex to the next: a multiple of 4, at least 8.
+    pub coordinates_stride: u32,
+    /// How many alpha maps there are.
+    pub alpha_map_count: u32,
+    /// What draws are tested by that are not opaque, read during the call alone. The library reads the images, in
+    /// VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, when a frame's first recording is executed, and keeps what they hold then. May
+    /// be NULL where there are none.
+    pub alpha_maps: *const GpcAlphaMap,
 }
 
-// SAFETY: `repr(C)`, its size first; integers and raw handles may have any bytes.
+// SAFETY: `repr(C)`, its size first; integers, raw handles and pointers may have any bytes.
 unsafe impl Struct for GpcGeometry {
     const NAME: &'static str = "GpcGeometry";
 }
 
+impl GpcAlphaMap {
+    fn alpha_map(&self) -> AlphaMap {
+        AlphaMap {
+            view: self.view,
+            size: [self.width, self.height],
+            levels: self.levels,
+            address: [self.address_u, self.address_v],
+            cutoff: self.cutoff,
+        }
+    }
+}
+
 impl GpcGeometry {
-    pub(super) fn geometry(&self) -> Result<Geometry, Error> {
+    /// # Safety
+    /// `alpha_maps` shows as many as are counted.
+    pub(super) unsafe fn geometry(&self) -> Result<Geometry, Error> {
+        let maps: &[GpcAlphaMap] = match self.alpha_map_count as usize {
+            0 => &[],
+            _ if self.alpha_maps.is_null() => return Err(Error::Null("GpcGeometry.alpha_maps")),
+            // SAFETY: passed on to the caller; the pointer is not null.
+            count => unsafe { std::slice::from_raw_parts(self.alpha_maps, count) },
+        };
         let spaces = [
             (GpcPositionSpace::Clip as u32, PositionSpace::Clip),
             (
@@ -86,6 +141,12 @@ impl GpcGeometry {
             triangle_capacity: self.triangle_capacity,
             draw_capacity: self.draw_capacity,
             keys: self.keys,
+            coordinates: (!maps.is_empty()).then_some(Coordinates {
+                buffer: self.coordinates,
+                offset: self.coordinates_offset,
+                stride: self.coordinates_stride,
+            }),
+            alpha_maps: maps.iter().map(GpcAlphaMap::alpha_map).collect(),
             clip: ClipSpace {
                 y_up: flag("GpcGeometry.y_up", self.y_up)?,
                 reversed_depth: flag("GpcGeometry.reversed_depth", self.reversed_depth)?,
@@ -109,6 +170,8 @@ pub struct GpcDraw {
     pub vertex_count: u32,
     /// With GPC_POSITION_SPACE_OBJECT, the matrix that leads from there to clip space, in columns. Otherwise ignored.
     pub to_clip: [[f32; 4]; 4],
+    /// 1 + the index of the alpha map that says where it is, 0 where it is opaque. Draws with alpha maps are the last.
+    pub alpha_map: u32,
     /// The shading key, from 0: which of the application's pipelines shades it.
     pub key: u32,
     /// A number of the application's, up to 65,535, which its shaders see. Triangles of one number are taken to look alike
@@ -129,6 +192,14 @@ impl GpcDraw {
             vertex_offset: self.vertex_offset,
             vertex_count: self.vertex_count,
             to_clip: self.to_clip,
+            alpha_map: match self.alpha_map {
+                0 => None,
+                number => Some(u16::try_from(number - 1).map_err(|_| Error::Value {
+                    name: "GpcDraw.alpha_map",
+                    found: number,
+                    possible: "0 to 65536".to_owned(),
+                })?),
+            },
             key: self.key,
             material: u16::try_from(self.material).map_err(|_| Error::Value {
                 name: "GpcDraw.material",

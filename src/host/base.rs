@@ -108,7 +108,7 @@ impl Base {
     }
 }
 
-/// Neighbouring draws whose back faces show, or do not, are drawn at once.
+/// Neighbouring draws that are alike in whether their back faces show, and whether they are opaque, are drawn at once.
 fn runs(placed: &PlacedDraws, transform: &[f32; 16]) -> Vec<RasterRun> {
     let push = RasterPush {
         matrix: *transform,
@@ -117,14 +117,17 @@ fn runs(placed: &PlacedDraws, transform: &[f32; 16]) -> Vec<RasterRun> {
     let mut runs: Vec<RasterRun> = Vec::new();
     for (draw, triangle_count) in placed.counted() {
         let double_sided = draw.is_double_sided();
+        let masked = draw.first_triangle >= placed.opaque;
         match runs.last_mut() {
-            Some(run) if run.double_sided == double_sided => run.triangle_count += triangle_count,
+            Some(run) if (run.double_sided, run.masked) == (double_sided, masked) => {
+                run.triangle_count += triangle_count;
+            }
             _ => runs.push(RasterRun {
                 push,
                 first_index: draw.first_triangle,
                 triangle_count,
                 double_sided,
-                masked: false,
+                masked,
                 blended: false,
             }),
         }

@@ -1,6 +1,7 @@
 //! A host's triangles as passes read them.
 
 use super::Geometry;
+use super::alpha::Alpha;
 use crate::passes::Content;
 use crate::vulkan::{
     Buffer, BufferView, Constants, Gpu, Memory, MemoryUse, TexelView, VulkanError,
@@ -24,6 +25,7 @@ pub(super) struct HostContent {
     triangles: BufferView,
     draw_of: Buffer,
     positions: Positions,
+    alpha: Option<Alpha>,
     /// Stand for attributes and materials, which no pass reads of a host's triangles.
     unread_floats: BufferView,
     unread_words: BufferView,
@@ -69,6 +71,9 @@ impl HostContent {
                 MemoryUse::Device,
             )?,
             positions,
+            alpha: (!geometry.alpha_maps.is_empty())
+                .then(|| Alpha::new(memory, geometry))
+                .transpose()?,
             unread_floats: texels("unread vectors", 1, float4)?,
             unread_words: texels("unread words", 1, uint4)?,
             unread: memory.storage_buffer("unread", 64, usage, MemoryUse::Device)?,
@@ -84,6 +89,11 @@ impl HostContent {
     /// The draw of each triangle.
     pub fn draw_of(&self) -> &Buffer {
         &self.draw_of
+    }
+
+    /// Alpha maps, if there are any.
+    pub fn alpha(&self) -> Option<&Alpha> {
+        self.alpha.as_ref()
     }
 
     /// Positions in clip space.
@@ -116,15 +126,17 @@ impl HostContent {
             Positions::Made(made) => made.view,
         };
         let (floats, words) = (self.unread_floats.view, self.unread_words.view);
+        let alpha = self.alpha.as_ref();
+        let coordinates = alpha.map_or(floats, |alpha| alpha.coordinates.view);
         [
             (1, positions),
             (2, self.triangles.view),
             (3, floats),
             (4, floats),
-            (5, floats),
-            (6, floats),
-            (7, words),
-            (9, words),
+            (5, coordinates),
+            (6, coordinates),
+            (7, alpha.map_or(words, |alpha| alpha.rows.view)),
+            (9, alpha.map_or(words, |alpha| alpha.atlas.view)),
             (10, words),
             (11, words),
         ]
@@ -145,7 +157,7 @@ impl Content for HostContent {
     }
 
     fn has_mask(&self) -> bool {
-        false
+        self.alpha.is_some()
     }
 
     fn has_blend(&self) -> bool {

@@ -17,6 +17,8 @@ pub struct Draw {
     pub vertex_count: u32,
     /// Where positions are in object space, the matrix that leads from there to clip space, in columns. Otherwise not read.
     pub to_clip: [[f32; 4]; 4],
+    /// Which of [`Geometry::alpha_maps`] says where it is; `None` where it is opaque. Draws with alpha maps are the last.
+    pub alpha_map: Option<u16>,
     /// The shading key: which of the host's pipelines shades it.
     pub key: u32,
     /// A number of the host's, which its shaders see. Triangles of one number are taken to look alike where detection
@@ -40,6 +42,7 @@ impl Default for Draw {
             to_clip: std::array::from_fn(|column| {
                 std::array::from_fn(|row| if row == column { 1.0 } else { 0.0 })
             }),
+            alpha_map: None,
             key: 0,
             material: 0,
             double_sided: false,
@@ -59,6 +62,8 @@ pub(super) struct PlacedDraws {
     pub matrices: Vec<[[f32; 4]; 4]>,
     /// Triangles of all.
     pub triangles: u32,
+    /// Triangles of those that are opaque.
+    pub opaque: u32,
     /// Positions in clip space.
     pub positions: u32,
 }
@@ -83,6 +88,7 @@ impl PlacedDraws {
             draws: Vec::with_capacity(draws.len()),
             matrices: Vec::new(),
             triangles: 0,
+            opaque: 0,
             positions: if in_clip { geometry.vertex_capacity } else { 0 },
         };
         for (number, draw) in draws.iter().enumerate() {
@@ -106,6 +112,7 @@ impl PlacedDraws {
                 first_triangle: placed.triangles,
                 first_index: draw.first_index,
                 word: draw.word(),
+                material: u32::from(draw.material),
                 ..HostDraw::default()
             };
             placed.draws.push(if in_clip {
@@ -123,6 +130,12 @@ impl PlacedDraws {
                     ..common
                 }
             });
+            if draw.alpha_map.is_none() {
+                if placed.opaque < placed.triangles {
+                    return Err(HostError::Order { draw: number });
+                }
+                placed.opaque = triangles as u32;
+            }
             placed.triangles = triangles as u32;
             placed.positions = positions as u32;
         }
@@ -157,6 +170,10 @@ impl Draw {
                 keys: geometry.keys,
             });
         }
+        let maps = geometry.alpha_maps.len();
+        if let Some(map) = self.alpha_map.filter(|map| usize::from(*map) >= maps) {
+            return Err(HostError::AlphaMap { draw, map, maps });
+        }
         if geometry.position_space == PositionSpace::Clip || self.triangle_count == 0 {
             return Ok(());
         }
@@ -179,7 +196,8 @@ impl Draw {
 
     fn word(&self) -> u32 {
         let flag = |bit: u32, set: bool| if set { bit } else { 0 };
-        u32::from(self.material)
+        // The alpha test finds its row by it.
+        u32::from(self.alpha_map.unwrap_or(self.material))
             | self.key << KEY_SHIFT
             | flag(DETAILED, self.detailed)
             | flag(HostDraw::DOUBLE_SIDED, self.double_sided)
@@ -188,7 +206,7 @@ impl Draw {
 
 #[cfg(test)]
 mod tests {
-    use super::super::ClipSpace;
+    use super::super::{AlphaMap, ClipSpace};
     use super::*;
     use ash::vk::{self, Handle};
 
@@ -207,6 +225,8 @@ mod tests {
             draw_capacity: 3,
             keys: 2,
             clip: ClipSpace::default(),
+            coordinates: None,
+            alpha_maps: Vec::new(),
         }
     }
 
@@ -316,6 +336,42 @@ mod tests {
         assert_eq!(
             refused(&[draw(0, 1, 0); 4]),
             "4 draws; the frame was prepared for 3"
+        );
+    }
+
+    #[test]
+    fn draws_with_alpha_maps_come_last() {
+        let map = AlphaMap {
+            view: vk::ImageView::from_raw(3),
+            size: [1, 1],
+            levels: 1,
+            address: [vk::SamplerAddressMode::REPEAT; 2],
+            cutoff: 0.5,
+        };
+        let geometry = Geometry {
+            alpha_maps: vec![map; 2],
+            ..geometry()
+        };
+        let masked = |alpha_map| Draw {
+            alpha_map: Some(alpha_map),
+            material: 7,
+            ..draw(0, 2, 0)
+        };
+        let placed = PlacedDraws::new(&geometry, &[draw(0, 3, 0), masked(1)]).unwrap();
+        assert_eq!((placed.opaque, placed.triangles), (3, 5));
+        assert_eq!(placed.draws[1].word & 0xffff, 1);
+        assert_eq!(placed.draws[1].material, 7);
+        let refused = |draws: &[Draw]| {
+            let placed = PlacedDraws::new(&geometry, draws);
+            placed.err().unwrap().to_string()
+        };
+        assert_eq!(
+            refused(&[masked(0), draw(0, 1, 0)]),
+            "draw 1 has no alpha map and comes after one that has: these are the last ones"
+        );
+        assert_eq!(
+            refused(&[masked(2)]),
+            "draw 0 has alpha map 2, and there are 2"
         );
     }
 

@@ -33,9 +33,11 @@ pub enum HostError {
         /// What it has to be a multiple of.
         alignment: u64,
     },
-    /// Positions lie closer together than they are long, or apart by no whole number of floats.
-    #[error("position_stride is {found} bytes; it can be any multiple of 4 from {least} on")]
+    /// Elements lie closer together than they are long, or apart by no whole number of floats.
+    #[error("{what} is {found} bytes; it can be any multiple of 4 from {least} on")]
     Stride {
+        /// The stride.
+        what: &'static str,
         /// What it is.
         found: u32,
         /// The least that it can be.
@@ -60,6 +62,25 @@ pub enum HostError {
         "thin triangles are found by depth: lend the depth image, or set Options::thin to false"
     )]
     NoDepth,
+    /// Alpha maps are looked up by coordinates.
+    #[error("there are alpha maps and no texture coordinates: lend Geometry::coordinates")]
+    NoCoordinates,
+    /// A coordinate beyond an alpha map leads to what is not read.
+    #[error(
+        "alpha map {map} has the address mode {found:?}; it can have REPEAT, MIRRORED_REPEAT or CLAMP_TO_EDGE"
+    )]
+    Address {
+        /// The map, by its place in the list.
+        map: usize,
+        /// Its mode along one axis.
+        found: vk::SamplerAddressMode,
+    },
+    /// A cutoff is not finite.
+    #[error("the cutoff of alpha map {map} is not finite")]
+    Cutoff {
+        /// The map, by its place in the list.
+        map: usize,
+    },
     /// Depth is of no use without IDs.
     #[error("depth is lent without IDs: lend both, or neither to have both drawn")]
     NoIds,
@@ -100,6 +121,22 @@ pub enum HostError {
     /// A number of a draw's matrix is not finite.
     #[error("the matrix of draw {draw} has a number that is not finite")]
     Matrix {
+        /// The draw, by its place in the list.
+        draw: usize,
+    },
+    /// A draw has an alpha map that there is none of.
+    #[error("draw {draw} has alpha map {map}, and there are {maps}")]
+    AlphaMap {
+        /// The draw, by its place in the list.
+        draw: usize,
+        /// Its map.
+        map: u16,
+        /// How many there are.
+        maps: usize,
+    },
+    /// An opaque draw comes after one with an alpha map.
+    #[error("draw {draw} has no alpha map and comes after one that has: these are the last ones")]
+    Order {
         /// The draw, by its place in the list.
         draw: usize,
     },

@@ -1,6 +1,7 @@
 //! One of a host's frames in flight.
 
 use super::adoption::Adoption;
+use super::alpha::{AlphaReading, ROW};
 use super::base::Base;
 use super::content::HostContent;
 use super::draw::PlacedDraws;
@@ -45,7 +46,8 @@ pub struct Frame {
     options: Options,
     settings: Settings,
     plan: Plan,
-    _content: HostContent,
+    content: HostContent,
+    alpha: AlphaReading,
     resources: Resources,
     engine: Engine,
     adoption: Adoption,
@@ -103,6 +105,8 @@ impl Frame {
         let memory = Memory::new(gpu.clone(), settings.max_memory);
         // SAFETY: passed on to the caller.
         let content = unsafe { HostContent::new(gpu, &memory, geometry) }?;
+        // SAFETY: passed on to the caller.
+        let alpha = unsafe { AlphaReading::new(shared, geometry, &content) }?;
         // SAFETY: passed on to the caller.
         let adoption = unsafe { Adoption::new(shared, &memory, geometry, &content) }?;
         let visibility = memory.buffer(
@@ -188,12 +192,13 @@ impl Frame {
                 MemoryUse::Readback,
             )?,
             timings: Timings::new(gpu, 32 + 8 * (growths + shadings))?,
-            geometry: *geometry,
+            geometry: geometry.clone(),
             images: *images,
             options: options.clone(),
             settings,
             plan,
-            _content: content,
+            content,
+            alpha,
             resources,
             engine,
             adoption,
@@ -252,6 +257,8 @@ impl Frame {
     /// - The commands of this frame's last recording are done: its memory is used again.
     /// - Images are in the states named. Those of IDs and depth and, without [`Options::shade_all`], of colours hold what the
     ///   host has drawn of the same draws and positions.
+    /// - In the frame's first recording, alpha maps are in `SHADER_READ_ONLY_OPTIMAL`, and were written before on the same queue
+    ///   or made visible to it.
     /// - Writes to the lent buffers by the device were recorded into the same queue before, or made visible to it.
     /// - The frame, the buffers, the images and what `shading` records outlive the execution of the commands.
     /// - What `shading` records is valid, and writes no memory of the frame but by `gpc_store`.
@@ -272,7 +279,7 @@ impl Frame {
             return Err(HostError::Projection);
         }
         self.triangles = triangles;
-        let uniform = self.uniform(triangles, &scenery.projection);
+        let uniform = self.uniform(&placed, &scenery.projection);
         let gpu = self.shared.gpu.clone();
         let resources = &self.resources;
         let Some(set) = resources.set(0) else {
@@ -283,9 +290,12 @@ impl Frame {
         let recorder = &mut recorder;
         if !self.uploaded {
             resources.record_upload(recorder);
-            self.uploaded = true;
         }
         recorder.begin();
+        if !self.uploaded {
+            self.alpha.record(recorder, &self.content);
+            self.uploaded = true;
+        }
         self.images.record_begin(recorder);
         self.adoption.record(recorder, &placed);
         let shading = HostShading {
@@ -396,7 +406,7 @@ impl Frame {
         })
     }
 
-    fn uniform(&self, triangles: u32, projection: &[[f32; 4]; 4]) -> FrameUniform {
+    fn uniform(&self, placed: &PlacedDraws, projection: &[[f32; 4]; 4]) -> FrameUniform {
         let [width, height] = self.settings.size;
         let half = [width, height].map(|side| 0.5 * side as f32);
         let [x, y] = scale(&self.geometry, self.settings.size);
@@ -424,9 +434,10 @@ impl Frame {
             tiles: [width.div_ceil(8), height.div_ceil(4)],
             interior_high: [width, height],
             gap: gap(projection, height),
-            triangle_count: triangles,
-            first_mask: triangles,
-            first_blend: triangles,
+            triangle_count: placed.triangles,
+            first_mask: placed.opaque,
+            first_blend: placed.triangles,
+            material_vectors: ROW as u32,
             sample_count: self.settings.samples,
             survivor_capacity: self.plan.sizes.survivor_capacity,
             pair_capacity: self.plan.sizes.pair_capacity,

@@ -1,6 +1,7 @@
 //! Buffers that a host lends.
 
 use super::HostError;
+use super::alpha::{AlphaMap, MOST_MAPS};
 use crate::vulkan::{Gpu, Limits, VulkanError};
 use ash::vk;
 
@@ -25,8 +26,19 @@ pub enum PositionSpace {
     },
 }
 
-/// Buffers of a host. They may hold something else in every frame; the engine reads them when a recording is executed.
+/// Texture coordinates of vertices, by which alpha maps are looked up: two floats each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Coordinates {
+    /// Made with `STORAGE_BUFFER`.
+    pub buffer: vk::Buffer,
+    /// Where those of the first vertex are, in bytes: a multiple of 4.
+    pub offset: u64,
+    /// Bytes from one vertex to the next: a multiple of 4, at least 8.
+    pub stride: u32,
+}
+
+/// Buffers of a host. They may hold something else in every frame; the engine reads them when a recording is executed.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Geometry {
     /// Positions of vertices, made with `STORAGE_BUFFER`; where they lie in clip space and 16 bytes apart, with
     /// `UNIFORM_TEXEL_BUFFER` too.
@@ -39,6 +51,11 @@ pub struct Geometry {
     pub position_space: PositionSpace,
     /// How many vertices there can be. Larger indices are taken for the last.
     pub vertex_capacity: u32,
+    /// Texture coordinates, where there are alpha maps.
+    pub coordinates: Option<Coordinates>,
+    /// What draws are tested by that are not opaque. The library reads the images, in `SHADER_READ_ONLY_OPTIMAL`, when a
+    /// frame's first recording is executed, and keeps what they hold then.
+    pub alpha_maps: Vec<AlphaMap>,
     /// Indices, three a triangle. Made with `STORAGE_BUFFER`.
     pub indices: vk::Buffer,
     /// Where they begin, in bytes: a multiple of an index's size.
@@ -127,32 +144,65 @@ impl Geometry {
                 return Err(HostError::Count { what, found, most });
             }
         }
-        let (stride, least) = (self.position_stride, self.position_bytes());
-        if stride % 4 != 0 || u64::from(stride) < least {
-            return Err(HostError::Stride {
-                found: stride,
-                least: least as u32,
-            });
-        }
-        for (what, offset, alignment) in [
+        let offsets = [
             ("positions_offset", self.positions_offset, 4),
             ("indices_offset", self.indices_offset, index_bytes),
-        ] {
-            if offset % alignment != 0 {
-                return Err(HostError::Alignment {
-                    what,
-                    offset,
-                    alignment,
-                });
-            }
-        }
-        for (what, lent) in [
+        ];
+        let strides = [(
+            "position_stride",
+            self.position_stride,
+            self.position_bytes() as u32,
+        )];
+        let buffers = [
             ("the buffer of positions", self.lent_positions(limits)),
             ("the buffer of indices", self.lent_indices(limits)),
-        ] {
-            VulkanError::check_limit(what, lent.bytes, "bytes", limits.max_storage_bytes)?;
+        ];
+        check_layout(limits, &offsets, &strides, &buffers)?;
+        self.check_alpha(limits)
+    }
+
+    fn check_alpha(&self, limits: &Limits) -> Result<(), HostError> {
+        if self.alpha_maps.is_empty() {
+            return Ok(());
         }
-        Ok(())
+        if self.alpha_maps.len() > MOST_MAPS as usize {
+            return Err(HostError::Count {
+                what: "the number of alpha maps",
+                found: u32::try_from(self.alpha_maps.len()).unwrap_or(u32::MAX),
+                most: MOST_MAPS,
+            });
+        }
+        for (number, map) in self.alpha_maps.iter().enumerate() {
+            map.check(number)?;
+        }
+        let lent = self.coordinates.ok_or(HostError::NoCoordinates)?;
+        if lent.buffer == vk::Buffer::null() {
+            return Err(HostError::NullHandle("the buffer of coordinates"));
+        }
+        let buffers = self
+            .lent_coordinates(limits)
+            .map(|bytes| ("the buffer of coordinates", bytes));
+        check_layout(
+            limits,
+            &[("coordinates_offset", lent.offset, 4)],
+            &[("coordinates_stride", lent.stride, 8)],
+            buffers.as_slice(),
+        )
+    }
+
+    /// Where texture coordinates lie, if there are any.
+    pub(super) fn lent_coordinates(&self, limits: &Limits) -> Option<LentBytes> {
+        let Coordinates {
+            buffer,
+            offset,
+            stride,
+        } = self.coordinates?;
+        let bytes = self.vertex_steps() * u64::from(stride) + 8;
+        Some(LentBytes::new(buffer, offset, bytes, alignment(limits)))
+    }
+
+    fn vertex_steps(&self) -> u64 {
+        u64::from(self.vertex_capacity.saturating_sub(1))
     }
 
     fn index_bytes(&self) -> Option<u64> {
@@ -178,9 +228,7 @@ impl Geometry {
     pub(super) fn is_read_in_place(&self, limits: &Limits) -> bool {
         self.position_space == PositionSpace::Clip
             && u64::from(self.position_stride) == CLIP_BYTES
-            && self
-                .positions_offset
-                .is_multiple_of(limits.buffer_alignment.max(CLIP_BYTES))
+            && self.positions_offset.is_multiple_of(alignment(limits))
     }
 
     /// How many positions in clip space there can be.
@@ -192,16 +240,15 @@ impl Geometry {
     }
 
     pub(super) fn lent_positions(&self, limits: &Limits) -> LentBytes {
-        let steps = u64::from(self.vertex_capacity.saturating_sub(1));
-        let bytes = steps * u64::from(self.position_stride) + self.position_bytes();
-        let alignment = limits.buffer_alignment.max(CLIP_BYTES);
-        LentBytes::new(self.positions, self.positions_offset, bytes, alignment)
+        let bytes = self.vertex_steps() * u64::from(self.position_stride) + self.position_bytes();
+        let offset = self.positions_offset;
+        LentBytes::new(self.positions, offset, bytes, alignment(limits))
     }
 
     pub(super) fn lent_indices(&self, limits: &Limits) -> LentBytes {
         let bytes = u64::from(self.index_capacity) * self.index_bytes().unwrap_or_default();
-        let alignment = limits.buffer_alignment.max(4);
-        let lent = LentBytes::new(self.indices, self.indices_offset, bytes, alignment);
+        let offset = self.indices_offset;
+        let lent = LentBytes::new(self.indices, offset, bytes, alignment(limits));
         LentBytes {
             // Shaders read words.
             bytes: lent.bytes.next_multiple_of(4),
@@ -214,6 +261,38 @@ impl Geometry {
         let size = if self.has_short_indices() { 2 } else { 4 };
         self.lent_indices(limits).before / size
     }
+}
+
+/// What descriptors of buffers may begin at.
+fn alignment(limits: &Limits) -> u64 {
+    limits.buffer_alignment.max(CLIP_BYTES)
+}
+
+/// Checks offsets and what they are multiples of, strides and the least that they can be, and parts of buffers.
+fn check_layout(
+    limits: &Limits,
+    offsets: &[(&'static str, u64, u64)],
+    strides: &[(&'static str, u32, u32)],
+    buffers: &[(&'static str, LentBytes)],
+) -> Result<(), HostError> {
+    for &(what, found, least) in strides {
+        if found % 4 != 0 || found < least {
+            return Err(HostError::Stride { what, found, least });
+        }
+    }
+    for &(what, offset, alignment) in offsets {
+        if offset % alignment != 0 {
+            return Err(HostError::Alignment {
+                what,
+                offset,
+                alignment,
+            });
+        }
+    }
+    for (what, lent) in buffers {
+        VulkanError::check_limit(what, lent.bytes, "bytes", limits.max_storage_bytes)?;
+    }
+    Ok(())
 }
 
 #[cfg(test)]

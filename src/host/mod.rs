@@ -1,8 +1,8 @@
 //! Antialiasing of an application's own frames: its geometry, its images, its materials.
 //!
-//! The application draws its frame as ever, and one more attachment of triangle IDs. [`Frame::record`] then finds the
-//! pixels that alias, samples the application's triangles there, has the application shade what the samples see
-//! ([`ShadeSamples`]), and draws the resolved pixels over the aliased ones.
+//! The application draws its frame as ever, and one more attachment of triangle IDs, or leaves some or all of that to the
+//! library. [`Frame::record`] then finds the pixels that alias, samples the application's triangles there, has the
+//! application shade what the samples see ([`ShadeSamples`]), and draws the resolved pixels over the aliased ones.
 //!
 //! ```text
 //! application                colour, triangle IDs, depth      pipelines of its materials         colour
@@ -14,6 +14,7 @@
 //! Nothing here knows a material, a light or a file. `docs/embedding.md` is the manual.
 
 mod adoption;
+mod alpha;
 mod base;
 mod content;
 mod draw;
@@ -25,15 +26,18 @@ mod options;
 mod shading;
 
 pub use crate::render::ImageState;
+pub use alpha::AlphaMap;
 pub use draw::Draw;
 pub use error::HostError;
 pub use frame::{Frame, Outcome, Scenery};
-pub use geometry::{ClipSpace, Geometry, PositionSpace};
+pub use geometry::{ClipSpace, Coordinates, Geometry, PositionSpace};
 pub use images::{ColorImage, Images, LentImage};
 pub use options::Options;
 pub use shading::{SHADER_INCLUDES, ShadeSamples, VisibilitySamples};
 
-use crate::passes::{Adopt, FrameLayout, SetLayout, Take, Transform, visibility_layout};
+use crate::passes::{
+    self, Adopt, AlphaMaps, FrameLayout, SetLayout, Take, Transform, visibility_layout,
+};
 use crate::vulkan::{Gpu, Host, VulkanError};
 use ash::vk;
 use std::sync::Arc;
@@ -48,6 +52,8 @@ pub(crate) struct Shared {
     frame: Arc<FrameLayout>,
     adopt: Adopt,
     transform: Transform,
+    coordinates: passes::Coordinates,
+    alpha_maps: AlphaMaps,
     take: Take,
     visibility: SetLayout,
 }
@@ -76,6 +82,8 @@ impl Antialiaser {
             shared: Arc::new(Shared {
                 adopt: Adopt::new(&gpu)?,
                 transform: Transform::new(&gpu)?,
+                coordinates: passes::Coordinates::new(&gpu)?,
+                alpha_maps: AlphaMaps::new(&gpu)?,
                 take: Take::new(&frame)?,
                 visibility: visibility_layout(&gpu)?,
                 frame,

@@ -66,7 +66,7 @@ impl Adopt {
             whole(draw_of),
         ];
         // SAFETY: the set is new; of the host's buffer as the caller says, ours go with the frame.
-        unsafe { set.write_buffers(&buffers) };
+        unsafe { set.write_buffers(0, &buffers) };
         Ok(set)
     }
 

@@ -20,7 +20,8 @@ pub(crate) struct HostDraw {
     pub last_position: u32,
     /// What leads from a position to the host's vertex, modulo 2^32.
     pub shift: u32,
-    pub padding: u32,
+    /// The host's number.
+    pub material: u32,
 }
 
 impl HostDraw {

@@ -10,11 +10,13 @@
 //! the layout of descriptors (`layout.rs`) and the twins of what shaders include (`frame.rs`, `counters.rs`, `sites.rs`).
 
 mod adopt;
+mod alpha_map;
 mod attributes;
 mod bin;
 mod box_filter;
 mod centres;
 mod content;
+mod coordinates;
 mod counters;
 mod cull;
 mod detect;
@@ -61,11 +63,13 @@ mod spirv {
 }
 
 pub(crate) use adopt::{Adopt, AdoptedCounts};
+pub(crate) use alpha_map::{AlphaLevel, AlphaMaps};
 pub use attributes::Attributes;
 pub use bin::Bin;
 pub use box_filter::BoxFilter;
 pub(crate) use centres::Centres;
 pub use content::Content;
+pub(crate) use coordinates::Coordinates;
 pub use counters::{Argument, Counter};
 pub use cull::Cull;
 pub use detect::{Detect, DetectMode};
@@ -101,5 +105,5 @@ pub use spans::Spans;
 pub use stroke::{Stroke, StrokeSizes};
 pub(crate) use take::Take;
 pub use thin::Thin;
-pub(crate) use transform::{Transform, TransformedCounts};
+pub(crate) use transform::{Transform, VertexCounts};
 pub(crate) use visibility::{VisibilityUniform, visibility_layout};

@@ -75,13 +75,14 @@ pub(crate) struct OwnSet {
 }
 
 impl OwnSet {
-    /// Shows buffers at the set's bindings, in their order.
+    /// Shows buffers at the set's bindings from one on, in their order.
     ///
     /// # Safety
     /// The set is not in use, and its bindings are those of buffers, which outlive its use.
-    pub unsafe fn write_buffers(&self, buffers: &[vk::DescriptorBufferInfo]) {
-        let writes: Vec<_> = (0..)
-            .zip(buffers.iter().zip(&self.kinds))
+    pub unsafe fn write_buffers(&self, first: u32, buffers: &[vk::DescriptorBufferInfo]) {
+        let kinds = self.kinds.iter().skip(first as usize);
+        let writes: Vec<_> = (first..)
+            .zip(buffers.iter().zip(kinds))
             .map(|(binding, (info, kind))| {
                 vk::WriteDescriptorSet::default()
                     .dst_set(self.raw)

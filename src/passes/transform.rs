@@ -7,13 +7,13 @@ use crate::vulkan::{Buffer, Constants, Gpu, Pipeline, Recorder, VulkanError, com
 use ash::vk;
 use std::sync::Arc;
 
-/// Where a frame's vertices are, and how many positions it makes of them.
+/// Where something of a frame's vertices is, and how many positions there are.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
-pub(crate) struct TransformedCounts {
+pub(crate) struct VertexCounts {
     pub positions: u32,
     pub draws: u32,
-    /// Where vertices begin in the buffer that the set shows, in words of 4 bytes.
+    /// Where it begins in the buffer that the set shows, in words of 4 bytes.
     pub first_word: u32,
     /// Words from one vertex to the next.
     pub stride: u32,
@@ -32,7 +32,7 @@ impl Transform {
     /// If the driver refuses one.
     pub fn new(gpu: &Arc<Gpu>) -> Result<Self, VulkanError> {
         let set_layout = SetLayout::new(gpu, &[vk::DescriptorType::STORAGE_BUFFER; 4])?;
-        let push = size_of::<TransformedCounts>() as u32;
+        let push = size_of::<VertexCounts>() as u32;
         Ok(Self {
             layout: PipelineLayout::new(gpu, &[set_layout.raw], push)?,
             set_layout,
@@ -68,7 +68,7 @@ impl Transform {
             whole(positions),
         ];
         // SAFETY: the set is new; of the host's buffer as the caller says, ours go with the frame.
-        unsafe { set.write_buffers(&buffers) };
+        unsafe { set.write_buffers(0, &buffers) };
         Ok(set)
     }
 
@@ -78,7 +78,7 @@ impl Transform {
         recorder: &Recorder<'_>,
         pipeline: &Pipeline,
         set: &OwnSet,
-        counts: TransformedCounts,
+        counts: VertexCounts,
     ) {
         self.layout.bind(recorder, &[set.raw], &counts);
         recorder.dispatch(pipeline, u64::from(counts.positions.div_ceil(64)));

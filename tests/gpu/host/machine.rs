@@ -1,10 +1,10 @@
 //! The host's Vulkan objects: what it makes, lends and reads back.
 
-use super::world::{Drawn, Lent, SIZE, SKY, Way, World, projection};
+use super::world::{Drawn, Lent, Map, SIZE, SKY, Way, World};
 use ash::vk;
 use gpc::host::{
-    Antialiaser, ClipSpace, ColorImage, Frame, Geometry, ImageState, Images, LentImage, Options,
-    Outcome, PositionSpace, Scenery, ShadeSamples, VisibilitySamples,
+    AlphaMap, Antialiaser, ClipSpace, ColorImage, Coordinates, Frame, Geometry, ImageState, Images,
+    LentImage, Options, Outcome, PositionSpace, Scenery, ShadeSamples, VisibilitySamples,
 };
 use gpc::render::Headless;
 use gpc::vulkan::{Buffer, Gpu, Image, Memory, MemoryUse, Recorder};
@@ -198,6 +198,9 @@ impl<'a> Machine<'a> {
         let positions = self.filled(&lent.positions);
         let indices = self.filled(&lent.indices);
         let paints = self.filled(bytemuck::cast_slice(&lent.paints));
+        let coordinates = self.filled(bytemuck::cast_slice(&lent.coordinates));
+        let with_image = |map| (self.map_image(map), map);
+        let maps: Vec<_> = self.world.maps.iter().map(with_image).collect();
         let of_draws: Vec<_> = (self.world.parts.iter())
             .map(|part| [part.color[0], part.color[1], part.color[2], 1.0])
             .collect();
@@ -239,6 +242,12 @@ impl<'a> Machine<'a> {
             triangle_capacity: lent.triangle_count,
             draw_capacity: lent.draws.len() as u32,
             keys: 1,
+            coordinates: (!maps.is_empty()).then(|| Coordinates {
+                buffer: coordinates.handle(),
+                offset: 0,
+                stride: 8,
+            }),
+            alpha_maps: maps.iter().map(|(image, map)| map.lent(image)).collect(),
             clip: ClipSpace {
                 y_up: false,
                 reversed_depth: true,
@@ -278,7 +287,7 @@ impl<'a> Machine<'a> {
         };
         let scenery = Scenery {
             draws: &lent.draws,
-            projection: projection(),
+            projection: self.world.projection,
         };
         self.run(
             size,
@@ -299,6 +308,78 @@ impl<'a> Machine<'a> {
         }
     }
 
+    /// An image of a map's levels, ready to be read.
+    fn map_image(&self, map: &Map) -> Image {
+        let format = vk::Format::R8G8B8A8_UNORM;
+        let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
+        let info = vk::ImageCreateInfo::default()
+            .image_type(vk::ImageType::TYPE_2D)
+            .format(format)
+            .extent(vk::Extent3D {
+                width: map.side,
+                height: map.side,
+                depth: 1,
+            })
+            .mip_levels(map.levels.len() as u32)
+            .array_layers(1)
+            .samples(vk::SampleCountFlags::TYPE_1)
+            .usage(usage);
+        let aspect = vk::ImageAspectFlags::COLOR;
+        let image = self.memory.image("alpha map", &info, aspect).unwrap();
+        let bytes = self.filled(&map.levels.concat());
+        self.submit(|commands| {
+            // SAFETY: the commands are waited for; image and buffer outlive them.
+            let recorder = unsafe { Recorder::new(&self.gpu, commands, None) };
+            recorder.transition(&image, vk::ImageLayout::UNDEFINED, WRITTEN.layout);
+            let mut offset = 0;
+            for (level, texels) in (0..).zip(&map.levels) {
+                let side = (map.side >> level).max(1);
+                let region = [vk::BufferImageCopy {
+                    buffer_offset: offset,
+                    ..copy([side; 2], aspect, level)
+                }];
+                offset += texels.len() as u64;
+                // SAFETY: the buffer holds all levels.
+                unsafe {
+                    self.gpu.device().cmd_copy_buffer_to_image(
+                        commands,
+                        bytes.handle(),
+                        image.handle(),
+                        WRITTEN.layout,
+                        &region,
+                    );
+                }
+            }
+            let read = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
+            recorder.transition(&image, WRITTEN.layout, read);
+        });
+        image
+    }
+
+    /// Records commands, submits them and waits for them.
+    fn submit(&self, record: impl FnOnce(vk::CommandBuffer)) {
+        let device = self.gpu.device();
+        // SAFETY: the commands are waited for.
+        unsafe {
+            let info = vk::CommandBufferAllocateInfo::default()
+                .command_pool(self.pool)
+                .command_buffer_count(1);
+            let commands = device.allocate_command_buffers(&info).unwrap()[0];
+            let info = vk::CommandBufferBeginInfo::default();
+            device.begin_command_buffer(commands, &info).unwrap();
+            record(commands);
+            device.end_command_buffer(commands).unwrap();
+            let buffers = [commands];
+            let submits = [vk::SubmitInfo::default().command_buffers(&buffers)];
+            let queue = device.get_device_queue(self.gpu.queue_family(), 0);
+            device
+                .queue_submit(queue, &submits, vk::Fence::null())
+                .unwrap();
+            device.queue_wait_idle(queue).unwrap();
+            device.free_command_buffers(self.pool, &[commands]);
+        }
+    }
+
     /// Fills images, has them antialiased, and copies one of them.
     fn run(
         &self,
@@ -310,64 +391,37 @@ impl<'a> Machine<'a> {
         (shown, read_back): (&Image, &Buffer),
     ) {
         let device = self.gpu.device();
-        let region = |aspect_mask| {
-            [vk::BufferImageCopy::default()
-                .image_subresource(vk::ImageSubresourceLayers {
-                    aspect_mask,
-                    mip_level: 0,
-                    base_array_layer: 0,
-                    layer_count: 1,
-                })
-                .image_extent(vk::Extent3D {
-                    width: size[0],
-                    height: size[1],
-                    depth: 1,
-                })]
-        };
-        // SAFETY: the commands are waited for; all handles outlive them.
-        unsafe {
-            let info = vk::CommandBufferAllocateInfo::default()
-                .command_pool(self.pool)
-                .command_buffer_count(1);
-            let commands = device.allocate_command_buffers(&info).unwrap()[0];
-            let info = vk::CommandBufferBeginInfo::default();
-            device.begin_command_buffer(commands, &info).unwrap();
-            for (image, aspect, bytes) in pictures {
-                let recorder = Recorder::new(&self.gpu, commands, None);
-                recorder.transition(image, vk::ImageLayout::UNDEFINED, WRITTEN.layout);
-                device.cmd_copy_buffer_to_image(
+        self.submit(|commands| {
+            // SAFETY: the commands are waited for; all handles outlive them.
+            unsafe {
+                for (image, aspect, bytes) in pictures {
+                    let recorder = Recorder::new(&self.gpu, commands, None);
+                    recorder.transition(image, vk::ImageLayout::UNDEFINED, WRITTEN.layout);
+                    device.cmd_copy_buffer_to_image(
+                        commands,
+                        bytes.handle(),
+                        image.handle(),
+                        WRITTEN.layout,
+                        &[copy(size, *aspect, 0)],
+                    );
+                }
+                frame.record(commands, scenery, shading).unwrap();
+                device.cmd_copy_image_to_buffer(
                     commands,
-                    bytes.handle(),
-                    image.handle(),
-                    WRITTEN.layout,
-                    &region(*aspect),
+                    shown.handle(),
+                    COPIED.layout,
+                    read_back.handle(),
+                    &[copy(size, vk::ImageAspectFlags::COLOR, 0)],
                 );
+                let barriers = [vk::MemoryBarrier2::default()
+                    .src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
+                    .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
+                    .dst_stage_mask(vk::PipelineStageFlags2::HOST)
+                    .dst_access_mask(vk::AccessFlags2::HOST_READ)];
+                let info = vk::DependencyInfo::default().memory_barriers(&barriers);
+                device.cmd_pipeline_barrier2(commands, &info);
             }
-            frame.record(commands, scenery, shading).unwrap();
-            device.cmd_copy_image_to_buffer(
-                commands,
-                shown.handle(),
-                COPIED.layout,
-                read_back.handle(),
-                &region(vk::ImageAspectFlags::COLOR),
-            );
-            let barriers = [vk::MemoryBarrier2::default()
-                .src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
-                .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
-                .dst_stage_mask(vk::PipelineStageFlags2::HOST)
-                .dst_access_mask(vk::AccessFlags2::HOST_READ)];
-            let info = vk::DependencyInfo::default().memory_barriers(&barriers);
-            device.cmd_pipeline_barrier2(commands, &info);
-            device.end_command_buffer(commands).unwrap();
-            let buffers = [commands];
-            let submits = [vk::SubmitInfo::default().command_buffers(&buffers)];
-            let queue = device.get_device_queue(self.gpu.queue_family(), 0);
-            device
-                .queue_submit(queue, &submits, vk::Fence::null())
-                .unwrap();
-            device.queue_wait_idle(queue).unwrap();
-            device.free_command_buffers(self.pool, &[commands]);
-        }
+        });
     }
 
     /// A set of the host's that shows these buffers; the one before goes.
@@ -436,6 +490,34 @@ impl<'a> Machine<'a> {
             .usage(vk::ImageUsageFlags::SAMPLED | drawn | copied);
         self.memory.image("lent", &info, aspect).unwrap()
     }
+}
+
+impl Map {
+    fn lent(&self, image: &Image) -> AlphaMap {
+        AlphaMap {
+            view: image.view(),
+            size: [self.side; 2],
+            levels: self.levels.len() as u32,
+            address: self.address,
+            cutoff: self.cutoff,
+        }
+    }
+}
+
+/// A copy of a whole level of an image, tightly packed.
+fn copy(size: [u32; 2], aspect_mask: vk::ImageAspectFlags, mip_level: u32) -> vk::BufferImageCopy {
+    vk::BufferImageCopy::default()
+        .image_subresource(vk::ImageSubresourceLayers {
+            aspect_mask,
+            mip_level,
+            base_array_layer: 0,
+            layer_count: 1,
+        })
+        .image_extent(vk::Extent3D {
+            width: size[0],
+            height: size[1],
+            depth: 1,
+        })
 }
 
 impl Drop for Machine<'_> {

@@ -3,4 +3,5 @@
 mod base;
 mod lent;
 mod machine;
+mod mask;
 mod world;

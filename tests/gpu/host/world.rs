@@ -12,11 +12,13 @@ pub const SKY: [f32; 3] = [0.1, 0.3, 0.7];
 /// In columns.
 pub type Matrix = [[f32; 4]; 4];
 
-/// Vertices in a space of their own, how bright each is, and triangles.
+/// Vertices in a space of their own, how bright each is, texture coordinates where it has an alpha map, and triangles.
+#[derive(Default)]
 pub struct Mesh {
-    positions: Vec<[f32; 3]>,
-    paints: Vec<f32>,
-    indices: Vec<u32>,
+    pub positions: Vec<[f32; 3]>,
+    pub paints: Vec<f32>,
+    pub coordinates: Vec<[f32; 2]>,
+    pub indices: Vec<u32>,
 }
 
 /// One of what is shown.
@@ -24,11 +26,22 @@ pub struct Part {
     pub mesh: usize,
     pub to_clip: Matrix,
     pub color: [f32; 3],
+    pub alpha_map: Option<u16>,
+}
+
+/// An image of colours whose alpha is tested, with all its levels.
+pub struct Map {
+    pub side: u32,
+    pub levels: Vec<Vec<u8>>,
+    pub address: [vk::SamplerAddressMode; 2],
+    pub cutoff: f32,
 }
 
 pub struct World {
     pub meshes: Vec<Mesh>,
     pub parts: Vec<Part>,
+    pub maps: Vec<Map>,
+    pub projection: Matrix,
 }
 
 /// How vertices and indices are lent.
@@ -57,6 +70,7 @@ pub struct Lent {
     pub vertex_count: u32,
     /// Of each vertex.
     pub paints: Vec<f32>,
+    pub coordinates: Vec<[f32; 2]>,
     pub indices: Vec<u8>,
     pub index_type: vk::IndexType,
     pub index_count: u32,
@@ -73,14 +87,14 @@ pub struct Drawn {
     pub colors: Vec<[f32; 4]>,
 }
 
-pub fn product(a: &Matrix, b: &Matrix) -> Matrix {
+fn product(a: &Matrix, b: &Matrix) -> Matrix {
     std::array::from_fn(|column| {
         std::array::from_fn(|row| (0..4).map(|i| a[i][row] * b[column][i]).sum())
     })
 }
 
 /// A perspective, y down, depth from 1 near to 0 far away.
-pub fn projection() -> Matrix {
+fn projection() -> Matrix {
     let mut matrix = [[0.0; 4]; 4];
     (matrix[0][0], matrix[1][1]) = (1.3, -1.3);
     (matrix[2][3], matrix[3][2]) = (-1.0, 0.1);
@@ -104,7 +118,7 @@ impl World {
         let mut blades = Mesh {
             positions: vec![[0.0; 3]],
             paints: vec![0.2],
-            indices: Vec::new(),
+            ..Mesh::default()
         };
         for blade in 0..9_u32 {
             let (angle, wide) = (0.7 * blade as f32, 0.01 + 0.012 * blade as f32);
@@ -115,11 +129,7 @@ impl World {
             }
             blades.indices.extend([0, 2 * blade + 1, 2 * blade + 2]);
         }
-        let mut sheet = Mesh {
-            positions: Vec::new(),
-            paints: Vec::new(),
-            indices: Vec::new(),
-        };
+        let mut sheet = Mesh::default();
         for row in 0..5_u32 {
             for column in 0..5_u32 {
                 let (x, y) = (column as f32 / 2.0 - 1.0, row as f32 / 2.0 - 1.0);
@@ -142,11 +152,14 @@ impl World {
                 mesh,
                 to_clip: product(&projection(), &placed(0.31 + n, 0.4 * n, at)),
                 color: [1.0, 0.3 + 0.1 * n, 1.0 - 0.13 * n],
+                alpha_map: None,
             }
         };
         Self {
             meshes: vec![blades, sheet],
             parts: (0..7).map(|n| part(usize::from(n % 3 == 2), n)).collect(),
+            maps: Vec::new(),
+            projection: projection(),
         }
     }
 
@@ -154,6 +167,7 @@ impl World {
     pub fn lent(&self, way: &Way) -> Lent {
         let mut vertices: Vec<Vec<f32>> = Vec::new();
         let mut paints = Vec::new();
+        let mut coordinates = Vec::new();
         let mut indices: Vec<u32> = Vec::new();
         let mut of_meshes = Vec::new();
         for mesh in &self.meshes {
@@ -162,6 +176,7 @@ impl World {
             if way.object_space {
                 vertices.extend(mesh.positions.iter().map(|p| p.to_vec()));
                 paints.extend(&mesh.paints);
+                coordinates.extend(&mesh.coordinates);
             }
         }
         let mut drawn_vertices = 0;
@@ -175,6 +190,7 @@ impl World {
                 let first = vertices.len();
                 vertices.extend(mesh.clip(&part.to_clip).map(|p| p.to_vec()));
                 paints.extend(&mesh.paints);
+                coordinates.extend(&mesh.coordinates);
                 first
             };
             drawn_vertices += mesh.positions.len() as u32;
@@ -185,6 +201,7 @@ impl World {
                 vertex_count: mesh.positions.len() as u32,
                 to_clip: part.to_clip,
                 material: number as u16,
+                alpha_map: part.alpha_map,
                 double_sided: true,
                 ..Draw::default()
             });
@@ -209,6 +226,7 @@ impl World {
             positions,
             vertex_count: vertices.len() as u32,
             paints,
+            coordinates,
             indices: index_bytes,
             index_type: if way.short_indices {
                 vk::IndexType::UINT16

@@ -1,0 +1,33 @@
+// alpha_map: a level of a host's alpha map as alpha.glsl reads it: a word for each place between 2 x 2 texels, wrapped.
+// Reads: the image, of any format with floats. Writes: the atlas. Twin: `AlphaAtlas`.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "include/workgroup.glsl"
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0) uniform texture2D map;
+layout(std430, set = 0, binding = 1) writeonly buffer Atlas { uint atlas[]; };
+layout(push_constant) uniform Push {
+    uvec2 size;         // of the level, in texels
+    uint level;
+    uint first;         // word of the level
+    uint repeats;       // 1 along u, 2 along v; otherwise the border goes on
+} push;
+
+int wrapped(int at, int side, uint axis) {
+    bool repeats = (push.repeats >> axis & 1u) != 0u;
+    return repeats ? (at + side) % side : clamp(at, 0, side - 1);
+}
+
+float texel(ivec2 at) {
+    ivec2 size = ivec2(push.size);
+    return texelFetch(map, ivec2(wrapped(at.x, size.x, 0u), wrapped(at.y, size.y, 1u)), int(push.level)).a;
+}
+
+void main() {
+    uint i = invocation_number(), row = push.size.x + 1u;
+    if (i >= row * (push.size.y + 1u)) return;
+    ivec2 at = ivec2(i % row, i / row) - 1;
+    vec4 texels = vec4(texel(at), texel(at + ivec2(1, 0)), texel(at + ivec2(0, 1)), texel(at + 1));
+    atlas[push.first + i] = packUnorm4x8(texels);
+}

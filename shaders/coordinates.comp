@@ -1,0 +1,25 @@
+// coordinates: texture coordinates of a host's vertices, one for each position in clip space.
+// Reads: draws, the host's vertices. Writes: coordinates. OBJECT: as for transform.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define BY_POSITION
+#include "include/workgroup.glsl"
+#include "include/draws.glsl"
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const bool OBJECT = false;
+layout(std430, set = 0, binding = 1) readonly buffer Vertices { uint vertices[]; };
+layout(std430, set = 0, binding = 2) writeonly buffer CoordinatesOut { uvec2 coordinates_out[]; };
+layout(push_constant) uniform Push {
+    uint position_count;
+    uint draw_count;
+    uint first_word;        // of the first vertex
+    uint stride;            // in words
+} push;
+
+void main() {
+    uint i = invocation_number();
+    if (i >= push.position_count) return;
+    uint vertex = OBJECT ? i + draws[draw_of(i, push.draw_count)].shift : i;
+    uint word = push.first_word + vertex * push.stride;
+    coordinates_out[i] = uvec2(vertices[word], vertices[word + 1u]);
+}

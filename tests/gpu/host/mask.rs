@@ -1,0 +1,181 @@
+//! A host's alpha maps, against scenes of files that have the same.
+
+use super::machine::{Base, Machine};
+use super::world::{Map, Mesh, PLACED, Part, SIZE, Way, World};
+use crate::stage::{Stage, flat, on_gpu, once, seen_at, textured};
+use ash::vk;
+use gpc::bench::stress::stage::NEAR;
+use gpc::host::Options;
+use gpc::render::{Method, Settings};
+use gpc::scene::{AlphaMode, Image, Sampler, Wrap};
+
+const SIDE: u32 = 8;
+const CUTOFF: f32 = 0.5;
+
+/// White of an alpha that has no pattern.
+fn texels() -> Vec<u8> {
+    let alpha = |i: u32| (i * i * 37 + i * 11 + 90) as u8;
+    let texel = |i: u32| [255, 255, 255, alpha(i)];
+    (0..SIDE * SIDE).flat_map(texel).collect()
+}
+
+/// All levels of an image whose side is a power of two.
+fn levels(image: Vec<u8>) -> Vec<Vec<u8>> {
+    let mut levels = vec![image];
+    let mut side = SIDE as usize;
+    while side > 1 {
+        let above = &levels[levels.len() - 1];
+        let half = side / 2;
+        let mean = |i: usize| {
+            let (x, y) = (2 * ((i / 4) % half), 2 * (i / 4 / half));
+            let at = |x: usize, y: usize| u32::from(above[4 * (y * side + x) + i % 4]);
+            let sum = at(x, y) + at(x + 1, y) + at(x, y + 1) + at(x + 1, y + 1);
+            ((sum + 2) / 4) as u8
+        };
+        let level = (0..4 * half * half).map(mean).collect();
+        levels.push(level);
+        side = half;
+    }
+    levels
+}
+
+/// A wall, and leaves before it: one that lies aslant and shows its map from magnified to far away, and a small one.
+fn quads() -> [([[f32; 3]; 4], f32); 3] {
+    let aslant = |x: f64, y: f64, distance: f64| seen_at([x * 0.9, y], distance, SIZE[1]);
+    let square = |half: f64, distance: f64| {
+        [[-1.0, -1.0], [-1.0, 1.0], [1.0, 1.0], [1.0, -1.0]]
+            .map(|[x, y]| seen_at([x * half + 3.3, y * half - 2.1], distance, SIZE[1]))
+    };
+    [
+        (square(60.0, 9.0), 0.0),
+        (
+            [
+                aslant(-28.0, -20.0, 4.0),
+                aslant(-31.0, 27.0, 0.7),
+                aslant(30.0, 25.0, 0.8),
+                aslant(27.0, -19.0, 5.0),
+            ],
+            3.3,
+        ),
+        (square(6.2, 0.6), 1.0),
+    ]
+}
+
+const CORNERS: [[f32; 2]; 4] = [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]];
+
+fn stage(sampler: Sampler) -> Stage {
+    let mask = AlphaMode::Mask { cutoff: CUTOFF };
+    let mut stage = Stage::new(vec![
+        flat([0.0, 0.0, 1.0, 1.0], AlphaMode::Opaque),
+        textured(mask),
+    ]);
+    let image = Image {
+        width: SIDE,
+        height: SIDE,
+        pixels: texels(),
+    };
+    stage.texture = Some((image, sampler));
+    for (number, (corners, repeats)) in quads().into_iter().enumerate() {
+        let first = stage.triangles.len();
+        stage.add_quad(usize::from(number > 0), corners);
+        let [a, b, c, d] = CORNERS.map(|corner| corner.map(|at| at * repeats - 0.2));
+        stage.triangles[first].uvs = [a, b, c];
+        stage.triangles[first + 1].uvs = [a, c, d];
+    }
+    stage
+}
+
+fn world(address: [vk::SamplerAddressMode; 2]) -> World {
+    let mut camera = [[0.0; 4]; 4];
+    (camera[0][0], camera[1][1]) = (1.0, -1.0);
+    (camera[2][3], camera[3][2]) = (-1.0, NEAR as f32);
+    let mesh = |(corners, repeats): ([[f32; 3]; 4], f32)| Mesh {
+        positions: corners.to_vec(),
+        paints: vec![1.0; 4],
+        coordinates: CORNERS
+            .map(|corner| corner.map(|at| at * repeats - 0.2))
+            .to_vec(),
+        indices: vec![0, 1, 2, 0, 2, 3],
+    };
+    let part = |number: usize| Part {
+        mesh: number,
+        to_clip: camera,
+        color: if number == 0 {
+            [0.0, 0.0, 1.0]
+        } else {
+            [1.0; 3]
+        },
+        alpha_map: (number > 0).then_some(1),
+    };
+    let map = |levels: Vec<Vec<u8>>, side| Map {
+        side,
+        levels,
+        address,
+        cutoff: CUTOFF,
+    };
+    World {
+        meshes: quads().map(mesh).into(),
+        parts: (0..3).map(part).collect(),
+        // The first is not used.
+        maps: vec![map(vec![vec![7; 4]], 1), map(levels(texels()), SIDE)],
+        projection: camera,
+    }
+}
+
+#[test]
+fn alpha_maps_are_tested_as_those_of_files() {
+    on_gpu(|gpu| {
+        use vk::SamplerAddressMode as Mode;
+        let object = Way {
+            object_space: true,
+            stride: 12,
+            short_indices: true,
+            ..PLACED
+        };
+        for (wraps, modes) in [
+            ([Wrap::Repeat; 2], [Mode::REPEAT; 2]),
+            (
+                [Wrap::ClampToEdge, Wrap::MirroredRepeat],
+                [Mode::CLAMP_TO_EDGE, Mode::MIRRORED_REPEAT],
+            ),
+        ] {
+            let sampler = Sampler {
+                wrap_u: wraps[0],
+                wrap_v: wraps[1],
+                ..Sampler::default()
+            };
+            let settings = Settings {
+                method: Method::Superpixel,
+                thin: true,
+                attributes: false,
+                ..once(SIZE)
+            };
+            let expected = stage(sampler).render(gpu, &settings);
+            let world = world(modes);
+            let machine = Machine::new(gpu, &world);
+            for way in [PLACED, object] {
+                let options = Options {
+                    samples: settings.samples,
+                    contrast: settings.contrast,
+                    ..Options::new(SIZE[0], SIZE[1])
+                };
+                let lent = world.lent(&way);
+                let found = machine.see_lent(&way, &lent, Base::Nothing, options);
+                assert_eq!(found.outcome.left_over, 0);
+                let apart = |channel: usize| {
+                    let pairs = found.colors.iter().zip(&expected.colors);
+                    pairs
+                        .map(move |(a, b)| (a[channel] - b[channel]).abs())
+                        .fold(0.0, f32::max)
+                };
+                let worst = apart(0).max(apart(1)).max(apart(2));
+                let superpixels = found.outcome.statistics.superpixels;
+                assert_eq!(superpixels, expected.statistics.superpixels);
+                let mixed = found.colors.iter().filter(|c| (0.1..0.9).contains(&c[0]));
+                assert!(mixed.count() > 100, "{superpixels} superpixels");
+                // Colours of the files' renderer come from a texture.
+                assert!(worst < 1e-6, "{way:?}: {worst}");
+            }
+        }
+    });
+}
