@@ -1,8 +1,9 @@
 // gpc: antialiases the pixels of a Vulkan application's own frames that alias, shaded by its own pipelines.
 //
-// An application draws its frame as ever, and one more attachment of triangle IDs. gpc_frame_record then finds the pixels
-// that alias, samples the application's triangles there, has the application shade what the samples see, and draws the
-// resolved pixels over the aliased ones, all in the application's command buffer. docs/embedding.md is the manual.
+// An application draws its frame as ever, and one more attachment of triangle IDs, or leaves some or all of that to the
+// library. gpc_frame_record then finds the pixels that alias, samples the application's triangles there, has the application
+// shade what the samples see, and draws the resolved pixels over the aliased ones, all in the application's command buffer.
+// docs/embedding.md is the manual.
 //
 // - Functions that can fail answer a GpcResult; gpc_last_error has the message. No error leaves anything behind, and no
 //   panic of the library crosses this boundary.
@@ -196,7 +197,7 @@ typedef struct GpcAlphaMap {
 typedef struct GpcGeometry {
     // sizeof(GpcGeometry).
     uint32_t size;
-    // How many vertices there can be. Larger indices are taken for the last.
+    // How many vertices there can be. Larger indices are taken for the last, or in object space for the last of the draw.
     uint32_t vertex_capacity;
     // Positions of vertices, made with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT; where they lie in clip space and 16 bytes apart,
     // with VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT too.

@@ -44,7 +44,7 @@ pub struct GpcAlphaMap {
 pub struct GpcGeometry {
     /// sizeof(GpcGeometry).
     pub size: u32,
-    /// How many vertices there can be. Larger indices are taken for the last.
+    /// How many vertices there can be. Larger indices are taken for the last, or in object space for the last of the draw.
     pub vertex_capacity: u32,
     /// Positions of vertices, made with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT; where they lie in clip space and 16 bytes apart,
     /// with VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT too.

@@ -49,7 +49,7 @@ pub struct Geometry {
     pub position_stride: u32,
     /// What they are.
     pub position_space: PositionSpace,
-    /// How many vertices there can be. Larger indices are taken for the last.
+    /// How many vertices there can be. Larger indices are taken for the last, or in object space for the last of the draw.
     pub vertex_capacity: u32,
     /// Texture coordinates, where there are alpha maps.
     pub coordinates: Option<Coordinates>,
