@@ -299,6 +299,9 @@ static void frames(void) {
     geometry.position_stride = 14;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "position_stride is 14 bytes; it can be any multiple of 4 from 12 on");
     geometry.position_stride = 16;
+    geometry.vertex_capacity = 0xffffffffu;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "the buffer of positions");
+    geometry.vertex_capacity = VERTICES;
     geometry.index_type = VK_INDEX_TYPE_NONE_KHR;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "index_type is NONE_KHR; it can be UINT16 or UINT32");
     geometry.index_type = VK_INDEX_TYPE_UINT16;
