@@ -1,8 +1,8 @@
 //! A host's alpha maps, against scenes of files that have the same.
 
 use super::machine::{Base, Machine};
-use super::world::{Map, Mesh, PLACED, Part, SIZE, Way, World};
-use crate::stage::{Stage, flat, on_gpu, once, seen_at, textured};
+use super::world::{Drawn, Map, Mesh, PLACED, Part, SIZE, Way, World};
+use crate::stage::{Stage, flat, ids, on_gpu, once, seen_at, textured};
 use ash::vk;
 use gpc::bench::stress::stage::NEAR;
 use gpc::host::Options;
@@ -147,35 +147,51 @@ fn alpha_maps_are_tested_as_those_of_files() {
             let settings = Settings {
                 method: Method::Superpixel,
                 thin: true,
-                attributes: false,
                 ..once(SIZE)
             };
-            let expected = stage(sampler).render(gpu, &settings);
+            let stage = stage(sampler);
+            let expected = stage.render(gpu, &settings);
+            // As a host draws them that discards fragments itself.
+            let own = Drawn {
+                ids: ids(&expected),
+                depths: vec![0.0; (SIZE[0] * SIZE[1]) as usize],
+                colors: Vec::new(),
+            };
+            let without_depth = Settings {
+                thin: false,
+                ..settings.clone()
+            };
+            let expected_of_own = stage.render(gpu, &without_depth);
             let world = world(modes);
             let machine = Machine::new(gpu, &world);
-            for way in [PLACED, object] {
+            for (way, base, expected) in [
+                (PLACED, Base::Nothing, &expected),
+                (object, Base::Nothing, &expected),
+                (object, Base::Ids(&own), &expected_of_own),
+            ] {
+                let lent = world.lent(&way);
                 let options = Options {
+                    thin: matches!(base, Base::Nothing),
                     samples: settings.samples,
                     contrast: settings.contrast,
                     ..Options::new(SIZE[0], SIZE[1])
                 };
-                let lent = world.lent(&way);
-                let found = machine.see_lent(&way, &lent, Base::Nothing, options);
+                let found = machine.see_lent(&way, &lent, base, options);
                 assert_eq!(found.outcome.left_over, 0);
-                let apart = |channel: usize| {
-                    let pairs = found.colors.iter().zip(&expected.colors);
-                    pairs
-                        .map(move |(a, b)| (a[channel] - b[channel]).abs())
-                        .fold(0.0, f32::max)
-                };
-                let worst = apart(0).max(apart(1)).max(apart(2));
                 let superpixels = found.outcome.statistics.superpixels;
                 assert_eq!(superpixels, expected.statistics.superpixels);
                 let mixed = found.colors.iter().filter(|c| (0.1..0.9).contains(&c[0]));
                 assert!(mixed.count() > 100, "{superpixels} superpixels");
                 // Colours of the files' renderer come from a texture.
+                let worst = farthest(&found.colors, &expected.colors);
                 assert!(worst < 1e-6, "{way:?}: {worst}");
             }
         }
     });
+}
+
+/// The largest difference of any colour.
+fn farthest(a: &[[f32; 4]], b: &[[f32; 4]]) -> f32 {
+    let channels = a.as_flattened().iter().zip(b.as_flattened());
+    channels.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
 }
