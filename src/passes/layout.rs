@@ -1,9 +1,9 @@
 //! The layout of the descriptor sets and pipelines that all passes share, and the pipelines made so far.
 
+use super::pipelines::Pipelines;
 use super::pool::DescriptorPool;
 use crate::vulkan::{Constants, Gpu, Limits, PUSH_STAGES, Pipeline, VulkanError, compute_pipeline};
 use ash::vk;
-use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Textures of a material that differ, at the most. With one for the environment, these are the samplers that every Vulkan
@@ -84,11 +84,7 @@ pub(super) fn descriptor_type(binding: u32) -> vk::DescriptorType {
         .map_or(vk::DescriptorType::default(), |(_, kind)| *kind)
 }
 
-/// What tells one pipeline from another: its shader, its constants, and a variant of its fixed state.
-type PipelineKey = (usize, Constants, u32);
-
-/// The layout of both descriptor sets and of every pipeline, and the pipelines made so far: frames of other sizes,
-/// poses and scenes use them again.
+/// The layout of both descriptor sets and of every pipeline, and the pipelines made so far.
 pub struct FrameLayout {
     pub(crate) gpu: Arc<Gpu>,
     pub(super) frame_set: vk::DescriptorSetLayout,
@@ -96,7 +92,7 @@ pub struct FrameLayout {
     pub(super) pipeline: vk::PipelineLayout,
     /// Fixed in the layout, so that sets are whole where nothing has an environment.
     environment_sampler: vk::Sampler,
-    pipelines: Mutex<HashMap<PipelineKey, Arc<Pipeline>>>,
+    pipelines: Mutex<Pipelines>,
 }
 
 impl FrameLayout {
@@ -127,7 +123,7 @@ impl FrameLayout {
             texture_set: vk::DescriptorSetLayout::null(),
             pipeline: vk::PipelineLayout::null(),
             environment_sampler: vk::Sampler::null(),
-            pipelines: Mutex::default(),
+            pipelines: Mutex::new(Pipelines::new()),
         };
         // SAFETY: plain creations on a live device; handles made before a failure are destroyed by `Drop`.
         unsafe {
@@ -216,11 +212,11 @@ impl FrameLayout {
                 .unwrap_or_else(PoisonError::into_inner)
         };
         if let Some(pipeline) = known().get(&key) {
-            return Ok(pipeline.clone());
+            return Ok(pipeline);
         }
         // Not under the lock, so that several threads make theirs at once.
-        let made = Arc::new(make()?);
-        Ok(known().entry(key).or_insert(made).clone())
+        let made = make()?;
+        Ok(known().add(key, made))
     }
 
     /// A pool for `frames` sets 0 and `bins` sets 1.

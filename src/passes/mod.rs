@@ -31,6 +31,7 @@ mod layout;
 mod multisample;
 mod own_layout;
 mod patch;
+mod pipelines;
 mod points;
 mod pool;
 #[cfg(feature = "gltf")]

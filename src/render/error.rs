@@ -54,6 +54,10 @@ pub enum RenderError {
     /// A scene is not on the device yet.
     #[error("the scene is not on the device: Headless::upload puts it there")]
     NotUploaded,
+    /// [`Headless::stop_when`](super::Headless::stop_when) said so.
+    #[cfg(feature = "gltf")]
+    #[error("what was being made is no longer wanted")]
+    Stopped,
     /// A camera makes no pinhole.
     #[cfg(feature = "gltf")]
     #[error(transparent)]

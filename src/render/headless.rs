@@ -43,6 +43,7 @@ pub struct Headless {
     commands: vk::CommandBuffer,
     fence: vk::Fence,
     output: Option<ReadBack>,
+    is_unwanted: Option<Box<dyn Fn() -> bool + Send + Sync>>,
 }
 
 /// Memory that a frame's colours and attributes are copied to, for the host to read.
@@ -165,6 +166,7 @@ impl Headless {
             commands: vk::CommandBuffer::null(),
             fence: vk::Fence::null(),
             output: None,
+            is_unwanted: None,
         };
         // SAFETY: plain creations on a live device.
         unsafe {
@@ -195,6 +197,17 @@ impl Headless {
     #[must_use]
     pub fn gpu(&self) -> &Arc<Gpu> {
         &self.gpu
+    }
+
+    /// Asks before each submission whether what is made is still wanted; where it is not, that ends with
+    /// [`RenderError::Stopped`]. Sites are sampled in shorter runs then. Other threads may change the answer.
+    pub fn stop_when(&mut self, is_unwanted: impl Fn() -> bool + Send + Sync + 'static) {
+        self.is_unwanted = Some(Box::new(is_unwanted));
+    }
+
+    /// Whether somebody may stop what is made.
+    pub(super) fn may_stop(&self) -> bool {
+        self.is_unwanted.is_some()
     }
 
     /// Everything the validation layer has said; empty without it.
@@ -342,6 +355,9 @@ impl Headless {
         &mut self,
         record: impl FnOnce(vk::CommandBuffer),
     ) -> Result<(), RenderError> {
+        if self.is_unwanted.as_ref().is_some_and(|asked| asked()) {
+            return Err(RenderError::Stopped);
+        }
         let device = &self.gpu.device;
         // SAFETY: the command buffer and fence are ours and idle between calls; the queue is used by this thread alone.
         unsafe {

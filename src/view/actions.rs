@@ -6,13 +6,13 @@ use super::fly::Way;
 use super::keys::{self, Action};
 use super::lens::Lenses;
 use super::look::Look;
-use super::mouse::{NOTCH, PIXELS_A_NOTCH, pinched};
+use super::mouse::{NOTCH, pinched};
 use super::overlay::Overlay;
 use super::panel::Wishes;
 use super::photo::Framing;
 use super::source::{Source, Stage};
 use super::standpoint::Standpoint;
-use super::studio::{Order, Subject, Task};
+use super::studio::{Subject, Task};
 use super::window::View;
 use glam::DVec2;
 use gpc::render::Method;
@@ -59,7 +59,7 @@ impl View {
             WindowEvent::MouseWheel { delta, .. } if !response.consumed => {
                 let notches = match delta {
                     MouseScrollDelta::LineDelta(_, lines) => f64::from(*lines),
-                    MouseScrollDelta::PixelDelta(pixels) => pixels.y / PIXELS_A_NOTCH,
+                    MouseScrollDelta::PixelDelta(pixels) => self.notches(pixels.y),
                 };
                 self.wheel(NOTCH.powf(notches));
             }
@@ -117,6 +117,10 @@ impl View {
                 if let Some(loading) = self.loading.take() {
                     self.notes
                         .say(format!("stopped loading {}", loading.source.name()));
+                }
+                for path in self.studio.stop_files() {
+                    self.notes
+                        .say(format!("stopped writing {}", path.display()));
                 }
                 self.shows_keys = false;
                 self.flight = None;
@@ -335,7 +339,7 @@ impl View {
                 return;
             };
             let task = Task::PhotoFile(easel.whole(map), path.clone());
-            self.studio.ask(Order { number: 0, task });
+            self.studio.ask(0, task);
             self.notes.say(format!("writing {}", path.display()));
             return;
         }

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 /// Samples of the first pictures, before those asked for.
 const STEPS: [u32; 2] = [4, 64];
-/// Nothing has to have changed for this long before a picture of more samples is begun: it can't be stopped.
+/// Nothing has to have changed for this long before a picture of more samples is begun.
 const REST: Duration = Duration::from_millis(700);
 
 /// What is wanted, and how much of it is there.

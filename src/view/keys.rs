@@ -210,7 +210,7 @@ static BINDINGS: [Binding; 34] = [
         NamedKey::Escape,
         "Esc",
         Action::Back,
-        "stop loading or flying, or close the list",
+        "stop loading, writing or flying, or close the list",
     ),
     text("q", "Q", Action::Quit, "quit"),
 ];

@@ -10,10 +10,11 @@ mod command;
 mod compose;
 mod cover;
 mod device;
+mod ending;
 mod engine;
 mod files;
 mod fly;
-mod inbox;
+mod heap;
 mod keys;
 mod layer;
 mod lens;
@@ -37,6 +38,7 @@ mod schedule;
 mod slot;
 mod source;
 mod standpoint;
+mod stop;
 mod studio;
 mod swapchain;
 mod tint;
@@ -97,6 +99,7 @@ impl NoDisplay {
 /// [`NoDisplay`] where there is no display, [`gpc::vulkan::VulkanError`] where no device can show pictures in the window;
 /// what the validation layer said, where it was asked.
 pub fn run(options: Options) -> anyhow::Result<()> {
+    heap::share();
     let events = EventLoop::with_user_event()
         .build()
         .map_err(|error| NoDisplay::new(&error))?;

@@ -14,9 +14,9 @@ use winit::event::MouseButton;
 
 /// How much nearer a notch of the wheel brings.
 pub const NOTCH: f64 = 1.15;
-/// Pixels of a touchpad or of a drag that count as a notch.
-pub const PIXELS_A_NOTCH: f64 = 40.0;
-/// Pixels from the line of a split at which it is taken hold of.
+/// Pixels of a touchpad or of a drag, on an ordinary display, that count as a notch.
+const PIXELS_A_NOTCH: f64 = 40.0;
+/// Pixels of an ordinary display from the line of a split at which it is taken hold of.
 const GRIP: f64 = 6.0;
 
 /// The factor that fingers on a touchpad ask for: what they are farther apart than before, as a share of that.
@@ -81,9 +81,10 @@ impl View {
     }
 
     pub fn press(&mut self, button: MouseButton) {
+        let grip = GRIP * self.window.scale_factor();
         let near_split = self
             .split_column()
-            .is_some_and(|column| (self.pointer.place().x - f64::from(column)).abs() < GRIP);
+            .is_some_and(|column| (self.pointer.place().x - f64::from(column)).abs() < grip);
         let drag = match button {
             MouseButton::Left if near_split => Drag::Split,
             MouseButton::Left if self.modifiers.shift_key() => Drag::Pan,
@@ -116,7 +117,7 @@ impl View {
                 }
             }
             Drag::Zoom => {
-                let factor = NOTCH.powf(-by.y / PIXELS_A_NOTCH);
+                let factor = NOTCH.powf(-self.notches(by.y));
                 self.zoom(factor, 0.5 * DVec2::new(width, height));
             }
             Drag::Lens => {
@@ -128,6 +129,11 @@ impl View {
                 self.is_dirty = true;
             }
         }
+    }
+
+    /// Notches of a wheel that a touchpad's or a drag's pixels stand for.
+    pub fn notches(&self, pixels: f64) -> f64 {
+        pixels / (PIXELS_A_NOTCH * self.window.scale_factor())
     }
 
     /// Enlarges what the wheel is for: the lens, the speed of flying, or what is under the pointer.

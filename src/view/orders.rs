@@ -2,7 +2,7 @@
 
 use super::cover::Cover;
 use super::picture::Picture;
-use super::studio::{Order, Pixels, SceneTask, Subject, Task};
+use super::studio::{Pixels, SceneTask, Subject, Task};
 use super::window::View;
 use std::time::Instant;
 
@@ -62,10 +62,7 @@ impl View {
             let (lenses, tints) = (&self.cover.lenses, self.cover.tints);
             let view = easel.view(size, lenses.map(), tints, self.pointer.place());
             let (number, _) = step(&mut self.cover);
-            self.studio.ask(Order {
-                number,
-                task: Task::Photo(view),
-            });
+            self.studio.ask(number, Task::Photo(view));
         } else if let Some(subject) = self.cover.subject() {
             let (number, samples) = step(&mut self.cover);
             let look = &self.looks[self.layer_under_pointer()];
@@ -75,11 +72,13 @@ impl View {
                 look.settings.samples
             };
             self.order(number, samples, subject);
+        } else {
+            self.studio.supersede();
         }
     }
 
     /// Asks the studio for a picture of what is seen of the scene, antialiased like that under the pointer.
-    pub fn order(&self, number: u64, samples: u32, subject: Subject) {
+    pub fn order(&mut self, number: u64, samples: u32, subject: Subject) {
         let Some(stage) = self.canvas.stage() else {
             return;
         };
@@ -92,9 +91,6 @@ impl View {
             settings: look.at(samples, None),
             subject,
         };
-        self.studio.ask(Order {
-            number,
-            task: Task::Scene(Box::new(task)),
-        });
+        self.studio.ask(number, Task::Scene(Box::new(task)));
     }
 }

@@ -2,12 +2,12 @@
 //! beside their colours, of photographs, and for files. They are made in a thread and a device of their own, so that the
 //! window never waits for them.
 
-use super::inbox::Inbox;
 use super::losses::is_lost;
 use super::overlay::{self, COUNT_SIDE, Overlay};
 use super::photo;
 use super::source::{Source, bounds};
 use super::standpoint::Standpoint;
+use super::stop::Stop;
 use super::tint::tinted;
 use anyhow::{Context, bail};
 use glam::DVec2;
@@ -18,17 +18,21 @@ use gpc::compare;
 use gpc::output::{self, Aov, AovKind, DecodedImage, Format, Picture};
 use gpc::reference::srgb;
 use gpc::render::{
-    Headless, HeadlessOptions, Method, PixelRect, PreparedScene, Rendered, Settings, Shadows,
+    Headless, HeadlessOptions, Method, PixelRect, PreparedScene, RenderError, Rendered, Settings,
+    Shadows, Statistics,
 };
 use gpc::resample::Zoomed;
 use gpc::scene::{Pose, PoseRequest, Scene};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::mpsc::{Sender, channel};
+use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 
-/// Rows of a picture that are made between two looks at the orders.
+/// Rows of a picture that are made at once, where it takes long: in between it can be stopped.
 const BAND: u32 = 32;
+/// A picture of at most so many samples is soon done: it is shown though another one is asked for meanwhile, so that there
+/// is something to see while lenses move.
+const QUICK: u32 = 4;
 /// Brute force that pictures are compared with has at least so many samples.
 const REFERENCE_SAMPLES: u32 = 256;
 
@@ -46,13 +50,14 @@ pub enum Subject {
 }
 
 /// A picture to be made.
-pub struct Order {
+struct Order {
     /// Tells what is made from what was asked for since.
-    pub number: u64,
-    pub task: Task,
+    number: u64,
+    task: Task,
+    stop: Stop,
 }
 
-/// Of what.
+/// What it is of.
 pub enum Task {
     Scene(Box<SceneTask>),
     Photo(photo::View),
@@ -71,14 +76,25 @@ pub struct SceneTask {
     pub subject: Subject,
 }
 
-impl Order {
-    /// Whether it is made whatever else is asked for.
-    pub fn is_file(&self) -> bool {
-        match &self.task {
-            Task::Scene(task) => matches!(task.subject, Subject::File(_)),
-            Task::Photo(_) => false,
-            Task::PhotoFile(..) => true,
+impl Task {
+    /// The file that it is for, which is made whatever else is asked for.
+    fn file(&self) -> Option<&Path> {
+        match self {
+            Self::Scene(task) => match &task.subject {
+                Subject::File(path) => Some(path),
+                _ => None,
+            },
+            Self::Photo(_) => None,
+            Self::PhotoFile(_, path) => Some(path),
         }
+    }
+}
+
+impl SceneTask {
+    fn is_quick(&self) -> bool {
+        let needs_all =
+            matches!(self.subject, Subject::Overlay(overlay) if overlay.needs_all_samples());
+        self.settings.samples <= QUICK && !needs_all
     }
 }
 
@@ -133,12 +149,15 @@ impl Made {
     }
 }
 
-/// Takes orders until it is dropped, which waits for what it is at and for files that were asked for: a driver can't be
-/// left in the middle of its work when the process ends.
+/// Takes orders until it is dropped, which stops what it is at.
 pub struct Studio {
     /// `None` only while dropping.
     orders: Option<Sender<Order>>,
     thread: Option<JoinHandle<()>>,
+    /// The last picture to look at.
+    picture: Stop,
+    /// Files that were asked for and are not written.
+    files: Vec<(PathBuf, Stop)>,
 }
 
 impl Studio {
@@ -150,28 +169,56 @@ impl Studio {
                 shown: None,
                 headless: None,
                 options,
-                inbox: Inbox::new(received),
             }
-            .run(deliver);
+            .run(&received, deliver);
         });
         Self {
             orders: Some(orders),
             thread: Some(thread),
+            picture: Stop::default(),
+            files: Vec::new(),
         }
     }
 
-    /// Asks for a picture. Of those to look at that wait for their turn, the last alone is made.
-    pub fn ask(&self, order: Order) {
+    /// Asks for a picture. Of those to look at the last alone is made.
+    pub fn ask(&mut self, number: u64, task: Task) {
+        let stop = Stop::default();
+        match task.file() {
+            Some(path) => self.files.push((path.to_owned(), stop.clone())),
+            None => std::mem::replace(&mut self.picture, stop.clone()).supersede(),
+        }
+        let order = Order { number, task, stop };
         if let Some(orders) = &self.orders {
             // The thread ends with this sender, and not before.
             let _ = orders.send(order);
         }
+    }
+
+    /// The last picture to look at is of no use any more.
+    pub fn supersede(&mut self) {
+        self.picture.supersede();
+    }
+
+    /// A file is written, or can't be.
+    pub fn delivered(&mut self, path: &Path) {
+        self.files.retain(|(asked, _)| asked != path);
+    }
+
+    /// Stops all files, and says which.
+    pub fn stop_files(&mut self) -> Vec<PathBuf> {
+        let stopped = |(path, stop): (PathBuf, Stop)| {
+            stop.stop();
+            path
+        };
+        self.files.drain(..).map(stopped).collect()
     }
 }
 
 impl Drop for Studio {
     fn drop(&mut self) {
         self.orders = None;
+        self.picture.stop();
+        self.stop_files();
         if let Some(thread) = self.thread.take() {
             // A panic has been reported by the thread itself.
             let _ = thread.join();
@@ -185,7 +232,6 @@ struct Maker {
     shown: Option<Shown>,
     headless: Option<Headless>,
     options: HeadlessOptions,
-    inbox: Inbox,
 }
 
 /// A pose on the device.
@@ -197,11 +243,15 @@ struct Shown {
 }
 
 impl Maker {
-    fn run(&mut self, deliver: impl Fn(Made)) {
-        while let Some(order) = self.inbox.next() {
-            let Some(made) = self.make(&order) else {
+    fn run(&mut self, orders: &Receiver<Order>, deliver: impl Fn(Made)) {
+        for order in orders {
+            if order.stop.is_superseded() {
                 continue;
-            };
+            }
+            let made = self.make(&order);
+            if made.error().is_some_and(is_stopped) {
+                continue;
+            }
             if made.error().is_some_and(is_lost) {
                 // The next order opens another device.
                 self.shown = None;
@@ -211,32 +261,45 @@ impl Maker {
         }
     }
 
-    /// Makes a picture, unless another one is asked for meanwhile.
-    fn make(&mut self, order: &Order) -> Option<Made> {
+    /// Makes a picture; where it is stopped, an error of which [`is_stopped`] holds.
+    fn make(&mut self, order: &Order) -> Made {
         let number = order.number;
         let task = match &order.task {
             Task::Scene(task) => task,
             Task::Photo(view) => {
                 let pixels = Pixels::new(view.window.size, &view.pixels());
                 let pixels = pixels.map(|code, place| view.covered(code, place));
-                return Some(Made::Pixels(number, Ok(pixels)));
+                return Made::Pixels(number, Ok(pixels));
             }
             Task::PhotoFile(view, path) => {
-                return Some(Made::File(path.clone(), write_photo(view, path)));
+                return Made::File(path.clone(), write_photo(view, path));
             }
         };
+        if let Err(error) = self.listen(task, &order.stop) {
+            return Made::Pixels(number, Err(error));
+        }
         let pixels = match &task.subject {
             Subject::File(path) => {
-                return Some(Made::File(path.clone(), self.write(task, path)));
+                return Made::File(path.clone(), self.write(task, path));
             }
-            Subject::Still => self.still(task).map(Some),
-            Subject::Zoom(map, tints) => self.zoom(task, map, *tints).map(Some),
-            Subject::Overlay(Overlay::Stored(kind)) => self.stored(task, *kind).map(Some),
+            Subject::Still => self.still(task),
+            Subject::Zoom(map, tints) => self.zoom(task, map, *tints),
+            Subject::Overlay(Overlay::Stored(kind)) => self.stored(task, *kind),
             Subject::Overlay(Overlay::Triangles) => self.triangles(task),
             Subject::Overlay(Overlay::Error) => self.error(task),
         };
-        let made = |pixels| Made::Pixels(number, pixels);
-        pixels.transpose().map(made)
+        Made::Pixels(number, pixels)
+    }
+
+    /// Opens the device, and has it ask whether the task is still wanted.
+    fn listen(&mut self, task: &SceneTask, stop: &Stop) -> anyhow::Result<()> {
+        let headless = match &mut self.headless {
+            Some(headless) => headless,
+            none => none.insert(Headless::new(&self.options)?),
+        };
+        let (stop, is_quick) = (stop.clone(), task.is_quick());
+        headless.stop_when(move || stop.is_unwanted() || (!is_quick && stop.is_superseded()));
+        Ok(())
     }
 
     fn write(&mut self, task: &SceneTask, path: &Path) -> anyhow::Result<()> {
@@ -286,7 +349,7 @@ impl Maker {
     }
 
     /// Counts triangles at a grid of samples in every pixel.
-    fn triangles(&mut self, task: &SceneTask) -> anyhow::Result<Option<Pixels>> {
+    fn triangles(&mut self, task: &SceneTask) -> anyhow::Result<Pixels> {
         let size = task.settings.size;
         let finer = Settings {
             method: Method::None,
@@ -299,7 +362,7 @@ impl Maker {
         let side = COUNT_SIDE as usize;
         let width = size[0] as usize * side;
         let mut codes = Vec::new();
-        let done = self.render_bands(task, &finer, BAND * COUNT_SIDE, |band| {
+        self.render_bands(task, &finer, BAND * COUNT_SIDE, |band| {
             for row in band.attributes.chunks_exact(width * side) {
                 for column in 0..size[0] as usize {
                     let ids = (0..side * side).map(|sample| {
@@ -310,15 +373,15 @@ impl Maker {
                 }
             }
         })?;
-        Ok(done.then_some(Pixels {
+        Ok(Pixels {
             size,
             codes,
             figures: None,
-        }))
+        })
     }
 
     /// Compares with brute force.
-    fn error(&mut self, task: &SceneTask) -> anyhow::Result<Option<Pixels>> {
+    fn error(&mut self, task: &SceneTask) -> anyhow::Result<Pixels> {
         let side = task.settings.samples.max(REFERENCE_SAMPLES).isqrt();
         let brute = Settings {
             method: Method::Ssaa,
@@ -326,20 +389,12 @@ impl Maker {
             shadows: Shadows::None,
             ..task.settings.clone()
         };
-        let mut reference = Vec::new();
-        let done = self.render_bands(task, &brute, BAND, |band| {
-            reference.extend_from_slice(&band.colors);
-        })?;
-        if !done {
-            return Ok(None);
-        }
-        let rendered = self.render(
-            task,
-            &Settings {
-                shadows: Shadows::None,
-                ..task.settings.clone()
-            },
-        )?;
+        let reference = self.render(task, &brute)?.colors;
+        let rendered = Settings {
+            shadows: Shadows::None,
+            ..task.settings.clone()
+        };
+        let rendered = self.render(task, &rendered)?;
         let size = rendered.size;
         let [first, second] = [&reference, &rendered.colors]
             .map(|colors| Picture::new(size, colors).map(|picture| DecodedImage::from(&picture)));
@@ -347,7 +402,7 @@ impl Maker {
         let reference = Pixels::new(size, &reference).codes;
         let rendered = Pixels::new(size, &rendered.colors).codes;
         let pairs = reference.iter().zip(&rendered);
-        Ok(Some(Pixels {
+        Ok(Pixels {
             size,
             codes: pairs.map(|(a, b)| overlay::error(*a, *b)).collect(),
             figures: Some(format!(
@@ -356,23 +411,19 @@ impl Maker {
                 found.rmse,
                 found.flip
             )),
-        }))
+        })
     }
 
-    /// Renders bands of so many rows from the top, and hands each to `take`. Ends where another picture is asked for; says
-    /// whether it came to the bottom.
+    /// Renders bands of so many rows from the top, and hands each to `take`.
     fn render_bands(
         &mut self,
         task: &SceneTask,
         settings: &Settings,
         rows: u32,
-        mut take: impl FnMut(&Rendered),
-    ) -> anyhow::Result<bool> {
+        mut take: impl FnMut(Rendered),
+    ) -> anyhow::Result<()> {
         let [width, height] = settings.size;
         for first in (0..height).step_by(rows as usize) {
-            if self.inbox.is_superseded() {
-                return Ok(false);
-            }
             let region = PixelRect {
                 corner: [0, first],
                 size: [width, rows.min(height - first)],
@@ -381,30 +432,44 @@ impl Maker {
                 region: Some(region),
                 ..settings.clone()
             };
-            take(&self.render(task, &band)?);
+            let (headless, shown) = self.show(task)?;
+            let camera = camera(task, shown)?;
+            let mut frame = headless.prepare(&shown.prepared, &band)?;
+            take(headless.render(&mut frame, &camera)?);
+            check(headless)?;
         }
-        Ok(true)
+        Ok(())
     }
 
     fn render(&mut self, task: &SceneTask, settings: &Settings) -> anyhow::Result<Rendered> {
-        let (headless, shown) = self.show(task)?;
-        let camera = camera(task, shown)?;
-        let rendered = match settings.shadows {
-            Shadows::None => {
-                let mut frame = headless.prepare(&shown.prepared, settings)?;
-                headless.render(&mut frame, &camera)?
-            }
-            Shadows::Exact => headless.render_with_shadows(&shown.prepared, &camera, settings)?,
+        if settings.shadows == Shadows::Exact {
+            let (headless, shown) = self.show(task)?;
+            let camera = camera(task, shown)?;
+            let rendered = headless.render_with_shadows(&shown.prepared, &camera, settings)?;
+            check(headless)?;
+            return Ok(rendered);
+        }
+        let mut whole = Rendered {
+            size: settings.size,
+            colors: Vec::new(),
+            attributes: Vec::new(),
+            statistics: Statistics::default(),
         };
-        check(headless)?;
-        Ok(rendered)
+        let rows = if settings.samples <= QUICK {
+            settings.size[1]
+        } else {
+            BAND
+        };
+        self.render_bands(task, settings, rows, |band| {
+            whole.colors.extend(band.colors);
+            whole.attributes.extend(band.attributes);
+            whole.statistics.append(band.statistics);
+        })?;
+        Ok(whole)
     }
 
     /// Puts what the task is of on the device, unless it is there.
     fn show(&mut self, task: &SceneTask) -> anyhow::Result<(&mut Headless, &Shown)> {
-        if self.headless.is_none() {
-            self.headless = Some(Headless::new(&self.options)?);
-        }
         let headless = self.headless.as_mut().context("there is no device")?;
         let is_shown =
             |shown: &Shown| Arc::ptr_eq(&shown.scene, &task.scene) && shown.time == task.time;
@@ -450,10 +515,67 @@ fn camera(task: &SceneTask, shown: &Shown) -> anyhow::Result<gpc::camera::Camera
         .camera(&pose.cameras, bounds(pose), width / height)?)
 }
 
+/// Whether an error says that nobody wants the picture any more.
+fn is_stopped(error: &anyhow::Error) -> bool {
+    matches!(
+        error.downcast_ref::<RenderError>(),
+        Some(RenderError::Stopped)
+    )
+}
+
 /// Fails if the validation layer was asked, and has said anything.
 fn check(headless: &Headless) -> anyhow::Result<()> {
     match headless.validation_messages().first() {
         Some(message) => bail!("the validation layer says: {message}"),
         None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::photo::{Easel, Photo};
+    use super::*;
+    use std::time::Duration;
+
+    const LONG: Duration = Duration::from_secs(60);
+
+    #[test]
+    fn the_last_picture_and_every_file_is_made() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        let white = Picture::new([1, 1], &[[1.0; 4]]).unwrap();
+        let png = output::encode(Format::Png8, &white, &[]).unwrap();
+        std::fs::write(path("photo.png"), png).unwrap();
+        let easel = Easel::new(Photo::open(&path("photo.png")).unwrap(), [1, 1]);
+        let view = easel.view([1, 1], None, false, DVec2::ZERO);
+        let (sender, made) = channel();
+        let mut studio = Studio::new(HeadlessOptions::default(), move |made| {
+            let _ = sender.send(made);
+        });
+        for number in 1..20 {
+            studio.ask(number, Task::Photo(view.clone()));
+        }
+        for name in ["a.png", "b.png"] {
+            studio.ask(0, Task::PhotoFile(view.clone(), path(name)));
+        }
+        studio.ask(20, Task::Photo(view.clone()));
+        let mut files = Vec::new();
+        loop {
+            match made.recv_timeout(LONG).unwrap() {
+                Made::Pixels(20, pixels) => {
+                    assert_eq!(pixels.unwrap().codes, [[255; 4]]);
+                    break;
+                }
+                Made::Pixels(_, pixels) => drop(pixels.unwrap()),
+                Made::File(path, written) => {
+                    written.unwrap();
+                    studio.delivered(&path);
+                    files.push(path);
+                }
+            }
+        }
+        assert_eq!(files, [path("a.png"), path("b.png")]);
+        assert!(files.iter().all(|file| file.exists()));
+        assert_eq!(studio.stop_files(), Vec::<PathBuf>::new());
     }
 }

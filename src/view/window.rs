@@ -21,7 +21,7 @@ use super::source::{Appearance, Source};
 use super::standpoint::{Standpoint, Start};
 use super::studio::{Made, Studio};
 use super::watch::Watch;
-use super::{NoDisplay, Options};
+use super::{NoDisplay, Options, ending};
 use gpc::render::{HeadlessOptions, Shadows};
 use gpc::scene::{Moment, SceneCamera};
 use std::path::PathBuf;
@@ -199,10 +199,17 @@ impl View {
         Ok(view)
     }
 
-    /// Ends everything, and hands over what the validation layer said. Threads are waited for, with the window out of sight:
-    /// a driver can't be left in the middle of its work when the process ends.
+    /// Ends everything, and hands over what the validation layer said. Files that are not written yet are given up. Threads
+    /// are waited for, for a moment, or, where the validation layer is asked, until it has heard all.
     pub fn close(mut self) -> Vec<String> {
         self.window.set_visible(false);
+        for path in self.studio.stop_files() {
+            log::warn!("closed before {} was written", path.display());
+        }
+        self.loading = None;
+        if !self.device.validation {
+            ending::end_soon();
+        }
         let device = self.canvas.engine.device.clone();
         let loaders = std::mem::take(&mut self.loaders);
         let mut messages = std::mem::take(&mut self.messages);
@@ -221,13 +228,15 @@ impl View {
         match event {
             Event::Opened(number, opened) => self.opened(number, *opened)?,
             Event::Changed => self.reload = Some(Instant::now() + SETTLE),
-            Event::Made(Made::File(path, Ok(()))) => {
-                self.notes.say(format!("wrote {}", path.display()));
+            Event::Made(Made::File(path, written)) => {
+                self.studio.delivered(&path);
+                match written {
+                    Ok(()) => self.notes.say(format!("wrote {}", path.display())),
+                    Err(error) => self.notes.fail(&error),
+                }
             }
             Event::Made(Made::Pixels(number, Ok(pixels))) => self.show_made(number, &pixels)?,
-            Event::Made(Made::File(_, Err(error)) | Made::Pixels(_, Err(error))) => {
-                self.notes.fail(&error);
-            }
+            Event::Made(Made::Pixels(_, Err(error))) => self.notes.fail(&error),
         }
         Ok(())
     }

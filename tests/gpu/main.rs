@@ -30,6 +30,7 @@ mod shade;
 mod sites;
 mod soundness;
 mod stage;
+mod stop;
 mod stroke;
 mod ties;
 mod timers;

@@ -165,7 +165,14 @@ impl Headless {
         let cells = partition.cells;
         let layout = self.renderer.layout.clone();
         let taken = scene.memory_bytes();
-        let plan = SitePlan::new(&layout, &scene.gpu_scene, settings, partition, taken)?;
+        let plan = SitePlan::new(
+            &layout,
+            &scene.gpu_scene,
+            settings,
+            partition,
+            taken,
+            self.may_stop(),
+        )?;
         let make = |apart: bool| {
             SiteEngine::new(
                 &layout,

@@ -10,6 +10,8 @@ use std::ops::Range;
 
 /// Most sites of a run: memory that stays at hand is used again.
 const MOST_SITES: usize = 1 << 18;
+/// Most samples of a run that may have to be stopped.
+const MOST_STOPPABLE: usize = 1 << 20;
 /// Fewest sites of a run, to which runs are cut where memory is bounded.
 const FEWEST_SITES: usize = 1 << 10;
 /// Most visibility records and candidates of a round.
@@ -35,10 +37,14 @@ impl SitePlan {
         settings: &Settings,
         partition: &Partition,
         taken: u64,
+        may_stop: bool,
     ) -> Result<Self, RenderError> {
         let limits = layout.gpu.limits();
         let cells = partition.cells;
         let mut longest = MOST_SITES;
+        if may_stop && !cells.are_points() {
+            longest = (MOST_STOPPABLE / settings.samples.max(1) as usize).min(MOST_SITES);
+        }
         loop {
             let runs = partition.runs(longest);
             let windows = runs.iter().map(|run| partition.window(run));
