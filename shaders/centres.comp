@@ -24,7 +24,7 @@ void main() {
         color[band.first + i] = c;
         display_out[band.first + i] = display_code(c);
     } else {
-        records_out[i] = uvec4(pixel.x | pixel.y << 16, id, pack_place(vec2(0.0), 1.0), floatBitsToUint(1.0));
+        records_out[i] = uvec4(pixel.x | pixel.y << 16, id, pack_place(vec2(0.0), 1.0, false), floatBitsToUint(1.0));
         if (i == 0u) counters[COUNTER_RECORDS] = band.count;
     }
 }

@@ -256,7 +256,7 @@ void main() {
         bool single = seen[s].parts == PARTS_ONE;
         seen[s].id = mask != uvec2(0u) ? seen[s].id : ~0u;
         singles += single && mask != uvec2(0u) ? 1u : 0u;
-        records_made += single ? min(samples_of(mask), 1u) : samples_of(runs_of(mask, seen[s].parts == PARTS_MERGED ? 2u * PART : PART));
+        records_made += single ? min(samples_of(mask), 1u) : samples_of(runs_of(mask, part_length(seen[s].parts)));
         several |= single || mask == uvec2(0u) ? 0u : 1u << s;
     }
     bool fits;
@@ -276,14 +276,14 @@ void main() {
         float of = float(samples_of(t.mask));
         float weight = EXACT_AREAS && exact ? samples * (t.area != 0 ? float(t.area) * (1.0 / AREA_UNIT) * mend : of * share) : of;
         if (fits && t.id != ~0u)
-            records_out[at_record] = uvec4(owner, t.id, place_of_samples(sum_of_offsets(t.mask), of, samples, 1.0), floatBitsToUint(weight));
+            records_out[at_record] = uvec4(owner, t.id, place_of_samples(sum_of_offsets(t.mask), of, samples, false), floatBitsToUint(weight));
         at_record += t.id != ~0u ? 1u : 0u;
         singles -= min(singles, 1u);
     } while (any_lane(singles != 0u));
 
     if (BY_PART) {
         uvec2 rest = uvec2(0u);     // samples of the triangle at hand that are not recorded yet
-        uint id = 0u, length = PART;
+        uint id = 0u, parts = PARTS_ALL;
         float each = 0.0;
         do {
             bool next = rest == uvec2(0u);
@@ -299,19 +299,20 @@ void main() {
             several &= next && t.id != ~0u ? ~(1u << t.index) : ~0u;
             id = next ? t.id : id;
             rest = next ? t.mask : rest;
-            length = next ? (t.parts == PARTS_MERGED ? 2u * PART : PART) : length;
+            parts = next ? t.parts : parts;
             float weight = EXACT_AREAS && exact ? samples * (t.area != 0 ? float(t.area) * (1.0 / AREA_UNIT) * mend / max(float(samples_of(t.mask)), 1.0) : share) : 1.0;
             each = next ? weight : each;
             // The samples of the first run that has some.
             bool upper = rest.x == 0u;
+            uint length = part_length(parts);
             uint half_ = upper ? rest.y : rest.x, from = (half_ == 0u ? 0u : uint(findLSB(half_))) & ~(length - 1u);
             uint bits = half_ >> from & ((1u << length) - 1u);
             rest.x = upper ? 0u : rest.x & ~(bits << from);
             rest.y = upper ? rest.y & ~(bits << from) : rest.y;
-            float of = float(bitCount(bits)), filtered = length > PART ? MERGED_FILTER : 1.0;
+            float of = float(bitCount(bits));
             vec2 sum = sum_of_run(from + (upper ? 32u : 0u), bits);
             if (fits && bits != 0u)
-                records_out[at_record] = uvec4(owner, id, place_of_samples(sum, of, samples, filtered), floatBitsToUint(of * each));
+                records_out[at_record] = uvec4(owner, id, place_of_samples(sum, of, samples, part_is_wide(frame.sample_count, parts)), floatBitsToUint(of * each));
             at_record += bits != 0u ? 1u : 0u;
         } while (any_lane(rest != uvec2(0u) || several != 0u));
     }

@@ -18,7 +18,7 @@ layout(constant_id = 6) const uint SUBGROUPS_FIRST = 1u;    // that `sample` giv
 layout(constant_id = 7) const uint SUBGROUPS = 1u;          // and where it takes all samples
 // Different chains of layers that a block is admitted with, too; most need less than half of these records. Both grow
 // where a frame found too few.
-const uint CHAINS = PARTS > 4u ? LAYERS * PARTS / 2u : LAYERS * 2u;
+const uint CHAINS = PARTS > 8u ? LAYERS * PARTS / 4u : LAYERS * 2u;
 // Records of a block that it is admitted with where a cell has several: these are small, and see few triangles.
 const uint CROWD = LAYERS * 4u;
 

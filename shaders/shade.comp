@@ -64,7 +64,7 @@ void main() {
     uint id;
     vec2 p;
     bool mine = true;
-    float side = frame.footprint;       // of the square that textures are filtered over
+    vec2 sides = vec2(frame.footprint); // of what textures are filtered over
     uint site = 0u, shadows = 0u;       // a bit for each light that the surface lies in the shadow of
     if (PIXELS) {
         uint columns = (frame.size.x + 7u) / 8u;
@@ -77,7 +77,7 @@ void main() {
         uvec4 record = texelFetch(records, int(source));
         id = record.y;
         vec2 location = place_location(record.z);
-        side = frame.place_footprint * (BOX_FILTER ? place_side(record.z) : 1.0);
+        sides = frame.place_footprint * (BOX_FILTER ? place_sides(record.z) : vec2(1.0));
         if (SITES) {
             site = record.x & POINT_SITE;
             uvec4 at = texelFetch(sites, int(2u * site));
@@ -99,8 +99,8 @@ void main() {
         w.dx = change[0];
         w.dy = change[1];
     }
-    w.dx *= side;
-    w.dy *= side;
+    w.dx *= sides.x;
+    w.dy *= sides.y;
 
     Place place;
     place.material = m;

@@ -125,13 +125,13 @@ void hold_nearby(Candidate t, bool some, float covered) {
     nearby_count += some ? 1u : 0u;
 }
 
-// The place that stands for some samples of a cell, shaded over so many times their area.
-uint filtered_place(vec2 sum_of_offsets, float samples, float filtered) {
-    return place_of_samples(sum_of_offsets, samples, float(RUN == PROBE ? PROBES : frame.sample_count), filtered);
+// The place that stands for some samples of a cell.
+uint place_of_part(vec2 sum_of_offsets, float samples, bool wide) {
+    return place_of_samples(sum_of_offsets, samples, float(RUN == PROBE ? PROBES : frame.sample_count), wide);
 }
 
 uint place_of(vec2 sum_of_offsets, float samples) {
-    return filtered_place(sum_of_offsets, samples, 1.0);
+    return place_of_part(sum_of_offsets, samples, false);
 }
 
 bool wins(float d, uint by, int g) {

@@ -20,7 +20,7 @@
 //     x   pixel: x | y << 16
 //     y   triangle ID: 1 + index of the triangle in the order of the frame's draws
 //     z   place in the pixel: offset from its centre, x and y in 12 bits each, signed, in units of 2^-12 of a pixel, and
-//         above them the side of the square that the sample stands for, as -16 log2 of its share of the pixel's side
+//         above them how large a part of the pixel it stands for (place.glsl)
 //     w   weight in the pixel, in samples, as a float
 #ifndef GPC_VISIBILITY_GLSL
 #define GPC_VISIBILITY_GLSL
@@ -34,8 +34,8 @@
 layout(set = GPC_SET, binding = 0) uniform GpcFrame {
     vec2 scale;         // clip space to pixels from the image's centre, times w
     vec2 half_size;     // of the image, in pixels
-    float place_side;   // of the square that textures are filtered over; GPC_BOX: over what the sample's place says
-    uint box;           // whether each place says how large a square it stands for
+    float place_side;   // of the square that textures are filtered over; with `box`, in what the sample's place says
+    uint box;           // whether each place says how wide and how high a part of the pixel it stands for
 } gpc_frame;
 layout(std430, set = GPC_SET, binding = 1) readonly buffer GpcKeys { uvec4 gpc_keys[]; };           // samples, first in the order
 layout(std430, set = GPC_SET, binding = 2) readonly buffer GpcOrder { uint gpc_order[]; };          // indices of records
@@ -54,7 +54,7 @@ struct GpcSample {
     uvec3 vertices;     // indices, the draw's vertex offset added
     vec2 position;      // in the image, in pixels from its upper left corner, y down
     vec3 weights;       // barycentric coordinates, perspective-correct: an attribute is the sum of the vertices' weighted
-    vec3 dx, dy;        // their change over the square that the sample stands for, to the right and down: gradients of an
+    vec3 dx, dy;        // their change over the rectangle that the sample stands for, to the right and down: gradients of an
                         // attribute for textureGrad, or for gpc_texture.glsl
     bool front;         // the triangle is seen from its front, counter-clockwise on the screen
 };
@@ -75,10 +75,10 @@ bool gpc_sample(uint key, out GpcSample s) {
     s.position = centred + gpc_frame.half_size;
     vec4 scale = vec4(gpc_frame.scale, 1.0, 1.0);
     Barycentric b = barycentric(gpc_positions[words.x] * scale, gpc_positions[words.y] * scale, gpc_positions[words.z] * scale, centred);
-    float side = gpc_frame.place_side * (gpc_frame.box != 0u ? place_side(record.z) : 1.0);
+    vec2 sides = gpc_frame.place_side * (gpc_frame.box != 0u ? place_sides(record.z) : vec2(1.0));
     s.weights = b.at;
-    s.dx = b.dx * side;
-    s.dy = b.dy * side;
+    s.dx = b.dx * sides.x;
+    s.dy = b.dy * sides.y;
     s.front = b.facing;
     return i < listed.x;
 }

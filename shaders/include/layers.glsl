@@ -11,11 +11,14 @@
 
 const bool EACH = PER_SAMPLE || POINTS;
 
+// Parts are merged in pairs.
+uint chain_part(int g) { return part_number(g) >> 1; }
+
 uint node[ROWS];            // of the nearest surface so far; ~0: background
 float next_depth[ROWS];     // the next surface to the front; ID 0: none
 uint next_id[ROWS];
 
-// Samples that share the node and the next surface of the first one (BY_PART: and, where that is HIGH_FREQUENCY, the part).
+// Samples that share the node and the next surface of the first one (BY_PART: and, where that is HIGH_FREQUENCY, the pair of parts).
 struct Group {
     uint node, next_id;
     uint rows;
@@ -27,13 +30,13 @@ struct Group {
 Group first_group(uint left) {
     uvec3 key = uvec3(0u);
     [[unroll]] for (int g = ROWS - 1; g >= 0; g--)
-        key = (left >> g & 1u) != 0u ? uvec3(node[g], next_id[g], part_number(g)) : key;
+        key = (left >> g & 1u) != 0u ? uvec3(node[g], next_id[g], chain_part(g)) : key;
     uint some = subgroupBallot(left != 0u).x, holder = some != 0u ? uint(findLSB(some)) : 0u;
     key = uvec3(subgroupShuffle(key.x, holder), subgroupShuffle(key.y, holder), subgroupShuffle(key.z, holder));
     bool by_part = BY_PART && key.y != 0u && high_frequency_triangle(key.y);
     Group r = Group(key.x, key.y, 0u, 0.0, vec2(0.0));
     [[unroll]] for (int g = 0; g < ROWS; g++) {
-        bool same = (left >> g & 1u) != 0u && node[g] == key.x && next_id[g] == key.y && (!by_part || part_number(g) == key.z);
+        bool same = (left >> g & 1u) != 0u && node[g] == key.x && next_id[g] == key.y && (!by_part || chain_part(g) == key.z);
         r.rows |= same ? 1u << g : 0u;
         r.sum += same ? offset[g] : vec2(0.0);
     }

@@ -66,30 +66,38 @@ void parts_of(uint wanted, out vec3 sums[ROWS]) {
     if (lane % SHARING != 0u) sums[0] = vec3(0.0);
 }
 
-// Neighbouring parts are merged where an invocation holds both of them, since on CPU devices shuffles would cost as much as
-// all else here, or where they are held by other invocations. Parts of fewer samples are few as they are; those of more are
-// of cells that have the most samples, and are left apart.
-const bool MERGES = PART == 4u;
-const bool WITHIN = MERGES && PARTS_HELD > 1u, ACROSS = MERGES && PARTS_HELD == 1u && PART_LANES < LANES;
-
-void merge_parts(inout vec3 parts[ROWS], bool merge) {
-    if (WITHIN) {
-        [[unroll]] for (uint r = 0u; r + 1u < ROWS; r += 2u) {
-            parts[r] += merge ? parts[r + 1u] : vec3(0.0);
-            parts[r + 1u] = merge ? vec3(0.0) : parts[r + 1u];
+// Merges neighbouring parts, which other invocations hold or, where a part takes a row or more, this one.
+void merge_neighbours(inout vec3 parts[ROWS], uint length) {
+    if (length < LANES) {
+        bool keeps = (gl_SubgroupInvocationID & length) == 0u;
+        [[unroll]] for (uint r = 0u; r < ROWS; r++) {
+            if (r >= PARTS_HELD) continue;
+            vec3 other = vec3(subgroupShuffleXor(parts[r].x, length), subgroupShuffleXor(parts[r].y, length), subgroupShuffleXor(parts[r].z, length));
+            parts[r] = keeps ? parts[r] + other : vec3(0.0);
         }
-    }
-    if (ACROSS) {
-        vec3 other = vec3(subgroupShuffleXor(parts[0].x, PART_LANES), subgroupShuffleXor(parts[0].y, PART_LANES), subgroupShuffleXor(parts[0].z, PART_LANES));
-        bool keeps = (gl_SubgroupInvocationID & PART_LANES) == 0u;
-        parts[0] = merge ? (keeps ? parts[0] + other : vec3(0.0)) : parts[0];
+    } else {
+        [[unroll]] for (uint r = 0u; r < ROWS; r++) {
+            uint other = r + length / LANES;
+            if ((r & length / LANES) != 0u || other >= PARTS_HELD) continue;
+            parts[r] += parts[other];
+            parts[other] = vec3(0.0);
+        }
     }
 }
 
+// Merges them in pairs or in fours, if so many are to be.
+void merge_parts(inout vec3 parts[ROWS], uint merged) {
+    vec3 pairs[ROWS] = parts;
+    merge_neighbours(pairs, PART);
+    vec3 fours[ROWS] = pairs;
+    merge_neighbours(fours, 2u * PART);
+    [[unroll]] for (uint r = 0u; r < ROWS; r++) parts[r] = merged == PARTS_FOURS ? fours[r] : merged == PARTS_PAIRS ? pairs[r] : parts[r];
+}
+
 // The parts that are left, by the bits of all.
-uint merge_bits(uint bits) {
-    if (WITHIN && PARTS_A_ROW == 2u) return (bits | bits >> 2) & 0x33333333u;
-    return WITHIN || ACROSS ? (bits | bits >> 1) & 0x55555555u : bits;
+uint merge_bits(uint bits, uint merged) {
+    uint pairs = (bits | bits >> 1) & 0x55555555u, fours = (pairs | pairs >> 2) & 0x11111111u;
+    return merged == PARTS_FOURS ? fours : merged == PARTS_PAIRS ? pairs : bits;
 }
 
 // The surfaces of a block, ascending by ID; an invocation holds one.
@@ -189,7 +197,7 @@ uvec2 record_surfaces(Cell cell, uint owner, out bool settled) {
         shaded_in = parts_around(variation_of(cell.member), held.id);
         several = several && shaded_in != PARTS_ONE;
     }
-    held.parts = shaded_in == PARTS_MERGED ? merge_bits(held.parts) : held.parts;
+    held.parts = merge_bits(held.parts, shaded_in);
     bool single = holds && !several;
     // What is shaded in many places takes all samples to choose them from.
     settled = settled && (RUN != PROBE || !subgroupAny(several));
@@ -222,16 +230,16 @@ uvec2 record_surfaces(Cell cell, uint owner, out bool settled) {
             float weight_each = subgroupShuffle(each, holder);
             vec3 parts[ROWS];
             parts_of(current, parts);
-            bool merged = (WITHIN || ACROSS) && subgroupShuffle(shaded_in, holder) == PARTS_MERGED;
+            uint merged = subgroupShuffle(shaded_in, holder);
             merge_parts(parts, merged);
-            float filtered = merged ? MERGED_FILTER : 1.0;
+            bool wide = part_is_wide(frame.sample_count, merged);
             [[unroll]] for (uint h = 0u; h < ROWS; h++) {
                 if (h >= PARTS_HELD) continue;
                 vec3 part = parts[h];
                 uint present = subgroupBallot(part.z != 0.0).x;
                 if (fits && part.z != 0.0)
                     records_out[slot + uint(bitCount(present & ((1u << lane) - 1u)))] =
-                        uvec4(owner, current, filtered_place(part.xy, part.z, filtered), floatBitsToUint(part.z * weight_each));
+                        uvec4(owner, current, place_of_part(part.xy, part.z, wide), floatBitsToUint(part.z * weight_each));
                 slot += uint(bitCount(present));
             }
             pending &= pending - 1u;

@@ -1,6 +1,6 @@
 // The textures of a material, each read once for all that it is used for.
-// A texture is read at the level that its sampler chooses, or (BOX_FILTER) averaged over the square that a place stands for:
-// at several places along the longer side that the square has in the texture.
+// A texture is read at the level that its sampler chooses, or (BOX_FILTER) averaged over the rectangle that a place stands for:
+// at several places along the longer side that it has in the texture.
 #ifndef TEXTURE_GLSL
 #define TEXTURE_GLSL
 #include "barycentric.glsl"
@@ -8,7 +8,7 @@
 
 layout(constant_id = 3) const bool TEXTURED = false;            // any is used
 layout(constant_id = 14) const bool ONE_UV_TRANSFORM = false;   // and UV set, for all textures
-layout(constant_id = 15) const bool BOX_FILTER = false; // textures are filtered over the square that a place stands for, along both of its axes
+layout(constant_id = 15) const bool BOX_FILTER = false; // textures are filtered over what a place stands for, along both of its axes
 
 // Which of `textures` a role reads, 16 added; 0 for none.
 layout(constant_id = 40) const uint BASE_COLOR_TEXTURE = 0u;

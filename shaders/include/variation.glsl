@@ -4,12 +4,19 @@
 #define VARIATION_GLSL
 #include "triangle.glsl"
 
-// In which parts of a cell a triangle is shaded: in all, in these merged in pairs, or in one.
-const uint PARTS_ALL = 0u, PARTS_MERGED = 1u, PARTS_ONE = 2u;
+// In which parts of a cell a triangle is shaded: in all, in these merged in pairs or in fours, or in one.
+const uint PARTS_ALL = 0u, PARTS_PAIRS = 1u, PARTS_FOURS = 2u, PARTS_ONE = 3u;
 
-// Merged parts are twice as long as wide. They are shaded over the square of the longer side: over that of their own area,
-// waves along them of about their length would be read in every pair at the same phase, and none would cancel another.
-const float MERGED_FILTER = 2.0;
+// Those where colours are known to vary little, and those where none is known. Parts of one sample are few as they are.
+const uint FEWER_PARTS = PART == 1u ? PARTS_PAIRS : PARTS_FOURS, SOME_PARTS = PART == 1u ? PARTS_ALL : PARTS_PAIRS;
+
+// Samples of a part.
+uint part_length(uint parts) { return PART << parts; }
+
+// Whether such a part is twice as wide as high, not a square: a cell is halved again and again, its height first.
+bool part_is_wide(uint samples, uint parts) {
+    return (findMSB(max(samples / part_length(parts), 1u)) & 1) != 0;
+}
 
 // Two triangles that centres see, that of the pixel's own centre first, and the parts for each of them and, after that,
 // for others of its material.
@@ -38,7 +45,14 @@ float variation_range(uint codes[9], uint among) {
 
 uint variation_parts(float range) {
     float alike = float(frame.alike);
-    return range <= alike ? PARTS_ONE : range <= 4.0 * alike ? PARTS_MERGED : PARTS_ALL;
+    return range <= alike ? PARTS_ONE : range <= 4.0 * alike ? FEWER_PARTS : PARTS_ALL;
+}
+
+// The parts of a triangle that centres in a bit set see.
+uint variation_of_triangle(uint codes[9], uint own, uint of_material) {
+    int count = bitCount(own);
+    bool even = count >= 2 && 4.0 * variation_range(codes, own) <= float(frame.alike);
+    return even && count >= 4 ? PARTS_ONE : even ? max(of_material, SOME_PARTS) : of_material;
 }
 
 // An invocation takes a pixel.
@@ -68,11 +82,10 @@ Variation variation_around(uvec2 pixel) {
         alike |= uvec2(materials_[i] == r.materials.x ? 1u << i : 0u, materials_[i] == r.materials.y ? 1u << i : 0u);
     }
     uvec2 of_material = uvec2(
-        bitCount(alike.x) >= 3 ? variation_parts(variation_range(codes, alike.x)) : PARTS_ALL,
-        bitCount(alike.y) >= 3 ? variation_parts(variation_range(codes, alike.y)) : PARTS_ALL);
+        bitCount(alike.x) >= 3 ? variation_parts(variation_range(codes, alike.x)) : SOME_PARTS,
+        bitCount(alike.y) >= 3 ? variation_parts(variation_range(codes, alike.y)) : SOME_PARTS);
     uvec2 of_triangle = uvec2(
-        bitCount(own.x) >= 4 && 4.0 * variation_range(codes, own.x) <= float(frame.alike) ? PARTS_ONE : of_material.x,
-        bitCount(own.y) >= 4 && 4.0 * variation_range(codes, own.y) <= float(frame.alike) ? PARTS_ONE : of_material.y);
+        variation_of_triangle(codes, own.x, of_material.x), variation_of_triangle(codes, own.y, of_material.y));
     r.parts = of_triangle.x | of_triangle.y << 2 | of_material.x << 4 | of_material.y << 6;
     return r;
 }
@@ -95,7 +108,7 @@ bool high_frequency_triangle(uint of) {
 uint parts_around(Variation around, uint triangle) {
     uint material = variation_material(triangle);
     uint at = triangle == around.ids.x ? 0u : triangle == around.ids.y ? 2u : material == around.materials.x ? 4u : 6u;
-    return at == 6u && material != around.materials.y ? PARTS_ALL : around.parts >> at & 3u;
+    return at == 6u && material != around.materials.y ? SOME_PARTS : around.parts >> at & 3u;
 }
 
 #endif

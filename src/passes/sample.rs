@@ -340,10 +340,10 @@ impl SampleOptions {
         self.probes() || self.by_masks()
     }
 
-    /// Samples of a part: there are 16 parts of up to 64 samples, 64 of 256 and 128 of 1,024.
+    /// Samples of a part: there are 16 parts of 16 samples, 32 of 64, 128 of 256 and 256 of 1,024.
     fn part_samples(&self) -> u32 {
-        let few = (self.samples / 16).clamp(1, 4);
-        (self.samples / 128).max(few).next_power_of_two()
+        let few = if self.samples < 32 { 1 } else { 2 };
+        (self.samples / 256).max(few).next_power_of_two()
     }
 
     /// Whether there is a first run.

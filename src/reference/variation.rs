@@ -18,7 +18,9 @@ pub enum Parts {
     /// In all that there are.
     All,
     /// In these, merged in pairs.
-    Merged,
+    Pairs,
+    /// In these, merged in fours.
+    Fours,
     /// In one.
     One,
 }
@@ -28,8 +30,11 @@ pub enum Parts {
 /// Around the pixel, two triangles are looked at: that of its centre, and the first other one. Where 4 centres or more
 /// see the triangle and their colours differ by at most a quarter of `alike` code values, it is shaded once. Otherwise
 /// the colours of its material count, where 3 centres or more see it: it is shaded once if they differ by at most `alike`,
-/// and in merged parts if by at most four times that. A triangle that is neither of the two and not of their materials is
-/// shaded in all parts.
+/// in parts merged in fours if by at most four times that, and in all parts otherwise; these are merged in pairs where the
+/// triangle's own colours differ as little as said, though but 2 or 3 centres see it. Where fewer centres tell, or the
+/// triangle is neither of the two and not of their materials, parts are merged in pairs.
+///
+/// Parts of one sample are merged once less: in pairs in the place of fours, and not in that of pairs.
 ///
 /// `alike` is the threshold of contrast, but 0 in superpixels that grew: what these contrast with, no centre saw.
 #[must_use]
@@ -48,21 +53,25 @@ pub fn parts(
         .unwrap_or(0);
     let material = |id: u32| (id != 0).then(|| material_of(id));
     let known = [own, other];
+    let mut even = false;
     if known.contains(&triangle) {
         let seen = |id: u32| id == triangle;
-        if count(around, seen) >= 4 && 4 * range(around, seen) <= alike {
+        let centres = count(around, seen);
+        even = centres >= 2 && 4 * range(around, seen) <= alike;
+        if even && centres >= 4 {
             return Parts::One;
         }
     } else if !known.map(material).contains(&material(triangle)) {
-        return Parts::All;
+        return Parts::Pairs;
     }
     let seen = |id: u32| material(id) == material(triangle);
     if count(around, seen) < 3 {
-        return Parts::All;
+        return Parts::Pairs;
     }
     match range(around, seen) {
         range if range <= alike => Parts::One,
-        range if range <= 4 * alike => Parts::Merged,
+        range if range <= 4 * alike => Parts::Fours,
+        _ if even => Parts::Pairs,
         _ => Parts::All,
     }
 }

@@ -48,8 +48,8 @@ pub enum Coverage {
 pub enum Shading {
     /// Once a visible triangle and block of 64 samples, at the centroid of what is seen of it.
     Triangle,
-    /// Once a visible triangle, but where the colours around it vary in up to 16 parts of the pixel, at 256 samples in up
-    /// to 64, at 1,024 in up to 128.
+    /// Once a visible triangle, but where the colours around it vary in up to 32 parts of the pixel, at 256 samples in up
+    /// to 128, at 1,024 in up to 256.
     Part,
     /// Once a sub-sample.
     Sample,

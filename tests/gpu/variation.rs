@@ -7,28 +7,22 @@ use gpc::reference::variation::{Neighbourhood, Parts, parts};
 use gpc::render::{Coverage, Detection, Method, Rendered, Settings, Shading};
 use gpc::scene::{AlphaMode, Filter, Image, Sampler};
 
-const SIZE: [u32; 2] = [32, 24];
+/// Of two images: a triangle covers many pixels in a row, or one.
+const SIZES: [[u32; 2]; 2] = [[32, 24], [2, 96]];
 const CONTRAST: u8 = 8;
 /// Samples of a block, each of which has parts of its own.
 const BLOCK: u32 = 64;
-/// Numbers of samples, the parts of a superpixel there, and how many are left where they are merged, which from 256 samples
-/// on depends on the size of subgroups: these are those of 8 invocations.
-const RATES: [(u32, u64, u64); 5] = [
-    (4, 4, 2),
-    (16, 16, 8),
-    (64, 16, 8),
-    (256, 64, 32),
-    (1024, 128, 128),
-];
+/// Numbers of samples, and the parts of a superpixel there.
+const RATES: [(u32, u64); 5] = [(4, 4), (16, 16), (64, 32), (256, 128), (1024, 256)];
 
 /// A texture of a texel a pixel: patches of even, slightly uneven, uneven and wild grey.
-fn patches(seed: u64) -> Image {
+fn patches([width, height]: [u32; 2], seed: u64) -> Image {
     let mut random = Random::new(seed);
-    let [width, height] = SIZE;
+    let side = (width / 5).max(1);
     let mut pixels = Vec::new();
     for y in 0..height {
         for x in 0..width {
-            let spread = [1, 3, 9, 17, 33, 90][((x / 6 + y / 6) % 6) as usize];
+            let spread = [1, 3, 9, 17, 33, 90][((x / side + y / 6) % 6) as usize];
             let grey = 80 + random.below(spread) as u8;
             pixels.extend([grey, grey, grey, 255]);
         }
@@ -41,10 +35,10 @@ fn patches(seed: u64) -> Image {
 }
 
 /// The image in two triangles that meet along the border between two columns of pixels, of the same material or of two.
-fn stage(seed: u64, materials: usize) -> Stage {
+fn stage(size: [u32; 2], seed: u64, materials: usize) -> Stage {
     let mut stage = Stage::new(vec![textured(AlphaMode::Opaque); materials]);
     stage.texture = Some((
-        patches(seed),
+        patches(size, seed),
         Sampler {
             mag: Filter::Nearest,
             min: Filter::Nearest,
@@ -52,11 +46,11 @@ fn stage(seed: u64, materials: usize) -> Stage {
             ..Sampler::default()
         },
     ));
-    let [width, height] = SIZE.map(f64::from);
-    let at = |x: f64, y: f64| seen_at([x, y], 1.0, SIZE[1]);
+    let [width, height] = size.map(f64::from);
+    let at = |x: f64, y: f64| seen_at([x, y], 1.0, size[1]);
     let uv = |x: f64, y: f64| [(x / width + 0.5) as f32, (y / height + 0.5) as f32];
     for (material, side) in [(0, -1.0), (materials - 1, 1.0)] {
-        let corners = [[0.0, -60.0], [side * 90.0, 0.0], [0.0, 60.0]];
+        let corners = [[0.0, -120.0], [side * 150.0, 0.0], [0.0, 120.0]];
         let corners = if side > 0.0 {
             corners
         } else {
@@ -71,8 +65,8 @@ fn stage(seed: u64, materials: usize) -> Stage {
 }
 
 /// What the centres around a pixel see.
-fn around(rendered: &Rendered, x: i64, y: i64) -> Neighbourhood {
-    let [width, height] = SIZE.map(i64::from);
+fn around(rendered: &Rendered, size: [u32; 2], x: i64, y: i64) -> Neighbourhood {
+    let [width, height] = size.map(i64::from);
     let mut found = Neighbourhood {
         ids: [0; 9],
         colours: [[0; 3]; 9],
@@ -97,11 +91,14 @@ fn mean(rendered: &Rendered) -> f64 {
 #[test]
 fn places_are_as_many_as_the_twin_says() {
     on_gpu(|gpu| {
-        let mut seen = [0; 3];
-        for (seed, materials) in [(1, 1), (2, 2), (3, 1)] {
-            let stage = stage(seed, materials);
-            let base = stage.render(gpu, &once(SIZE));
-            for (samples, all, merged) in RATES {
+        let mut seen = [0; 4];
+        let stages = SIZES
+            .into_iter()
+            .flat_map(|size| [(1, 1), (2, 2), (3, 1)].map(|(seed, m)| (size, seed, m)));
+        for (size, seed, materials) in stages {
+            let stage = stage(size, seed, materials);
+            let base = stage.render(gpu, &once(size));
+            for (samples, all) in RATES {
                 let settings = |shading| Settings {
                     method: Method::Superpixel,
                     detection: Detection::Every,
@@ -109,21 +106,22 @@ fn places_are_as_many_as_the_twin_says() {
                     contrast: CONTRAST,
                     shading,
                     samples,
-                    ..once(SIZE)
+                    ..once(size)
                 };
                 let rendered = stage.render(gpu, &settings(Shading::Part));
                 let material = |id: u32| if materials == 1 { 0 } else { id };
                 let mut expected = 0;
-                for y in 0..i64::from(SIZE[1]) {
-                    for x in 0..i64::from(SIZE[0]) {
-                        let around = around(&base, x, y);
+                for y in 0..i64::from(size[1]) {
+                    for x in 0..i64::from(size[0]) {
+                        let around = around(&base, size, x, y);
                         let own = around.ids[4];
                         assert!(own != 0);
                         let parts = parts(&around, material, own, CONTRAST);
                         seen[parts as usize] += 1;
                         expected += match parts {
                             Parts::All => all,
-                            Parts::Merged => merged,
+                            Parts::Pairs => all / if samples < 32 { 1 } else { 2 },
+                            Parts::Fours => all / if samples < 32 { 2 } else { 4 },
                             Parts::One => u64::from(samples.div_ceil(BLOCK)),
                         };
                     }
