@@ -9,7 +9,7 @@ use cli_support::{asset, finish, gpc};
 use glam::DVec3;
 use scene_builder::Builder;
 use serde_json::json;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 use view_support::{Display, Loss, PATIENCE, Viewer, drop_file};
@@ -347,18 +347,18 @@ fn heat(share: f64) -> [u8; 3] {
     palette.as_chunks::<3>().0[index]
 }
 
+/// A file that is never read to its end: a pipe that nobody writes to, slow.glb.
+fn slow_file(folder: &Path) -> PathBuf {
+    let pipe = folder.join("slow.glb");
+    let made = Command::new("mkfifo").arg(&pipe).status().unwrap();
+    assert!(made.success());
+    pipe
+}
+
 #[test]
 fn loading_is_stopped_and_blocks_nothing() {
     let (display, folder) = (Display::open(), tempfile::tempdir().unwrap());
-    // A pipe that nobody writes to is never read to its end.
-    let pipe = folder.path().join("slow.glb");
-    assert!(
-        Command::new("mkfifo")
-            .arg(&pipe)
-            .status()
-            .unwrap()
-            .success()
-    );
+    let pipe = slow_file(folder.path());
     let arguments = [
         &asset("checker.glb"),
         "slow.glb",
@@ -391,14 +391,7 @@ fn assert_closes_at_once(
 ) -> Vec<String> {
     let (display, folder) = (Display::open(), tempfile::tempdir().unwrap());
     let variables = [("GPC_VALIDATION", Path::new(""))];
-    let pipe = folder.path().join("slow.glb");
-    assert!(
-        Command::new("mkfifo")
-            .arg(&pipe)
-            .status()
-            .unwrap()
-            .success()
-    );
+    slow_file(folder.path());
     let mut viewer = Viewer::open_with(&display, folder.path(), arguments, &variables);
     viewer.repeat_until("can be unzoomed", |display| display.input(&["key", "u"]));
     begin(&mut viewer, folder.path());

@@ -3,6 +3,9 @@
 use super::content::HostContent;
 use super::geometry::Geometry;
 use super::{HostError, Shared};
+use crate::passes::alpha_flags::{
+    CLAMP_TO_EDGE, MIRRORED_REPEAT, NO_MIP, REPEAT, TEXTURED, beyond,
+};
 use crate::passes::{AlphaLevel, OwnSet};
 use crate::vulkan::{BufferView, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
@@ -25,9 +28,6 @@ pub struct AlphaMap {
     pub cutoff: f32,
 }
 
-/// Flags of `shaders/include/alpha.glsl`.
-const TEXTURED: u32 = 1;
-const NO_MIP: u32 = 8;
 /// Vectors of a row of the table that `shaders/include/material.glsl` describes, and those that the alpha test reads.
 pub(super) const ROW: usize = 15;
 const BASE_COLOR: usize = 0;
@@ -70,9 +70,8 @@ impl AlphaMap {
     }
 
     fn flags(&self) -> u32 {
-        let [u, v] = self.modes();
         let no_mip = if self.levels > 1 { 0 } else { NO_MIP };
-        TEXTURED | no_mip | u << 8 | v << 10
+        TEXTURED | no_mip | beyond(self.modes())
     }
 
     /// Its row, if its table of levels is at `table`.
@@ -98,14 +97,11 @@ impl AlphaMap {
     }
 }
 
-/// As in `shaders/include/alpha.glsl`.
-const REPEAT: u32 = 0;
-
 fn wrap(mode: vk::SamplerAddressMode) -> Option<u32> {
     match mode {
         vk::SamplerAddressMode::REPEAT => Some(REPEAT),
-        vk::SamplerAddressMode::MIRRORED_REPEAT => Some(1),
-        vk::SamplerAddressMode::CLAMP_TO_EDGE => Some(2),
+        vk::SamplerAddressMode::MIRRORED_REPEAT => Some(MIRRORED_REPEAT),
+        vk::SamplerAddressMode::CLAMP_TO_EDGE => Some(CLAMP_TO_EDGE),
         _ => None,
     }
 }
@@ -214,8 +210,8 @@ impl AlphaReading {
         };
         let places = &alpha.places;
         recorder.barrier();
-        recorder.update(&alpha.rows.buffer, bytemuck::cast_slice(&places.rows));
-        recorder.update(&alpha.atlas.buffer, bytemuck::cast_slice(&places.tables));
+        recorder.update(&alpha.rows.buffer, 0, bytemuck::cast_slice(&places.rows));
+        recorder.update(&alpha.atlas.buffer, 0, bytemuck::cast_slice(&places.tables));
         recorder.barrier();
         for (set, levels) in self.sets.iter().zip(&places.levels) {
             for level in levels {

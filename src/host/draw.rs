@@ -1,7 +1,7 @@
 //! What a host draws.
 
 use super::{Geometry, HostError, PositionSpace};
-use crate::passes::HostDraw;
+use crate::passes::{HostDraw, TriangleWord};
 
 /// A run of triangles that are shaded alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,10 +50,6 @@ impl Default for Draw {
         }
     }
 }
-
-/// Bits of a triangle's last word: see `shaders/include/frame.glsl`.
-const KEY_SHIFT: u32 = 16;
-const DETAILED: u32 = 1 << 30;
 
 /// A frame's draws as the device reads them.
 pub(super) struct PlacedDraws {
@@ -195,12 +191,14 @@ impl Draw {
     }
 
     fn word(&self) -> u32 {
-        let flag = |bit: u32, set: bool| if set { bit } else { 0 };
-        // The alpha test finds its row by it.
-        u32::from(self.alpha_map.unwrap_or(self.material))
-            | self.key << KEY_SHIFT
-            | flag(DETAILED, self.detailed)
-            | flag(HostDraw::DOUBLE_SIDED, self.double_sided)
+        let word = TriangleWord {
+            // The alpha test finds its row by it.
+            material: u32::from(self.alpha_map.unwrap_or(self.material)),
+            bin: self.key,
+            high_frequency: self.detailed,
+            double_sided: self.double_sided,
+        };
+        word.bits()
     }
 }
 
@@ -265,7 +263,7 @@ mod tests {
             .map(|d| (d.first_triangle, d.first_index))
             .collect();
         assert_eq!(firsts, [(0, 30), (4, 0), (4, 0)]);
-        assert_eq!(placed.draws[0].word, 1 << KEY_SHIFT);
+        assert_eq!(placed.draws[0].word, 1 << 16);
         let counts: Vec<_> = placed.counted().map(|(_, triangles)| triangles).collect();
         assert_eq!(counts, [4, 0, 7]);
         assert!(placed.matrices.is_empty());

@@ -245,8 +245,8 @@ impl Frame {
         }
     }
 
-    /// Records the antialiasing of a frame, of which the host has drawn what it lends. It submits nothing, waits for nothing, allocates
-    /// nothing on the device and updates no descriptor.
+    /// Records the antialiasing of a frame, of which the host has drawn what it lends. It submits nothing, waits for nothing,
+    /// allocates nothing on the device and updates no descriptor.
     ///
     /// # Errors
     /// If the scenery does not fit what the frame was prepared for. Nothing is recorded then.
@@ -315,20 +315,22 @@ impl Frame {
             boxes: u32::from(boxes),
             padding: [0; 2],
         };
-        let (at_centres, at_places) = (
-            visible(footprints.centre, false),
-            visible(footprints.place, self.settings.filters_boxes()),
-        );
+        let at_centres = visible(footprints.centre, false);
+        let at_places = visible(footprints.place, self.settings.filters_boxes());
+        let shades_all = self.options.shade_all;
+        let first = if shades_all { at_centres } else { at_places };
         recorder.barrier();
-        recorder.update(&self.visibility, bytemuck::bytes_of(&at_centres));
+        recorder.update(&self.visibility, 0, bytemuck::bytes_of(&first));
         resources.record_begin(recorder, set, &uniform);
         let seen = (&uniform, &placed);
         self.base
             .record(recorder, &self.shared, (resources, set), seen, &shading);
-        recorder.barrier();
-        recorder.update(&self.visibility, bytemuck::bytes_of(&at_places));
-        // What the centres counted is not of superpixels.
-        resources.record_begin(recorder, set, &uniform);
+        if shades_all {
+            recorder.barrier();
+            recorder.update(&self.visibility, 0, bytemuck::bytes_of(&at_places));
+            // What the centres counted is not of superpixels.
+            resources.record_begin(recorder, set, &uniform);
+        }
         let work = Work {
             triangles,
             tiles: uniform.tiles[0] * uniform.tiles[1],

@@ -1,9 +1,10 @@
 //! adopt: a host's triangles as the other passes read them.
 
 use super::draws::Draws;
-use super::own_layout::{OwnSet, PipelineLayout, SetLayout, whole};
+use super::lent_kernel::LentKernel;
+use super::own_layout::{OwnSet, whole};
 use super::spirv;
-use crate::vulkan::{Buffer, Constants, Gpu, Pipeline, Recorder, VulkanError, compute_pipeline};
+use crate::vulkan::{Buffer, Gpu, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -19,10 +20,7 @@ pub(crate) struct AdoptedCounts {
 }
 
 /// Expands indices into triangles.
-pub(crate) struct Adopt {
-    layout: PipelineLayout,
-    set_layout: SetLayout,
-}
+pub(crate) struct Adopt(LentKernel<AdoptedCounts>);
 
 impl Adopt {
     /// Makes the layouts.
@@ -30,12 +28,7 @@ impl Adopt {
     /// # Errors
     /// If the driver refuses one.
     pub fn new(gpu: &Arc<Gpu>) -> Result<Self, VulkanError> {
-        let set_layout = SetLayout::new(gpu, &[vk::DescriptorType::STORAGE_BUFFER; 4])?;
-        let push = size_of::<AdoptedCounts>() as u32;
-        Ok(Self {
-            layout: PipelineLayout::new(gpu, &[set_layout.raw], push)?,
-            set_layout,
-        })
+        Ok(Self(LentKernel::new(gpu, spirv::ADOPT, 4)?))
     }
 
     /// The pipeline for indices of 32 bits or, `short`, 16.
@@ -43,8 +36,7 @@ impl Adopt {
     /// # Errors
     /// If the driver refuses it.
     pub fn pipeline(&self, gpu: &Arc<Gpu>, short: bool) -> Result<Pipeline, VulkanError> {
-        let constants = Constants::new().flag(0, short);
-        compute_pipeline(gpu, self.layout.raw, spirv::ADOPT, &constants, None)
+        self.0.pipeline(gpu, short)
     }
 
     /// A set that shows draws, the host's indices, triangles and the draw of each.
@@ -58,16 +50,14 @@ impl Adopt {
         triangles: &Buffer,
         draw_of: &Buffer,
     ) -> Result<OwnSet, VulkanError> {
-        let set = self.set_layout.allocate()?;
         let buffers = [
             whole(&draws.table),
             indices,
             whole(triangles),
             whole(draw_of),
         ];
-        // SAFETY: the set is new; of the host's buffer as the caller says, ours go with the frame.
-        unsafe { set.write_buffers(0, &buffers) };
-        Ok(set)
+        // SAFETY: of the host's buffer as the caller says; ours go with the frame.
+        unsafe { self.0.set(&buffers) }
     }
 
     /// Records it, where there are triangles.
@@ -78,7 +68,7 @@ impl Adopt {
         set: &OwnSet,
         counts: AdoptedCounts,
     ) {
-        self.layout.bind(recorder, &[set.raw], &counts);
-        recorder.dispatch(pipeline, u64::from(counts.triangles.div_ceil(64)));
+        let invocations = counts.triangles;
+        self.0.record(recorder, pipeline, set, &counts, invocations);
     }
 }

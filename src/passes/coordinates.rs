@@ -1,17 +1,15 @@
 //! coordinates: texture coordinates of a host's vertices, one for each position in clip space.
 
 use super::draws::Draws;
-use super::own_layout::{OwnSet, PipelineLayout, SetLayout, whole};
+use super::lent_kernel::LentKernel;
+use super::own_layout::{OwnSet, whole};
 use super::{VertexCounts, spirv};
-use crate::vulkan::{Buffer, Constants, Gpu, Pipeline, Recorder, VulkanError, compute_pipeline};
+use crate::vulkan::{Buffer, Gpu, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
 /// Reads coordinates in the order of positions.
-pub(crate) struct Coordinates {
-    layout: PipelineLayout,
-    set_layout: SetLayout,
-}
+pub(crate) struct Coordinates(LentKernel<VertexCounts>);
 
 impl Coordinates {
     /// Makes the layouts.
@@ -19,12 +17,7 @@ impl Coordinates {
     /// # Errors
     /// If the driver refuses one.
     pub fn new(gpu: &Arc<Gpu>) -> Result<Self, VulkanError> {
-        let set_layout = SetLayout::new(gpu, &[vk::DescriptorType::STORAGE_BUFFER; 3])?;
-        let push = size_of::<VertexCounts>() as u32;
-        Ok(Self {
-            layout: PipelineLayout::new(gpu, &[set_layout.raw], push)?,
-            set_layout,
-        })
+        Ok(Self(LentKernel::new(gpu, spirv::COORDINATES, 3)?))
     }
 
     /// The pipeline: each draw has positions of its own if it has a matrix.
@@ -32,8 +25,7 @@ impl Coordinates {
     /// # Errors
     /// If the driver refuses it.
     pub fn pipeline(&self, gpu: &Arc<Gpu>, draws: &Draws) -> Result<Pipeline, VulkanError> {
-        let constants = Constants::new().flag(0, draws.matrices.is_some());
-        compute_pipeline(gpu, self.layout.raw, spirv::COORDINATES, &constants, None)
+        self.0.pipeline(gpu, draws.matrices.is_some())
     }
 
     /// A set that shows draws, the host's vertices and coordinates.
@@ -46,11 +38,9 @@ impl Coordinates {
         vertices: vk::DescriptorBufferInfo,
         coordinates: &Buffer,
     ) -> Result<OwnSet, VulkanError> {
-        let set = self.set_layout.allocate()?;
         let buffers = [whole(&draws.table), vertices, whole(coordinates)];
-        // SAFETY: the set is new; of the host's buffer as the caller says, ours go with the frame.
-        unsafe { set.write_buffers(0, &buffers) };
-        Ok(set)
+        // SAFETY: of the host's buffer as the caller says; ours go with the frame.
+        unsafe { self.0.set(&buffers) }
     }
 
     /// Records it, where there are draws.
@@ -61,7 +51,7 @@ impl Coordinates {
         set: &OwnSet,
         counts: VertexCounts,
     ) {
-        self.layout.bind(recorder, &[set.raw], &counts);
-        recorder.dispatch(pipeline, u64::from(counts.positions.div_ceil(64)));
+        let invocations = counts.positions;
+        self.0.record(recorder, pipeline, set, &counts, invocations);
     }
 }

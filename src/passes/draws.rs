@@ -1,5 +1,6 @@
 //! A host's draws on the device.
 
+use super::TriangleWord;
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 
@@ -25,12 +26,9 @@ pub(crate) struct HostDraw {
 }
 
 impl HostDraw {
-    /// The bit of a word that says that back faces show.
-    pub const DOUBLE_SIDED: u32 = 1 << 31;
-
     /// Whether back faces show.
     pub fn is_double_sided(&self) -> bool {
-        self.word & Self::DOUBLE_SIDED != 0
+        self.word & TriangleWord::DOUBLE_SIDED != 0
     }
 }
 
@@ -67,9 +65,9 @@ impl Draws {
         matrices: &[[[f32; 4]; 4]],
     ) {
         recorder.barrier();
-        recorder.update(&self.table, bytemuck::cast_slice(draws));
+        recorder.update(&self.table, 0, bytemuck::cast_slice(draws));
         if let Some(buffer) = &self.matrices {
-            recorder.update(buffer, bytemuck::cast_slice(matrices));
+            recorder.update(buffer, 0, bytemuck::cast_slice(matrices));
         }
         recorder.barrier();
     }

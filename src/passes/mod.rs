@@ -7,9 +7,11 @@
 //! ```
 //! Every pass records into a caller's command buffer and reads what the pass before left on the device. They share the
 //! geometry (`geometry/`) and what else the scene has (`scene/`), the memory that they hand to each other (`resources/`),
-//! the layout of descriptors (`layout.rs`) and the twins of what shaders include (`frame.rs`, `counters.rs`, `sites.rs`).
+//! the layout of descriptors (`layout.rs`) and the twins of what shaders include (`frame.rs`, `counters.rs`, `sites.rs`,
+//! `draws.rs`, `triangle_word.rs`, `alpha_flags.rs`).
 
 mod adopt;
+pub(crate) mod alpha_flags;
 mod alpha_map;
 mod attributes;
 mod bin;
@@ -28,6 +30,7 @@ mod geometry;
 mod groups;
 mod grow;
 mod layout;
+mod lent_kernel;
 mod multisample;
 mod own_layout;
 mod patch;
@@ -54,6 +57,7 @@ mod stroke;
 mod take;
 mod thin;
 mod transform;
+mod triangle_word;
 mod upload;
 mod visibility;
 
@@ -107,4 +111,5 @@ pub use stroke::{Stroke, StrokeSizes};
 pub(crate) use take::Take;
 pub use thin::Thin;
 pub(crate) use transform::{Transform, VertexCounts};
+pub(crate) use triangle_word::TriangleWord;
 pub(crate) use visibility::{VisibilityUniform, visibility_layout};

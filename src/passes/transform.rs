@@ -1,9 +1,10 @@
 //! transform: positions of a host's vertices in clip space.
 
 use super::draws::Draws;
-use super::own_layout::{OwnSet, PipelineLayout, SetLayout, whole};
+use super::lent_kernel::LentKernel;
+use super::own_layout::{OwnSet, whole};
 use super::spirv;
-use crate::vulkan::{Buffer, Constants, Gpu, Pipeline, Recorder, VulkanError, compute_pipeline};
+use crate::vulkan::{Buffer, Gpu, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -20,10 +21,7 @@ pub(crate) struct VertexCounts {
 }
 
 /// Reads vertices, and multiplies them by the matrices of their draws.
-pub(crate) struct Transform {
-    layout: PipelineLayout,
-    set_layout: SetLayout,
-}
+pub(crate) struct Transform(LentKernel<VertexCounts>);
 
 impl Transform {
     /// Makes the layouts.
@@ -31,12 +29,7 @@ impl Transform {
     /// # Errors
     /// If the driver refuses one.
     pub fn new(gpu: &Arc<Gpu>) -> Result<Self, VulkanError> {
-        let set_layout = SetLayout::new(gpu, &[vk::DescriptorType::STORAGE_BUFFER; 4])?;
-        let push = size_of::<VertexCounts>() as u32;
-        Ok(Self {
-            layout: PipelineLayout::new(gpu, &[set_layout.raw], push)?,
-            set_layout,
-        })
+        Ok(Self(LentKernel::new(gpu, spirv::TRANSFORM, 4)?))
     }
 
     /// The pipeline for three floats in object space, if the draws have matrices, or else for four in clip space.
@@ -44,8 +37,7 @@ impl Transform {
     /// # Errors
     /// If the driver refuses it.
     pub fn pipeline(&self, gpu: &Arc<Gpu>, draws: &Draws) -> Result<Pipeline, VulkanError> {
-        let constants = Constants::new().flag(0, draws.matrices.is_some());
-        compute_pipeline(gpu, self.layout.raw, spirv::TRANSFORM, &constants, None)
+        self.0.pipeline(gpu, draws.matrices.is_some())
     }
 
     /// A set that shows draws, the host's vertices, matrices and positions.
@@ -58,7 +50,6 @@ impl Transform {
         vertices: vk::DescriptorBufferInfo,
         positions: &Buffer,
     ) -> Result<OwnSet, VulkanError> {
-        let set = self.set_layout.allocate()?;
         // Matrices that are not there are not read.
         let matrices = draws.matrices.as_ref().unwrap_or(&draws.table);
         let buffers = [
@@ -67,9 +58,8 @@ impl Transform {
             whole(matrices),
             whole(positions),
         ];
-        // SAFETY: the set is new; of the host's buffer as the caller says, ours go with the frame.
-        unsafe { set.write_buffers(0, &buffers) };
-        Ok(set)
+        // SAFETY: of the host's buffer as the caller says; ours go with the frame.
+        unsafe { self.0.set(&buffers) }
     }
 
     /// Records it, where there are draws.
@@ -80,7 +70,7 @@ impl Transform {
         set: &OwnSet,
         counts: VertexCounts,
     ) {
-        self.layout.bind(recorder, &[set.raw], &counts);
-        recorder.dispatch(pipeline, u64::from(counts.positions.div_ceil(64)));
+        let invocations = counts.positions;
+        self.0.record(recorder, pipeline, set, &counts, invocations);
     }
 }

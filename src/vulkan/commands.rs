@@ -162,12 +162,12 @@ impl<'a> Recorder<'a> {
         };
     }
 
-    /// Writes bytes, a multiple of four, to the beginning of a buffer.
-    pub(crate) fn update(&self, buffer: &Buffer, bytes: &[u8]) {
+    /// Writes bytes, a multiple of four, to a buffer from a byte on, another multiple.
+    pub(crate) fn update(&self, buffer: &Buffer, first_byte: u64, bytes: &[u8]) {
         /// Bytes that an inline update can have.
         const AT_ONCE: usize = 65_536;
         for (chunk, bytes) in (0..).zip(bytes.chunks(AT_ONCE)) {
-            let offset = chunk * AT_ONCE as u64;
+            let offset = first_byte + chunk * AT_ONCE as u64;
             // SAFETY: `new`'s contract; the buffer was created as a transfer destination, and callers know its size.
             unsafe {
                 self.gpu

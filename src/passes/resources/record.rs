@@ -23,15 +23,7 @@ impl Resources {
         uniform: &FrameUniform,
     ) {
         recorder.barrier();
-        // SAFETY: the recorder's contract; the block is below the 65,536 bytes that an inline update can have.
-        unsafe {
-            recorder.device().cmd_update_buffer(
-                recorder.raw(),
-                set.uniform.raw,
-                0,
-                bytemuck::bytes_of(uniform),
-            )
-        };
+        recorder.update(&set.uniform, 0, bytemuck::bytes_of(uniform));
         recorder.clear_first(&self.counters, Counter::CLEARED_BYTES);
         recorder.clear(&self.tiles);
         recorder.barrier();

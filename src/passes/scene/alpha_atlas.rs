@@ -1,13 +1,10 @@
 //! The alpha channels that the alpha test reads, in one buffer.
 
+use crate::passes::alpha_flags::{
+    CLAMP_TO_EDGE, MIRRORED_REPEAT, NEAREST_MAG, NEAREST_MIN, NEAREST_MIP, NO_MIP, REPEAT,
+    TEXTURED, beyond,
+};
 use crate::scene::{AlphaMode, Filter, Material, Sampler, Scene, Wrap};
-
-/// Flags of `shaders/include/alpha.glsl`.
-const TEXTURED: u32 = 1;
-const NEAREST_MAG: u32 = 2;
-const NEAREST_MIN: u32 = 4;
-const NO_MIP: u32 = 8;
-const NEAREST_MIP: u32 = 16;
 
 /// The alpha channels of MASK materials' base colour textures, with their mipmaps.
 #[derive(Debug)]
@@ -98,9 +95,9 @@ impl AlphaAtlas {
 
 fn flags(sampler: &Sampler) -> u32 {
     let mode = |wrap| match wrap {
-        Wrap::Repeat => 0,
-        Wrap::MirroredRepeat => 1,
-        Wrap::ClampToEdge => 2_u32,
+        Wrap::Repeat => REPEAT,
+        Wrap::MirroredRepeat => MIRRORED_REPEAT,
+        Wrap::ClampToEdge => CLAMP_TO_EDGE,
     };
     TEXTURED
         | if sampler.mag == Filter::Nearest {
@@ -118,8 +115,7 @@ fn flags(sampler: &Sampler) -> u32 {
             Some(Filter::Nearest) => NEAREST_MIP,
             Some(Filter::Linear) => 0,
         }
-        | mode(sampler.wrap_u) << 8
-        | mode(sampler.wrap_v) << 10
+        | beyond([mode(sampler.wrap_u), mode(sampler.wrap_v)])
 }
 
 /// The texel that a coordinate one outside of the image falls on.

@@ -1,15 +1,12 @@
 //! Materials and lights that change with the moment: what a scene keeps of them, and a frame's own copies.
 
 use super::light::GpuLight;
-use super::material::{GpuMaterial, MaterialRow};
+use super::material::MaterialRow;
 use super::{GpuScene, Slots};
 use crate::passes::geometry::copy;
 use crate::scene::{Moment, Motion};
 use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
-
-/// Most bytes of an inline update.
-const MOST_INLINE: usize = 65_536;
 
 /// What changes of a scene's look.
 pub(super) struct ChangingLook {
@@ -136,13 +133,11 @@ impl FrameLook {
             let lights: Vec<_> = lights
                 .map(|light| GpuLight::new(light, scene.origin()))
                 .collect();
-            let chunks = bytemuck::cast_slice::<_, u8>(&lights).chunks(MOST_INLINE);
-            self.updates
-                .extend(chunks.enumerate().map(|(chunk, bytes)| Update {
-                    of_materials: false,
-                    first_byte: chunk * MOST_INLINE,
-                    bytes: bytes.to_vec(),
-                }));
+            self.updates.push(Update {
+                of_materials: false,
+                first_byte: 0,
+                bytes: bytemuck::cast_slice(&lights).to_vec(),
+            });
         }
     }
 
@@ -157,16 +152,9 @@ impl FrameLook {
                 false => self.lights.as_ref(),
             };
             let Some(to) = to else { continue };
-            // SAFETY: the recorder's contract; the bytes lie within the buffer, as the moment has no more materials and lights
-            // than the scene, and are no more than an inline update can have.
-            unsafe {
-                let (device, raw) = (recorder.device(), recorder.raw());
-                device.cmd_update_buffer(raw, to.raw, update.first_byte as u64, &update.bytes);
-            }
+            // They lie within the buffer: a moment has no more materials and lights than its scene.
+            recorder.update(to, update.first_byte as u64, &update.bytes);
         }
         recorder.barrier();
     }
 }
-
-const _: () = assert!(size_of::<GpuMaterial>() + 32 * crate::passes::layout::SLOTS <= MOST_INLINE);
-const _: () = assert!(MOST_INLINE.is_multiple_of(size_of::<GpuLight>()));

@@ -2,13 +2,9 @@
 
 use super::bins::Bins;
 use super::material::high_frequency;
+use crate::passes::TriangleWord;
 use crate::passes::geometry::double_sided;
 use crate::scene::{Geometry, Material};
-
-/// The bits of a triangle's last word: 16 of its material, 14 of its bin, and flags.
-const BIN_SHIFT: u32 = 16;
-const HIGH_FREQUENCY_BIT: u32 = 1 << 30;
-const DOUBLE_SIDED_BIT: u32 = 1 << 31;
 
 /// A triangle's vertices in their order, beginning with the one whose position comes first. Duplicates of a triangle that
 /// begin elsewhere are then computed alike to the bit, and the same one is seen everywhere.
@@ -43,16 +39,16 @@ impl Triangles {
     pub(super) fn new(materials: &[Material], geometry: &Geometry, bins: &Bins) -> Self {
         let mut last_words = vec![0_u32; geometry.triangles.len()];
         for draw in &geometry.draws {
-            let is_high_frequency = materials
-                .get(draw.material as usize)
-                .is_some_and(high_frequency);
-            let flag = |bit: u32, set: bool| if set { bit } else { 0 };
-            let word = draw.material
-                | bins.of(draw.material) << BIN_SHIFT
-                | flag(DOUBLE_SIDED_BIT, double_sided(draw.class))
-                | flag(HIGH_FREQUENCY_BIT, is_high_frequency);
+            let word = TriangleWord {
+                material: draw.material,
+                bin: bins.of(draw.material),
+                high_frequency: materials
+                    .get(draw.material as usize)
+                    .is_some_and(high_frequency),
+                double_sided: double_sided(draw.class),
+            };
             let first = draw.first_triangle as usize;
-            last_words[first..first + draw.triangle_count as usize].fill(word);
+            last_words[first..first + draw.triangle_count as usize].fill(word.bits());
         }
         let records: Vec<_> = geometry
             .triangles
@@ -73,7 +69,7 @@ impl Triangles {
 /// How many drawn triangles have a record with that flag.
 fn high_frequency_count(geometry: &Geometry, records: &[[u32; 4]]) -> u64 {
     let counts = records.iter().scan(0, |count, [.., word]| {
-        *count += u64::from(word & HIGH_FREQUENCY_BIT != 0);
+        *count += u64::from(word & TriangleWord::HIGH_FREQUENCY != 0);
         Some(*count)
     });
     // Up to each triangle and including it, after those up to none.

@@ -1,0 +1,20 @@
+//! Flags of the alpha test, as in `shaders/include/alpha.glsl`.
+
+pub(crate) const TEXTURED: u32 = 1;
+#[cfg(feature = "gltf")]
+pub(crate) const NEAREST_MAG: u32 = 2;
+#[cfg(feature = "gltf")]
+pub(crate) const NEAREST_MIN: u32 = 4;
+pub(crate) const NO_MIP: u32 = 8;
+#[cfg(feature = "gltf")]
+pub(crate) const NEAREST_MIP: u32 = 16;
+
+/// What is beyond an image.
+pub(crate) const REPEAT: u32 = 0;
+pub(crate) const MIRRORED_REPEAT: u32 = 1;
+pub(crate) const CLAMP_TO_EDGE: u32 = 2;
+
+/// The bits of what is beyond it along u and v.
+pub(crate) fn beyond([u, v]: [u32; 2]) -> u32 {
+    u << 8 | v << 10
+}
