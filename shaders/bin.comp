@@ -2,6 +2,8 @@
 // Reads: the geometry, masks, survivors. Writes: pairs, tiles (lengths and flags), COUNTER_PAIRS.
 // The order of pairs and ranks varies from run to run; `sample` does not depend on it.
 // A pair that finds no room marks its tile: every triangle is then a candidate there.
+// Large or small is a matter of what a region shows of a triangle, so that both are tested alike against a tile: which
+// kernel samples it is the same however an image is divided.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -31,12 +33,10 @@ void main() {
         ivec2 tile = low + ivec2(kk - row * columns, row);
         uint index = uint(tile.y) * frame.tiles.x + uint(tile.x);
         bool touches = k < count && (masks[index] & footprint_mask(f, tile)) != 0u;
-        if (LARGE) {
-            // A pixel's centre is within (3.5, 1.5) of the tile's; a quarter more covers rounding.
-            Setup s = setup_triangle(corners.v0, corners.v1, corners.v2, tile_center(tile), false);
-            vec3 reach = s.c + (3.75 + frame.reach) * abs(s.a) + (1.75 + frame.reach) * abs(s.b);
-            touches = touches && !(min(reach.x, min(reach.y, reach.z)) < 0.0);
-        }
+        // A pixel's centre is within (3.5, 1.5) of the tile's; a quarter more covers rounding.
+        Setup s = setup_triangle(corners.v0, corners.v1, corners.v2, tile_center(tile), false);
+        vec3 reach = s.c + (3.75 + frame.reach) * abs(s.a) + (1.75 + frame.reach) * abs(s.b);
+        touches = touches && !(min(reach.x, min(reach.y, reach.z)) < 0.0);
         if (touches) {
             uvec4 together = subgroupBallot(true);
             uint slot = 0u;

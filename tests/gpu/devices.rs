@@ -144,7 +144,7 @@ fn guaranteed(limits: &mut Limits) {
 #[test]
 fn small_texel_buffers_make_the_same_image() {
     let stage = layered();
-    let settings = everywhere([320, 240], Pattern::Sobol, 16);
+    let settings = everywhere([320, 240], Pattern::Sobol, 64);
     let mut expected = None;
     on_gpu(|gpu| expected = Some(stage.render(gpu, &settings)));
     let expected = expected.unwrap();
