@@ -3,28 +3,30 @@
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 layout(local_size_x = 1) in;
-layout(constant_id = 0) const uint AFTER = 0u;
-layout(constant_id = 6) const uint SUBGROUPS_FIRST = 1u;    // as in schedule.comp
-layout(constant_id = 7) const uint SUBGROUPS = 1u;
+layout(push_constant) uniform Push {
+    uint after;
+    uint subgroups_first;   // as in schedule.comp
+    uint subgroups;
+} push;
 const uint DETECT = 0u, CULL = 1u, SAMPLE = 2u, RECORDS = 3u, SPANS = 4u, THIN = 5u, GROUPS = 6u, PROBE = 7u;
 
 void main() {
-    if (AFTER == DETECT) {
+    if (push.after == DETECT) {
         arguments[ARGUMENT_CULL] = counters[COUNTER_TILES] == 0u ? uvec4(0u) : groups((frame.triangle_count + 511u) / 512u);
-    } else if (AFTER == CULL) {
+    } else if (push.after == CULL) {
         arguments[ARGUMENT_BIN_SMALL] = groups((counters[COUNTER_SURVIVORS] + 63u) / 64u);
         arguments[ARGUMENT_BIN_LARGE] = groups(counters[COUNTER_LARGE]);
-    } else if (AFTER == SAMPLE) {
+    } else if (push.after == SAMPLE) {
         uint n = min(counters[COUNTER_RECORDS], frame.record_capacity);
         counters[COUNTER_RECORDS_TOTAL] += n;
         arguments[ARGUMENT_SORT] = groups((n + 63u) / 64u);
-    } else if (AFTER == GROUPS) {
+    } else if (push.after == GROUPS) {
         for (uint list = 0u; list < 4u; list++)
-            arguments[ARGUMENT_SAMPLE_PLAIN + list] = groups(counters[COUNTER_PLAIN_TILES + list] * (list < 2u ? SUBGROUPS_FIRST : SUBGROUPS));
-    } else if (AFTER == PROBE) {
-        arguments[ARGUMENT_PLAIN_LEFT] = groups(counters[COUNTER_PLAIN_LEFT] * SUBGROUPS);
-        arguments[ARGUMENT_MASKED_LEFT] = groups(counters[COUNTER_MASKED_LEFT] * SUBGROUPS);
-    } else if (AFTER == THIN) {
+            arguments[ARGUMENT_SAMPLE_PLAIN + list] = groups(counters[COUNTER_PLAIN_TILES + list] * (list < 2u ? push.subgroups_first : push.subgroups));
+    } else if (push.after == PROBE) {
+        arguments[ARGUMENT_PLAIN_LEFT] = groups(counters[COUNTER_PLAIN_LEFT] * push.subgroups);
+        arguments[ARGUMENT_MASKED_LEFT] = groups(counters[COUNTER_MASKED_LEFT] * push.subgroups);
+    } else if (push.after == THIN) {
         arguments[ARGUMENT_THIN] = groups((counters[COUNTER_THIN] + 63u) / 64u);
     } else {
         // An invocation a record, or 8 a span. Bins one after the other; the dispatch of each begins at its first record.
@@ -32,9 +34,9 @@ void main() {
         for (uint b = 0u; b < frame.bin_count; b++) {
             uint n = bins[b].x;
             bins[b] = uvec4(n, first, first, 0u);
-            arguments[ARGUMENT_SHADE + b] = groups(AFTER == SPANS ? (n + 7u) / 8u : (n + 63u) / 64u);
+            arguments[ARGUMENT_SHADE + b] = groups(push.after == SPANS ? (n + 7u) / 8u : (n + 63u) / 64u);
             first += n;
         }
-        if (AFTER == RECORDS) counters[COUNTER_SHADED_TOTAL] += first;
+        if (push.after == RECORDS) counters[COUNTER_SHADED_TOTAL] += first;
     }
 }

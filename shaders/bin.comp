@@ -13,12 +13,13 @@
 #include "include/pairs.glsl"
 layout(local_size_x = 64) in;
 
-layout(constant_id = 0) const bool LARGE = false;   // a workgroup a triangle, not an invocation
+layout(push_constant) uniform Push { uint large; } push;     // 1: a workgroup a triangle, not an invocation
 
 void main() {
-    uint i = LARGE ? workgroup_number() : invocation_number();
-    if (i >= min(counters[LARGE ? COUNTER_LARGE : COUNTER_SURVIVORS], frame.survivor_capacity)) return;
-    uint t = survivors[LARGE ? frame.survivor_capacity - 1u - i : i];
+    bool large = push.large != 0u;
+    uint i = large ? workgroup_number() : invocation_number();
+    if (i >= min(counters[large ? COUNTER_LARGE : COUNTER_SURVIVORS], frame.survivor_capacity)) return;
+    uint t = survivors[large ? frame.survivor_capacity - 1u - i : i];
     Triangle corners = triangle_at(t);
     Footprint f = footprint_of(corners.v0, corners.v1, corners.v2);
     uint flag = t >= frame.first_blend ? TILE_HAS_BLEND : t >= frame.first_mask ? TILE_HAS_MASK : 0u;
@@ -26,7 +27,7 @@ void main() {
     ivec2 low = f.low / ivec2(8, 4), high = f.high / ivec2(8, 4);
     uint columns = uint(high.x - low.x + 1), count = columns * uint(high.y - low.y + 1);
     float inverse_columns = 1.0 / float(columns);
-    uint k = LARGE ? gl_LocalInvocationID.x : 0u;
+    uint k = large ? gl_LocalInvocationID.x : 0u;
     do {
         uint kk = min(k, count - 1u);
         uint row = uint((float(kk) + 0.5) * inverse_columns);
@@ -49,6 +50,6 @@ void main() {
             // One that is not kept leaves no gap: its tile gets no list.
             if (slot < frame.pair_capacity) pairs_out[slot] = make_pair(t, index, rank);
         }
-        k += LARGE ? 64u : 1u;
+        k += large ? 64u : 1u;
     } while (k < count);
 }

@@ -57,10 +57,13 @@ void main() {
     } else {
         uint id[10], blend[10], code[10], above_id[10], above_blend[10], above_code[10];
         int alpha[10], above_alpha[10];
-        for (int i = 0; i < 10; i++) {
+        [[unroll]] for (int i = 0; i < 10; i++) {
             above_id[i] = 0u; above_blend[i] = 0u; above_code[i] = 0u; blend[i] = 0u; above_alpha[i] = 0;
         }
-        [[unroll]] for (int r = -1; r <= 4; r++) {
+        // The tile's rows and one beyond on both sides; what the first ones say is shifted out. Not unrolled: the code would
+        // take CPU drivers six times as long to compile.
+        int r = -1;
+        do {
             int y = clamp(base.y + r, 0, last.y);
             [[unroll]] for (int i = 0; i < 10; i++) {
                 ivec2 p = ivec2(clamp(base.x - 1 + i, 0, last.x), y);
@@ -71,31 +74,27 @@ void main() {
                 alpha[i] = int(color_code >> 24);
             }
             uint row = 0u, above = 0u;
-            if (r >= 0 && r < 4) {
-                [[unroll]] for (int i = 0; i < 9; i++)
-                    row |= differs(id[i], id[i + 1], blend[i], blend[i + 1], code[i], code[i + 1], alpha[i], alpha[i + 1]) ? 3u << i : 0u;
+            [[unroll]] for (int i = 0; i < 9; i++)
+                row |= differs(id[i], id[i + 1], blend[i], blend[i + 1], code[i], code[i + 1], alpha[i], alpha[i + 1]) ? 3u << i : 0u;
+            [[unroll]] for (int i = 1; i < 9; i++) {
+                uint bit = differs(id[i], above_id[i], blend[i], above_blend[i], code[i], above_code[i], alpha[i], above_alpha[i]) ? 1u << i : 0u;
+                row |= bit;
+                above |= bit;
             }
-            if (r >= 0) {
-                [[unroll]] for (int i = 1; i < 9; i++) {
-                    uint bit = differs(id[i], above_id[i], blend[i], above_blend[i], code[i], above_code[i], alpha[i], above_alpha[i]) ? 1u << i : 0u;
-                    row |= bit;
-                    above |= bit;
-                }
-                [[unroll]] for (int i = 0; i < 9; i++) {
-                    bool falling = differs(above_id[i], id[i + 1], above_blend[i], blend[i + 1], above_code[i], code[i + 1], above_alpha[i], alpha[i + 1]);
-                    row |= falling ? 2u << i : 0u;
-                    above |= falling ? 1u << i : 0u;
-                    bool rising = differs(above_id[i + 1], id[i], above_blend[i + 1], blend[i], above_code[i + 1], code[i], above_alpha[i + 1], alpha[i]);
-                    row |= rising ? 1u << i : 0u;
-                    above |= rising ? 2u << i : 0u;
-                }
+            [[unroll]] for (int i = 0; i < 9; i++) {
+                bool falling = differs(above_id[i], id[i + 1], above_blend[i], blend[i + 1], above_code[i], code[i + 1], above_alpha[i], alpha[i + 1]);
+                row |= falling ? 2u << i : 0u;
+                above |= falling ? 1u << i : 0u;
+                bool rising = differs(above_id[i + 1], id[i], above_blend[i + 1], blend[i], above_code[i + 1], code[i], above_alpha[i + 1], alpha[i]);
+                row |= rising ? 1u << i : 0u;
+                above |= rising ? 2u << i : 0u;
             }
-            if (r >= 1) word |= ((previous_row | above) >> 1 & 255u) << (8 * (r - 1));
+            word = word >> 8 | ((previous_row | above) >> 1 & 255u) << 24;
             if (THIN) {
                 uint same = 0u, pairs_ = 0u;
                 [[unroll]] for (int i = 1; i < 9; i++) same |= id[i] == above_id[i] && id[i] != 0u ? 1u << i : 0u;
                 [[unroll]] for (int i = 0; i < 9; i++) pairs_ |= id[i] == id[i + 1] && id[i] != 0u ? 1u << i : 0u;
-                if (r >= 1) amid |= ((previous_beside | (previous_same & same)) >> 1 & 255u) << (8 * (r - 1));
+                amid = amid >> 8 | ((previous_beside | (previous_same & same)) >> 1 & 255u) << 24;
                 previous_beside = pairs_ & pairs_ << 1;
                 previous_same = same;
             }
@@ -106,7 +105,7 @@ void main() {
                 above_code[i] = code[i];
                 above_alpha[i] = alpha[i];
             }
-        }
+        } while (++r <= 4);
     }
 
     if (THIN && inside) word |= marks[tile] | (marks[tile_count + tile] & amid);

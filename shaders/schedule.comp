@@ -10,17 +10,15 @@
 #include "include/tiles.glsl"
 #include "include/work.glsl"
 layout(local_size_x_id = 0) in;
-layout(constant_id = 2) const uint BLOCK = 64u;             // samples of a header
-layout(constant_id = 3) const bool PER_SAMPLE = false;
-layout(constant_id = 4) const uint LAYERS = 4u;             // BLEND layers of a chain that a tile is admitted with
-layout(constant_id = 5) const uint PARTS = 1u;              // records of a triangle in a block
-layout(constant_id = 6) const uint SUBGROUPS_FIRST = 1u;    // that `sample` gives an entry, where it may PROBE it
-layout(constant_id = 7) const uint SUBGROUPS = 1u;          // and where it takes all samples
-// Different chains of layers that a block is admitted with, too; most need less than half of these records. Both grow
-// where a frame found too few.
-const uint CHAINS = PARTS > 8u ? LAYERS * PARTS / 4u : LAYERS * 2u;
-// Records of a block that it is admitted with where a cell has several: these are small, and see few triangles.
-const uint CROWD = LAYERS * 4u;
+// What samples need is no constant of the kernel: one is made for all.
+layout(push_constant) uniform Push {
+    uint block;             // samples of a header
+    uint per_sample;        // 1 where each sample is a record
+    uint layers;            // BLEND layers of a chain that a tile is admitted with
+    uint parts;             // records of a triangle in a block
+    uint subgroups_first;   // that `sample` gives an entry, where it may PROBE it
+    uint subgroups;         // and where it takes all samples
+} push;
 
 void main() {
     uint lane = gl_SubgroupInvocationID;
@@ -35,7 +33,14 @@ void main() {
         p += LANES;
     }
 
-    uint blocks = (frame.sample_count + BLOCK - 1u) / BLOCK;
+    uint blocks = (frame.sample_count + push.block - 1u) / push.block;
+    bool per_sample = push.per_sample != 0u;
+    // Different chains of layers that a block is admitted with, too; most need less than half of these records. Both grow
+    // where a frame found too few.
+    uint chains_of_block = push.parts > 8u ? push.layers * push.parts / 4u : push.layers * 2u;
+    // Records of a block that it is admitted with where a cell has several: these are small, and see few triangles.
+    uint crowd = push.layers * 4u;
+    uint most_records = blocks == 1u ? push.block : crowd;
     uint list_used = 0u, records_used = 0u, headers_used = 0u, placed = 0u, unlisted = 0u;
     uvec4 entries = uvec4(0u);      // of each list
     uint next = start;
@@ -52,10 +57,10 @@ void main() {
         bool listed = busy && (t.w & TILE_OVERFLOW) == 0u;
         bool blend = (t.w & TILE_HAS_BLEND) != 0u, mask_ = (t.w & TILE_HAS_MASK) != 0u;
         uint candidates_ = listed ? t.x : frame.triangle_count;
-        uint chains = PER_SAMPLE || POINTS ? samples : min(cells * blocks * CHAINS, samples);
+        uint chains = per_sample || POINTS ? samples : min(cells * blocks * chains_of_block, samples);
         uint record_need = blend || (!listed && frame.first_blend < frame.triangle_count)
-            ? chains * (2u + min(candidates_, LAYERS))
-            : PER_SAMPLE ? samples : min(cells * blocks * min(PARTS * candidates_, blocks == 1u ? BLOCK : CROWD), samples);
+            ? chains * (2u + min(candidates_, push.layers))
+            : per_sample ? samples : min(cells * blocks * min(push.parts * candidates_, most_records), samples);
         uint list_need = listed ? t.x : 0u, header_need = cells * blocks;
         uint list_first = list_used + subgroupExclusiveAdd(list_need);
         uint record_end = records_used + subgroupInclusiveAdd(record_need);
@@ -102,9 +107,9 @@ void main() {
         counters[COUNTER_UNLISTED_TOTAL] += unlisted;
         arguments[ARGUMENT_SETUP] = idle ? uvec4(0u) : groups((min(counters[COUNTER_PAIRS], frame.pair_capacity) + 63u) / 64u);
         arguments[ARGUMENT_GROUPS] = idle ? uvec4(0u) : groups((frame.group_count + 63u) / 64u);
-        arguments[ARGUMENT_SAMPLE_PLAIN] = groups(entries.x * SUBGROUPS_FIRST);
-        arguments[ARGUMENT_SAMPLE_MASKED] = groups(entries.y * SUBGROUPS_FIRST);
-        arguments[ARGUMENT_SAMPLE_BLENDED] = groups(entries.z * SUBGROUPS);
-        arguments[ARGUMENT_SAMPLE_UNLISTED] = groups(entries.w * SUBGROUPS);
+        arguments[ARGUMENT_SAMPLE_PLAIN] = groups(entries.x * push.subgroups_first);
+        arguments[ARGUMENT_SAMPLE_MASKED] = groups(entries.y * push.subgroups_first);
+        arguments[ARGUMENT_SAMPLE_BLENDED] = groups(entries.z * push.subgroups);
+        arguments[ARGUMENT_SAMPLE_UNLISTED] = groups(entries.w * push.subgroups);
     }
 }

@@ -1,14 +1,16 @@
 //! bin: triangles into pairs with the tiles they touch.
 
+use super::arguments::{After, Arguments};
 use super::{Argument, Content, FrameLayout, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use ash::vk;
 use std::sync::Arc;
 
 /// Lists the pairs and counts each tile's.
 pub struct Bin {
-    arguments: Arc<Pipeline>,
-    small: Arc<Pipeline>,
-    large: Arc<Pipeline>,
+    layout: vk::PipelineLayout,
+    arguments: Arguments,
+    pipeline: Arc<Pipeline>,
 }
 
 impl Bin {
@@ -17,19 +19,21 @@ impl Bin {
     /// # Errors
     /// If the driver refuses one.
     pub fn new(layout: &FrameLayout, scene: &dyn Content) -> Result<Self, VulkanError> {
-        let make = |code, constants| layout.compute(code, &constants, None);
-        let bin = |large| make(spirv::BIN, scene.constants(Constants::new().flag(0, large)));
+        let constants = scene.constants(Constants::new());
         Ok(Self {
-            arguments: make(spirv::ARGUMENTS, Constants::new().with(0, 1))?,
-            small: bin(false)?,
-            large: bin(true)?,
+            layout: layout.pipeline,
+            arguments: Arguments::new(layout, After::Cull)?,
+            pipeline: layout.compute(spirv::BIN, &constants, None)?,
         })
     }
 
-    /// Records it.
+    /// Records it: for small triangles, then for large ones.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
-        recorder.dispatch(&self.arguments, 1);
-        recorder.dispatch_indirect_unordered(&self.small, arguments, Argument::BinSmall as u32);
-        recorder.dispatch_indirect(&self.large, arguments, Argument::BinLarge as u32);
+        self.arguments.record(recorder);
+        for (large, argument) in [(0, Argument::BinSmall), (1, Argument::BinLarge)] {
+            recorder.push(self.layout, &[large]);
+            recorder.dispatch_indirect_unordered(&self.pipeline, arguments, argument as u32);
+        }
+        recorder.barrier();
     }
 }

@@ -1,12 +1,13 @@
 //! cull: the triangles that can touch a superpixel.
 
+use super::arguments::{After, Arguments};
 use super::{Argument, Content, FrameLayout, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
 /// Compacts triangles; runs over none where nothing was detected.
 pub struct Cull {
-    arguments: Arc<Pipeline>,
+    arguments: Arguments,
     pipeline: Arc<Pipeline>,
 }
 
@@ -16,16 +17,16 @@ impl Cull {
     /// # Errors
     /// If the driver refuses one.
     pub fn new(layout: &FrameLayout, scene: &dyn Content) -> Result<Self, VulkanError> {
-        let make = |code, constants| layout.compute(code, &constants, None);
+        let constants = scene.constants(Constants::new());
         Ok(Self {
-            arguments: make(spirv::ARGUMENTS, Constants::new().with(0, 0))?,
-            pipeline: make(spirv::CULL, scene.constants(Constants::new()))?,
+            arguments: Arguments::new(layout, After::Detect)?,
+            pipeline: layout.compute(spirv::CULL, &constants, None)?,
         })
     }
 
     /// Records it.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
-        recorder.dispatch(&self.arguments, 1);
+        self.arguments.record(recorder);
         recorder.dispatch_indirect(&self.pipeline, arguments, Argument::Cull as u32);
     }
 }

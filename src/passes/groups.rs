@@ -1,5 +1,6 @@
 //! groups: the groups of cells of a round, where cells are sites.
 
+use super::arguments::{After, Arguments};
 use super::{Argument, FrameLayout, Sample, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
@@ -7,7 +8,7 @@ use std::sync::Arc;
 /// Lists them by what their samples need, and sizes the dispatches over them.
 pub struct Groups {
     pipeline: Arc<Pipeline>,
-    arguments: Arc<Pipeline>,
+    arguments: Arguments,
 }
 
 impl Groups {
@@ -17,23 +18,17 @@ impl Groups {
     /// If the driver refuses one.
     pub fn new(layout: &FrameLayout, sample: &Sample) -> Result<Self, VulkanError> {
         let lanes = layout.gpu.limits().lanes;
-        let make = |code, constants| layout.compute(code, &constants, None);
+        let cells = sample.options().cells;
+        let constants = cells.constants(Constants::new()).with(1, lanes);
         Ok(Self {
-            pipeline: make(
-                spirv::GROUPS,
-                sample
-                    .options()
-                    .cells
-                    .constants(Constants::new())
-                    .with(1, lanes),
-            )?,
-            arguments: make(spirv::ARGUMENTS, sample.subgroups().clone().with(0, 6))?,
+            pipeline: layout.compute(spirv::GROUPS, &constants, None)?,
+            arguments: Arguments::of_samples(layout, After::Groups, sample.subgroups())?,
         })
     }
 
     /// Records it.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
         recorder.dispatch_indirect(&self.pipeline, arguments, Argument::Groups as u32);
-        recorder.dispatch(&self.arguments, 1);
+        self.arguments.record(recorder);
     }
 }

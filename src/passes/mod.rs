@@ -13,6 +13,7 @@
 mod adopt;
 pub(crate) mod alpha_flags;
 mod alpha_map;
+mod arguments;
 mod attributes;
 mod bin;
 mod box_filter;

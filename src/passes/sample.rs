@@ -1,5 +1,6 @@
 //! sample: the nearest triangle of every sub-sample.
 
+use super::arguments::{After, Arguments};
 use super::{Argument, Cells, Content, FrameLayout, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
@@ -74,10 +75,10 @@ enum Run {
 pub struct Sample {
     kernels: Vec<(TileList, Arc<Pipeline>)>,
     rest: Vec<(TileList, Arc<Pipeline>)>,
-    arguments_of_rest: Arc<Pipeline>,
+    arguments_of_rest: Arguments,
     options: SampleOptions,
     block: u32,
-    subgroups: Constants,
+    subgroups: [u32; 2],
 }
 
 /// A kernel for each number of register rows that there is, least first.
@@ -241,17 +242,11 @@ impl Sample {
         } else {
             options.samples
         };
-        let subgroups = Constants::new()
-            .with(6, taking(first))
-            .with(7, taking(options.samples));
+        let subgroups = [taking(first), taking(options.samples)];
         Ok(Self {
             kernels,
             rest,
-            arguments_of_rest: layout.compute(
-                spirv::ARGUMENTS,
-                &subgroups.clone().with(0, 7),
-                None,
-            )?,
+            arguments_of_rest: Arguments::of_samples(layout, After::Probe, subgroups)?,
             options: *options,
             block,
             subgroups,
@@ -270,9 +265,9 @@ impl Sample {
         self.block
     }
 
-    /// The constants of `shaders/schedule.comp` that say how many subgroups take an entry of a list.
-    pub(crate) fn subgroups(&self) -> &Constants {
-        &self.subgroups
+    /// How many subgroups take an entry of a list: in a first run, and for all samples.
+    pub(super) fn subgroups(&self) -> [u32; 2] {
+        self.subgroups
     }
 
     /// Most records that a block makes of a triangle, where a cell has all its samples.
@@ -298,7 +293,7 @@ impl Sample {
         if self.rest.is_empty() {
             return;
         }
-        recorder.dispatch(&self.arguments_of_rest, 1);
+        self.arguments_of_rest.record(recorder);
         for (list, pipeline) in &self.rest {
             recorder.dispatch_indirect(
                 pipeline,

@@ -1,12 +1,16 @@
 //! schedule: which tiles' lists are placed in a round.
 
 use super::{FrameLayout, RecordRate, Sample, spirv};
-use crate::vulkan::{Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
+use ash::vk;
 use std::sync::Arc;
 
 /// Places as many lists as fit.
 pub struct Schedule {
+    layout: vk::PipelineLayout,
     pipeline: Arc<Pipeline>,
+    /// As `shaders/schedule.comp` takes them.
+    pushed: [u32; 6],
 }
 
 impl Schedule {
@@ -18,22 +22,28 @@ impl Schedule {
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout, sample: &Sample, layers: u32) -> Result<Self, VulkanError> {
         let lanes = layout.gpu.limits().lanes;
-        let records = sample.options().records;
-        let cells = sample.options().cells;
-        let constants = cells.constants(sample.subgroups().clone());
-        let constants = layout
-            .lane_constants(constants, lanes)
-            .with(0, lanes)
-            .with(2, sample.block())
-            .flag(3, records == RecordRate::Sample)
-            .with(4, layers)
-            .with(5, sample.parts());
-        let pipeline = layout.compute(spirv::SCHEDULE, &constants, layout.subgroup())?;
-        Ok(Self { pipeline })
+        let options = sample.options();
+        let constants = options.cells.constants(Constants::new());
+        let constants = layout.lane_constants(constants, lanes).with(0, lanes);
+        let [first, all] = sample.subgroups();
+        let per_sample = u32::from(options.records == RecordRate::Sample);
+        Ok(Self {
+            layout: layout.pipeline,
+            pipeline: layout.compute(spirv::SCHEDULE, &constants, layout.subgroup())?,
+            pushed: [
+                sample.block(),
+                per_sample,
+                layers,
+                sample.parts(),
+                first,
+                all,
+            ],
+        })
     }
 
     /// Records it.
     pub fn record(&self, recorder: &Recorder<'_>) {
+        recorder.push(self.layout, &self.pushed);
         recorder.dispatch(&self.pipeline, 1);
     }
 }

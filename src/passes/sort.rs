@@ -1,14 +1,21 @@
 //! sort: visibility records ordered by material bin.
 
+use super::arguments::{After, Arguments};
 use super::{Argument, Content, FrameLayout, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
 /// A counting sort over the records of a round.
 pub struct Sort {
-    before: Arc<Pipeline>,
-    /// Count, sizes of dispatches, scatter; not needed for a single bin.
-    passes: Option<[Arc<Pipeline>; 3]>,
+    before: Arguments,
+    /// Not needed for a single bin.
+    passes: Option<Passes>,
+}
+
+struct Passes {
+    count: Arc<Pipeline>,
+    arguments: Arguments,
+    scatter: Arc<Pipeline>,
 }
 
 impl Sort {
@@ -21,35 +28,32 @@ impl Sort {
         scene: &dyn Content,
         one_bin: bool,
     ) -> Result<Self, VulkanError> {
-        let make = |code, constants| layout.compute(code, &constants, None);
         let sort = |scatter| {
-            make(
-                spirv::SORT,
-                scene.constants(Constants::new().flag(0, scatter)),
-            )
+            let constants = scene.constants(Constants::new().flag(0, scatter));
+            layout.compute(spirv::SORT, &constants, None)
         };
-        let before = make(spirv::ARGUMENTS, Constants::new().with(0, 2))?;
-        let passes = if one_bin {
-            None
-        } else {
-            Some([
-                sort(false)?,
-                make(spirv::ARGUMENTS, Constants::new().with(0, 3))?,
-                sort(true)?,
-            ])
+        let passes = || {
+            Ok::<_, VulkanError>(Passes {
+                count: sort(false)?,
+                arguments: Arguments::new(layout, After::Records)?,
+                scatter: sort(true)?,
+            })
         };
-        Ok(Self { before, passes })
+        Ok(Self {
+            before: Arguments::new(layout, After::Sample)?,
+            passes: (!one_bin).then(passes).transpose()?,
+        })
     }
 
     /// Records it.
     pub fn record(&self, recorder: &Recorder<'_>, bins: &Buffer, arguments: &Buffer) {
         recorder.clear(bins);
         recorder.barrier();
-        recorder.dispatch(&self.before, 1);
-        if let Some([count, sizes, scatter]) = &self.passes {
-            recorder.dispatch_indirect(count, arguments, Argument::Sort as u32);
-            recorder.dispatch(sizes, 1);
-            recorder.dispatch_indirect(scatter, arguments, Argument::Sort as u32);
+        self.before.record(recorder);
+        if let Some(passes) = &self.passes {
+            recorder.dispatch_indirect(&passes.count, arguments, Argument::Sort as u32);
+            passes.arguments.record(recorder);
+            recorder.dispatch_indirect(&passes.scatter, arguments, Argument::Sort as u32);
         }
     }
 }

@@ -1,5 +1,6 @@
 //! spans: rows of 8 pixels, listed by material bin.
 
+use super::arguments::{After, Arguments};
 use super::{Content, FrameLayout, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
@@ -9,7 +10,7 @@ pub struct Spans {
     /// Not needed for a single bin.
     count: Option<Arc<Pipeline>>,
     scatter: Arc<Pipeline>,
-    arguments: Arc<Pipeline>,
+    arguments: Arguments,
 }
 
 impl Spans {
@@ -31,11 +32,10 @@ impl Spans {
                 .flag(2, one_bin);
             layout.compute(spirv::SPANS, &constants, layout.subgroup())
         };
-        let arguments = Constants::new().with(0, 4);
         Ok(Self {
             count: if one_bin { None } else { Some(spans(false)?) },
             scatter: spans(true)?,
-            arguments: layout.compute(spirv::ARGUMENTS, &arguments, None)?,
+            arguments: Arguments::new(layout, After::Spans)?,
         })
     }
 
@@ -46,7 +46,7 @@ impl Spans {
         recorder.barrier();
         let first = self.count.as_ref().unwrap_or(&self.scatter);
         recorder.dispatch(first, groups);
-        recorder.dispatch(&self.arguments, 1);
+        self.arguments.record(recorder);
         if self.count.is_some() {
             recorder.dispatch(&self.scatter, groups);
         }

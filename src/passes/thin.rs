@@ -1,5 +1,6 @@
 //! thin: pixels that a thin triangle crosses unseen.
 
+use super::arguments::{After, Arguments};
 use super::{Argument, Content, FrameLayout, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
@@ -7,7 +8,7 @@ use std::sync::Arc;
 /// Marks pixels for `detect`.
 pub struct Thin {
     select: Arc<Pipeline>,
-    arguments: Arc<Pipeline>,
+    arguments: Arguments,
     walk: Arc<Pipeline>,
 }
 
@@ -21,17 +22,16 @@ impl Thin {
         scene: &dyn Content,
         farther_is_larger: bool,
     ) -> Result<Self, VulkanError> {
-        let make = |code, constants| layout.compute(code, &constants, None);
         let thin = |select| {
             let constants = Constants::new()
                 .flag(0, select)
                 .flag(1, scene.has_blend())
                 .flag(2, farther_is_larger);
-            make(spirv::THIN, scene.constants(constants))
+            layout.compute(spirv::THIN, &scene.constants(constants), None)
         };
         Ok(Self {
             select: thin(true)?,
-            arguments: make(spirv::ARGUMENTS, Constants::new().with(0, 5))?,
+            arguments: Arguments::new(layout, After::Thin)?,
             walk: thin(false)?,
         })
     }
@@ -47,7 +47,7 @@ impl Thin {
         recorder.clear(marks);
         recorder.barrier();
         recorder.dispatch(&self.select, u64::from(indices.div_ceil(512)));
-        recorder.dispatch(&self.arguments, 1);
+        self.arguments.record(recorder);
         recorder.dispatch_indirect(&self.walk, arguments, Argument::Thin as u32);
     }
 }
