@@ -65,32 +65,6 @@ impl<'a> Recorder<'a> {
 
     /// Moves an image to another layout, after all before and ahead of all after.
     pub fn transition(&self, image: &Image, from: vk::ImageLayout, to: vk::ImageLayout) {
-        self.transition_range(image, image.range(), from, to);
-    }
-
-    /// The same for one mipmap level.
-    pub fn transition_level(
-        &self,
-        image: &Image,
-        level: u32,
-        from: vk::ImageLayout,
-        to: vk::ImageLayout,
-    ) {
-        let range = vk::ImageSubresourceRange {
-            base_mip_level: level,
-            level_count: 1,
-            ..image.range()
-        };
-        self.transition_range(image, range, from, to);
-    }
-
-    fn transition_range(
-        &self,
-        image: &Image,
-        range: vk::ImageSubresourceRange,
-        from: vk::ImageLayout,
-        to: vk::ImageLayout,
-    ) {
         let all = vk::PipelineStageFlags2::ALL_COMMANDS;
         let barriers = [vk::ImageMemoryBarrier2::default()
             .src_stage_mask(all)
@@ -100,7 +74,7 @@ impl<'a> Recorder<'a> {
             .old_layout(from)
             .new_layout(to)
             .image(image.raw)
-            .subresource_range(range)];
+            .subresource_range(image.range())];
         let info = vk::DependencyInfo::default().image_memory_barriers(&barriers);
         // SAFETY: `new`'s contract; synchronization2 is enabled.
         unsafe { self.gpu.device.cmd_pipeline_barrier2(self.raw(), &info) };

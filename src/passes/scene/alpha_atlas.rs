@@ -1,5 +1,6 @@
 //! The alpha channels that the alpha test reads, in one buffer.
 
+use super::mipmaps::halve;
 use crate::passes::alpha_flags::{
     CLAMP_TO_EDGE, MIRRORED_REPEAT, NEAREST_MAG, NEAREST_MIN, NEAREST_MIP, NO_MIP, REPEAT,
     TEXTURED, beyond,
@@ -56,7 +57,11 @@ impl AlphaAtlas {
             let size = image.level_size(i as u32);
             level = match image.levels().nth(i) {
                 Some(given) => alpha_channel(given),
-                None => halve(&level, image.level_size((i as u32).saturating_sub(1))).0,
+                None => halve::<1>(
+                    &level,
+                    image.level_size((i as u32).saturating_sub(1)),
+                    false,
+                ),
             };
             self.words[table + i] = self.words.len() as u32;
             self.push(&level, size, &texture.sampler);
@@ -130,35 +135,4 @@ fn wrap(i: i64, size: u32, mode: Wrap) -> usize {
 
 fn alpha_channel(texels: &[u8]) -> Vec<u8> {
     texels.chunks_exact(4).map(|texel| texel[3]).collect()
-}
-
-/// The next mipmap level: means of 2 x 2 texels, of 3 where a side is odd.
-fn halve(level: &[u8], [width, height]: [u32; 2]) -> (Vec<u8>, [u32; 2]) {
-    let half = [(width / 2).max(1), (height / 2).max(1)];
-    let span = |i: u32, from: u32, to: u32| (i * from / to)..((i + 1) * from).div_ceil(to);
-    let mut out = Vec::with_capacity((half[0] * half[1]) as usize);
-    for y in 0..half[1] {
-        for x in 0..half[0] {
-            let (mut sum, mut count) = (0, 0);
-            for v in span(y, height, half[1]) {
-                for u in span(x, width, half[0]) {
-                    sum += u32::from(level[(v * width + u) as usize]);
-                    count += 1;
-                }
-            }
-            out.push(((sum + count / 2) / count) as u8);
-        }
-    }
-    (out, half)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn halving_keeps_the_mean() {
-        let (level, size) = halve(&[0, 100, 200, 100, 50, 250], [3, 2]);
-        assert_eq!((level, size), (vec![117], [1, 1]));
-    }
 }

@@ -6,6 +6,7 @@ mod environment;
 mod light;
 mod look;
 mod material;
+mod mipmaps;
 mod slots;
 mod texture;
 mod texture_set;

@@ -1,5 +1,6 @@
 //! Images and samplers on the device.
 
+use super::mipmaps;
 use crate::scene::{Filter, Image as SceneImage, Sampler, Wrap};
 use crate::vulkan::{Buffer, Gpu, Image, Memory, Recorder, VulkanError};
 use ash::vk;
@@ -8,8 +9,6 @@ use std::sync::Arc;
 /// An image with its mipmaps.
 pub(super) struct Texture {
     pub(super) image: Image,
-    /// Levels that are there to be copied: one, or all.
-    given: u32,
 }
 
 impl Texture {
@@ -37,84 +36,50 @@ impl Texture {
             .mip_levels(source.full_levels())
             .array_layers(1)
             .samples(vk::SampleCountFlags::TYPE_1)
-            .usage(
-                vk::ImageUsageFlags::SAMPLED
-                    | vk::ImageUsageFlags::TRANSFER_DST
-                    | vk::ImageUsageFlags::TRANSFER_SRC,
-            );
+            .usage(vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST);
         let image = memory.image("texture", &info, vk::ImageAspectFlags::COLOR)?;
-        let upload = memory.upload("texture upload", &source.pixels)?;
-        let given = source.levels().count() as u32;
-        Ok((Self { image, given }, upload))
+        let upload = memory.upload("texture upload", &mipmaps::levels(source, srgb))?;
+        Ok((Self { image }, upload))
     }
 
-    /// Copies the levels that there are and makes each further one from the one before, by the device's linear blit.
+    /// Copies all levels.
     pub(super) fn record_upload(&self, recorder: &Recorder<'_>, upload: &Buffer) {
-        let (device, raw, image) = (recorder.device(), recorder.raw(), &self.image);
-        let (read, write) = (
-            vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
-            vk::ImageLayout::TRANSFER_DST_OPTIMAL,
-        );
-        recorder.transition(image, vk::ImageLayout::UNDEFINED, write);
-        let layer = |level| vk::ImageSubresourceLayers {
-            aspect_mask: vk::ImageAspectFlags::COLOR,
-            mip_level: level,
-            base_array_layer: 0,
-            layer_count: 1,
-        };
-        let corner = |level: u32| vk::Offset3D {
-            x: (image.extent.width >> level).max(1) as i32,
-            y: (image.extent.height >> level).max(1) as i32,
-            z: 1,
-        };
+        let image = &self.image;
+        let write = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
         let mut offset = 0;
-        let copies: Vec<_> = (0..self.given)
+        let copies: Vec<_> = (0..image.levels)
             .map(|level| {
-                let vk::Offset3D { x, y, z } = corner(level);
+                let [width, height] =
+                    [image.extent.width, image.extent.height].map(|side| (side >> level).max(1));
                 let copy = vk::BufferImageCopy::default()
                     .buffer_offset(offset)
-                    .image_subresource(layer(level))
+                    .image_subresource(vk::ImageSubresourceLayers {
+                        aspect_mask: vk::ImageAspectFlags::COLOR,
+                        mip_level: level,
+                        base_array_layer: 0,
+                        layer_count: 1,
+                    })
                     .image_extent(vk::Extent3D {
-                        width: x as u32,
-                        height: y as u32,
-                        depth: z as u32,
+                        width,
+                        height,
+                        depth: 1,
                     });
-                offset += 4 * x as u64 * y as u64;
+                offset += 4 * u64::from(width) * u64::from(height);
                 copy
             })
             .collect();
+        recorder.transition(image, vk::ImageLayout::UNDEFINED, write);
         // SAFETY: the recorder's contract; the buffer holds these levels, which are in the layout named.
-        unsafe { device.cmd_copy_buffer_to_image(raw, upload.raw, image.raw, write, &copies) };
-        let shown = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
-        if self.given == image.levels {
-            recorder.transition(image, write, shown);
-            return;
-        }
-        for level in 1..image.levels {
-            recorder.transition_level(image, level - 1, write, read);
-            let blit = [vk::ImageBlit::default()
-                .src_subresource(layer(level - 1))
-                .src_offsets([vk::Offset3D::default(), corner(level - 1)])
-                .dst_subresource(layer(level))
-                .dst_offsets([vk::Offset3D::default(), corner(level)])];
-            // SAFETY: as above; source and destination are different levels.
-            unsafe {
-                device.cmd_blit_image(
-                    raw,
-                    image.raw,
-                    read,
-                    image.raw,
-                    write,
-                    &blit,
-                    vk::Filter::LINEAR,
-                )
-            };
-        }
-        let last = image.levels - 1;
-        for level in 0..last {
-            recorder.transition_level(image, level, read, shown);
-        }
-        recorder.transition_level(image, last, write, shown);
+        unsafe {
+            recorder.device().cmd_copy_buffer_to_image(
+                recorder.raw(),
+                upload.raw,
+                image.raw,
+                write,
+                &copies,
+            );
+        };
+        recorder.transition(image, write, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
     }
 }
 
