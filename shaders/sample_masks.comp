@@ -1,5 +1,5 @@
-// sample_masks: what sample.comp finds, for cells of at most 64 samples and opaque triangles: an invocation takes a cell,
-// and which samples see a triangle is a mask, a bit each.
+// sample_masks: what sample.comp finds, for cells of at most 64 samples and triangles that are opaque or alpha-tested: an
+// invocation takes a cell, and which samples see a triangle is a mask, a bit each.
 // Reads: tiles, masks, tile_lists, candidates. Writes: records, headers; marks and lists the cells that it leaves to
 // sample.comp: those that see more than SLOTS triangles, or one that crosses the near plane.
 //
@@ -14,10 +14,11 @@
 #include "include/workgroup.glsl"
 #include "include/work.glsl"
 layout(local_size_x_id = 0) in;
-layout(constant_id = 6) const bool BY_PART = false;     // as in sample.comp
+layout(constant_id = 3) const bool HAS_MASK = false;    // as in sample.comp, like those that follow
+layout(constant_id = 4) const uint LIST = 0u;
+layout(constant_id = 6) const bool BY_PART = false;
 layout(constant_id = 7) const bool EXACT_AREAS = false;
 layout(constant_id = 8) const uint PART = 4u;
-const uint LIST = 0u;
 
 const uint PROBES = 64u;            // locations between those of a cell and the sums of runs of them
 const float ROUNDING = 1.0 / 64.0;  // as in sample.comp
@@ -25,6 +26,7 @@ const int SLOTS = 6;                // triangles that a cell sees
 const int AHEAD = 8;                // candidates that are sorted at once
 const uint INDEX = 1023u;           // bits of a candidate's number in a key; the depth has those above
 
+#include "include/alpha.glsl"
 #include "include/area.glsl"
 #include "include/candidate.glsl"
 #include "include/mask.glsl"
@@ -47,6 +49,21 @@ bool comes_before(int key, uint id, int other, uint other_id) {
     return uint(key ^ other) <= INDEX ? id < other_id : key > other;
 }
 
+// Of samples in the cell around `at`, those where a triangle passes its alpha test.
+uvec2 alpha_mask(uint triangle, uvec2 samples, vec2 center, vec2 at) {
+    AlphaTest test = alpha_test(triangle, center, at, mat2(frame.sample_footprint));
+    uvec2 passed = uvec2(0u);
+    do {
+        bool lower = samples.x != 0u;
+        uint half_ = lower ? samples.x : samples.y, n = half_ == 0u ? 0u : uint(findLSB(half_)), bit = half_ & (0u - half_);
+        vec2 offset = texelFetch(locations, int(n + (lower ? 0u : 32u))).xy;
+        uint passes = alpha_passes(test, at + offset) ? bit : 0u;
+        passed |= uvec2(lower ? passes : 0u, lower ? 0u : passes);
+        samples &= ~uvec2(lower ? bit : 0u, lower ? 0u : bit);
+    } while (any_lane((samples.x | samples.y) != 0u));
+    return passed;
+}
+
 // What a cell sees of a triangle.
 struct Seen {
     uvec2 mask;
@@ -60,7 +77,7 @@ struct Seen {
 void main() {
     if (in_other_subgroups(LANES)) return;
     uint number = workgroup_number();
-    if (number >= counters[COUNTER_PLAIN_TILES]) return;
+    if (number >= counters[COUNTER_PLAIN_TILES + LIST]) return;
     uint lane = gl_SubgroupInvocationID;
     uint entry = tile_lists[first_entry(LIST) + number], tile = entry_owner(entry);
     uvec4 header = tiles[tile];
@@ -129,6 +146,7 @@ void main() {
         // The candidate at hand: its samples, less what nearer triangles own, and slots with which it is to be compared.
         uvec2 mask = uvec2(0u), taken = uvec2(0u);
         uint id = 0u, index = 0u, rivals = 0u;
+        bool masked = false;                // its area is not that of its triangle
         vec3 plane = vec3(0.0);
         vec2 bounds = vec2(0.0), range = vec2(0.0);
         do {
@@ -167,7 +185,17 @@ void main() {
             id = takes ? k.id : id;
             index = takes ? fetched : index;
             taken = takes ? holds : taken;
-            mask = compares ? mask & ~(shared_ & ~holds) : takes ? holds : uvec2(0u);
+            uvec2 shown = takes ? holds : uvec2(0u);
+            if (HAS_MASK) {
+                // Alpha is read where no nearer triangle hides it.
+                bool tested = takes && k.id > frame.first_mask;
+                uvec2 open_ = tested ? shown : uvec2(0u);
+                [[unroll]] for (int s = 0; s < SLOTS; s++) open_ &= range.y < seen[s].far ? ~seen[s].mask : uvec2(~0u);
+                open_ = alpha_mask(tested ? k.id - 1u : 0u, open_, center, at);
+                shown = tested ? open_ : shown;
+                masked = takes ? tested : masked;
+            }
+            mask = compares ? mask & ~(shared_ & ~holds) : shown;
             wholes &= won != uvec2(0u) ? ~(1u << slot) : ~0u;
             failed = failed || (takes && holds != uvec2(0u) && !(its_range.y <= 1.0 && its_range.x > 0.0));
             uvec2 hidden = uvec2(0u);
@@ -188,7 +216,7 @@ void main() {
                 seen[s].index = here ? index : seen[s].index;
                 seen[s].far = here ? range.x : seen[s].far;
             }
-            wholes |= shows && taken == mask ? 1u << used : 0u;
+            wholes |= shows && !masked && taken == mask ? 1u << used : 0u;
             used += shows ? 1u : 0u;
             covered |= shows ? mask : uvec2(0u);
             deepest = shows ? min(deepest, range.x) : deepest;

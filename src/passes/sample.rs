@@ -145,11 +145,13 @@ impl Sample {
     ) -> Result<Self, VulkanError> {
         let lanes = layout.gpu.limits().lanes;
         let (rows, _) = kernel(&KERNELS, options.samples.min(Self::BLOCK).div_ceil(lanes));
-        let by_masks = || {
+        let by_masks = |list: TileList, mask: bool| {
             let constants = scene.constants(Constants::new());
             let constants = layout
                 .lane_constants(constants, lanes)
                 .with(0, lanes)
+                .flag(3, mask)
+                .with(4, list as u32)
                 .flag(6, options.records == RecordRate::Part)
                 .flag(7, options.exact_areas)
                 .with(8, options.part_samples());
@@ -159,12 +161,12 @@ impl Sample {
             } else {
                 many.1
             };
-            let pipeline = layout.compute(code, &constants, layout.subgroup())?;
-            Ok((TileList::Plain, pipeline))
+            Ok((list, layout.compute(code, &constants, layout.subgroup())?))
         };
         let make = |(list, run, kernels, mask): &(TileList, Run, &Kernels, bool)| {
-            if *list == TileList::Plain && *run == Run::Whole && options.by_masks() {
-                return by_masks();
+            let listed = matches!(list, TileList::Plain | TileList::Masked);
+            if listed && *run == Run::Whole && options.by_masks() {
+                return by_masks(*list, *mask);
             }
             let constants = options.cells.constants(scene.constants(Constants::new()));
             let constants = layout
@@ -205,10 +207,8 @@ impl Sample {
             wanted.push(whole(TileList::Unlisted, unlisted));
         }
         let first_run = wanted.len();
-        if probes {
+        if options.leaves_cells() {
             wanted.extend(listed(Run::Rest));
-        } else if options.by_masks() {
-            wanted.push((TileList::Plain, Run::Rest, &KERNELS, false));
         }
         // They take drivers the longest of all.
         let make = &make;
@@ -320,7 +320,7 @@ impl SampleOptions {
         self.records == RecordRate::Part && (run == Run::Probe || self.part_samples() < block)
     }
 
-    /// Whether cells of opaque triangles are taken by masks of their samples.
+    /// Whether cells of opaque and alpha-tested triangles are taken by masks of their samples.
     fn by_masks(&self) -> bool {
         self.cells == Cells::Pixels
             && !self.always_blends
