@@ -7,9 +7,10 @@
 #include "include/workgroup.glsl"
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const bool SCATTER = false;
+layout(push_constant) uniform Push { uint scatter; } push;
 
 void main() {
+    bool scatter = push.scatter != 0u;
     uint i = invocation_number();
     uint count = min(counters[COUNTER_RECORDS], frame.record_capacity);
     uint id = i < count ? texelFetch(records, int(i)).y : 0u;
@@ -21,9 +22,9 @@ void main() {
         bool mine = some && bin == current;
         uvec4 together = subgroupBallot(mine);
         uint n = subgroupBallotBitCount(together), base = 0u;
-        if (subgroupElect() && some) base = SCATTER ? atomicAdd(bins[current].z, n) : atomicAdd(bins[current].x, n);
+        if (subgroupElect() && some) base = atomicAdd(bins[current][scatter ? 2 : 0], n);
         base = subgroupBroadcastFirst(base);
-        if (SCATTER && mine) shade_order[base + subgroupBallotExclusiveBitCount(together)] = i;
+        if (scatter && mine) shade_order[base + subgroupBallotExclusiveBitCount(together)] = i;
         current = some ? subgroupMin(bin > current ? bin : ~0u) : ~0u;
     } while (current != ~0u);
 }

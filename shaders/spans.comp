@@ -10,7 +10,7 @@
 #include "include/lanes.glsl"
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const bool SCATTER = false;
+layout(push_constant) uniform Push { uint scatter; } push;
 layout(constant_id = 2) const bool ONE_BIN = false;
 
 const uint NONE = ~0u;
@@ -24,6 +24,7 @@ uint octet_min(uint v) {
 
 void main() {
     if (in_other_subgroups(64u)) return;
+    bool scatter = push.scatter != 0u;
     uint lane = gl_SubgroupInvocationID;
     uint columns = (frame.size.x + 7u) / 8u;
     uint span_count = columns * frame.size.y;
@@ -57,12 +58,9 @@ void main() {
         more = current != NONE;
         uvec4 together = subgroupBallot(more && mine == current);
         uint n = subgroupBallotBitCount(together), base = 0u;
-        if (subgroupElect() && more) {
-            if (ONE_BIN || !SCATTER) base = atomicAdd(bins[current].x, n);
-            else base = atomicAdd(bins[current].z, n);
-        }
+        if (subgroupElect() && more) base = atomicAdd(bins[current][ONE_BIN || !scatter ? 0 : 2], n);
         base = subgroupBroadcastFirst(base);
-        if (SCATTER && more && mine == current)
+        if (scatter && more && mine == current)
             shade_order[base + subgroupBallotExclusiveBitCount(together)] = first_span + lane;
         done = current;
     } while (more);

@@ -3,19 +3,20 @@
 use super::arguments::{After, Arguments};
 use super::{Argument, Content, FrameLayout, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use ash::vk;
 use std::sync::Arc;
 
 /// A counting sort over the records of a round.
 pub struct Sort {
+    layout: vk::PipelineLayout,
     before: Arguments,
     /// Not needed for a single bin.
     passes: Option<Passes>,
 }
 
 struct Passes {
-    count: Arc<Pipeline>,
+    pipeline: Arc<Pipeline>,
     arguments: Arguments,
-    scatter: Arc<Pipeline>,
 }
 
 impl Sort {
@@ -28,18 +29,15 @@ impl Sort {
         scene: &dyn Content,
         one_bin: bool,
     ) -> Result<Self, VulkanError> {
-        let sort = |scatter| {
-            let constants = scene.constants(Constants::new().flag(0, scatter));
-            layout.compute(spirv::SORT, &constants, None)
-        };
         let passes = || {
+            let constants = scene.constants(Constants::new());
             Ok::<_, VulkanError>(Passes {
-                count: sort(false)?,
+                pipeline: layout.compute(spirv::SORT, &constants, None)?,
                 arguments: Arguments::new(layout, After::Records)?,
-                scatter: sort(true)?,
             })
         };
         Ok(Self {
+            layout: layout.pipeline,
             before: Arguments::new(layout, After::Sample)?,
             passes: (!one_bin).then(passes).transpose()?,
         })
@@ -51,9 +49,13 @@ impl Sort {
         recorder.barrier();
         self.before.record(recorder);
         if let Some(passes) = &self.passes {
-            recorder.dispatch_indirect(&passes.count, arguments, Argument::Sort as u32);
+            let run = |scatter| {
+                recorder.push(self.layout, &[scatter]);
+                recorder.dispatch_indirect(&passes.pipeline, arguments, Argument::Sort as u32);
+            };
+            run(0);
             passes.arguments.record(recorder);
-            recorder.dispatch_indirect(&passes.scatter, arguments, Argument::Sort as u32);
+            run(1);
         }
     }
 }

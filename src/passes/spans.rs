@@ -3,13 +3,15 @@
 use super::arguments::{After, Arguments};
 use super::{Content, FrameLayout, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use ash::vk;
 use std::sync::Arc;
 
 /// Lists what of a region is to be shaded.
 pub struct Spans {
-    /// Not needed for a single bin.
-    count: Option<Arc<Pipeline>>,
-    scatter: Arc<Pipeline>,
+    layout: vk::PipelineLayout,
+    pipeline: Arc<Pipeline>,
+    /// Spans need not be counted beforehand.
+    one_bin: bool,
     arguments: Arguments,
 }
 
@@ -24,17 +26,12 @@ impl Spans {
     pub fn new(layout: &FrameLayout, scene: &dyn Content) -> Result<Self, VulkanError> {
         let one_bin = scene.bin_count() == 1;
         let size = layout.gpu.limits().subgroup_size.min(Self::WORKGROUP);
-        let spans = |scatter| {
-            let constants = scene.constants(Constants::new());
-            let constants = layout
-                .lane_constants(constants, size)
-                .flag(0, scatter)
-                .flag(2, one_bin);
-            layout.compute(spirv::SPANS, &constants, layout.subgroup())
-        };
+        let constants = scene.constants(Constants::new());
+        let constants = layout.lane_constants(constants, size).flag(2, one_bin);
         Ok(Self {
-            count: if one_bin { None } else { Some(spans(false)?) },
-            scatter: spans(true)?,
+            layout: layout.pipeline,
+            pipeline: layout.compute(spirv::SPANS, &constants, layout.subgroup())?,
+            one_bin,
             arguments: Arguments::new(layout, After::Spans)?,
         })
     }
@@ -44,11 +41,14 @@ impl Spans {
         let groups = (u64::from(width.div_ceil(8)) * u64::from(height)).div_ceil(64);
         recorder.clear(bins);
         recorder.barrier();
-        let first = self.count.as_ref().unwrap_or(&self.scatter);
-        recorder.dispatch(first, groups);
+        let run = |scatter| {
+            recorder.push(self.layout, &[scatter]);
+            recorder.dispatch(&self.pipeline, groups);
+        };
+        run(u32::from(self.one_bin));
         self.arguments.record(recorder);
-        if self.count.is_some() {
-            recorder.dispatch(&self.scatter, groups);
+        if !self.one_bin {
+            run(1);
         }
     }
 }
