@@ -12,7 +12,6 @@ use crate::passes::{
 use crate::render::engine::{can_settle, record_rate, record_shading, with_probes};
 use crate::render::footprint::Footprints;
 use crate::render::frame::recording::SceneShading;
-use crate::render::plan::Effort;
 use crate::render::renderer::PreparedScene;
 use crate::render::statistics::Shortfall;
 use crate::render::{Coverage, PassTime, RenderError, Settings, Statistics};
@@ -84,13 +83,13 @@ fn to_clip(scene: &GpuScene, pinhole: &Pinhole, window: &Window) -> DMat4 {
 }
 
 impl SiteEngine {
-    /// Makes the pipelines, and memory for runs of up to these sizes; with `colors`, records are shaded.
+    /// Makes the pipelines, and memory for runs of up to these sizes and so many rounds; with `colors`, records are shaded.
     pub fn new(
         layout: &Arc<FrameLayout>,
         prepared: &PreparedScene,
         settings: &Settings,
         (cells, colors): (Cells, bool),
-        sizes: &ResourceSizes,
+        (sizes, rounds): (&ResourceSizes, u32),
         apart: bool,
     ) -> Result<Self, RenderError> {
         let scene = &*prepared.gpu_scene;
@@ -102,7 +101,6 @@ impl SiteEngine {
         );
         let points = cells.are_points();
         let CellSizes { in_cell, .. } = cell_sizes(layout, cells, settings.samples);
-        let rounds = Effort::default().rounds_for(if points { 1 } else { settings.samples });
         let options = SampleOptions {
             cells,
             samples: if points {

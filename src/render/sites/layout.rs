@@ -1,7 +1,8 @@
 //! A run's sites as the device takes them: sites, cells of one or several of them, groups of cells, tiles.
 
-use super::partition::{Partition, ROUNDING, TILE, Window, half_extent, tile_of};
+use super::partition::{Partition, ROUNDING, Sorted, TILE, Window, half_extent, tile_of};
 use crate::passes::SiteData;
+use rayon::prelude::*;
 use std::ops::Range;
 
 /// Half of a cell's side beyond its samples, in pixels: covers the rounding of edge functions.
@@ -21,7 +22,10 @@ pub(super) struct CellSizes {
 /// Where a site lies from the centre of its tile, and half of its cell's width and height.
 type Place = ([f64; 2], [f64; 2]);
 
-impl Partition {
+/// Tiles that a thread lays out at once.
+const TILES_AT_ONCE: usize = 512;
+
+impl Partition<'_> {
     /// A run's sites in its window. `words` are those of all sites in the caller's order, which
     /// `shaders/include/sites.glsl` describes; missing ones are 0.
     pub fn data(
@@ -38,55 +42,95 @@ impl Partition {
             loads: vec![[0; 2]; tile_count],
             ..SiteData::default()
         };
-        let first_tile = [0, 1].map(|axis| window.low[axis] / TILE[axis]);
-        let mut places: Vec<Place> = Vec::new();
-        let mut indices = self.places(run).iter();
-        for sites in self.run(run).chunk_by(|a, b| tile_of(a) == tile_of(b)) {
-            let Some(tile) = sites.first().map(tile_of) else {
-                continue;
-            };
-            let [column, row] = [0, 1].map(|axis| (tile[axis] - first_tile[axis]) as u32);
-            let index = row * window.tiles[0] + column;
-            let corner = [0, 1].map(|axis| (tile[axis] * TILE[axis]) as f64);
-            places.clear();
-            let mut mask = 0;
-            for site in sites {
-                let [x, y] = [0, 1].map(|axis| site.uv[axis] - corner[axis]);
-                // A place just before the far side may be rounded onto it.
-                let pixel = [x.min(7.0) as u32, y.min(3.0) as u32];
-                mask |= 1 << (8 * pixel[1] + pixel[0]);
-                let place = [x - 4.0, y - 2.0].map(|v| f64::from(v as f32));
-                let [u, v] = site.jacobian;
-                let word = indices.next().and_then(|index| words.get(*index as usize));
-                data.sites.push([
-                    [
-                        bits(place[0]),
-                        bits(place[1]),
-                        index,
-                        word.copied().unwrap_or(0),
-                    ],
-                    [bits(u[0]), bits(u[1]), bits(v[0]), bits(v[1])],
-                ]);
-                places.push((place, half_extent(site, self.cells)));
+        let sorted = self.run(run);
+        let tiles: Vec<&[Sorted]> = sorted.chunk_by(|a, b| a.shares_tile(*b)).collect();
+        let parts = tiles.par_chunks(TILES_AT_ONCE).map(|tiles| {
+            let mut part = Part::default();
+            for sites in tiles {
+                self.lay_out(sites, window, (sizes, words), &mut part);
             }
-            if let Some(word) = data.masks.get_mut(index as usize) {
-                *word = mask;
-            }
-            let cells = data.push_cells(index, &places, sizes);
-            let samples = if self.cells.are_points() {
-                places.len() as u32
-            } else {
-                cells.saturating_mul(sizes.samples)
-            };
-            if let Some(load) = data.loads.get_mut(index as usize) {
-                *load = [cells, samples];
-            }
+            part
+        });
+        for part in parts.collect::<Vec<_>>() {
+            data.append(part);
         }
         data
     }
+
+    /// Adds the sites of a tile.
+    fn lay_out(
+        &self,
+        sorted: &[Sorted],
+        window: &Window,
+        (sizes, words): (&CellSizes, &[u32]),
+        part: &mut Part,
+    ) {
+        let Some(tile) = sorted.first().map(|first| tile_of(self.site(*first))) else {
+            return;
+        };
+        let [column, row] = [0, 1].map(|axis| (tile[axis] - window.low[axis] / TILE[axis]) as u32);
+        let index = row * window.tiles[0] + column;
+        let corner = [0, 1].map(|axis| (tile[axis] * TILE[axis]) as f64);
+        let mut places = std::mem::take(&mut part.places);
+        places.clear();
+        let mut mask = 0;
+        for sorted in sorted {
+            let site = self.site(*sorted);
+            let [x, y] = [0, 1].map(|axis| site.uv[axis] - corner[axis]);
+            // A place just before the far side may be rounded onto it.
+            let pixel = [x.min(7.0) as u32, y.min(3.0) as u32];
+            mask |= 1 << (8 * pixel[1] + pixel[0]);
+            let place = [x - 4.0, y - 2.0].map(|v| f64::from(v as f32));
+            let [u, v] = site.jacobian;
+            let word = words.get(sorted.index()).copied().unwrap_or(0);
+            part.data.sites.push([
+                [bits(place[0]), bits(place[1]), index, word],
+                [bits(u[0]), bits(u[1]), bits(v[0]), bits(v[1])],
+            ]);
+            places.push((place, half_extent(site, self.cells)));
+        }
+        let cells = part.data.push_cells(index, &places, sizes);
+        let samples = if self.cells.are_points() {
+            places.len() as u32
+        } else {
+            cells.saturating_mul(sizes.samples)
+        };
+        part.tiles.push((index, mask, [cells, samples]));
+        part.places = places;
+    }
+}
+
+/// What one thread lays out: some tiles of a run, whose sites and cells count from 0.
+#[derive(Default)]
+struct Part {
+    /// Without masks and loads.
+    data: SiteData,
+    /// Index, mask and load of each tile.
+    tiles: Vec<(u32, u32, [u32; 2])>,
+    /// Memory that one tile after another uses.
+    places: Vec<Place>,
 }
 
 impl SiteData {
+    /// Adds the tiles that follow.
+    fn append(&mut self, part: Part) {
+        let [sites, cells] = [self.sites.len(), self.cells.len()].map(|count| count as u32);
+        self.sites.extend_from_slice(&part.data.sites);
+        let moved =
+            |[middle, [first, count, ..]]: [[u32; 4]; 2]| [middle, [first + sites, count, 0, 0]];
+        self.cells.extend(part.data.cells.into_iter().map(moved));
+        let moved = |[tile, first, count, number]: [u32; 4]| [tile, first + cells, count, number];
+        self.groups.extend(part.data.groups.into_iter().map(moved));
+        for (tile, mask, load) in part.tiles {
+            if let (Some(word), Some(sum)) = (
+                self.masks.get_mut(tile as usize),
+                self.loads.get_mut(tile as usize),
+            ) {
+                (*word, *sum) = (mask, load);
+            }
+        }
+    }
+
     /// Makes the cells and groups of the last sites, those of a tile, and returns how many cells they are.
     fn push_cells(&mut self, tile: u32, places: &[Place], sizes: &CellSizes) -> u32 {
         let mut first_site = self.sites.len() - places.len();
@@ -181,8 +225,8 @@ mod tests {
             assert_eq!(windows[0].low, [-8, 0]);
             assert_eq!(windows[1].tiles, [2, 1]);
             let mut seen = vec![0; sites.len()];
-            for index in &partition.order {
-                seen[*index as usize] += 1;
+            for sorted in partition.run(&(0..sites.len())) {
+                seen[sorted.index()] += 1;
             }
             assert_eq!(seen, [1; 9]);
             for data in &data {

@@ -23,6 +23,7 @@ use crate::passes::Cells;
 use engine::{SiteEngine, SiteValues, cell_sizes};
 use partition::Partition;
 use plan::SitePlan;
+use rayon::prelude::*;
 
 /// What a sampling location sees.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -88,7 +89,8 @@ impl Headless {
             colors: true,
             words: &shadows.values,
         };
-        let mut values = vec![PointSample::default(); sites.len()];
+        let nothing = rayon::iter::repeat_n(PointSample::default(), sites.len());
+        let mut values: Vec<PointSample> = nothing.collect();
         let mut statistics = shadows.statistics;
         let run = self.run_sites(&partition, task, settings, |index, seen, place| {
             let color = seen.colors.get(place);
@@ -150,7 +152,7 @@ impl Headless {
     /// Samples sites run by run; `take` is given each site's index, and what its run saw with its place there.
     fn run_sites(
         &mut self,
-        partition: &Partition,
+        partition: &Partition<'_>,
         task: Task<'_>,
         settings: &Settings,
         mut take: impl FnMut(usize, &SiteValues<'_>, usize),
@@ -179,7 +181,7 @@ impl Headless {
                 scene,
                 settings,
                 (cells, colors),
-                &plan.sizes,
+                (&plan.sizes, plan.rounds),
                 apart,
             )
         };
@@ -218,8 +220,8 @@ impl Headless {
                 Err(error) => return Err(error),
             }
             let values = engine.values(run.len())?;
-            for (place, index) in partition.places(&run).iter().enumerate() {
-                take(*index as usize, &values, place);
+            for (place, sorted) in partition.run(&run).iter().enumerate() {
+                take(sorted.index(), &values, place);
             }
         }
         Ok(statistics)

@@ -7,6 +7,7 @@ use super::SiteError;
 use crate::camera::Site;
 use crate::passes::Cells;
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Tiles of a region: 2,048 x 2,048 pixels.
@@ -18,20 +19,48 @@ pub(super) const TILE: [i64; 2] = [8, 4];
 const COMPACT: f64 = 8192.0;
 /// Factor on the reach of large cells, whose samples are rounded to 32 bits.
 pub(super) const ROUNDING: f64 = 1.0 + 1.0 / 1_048_576.0;
-/// Key bits below those of the region: a tile of it, and the place in the tile.
-const TILE_BITS: u32 = 17;
+/// Bits of a [`Sorted`] word: the index of a site, and above it the place in its tile, below the tile.
+const INDEX_BITS: u32 = 31;
 const PLACE_BITS: u32 = 16;
 
 /// Sites in the order in which they are sampled.
-pub(super) struct Partition {
-    /// The sites' places in the caller's list.
-    pub order: Vec<u32>,
-    sites: Vec<Site>,
+pub(super) struct Partition<'a> {
+    sites: &'a [Site],
+    order: Vec<Sorted>,
     pub cells: Cells,
     /// What clip-space positions of all runs are relative to, if they lie close enough together.
     middle: Option<[f64; 2]>,
-    /// Parts of the order that lie in one region each.
-    regions: Vec<Range<usize>>,
+    regions: Vec<Region>,
+}
+
+/// A part of the order that lies in one region.
+struct Region {
+    range: Range<usize>,
+    /// Its upper left tile.
+    low: [i64; 2],
+}
+
+/// A site by what sites of a region are sorted by: its tile, its place there along a Morton curve, and its index in the
+/// caller's list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Sorted(u64);
+
+impl Sorted {
+    /// The site's index in the caller's list.
+    pub fn index(self) -> usize {
+        (self.0 & ((1 << INDEX_BITS) - 1)) as usize
+    }
+
+    /// The tile within its region.
+    fn tile(self) -> [i64; 2] {
+        let tile = (self.0 >> (INDEX_BITS + PLACE_BITS)) as i64;
+        [tile % REGION_TILES[0], tile / REGION_TILES[0]]
+    }
+
+    /// Whether two sites of a region lie in the same tile.
+    pub fn shares_tile(self, other: Self) -> bool {
+        self.tile() == other.tile()
+    }
 }
 
 /// The part of the plane that a run's sites lie in.
@@ -59,48 +88,58 @@ impl Window {
     }
 }
 
-impl Partition {
+impl<'a> Partition<'a> {
     /// Sorts `sites`.
     ///
     /// # Errors
     /// The first site that is not finite or too far off the image.
-    pub fn new(sites: &[Site], cells: Cells) -> Result<Self, SiteError> {
+    pub fn new(sites: &'a [Site], cells: Cells) -> Result<Self, SiteError> {
         if sites.is_empty() {
             return Err(SiteError::Empty);
         }
-        if sites.len() > (u32::MAX >> 1) as usize {
+        if sites.len() > (1 << INDEX_BITS) - 1 {
             return Err(SiteError::TooMany { found: sites.len() });
         }
-        let checked: Result<Vec<(u64, u32)>, SiteError> = sites
+        // Which one is found first depends on the threads.
+        let offender = sites
             .par_iter()
             .enumerate()
-            .map(|(index, site)| {
-                check(site, index, cells).map(|()| (key(site, cells), index as u32))
-            })
-            .collect();
-        let mut keyed = checked.or_else(|any| {
-            // Which one was found first depends on the threads.
-            let offenders = sites.iter().enumerate();
-            let first = offenders.map(|(index, site)| check(site, index, cells));
-            first.collect::<Result<(), _>>().and(Err(any))
-        })?;
-        keyed.par_sort_unstable();
-        let mut regions: Vec<Range<usize>> = Vec::new();
-        let mut start = 0;
-        let region = |key: u64| key >> (TILE_BITS + PLACE_BITS);
-        for part in keyed.chunk_by(|(a, _), (b, _)| region(*a) == region(*b)) {
-            regions.push(start..start + part.len());
-            start += part.len();
+            .filter_map(|(index, site)| check(site, index, cells).err().map(|error| (index, error)))
+            .min_by_key(|(index, _)| *index);
+        if let Some((_, error)) = offender {
+            return Err(error);
         }
-        let sorted: Vec<Site> = keyed
+        let keyed: Vec<(u64, Sorted)> = sites
             .par_iter()
-            .map(|(_, index)| sites[*index as usize])
+            .enumerate()
+            .map(|(index, site)| (region(site, cells), sorted(site, index)))
             .collect();
-        let bounds = Bounds::of(&sorted);
+        let mut by_region: BTreeMap<u64, Vec<Sorted>> = BTreeMap::new();
+        for part in keyed.chunk_by(|(a, _), (b, _)| a == b) {
+            if let Some((region, _)) = part.first() {
+                let members = by_region.entry(*region).or_default();
+                members.extend(part.iter().map(|(_, sorted)| *sorted));
+            }
+        }
+        let mut order: Vec<Sorted> = Vec::with_capacity(sites.len());
+        let mut regions: Vec<Region> = Vec::new();
+        for mut members in by_region.into_values() {
+            members.par_sort_unstable();
+            let low = members.first().map(|first| {
+                let (tile, within) = (tile_of(&sites[first.index()]), first.tile());
+                [0, 1].map(|axis| tile[axis] - within[axis])
+            });
+            regions.push(Region {
+                range: order.len()..order.len() + members.len(),
+                low: low.unwrap_or_default(),
+            });
+            order.append(&mut members);
+        }
+        let bounds = Bounds::of(sites.par_iter().map(tile_of));
         Ok(Self {
-            order: keyed.into_iter().map(|(_, index)| index).collect(),
+            order,
             middle: bounds.is_compact().then(|| bounds.middle()),
-            sites: sorted,
+            sites,
             cells,
             regions,
         })
@@ -109,28 +148,44 @@ impl Partition {
     /// Runs of at most `longest` sites, each in one region.
     pub fn runs(&self, longest: usize) -> Vec<Range<usize>> {
         let longest = longest.max(1);
-        let pieces = |region: &Range<usize>| {
-            let end = region.end;
-            let starts = region.clone().step_by(longest);
+        let pieces = |region: &Region| {
+            let end = region.range.end;
+            let starts = region.range.clone().step_by(longest);
             starts.map(move |start| start..end.min(start + longest))
         };
         self.regions.iter().flat_map(pieces).collect()
     }
 
-    /// The sites of a run, in order.
-    pub fn run(&self, run: &Range<usize>) -> &[Site] {
-        self.sites.get(run.clone()).unwrap_or(&[])
+    /// The region of a place in the order.
+    fn region(&self, place: usize) -> Option<&Region> {
+        let next = self
+            .regions
+            .partition_point(|region| region.range.start <= place);
+        self.regions.get(next.checked_sub(1)?)
     }
 
-    /// The places of a run's sites in the caller's list.
-    pub fn places(&self, run: &Range<usize>) -> &[u32] {
+    /// A run in order.
+    pub fn run(&self, run: &Range<usize>) -> &[Sorted] {
         self.order.get(run.clone()).unwrap_or(&[])
+    }
+
+    /// A site.
+    ///
+    /// # Panics
+    /// If it is not one of the partition's.
+    pub fn site(&self, sorted: Sorted) -> &Site {
+        &self.sites[sorted.index()]
     }
 
     /// The window around a run.
     pub fn window(&self, run: &Range<usize>) -> Window {
-        let sites = self.run(run);
-        let bounds = Bounds::of(sites);
+        let low = self.region(run.start).map_or([0; 2], |region| region.low);
+        let sorted = self.run(run).par_iter();
+        let tile = |sorted: &Sorted| {
+            let tile = sorted.tile();
+            [0, 1].map(|axis| low[axis] + tile[axis])
+        };
+        let bounds = Bounds::of(sorted.clone().map(tile));
         let reach = |site: &Site| {
             let extent = half_extent(site, self.cells);
             let from_centre = site.uv.map(|v| (v - v.floor() - 0.5).abs());
@@ -139,7 +194,8 @@ impl Partition {
         let reach = if self.cells.are_points() {
             0.5
         } else {
-            sites.iter().map(reach).fold(0.5, f64::max)
+            let reaches = sorted.map(|sorted| reach(self.site(*sorted)));
+            reaches.reduce(|| 0.5, f64::max)
         };
         Window {
             low: bounds.low.map(|pixel| pixel as i64),
@@ -150,27 +206,36 @@ impl Partition {
     }
 }
 
-/// Whole tiles around sites, in pixels of the plane.
+/// A rectangle around tiles, in pixels of the plane.
 struct Bounds {
     low: [f64; 2],
     high: [f64; 2],
 }
 
 impl Bounds {
-    fn of(sites: &[Site]) -> Self {
-        let mut bounds = Self {
-            low: [f64::INFINITY; 2],
-            high: [f64::NEG_INFINITY; 2],
-        };
-        for site in sites {
-            let tile = tile_of(site);
-            for axis in 0..2 {
-                let pixel = (tile[axis] * TILE[axis]) as f64;
-                bounds.low[axis] = bounds.low[axis].min(pixel);
-                bounds.high[axis] = bounds.high[axis].max(pixel + TILE[axis] as f64);
-            }
+    const NOTHING: Self = Self {
+        low: [f64::INFINITY; 2],
+        high: [f64::NEG_INFINITY; 2],
+    };
+
+    fn of(tiles: impl ParallelIterator<Item = [i64; 2]>) -> Self {
+        let bounds = tiles.fold(|| Self::NOTHING, Self::with);
+        bounds.reduce(|| Self::NOTHING, Self::and)
+    }
+
+    fn with(self, tile: [i64; 2]) -> Self {
+        let corner = |beyond: i64| [0, 1].map(|axis| ((tile[axis] + beyond) * TILE[axis]) as f64);
+        self.and(Self {
+            low: corner(0),
+            high: corner(1),
+        })
+    }
+
+    fn and(self, other: Self) -> Self {
+        Self {
+            low: [0, 1].map(|axis| self.low[axis].min(other.low[axis])),
+            high: [0, 1].map(|axis| self.high[axis].max(other.high[axis])),
         }
-        bounds
     }
 
     fn middle(&self) -> [f64; 2] {
@@ -226,16 +291,11 @@ fn check(site: &Site, index: usize, cells: Cells) -> Result<(), SiteError> {
     Ok(())
 }
 
-/// What sites are sorted by. Cells of about the same extent stay together, since the widest of a run decides how many
-/// triangles are candidates in its tiles.
-fn key(site: &Site, cells: Cells) -> u64 {
+/// A key of the region that a site is sampled in. Cells of about the same extent stay together, since the widest of a run
+/// decides how many triangles are candidates in its tiles.
+fn region(site: &Site, cells: Cells) -> u64 {
     let tile = tile_of(site);
     let region = [0, 1].map(|axis| tile[axis].div_euclid(REGION_TILES[axis]));
-    let in_region = [0, 1].map(|axis| tile[axis].rem_euclid(REGION_TILES[axis]) as u64);
-    let [x, y] = [0, 1].map(|axis| {
-        let place = site.uv[axis] / TILE[axis] as f64;
-        ((place - place.floor()) * 256.0).min(255.0) as u64
-    });
     let [width, height] = half_extent(site, cells);
     let extent = width.max(height);
     let level = if extent <= 1.0 {
@@ -245,9 +305,20 @@ fn key(site: &Site, cells: Cells) -> u64 {
     };
     // Regions lie within 2^10 of the first one.
     let [column, row] = region.map(|index| (index + 1024) as u64 & 0x7ff);
-    let region_key = level << 22 | row << 11 | column;
-    let tile_key = in_region[1] << 8 | in_region[0];
-    region_key << (TILE_BITS + PLACE_BITS) | tile_key << PLACE_BITS | spread(y) << 1 | spread(x)
+    level << 22 | row << 11 | column
+}
+
+/// A site with what it is sorted by within its region.
+fn sorted(site: &Site, index: usize) -> Sorted {
+    let tile = tile_of(site);
+    let in_region = [0, 1].map(|axis| tile[axis].rem_euclid(REGION_TILES[axis]) as u64);
+    let [x, y] = [0, 1].map(|axis| {
+        let place = site.uv[axis] / TILE[axis] as f64;
+        ((place - place.floor()) * 256.0).min(255.0) as u64
+    });
+    let tile = in_region[1] << 8 | in_region[0];
+    let place = spread(y) << 1 | spread(x);
+    Sorted((tile << PLACE_BITS | place) << INDEX_BITS | index as u64)
 }
 
 /// The bits of a byte on every other place.

@@ -5,6 +5,7 @@ use super::partition::{Partition, Window};
 use crate::passes::{
     Cells, Content, FrameGeometry, FrameLayout, GpuScene, ResourceSizes, SiteSizes,
 };
+use crate::render::plan::Effort;
 use crate::render::{RenderError, Settings, Shading};
 use std::ops::Range;
 
@@ -24,6 +25,8 @@ const MOST_PAIRS: u64 = 8 << 20;
 pub(super) struct SitePlan {
     pub runs: Vec<Range<usize>>,
     pub sizes: ResourceSizes,
+    /// Rounds of lists and records that a run may take.
+    pub rounds: u32,
 }
 
 impl SitePlan {
@@ -35,7 +38,7 @@ impl SitePlan {
         layout: &FrameLayout,
         scene: &GpuScene,
         settings: &Settings,
-        partition: &Partition,
+        partition: &Partition<'_>,
         taken: u64,
         may_stop: bool,
     ) -> Result<Self, RenderError> {
@@ -54,7 +57,20 @@ impl SitePlan {
             let fits = sizes.largest_storage() <= limits.max_storage_bytes
                 && sizes.largest_texels() <= limits.max_texel_elements;
             if fits && settings.max_memory.is_none_or(|allowed| needed <= allowed) {
-                return Ok(Self { runs, sizes });
+                let samples = if cells.are_points() {
+                    1
+                } else {
+                    settings.samples
+                };
+                // Tiles reserve room for as many records as samples.
+                let reserved =
+                    (most as u64 * u64::from(samples)).div_ceil(sizes.record_capacity.into());
+                let usual = Effort::default().rounds_for(samples);
+                return Ok(Self {
+                    runs,
+                    sizes,
+                    rounds: usual.max(reserved as u32),
+                });
             }
             if longest <= FEWEST_SITES {
                 return Err(RenderError::Memory {

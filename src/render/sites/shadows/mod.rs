@@ -86,7 +86,7 @@ impl Headless {
     pub(super) fn shadows(
         &mut self,
         (scene, pinhole): (&PreparedScene, &Pinhole),
-        (sites, partition): (&[Site], &Partition),
+        (sites, partition): (&[Site], &Partition<'_>),
         settings: &Settings,
     ) -> Result<Sampled<u32>, RenderError> {
         let casters = scene.casters.as_deref().ok_or(RenderError::NoCasters)?;
