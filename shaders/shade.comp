@@ -26,6 +26,7 @@ layout(constant_id = 9) const bool UNLIT = false;
 layout(constant_id = 10) const bool PUNCTUAL = false;   // the scene has lights
 layout(constant_id = 11) const bool LOCAL_LIGHTS = false; // point or spot lights among them
 layout(constant_id = 12) const bool BLENDED = false;    // opacity is used
+layout(constant_id = 13) const bool SHADOWS = false;    // it is known which lights reach a record
 layout(constant_id = 32) const bool SPECULAR = false;   // this and what follows: of the materials
 layout(constant_id = 33) const bool CLEARCOAT = false;
 layout(constant_id = 34) const bool SHEEN = false;
@@ -44,6 +45,8 @@ const bool TANGENTS = NORMAL_TEXTURE != 0u || CLEARCOAT_NORMAL_TEXTURE != 0u || 
 #include "include/transmission.glsl"
 
 layout(push_constant) uniform Push { uint bin; } push;
+
+layout(set = 0, binding = 56) uniform utextureBuffer record_shadows;    // SHADOWS: a bit for each light that a record lies in the shadow of
 
 // Light left of the studio in a scene with lights of its own, so that what faces away from them shows.
 const float STUDIO_AMBIENT = 0.06;
@@ -81,8 +84,7 @@ void main() {
         if (SITES) {
             site = record.x & POINT_SITE;
             uvec4 at = texelFetch(sites, int(2u * site));
-            // BLEND layers lie before the surface that shadows are known of.
-            shadows = POINTS && (record.x & POINT_OPAQUE) != 0u ? at.w : 0u;
+            shadows = SHADOWS ? texelFetch(record_shadows, int(source)).x : 0u;
             p = tile_center(ivec2(split(at.z, frame.tiles.x))) + uintBitsToFloat(at.xy) + site_jacobian(site) * location;
         } else {
             p = frame.origin + vec2(record.x & 0xffffu, record.x >> 16) + location;
@@ -216,7 +218,7 @@ void main() {
                     float cone = clamp(dot(-to_light, light.direction_kind.xyz) * light.color_scale.w + light.offset.x, 0.0, 1.0);
                     e *= light.direction_kind.w == 2.0 ? cone * cone : 1.0;
                 }
-                e *= POINTS && l < 32u && (shadows >> l & 1u) != 0u ? 0.0 : 1.0;
+                e *= SHADOWS && l < 32u && (shadows >> l & 1u) != 0u ? 0.0 : 1.0;
                 radiance += reflect_light(s, to_eye, to_light, e);
                 if (SHEEN) of_sheen += sheen_light(sheen, s.normal, to_eye, to_light, e);
                 if (CLEARCOAT) of_coat += coat_light(coat, to_eye, to_light, e);

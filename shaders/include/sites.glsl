@@ -10,8 +10,7 @@ layout(constant_id = 22) const bool OCCLUDERS = false;  // POINTS on surfaces, s
 
 // Two vectors each, floats as bits:
 // a site: (x, y from its tile's centre, tile, word), (its Jacobian: change of x and y a column, change a row of the output);
-//   word: POINTS: a bit for each light that its surface lies in the shadow of; OCCLUDERS: ID of the surface's triangle,
-//   and, in place of the Jacobian, (least depth of what lies before it, 0, 0, 0)
+//   word: OCCLUDERS: ID of the surface's triangle, and, in place of the Jacobian, (least depth of what lies before it, 0, 0, 0)
 layout(set = 0, binding = 42) uniform utextureBuffer sites;
 // a cell: (x, y of its middle from its tile's centre, half its width and height), (first site, sites, 0, 0)
 layout(set = 0, binding = 43) uniform utextureBuffer site_cells;

@@ -104,7 +104,7 @@ pub use schedule::Schedule;
 pub use setup::Setup;
 #[cfg(feature = "gltf")]
 pub use shade::{Shade, ShadeSource};
-pub use sites::{Cells, SiteData, SiteSizes};
+pub use sites::{Cells, SiteData, SiteRecord, SiteSizes};
 pub use sort::Sort;
 pub use spans::Spans;
 #[cfg(feature = "gltf")]

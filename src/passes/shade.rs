@@ -15,8 +15,13 @@ pub enum ShadeSource {
         /// Write display codes for detection.
         display_codes: bool,
     },
-    /// Visibility records of such cells.
-    Records(Cells),
+    /// Visibility records.
+    Records {
+        /// Of such cells.
+        cells: Cells,
+        /// Whether it is known which lights reach them.
+        shadows: bool,
+    },
 }
 
 /// Shades each bin with a pipeline that has only what its materials and the scene's lights need.
@@ -41,9 +46,9 @@ impl Shade {
         output: &Constants,
     ) -> Result<Self, VulkanError> {
         let lights = scene.light_features();
-        let (pixels, cells) = match source {
-            ShadeSource::Pixels { .. } => (true, Cells::Pixels),
-            ShadeSource::Records(cells) => (false, cells),
+        let (pixels, cells, shadows) = match source {
+            ShadeSource::Pixels { .. } => (true, Cells::Pixels, false),
+            ShadeSource::Records { cells, shadows } => (false, cells, shadows),
         };
         let common = cells
             .constants(scene.constants(output.clone()))
@@ -59,6 +64,7 @@ impl Shade {
             .flag(10, lights.count > 0)
             .flag(11, lights.local)
             .flag(12, !pixels && scene.has_blend())
+            .flag(13, shadows)
             .flag(17, scene.has_environment());
         let mut known: HashMap<ShadeFeatures, usize> = HashMap::new();
         let mut pipelines = Vec::new();
@@ -101,7 +107,7 @@ impl Shade {
             }
             recorder.push(self.layout.pipeline, &[bin as u32]);
             let every_record =
-                matches!(self.source, ShadeSource::Records(_)) && self.bins.len() == 1;
+                matches!(self.source, ShadeSource::Records { .. }) && self.bins.len() == 1;
             let argument = if every_record {
                 Argument::Sort as u32
             } else {

@@ -68,6 +68,28 @@ pub struct SiteData {
     pub loads: Vec<[u32; 2]>,
 }
 
+/// A visibility record of sites, see `shaders/sample.comp`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(transparent)]
+pub struct SiteRecord([u32; 4]);
+
+impl SiteRecord {
+    /// Its site's place in the run.
+    pub(crate) fn site(self) -> usize {
+        (self.0[0] & 0x3fff_ffff) as usize
+    }
+
+    /// ID of its triangle; 0 where there is none.
+    pub(crate) fn id(self) -> u32 {
+        self.0[1]
+    }
+
+    /// Where it is shaded, from the middle of its cell in sides of that: `place_location` of `shaders/include/place.glsl`.
+    pub(crate) fn location(self) -> [f64; 2] {
+        [20, 8].map(|shift| f64::from((self.0[2] << shift) as i32 >> 20) / 4096.0)
+    }
+}
+
 /// The buffers; the host writes them before each run.
 pub(crate) struct SiteBuffers {
     pub sites: BufferView,
@@ -103,20 +125,19 @@ impl SiteBuffers {
 }
 
 impl Resources {
+    /// Writes a word for each record of the round: a bit for each light that it lies in the shadow of.
+    ///
+    /// # Errors
+    /// If they do not fit, or the driver did not map the buffer.
+    pub(crate) fn write_shadows(&mut self, words: &[u32]) -> Result<(), VulkanError> {
+        put(&mut self.record_shadows.buffer, bytemuck::cast_slice(words))
+    }
+
     /// Writes a run's sites, which [`SiteSizes`] must have room for, while the device is idle.
     ///
     /// # Errors
     /// If they do not fit, or the driver did not map the buffers.
     pub(crate) fn write_sites(&mut self, data: &SiteData) -> Result<(), VulkanError> {
-        let unmapped = || VulkanError::Call {
-            call: "mapping sites",
-            result: vk::Result::ERROR_MEMORY_MAP_FAILED,
-        };
-        let put = |buffer: &mut Buffer, bytes: &[u8]| {
-            let place = buffer.bytes_mut().get_mut(..bytes.len());
-            place.ok_or_else(unmapped)?.copy_from_slice(bytes);
-            Ok(())
-        };
         put(
             &mut self.sites.sites.buffer,
             bytemuck::cast_slice(&data.sites),
@@ -131,5 +152,29 @@ impl Resources {
         )?;
         put(&mut self.sites.loads, bytemuck::cast_slice(&data.loads))?;
         put(&mut self.masks, bytemuck::cast_slice(&data.masks))
+    }
+}
+
+fn put(buffer: &mut Buffer, bytes: &[u8]) -> Result<(), VulkanError> {
+    let place = buffer.bytes_mut().get_mut(..bytes.len());
+    let place = place.ok_or(VulkanError::Call {
+        call: "mapping sites",
+        result: vk::Result::ERROR_MEMORY_MAP_FAILED,
+    })?;
+    place.copy_from_slice(bytes);
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn records_say_which_site_sees_what_where() {
+        // As `pack_place` of `shaders/include/place.glsl` packs (-1 / 4096, 2047 / 4096), wide and with a share.
+        let place = 1 << 31 | 9 << 24 | 2047 << 12 | 0xfff;
+        let record = SiteRecord([0xc000_0007, 5, place, 0]);
+        assert_eq!((record.site(), record.id()), (7, 5));
+        assert_eq!(record.location(), [-1.0 / 4096.0, 2047.0 / 4096.0]);
     }
 }

@@ -327,6 +327,7 @@ impl Plan {
             list_capacity: at_most(candidates, ResourceSizes::most_candidates(limits)),
             record_capacity: records as u32,
             filtered: filtered as u32,
+            shadows: false,
             attributes: settings.attributes,
             encoded: encoding
                 .filter(|e| *e != Encoding::Rgba32Float)

@@ -40,6 +40,7 @@ impl Resources {
             (42, &self.sites.sites),
             (43, &self.sites.cells),
             (44, &self.sites.groups),
+            (56, &self.record_shadows),
         ]
         .map(|(binding, texels)| (binding, texels.view));
         let texels: Vec<_> = texels

@@ -74,6 +74,21 @@ impl Resources {
         };
     }
 
+    /// Copies the first `count` visibility records of a round to a buffer that has room for them.
+    pub(crate) fn record_keep_records(&self, recorder: &Recorder<'_>, to: &Buffer, count: u32) {
+        let size = 16 * u64::from(count.min(self.sizes.record_capacity));
+        let region = [vk::BufferCopy::default().size(size)];
+        // SAFETY: the recorder's contract; both buffers hold as many records.
+        unsafe {
+            recorder.device().cmd_copy_buffer(
+                recorder.raw(),
+                self.records.buffer.raw,
+                to.raw,
+                &region,
+            )
+        };
+    }
+
     /// Puts the first `pixels` pixels that the box filter made in the place of those that it made them of.
     pub(crate) fn record_keep_filtered(&self, recorder: &Recorder<'_>, pixels: u32) {
         let region = [vk::BufferCopy::default().size(16 * u64::from(pixels))];

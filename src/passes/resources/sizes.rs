@@ -22,6 +22,8 @@ pub struct ResourceSizes {
     pub record_capacity: u32,
     /// Pixels of a region after the box filter; 0 without one.
     pub filtered: u32,
+    /// Whether the host says which lights reach records.
+    pub shadows: bool,
     /// Whether attributes are asked for.
     pub attributes: bool,
     /// Bytes of a region encoded for a host's image; 0 without one.
@@ -138,6 +140,7 @@ impl ResourceSizes {
             + u64::from(self.survivor_capacity) * 4
             + u64::from(self.filtered) * 16
             + if self.attributes { pixels * 32 } else { 0 }
+            + if self.shadows { records * 4 } else { 0 }
             + self.encoded
             + self.sites.map_or(0, |sites| sites.bytes(tiles))
     }

@@ -73,7 +73,11 @@ impl Passes {
                 shade: Shade::new(layout, scene, source, &output)?,
             })
         };
-        let shading = || Shade::new(layout, scene, ShadeSource::Records(Cells::Pixels), &output);
+        const SUPERPIXELS: ShadeSource = ShadeSource::Records {
+            cells: Cells::Pixels,
+            shadows: false,
+        };
+        let shading = || Shade::new(layout, scene, SUPERPIXELS, &output);
         let shades_records = scene.has_blend() || antialiased || multisampled;
         let (pixels, shading) = rayon::join(
             || (!multisampled).then(pixels).transpose(),

@@ -2,11 +2,12 @@
 
 use super::layout::CellSizes;
 use super::partition::Window;
+use super::plan::SitePlan;
 use crate::camera::Pinhole;
 use crate::passes::{
     Bin, Cells, Content, Counter, Cull, FrameGeometry, FrameLayout, FrameLook, FrameUniform,
-    GpuScene, Groups, Locations, Points, RasterTargets, RecordRate, Resolve, ResourceSizes,
-    Resources, Sample, SampleOptions, Schedule, Setup, Shade, ShadeSource, SiteData, Sort, Stroke,
+    GpuScene, Groups, Locations, Points, RasterTargets, RecordRate, Resolve, Resources, Sample,
+    SampleOptions, Schedule, Setup, Shade, ShadeSource, SiteData, SiteRecord, Sort, Stroke,
     StrokeSizes, Then,
 };
 use crate::render::engine::{can_settle, record_rate, record_shading, with_probes};
@@ -25,7 +26,27 @@ const POINTS_IN_CELL: u32 = 16;
 /// BLEND layers of a chain, and half the chains of a block, that tiles are admitted with.
 const LAYERS: u32 = 4;
 
-/// What makes values of records.
+/// What is sampled, and what is asked of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Sampling {
+    pub cells: Cells,
+    /// Whether the host says which lights reach the records before these are shaded.
+    pub shadows: bool,
+}
+
+impl Sampling {
+    /// Whether the host is given the records, all of which then are one round's.
+    pub fn hands_over_records(self) -> bool {
+        self.shadows || !self.shades()
+    }
+
+    /// Whether records are shaded.
+    fn shades(self) -> bool {
+        self.cells != Cells::Occluders
+    }
+}
+
+/// What makes values of shaded records.
 enum Finish {
     Points(Points),
     Resolve(Resolve),
@@ -43,10 +64,11 @@ pub(super) struct SiteEngine {
     groups: Groups,
     setup: Setup,
     sample: Sample,
-    sort: Sort,
-    /// Nothing where surfaces are asked for and no colours.
-    shade: Option<Shade>,
-    finish: Finish,
+    /// Nothing where records are all that is asked for.
+    shading: Option<Shading>,
+    /// Where the host is given the records, and how many there may be.
+    records: Option<Buffer>,
+    handed: u32,
     geometry: FrameGeometry,
     resources: Resources,
     targets: RasterTargets,
@@ -56,8 +78,18 @@ pub(super) struct SiteEngine {
     uploaded: bool,
 }
 
+/// The passes that make values of records.
+struct Shading {
+    sort: Sort,
+    shade: Shade,
+    finish: Finish,
+}
+
 /// What the sites of a run saw, in their order.
 pub(super) struct SiteValues<'a> {
+    /// Where the host is given them.
+    pub records: &'a [SiteRecord],
+    /// Where records are shaded.
     pub colors: &'a [[f32; 4]],
     /// What `shaders/points.comp` wrote; nothing for superpixels.
     pub attributes: &'a [[[u32; 4]; 2]],
@@ -82,16 +114,44 @@ fn to_clip(scene: &GpuScene, pinhole: &Pinhole, window: &Window) -> DMat4 {
     pinhole.pixel_matrix(scene.origin(), DVec2::from_array(window.middle))
 }
 
+impl Shading {
+    fn record(&self, recorder: &mut Recorder<'_>, resources: &Resources, scene: &GpuScene) {
+        let shade = Some(&self.shade);
+        record_shading(
+            recorder,
+            resources,
+            &self.sort,
+            &SceneShading { scene, shade },
+        );
+        match &self.finish {
+            Finish::Points(points) => {
+                points.record(recorder, &resources.arguments);
+                recorder.mark("points");
+            }
+            Finish::Resolve(resolve) => {
+                resolve.record(recorder, &resources.arguments);
+                recorder.mark("resolve");
+            }
+        }
+    }
+}
+
 impl SiteEngine {
-    /// Makes the pipelines, and memory for runs of up to these sizes and so many rounds; with `colors`, records are shaded.
+    /// Makes the pipelines, and memory for the runs of a plan.
     pub fn new(
         layout: &Arc<FrameLayout>,
         prepared: &PreparedScene,
         settings: &Settings,
-        (cells, colors): (Cells, bool),
-        (sizes, rounds): (&ResourceSizes, u32),
+        sampling: Sampling,
+        plan: &SitePlan,
         apart: bool,
     ) -> Result<Self, RenderError> {
+        let SitePlan {
+            sizes,
+            rounds,
+            handed,
+            ..
+        } = plan;
         let scene = &*prepared.gpu_scene;
         let gpu = scene.memory().gpu().clone();
         let taken = prepared.memory_bytes();
@@ -99,6 +159,7 @@ impl SiteEngine {
             gpu.clone(),
             settings.max_memory.map(|limit| limit.saturating_sub(taken)),
         );
+        let cells = sampling.cells;
         let points = cells.are_points();
         let CellSizes { in_cell, .. } = cell_sizes(layout, cells, settings.samples);
         let options = SampleOptions {
@@ -152,16 +213,37 @@ impl SiteEngine {
         )?;
         let output = settings.color_constants(scene);
         let sample = Sample::new(layout, scene, &options)?;
-        let finish = if points {
-            Finish::Points(Points::new(layout, scene, &output)?)
-        } else {
-            Finish::Resolve(Resolve::new(
-                layout,
-                &sample,
-                scene.has_blend(),
-                Then::Nothing,
-                &output,
-            )?)
+        let finish = || -> Result<Finish, RenderError> {
+            Ok(if points {
+                Finish::Points(Points::new(layout, scene, &output)?)
+            } else {
+                Finish::Resolve(Resolve::new(
+                    layout,
+                    &sample,
+                    scene.has_blend(),
+                    Then::Nothing,
+                    &output,
+                )?)
+            })
+        };
+        let source = ShadeSource::Records {
+            cells,
+            shadows: sampling.shadows,
+        };
+        let shading = || -> Result<Shading, RenderError> {
+            Ok(Shading {
+                sort: Sort::new(layout, scene, scene.bin_count() == 1)?,
+                shade: Shade::new(layout, scene, source, &output)?,
+                finish: finish()?,
+            })
+        };
+        let records = || {
+            memory.buffer(
+                "records for the host",
+                16 * u64::from(*handed),
+                vk::BufferUsageFlags::TRANSFER_DST,
+                MemoryUse::Readback,
+            )
         };
         Ok(Self {
             settings: settings.clone(),
@@ -174,12 +256,9 @@ impl SiteEngine {
             schedule: Schedule::new(layout, &sample, LAYERS)?,
             groups: Groups::new(layout, &sample)?,
             setup: Setup::new(layout, scene)?,
-            sort: Sort::new(layout, scene, !colors || scene.bin_count() == 1)?,
-            shade: colors
-                .then(|| Shade::new(layout, scene, ShadeSource::Records(cells), &output))
-                .transpose()?,
+            shading: sampling.shades().then(shading).transpose()?,
+            records: sampling.hands_over_records().then(records).transpose()?,
             sample,
-            finish,
             geometry,
             resources,
             targets,
@@ -189,7 +268,8 @@ impl SiteEngine {
                 vk::BufferUsageFlags::TRANSFER_DST,
                 MemoryUse::Readback,
             )?,
-            rounds,
+            rounds: *rounds,
+            handed: *handed,
             timings: Timings::new(&gpu, 16 + 8 * rounds)?,
             memory,
             uploaded: false,
@@ -201,7 +281,12 @@ impl SiteEngine {
         self.resources.write_sites(data)
     }
 
-    /// Records a run whose sites have been written.
+    /// Writes a word for each record: a bit for each light that it lies in the shadow of.
+    pub fn write_shadows(&mut self, words: &[u32]) -> Result<(), VulkanError> {
+        self.resources.write_shadows(words)
+    }
+
+    /// Records a run whose sites have been written: all of it or, where the host is given the records, up to these.
     ///
     /// # Safety
     /// - `commands` is being recorded, outside of a render pass, for the device and queue family of the renderer.
@@ -236,9 +321,9 @@ impl SiteEngine {
             return;
         };
         resources.record_begin(recorder, set, &uniform);
-        let superpixels = match &self.finish {
-            Finish::Points(_) => 0,
-            Finish::Resolve(_) => data.cells.len() as u32,
+        let superpixels = match self.sample.options().cells {
+            Cells::Superpixels | Cells::Pixels => data.cells.len() as u32,
+            Cells::Points | Cells::Occluders => 0,
         };
         let tiles = data.loads.iter().filter(|[cells, _]| *cells > 0).count() as u32;
         resources.record_counters(
@@ -271,28 +356,46 @@ impl SiteEngine {
             recorder.mark("setup");
             self.sample.record(recorder, arguments);
             recorder.mark("sample");
-            match &self.shade {
-                Some(shade) => {
-                    let shade = Some(shade);
-                    let shading = SceneShading { scene, shade };
-                    record_shading(recorder, resources, &self.sort, &shading);
-                }
-                // Counts the records.
-                None => self.sort.record(recorder, &resources.bins, arguments),
-            }
-            match &self.finish {
-                Finish::Points(points) => {
-                    points.record(recorder, arguments);
-                    recorder.mark("points");
-                }
-                Finish::Resolve(resolve) => {
-                    resolve.record(recorder, arguments);
-                    recorder.mark("resolve");
-                }
+            match (&self.records, &self.shading) {
+                (Some(records), _) => resources.record_keep_records(recorder, records, self.handed),
+                (None, Some(shading)) => shading.record(recorder, resources, scene),
+                (None, None) => {}
             }
         }
         resources.record_keep_counters(recorder, &self.counters, 0);
         recorder.barrier();
+    }
+
+    /// Records what is left of a run once the host has written the shadows of its records.
+    ///
+    /// # Safety
+    /// As [`Self::record`], whose commands are done.
+    pub unsafe fn record_shading(&mut self, scene: &PreparedScene, commands: vk::CommandBuffer) {
+        let gpu = self.memory.gpu().clone();
+        // SAFETY: passed on to the caller.
+        let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
+        let resources = &self.resources;
+        recorder.go_on();
+        if let (Some(shading), Some(set)) = (&self.shading, resources.set(0)) {
+            resources.record_bind(&recorder, set);
+            shading.record(&mut recorder, resources, &scene.gpu_scene);
+        }
+        resources.record_keep_counters(&recorder, &self.counters, 0);
+        recorder.barrier();
+    }
+
+    /// The records of the last run, where the host is given them.
+    pub fn records(&self) -> Result<&[SiteRecord], VulkanError> {
+        match &self.records {
+            Some(records) => records.read(self.recorded()? as usize),
+            None => Ok(&[]),
+        }
+    }
+
+    /// Records of the last round.
+    fn recorded(&self) -> Result<u32, VulkanError> {
+        let counted = self.counted()?.get(Counter::Records as usize);
+        Ok(counted.copied().unwrap_or(0))
     }
 
     /// What the last run's `sites` sites saw.
@@ -301,12 +404,21 @@ impl SiteEngine {
             color, attributes, ..
         } = &self.resources;
         Ok(SiteValues {
-            colors: color.buffer.read(sites)?,
+            records: self.records()?,
+            colors: match &self.shading {
+                Some(_) => color.buffer.read(sites)?,
+                None => &[],
+            },
             attributes: match self.resources.sizes().attributes {
                 true => attributes.read(sites)?,
                 false => &[],
             },
         })
+    }
+
+    /// Device memory of the engine alone, in bytes.
+    pub fn memory_bytes(&self) -> u64 {
+        self.memory.used()
     }
 
     fn counted(&self) -> Result<&[u32], VulkanError> {
@@ -319,22 +431,30 @@ impl SiteEngine {
         let room = self.resources.sizes().survivor_capacity;
         shortfall.add(self.counted()?, (window.tile_count(), room), true);
         shortfall.add_subgroups(self.counted()?);
+        if self.records.is_some() {
+            shortfall.crowded += u64::from(self.recorded()?.saturating_sub(self.handed));
+        }
         Ok(shortfall)
+    }
+
+    /// Fails where records of the last run did not fit, or lists were too long.
+    ///
+    /// # Errors
+    /// [`RenderError::Unfinished`], or [`RenderError::Vulkan`] if what was counted can't be read.
+    pub fn check(&self, window: &Window) -> Result<(), RenderError> {
+        self.shortfall(window)?.check(self.resources.sizes().lanes)
     }
 
     /// Adds the figures of the last run.
     ///
     /// # Errors
-    /// [`RenderError::Unfinished`] if its records did not fit, [`RenderError::Vulkan`] if what was
-    /// counted or timed can't be read.
+    /// If what was counted or timed can't be read.
     pub fn add_statistics(
         &self,
         scene: &PreparedScene,
         window: &Window,
         total: &mut Statistics,
-    ) -> Result<(), RenderError> {
-        self.shortfall(window)?
-            .check(self.resources.sizes().lanes)?;
+    ) -> Result<(), VulkanError> {
         total.add(self.counted()?);
         total.tiles += u64::from(window.tile_count());
         total.regions += 1;
@@ -363,7 +483,7 @@ impl SiteEngine {
             .map_or(pinhole.direction(), |to_centre| -to_centre)
             .as_vec3();
         let parallel = if pinhole.is_parallel() { 1.0 } else { 0.0 };
-        let points = matches!(self.finish, Finish::Points(_));
+        let points = self.sample.options().cells.are_points();
         let samples = self.sample.options().samples;
         let footprints = Footprints::new(&self.settings, if points { 1 } else { samples });
         FrameUniform {

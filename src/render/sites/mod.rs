@@ -17,13 +17,16 @@ pub use error::SiteError;
 pub(super) use shadows::Casters;
 pub(super) use triangles::{HostTriangles, Triangles};
 
-use super::{Headless, PreparedScene, RenderError, Settings, Shadows, Statistics};
+use super::{
+    Coverage, Headless, PreparedScene, RenderError, Settings, Shading, Shadows, Statistics,
+};
 use crate::camera::{Pinhole, Site};
 use crate::passes::Cells;
-use engine::{SiteEngine, SiteValues, cell_sizes};
-use partition::Partition;
+use engine::{Sampling, SiteEngine, SiteValues, cell_sizes};
+use partition::{Partition, Sorted};
 use plan::SitePlan;
 use rayon::prelude::*;
+use shadows::Receivers;
 
 /// What a sampling location sees.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -41,7 +44,7 @@ pub struct PointSample {
     /// The colour as detection compares it: 8-bit sRGB codes and alpha, red in the lowest byte.
     pub code: u32,
     /// With [`Shadows::Exact`](super::Shadows::Exact), a bit for each light of the pose, the first one lowest, that
-    /// another triangle keeps from the opaque or MASK triangle; otherwise 0.
+    /// another triangle keeps from the opaque or MASK triangle, or which shines on its other side; otherwise 0.
     pub shadows: u32,
 }
 
@@ -50,10 +53,19 @@ pub struct PointSample {
 struct Task<'a> {
     scene: &'a PreparedScene,
     pinhole: &'a Pinhole,
-    /// Whether records are shaded.
-    colors: bool,
+    /// Whether lights may be hidden from records.
+    shadows: bool,
     /// A word for each site, see `shaders/include/sites.glsl`; those that are missing are 0.
     words: &'a [u32],
+}
+
+/// What a run of sites saw.
+struct Run<'a> {
+    /// Its sites in order.
+    sites: &'a [Sorted],
+    seen: SiteValues<'a>,
+    /// For each record, where lights may be hidden from it, a bit for each that is.
+    shadows: &'a [u32],
 }
 
 /// What a set of sites sees, in the order of the sites, and what it cost.
@@ -79,46 +91,41 @@ impl Headless {
         settings: &Settings,
     ) -> Result<Sampled<PointSample>, RenderError> {
         let partition = Partition::new(sites, Cells::Points)?;
-        let shadows = match settings.shadows {
-            Shadows::None => Sampled::default(),
-            Shadows::Exact => self.shadows((scene, pinhole), (sites, &partition), settings)?,
-        };
         let task = Task {
             scene,
             pinhole,
-            colors: true,
-            words: &shadows.values,
+            shadows: settings.shadows == Shadows::Exact,
+            words: &[],
         };
         let nothing = rayon::iter::repeat_n(PointSample::default(), sites.len());
         let mut values: Vec<PointSample> = nothing.collect();
-        let mut statistics = shadows.statistics;
-        let run = self.run_sites(&partition, task, settings, |index, seen, place| {
-            let color = seen.colors.get(place);
-            let attributes = seen.attributes.get(place);
-            if let (Some(value), Some(color), Some([seen, normal])) =
-                (values.get_mut(index), color, attributes)
-            {
+        let statistics = self.run_sites(&partition, task, settings, |run| {
+            let seen = run.seen.colors.iter().zip(run.seen.attributes);
+            for (sorted, (color, [seen, normal])) in run.sites.iter().zip(seen) {
                 let [depth, id, blend_id, code] = *seen;
                 let [x, y, z, _] = normal.map(f32::from_bits);
-                *value = PointSample {
+                values[sorted.index()] = PointSample {
                     color: *color,
                     depth: f32::from_bits(depth),
                     id,
                     blend_id,
                     normal: [x, y, z],
                     code,
-                    shadows: shadows.values.get(index).copied().unwrap_or(0),
+                    ..PointSample::default()
                 };
             }
+            // Layers before a surface have none.
+            for (record, hidden) in run.seen.records.iter().zip(run.shadows) {
+                values[run.sites[record.site()].index()].shadows |= hidden;
+            }
         })?;
-        statistics.append(run);
         Ok(Sampled { values, statistics })
     }
 
     /// Samples each site as a superpixel: as often as the settings say, at its location plus its Jacobian times the
     /// offsets of their pattern. The values are resolved colours, linear light with premultiplied alpha. Of the
     /// settings, size, method and detection do not matter. With [`Shadows::Exact`](super::Shadows::Exact) every
-    /// sub-sample is a point of its own, as [`Headless::sample_points`] takes it, and the value is their mean.
+    /// sub-sample is shaded by itself, whatever the settings say.
     ///
     /// # Errors
     /// [`RenderError::Site`] names the first site that can't be sampled, [`RenderError::Pattern`] says which numbers of
@@ -130,66 +137,61 @@ impl Headless {
         sites: &[Site],
         settings: &Settings,
     ) -> Result<Sampled<[f32; 4]>, RenderError> {
-        if settings.shadows == Shadows::Exact {
-            return self.superpixels_of_points(scene, pinhole, sites, settings);
-        }
+        let exact = settings.shadows == Shadows::Exact;
+        let by_sample = exact.then(|| Settings {
+            shading: Shading::Sample,
+            coverage: Coverage::Samples,
+            ..settings.clone()
+        });
+        let settings = by_sample.as_ref().unwrap_or(settings);
         let partition = Partition::new(sites, Cells::Superpixels)?;
         let task = Task {
             scene,
             pinhole,
-            colors: true,
+            shadows: exact,
             words: &[],
         };
         let mut values = vec![[0.0; 4]; sites.len()];
-        let statistics = self.run_sites(&partition, task, settings, |index, seen, place| {
-            if let (Some(value), Some(color)) = (values.get_mut(index), seen.colors.get(place)) {
-                *value = *color;
+        let statistics = self.run_sites(&partition, task, settings, |run| {
+            for (sorted, color) in run.sites.iter().zip(run.seen.colors) {
+                values[sorted.index()] = *color;
             }
         })?;
         Ok(Sampled { values, statistics })
     }
 
-    /// Samples sites run by run; `take` is given each site's index, and what its run saw with its place there.
+    /// Samples sites run by run; `take` is given what each run saw.
     fn run_sites(
         &mut self,
         partition: &Partition<'_>,
         task: Task<'_>,
         settings: &Settings,
-        mut take: impl FnMut(usize, &SiteValues<'_>, usize),
+        mut take: impl FnMut(&Run<'_>),
     ) -> Result<Statistics, RenderError> {
         let Task {
             scene,
             pinhole,
-            colors,
+            shadows,
             words,
         } = task;
         self.check(&scene.gpu_scene)?;
         let cells = partition.cells;
+        let sampling = Sampling { cells, shadows };
         let layout = self.renderer.layout.clone();
         let taken = scene.memory_bytes();
         let plan = SitePlan::new(
             &layout,
             &scene.gpu_scene,
             settings,
-            partition,
+            (partition, sampling),
             taken,
             self.may_stop(),
         )?;
-        let make = |apart: bool| {
-            SiteEngine::new(
-                &layout,
-                scene,
-                settings,
-                (cells, colors),
-                (&plan.sizes, plan.rounds),
-                apart,
-            )
-        };
+        let make = |apart: bool| SiteEngine::new(&layout, scene, settings, sampling, &plan, apart);
         let (mut engine, mut apart) = (make(false)?, false);
         let sizes = cell_sizes(&layout, cells, settings.samples);
         let mut statistics = Statistics::default();
-        let mut waiting = plan.runs;
-        waiting.reverse();
+        let mut waiting: Vec<_> = plan.runs.iter().rev().cloned().collect();
         while let Some(run) = waiting.pop() {
             let window = partition.window(&run);
             let data = partition.data(&run, &window, &sizes, words);
@@ -198,7 +200,7 @@ impl Headless {
             self.submit(|commands| unsafe {
                 engine.record(scene, pinhole, &window, &data, commands);
             })?;
-            match engine.add_statistics(scene, &window, &mut statistics) {
+            match engine.check(&window) {
                 Ok(()) => {}
                 // One cell at a time gets through longer lists.
                 Err(RenderError::Unfinished { .. })
@@ -219,10 +221,27 @@ impl Headless {
                 }
                 Err(error) => return Err(error),
             }
-            let values = engine.values(run.len())?;
-            for (place, sorted) in partition.run(&run).iter().enumerate() {
-                take(sorted.index(), &values, place);
+            let mut hidden = Vec::new();
+            if shadows {
+                let receivers = Receivers {
+                    scene,
+                    pinhole,
+                    partition,
+                    run: &run,
+                    records: engine.records()?,
+                    held_bytes: engine.memory_bytes(),
+                };
+                hidden = self.shadows(&receivers, settings, &mut statistics)?;
+                engine.write_shadows(&hidden)?;
+                // SAFETY: as above.
+                self.submit(|commands| unsafe { engine.record_shading(scene, commands) })?;
             }
+            engine.add_statistics(scene, &window, &mut statistics)?;
+            take(&Run {
+                sites: partition.run(&run),
+                seen: engine.values(run.len())?,
+                shadows: &hidden,
+            });
         }
         Ok(statistics)
     }

@@ -1,6 +1,6 @@
 //! How many sites are sampled at once: what memory and the device's limits allow.
 
-use super::engine::cell_sizes;
+use super::engine::{Sampling, cell_sizes};
 use super::partition::{Partition, Window};
 use crate::passes::{
     Cells, Content, FrameGeometry, FrameLayout, GpuScene, ResourceSizes, SiteSizes,
@@ -13,7 +13,9 @@ use std::ops::Range;
 const MOST_SITES: usize = 1 << 18;
 /// Most samples of a run that may have to be stopped.
 const MOST_STOPPABLE: usize = 1 << 20;
-/// Fewest sites of a run, to which runs are cut where memory is bounded.
+/// Most records of a run that the host is given.
+const MOST_HANDED: usize = 1 << 18;
+/// Fewest sites of a run, or records that the host is given, to which runs are cut where memory is bounded.
 const FEWEST_SITES: usize = 1 << 10;
 /// Most visibility records and candidates of a round.
 const MOST_RECORDS: u64 = 6 << 20;
@@ -27,6 +29,8 @@ pub(super) struct SitePlan {
     pub sizes: ResourceSizes,
     /// Rounds of lists and records that a run may take.
     pub rounds: u32,
+    /// Most records of a run that the host is given.
+    pub handed: u32,
 }
 
 impl SitePlan {
@@ -38,41 +42,57 @@ impl SitePlan {
         layout: &FrameLayout,
         scene: &GpuScene,
         settings: &Settings,
-        partition: &Partition<'_>,
+        (partition, sampling): (&Partition<'_>, Sampling),
         taken: u64,
         may_stop: bool,
     ) -> Result<Self, RenderError> {
         let limits = layout.gpu.limits();
-        let cells = partition.cells;
-        let mut longest = MOST_SITES;
-        if may_stop && !cells.are_points() {
-            longest = (MOST_STOPPABLE / settings.samples.max(1) as usize).min(MOST_SITES);
-        }
+        let handed = sampling.hands_over_records();
+        let samples = match sampling.cells.are_points() {
+            true => 1,
+            false => settings.samples.max(1) as usize,
+        };
+        let mut longest = if handed {
+            MOST_HANDED / samples
+        } else if may_stop && samples > 1 {
+            (MOST_STOPPABLE / samples).min(MOST_SITES)
+        } else {
+            MOST_SITES
+        };
         loop {
             let runs = partition.runs(longest);
             let windows = runs.iter().map(|run| partition.window(run));
             let most = runs.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
-            let sizes = sizes(layout, scene, settings, cells, windows, most as u64);
-            let needed = taken + sizes.bytes() + FrameGeometry::bytes(scene);
+            let sizes = sizes(layout, scene, settings, sampling, windows, most as u64);
+            let records = u64::from(sizes.record_capacity);
+            let most_handed = match (handed, scene.has_blend()) {
+                (false, _) => 0,
+                (true, true) => records,
+                (true, false) => records.min((most * samples) as u64),
+            };
+            let copied = 16 * most_handed;
+            let held = copied + sizes.bytes() + FrameGeometry::bytes(scene);
+            // As much is left for what lights see of a run.
+            let needed = taken + if sampling.shadows { 2 * held } else { held };
             let fits = sizes.largest_storage() <= limits.max_storage_bytes
                 && sizes.largest_texels() <= limits.max_texel_elements;
             if fits && settings.max_memory.is_none_or(|allowed| needed <= allowed) {
-                let samples = if cells.are_points() {
-                    1
-                } else {
-                    settings.samples
-                };
                 // Tiles reserve room for as many records as samples.
-                let reserved =
-                    (most as u64 * u64::from(samples)).div_ceil(sizes.record_capacity.into());
-                let usual = Effort::default().rounds_for(samples);
+                let reserved = ((most * samples) as u64).div_ceil(records) as u32;
+                let usual = Effort::default().rounds_for(samples as u32);
                 return Ok(Self {
                     runs,
                     sizes,
-                    rounds: usual.max(reserved as u32),
+                    rounds: if handed { 1 } else { usual.max(reserved) },
+                    handed: most_handed as u32,
                 });
             }
-            if longest <= FEWEST_SITES {
+            let fewest = if handed {
+                FEWEST_SITES / samples
+            } else {
+                FEWEST_SITES
+            };
+            if longest <= fewest.max(1) {
                 return Err(RenderError::Memory {
                     needed,
                     allowed: settings.max_memory.unwrap_or(limits.max_storage_bytes),
@@ -87,7 +107,7 @@ fn sizes(
     layout: &FrameLayout,
     scene: &GpuScene,
     settings: &Settings,
-    cells: Cells,
+    sampling: Sampling,
     windows: impl Iterator<Item = Window>,
     most: u64,
 ) -> ResourceSizes {
@@ -102,12 +122,18 @@ fn sizes(
         }
     });
     let tiles = u64::from(region[0] / 8) * u64::from(region[1] / 4);
+    let Sampling { cells, shadows } = sampling;
     let cell_sizes = cell_sizes(layout, cells, settings.samples);
     let [in_cell, in_group] = [cell_sizes.in_cell, cell_sizes.in_group].map(|size| size as u64);
     let cell_count = most.min(most / in_cell + tiles);
     let group_count = cell_count.min(cell_count / in_group + tiles);
     let samples = u64::from(settings.samples);
+    let handed = sampling.hands_over_records();
+    // Where one round holds all, tiles reserve room for as many as samples, or for chains of layers.
+    let in_sample = if scene.has_blend() { 6 } else { 1 };
     let records = match cells {
+        Cells::Superpixels if handed => most * samples * in_sample,
+        Cells::Points if handed => most * in_sample,
         Cells::Points if scene.has_blend() => 4 * most,
         Cells::Points | Cells::Occluders => most,
         _ if settings.shading == Shading::Sample || scene.has_blend() => most * samples.min(64),
@@ -115,7 +141,11 @@ fn sizes(
     };
     let triangles = scene.triangle_count();
     let pairs = (triangles * 4 + tiles * 16).clamp(1 << 14, MOST_PAIRS);
-    let candidates = (triangles * 3 + tiles * 8).clamp(1 << 14, MOST_CANDIDATES);
+    let candidates = if handed {
+        pairs.min(MOST_CANDIDATES)
+    } else {
+        (triangles * 3 + tiles * 8).clamp(1 << 14, MOST_CANDIDATES)
+    };
     ResourceSizes {
         region,
         lanes: limits.lanes,
@@ -129,7 +159,8 @@ fn sizes(
         list_capacity: candidates.min(ResourceSizes::most_candidates(limits)) as u32,
         record_capacity: records.clamp(1 << 16, MOST_RECORDS) as u32,
         filtered: 0,
-        attributes: cells.are_points(),
+        shadows,
+        attributes: cells == Cells::Points,
         encoded: 0,
     }
 }

@@ -12,7 +12,7 @@ use super::receivers::Receiver;
 use crate::camera::{Pinhole, Rig, Site};
 use crate::render::RenderError;
 use crate::scene::{Light, LightKind};
-use glam::{DMat3, DMat4, DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 
 /// What lies nearer than this is the receiver itself: part of the distance to a local light, or of the scene's depth in
@@ -30,67 +30,75 @@ const MOST_PIXELS: f64 = 2_000.0;
 /// A pinhole of a light, and the receivers that it sees: a sampling set without any pattern.
 pub(super) struct LightView {
     pub pinhole: Pinhole,
-    /// From positions relative to its eye to its plane and depth.
-    matrix: DMat4,
     /// Their places on the plane and, where others have the Jacobian, the least depth of what shadows them.
     pub sites: Vec<Site>,
     /// IDs of their triangles.
     pub ids: Vec<u32>,
-    /// Their places in the caller's list.
+    /// Indices of their records.
     pub indices: Vec<usize>,
 }
 
-/// The receivers that a light reaches if nothing stands in the way: those whose seen side faces it, and those whose side
-/// is turned from it, which lie in the shadow of their own triangle.
-pub(super) fn reached(light: &Light, receivers: &[Receiver]) -> [Vec<Receiver>; 2] {
-    let within = receivers.par_iter().copied().filter(|receiver| {
-        let is_distant = light.kind == LightKind::Directional;
-        is_distant || reaches(light, receiver.position - light.position)
-    });
-    let (facing, turned) = within.partition(|receiver| {
-        let to_light = match light.kind {
-            LightKind::Directional => -light.direction,
-            LightKind::Point | LightKind::Spot { .. } => light.position - receiver.position,
-        };
-        receiver.normal.dot(to_light) >= 0.0
-    });
-    [facing, turned]
+/// What a light is to a receiver.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Sight {
+    /// It does not shine so far, or not in this direction.
+    Beyond,
+    /// It shines on the side that is not seen: the receiver lies in the shadow of its own triangle.
+    Turned,
+    /// It would shine on it if nothing stood in the way.
+    Facing {
+        /// Number of the pinhole that sees it; none where it lies too near.
+        pinhole: Option<usize>,
+        /// Its place on that one's plane.
+        uv: DVec2,
+    },
 }
 
-/// The views of a light that together see all of these receivers, in a scene within `bounds`.
+/// The pinholes of a light that together see all of these receivers, in a scene within `bounds`, and what it is to each
+/// receiver.
 ///
 /// # Errors
 /// If a pinhole can't be, since the scene has no extent that 64 bits tell apart.
-pub(super) fn views(
+pub(super) fn sights(
     light: &Light,
     bounds: (DVec3, DVec3),
     receivers: &[Receiver],
-) -> Result<Vec<LightView>, RenderError> {
+) -> Result<(Vec<Pinhole>, Vec<Sight>), RenderError> {
     // About as many pixels as receivers: tiles then have short lists.
     let side = (receivers.len() as f64).sqrt().clamp(64.0, MOST_PIXELS);
     let all = receivers.par_iter();
-    let (pinholes, places): (Vec<Pinhole>, Vec<Option<(usize, DVec2)>>) = match light.kind {
+    let sight = |receiver: &Receiver, to_light: DVec3, place: Option<(usize, DVec2)>| {
+        if receiver.normal.dot(to_light) < 0.0 {
+            return Sight::Turned;
+        }
+        let (pinhole, uv) = place.unzip();
+        Sight::Facing {
+            pinhole,
+            uv: uv.unwrap_or_default(),
+        }
+    };
+    match light.kind {
         LightKind::Directional => {
             let pinhole = distant(light.direction, bounds, receivers, side)?;
-            let place = |receiver: &Receiver| Some((0, pinhole.project(receiver.position)?));
-            (vec![pinhole], all.map(place).collect())
+            let of = |receiver: &Receiver| {
+                let uv = pinhole.project(receiver.position);
+                sight(receiver, -light.direction, uv.map(|uv| (0, uv)))
+            };
+            Ok((vec![pinhole], all.map(of).collect()))
         }
         LightKind::Point | LightKind::Spot { .. } => {
             let rig = local(light, bounds, side)?;
-            let place = |receiver: &Receiver| rig.locate(receiver.position - light.position);
-            (rig.pinholes().to_vec(), all.map(place).collect())
-        }
-    };
-    let mut views: Vec<LightView> = pinholes.into_iter().map(LightView::new).collect();
-    for (receiver, place) in receivers.iter().zip(places) {
-        if let Some((index, uv)) = place
-            && let Some(view) = views.get_mut(index)
-        {
-            view.push(receiver, uv);
+            let of = |receiver: &Receiver| {
+                let way = receiver.position - light.position;
+                if reaches(light, way) {
+                    sight(receiver, -way, rig.locate(way))
+                } else {
+                    Sight::Beyond
+                }
+            };
+            Ok((rig.pinholes().to_vec(), all.map(of).collect()))
         }
     }
-    views.retain(|view| !view.sites.is_empty());
-    Ok(views)
 }
 
 /// Whether light goes this way from a local light.
@@ -122,19 +130,22 @@ fn distant(
     };
     let first = receivers.first().map(on_plane).unwrap_or_default();
     let (least, most) = receivers
-        .iter()
-        .map(on_plane)
-        .fold((first, first), |(least, most), p| {
-            (least.min(p), most.max(p))
-        });
+        .par_iter()
+        .map(|receiver| (on_plane(receiver), on_plane(receiver)))
+        .reduce(
+            || (first, first),
+            |(least, most), (low, high)| (least.min(low), most.max(high)),
+        );
+    // Nothing lies on the border of a region of the plane.
     let extent = (most - least).max_element().max(1e-6 * diagonal);
     // The box's nearest and farthest corners.
     let size = high - low;
     let nearest = (size * along).min(DVec3::ZERO).element_sum();
     let farthest = (size * along).max(DVec3::ZERO).element_sum();
     let margin = 1e-3 * diagonal;
-    let origin = low + a * least.x + b * least.y + along * (nearest - margin);
     let pixel = extent / side;
+    let corner = low + (a + b) * (-0.5 * pixel);
+    let origin = corner + a * least.x + b * least.y + along * (nearest - margin);
     let depth = farthest - nearest + 2.0 * margin;
     Ok(Pinhole::new(
         (-along).extend(0.0),
@@ -165,30 +176,39 @@ fn local(light: &Light, (low, high): (DVec3, DVec3), side: f64) -> Result<Rig, R
 }
 
 impl LightView {
-    fn new(pinhole: Pinhole) -> Self {
+    /// What pinhole number `number` sees of these receivers.
+    pub fn new(pinhole: Pinhole, number: usize, receivers: &[Receiver], sights: &[Sight]) -> Self {
+        // From positions relative to its eye to its plane and depth.
+        let matrix = pinhole.pixel_matrix(pinhole.eye(), DVec2::ZERO);
+        let site = |(receiver, sight): (&Receiver, &Sight)| {
+            let uv = match *sight {
+                Sight::Facing {
+                    pinhole: Some(of),
+                    uv,
+                } if of == number => uv,
+                _ => return None,
+            };
+            let place = matrix * (receiver.position - pinhole.eye()).extend(1.0);
+            let depth = place.z / place.w;
+            let least = if pinhole.is_parallel() {
+                depth + BIAS
+            } else {
+                depth * (1.0 + BIAS)
+            };
+            let site = Site {
+                uv: uv.to_array(),
+                jacobian: [[least, 0.0], [0.0; 2]],
+                output: 0,
+            };
+            Some((site, (receiver.id, receiver.index)))
+        };
+        let seen = receivers.par_iter().zip(sights).filter_map(site);
+        let (sites, (ids, indices)) = seen.unzip();
         Self {
             pinhole,
-            matrix: pinhole.pixel_matrix(pinhole.eye(), DVec2::ZERO),
-            sites: Vec::new(),
-            ids: Vec::new(),
-            indices: Vec::new(),
+            sites,
+            ids,
+            indices,
         }
-    }
-
-    fn push(&mut self, receiver: &Receiver, uv: DVec2) {
-        let place = self.matrix * (receiver.position - self.pinhole.eye()).extend(1.0);
-        let depth = place.z / place.w;
-        let least = if self.pinhole.is_parallel() {
-            depth + BIAS
-        } else {
-            depth * (1.0 + BIAS)
-        };
-        self.sites.push(Site {
-            uv: uv.to_array(),
-            jacobian: [[least, 0.0], [0.0; 2]],
-            output: 0,
-        });
-        self.ids.push(receiver.id);
-        self.indices.push(receiver.index);
     }
 }

@@ -7,17 +7,18 @@
 //! side that is seen from the light, whatever its interpolated normals say, so that the border of light on a smooth ball
 //! of few triangles follows its edges. BLEND triangles neither cast shadows nor receive them.
 //!
-//! The host stands between the steps: it reads back what sites see, projects it, asks for each light, and hands a word
-//! of bits for each site to the run that shades it.
+//! The host stands between the steps: it is given the visibility records of a run, projects the places at which they
+//! are shaded, asks for each light, and hands a word of bits for each record back to the run, which shades them.
 
 mod casters;
 mod light;
 mod receivers;
 
 pub(in crate::render) use casters::Casters;
+pub(super) use receivers::Receivers;
 
+use super::Task;
 use super::partition::Partition;
-use super::{Sampled, Task};
 use crate::camera::{Camera, Pinhole, Site};
 use crate::passes::Cells;
 use crate::render::{
@@ -25,12 +26,10 @@ use crate::render::{
 };
 use crate::scene::{Pose, Scene};
 use casters::caster_scene;
-use receivers::receivers;
+use light::{LightView, Sight};
 
-/// Most lights that cast shadows: bits of a site's word.
+/// Most lights that cast shadows: bits of a record's word.
 const MOST_LIGHTS: usize = 32;
-/// Most sub-samples that are points at once, on the host.
-const MOST_POINTS: usize = 1 << 18;
 
 impl Headless {
     /// Makes an uploaded scene ready for [`Shadows::Exact`](crate::render::Shadows::Exact): puts what casts shadows on
@@ -82,119 +81,57 @@ impl Headless {
         self.render_sites(scene, &[(pinhole, sites)], size, settings)
     }
 
-    /// A bit for each light that sites see the shadow of.
+    /// A word for each record of a run: a bit for each light that it lies in the shadow of.
     pub(super) fn shadows(
         &mut self,
-        (scene, pinhole): (&PreparedScene, &Pinhole),
-        (sites, partition): (&[Site], &Partition<'_>),
+        run: &Receivers<'_>,
         settings: &Settings,
-    ) -> Result<Sampled<u32>, RenderError> {
+        statistics: &mut Statistics,
+    ) -> Result<Vec<u32>, RenderError> {
+        let scene = run.scene;
         let casters = scene.casters.as_deref().ok_or(RenderError::NoCasters)?;
-        let mut words = vec![0; sites.len()];
-        let mut statistics = Statistics::default();
+        let mut shadows = vec![0; run.records.len()];
         let Some(bounds) = casters.bounds.filter(|_| !casters.lights.is_empty()) else {
-            return Ok(Sampled {
-                values: words,
-                statistics,
-            });
+            return Ok(shadows);
         };
-        let mut ids = vec![0; sites.len()];
-        let surfaces = Task {
-            scene,
-            pinhole,
-            colors: false,
-            words: &[],
-        };
-        let run = self.run_sites(partition, surfaces, settings, |index, seen, place| {
-            if let (Some(id), Some([[_, nearest, ..], _])) =
-                (ids.get_mut(index), seen.attributes.get(place))
-            {
-                *id = *nearest;
-            }
-        })?;
-        book(&mut statistics, &run);
-        let receivers = receivers(scene.triangles.get(), pinhole, sites, &ids);
-        let own = scene.memory_bytes() - casters.memory_bytes();
+        let receivers = run.receivers();
+        if receivers.is_empty() {
+            return Ok(shadows);
+        }
+        let own = scene.memory_bytes() - casters.memory_bytes() + run.held_bytes;
         let settings = Settings {
             max_memory: settings.max_memory.map(|most| most.saturating_sub(own)),
             ..settings.clone()
         };
         for (bit, light) in casters.lights.iter().enumerate() {
-            let mut hide = |index: usize| {
-                if let Some(word) = words.get_mut(index) {
-                    *word |= 1 << bit;
+            let (pinholes, sights) = light::sights(light, bounds, &receivers)?;
+            for (receiver, sight) in receivers.iter().zip(&sights) {
+                if *sight == Sight::Turned {
+                    shadows[receiver.index] |= 1 << bit;
                 }
-            };
-            let [facing, turned] = light::reached(light, &receivers);
-            turned.iter().for_each(|receiver| hide(receiver.index));
-            if facing.is_empty() {
-                continue;
             }
-            for view in light::views(light, bounds, &facing)? {
+            for (number, pinhole) in pinholes.into_iter().enumerate() {
+                let view = LightView::new(pinhole, number, &receivers, &sights);
+                if view.sites.is_empty() {
+                    continue;
+                }
                 let partition = Partition::new(&view.sites, Cells::Occluders)?;
                 let task = Task {
                     scene: &casters.scene,
                     pinhole: &view.pinhole,
-                    colors: false,
+                    shadows: false,
                     words: &view.ids,
                 };
-                let run = self.run_sites(&partition, task, &settings, |index, seen, place| {
-                    let occluder = seen.attributes.get(place).map(|[[_, id, ..], _]| *id);
-                    if let (Some(1..), Some(receiver)) = (occluder, view.indices.get(index)) {
-                        hide(*receiver);
+                let run = self.run_sites(&partition, task, &settings, |run| {
+                    for record in run.seen.records.iter().filter(|record| record.id() != 0) {
+                        let site = run.sites[record.site()].index();
+                        shadows[view.indices[site]] |= 1 << bit;
                     }
                 })?;
-                book(&mut statistics, &run);
+                book(statistics, &run);
             }
         }
-        Ok(Sampled {
-            values: words,
-            statistics,
-        })
-    }
-
-    /// Superpixels whose sub-samples are points: their means.
-    pub(super) fn superpixels_of_points(
-        &mut self,
-        scene: &PreparedScene,
-        pinhole: &Pinhole,
-        sites: &[Site],
-        settings: &Settings,
-    ) -> Result<Sampled<[f32; 4]>, RenderError> {
-        let offsets = settings.pattern.offsets(settings.samples)?;
-        let mut sampled = Sampled {
-            values: Vec::with_capacity(sites.len()),
-            statistics: Statistics::default(),
-        };
-        for sites in sites.chunks((MOST_POINTS / offsets.len().max(1)).max(1)) {
-            let point = |site: &Site, offset: &[f32; 2]| {
-                let [x, y] = offset.map(f64::from);
-                let [column, row] = site.jacobian;
-                let at = |axis: usize| site.uv[axis] + column[axis] * x + row[axis] * y;
-                Site {
-                    uv: [at(0), at(1)],
-                    ..*site
-                }
-            };
-            let points: Vec<Site> = sites
-                .iter()
-                .flat_map(|site| offsets.iter().map(move |offset| point(site, offset)))
-                .collect();
-            let seen = self.sample_points(scene, pinhole, &points, settings)?;
-            sampled.statistics.append(seen.statistics);
-            let means = seen.values.chunks(offsets.len()).map(|points| {
-                let mut sum = [0.0; 4];
-                for point in points {
-                    for (sum, channel) in sum.iter_mut().zip(point.color) {
-                        *sum += f64::from(channel);
-                    }
-                }
-                sum.map(|sum| (sum / points.len() as f64) as f32)
-            });
-            sampled.values.extend(means);
-        }
-        sampled.statistics.superpixels = sites.len() as u64;
-        Ok(sampled)
+        Ok(shadows)
     }
 }
 

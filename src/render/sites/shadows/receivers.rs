@@ -1,14 +1,17 @@
-//! The points that sites see, in the world.
+//! The places at which visibility records are shaded, in the world.
 
-use crate::camera::{Pinhole, Site};
-use crate::render::sites::Triangles;
+use crate::camera::Pinhole;
+use crate::passes::SiteRecord;
+use crate::render::PreparedScene;
+use crate::render::sites::partition::Partition;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+use std::ops::Range;
 
-/// A point of a triangle that a site sees.
+/// A place of an opaque or MASK triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Receiver {
-    /// The site's place in the caller's list.
+    /// Which record is shaded there.
     pub index: usize,
     /// ID of the triangle.
     pub id: u32,
@@ -18,26 +21,44 @@ pub(super) struct Receiver {
     pub normal: DVec3,
 }
 
-/// Where sites of a pinhole see triangles of these IDs; those that see none are left out.
-pub(super) fn receivers(
-    triangles: &Triangles,
-    pinhole: &Pinhole,
-    sites: &[Site],
-    ids: &[u32],
-) -> Vec<Receiver> {
-    let seen = sites.par_iter().zip(ids).enumerate();
-    seen.filter_map(|(index, (site, id))| {
-        let corners = triangles.get(id.checked_sub(1)? as usize)?;
-        let ray = pinhole.ray(DVec2::from_array(site.uv));
-        let (position, normal) = seen_at(corners, ray.start - triangles.origin, ray.direction);
-        Some(Receiver {
-            index,
-            id: *id,
-            position: triangles.origin + position,
-            normal,
-        })
-    })
-    .collect()
+/// The records of a run.
+pub(in crate::render::sites) struct Receivers<'a> {
+    pub scene: &'a PreparedScene,
+    pub pinhole: &'a Pinhole,
+    pub partition: &'a Partition<'a>,
+    pub run: &'a Range<usize>,
+    pub records: &'a [SiteRecord],
+    /// Device memory that the run holds, in bytes.
+    pub held_bytes: u64,
+}
+
+impl Receivers<'_> {
+    /// The places of records of opaque and MASK triangles.
+    pub(super) fn receivers(&self) -> Vec<Receiver> {
+        let triangles = self.scene.triangles.get();
+        let first_blend = self.scene.gpu_scene.first_blend();
+        let sites = self.partition.run(self.run);
+        let records = self.records.par_iter().enumerate();
+        records
+            .filter(|(_, record)| (1..=first_blend).contains(&record.id()))
+            .filter_map(|(index, record)| {
+                let site = self.partition.site(*sites.get(record.site())?);
+                let [column, row] = site.jacobian.map(DVec2::from_array);
+                let [x, y] = record.location();
+                let at = DVec2::from_array(site.uv) + column * x + row * y;
+                let corners = triangles.get(record.id() as usize - 1)?;
+                let ray = self.pinhole.ray(at);
+                let start = ray.start - triangles.origin;
+                let (position, normal) = seen_at(corners, start, ray.direction);
+                Some(Receiver {
+                    index,
+                    id: record.id(),
+                    position: triangles.origin + position,
+                    normal,
+                })
+            })
+            .collect()
+    }
 }
 
 /// The point of a triangle on a ray, or the nearest one that its plane has where the device, which rounds positions to
