@@ -184,10 +184,14 @@ fn a_lens_shows_what_the_copied_zoom_makes() {
         command[multiplicity].parse::<f64>().unwrap() < 0.5,
         "{command:?}"
     );
-    assert_shows(
-        &display,
-        [320, 200],
-        &render(folder.path(), &command, "zoom.png"),
+    let zoomed = render(folder.path(), &command, "zoom.png");
+    assert_shows(&display, [320, 200], &zoomed);
+    viewer.key("F12");
+    let line = viewer.wait_for("wrote ");
+    let written = std::fs::read(folder.path().join(line.strip_prefix("wrote ").unwrap())).unwrap();
+    assert!(
+        written == zoomed,
+        "the file has other bytes than the command's"
     );
 
     // Without the lens, what pixels hold beside their colours: superpixels are the fourth.
@@ -202,6 +206,52 @@ fn a_lens_shows_what_the_copied_zoom_makes() {
     render(folder.path(), &arguments, "with.png");
     let superpixels = std::fs::read(folder.path().join("with.superpixels.png")).unwrap();
     assert_shows(&display, [320, 200], &superpixels);
+    viewer.close();
+}
+
+#[test]
+fn an_environment_is_seen_behind_the_scene_at_rest() {
+    let (display, folder) = (Display::open(), tempfile::tempdir().unwrap());
+    let sky = |x: u32, y: u32| image::Rgb([0.2 + 0.05 * x as f32, 0.4, 0.1 * y as f32]);
+    image::Rgb32FImage::from_fn(16, 8, sky)
+        .save(folder.path().join("sky.hdr"))
+        .unwrap();
+    let scene = asset("letters.glb");
+    let options = "--size 320x200 --samples 16 --environment sky.hdr --background environment";
+    let arguments: Vec<_> = std::iter::once(scene.as_str())
+        .chain(options.split(' '))
+        .collect();
+    let mut viewer = Viewer::open(&display, folder.path(), &arguments);
+    viewer.wait_for("at rest");
+    viewer.show_picture_alone();
+    for turned in [false, true] {
+        if turned {
+            viewer.drag("1", ["200", "100"]);
+            display.input(&["mousemove", "600", "400"]);
+            viewer.wait_for("at rest");
+        }
+        let command = viewer.command();
+        assert!(command.contains(&"--background=environment".to_owned()));
+        let expected = render(folder.path(), &command, "environment.png");
+        let image = image::load_from_memory(&expected).unwrap().to_rgba8();
+        assert!(image.pixels().all(|pixel| pixel.0[3] == 255));
+        assert_shows(&display, [320, 200], &expected);
+    }
+    // A lens enlarges the scene alone.
+    display.input(&[
+        "mousemove",
+        "120",
+        "90",
+        "key",
+        "z",
+        "mousemove",
+        "600",
+        "400",
+    ]);
+    viewer.wait_for("at rest");
+    let command = viewer.command();
+    assert_eq!(command[0], "zoom");
+    render(folder.path(), &command, "zoom.png");
     viewer.close();
 }
 

@@ -23,7 +23,8 @@ pub struct ViewArgs {
     /// Width and height of the window in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = values::size)]
     size: [u32; 2],
-    /// Colour behind the scene: none (black in the window, transparent in files), sRGB R,G,B of 0 to 1, or #rrggbb
+    /// Colour behind the scene: none (black in the window, transparent in files), sRGB R,G,B of 0 to 1, #rrggbb, or
+    /// environment for the light around it (at rest; black while something moves, and with lenses)
     #[arg(long, value_name = "COLOUR", default_value = "#2b2f36")]
     background: String,
     #[command(flatten)]
@@ -44,6 +45,8 @@ pub fn run(args: ViewArgs) -> anyhow::Result<ExitCode> {
         edges: args.appearance.edges(),
     };
     let appearance_options = appearance_options(&args, &look);
+    let shows_environment =
+        values::background(&args.background) == Ok(values::Background::Environment);
     let validation = std::env::var_os("GPC_VALIDATION").is_some_and(|value| !value.is_empty());
     let mut scenes = args.scenes.into_iter();
     let Some(path) = scenes.next() else {
@@ -64,6 +67,7 @@ pub fn run(args: ViewArgs) -> anyhow::Result<ExitCode> {
         appearance,
         appearance_options,
         look,
+        shows_environment,
         device: HeadlessOptions {
             device: args.device.name,
             validation,
@@ -111,10 +115,7 @@ fn start(args: &CameraArgs) -> Result<Start, Usage> {
 /// How pictures are antialiased, and how large the window is.
 fn look(args: &ViewArgs) -> anyhow::Result<Look> {
     let background = match values::background(&args.background) {
-        Ok(values::Background::Transparent) => None,
-        Ok(values::Background::Environment) => {
-            usage!("--background environment: the window shows none; `gpc render` does")
-        }
+        Ok(values::Background::Transparent | values::Background::Environment) => None,
         Ok(values::Background::Color(color)) => Some(values::linear(color)),
         Err(expected) => usage!("--background {}: {expected}", args.background),
     };
@@ -150,7 +151,7 @@ fn appearance_options(args: &ViewArgs, look: &Look) -> Vec<String> {
     let mut options = Vec::new();
     // One word each: a value that begins with a minus is no option then.
     let mut add = |option: &str, value: &dyn Display| options.push(format!("{option}={value}"));
-    if look.settings.background.is_some() {
+    if args.background != "none" {
         add("--background", &args.background);
     }
     if let Some(file) = &appearance.environment {

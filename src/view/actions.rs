@@ -329,7 +329,7 @@ impl View {
         self.renew_layers()
     }
 
-    /// Writes the picture under the pointer with all its samples, as `gpc render` does.
+    /// Writes the picture under the pointer with all its samples, as the command does that is copied.
     fn write_screenshot(&mut self) {
         let path = free_name(Path::new(""), &self.source.stem());
         if let Some(easel) = &self.easel {
@@ -348,7 +348,7 @@ impl View {
         }
         let samples = self.looks[self.layer_under_pointer()].settings.samples;
         self.notes.say(format!("writing {}", path.display()));
-        self.order(0, samples, Subject::File(path));
+        self.order(0, samples, Subject::File(path, self.cover.lenses.map()));
     }
 
     /// Puts the command that makes the picture under the pointer on the clipboard.

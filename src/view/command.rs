@@ -9,6 +9,9 @@ use gpc::render::{Coverage, Detection, Footprint, Method, Settings, Shading};
 use gpc::sampling::Pattern;
 use std::path::Path;
 
+/// The option that shows the environment behind the scene.
+pub const ENVIRONMENT: &str = "--background=environment";
+
 /// A picture to be made.
 pub struct Shot<'a> {
     pub source: &'a Source,
@@ -40,7 +43,10 @@ impl Shot<'_> {
         let [width, height] = settings.size;
         arguments.add("--size", format_args!("{width}x{height}"));
         arguments.settings(&settings);
-        arguments.0.extend_from_slice(self.appearance);
+        let appearance = self.appearance.iter();
+        // Which zoomed pictures have not.
+        let shown = appearance.filter(|option| self.lenses.is_empty() || *option != ENVIRONMENT);
+        arguments.0.extend(shown.cloned());
         arguments.view(self);
         arguments.0
     }

@@ -20,6 +20,8 @@ pub struct Cover {
     pub overlay: Option<Overlay>,
     /// Whether pictures have shadows, which frames have not.
     pub has_shadows: bool,
+    /// Whether an environment is seen behind the scene, as it is not in frames.
+    pub shows_environment: bool,
     /// Whether there are no frames, but a photograph.
     pub is_photo: bool,
     /// Of the last order.
@@ -44,12 +46,20 @@ pub struct Arrival {
 }
 
 impl Cover {
-    /// Over frames, which have no shadows, of pictures that have them or not; or of a photograph.
-    pub fn new(has_shadows: bool, is_photo: bool) -> Self {
+    /// Over frames, of pictures that have shadows and show an environment or not.
+    pub fn new(has_shadows: bool, shows_environment: bool) -> Self {
         Self {
             has_shadows,
-            is_photo,
+            shows_environment,
             ..Self::default()
+        }
+    }
+
+    /// The same without lenses and overlays, over frames or a photograph.
+    pub fn cleared(&self, is_photo: bool) -> Self {
+        Self {
+            is_photo,
+            ..Self::new(self.has_shadows, self.shows_environment)
         }
     }
 
@@ -58,7 +68,7 @@ impl Cover {
         match (self.overlay, self.lenses.map()) {
             (Some(overlay), _) => Some(Subject::Overlay(overlay)),
             (None, Some(map)) => Some(Subject::Zoom(map, self.tints)),
-            (None, None) => self.has_shadows.then_some(Subject::Still),
+            (None, None) => (self.has_shadows || self.shows_environment).then_some(Subject::Still),
         }
     }
 
@@ -161,7 +171,7 @@ mod tests {
         assert!(!cover.arrived(second, now).refines && cover.is_done());
         cover.overlay = Some(Overlay::Error);
         assert_eq!(cover.begin(false, 64).1, 64);
-        let mut photo = Cover::new(false, true);
+        let mut photo = cover.cleared(true);
         let (first, _) = photo.begin(true, 1);
         assert!(!photo.is_done() && photo.arrived(first, now).is_shown && photo.is_done());
     }
@@ -182,11 +192,17 @@ mod tests {
     }
 
     #[test]
-    fn pictures_with_shadows_take_the_place_of_frames() {
-        let mut cover = Cover::new(true, false);
-        assert!(matches!(cover.subject(), Some(Subject::Still)));
-        cover.lenses.add(DVec2::ZERO, 100.0);
-        assert!(matches!(cover.subject(), Some(Subject::Zoom(..))));
-        assert!(!Cover::new(false, false).is_wanted());
+    fn pictures_of_what_frames_have_not_take_their_place() {
+        for (has_shadows, shows_environment) in [(true, false), (false, true)] {
+            let mut cover = Cover::new(has_shadows, shows_environment);
+            assert!(matches!(cover.subject(), Some(Subject::Still)));
+            cover.lenses.add(DVec2::ZERO, 100.0);
+            assert!(matches!(cover.subject(), Some(Subject::Zoom(..))));
+            assert!(matches!(
+                cover.cleared(false).subject(),
+                Some(Subject::Still)
+            ));
+        }
+        assert!(!Cover::default().is_wanted());
     }
 }

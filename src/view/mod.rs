@@ -70,6 +70,8 @@ pub struct Options {
     pub appearance_options: Vec<String>,
     /// Antialiasing, and the size of the window.
     pub look: Look,
+    /// Whether the scene's environment is seen behind it, at rest.
+    pub shows_environment: bool,
     /// How devices are opened: the window's, and those that write files.
     pub device: HeadlessOptions,
 }

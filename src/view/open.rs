@@ -1,7 +1,6 @@
 //! Loading what is looked at, in the background.
 
 use super::app::Event;
-use super::cover::Cover;
 use super::photo::{Easel, Photo};
 use super::player::Player;
 use super::progress::Progress;
@@ -135,7 +134,7 @@ impl View {
     /// Goes from scenes to photographs or back, whose lenses are not at the same places.
     fn set_easel(&mut self, easel: Option<Easel>) {
         if easel.is_some() != self.easel.is_some() {
-            self.cover = Cover::new(self.cover.has_shadows, easel.is_some());
+            self.cover = self.cover.cleared(easel.is_some());
         }
         self.easel = easel;
         self.canvas.refines = !self.cover.is_wanted();

@@ -89,6 +89,7 @@ impl View {
             time: self.time(),
             standpoint: self.standpoint,
             settings: look.at(samples, None),
+            shows_environment: self.cover.shows_environment,
             subject,
         };
         self.studio.ask(number, Task::Scene(Box::new(task)));

@@ -45,8 +45,8 @@ pub enum Subject {
     Zoom(ZoomMap, bool),
     /// What pixels hold beside their colours, to look at.
     Overlay(Overlay),
-    /// A PNG file as `gpc render` writes it, to the same bytes.
-    File(PathBuf),
+    /// A PNG file as `gpc render` writes it or, with regions enlarged, `gpc zoom`, to the same bytes.
+    File(PathBuf, Option<ZoomMap>),
 }
 
 /// A picture to be made.
@@ -73,6 +73,8 @@ pub struct SceneTask {
     pub time: f64,
     pub standpoint: Standpoint,
     pub settings: Settings,
+    /// Whether its environment is seen behind it, but where regions are enlarged.
+    pub shows_environment: bool,
     pub subject: Subject,
 }
 
@@ -81,7 +83,7 @@ impl Task {
     fn file(&self) -> Option<&Path> {
         match self {
             Self::Scene(task) => match &task.subject {
-                Subject::File(path) => Some(path),
+                Subject::File(path, _) => Some(path),
                 _ => None,
             },
             Self::Photo(_) => None,
@@ -279,8 +281,8 @@ impl Maker {
             return Made::Pixels(number, Err(error));
         }
         let pixels = match &task.subject {
-            Subject::File(path) => {
-                return Made::File(path.clone(), self.write(task, path));
+            Subject::File(path, map) => {
+                return Made::File(path.clone(), self.write(task, path, map.as_ref()));
             }
             Subject::Still => self.still(task),
             Subject::Zoom(map, tints) => self.zoom(task, map, *tints),
@@ -302,19 +304,39 @@ impl Maker {
         Ok(())
     }
 
-    fn write(&mut self, task: &SceneTask, path: &Path) -> anyhow::Result<()> {
-        let rendered = self.render(task, &task.settings)?;
-        let picture = Picture::new(rendered.size, &rendered.colors)?;
-        let bytes = output::encode(Format::Png8, &picture, &[])?;
-        Ok(output::write_atomically(path, &bytes)?)
+    fn write(
+        &mut self,
+        task: &SceneTask,
+        path: &Path,
+        map: Option<&ZoomMap>,
+    ) -> anyhow::Result<()> {
+        let rendered = match map {
+            Some(map) => self.enlarged(task, map)?,
+            None => self.scenery(task)?,
+        };
+        write_png(path, rendered.size, &rendered.colors, map)
     }
 
     fn still(&mut self, task: &SceneTask) -> anyhow::Result<Pixels> {
-        let rendered = self.render(task, &task.settings)?;
+        let rendered = self.scenery(task)?;
         Ok(Pixels::new(rendered.size, &rendered.colors))
     }
 
-    fn zoom(&mut self, task: &SceneTask, map: &ZoomMap, tints: bool) -> anyhow::Result<Pixels> {
+    /// The scene and what is behind it.
+    fn scenery(&mut self, task: &SceneTask) -> anyhow::Result<Rendered> {
+        let mut rendered = self.render(task, &task.settings)?;
+        if task.shows_environment {
+            let (_, shown) = self.show(task)?;
+            let environment = shown.pose.environment(&task.scene).context(
+                "--background environment: there is none; name one by --environment FILE",
+            )?;
+            rendered.show_behind(environment, &camera(task, shown)?, &task.settings)?;
+        }
+        Ok(rendered)
+    }
+
+    /// The scene with regions enlarged.
+    fn enlarged(&mut self, task: &SceneTask, map: &ZoomMap) -> anyhow::Result<Rendered> {
         let size = task.settings.size;
         let (headless, shown) = self.show(task)?;
         let camera = camera(task, shown)?;
@@ -322,7 +344,12 @@ impl Maker {
         let rig = [(Pinhole::from_camera(&camera, size)?, set.sites())];
         let rendered = headless.render_sites(&shown.prepared, &rig, size, &task.settings)?;
         check(headless)?;
-        let pixels = Pixels::new(size, &rendered.colors);
+        Ok(rendered)
+    }
+
+    fn zoom(&mut self, task: &SceneTask, map: &ZoomMap, tints: bool) -> anyhow::Result<Pixels> {
+        let rendered = self.enlarged(task, map)?;
+        let pixels = Pixels::new(rendered.size, &rendered.colors);
         Ok(if tints {
             pixels.map(|code, place| tinted(code, place, map.regions()))
         } else {
@@ -498,10 +525,18 @@ impl Maker {
 }
 
 fn write_photo(view: &photo::View, path: &Path) -> anyhow::Result<()> {
-    let size = view.window.size;
-    let pixels = view.pixels();
-    let mut bytes = output::encode(Format::Png8, &Picture::new(size, &pixels)?, &[])?;
-    if let Some(map) = &view.map {
+    write_png(path, view.window.size, &view.pixels(), view.map.as_ref())
+}
+
+/// Writes a file that tells which regions of it are enlarged.
+fn write_png(
+    path: &Path,
+    size: [u32; 2],
+    colors: &[[f32; 4]],
+    map: Option<&ZoomMap>,
+) -> anyhow::Result<()> {
+    let mut bytes = output::encode(Format::Png8, &Picture::new(size, colors)?, &[])?;
+    if let Some(map) = map {
         bytes = Zoomed::add_map(&bytes, size, map)?;
     }
     Ok(output::write_atomically(path, &bytes)?)

@@ -127,7 +127,8 @@ impl View {
             // Nobody waits for it once the window is closed.
             let _ = deliver.send_event(Event::Made(made));
         });
-        let cover = Cover::new(options.look.settings.shadows == Shadows::Exact, false);
+        let has_shadows = options.look.settings.shadows == Shadows::Exact;
+        let cover = Cover::new(has_shadows, options.shows_environment);
         let mut view = Self {
             scenes: std::iter::once(options.source.path.clone())
                 .chain(options.others)
