@@ -180,7 +180,7 @@ uvec2 record_layers(Cell cell, uint owner) {
         node[g] = ~0u;
         next_id[g] = id[g];
     }
-    bool fits = add_nodes(owner | (POINTS ? POINT_OPAQUE : 0u), cell.samples);
+    bool fits = add_nodes(owner, cell.samples);
     bool more;
     do {
         more = find_layers(cell);

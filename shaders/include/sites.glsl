@@ -18,10 +18,9 @@ layout(set = 0, binding = 43) uniform utextureBuffer site_cells;
 layout(set = 0, binding = 44) uniform utextureBuffer site_groups;
 layout(std430, set = 0, binding = 45) readonly buffer TileLoads { uvec2 tile_loads[]; };     // cells, samples
 
-// Set in the site of records of POINTS.
-#define POINT_OPAQUE 0x80000000u    // of its opaque surface
-#define POINT_VALUE 0x40000000u     // of all that it sees: its leaf, or its only record
-#define POINT_SITE 0x3fffffffu
+// Set in the site of that record of POINTS that stands for all that it sees: its leaf, or its only one.
+#define POINT_VALUE 0x80000000u
+#define POINT_SITE 0x7fffffffu
 
 // OCCLUDERS have no extent: textures are read at their finest level.
 mat2 site_jacobian(uint site) {

@@ -76,7 +76,7 @@ pub struct SiteRecord([u32; 4]);
 impl SiteRecord {
     /// Its site's place in the run.
     pub(crate) fn site(self) -> usize {
-        (self.0[0] & 0x3fff_ffff) as usize
+        (self.0[0] & 0x7fff_ffff) as usize
     }
 
     /// ID of its triangle; 0 where there is none.
