@@ -173,7 +173,7 @@ mod tests {
     fn records_say_which_site_sees_what_where() {
         // As `pack_place` of `shaders/include/place.glsl` packs (-1 / 4096, 2047 / 4096), wide and with a share.
         let place = 1 << 31 | 9 << 24 | 2047 << 12 | 0xfff;
-        let record = SiteRecord([0xc000_0007, 5, place, 0]);
+        let record = SiteRecord([0x8000_0007, 5, place, 0]);
         assert_eq!((record.site(), record.id()), (7, 5));
         assert_eq!(record.location(), [-1.0 / 4096.0, 2047.0 / 4096.0]);
     }

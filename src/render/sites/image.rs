@@ -46,9 +46,12 @@ impl Headless {
             size,
             ..settings.clone()
         };
+        settings.check(self.gpu().limits())?;
         match settings.method {
             Method::Msaa => return Err(RenderError::SiteMethod),
             Method::Ssaa => {
+                // Superpixels that are shaded as brute force is read textures as it does.
+                settings.method = Method::Superpixel;
                 settings.pattern = Pattern::Grid;
                 settings.detection = Detection::Every;
                 settings.coverage = Coverage::Samples;
@@ -59,7 +62,6 @@ impl Headless {
         if settings.region.is_some() {
             return Err(RenderError::SiteRegion);
         }
-        settings.check(self.gpu().limits())?;
         let count = u64::from(size[0]) * u64::from(size[1]);
         for (index, site) in rig.iter().flat_map(|(_, sites)| sites).enumerate() {
             if u64::from(site.output) >= count {

@@ -15,6 +15,41 @@ fn differing(a: &Rendered, b: &Rendered) -> usize {
     a.colors.iter().zip(&b.colors).filter(far).count()
 }
 
+/// A square of 64 pixels a side, with stripes two texels wide of a texture of as many texels that is repeated so often.
+fn striped(repeats: f32) -> Stage {
+    let mut stage = Stage::new(vec![textured(AlphaMode::Opaque)]);
+    // Stripes two texels wide, across u.
+    let texel = |i: u32| {
+        if i % 4 < 2 { [255; 4] } else { [0, 0, 0, 255] }
+    };
+    stage.texture = Some((
+        Image {
+            width: 64,
+            height: 64,
+            pixels: (0..64 * 64).flat_map(texel).collect(),
+        },
+        Sampler {
+            mag: Filter::Linear,
+            min: Filter::Linear,
+            mip: Some(Filter::Linear),
+            ..Sampler::default()
+        },
+    ));
+    let corner = |x: f64, y: f64| seen_at([x, y], 1.0, SIZE[1]);
+    stage.add_quad(
+        0,
+        [
+            corner(-32.0, -32.0),
+            corner(-32.0, 32.0),
+            corner(32.0, 32.0),
+            corner(32.0, -32.0),
+        ],
+    );
+    stage.triangles[0].uvs = [[0.0, 0.0], [0.0, repeats], [repeats, repeats]];
+    stage.triangles[1].uvs = [[0.0, 0.0], [repeats, repeats], [repeats, 0.0]];
+    stage
+}
+
 /// The antialiased image of a planar set is that of the camera, and a rig that shares the pixels out to two pinholes
 /// shows no seam.
 #[test]
@@ -84,36 +119,7 @@ fn a_planar_image_is_the_cameras() {
 #[test]
 fn the_jacobian_is_the_footprint_of_textures() {
     on_gpu(|gpu| {
-        let mut stage = Stage::new(vec![textured(AlphaMode::Opaque)]);
-        // Stripes two texels wide, across u.
-        let texel = |i: u32| {
-            if i % 4 < 2 { [255; 4] } else { [0, 0, 0, 255] }
-        };
-        stage.texture = Some((
-            Image {
-                width: 64,
-                height: 64,
-                pixels: (0..64 * 64).flat_map(texel).collect(),
-            },
-            Sampler {
-                mag: Filter::Linear,
-                min: Filter::Linear,
-                mip: Some(Filter::Linear),
-                ..Sampler::default()
-            },
-        ));
-        let corner = |x: f64, y: f64| seen_at([x, y], 1.0, SIZE[1]);
-        stage.add_quad(
-            0,
-            [
-                corner(-32.0, -32.0),
-                corner(-32.0, 32.0),
-                corner(32.0, 32.0),
-                corner(32.0, -32.0),
-            ],
-        );
-        stage.triangles[0].uvs = [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
-        stage.triangles[1].uvs = [[0.0, 0.0], [1.0, 1.0], [1.0, 0.0]];
+        let stage = striped(1.0);
         let prepared = stage.upload(gpu);
         // A texel is a pixel of the plane: stripes are white from 16 + 4 n to 18 + 4 n.
         let at = |u: f64, side: f64| Site {
@@ -134,5 +140,34 @@ fn the_jacobian_is_the_footprint_of_textures() {
         for grey in &red[4..] {
             assert!((0.15..0.6).contains(grey), "{red:?}");
         }
+    });
+}
+
+/// Where stripes are finer than pixels, brute force sees them at each of its samples, and no mean of a whole pixel.
+#[test]
+fn brute_force_reads_textures_at_its_samples() {
+    on_gpu(|gpu| {
+        let stage = striped(3.0);
+        let settings = Settings {
+            method: Method::Ssaa,
+            samples: 16,
+            ..Settings::new(SIZE[0], SIZE[1])
+        };
+        let image = stage.render(gpu, &settings);
+        let prepared = stage.upload(gpu);
+        let rig = [(pinhole(SIZE), planar(SIZE))];
+        let sites = gpu.render_sites(&prepared, &rig, SIZE, &settings).unwrap();
+        // Pixels of the square, without its border.
+        let inside = (20..44).flat_map(|y| (20..76).map(move |x| y * SIZE[0] as usize + x));
+        let reds =
+            inside.map(|pixel| [&image, &sites].map(|seen| f64::from(seen.colors[pixel][0])));
+        let reds: Vec<_> = reds.collect();
+        let mean =
+            |of: &dyn Fn(&[f64; 2]) -> f64| reds.iter().map(of).sum::<f64>() / reds.len() as f64;
+        let grey = mean(&|[image, _]| *image);
+        let contrast = mean(&|[image, _]| (image - grey).abs());
+        let difference = mean(&|[image, sites]| (image - sites).abs());
+        assert!(contrast > 0.05, "{contrast}");
+        assert!(difference < 0.1 * contrast, "{difference} of {contrast}");
     });
 }
