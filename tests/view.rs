@@ -51,6 +51,17 @@ fn assert_shows(display: &Display, size: [usize; 2], file: &[u8]) {
     });
 }
 
+/// The screenshot key writes these bytes.
+fn assert_writes(viewer: &mut Viewer, folder: &Path, expected: &[u8]) {
+    viewer.key("F12");
+    let line = viewer.wait_for("wrote ");
+    let written = std::fs::read(folder.join(line.strip_prefix("wrote ").unwrap())).unwrap();
+    assert!(
+        written == expected,
+        "the file has other bytes than the command's"
+    );
+}
+
 fn differ(shown: &[u8; 3], expected: &image::Rgb<u8>) -> bool {
     (0..3).any(|channel| shown[channel].abs_diff(expected[channel]) > 1)
 }
@@ -186,13 +197,7 @@ fn a_lens_shows_what_the_copied_zoom_makes() {
     );
     let zoomed = render(folder.path(), &command, "zoom.png");
     assert_shows(&display, [320, 200], &zoomed);
-    viewer.key("F12");
-    let line = viewer.wait_for("wrote ");
-    let written = std::fs::read(folder.path().join(line.strip_prefix("wrote ").unwrap())).unwrap();
-    assert!(
-        written == zoomed,
-        "the file has other bytes than the command's"
-    );
+    assert_writes(&mut viewer, folder.path(), &zoomed);
 
     // Without the lens, what pixels hold beside their colours: superpixels are the fourth.
     viewer.key("z");
@@ -295,13 +300,7 @@ fn a_photograph_has_lenses_and_a_zoomed_one_is_unzoomed_under_the_pointer() {
         };
         usize::from(is_same(150, 90) || !is_same(100, 95))
     });
-    viewer.key("F12");
-    let line = viewer.wait_for("wrote ");
-    let written = std::fs::read(folder.path().join(line.strip_prefix("wrote ").unwrap())).unwrap();
-    assert!(
-        written == zoomed,
-        "the file has other bytes than the command's"
-    );
+    assert_writes(&mut viewer, folder.path(), &zoomed);
     // Without the lens at hand the other one is left.
     viewer.key("Delete");
     let one = render(folder.path(), &viewer.command(), "one.png");

@@ -2,7 +2,7 @@
 
 use super::exit::{Usage, usage};
 use super::render::{Antialiasing, AppearanceArgs, CameraArgs, DeviceArgs, SamplingArgs};
-use super::values;
+use super::values::{self, Background};
 use crate::view::{self, Appearance, Look, Options, Source, Start};
 use clap::Args;
 use gpc::camera::Orbit;
@@ -38,15 +38,17 @@ pub struct ViewArgs {
 }
 
 pub fn run(args: ViewArgs) -> anyhow::Result<ExitCode> {
-    let look = look(&args)?;
+    let background = match values::background(&args.background) {
+        Ok(background) => background,
+        Err(expected) => usage!("--background {}: {expected}", args.background),
+    };
+    let look = look(&args, background)?;
     let start = start(&args.camera)?;
     let appearance = Appearance {
         environment: args.appearance.environment()?,
         edges: args.appearance.edges(),
     };
     let appearance_options = appearance_options(&args, &look);
-    let shows_environment =
-        values::background(&args.background) == Ok(values::Background::Environment);
     let validation = std::env::var_os("GPC_VALIDATION").is_some_and(|value| !value.is_empty());
     let mut scenes = args.scenes.into_iter();
     let Some(path) = scenes.next() else {
@@ -67,7 +69,7 @@ pub fn run(args: ViewArgs) -> anyhow::Result<ExitCode> {
         appearance,
         appearance_options,
         look,
-        shows_environment,
+        shows_environment: background == Background::Environment,
         device: HeadlessOptions {
             device: args.device.name,
             validation,
@@ -113,11 +115,10 @@ fn start(args: &CameraArgs) -> Result<Start, Usage> {
 }
 
 /// How pictures are antialiased, and how large the window is.
-fn look(args: &ViewArgs) -> anyhow::Result<Look> {
-    let background = match values::background(&args.background) {
-        Ok(values::Background::Transparent | values::Background::Environment) => None,
-        Ok(values::Background::Color(color)) => Some(values::linear(color)),
-        Err(expected) => usage!("--background {}: {expected}", args.background),
+fn look(args: &ViewArgs, background: Background) -> anyhow::Result<Look> {
+    let background = match background {
+        Background::Transparent | Background::Environment => None,
+        Background::Color(color) => Some(values::linear(color)),
     };
     let [width, height] = args.size;
     let sampling = &args.sampling;
@@ -151,7 +152,7 @@ fn appearance_options(args: &ViewArgs, look: &Look) -> Vec<String> {
     let mut options = Vec::new();
     // One word each: a value that begins with a minus is no option then.
     let mut add = |option: &str, value: &dyn Display| options.push(format!("{option}={value}"));
-    if args.background != "none" {
+    if look.settings.background.is_some() {
         add("--background", &args.background);
     }
     if let Some(file) = &appearance.environment {

@@ -19,6 +19,11 @@ pub enum TileList {
 }
 
 impl TileList {
+    /// Whether its tiles have lists of candidates, and none of these is seen through.
+    fn is_opaque(self) -> bool {
+        matches!(self, Self::Plain | Self::Masked)
+    }
+
     /// The indirect dispatch over the list's entries.
     #[must_use]
     pub fn argument(self) -> u32 {
@@ -145,29 +150,7 @@ impl Sample {
     ) -> Result<Self, VulkanError> {
         let lanes = layout.gpu.limits().lanes;
         let (rows, _) = kernel(&KERNELS, options.samples.min(Self::BLOCK).div_ceil(lanes));
-        let by_masks = |list: TileList, mask: bool| {
-            let constants = scene.constants(Constants::new());
-            let constants = layout
-                .lane_constants(constants, lanes)
-                .with(0, lanes)
-                .flag(3, mask)
-                .with(4, list as u32)
-                .flag(6, options.records == RecordRate::Part)
-                .flag(7, options.exact_areas)
-                .with(8, options.part_samples());
-            let [few, many] = MASKS;
-            let code = if options.samples <= few.0 {
-                few.1
-            } else {
-                many.1
-            };
-            Ok((list, layout.compute(code, &constants, layout.subgroup())?))
-        };
         let make = |(list, run, kernels, mask): &(TileList, Run, &Kernels, bool)| {
-            let listed = matches!(list, TileList::Plain | TileList::Masked);
-            if listed && *run == Run::Whole && options.by_masks() {
-                return by_masks(*list, *mask);
-            }
             let constants = options.cells.constants(scene.constants(Constants::new()));
             let constants = layout
                 .lane_constants(constants, lanes)
@@ -180,7 +163,13 @@ impl Sample {
                 .flag(7, options.measures(*list, *run))
                 .with(8, options.part_samples())
                 .flag(9, options.apart);
-            let code = kernel(kernels, rows).1;
+            let code = if list.is_opaque() && *run == Run::Whole && options.by_masks() {
+                let [few, many] = MASKS;
+                let masks = if options.samples <= few.0 { few } else { many };
+                masks.1
+            } else {
+                kernel(kernels, rows).1
+            };
             Ok::<_, VulkanError>((*list, layout.compute(code, &constants, layout.subgroup())?))
         };
         let probes = options.probes();
@@ -311,8 +300,7 @@ impl SampleOptions {
             Run::Whole | Run::Rest => self.samples <= Sample::PROBES,
             Run::Probe => true,
         };
-        let listed = matches!(list, TileList::Plain | TileList::Masked);
-        self.exact_areas && self.records != RecordRate::Sample && at_once && listed
+        self.exact_areas && self.records != RecordRate::Sample && at_once && list.is_opaque()
     }
 
     /// Whether a run tells parts: not where a part holds a block. A probe leaves what is to be shaded by part.

@@ -381,6 +381,7 @@ impl View {
             standpoint: &self.standpoint,
             look: &self.looks[self.layer_under_pointer()],
             appearance: &self.appearance_options,
+            shows_environment: self.cover.shows_environment,
             time: self.time(),
             lenses: self.cover.lenses.regions(),
         }

@@ -9,9 +9,6 @@ use gpc::render::{Coverage, Detection, Footprint, Method, Settings, Shading};
 use gpc::sampling::Pattern;
 use std::path::Path;
 
-/// The option that shows the environment behind the scene.
-pub const ENVIRONMENT: &str = "--background=environment";
-
 /// A picture to be made.
 pub struct Shot<'a> {
     pub source: &'a Source,
@@ -19,6 +16,8 @@ pub struct Shot<'a> {
     pub look: &'a Look,
     /// Options that say how scenes look.
     pub appearance: &'a [String],
+    /// Whether the scene's environment is seen behind it.
+    pub shows_environment: bool,
     /// Moment of the animation in seconds.
     pub time: f64,
     /// Regions that are enlarged.
@@ -43,10 +42,11 @@ impl Shot<'_> {
         let [width, height] = settings.size;
         arguments.add("--size", format_args!("{width}x{height}"));
         arguments.settings(&settings);
-        let appearance = self.appearance.iter();
         // Which zoomed pictures have not.
-        let shown = appearance.filter(|option| self.lenses.is_empty() || *option != ENVIRONMENT);
-        arguments.0.extend(shown.cloned());
+        if self.shows_environment && self.lenses.is_empty() {
+            arguments.0.push("--background=environment".to_owned());
+        }
+        arguments.0.extend_from_slice(self.appearance);
         arguments.view(self);
         arguments.0
     }
@@ -251,6 +251,7 @@ mod tests {
             standpoint: &Standpoint::Camera(2),
             look: &look,
             appearance: &[],
+            shows_environment: false,
             time: 0.0,
             lenses: &[],
         };
@@ -280,6 +281,7 @@ mod tests {
             standpoint: &Standpoint::Free(turntable()),
             look: &look,
             appearance: &["--background", "#000000"].map(str::to_owned),
+            shows_environment: false,
             time: 0.25,
             lenses: &[],
         };
@@ -305,6 +307,7 @@ mod tests {
             standpoint: &Standpoint::Camera(0),
             look: &look,
             appearance: &[],
+            shows_environment: false,
             time: 0.0,
             lenses: &[lens],
         };

@@ -136,6 +136,18 @@ impl<'a> Recorder<'a> {
         };
     }
 
+    /// Copies the first bytes of a buffer to another one, from a byte of that on. Both were created for copies, and callers
+    /// know their sizes.
+    pub(crate) fn copy(&self, from: &Buffer, bytes: u64, to: &Buffer, first_byte: u64) {
+        let region = [vk::BufferCopy::default().dst_offset(first_byte).size(bytes)];
+        // SAFETY: `new`'s contract; the bytes lie in both buffers, as callers say.
+        unsafe {
+            self.gpu
+                .device
+                .cmd_copy_buffer(self.raw(), from.raw, to.raw, &region)
+        };
+    }
+
     /// Writes bytes, a multiple of four, to a buffer from a byte on, another multiple.
     pub(crate) fn update(&self, buffer: &Buffer, first_byte: u64, bytes: &[u8]) {
         /// Bytes that an inline update can have.

@@ -12,7 +12,7 @@ mod moving;
 mod placed;
 
 pub use frame::FrameGeometry;
-pub(super) use moving::{GpuMotion, GpuStrokes, MovingVertices, copy};
+pub(super) use moving::{GpuMotion, GpuStrokes, MovingVertices};
 pub(super) use placed::PlacedInstances;
 
 use super::upload::Uploader;

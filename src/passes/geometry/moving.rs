@@ -4,7 +4,7 @@
 use super::GpuGeometry;
 use crate::passes::upload::Uploader;
 use crate::scene::{Moment, Motion, MotionPart, Stroke};
-use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, Recorder, VulkanError};
+use crate::vulkan::{BufferView, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -158,7 +158,7 @@ impl MovingVertices {
             (&geometry.normals, &self.normals),
             (&geometry.tangents, &self.tangents),
         ] {
-            copy(recorder, &from.buffer, &to.buffer);
+            recorder.copy(&from.buffer, from.buffer.size(), &to.buffer, 0);
         }
         recorder.barrier();
     }
@@ -171,15 +171,4 @@ impl MovingVertices {
             place.copy_from_slice(vectors);
         }
     }
-}
-
-/// Records a copy of all of a buffer to another that is as large.
-pub(in crate::passes) fn copy(recorder: &Recorder<'_>, from: &Buffer, to: &Buffer) {
-    let region = [vk::BufferCopy::default().size(from.size())];
-    // SAFETY: the recorder's contract; both buffers have that size and were created for copies.
-    unsafe {
-        recorder
-            .device()
-            .cmd_copy_buffer(recorder.raw(), from.raw, to.raw, &region)
-    };
 }

@@ -64,43 +64,20 @@ impl Resources {
 
     /// Copies the counters to slot `slot` of a read-back buffer.
     pub(crate) fn record_keep_counters(&self, recorder: &Recorder<'_>, to: &Buffer, slot: u64) {
-        let size = Counter::BYTES;
-        let region = [vk::BufferCopy::default().dst_offset(slot * size).size(size)];
-        // SAFETY: the recorder's contract; callers have sized the buffer for the slot.
-        unsafe {
-            recorder
-                .device()
-                .cmd_copy_buffer(recorder.raw(), self.counters.raw, to.raw, &region)
-        };
+        let bytes = Counter::BYTES;
+        recorder.copy(&self.counters, bytes, to, slot * bytes);
     }
 
     /// Copies the first `count` visibility records of a round to a buffer that has room for them.
     pub(crate) fn record_keep_records(&self, recorder: &Recorder<'_>, to: &Buffer, count: u32) {
-        let size = 16 * u64::from(count.min(self.sizes.record_capacity));
-        let region = [vk::BufferCopy::default().size(size)];
-        // SAFETY: the recorder's contract; both buffers hold as many records.
-        unsafe {
-            recorder.device().cmd_copy_buffer(
-                recorder.raw(),
-                self.records.buffer.raw,
-                to.raw,
-                &region,
-            )
-        };
+        let bytes = 16 * u64::from(count.min(self.sizes.record_capacity));
+        recorder.copy(&self.records.buffer, bytes, to, 0);
     }
 
     /// Puts the first `pixels` pixels that the box filter made in the place of those that it made them of.
     pub(crate) fn record_keep_filtered(&self, recorder: &Recorder<'_>, pixels: u32) {
-        let region = [vk::BufferCopy::default().size(16 * u64::from(pixels))];
-        // SAFETY: the recorder's contract; both buffers hold the pixels of a region.
-        unsafe {
-            recorder.device().cmd_copy_buffer(
-                recorder.raw(),
-                self.filtered.buffer.raw,
-                self.color.buffer.raw,
-                &region,
-            )
-        };
+        let (from, to) = (&self.filtered.buffer, &self.color.buffer);
+        recorder.copy(from, 16 * u64::from(pixels), to, 0);
         recorder.barrier();
     }
 

@@ -3,7 +3,6 @@
 use super::light::GpuLight;
 use super::material::MaterialRow;
 use super::{GpuScene, Slots};
-use crate::passes::geometry::copy;
 use crate::scene::{Moment, Motion};
 use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
@@ -105,10 +104,11 @@ impl FrameLook {
     /// Records copies of what there is at first, once.
     pub(crate) fn record_upload(&self, recorder: &Recorder<'_>, scene: &GpuScene) {
         if let Some(materials) = &self.materials {
-            copy(recorder, &scene.materials.buffer, &materials.buffer);
+            let from = &scene.materials.buffer;
+            recorder.copy(from, from.size(), &materials.buffer, 0);
         }
         if let Some(lights) = &self.lights {
-            copy(recorder, &scene.lights, lights);
+            recorder.copy(&scene.lights, scene.lights.size(), lights, 0);
         }
         recorder.barrier();
     }

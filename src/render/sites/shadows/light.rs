@@ -136,7 +136,6 @@ fn distant(
             || (first, first),
             |(least, most), (low, high)| (least.min(low), most.max(high)),
         );
-    // Nothing lies on the border of a region of the plane.
     let extent = (most - least).max_element().max(1e-6 * diagonal);
     // The box's nearest and farthest corners.
     let size = high - low;
@@ -144,6 +143,7 @@ fn distant(
     let farthest = (size * along).max(DVec3::ZERO).element_sum();
     let margin = 1e-3 * diagonal;
     let pixel = extent / side;
+    // Half a pixel before the receivers: none lies on the border of a region of the plane.
     let corner = low + (a + b) * (-0.5 * pixel);
     let origin = corner + a * least.x + b * least.y + along * (nearest - margin);
     let depth = farthest - nearest + 2.0 * margin;
