@@ -1,4 +1,4 @@
-// centres: the centres of pixels as visibility records, where nobody has drawn colours. Runs twice over a band of pixels:
+// centres: the centres of pixels as visibility samples, where nobody has drawn colours. Runs twice over a band of pixels:
 // LIST them, each a record of the whole pixel, and once these are shaded, GATHER their colours.
 // Reads: ids; shaded. Writes: records; color, display.
 #version 460

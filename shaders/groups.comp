@@ -1,5 +1,5 @@
 // groups: the groups of cells of the round's tiles, sorted by what their samples need as `schedule` sorts tiles.
-// Reads: site_groups, tiles. Writes: tile_lists, counters. The order varies from run to run; `sample` does not depend on it.
+// Reads: location_groups, tiles. Writes: tile_lists, counters. The order varies from run to run; `sample` does not depend on it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -10,7 +10,7 @@ layout(local_size_x = 64) in;
 
 void main() {
     uint i = invocation_number();
-    uint flags = tiles[texelFetch(site_groups, int(min(i, frame.group_count - 1u))).x].w;
+    uint flags = tiles[texelFetch(location_groups, int(min(i, frame.group_count - 1u))).x].w;
     bool placed = i < frame.group_count && (flags & TILE_PLACED) != 0u;
     uint needs = (flags & TILE_LISTED) == 0u ? 3u : (flags & TILE_HAS_BLEND) != 0u ? 2u : (flags & TILE_HAS_MASK) != 0u ? 1u : 0u;
     for (uint list = 0u; list < 4u; list++) {

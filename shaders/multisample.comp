@@ -1,4 +1,4 @@
-// multisample: what the device's own multisampling saw, as visibility records: one a triangle a pixel, at the
+// multisample: what the device's own multisampling saw, as visibility samples: one a triangle a pixel, at the
 // pixel's centre, weighted by its samples. From there on `shade` and `resolve` are those of superpixels.
 // Reads: ids_ms. Writes: records, headers, tiles, tile_lists, arguments; every tile is PLAIN and in this round.
 #version 460

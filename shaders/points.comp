@@ -1,5 +1,5 @@
-// points: what each site sees that is sampled once: its colour and attributes, from its visibility records.
-// Reads: records, shaded, the geometry. Writes: color, and two vectors a site, floats as bits:
+// points: what each location sees that is sampled once: its colour and attributes, from its visibility samples.
+// Reads: records, shaded, the geometry. Writes: color, and two vectors a location, floats as bits:
 // (distance along the view direction, ID, ID of the nearest BLEND layer, display code), (world normal, 0).
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -9,7 +9,7 @@
 #include "include/color.glsl"
 #include "include/barycentric.glsl"
 #include "include/composite.glsl"
-#include "include/sites.glsl"
+#include "include/locations.glsl"
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 36) writeonly buffer AttributesOut { uvec4 attributes_out[]; };
@@ -19,13 +19,13 @@ void main() {
     if (i >= min(counters[COUNTER_RECORDS], frame.record_capacity)) return;
     uvec4 record = texelFetch(records, int(i));
     if ((record.x & POINT_VALUE) == 0u) return;
-    uint site = record.x & POINT_SITE;
+    uint location = record.x & POINT_LOCATION;
     // A leaf is no surface itself.
     uint nearest = record.y != 0u ? i : farther(i);
     bool hits = nearest != ~0u;
     nearest = hits ? nearest : i;
     vec4 c = hits ? composite(nearest) : frame.background;
-    color[site] = c;
+    color[location] = c;
 
     uint seen = texelFetch(records, int(nearest)).y, blend_id = seen > frame.first_blend ? seen : 0u;
     uint last = nearest, next = farther(last);
@@ -35,7 +35,7 @@ void main() {
     }
     uint id = texelFetch(records, int(last)).y;
     id = id > frame.first_blend ? 0u : id;
-    uvec4 at = texelFetch(sites, int(2u * site));
+    uvec4 at = texelFetch(locations, int(2u * location));
     vec2 p = tile_center(ivec2(split(at.z, frame.tiles.x))) + uintBitsToFloat(at.xy);
     Triangle k = triangle_at(max(id, 1u) - 1u);
     Barycentric w = barycentric(k.v0, k.v1, k.v2, p);
@@ -43,6 +43,6 @@ void main() {
     vec3 n = normal_of(k, w.at);
     n *= inversesqrt(max(dot(n, n), 1e-30));
     bool hit = id != 0u;
-    attributes_out[2u * site] = uvec4(floatBitsToUint(hit ? distance_ : 0.0), id, blend_id, display_code(c));
-    attributes_out[2u * site + 1u] = uvec4(floatBitsToUint(hit ? n : vec3(0.0)), 0u);
+    attributes_out[2u * location] = uvec4(floatBitsToUint(hit ? distance_ : 0.0), id, blend_id, display_code(c));
+    attributes_out[2u * location + 1u] = uvec4(floatBitsToUint(hit ? n : vec3(0.0)), 0u);
 }

@@ -1,8 +1,8 @@
 // resolve: the colour of each superpixel, from its shaded records.
 // Sub-samples are tone-mapped one by one, then averaged in linear light; alpha is coverage.
 // Reads: tile_lists, tiles, masks, headers, records, shaded. Writes: color and, where asked, display or marks.
-// SITES: the cells of a group, into the colours of their sites.
-// CHAINED records are layers over an opaque surface, composited from those of the header on: leaves of their chains.
+// LOCATIONS: the cells of a group, into the colours of their locations.
+// LAYERED records are layers over an opaque surface, composited from those of the header on, the leaves of their lists.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -14,14 +14,14 @@
 #include "include/seen_beside.glsl"
 layout(local_size_x_id = 0) in;
 layout(constant_id = 2) const uint BLOCK = 256u;
-layout(constant_id = 3) const bool CHAINED = false;
+layout(constant_id = 3) const bool LAYERED = false;
 layout(constant_id = 4) const uint LIST = 0u;
 layout(constant_id = 5) const bool DISPLAY_CODES = false;
 layout(constant_id = 6) const bool PROBED = false;      // cells that are not marked have one block
 layout(constant_id = 7) const bool GROWS = false;       // `grow` follows
 
 void write(uvec2 pixel, vec4 c) {
-    if (SITES) {
+    if (LOCATIONS) {
         color[pixel.x] = c;
         return;
     }
@@ -38,37 +38,37 @@ void main() {
     uint number = workgroup_number();
     if (number >= counters[COUNTER_PLAIN_TILES + LIST]) return;
     uint lane = gl_SubgroupInvocationID;
-    uint entry = tile_lists[first_entry(LIST) + number], owner = entry_owner(entry);
-    uvec4 site_group = SITES ? texelFetch(site_groups, int(owner)) : uvec4(0u);
-    uint tile = SITES ? site_group.x : owner;
+    uint entry = tile_lists[first_entry(LIST) + number], item = entry_item(entry);
+    uvec4 location_group = LOCATIONS ? texelFetch(location_groups, int(item)) : uvec4(0u);
+    uint tile = LOCATIONS ? location_group.x : item;
     uint word = masks[tile];
-    uint first_header = tiles[tile].z + site_group.w * ((frame.sample_count + BLOCK - 1u) / BLOCK);
+    uint first_header = tiles[tile].z + location_group.w * ((frame.sample_count + BLOCK - 1u) / BLOCK);
     uvec2 corner = split(tile, frame.tiles.x) * uvec2(8u, 4u);
     uint blocks = (frame.sample_count + BLOCK - 1u) / BLOCK;
     float share = 1.0 / float(frame.sample_count);
 
     // An invocation a cell.
     uint first = entry_part(entry) * LANES, cell = first + lane;
-    uint bit = SITES ? lane : bit_of_cell(word, cell);
-    bool mine = cell < (SITES ? site_group.z : bitCount(word));
+    uint bit = LOCATIONS ? lane : bit_of_cell(word, cell);
+    bool mine = cell < (LOCATIONS ? location_group.z : bitCount(word));
     vec4 sum = vec4(0.0);
     float covered = 0.0;
-    uint filled = PROBED && (marks[owner] >> bit & 1u) == 0u ? 1u : blocks;
+    uint filled = PROBED && (marks[item] >> bit & 1u) == 0u ? 1u : blocks;
     uint block = 0u;
     do {
         uvec2 h = mine ? headers[min(first_header + cell * blocks + block, frame.record_capacity - 1u)] : uvec2(0u);
         for (uint r = 0u; r < h.y; r++) {
             uint at = h.x + r;
             uvec4 record = texelFetch(records, int(at));
-            uint nearest = CHAINED ? farther(at) : at;
-            bool seen = CHAINED ? nearest != ~0u : record.y != 0u;
-            float weight = seen ? uintBitsToFloat(CHAINED ? record.z : record.w) : 0.0;
-            vec4 c = CHAINED ? composite(nearest) : to_output(vec4(texelFetch(shaded, int(at)).rgb, 1.0));
+            uint nearest = LAYERED ? farther(at) : at;
+            bool seen = LAYERED ? nearest != ~0u : record.y != 0u;
+            float weight = seen ? uintBitsToFloat(LAYERED ? record.z : record.w) : 0.0;
+            vec4 c = LAYERED ? composite(nearest) : to_output(vec4(texelFetch(shaded, int(at)).rgb, 1.0));
             sum += seen ? weight * c : vec4(0.0);
             covered += weight;
         }
     } while (++block < filled);
     sum = (sum + frame.background * (float(frame.sample_count) - covered)) * share;
-    if (CHAINED && trips > MOST_TRIPS) atomicAdd(counters[COUNTER_STALLED], 1u);
-    if (mine) write(SITES ? uvec2(site_group.y + cell, 0u) : corner + uvec2(bit & 7u, bit >> 3), sum);
+    if (LAYERED && trips > MOST_TRIPS) atomicAdd(counters[COUNTER_STALLED], 1u);
+    if (mine) write(LOCATIONS ? uvec2(location_group.y + cell, 0u) : corner + uvec2(bit & 7u, bit >> 3), sum);
 }

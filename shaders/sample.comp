@@ -1,5 +1,5 @@
 // sample: the nearest triangle of every sub-sample of every superpixel of a list of tiles.
-// Reads: tiles, masks, tile_lists, candidates (or, UNLISTED, every triangle), locations.
+// Reads: tiles, masks, tile_lists, candidates (or, UNLISTED, every triangle), offsets.
 // Writes: records, headers. No colour is known here.
 //
 // A subgroup takes LANES cells of a tile. First an invocation holds a cell and the tile's candidates pass by:
@@ -17,12 +17,12 @@
 // Record: pixel (x | y << 16), triangle ID, place in the pixel (include/place.glsl), and
 //   merged: weight as a float, in samples; one record a visible triangle and block, at the centroid of its samples there
 //           (BY_PART: and part of it; PER_SAMPLE: one a sample, at its location);
-//   CHAINED: index of the record of the surface behind it, or ~0 for background; a leaf has ID 0, its weight in the
+//   LAYERED: index of the record of the surface behind it, or ~0 for background; a leaf has ID 0, its weight in the
 //           stead of a place, and the index of its samples' nearest surface (include/layers.glsl).
-// Records link to those before them. Where cells are SITES, the first word of a record is its site; POINTS make a record
+// Records link to those before them. Where cells are LOCATIONS, the first word of a record is its location; POINTS make a record
 // a sample, of location 0.
 // OCCLUDERS know their triangle and depth: another one that is nearer is recorded, or else background.
-// Header of a cell's block: first record, number of records (CHAINED: leaves).
+// Header of a cell's block: first record, number of records (LAYERED: leaves).
 //
 // Loops are do-while with guarded bodies: on lavapipe a branch skips nothing and other loops run once too often.
 #version 460
@@ -52,7 +52,7 @@ shared uint kept[3072];                                 // by cell, then entry
 #include "include/alpha.glsl"
 #include "include/candidate.glsl"
 #include "include/block.glsl"
-#ifdef CHAINED
+#ifdef LAYERED
 #include "include/layers.glsl"
 #else
 #include "include/surfaces.glsl"
@@ -70,13 +70,13 @@ void main() {
     uvec2 share = split(work.x, spans);
     uint lane = gl_SubgroupInvocationID;
     // What marks are kept for: a tile's pixels, or a group's cells.
-    uint entry = tile_lists[first_entry(RUN == REST ? LIST + LEFT : LIST) + work.y], owner = entry_owner(entry);
-    uvec4 site_group = SITES ? texelFetch(site_groups, int(owner)) : uvec4(0u);
-    uint tile = SITES ? site_group.x : owner;
+    uint entry = tile_lists[first_entry(RUN == REST ? LIST + LEFT : LIST) + work.y], item = entry_item(entry);
+    uvec4 location_group = LOCATIONS ? texelFetch(location_groups, int(item)) : uvec4(0u);
+    uint tile = LOCATIONS ? location_group.x : item;
     uvec4 header = tiles[tile];
     ivec2 tile_at = ivec2(split(tile, frame.tiles.x));
-    uint cells_word = SITES ? ~0u >> (32u - site_group.z) : masks[tile];
-    uint word = RUN == REST ? cells_word & marks[owner] : cells_word;
+    uint cells_word = LOCATIONS ? ~0u >> (32u - location_group.z) : masks[tile];
+    uint word = RUN == REST ? cells_word & marks[item] : cells_word;
     uint cells = bitCount(word);
     uint first_cell = entry_part(entry) * LANES + share.y * CELLS_AT_ONCE;
     uint first_block = share.x * BLOCKS_AT_ONCE;
@@ -100,16 +100,16 @@ void main() {
     // The cell of each invocation, and what it keeps of the tile's candidates.
     uint my_bit = bit_of_cell(word, min(first_cell + lane, cells - 1u));
     vec2 my_at = vec2(my_bit & 7u, my_bit >> 3) - vec2(3.5, 1.5), my_half = vec2(0.5 + ROUNDING);
-    uvec2 my_sites = uvec2(0u);     // the first one, and how many
-    if (SITES) {
-        int at = int(2u * (site_group.y + my_bit));
-        vec4 square = uintBitsToFloat(texelFetch(site_cells, at));
+    uvec2 my_locations = uvec2(0u);     // the first one, and how many
+    if (LOCATIONS) {
+        int at = int(2u * (location_group.y + my_bit));
+        vec4 square = uintBitsToFloat(texelFetch(location_cells, at));
         my_at = square.xy;
         my_half = square.zw;
-        my_sites = texelFetch(site_cells, at + 1).xy;
+        my_locations = texelFetch(location_cells, at + 1).xy;
     }
-#ifndef CHAINED
-    if (BY_PART && !SITES) my_variation = variation_around(uvec2(tile_at) * uvec2(8u, 4u) + uvec2(my_bit & 7u, my_bit >> 3));
+#ifndef LAYERED
+    if (BY_PART && !LOCATIONS) my_variation = variation_around(uvec2(tile_at) * uvec2(8u, 4u) + uvec2(my_bit & 7u, my_bit >> 3));
 #endif
     vec2 cell_at = vec2(subgroupShuffle(my_at.x, 0u), subgroupShuffle(my_at.y, 0u));
     vec2 cell_half = vec2(subgroupShuffle(my_half.x, 0u), subgroupShuffle(my_half.y, 0u));
@@ -157,23 +157,23 @@ void main() {
             uint bit = subgroupShuffle(my_bit, cell.member);
             vec2 in_tile = vec2(bit & 7u, bit >> 3);
             uvec2 pixel = uvec2(tile_at) * uvec2(8u, 4u) + uvec2(in_tile);
-            uint record_owner = pixel.x | pixel.y << 16;
+            uint cell_id = pixel.x | pixel.y << 16;
             cell.at = in_tile - vec2(3.5, 1.5);
             cell.half_side = vec2(0.5 + ROUNDING);
             cell.pixel = mat2(1.0);
-            if (SITES) {
+            if (LOCATIONS) {
                 cell.at = vec2(subgroupShuffle(my_at.x, cell.member), subgroupShuffle(my_at.y, cell.member));
                 cell.half_side = vec2(subgroupShuffle(my_half.x, cell.member), subgroupShuffle(my_half.y, cell.member));
-                cell.site = subgroupShuffle(my_sites.x, cell.member);
-                cell.pixel = site_jacobian(cell.site);
+                cell.location = subgroupShuffle(my_locations.x, cell.member);
+                cell.pixel = location_jacobian(cell.location);
             }
             if (POINTS) {
-                uint points = subgroupShuffle(my_sites.y, cell.member);
+                uint points = subgroupShuffle(my_locations.y, cell.member);
                 uint passed = min(points, block * BLOCK);
                 cell.samples = min(points - passed, BLOCK);
-                cell.site += cell.samples == 0u ? 0u : passed;
+                cell.location += cell.samples == 0u ? 0u : passed;
             }
-            if (SITES) record_owner = cell.site;
+            if (LOCATIONS) cell_id = cell.location;
             cell.hidden = subgroupShuffle(my_hidden, cell.member);
             uint listed = subgroupShuffle(my_count, cell.member);
             cell.complete = listed <= KEPT;
@@ -184,26 +184,26 @@ void main() {
             begin_cell(cell);
             show_candidates(cell);
             uvec2 records_made;
-#ifdef CHAINED
-            records_made = record_layers(cell, record_owner);
+#ifdef LAYERED
+            records_made = record_layers(cell, cell_id);
 #else
             end_cell(cell);
             if (PER_SAMPLE) {
-                records_made = record_samples(cell, record_owner);
+                records_made = record_samples(cell, cell_id);
             } else {
                 bool settled;
-                records_made = record_surfaces(cell, record_owner, settled);
+                records_made = record_surfaces(cell, cell_id, settled);
                 unsettled |= settled ? 0u : 1u << bit;
             }
 #endif
             my_header = lane == cell.member ? records_made : my_header;
         } while (++cell.member < group);
-        uint number = site_group.w + uint(bitCount(cells_word & ((1u << my_bit) - 1u)));
+        uint number = location_group.w + uint(bitCount(cells_word & ((1u << my_bit) - 1u)));
         if (lane < group) headers[min(header.z + number * headers_a_cell + block, frame.record_capacity - 1u)] = my_header;
     } while (++block < blocks);
 
     if (RUN == PROBE && unsettled != 0u && subgroupElect()) {
         atomicAdd(counters[COUNTER_RESAMPLED], uint(bitCount(unsettled)));
-        leave_cells(LIST, owner, unsettled);
+        leave_cells(LIST, item, unsettled);
     }
 }

@@ -20,7 +20,7 @@ layout(constant_id = 6) const bool BY_PART = false;
 layout(constant_id = 7) const bool EXACT_AREAS = false;
 layout(constant_id = 8) const uint PART = 4u;
 
-const uint PROBES = 64u;            // locations between those of a cell and the sums of runs of them
+const uint PROBES = 64u;            // offsets between those of a cell and the sums of runs of them
 const float ROUNDING = 1.0 / 64.0;  // as in sample.comp
 const int SLOTS = 6;                // triangles that a cell sees
 const int AHEAD = 8;                // candidates that are sorted at once
@@ -56,7 +56,7 @@ uvec2 alpha_mask(uint triangle, uvec2 samples, vec2 center, vec2 at) {
     do {
         bool lower = samples.x != 0u;
         uint half_ = lower ? samples.x : samples.y, n = half_ == 0u ? 0u : uint(findLSB(half_)), bit = half_ & (0u - half_);
-        vec2 offset = texelFetch(locations, int(n + (lower ? 0u : 32u))).xy;
+        vec2 offset = texelFetch(pattern_offsets, int(n + (lower ? 0u : 32u))).xy;
         uint passes = alpha_passes(test, at + offset) ? bit : 0u;
         passed |= uvec2(lower ? passes : 0u, lower ? 0u : passes);
         samples &= ~uvec2(lower ? bit : 0u, lower ? 0u : bit);
@@ -79,7 +79,7 @@ void main() {
     uint number = workgroup_number();
     if (number >= counters[COUNTER_PLAIN_TILES + LIST]) return;
     uint lane = gl_SubgroupInvocationID;
-    uint entry = tile_lists[first_entry(LIST) + number], tile = entry_owner(entry);
+    uint entry = tile_lists[first_entry(LIST) + number], tile = entry_item(entry);
     uvec4 header = tiles[tile];
     ivec2 tile_at = ivec2(split(tile, frame.tiles.x));
     vec2 center = tile_center(tile_at);
@@ -290,7 +290,7 @@ void main() {
     bool fits;
     uint base = allocate_records(lanes_add(records_made), fits), mine = base + subgroupExclusiveAdd(records_made);
     if (writes) headers[min(header.z + cell, frame.record_capacity - 1u)] = uvec2(mine, fits ? records_made : 0u);
-    uint owner = pixel.x | pixel.y << 16, at_record = mine, seen_id = 0u;
+    uint cell_id = pixel.x | pixel.y << 16, at_record = mine, seen_id = 0u;
     do {
         // By ascending ID, so that the order of candidates does not show.
         Seen t = Seen(uvec2(0u), ~0u, 0u, 0.0, 0, 0u);
@@ -304,7 +304,7 @@ void main() {
         float of = float(samples_of(t.mask));
         float weight = EXACT_AREAS && exact ? samples * (t.area != 0 ? float(t.area) * (1.0 / AREA_UNIT) * mend : of * share) : of;
         if (fits && t.id != ~0u)
-            records_out[at_record] = uvec4(owner, t.id, place_of_samples(sum_of_offsets(t.mask), of, samples, false), floatBitsToUint(weight));
+            records_out[at_record] = uvec4(cell_id, t.id, place_of_samples(sum_of_offsets(t.mask), of, samples, false), floatBitsToUint(weight));
         at_record += t.id != ~0u ? 1u : 0u;
         singles -= min(singles, 1u);
     } while (any_lane(singles != 0u));
@@ -340,7 +340,7 @@ void main() {
             float of = float(bitCount(bits));
             vec2 sum = sum_of_run(from + (upper ? 32u : 0u), bits);
             if (fits && bits != 0u)
-                records_out[at_record] = uvec4(owner, id, place_of_samples(sum, of, samples, part_is_wide(frame.sample_count, parts)), floatBitsToUint(of * each));
+                records_out[at_record] = uvec4(cell_id, id, place_of_samples(sum, of, samples, part_is_wide(frame.sample_count, parts)), floatBitsToUint(of * each));
             at_record += bits != 0u ? 1u : 0u;
         } while (any_lane(rest != uvec2(0u) || several != 0u));
     }

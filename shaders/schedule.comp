@@ -1,8 +1,8 @@
 // schedule: places the candidate lists of as many tiles as fit, from where the last round ended, and sorts
-// these tiles by what their samples need: PLAIN, MASKED (alpha tests), BLENDED (chains of layers) or UNLISTED
+// these tiles by what their samples need: PLAIN, MASKED (alpha tests), BLENDED (lists of layers) or UNLISTED
 // (a list that outgrows the buffer: every triangle is a candidate).
 // Reads: tiles (counts from `bin`), masks. Writes: tiles, tile_lists, arguments of the round, counters.
-// SITES: `groups` then lists groups of cells in the place of tiles.
+// LOCATIONS: `groups` then lists groups of cells in the place of tiles.
 // One subgroup does it all, in tile order, so that a round's content is the same in every run.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -14,7 +14,7 @@ layout(local_size_x_id = 0) in;
 layout(push_constant) uniform Push {
     uint block;             // samples of a header
     uint per_sample;        // 1 where each sample is a record
-    uint layers;            // BLEND layers of a chain that a tile is admitted with
+    uint layers;            // BLEND layers of a list that a tile is admitted with
     uint parts;             // records of a triangle in a block
     uint subgroups_first;   // that `sample` gives an entry, where it may PROBE it
     uint subgroups;         // and where it takes all samples
@@ -35,9 +35,9 @@ void main() {
 
     uint blocks = (frame.sample_count + push.block - 1u) / push.block;
     bool per_sample = push.per_sample != 0u;
-    // Different chains of layers that a block is admitted with, too; most need less than half of these records. Both grow
+    // Different lists of layers that a block is admitted with, too; most need less than half of these records. Both grow
     // where a frame found too few.
-    uint chains_of_block = push.parts > 8u ? push.layers * push.parts / 4u : push.layers * 2u;
+    uint lists_of_block = push.parts > 8u ? push.layers * push.parts / 4u : push.layers * 2u;
     // Records of a block that it is admitted with where a cell has several: these are small, and see few triangles.
     uint crowd = push.layers * 4u;
     uint most_records = blocks == 1u ? push.block : crowd;
@@ -50,16 +50,16 @@ void main() {
         bool exists = tile < tile_count;
         uint word = exists ? masks[tile] : 0u;
         uvec4 t = exists ? tiles[tile] : uvec4(0u);
-        uvec2 load = SITES && exists ? tile_loads[tile] : uvec2(0u);
-        uint cells = SITES ? load.x : bitCount(word);
-        uint samples = SITES ? load.y : cells * frame.sample_count;
+        uvec2 load = LOCATIONS && exists ? tile_loads[tile] : uvec2(0u);
+        uint cells = LOCATIONS ? load.x : bitCount(word);
+        uint samples = LOCATIONS ? load.y : cells * frame.sample_count;
         bool busy = cells != 0u;
         bool listed = busy && (t.w & TILE_OVERFLOW) == 0u;
         bool blend = (t.w & TILE_HAS_BLEND) != 0u, mask_ = (t.w & TILE_HAS_MASK) != 0u;
         uint candidates_ = listed ? t.x : frame.triangle_count;
-        uint chains = per_sample || POINTS ? samples : min(cells * blocks * chains_of_block, samples);
+        uint lists = per_sample || POINTS ? samples : min(cells * blocks * lists_of_block, samples);
         uint record_need = blend || (!listed && frame.first_blend < frame.triangle_count)
-            ? chains * (2u + min(candidates_, push.layers))
+            ? lists * (2u + min(candidates_, push.layers))
             : per_sample ? samples : min(cells * blocks * min(push.parts * candidates_, most_records), samples);
         uint list_need = listed ? t.x : 0u, header_need = cells * blocks;
         uint list_first = list_used + subgroupExclusiveAdd(list_need);
@@ -78,7 +78,7 @@ void main() {
         }
         uint list = !listed ? 3u : blend ? 2u : mask_ ? 1u : 0u;
         // Lengths of all lists in one scan, a byte each.
-        uint parts = !mine || SITES ? 0u : (cells + LANES - 1u) / LANES;
+        uint parts = !mine || LOCATIONS ? 0u : (cells + LANES - 1u) / LANES;
         uint before = subgroupExclusiveAdd(parts << (8u * list)), added = subgroupAdd(parts << (8u * list));
         uint at = first_entry(list) + entries[list] + (before >> (8u * list) & 0xffu);
         [[unroll]] for (uint part = 0u; part < PARTS_OF_TILE; part++)

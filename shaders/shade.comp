@@ -1,6 +1,6 @@
 // shade: the radiance of what raster or the sub-samples see, one dispatch a material bin.
-// Sources: PIXELS (the centres of the pixels of a span, by the IDs of raster) or visibility records at their location
-// in a pixel or in the cell of a site (SITES), whose Jacobian then sets the footprint.
+// Sources: PIXELS (the centres of the pixels of a span, by the IDs of raster) or visibility samples at their location
+// in a pixel or in the cell of a location (LOCATIONS), whose Jacobian then sets the footprint.
 // Reads: shade_order, ids or records, the geometry, textures. Writes: color and display, or shaded.
 // Linear light throughout. TRANSMISSION: what a layer lets through is a tint.
 #version 460
@@ -11,7 +11,7 @@
 #include "include/environment.glsl"
 #include "include/finite.glsl"
 #include "include/tiles.glsl"
-#include "include/sites.glsl"
+#include "include/locations.glsl"
 #include "include/place.glsl"
 #include "include/triangle.glsl"
 #include "include/tint.glsl"
@@ -68,7 +68,7 @@ void main() {
     vec2 p;
     bool mine = true;
     vec2 sides = vec2(frame.footprint); // of what textures are filtered over
-    uint site = 0u, shadows = 0u;       // a bit for each light that the surface lies in the shadow of
+    uint location = 0u, shadows = 0u;       // a bit for each light that the surface lies in the shadow of
     if (PIXELS) {
         uint columns = (frame.size.x + 7u) / 8u;
         uvec2 pixel = split(source, columns) * uvec2(8u, 1u) + uvec2(i % 8u, 0u);
@@ -79,15 +79,15 @@ void main() {
     } else {
         uvec4 record = texelFetch(records, int(source));
         id = record.y;
-        vec2 location = place_location(record.z);
+        vec2 offset = place_location(record.z);
         sides = frame.place_footprint * (BOX_FILTER ? place_sides(record.z) : vec2(1.0));
-        if (SITES) {
-            site = record.x & POINT_SITE;
-            uvec4 at = texelFetch(sites, int(2u * site));
+        if (LOCATIONS) {
+            location = record.x & POINT_LOCATION;
+            uvec4 at = texelFetch(locations, int(2u * location));
             shadows = SHADOWS ? texelFetch(record_shadows, int(source)).x : 0u;
-            p = tile_center(ivec2(split(at.z, frame.tiles.x))) + uintBitsToFloat(at.xy) + site_jacobian(site) * location;
+            p = tile_center(ivec2(split(at.z, frame.tiles.x))) + uintBitsToFloat(at.xy) + location_jacobian(location) * offset;
         } else {
-            p = frame.origin + vec2(record.x & 0xffffu, record.x >> 16) + location;
+            p = frame.origin + vec2(record.x & 0xffffu, record.x >> 16) + offset;
         }
     }
 
@@ -96,8 +96,8 @@ void main() {
     uint m = k.word & 0xffffu;
     mine = mine && id != 0u && (ONE_BIN || (k.word >> 16 & 0x3fffu) == push.bin);
     Barycentric w = barycentric(k.v0, k.v1, k.v2, p);
-    if (SITES) {
-        mat2x3 change = mat2x3(w.dx, w.dy) * site_jacobian(site);
+    if (LOCATIONS) {
+        mat2x3 change = mat2x3(w.dx, w.dy) * location_jacobian(location);
         w.dx = change[0];
         w.dy = change[1];
     }

@@ -1,4 +1,4 @@
-// sort: visibility records ordered by material bin. Runs twice: COUNT, then SCATTER into `shade_order`.
+// sort: visibility samples ordered by material bin. Runs twice: COUNT, then SCATTER into `shade_order`.
 // Background and empty records are left out.
 // Reads: records, the geometry. Writes: bins, shade_order.
 #version 460

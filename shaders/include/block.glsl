@@ -18,12 +18,12 @@ struct Cell {
     float hidden;           // nothing farther than this shows
     vec2 at, half_side;     // its middle from the tile's centre, and half its sides
     mat2 pixel;             // its axes: how far a sample's offsets of 1 take it
-    uint site;              // of SITES, its first one in the block
+    uint location;          // of LOCATIONS, its first one in the block
     uint samples;           // in the block
 };
 
 vec2 offset[ROWS];          // of the samples, the same in every cell
-vec2 place[ROWS];           // of samples of SITES, from the tile's centre
+vec2 place[ROWS];           // of samples of LOCATIONS, from the tile's centre
 vec2 block_middle, block_reach;      // the rectangle that holds them
 float depth[ROWS];          // seen so far, 0 for nothing
 uint id[ROWS];
@@ -34,7 +34,7 @@ Candidate nearby;
 float nearby_covered;
 uint nearby_count;
 
-// What CHAINED samples need: runs of LANES candidates among which BLEND ones may show, a bit each; those from the 32nd on
+// What LAYERED samples need: runs of LANES candidates among which BLEND ones may show, a bit each; those from the 32nd on
 // share one.
 uint blend_batches;
 
@@ -45,22 +45,22 @@ uint sample_of(int g) {
 }
 
 vec2 position_of(Cell cell, int g) {
-    return SITES ? place[g] : cell.at + offset[g];
+    return LOCATIONS ? place[g] : cell.at + offset[g];
 }
 
-uint site_of(Cell cell, int g) {
-    return cell.site + min(sample_of(g), max(cell.samples, 1u) - 1u);
+uint location_of(Cell cell, int g) {
+    return cell.location + min(sample_of(g), max(cell.samples, 1u) - 1u);
 }
 
-// The Jacobian at a sample: that of its site where cells hold several.
+// The Jacobian at a sample: that of its location where cells hold several.
 mat2 pixel_of(Cell cell, int g) {
-    return POINTS ? site_jacobian(site_of(cell, g)) : cell.pixel;
+    return POINTS ? location_jacobian(location_of(cell, g)) : cell.pixel;
 }
 
-// Loads the pattern's locations from number `first` on, at most up to `last`, and their rectangle.
+// Loads the pattern's offsets from number `first` on, at most up to `last`, and their rectangle.
 void load_offsets(uint first, uint last) {
     [[unroll]] for (int g = 0; g < ROWS; g++)
-        offset[g] = POINTS ? vec2(0.0) : texelFetch(locations, int(min(first + sample_of(g), last))).xy;
+        offset[g] = POINTS ? vec2(0.0) : texelFetch(pattern_offsets, int(min(first + sample_of(g), last))).xy;
     vec2 low = vec2(1.0), high = vec2(-1.0);
     [[unroll]] for (int g = 0; g < ROWS; g++) {
         low = min(low, offset[g]);
@@ -75,7 +75,7 @@ void load_offsets(uint first, uint last) {
 // The rectangle of a cell's samples that are in the block.
 void rectangle_of_block(Cell cell, out vec2 middle, out vec2 half_side) {
     middle = cell.at + cell.pixel * block_middle;
-    half_side = abs(cell.pixel[0]) * block_reach.x + abs(cell.pixel[1]) * block_reach.y + (SITES ? ROUNDING * cell.half_side : vec2(0.0));
+    half_side = abs(cell.pixel[0]) * block_reach.x + abs(cell.pixel[1]) * block_reach.y + (LOCATIONS ? ROUNDING * cell.half_side : vec2(0.0));
 }
 
 // Moves the samples to a cell, where they have seen nothing yet.
@@ -84,11 +84,11 @@ void begin_cell(Cell cell) {
         depth[g] = 0.0;
         id[g] = 0u;
         own[g] = 0u;
-        if (SITES)
-            place[g] = POINTS ? uintBitsToFloat(texelFetch(sites, int(2u * site_of(cell, g))).xy) : cell.at + cell.pixel * offset[g];
+        if (LOCATIONS)
+            place[g] = POINTS ? uintBitsToFloat(texelFetch(locations, int(2u * location_of(cell, g))).xy) : cell.at + cell.pixel * offset[g];
         if (OCCLUDERS) {
-            own[g] = texelFetch(sites, int(2u * site_of(cell, g))).w;
-            depth[g] = uintBitsToFloat(texelFetch(sites, int(2u * site_of(cell, g) + 1u)).x);
+            own[g] = texelFetch(locations, int(2u * location_of(cell, g))).w;
+            depth[g] = uintBitsToFloat(texelFetch(locations, int(2u * location_of(cell, g) + 1u)).x);
         }
     }
     nearby.id = 0u;

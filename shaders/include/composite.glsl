@@ -3,16 +3,16 @@
 #define COMPOSITE_GLSL
 #include "tint.glsl"
 
-// What a record links to, or ~0. Links go to records that come before: nothing else is followed, so that chains end even
+// What a record links to, or ~0. Links go to records that come before: nothing else is followed, so that lists end even
 // where a record found no room, and what is there is left from another round.
 uint farther(uint node) {
     uint next = texelFetch(records, int(node)).w;
     return next < node ? next : ~0u;
 }
 
-uint trips = 0u;            // of loops over chains, by this invocation
+uint trips = 0u;            // of loops over lists of layers, by this invocation
 
-// The surfaces of a chain, from the record of the nearest one on.
+// The surfaces of a list of layers, from the record of the nearest one on.
 vec4 composite(uint node) {
     vec3 light = vec3(0.0);
     vec3 through = vec3(1.0);

@@ -32,7 +32,7 @@ layout(set = 0, binding = 0) uniform Frame {
     uint survivor_capacity; // triangles that `thin` selects and that `cull` keeps
     uint pair_capacity;     // pairs of a triangle and a tile
     uint list_capacity;     // candidates of a round
-    uint record_capacity;   // visibility records
+    uint record_capacity;   // visibility samples
     uint bin_count;         // material bins
     uint light_count;
     uint material_vectors;  // of a material in `materials`
@@ -40,11 +40,11 @@ layout(set = 0, binding = 0) uniform Frame {
     uint alike;             // code values; a material in colours that differ by no more is shaded once
     float exposure;         // factor on radiance
     float footprint;        // side of the square that textures are filtered over at a pixel's centre, in pixels of the region
-    float place_footprint;  // the same at the place of a visibility record, in pixels; BOX_FILTER: over the root of the record's share of a cell
+    float place_footprint;  // the same at the place of a visibility sample, in pixels; BOX_FILTER: over the root of the record's share of a cell
     float sample_footprint; // the same where a sub-sample tests alpha, in pixels
     uint side;              // pixels of the region along an output pixel's side: k for k x k supersampling
     float reach;            // of samples around the centre of the pixel that owns their cell, in pixels; at least half a pixel
-    uint group_count;       // groups of cells, where cells are sites
+    uint group_count;       // groups of cells, where cells are locations
 } frame;
 
 // On CPU devices a texel buffer is the quicker one to read and a storage buffer the quicker one to write, so that what
@@ -88,7 +88,7 @@ layout(std430, set = 0, binding = 28) writeonly buffer RecordsOut { uvec4 record
 layout(set = 0, binding = 29) uniform textureBuffer shaded;
 layout(std430, set = 0, binding = 30) writeonly buffer ShadedOut { vec4 shaded_out[]; };
 layout(std430, set = 0, binding = 31) buffer ShadeOrder { uint shade_order[]; };
-layout(set = 0, binding = 32) uniform textureBuffer locations;              // sub-sample offsets, pixels
+layout(set = 0, binding = 32) uniform textureBuffer pattern_offsets;      // sub-sample offsets, pixels
 layout(std430, set = 0, binding = 33) buffer Bins { uvec4 bins[]; };        // count, first, cursor, 0
 layout(std430, set = 0, binding = 34) buffer Arguments { uvec4 arguments[]; }; // indirect dispatches
 

@@ -1,4 +1,4 @@
-// CHAINED records of the samples of a block: the opaque surfaces that they see, then the BLEND layers before these, in
+// LAYERED records of the samples of a block: the opaque surfaces that they see, then the BLEND layers before these, in
 // exact order of depth.
 //
 // Samples that see the same surfaces, from the farthest one on, share their records. A surface's record is a node that
@@ -12,7 +12,7 @@
 const bool EACH = PER_SAMPLE || POINTS;
 
 // Parts are merged in pairs.
-uint chain_part(int g) { return part_number(g) >> 1; }
+uint layered_part(int g) { return part_number(g) >> 1; }
 
 uint node[ROWS];            // of the nearest surface so far; ~0: background
 float next_depth[ROWS];     // the next surface to the front; ID 0: none
@@ -30,13 +30,13 @@ struct Group {
 Group first_group(uint left) {
     uvec3 key = uvec3(0u);
     [[unroll]] for (int g = ROWS - 1; g >= 0; g--)
-        key = (left >> g & 1u) != 0u ? uvec3(node[g], next_id[g], chain_part(g)) : key;
+        key = (left >> g & 1u) != 0u ? uvec3(node[g], next_id[g], layered_part(g)) : key;
     uint some = subgroupBallot(left != 0u).x, holder = some != 0u ? uint(findLSB(some)) : 0u;
     key = uvec3(subgroupShuffle(key.x, holder), subgroupShuffle(key.y, holder), subgroupShuffle(key.z, holder));
     bool by_part = BY_PART && key.y != 0u && high_frequency_triangle(key.y);
     Group r = Group(key.x, key.y, 0u, 0.0, vec2(0.0));
     [[unroll]] for (int g = 0; g < ROWS; g++) {
-        bool same = (left >> g & 1u) != 0u && node[g] == key.x && next_id[g] == key.y && (!by_part || chain_part(g) == key.z);
+        bool same = (left >> g & 1u) != 0u && node[g] == key.x && next_id[g] == key.y && (!by_part || layered_part(g) == key.z);
         r.rows |= same ? 1u << g : 0u;
         r.sum += same ? offset[g] : vec2(0.0);
     }
@@ -46,7 +46,7 @@ Group first_group(uint left) {
 }
 
 // Moves the samples to nodes of their next surfaces. Returns whether there was room for these.
-bool add_nodes(uint owner, uint samples) {
+bool add_nodes(uint cell_id, uint samples) {
     uint lane = gl_SubgroupInvocationID, left = 0u;
     [[unroll]] for (int g = 0; g < ROWS; g++) left |= sample_of(g) < samples && next_id[g] != 0u ? 1u << g : 0u;
     bool fits = true;
@@ -55,7 +55,7 @@ bool add_nodes(uint owner, uint samples) {
         uint slot = allocate_records(subgroupAdd(mine), fits) + before;
         [[unroll]] for (int g = 0; g < ROWS; g++) {
             bool moves = (left >> g & 1u) != 0u;
-            if (moves && fits) records_out[slot] = uvec4(POINTS ? owner + sample_of(g) : owner, next_id[g], POINTS ? 0u : place_of(offset[g], 1.0), node[g]);
+            if (moves && fits) records_out[slot] = uvec4(POINTS ? cell_id + sample_of(g) : cell_id, next_id[g], POINTS ? 0u : place_of(offset[g], 1.0), node[g]);
             node[g] = moves ? slot : node[g];
             slot += moves ? 1u : 0u;
         }
@@ -68,7 +68,7 @@ bool add_nodes(uint owner, uint samples) {
         do {
             Group s = first_group(left);
             bool mine = lane == count;
-            held = mine ? uvec4(owner, s.next_id, place_of(s.sum, s.samples), s.node) : held;
+            held = mine ? uvec4(cell_id, s.next_id, place_of(s.sum, s.samples), s.node) : held;
             [[unroll]] for (int g = 0; g < ROWS; g++) number[g] = (s.rows >> g & 1u) != 0u ? count : number[g];
             left &= ~s.rows;
             count += s.samples > 0.0 ? 1u : 0u;
@@ -84,7 +84,7 @@ bool add_nodes(uint owner, uint samples) {
 }
 
 // Returns the first leaf and their number. Samples that see nothing but background have none, unless they are EACH's.
-uvec2 add_leaves(uint owner, uint samples, bool complete) {
+uvec2 add_leaves(uint cell_id, uint samples, bool complete) {
     uint lane = gl_SubgroupInvocationID;
     bool fits;
     if (EACH) {
@@ -93,7 +93,7 @@ uvec2 add_leaves(uint owner, uint samples, bool complete) {
         [[unroll]] for (int g = 0; g < ROWS; g++) {
             uint s = sample_of(g);
             if (fits && s < samples)
-                records_out[base + s] = uvec4(POINTS ? owner + s | POINT_VALUE : owner, 0u, floatBitsToUint(1.0), node[g]);
+                records_out[base + s] = uvec4(POINTS ? cell_id + s | POINT_VALUE : cell_id, 0u, floatBitsToUint(1.0), node[g]);
         }
         return uvec2(base, fits ? samples : 0u);
     }
@@ -105,7 +105,7 @@ uvec2 add_leaves(uint owner, uint samples, bool complete) {
     uvec4 held;
     do {
         Group s = first_group(left);
-        held = lane == count ? uvec4(owner, 0u, floatBitsToUint(s.samples), s.node) : held;
+        held = lane == count ? uvec4(cell_id, 0u, floatBitsToUint(s.samples), s.node) : held;
         left &= ~s.rows;
         count += s.samples > 0.0 ? 1u : 0u;
         beyond = count <= LANES ? left : beyond;
@@ -117,7 +117,7 @@ uvec2 add_leaves(uint owner, uint samples, bool complete) {
     uint stored = LANES;
     do {
         Group s = first_group(beyond);
-        if (fits && stored < count && subgroupElect()) records_out[base + stored] = uvec4(owner, 0u, floatBitsToUint(s.samples), s.node);
+        if (fits && stored < count && subgroupElect()) records_out[base + stored] = uvec4(cell_id, 0u, floatBitsToUint(s.samples), s.node);
         beyond &= ~s.rows;
     } while (++stored < count);
     trips += 2u * count;
@@ -175,19 +175,19 @@ bool find_layers(Cell cell) {
 }
 
 // Returns the first leaf and their number.
-uvec2 record_layers(Cell cell, uint owner) {
+uvec2 record_layers(Cell cell, uint cell_id) {
     [[unroll]] for (int g = 0; g < ROWS; g++) {
         node[g] = ~0u;
         next_id[g] = id[g];
     }
-    bool fits = add_nodes(owner, cell.samples);
+    bool fits = add_nodes(cell_id, cell.samples);
     bool more;
     do {
         more = find_layers(cell);
-        fits = add_nodes(owner, cell.samples) && fits;
+        fits = add_nodes(cell_id, cell.samples) && fits;
     } while (more && trips <= MOST_TRIPS);
     if (subgroupElect() && more) atomicAdd(counters[COUNTER_STALLED], 1u);
-    return add_leaves(owner, cell.samples, fits);
+    return add_leaves(cell_id, cell.samples, fits);
 }
 
 #endif

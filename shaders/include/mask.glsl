@@ -56,12 +56,12 @@ vec2 sum_of_offsets(uvec2 mask) {
     return sum;
 }
 
-// The same of runs of four samples is known: 16 vectors a run, by its bits, behind the pattern's locations. A mask of up to
+// The same of runs of four samples is known: 16 vectors a run, by its bits, behind the pattern's offsets. A mask of up to
 // eight samples from number `first` on takes two.
 vec2 sum_of_run(uint first, uint samples) {
     uint four = first >> 2, bits = samples << (first & 3u);
     int at = int(frame.sample_count + PROBES + four * 16u);
-    return texelFetch(locations, at + int(bits & 15u)).xy + texelFetch(locations, at + 16 + int(bits >> 4)).xy;
+    return texelFetch(pattern_offsets, at + int(bits & 15u)).xy + texelFetch(pattern_offsets, at + 16 + int(bits >> 4)).xy;
 }
 
 // A bit for each run of `length` samples that a mask has any of; for lengths of up to 8.

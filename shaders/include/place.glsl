@@ -1,4 +1,4 @@
-// The place at which a visibility record is shaded, in a word: offsets from the middle of its cell, 12 bits each in units
+// The place at which a visibility sample is shaded, in a word: offsets from the middle of its cell, 12 bits each in units
 // of 2^-12 of its sides; above them, in 7 bits, the side of the square that the record stands for, as -16 log2 of its
 // share of the cell's; and whether the record stands for a rectangle of the same area that is twice as wide as high.
 #ifndef PLACE_GLSL

@@ -1,4 +1,4 @@
-// Room for visibility records.
+// Room for visibility samples.
 #ifndef RECORDS_GLSL
 #define RECORDS_GLSL
 

@@ -131,8 +131,8 @@ Surfaces surfaces_of(Cell cell) {
             uint holder = holders != 0u ? uint(findLSB(holders)) : 0u;
             Candidate t = shuffle_candidate(nearby, holder);
             // In the coordinates of offsets, in which the cell is a square.
-            vec3 a = SITES ? t.a * cell.pixel[0].x + t.b * cell.pixel[0].y : t.a;
-            vec3 b = SITES ? t.a * cell.pixel[1].x + t.b * cell.pixel[1].y : t.b;
+            vec3 a = LOCATIONS ? t.a * cell.pixel[0].x + t.b * cell.pixel[0].y : t.a;
+            vec3 b = LOCATIONS ? t.a * cell.pixel[1].x + t.b * cell.pixel[1].y : t.b;
             int area = area_in_cell(a, b, t.a * cell.at.x + t.b * cell.at.y + t.c, lane);
             bool whole = holders != 0u && subgroupShuffle(nearby_covered, holder) == s.samples;
             bool trusted = float(area) * float(cell.samples) >= FEWEST * AREA_UNIT;
@@ -173,27 +173,27 @@ float weigh(Surfaces s, uint samples, out bool settled) {
 }
 
 // A record a sample; returns the first one and their number.
-uvec2 record_samples(Cell cell, uint owner) {
+uvec2 record_samples(Cell cell, uint cell_id) {
     bool fits;
     uint base = allocate_records(cell.samples, fits);
     [[unroll]] for (int g = 0; g < ROWS; g++) {
         uint s = sample_of(g);
         if (fits && s < cell.samples)
-            records_out[base + s] = POINTS ? uvec4((owner + s) | POINT_VALUE, id[g], 0u, ~0u)
-                : uvec4(owner, id[g], place_of(offset[g], 1.0), floatBitsToUint(1.0));
+            records_out[base + s] = POINTS ? uvec4((cell_id + s) | POINT_VALUE, id[g], 0u, ~0u)
+                : uvec4(cell_id, id[g], place_of(offset[g], 1.0), floatBitsToUint(1.0));
     }
     return uvec2(base, fits ? cell.samples : 0u);
 }
 
 // A record a surface or part of one; returns the first one and their number, and whether the cell needs no more samples.
-uvec2 record_surfaces(Cell cell, uint owner, out bool settled) {
+uvec2 record_surfaces(Cell cell, uint cell_id, out bool settled) {
     uint lane = gl_SubgroupInvocationID;
     Surfaces held = surfaces_of(cell);
     float weight = weigh(held, cell.samples, settled);
     bool holds = lane < min(held.count, HELD);
     uint shaded_in = PARTS_ALL;
     bool several = BY_PART && holds && high_frequency_triangle(held.id);
-    if (BY_PART && !SITES) {
+    if (BY_PART && !LOCATIONS) {
         shaded_in = parts_around(variation_of(cell.member), held.id);
         several = several && shaded_in != PARTS_ONE;
     }
@@ -211,13 +211,13 @@ uvec2 record_surfaces(Cell cell, uint owner, out bool settled) {
     // Surfaces of one record: all at once, and those beyond the invocations' room one by one.
     uvec4 singles = subgroupBallot(single);
     if (fits && single)
-        records_out[base + subgroupBallotExclusiveBitCount(singles)] = uvec4(owner, held.id, held.place, floatBitsToUint(weight));
+        records_out[base + subgroupBallotExclusiveBitCount(singles)] = uvec4(cell_id, held.id, held.place, floatBitsToUint(weight));
     uint slot = base + subgroupBallotBitCount(singles);
     uint seen = subgroupMax(held.id), stored = 0u;
     do {
         Surface s = surface_after(seen);
         if (fits && stored < beyond && subgroupElect())
-            records_out[slot] = uvec4(owner, s.id, place_of(s.sum, s.samples), floatBitsToUint(s.samples));
+            records_out[slot] = uvec4(cell_id, s.id, place_of(s.sum, s.samples), floatBitsToUint(s.samples));
         slot += stored < beyond ? 1u : 0u;
         seen = s.id;
     } while (++stored < beyond);
@@ -239,7 +239,7 @@ uvec2 record_surfaces(Cell cell, uint owner, out bool settled) {
                 uint present = subgroupBallot(part.z != 0.0).x;
                 if (fits && part.z != 0.0)
                     records_out[slot + uint(bitCount(present & ((1u << lane) - 1u)))] =
-                        uvec4(owner, current, place_of_part(part.xy, part.z, wide), floatBitsToUint(part.z * weight_each));
+                        uvec4(cell_id, current, place_of_part(part.xy, part.z, wide), floatBitsToUint(part.z * weight_each));
                 slot += uint(bitCount(present));
             }
             pending &= pending - 1u;

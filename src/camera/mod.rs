@@ -13,15 +13,15 @@ pub mod panorama;
 mod pinhole;
 pub mod projector;
 mod rig;
+mod sample_location;
 pub mod set;
-mod site;
 pub mod zoom;
 
 pub use framing::{Orbit, Viewpoint};
 pub use map::LocationMap;
 pub use pinhole::{Pinhole, PinholeError, Ray};
 pub use rig::{Rig, RigError};
-pub use site::Site;
+pub use sample_location::SampleLocation;
 
 use crate::scene::{SceneCamera, SceneProjection};
 use glam::{DMat3, DMat4, DQuat, DVec2, DVec3, DVec4};

@@ -13,7 +13,7 @@
 //! Directions are in the camera's axes: x right, y up, and it looks along -z, which is the middle of the panorama (of
 //! the front face of a cubemap).
 
-use super::{Camera, Pinhole, Projection, Rig, RigError, Site};
+use super::{Camera, Pinhole, Projection, Rig, RigError, SampleLocation};
 use glam::{DVec2, DVec3};
 use std::f64::consts::FRAC_PI_2;
 
@@ -232,7 +232,7 @@ impl Panorama {
     ///
     /// # Errors
     /// If the camera is orthographic or not finite.
-    pub fn sites(&self, camera: &Camera) -> Result<PanoramaSites, PanoramaError> {
+    pub fn locations(&self, camera: &Camera) -> Result<PanoramaLocations, PanoramaError> {
         let Projection::Perspective { near, .. } = camera.projection else {
             return Err(PanoramaError::Orthographic);
         };
@@ -259,9 +259,9 @@ impl Panorama {
             .pinholes()
             .iter()
             .zip(sets)
-            .filter_map(|(pinhole, set)| Some((*pinhole, set?.sites())))
+            .filter_map(|(pinhole, set)| Some((*pinhole, set?.locations())))
             .collect();
-        Ok(PanoramaSites {
+        Ok(PanoramaLocations {
             panorama: *self,
             layout,
             size,
@@ -332,16 +332,16 @@ impl Layout {
 
 /// The samples of a panorama.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PanoramaSites {
+pub struct PanoramaLocations {
     panorama: Panorama,
     layout: Layout,
     size: [u32; 2],
-    rig: Vec<(Pinhole, Vec<Site>)>,
+    rig: Vec<(Pinhole, Vec<SampleLocation>)>,
 }
 
-impl PanoramaSites {
+impl PanoramaLocations {
     /// Columns and rows that are sampled: more than the image has, and for a cubemap in another order, so that every
-    /// pixel has its neighbours beside it. [`PanoramaSites::crop`] makes the image of them.
+    /// pixel has its neighbours beside it. [`PanoramaLocations::crop`] makes the image of them.
     #[must_use]
     pub fn size(&self) -> [u32; 2] {
         self.size
@@ -349,7 +349,7 @@ impl PanoramaSites {
 
     /// The pinholes and what is sampled on each.
     #[must_use]
-    pub fn rig(&self) -> &[(Pinhole, Vec<Site>)] {
+    pub fn rig(&self) -> &[(Pinhole, Vec<SampleLocation>)] {
         &self.rig
     }
 

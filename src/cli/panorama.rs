@@ -71,8 +71,8 @@ pub fn run(args: &PanoramaArgs) -> anyhow::Result<ExitCode> {
     let refuse = |error: PanoramaError| Usage(error.to_string());
     let panorama = Panorama::new(projection, fov, image.size).map_err(refuse)?;
     let mut stage = Stage::open(&args.scene, &image, image.settings(format))?;
-    let sites = panorama.sites(&stage.camera).map_err(refuse)?;
-    let shot = stage.render(sites.size(), sites.rig())?;
+    let locations = panorama.locations(&stage.camera).map_err(refuse)?;
+    let shot = stage.render(locations.size(), locations.rig())?;
     stage.finish()?;
     let effort = stage.effort(&shot);
     let rendered = shot.rendered;
@@ -80,8 +80,8 @@ pub fn run(args: &PanoramaArgs) -> anyhow::Result<ExitCode> {
     let empty = background.map_or([0.0; 4], |[r, g, b]| [r, g, b, 1.0]);
     let rendered = Rendered {
         size: panorama.size(),
-        colors: sites.crop(&rendered.colors, empty),
-        attributes: sites.crop(&rendered.attributes, PixelAttributes::default()),
+        colors: locations.crop(&rendered.colors, empty),
+        attributes: locations.crop(&rendered.attributes, PixelAttributes::default()),
         statistics: rendered.statistics,
     };
     log::info!(
@@ -89,12 +89,12 @@ pub fn run(args: &PanoramaArgs) -> anyhow::Result<ExitCode> {
         args.output.display(),
         rendered.size[0],
         rendered.size[1],
-        sites.rig().len(),
+        locations.rig().len(),
         rendered.statistics.superpixels
     );
     render::save(&args.output, format, &rendered, &image.aovs())?;
     let around = Around {
-        pinholes: sites.rig().len(),
+        pinholes: locations.rig().len(),
     };
     let figures = stage.figures(&args.output, rendered.size, effort, around);
     args.report.print(&figures)?;

@@ -4,7 +4,7 @@ use super::exit::usage;
 use super::render::{self, ImageArgs, Shot};
 use super::report::{Device, Effort, Figures, Work};
 use super::values::Background;
-use gpc::camera::{Camera, Pinhole, Site};
+use gpc::camera::{Camera, Pinhole, SampleLocation};
 use gpc::render::{Headless, PreparedScene, Settings};
 use serde::Serialize;
 use std::path::Path;
@@ -62,12 +62,16 @@ impl Stage {
         Ok(Pinhole::from_camera(&self.camera, self.settings.size)?)
     }
 
-    /// Renders an image of `size` pixels that look where the sites of pinholes say.
-    pub fn render(&mut self, size: [u32; 2], rig: &[(Pinhole, Vec<Site>)]) -> anyhow::Result<Shot> {
+    /// Renders an image of `size` pixels that look where the locations of pinholes say.
+    pub fn render(
+        &mut self,
+        size: [u32; 2],
+        rig: &[(Pinhole, Vec<SampleLocation>)],
+    ) -> anyhow::Result<Shot> {
         let start = Instant::now();
         let rendered = self
             .headless
-            .render_sites(&self.scene, rig, size, &self.settings)?;
+            .render_locations(&self.scene, rig, size, &self.settings)?;
         Ok(Shot {
             passes: vec![rendered.statistics.passes.clone()],
             wall_ms: vec![1e3 * start.elapsed().as_secs_f64()],

@@ -8,12 +8,12 @@ use super::draw::PlacedDraws;
 use super::shading::{HostShading, ShadeSamples, VisibilitySamples};
 use super::{Draw, Geometry, HostError, Images, LentImage, Options, Shared};
 use crate::passes::{
-    Counter, FrameUniform, IdViews, Locations, OwnSet, Patch, Patched, RasterTargets, Resources,
+    Counter, FrameUniform, IdViews, Offsets, OwnSet, Patch, Patched, RasterTargets, Resources,
     VisibilityUniform,
 };
 use crate::render::engine::{Engine, EngineKind, Growing, Work, with_probes};
 use crate::render::footprint::Footprints;
-use crate::render::plan::{Effort, Plan};
+use crate::render::plan::{Capacity, Plan};
 use crate::render::statistics::Shortfall;
 use crate::render::{PassTime, RenderError, Settings, Statistics};
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings};
@@ -77,15 +77,15 @@ impl Frame {
         options: &Options,
     ) -> Result<Self, HostError> {
         // SAFETY: passed on to the caller.
-        unsafe { Self::with_effort(shared, geometry, images, options, Effort::default()) }
+        unsafe { Self::with_capacity(shared, geometry, images, options, Capacity::default()) }
     }
 
-    unsafe fn with_effort(
+    unsafe fn with_capacity(
         shared: &Arc<Shared>,
         geometry: &Geometry,
         images: &Images,
         options: &Options,
-        effort: Effort,
+        capacity: Capacity,
     ) -> Result<Self, HostError> {
         let gpu = &shared.gpu;
         let layout = &shared.frame;
@@ -116,10 +116,10 @@ impl Frame {
             MemoryUse::Device,
         )?;
         let taken = memory.used();
-        let plan = Plan::whole(&settings, &content, gpu.limits(), effort, taken)?;
-        let locations = settings.locations()?;
-        let count = locations.len() as u32;
-        let locations = with_probes(locations)?;
+        let plan = Plan::whole(&settings, &content, gpu.limits(), capacity, taken)?;
+        let offsets = settings.offsets()?;
+        let count = offsets.len() as u32;
+        let offsets = with_probes(offsets)?;
         let own_targets = || {
             let single = vk::SampleCountFlags::TYPE_1;
             RasterTargets::new(&memory, width, height, single, false)
@@ -142,8 +142,8 @@ impl Frame {
             (&content.texels(), content.lights()),
             &views,
             plan.sizes,
-            &[Locations {
-                all: &locations,
+            &[Offsets {
+                all: &offsets,
                 count,
             }],
         )?;
@@ -232,15 +232,15 @@ impl Frame {
     /// # Safety
     /// As [`super::Antialiaser::prepare`]; and the commands of the last recording are done.
     pub unsafe fn grow(&self) -> Result<Self, HostError> {
-        let effort = self.plan.effort.more(self.shortfall()?);
+        let capacity = self.plan.capacity.more(self.shortfall()?);
         // SAFETY: passed on to the caller.
         unsafe {
-            Self::with_effort(
+            Self::with_capacity(
                 &self.shared,
                 &self.geometry,
                 &self.images,
                 &self.options,
-                effort,
+                capacity,
             )
         }
     }
@@ -373,7 +373,7 @@ impl Frame {
         let tiles = width.div_ceil(8) * height.div_ceil(4);
         let room = self.plan.sizes.survivor_capacity;
         for counters in self.counted()? {
-            shortfall.add(counters, (tiles, room), self.plan.effort.unlisted);
+            shortfall.add(counters, (tiles, room), self.plan.capacity.unlisted);
             shortfall.add_subgroups(counters);
         }
         Ok(shortfall)

@@ -1,4 +1,4 @@
-//! centres: the centres of pixels as visibility records.
+//! centres: the centres of pixels as visibility samples.
 
 use super::{FrameLayout, Resources, spirv};
 use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};

@@ -1,4 +1,4 @@
-//! groups: the groups of cells of a round, where cells are sites.
+//! groups: the groups of cells of a round, where cells are locations.
 
 use super::arguments::{After, Arguments};
 use super::{Argument, FrameLayout, Sample, spirv};

@@ -7,7 +7,7 @@
 //! ```
 //! Every pass records into a caller's command buffer and reads what the pass before left on the device. They share the
 //! geometry (`geometry/`) and what else the scene has (`scene/`), the memory that they hand to each other (`resources/`),
-//! the layout of descriptors (`layout.rs`) and the twins of what shaders include (`frame.rs`, `counters.rs`, `sites.rs`,
+//! the layout of descriptors (`layout.rs`) and the twins of what shaders include (`frame.rs`, `counters.rs`, `locations.rs`,
 //! `draws.rs`, `triangle_word.rs`, `alpha_flags.rs`).
 
 mod adopt;
@@ -32,6 +32,7 @@ mod groups;
 mod grow;
 mod layout;
 mod lent_kernel;
+mod locations;
 mod multisample;
 mod own_layout;
 mod patch;
@@ -50,7 +51,6 @@ mod schedule;
 mod setup;
 #[cfg(feature = "gltf")]
 mod shade;
-mod sites;
 mod sort;
 mod spans;
 #[cfg(feature = "gltf")]
@@ -87,6 +87,7 @@ pub use geometry::FrameGeometry;
 pub use groups::Groups;
 pub use grow::Grow;
 pub use layout::FrameLayout;
+pub use locations::{Cells, LocationData, LocationSizes, VisibilitySample};
 pub use multisample::Multisample;
 pub(crate) use own_layout::{OwnSet, SetLayout};
 pub(crate) use patch::{Patch, Patched};
@@ -96,7 +97,7 @@ pub use pose::Pose;
 pub use raster::{Raster, RasterTargets};
 pub(crate) use raster::{RasterPush, RasterRun};
 pub use resolve::{Resolve, Then};
-pub use resources::{IdViews, Locations, ResourceSizes, Resources, SampleSet};
+pub use resources::{IdViews, Offsets, ResourceSizes, Resources, SampleSet};
 pub use sample::{RecordRate, Sample, SampleOptions, TileList};
 #[cfg(feature = "gltf")]
 pub use scene::{FrameLook, GpuScene, SceneUploads};
@@ -104,7 +105,6 @@ pub use schedule::Schedule;
 pub use setup::Setup;
 #[cfg(feature = "gltf")]
 pub use shade::{Shade, ShadeSource};
-pub use sites::{Cells, SiteData, SiteRecord, SiteSizes};
 pub use sort::Sort;
 pub use spans::Spans;
 #[cfg(feature = "gltf")]

@@ -1,4 +1,4 @@
-//! multisample: what the device's own multisampling saw, as visibility records.
+//! multisample: what the device's own multisampling saw, as visibility samples.
 
 use super::{FrameLayout, spirv};
 use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};

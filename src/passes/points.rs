@@ -1,10 +1,10 @@
-//! points: colour and attributes of sites that are sampled once.
+//! points: colour and attributes of locations that are sampled once.
 
 use super::{Argument, Cells, Content, FrameLayout, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
-/// Writes a colour and two vectors a site, see `shaders/points.comp`.
+/// Writes a colour and two vectors a location, see `shaders/points.comp`.
 pub struct Points {
     pipeline: Arc<Pipeline>,
 }

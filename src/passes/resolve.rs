@@ -37,14 +37,14 @@ impl Resolve {
         let kernels = sample
             .lists()
             .map(|list| {
-                let chained = has_blend && matches!(list, TileList::Blended | TileList::Unlisted);
+                let layered = has_blend && matches!(list, TileList::Blended | TileList::Unlisted);
                 Ok((
                     list,
                     Self::pipeline(
                         layout,
                         list,
                         sample.block(),
-                        chained,
+                        layered,
                         sample.options().probes()
                             && matches!(list, TileList::Plain | TileList::Masked),
                         then,
@@ -77,7 +77,7 @@ impl Resolve {
         layout: &FrameLayout,
         list: TileList,
         block: u32,
-        chained: bool,
+        layered: bool,
         probed: bool,
         then: Then,
         output: &Constants,
@@ -87,7 +87,7 @@ impl Resolve {
             .lane_constants(output.clone(), lanes)
             .with(0, lanes)
             .with(2, block)
-            .flag(3, chained)
+            .flag(3, layered)
             .with(4, list as u32)
             .flag(5, then == Then::Detect)
             .flag(6, probed)

@@ -105,19 +105,19 @@ const UNLISTED: Kernels = [
     (8, spirv::SAMPLE_UNLISTED_8),
     (16, spirv::SAMPLE_UNLISTED_16),
 ];
-const CHAINED: Kernels = [
-    (1, spirv::SAMPLE_CHAINED_1),
-    (2, spirv::SAMPLE_CHAINED_2),
-    (4, spirv::SAMPLE_CHAINED_4),
-    (8, spirv::SAMPLE_CHAINED_8),
-    (16, spirv::SAMPLE_CHAINED_16),
+const LAYERED: Kernels = [
+    (1, spirv::SAMPLE_LAYERED_1),
+    (2, spirv::SAMPLE_LAYERED_2),
+    (4, spirv::SAMPLE_LAYERED_4),
+    (8, spirv::SAMPLE_LAYERED_8),
+    (16, spirv::SAMPLE_LAYERED_16),
 ];
-const CHAINED_UNLISTED: Kernels = [
-    (1, spirv::SAMPLE_CHAINED_UNLISTED_1),
-    (2, spirv::SAMPLE_CHAINED_UNLISTED_2),
-    (4, spirv::SAMPLE_CHAINED_UNLISTED_4),
-    (8, spirv::SAMPLE_CHAINED_UNLISTED_8),
-    (16, spirv::SAMPLE_CHAINED_UNLISTED_16),
+const LAYERED_UNLISTED: Kernels = [
+    (1, spirv::SAMPLE_LAYERED_UNLISTED_1),
+    (2, spirv::SAMPLE_LAYERED_UNLISTED_2),
+    (4, spirv::SAMPLE_LAYERED_UNLISTED_4),
+    (8, spirv::SAMPLE_LAYERED_UNLISTED_8),
+    (16, spirv::SAMPLE_LAYERED_UNLISTED_16),
 ];
 
 /// Blocks of several cells that a subgroup takes, as in `shaders/sample.comp`.
@@ -185,11 +185,11 @@ impl Sample {
         let whole = |list, kernels| (list, Run::Whole, kernels, options.has_mask);
         let mut wanted: Vec<_> = listed(if probes { Run::Probe } else { Run::Whole }).collect();
         if options.has_blend {
-            wanted.push(whole(TileList::Blended, &CHAINED));
+            wanted.push(whole(TileList::Blended, &LAYERED));
         }
         if options.unlisted {
             let unlisted = if options.has_blend {
-                &CHAINED_UNLISTED
+                &LAYERED_UNLISTED
             } else {
                 &UNLISTED
             };

@@ -14,8 +14,8 @@ pub struct Schedule {
 }
 
 impl Schedule {
-    /// Makes the pipeline for what `sample` writes. Tiles are admitted with `layers` BLEND layers a chain and twice as
-    /// many chains a block, or more where these are shaded by part; without layers, with four times as many records a
+    /// Makes the pipeline for what `sample` writes. Tiles are admitted with `layers` BLEND layers a list and twice as
+    /// many lists a block, or more where these are shaded by part; without layers, with four times as many records a
     /// block where a cell has several.
     ///
     /// # Errors

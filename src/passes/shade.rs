@@ -15,7 +15,7 @@ pub enum ShadeSource {
         /// Write display codes for detection.
         display_codes: bool,
     },
-    /// Visibility records.
+    /// Visibility samples.
     Records {
         /// Of such cells.
         cells: Cells,

@@ -1,4 +1,4 @@
-//! sort: visibility records ordered by material bin.
+//! sort: visibility samples ordered by material bin.
 
 use super::arguments::{After, Arguments};
 use super::{Argument, Content, FrameLayout, spirv};

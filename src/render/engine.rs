@@ -10,7 +10,7 @@ use crate::sampling::Pattern;
 use crate::vulkan::{Buffer, Constants, Recorder};
 use std::sync::Arc;
 
-/// Shades visibility records: writes the radiance of each to its place in the buffer of shaded records.
+/// Shades visibility samples: writes the radiance of each to its place in the buffer of shaded records.
 pub(crate) trait RecordShading {
     /// Records the shading of a round, sorted by key. Set 0 is bound before, and bound again after it.
     fn record(&self, recorder: &Recorder<'_>, resources: &Resources);
@@ -85,8 +85,8 @@ impl Engine {
             records: record_rate(settings, scene),
             exact_areas: settings.coverage == Coverage::Area && kind.samples > 1,
             can_settle: can_settle(settings, scene),
-            apart: plan.effort.apart,
-            unlisted: plan.effort.unlisted,
+            apart: plan.capacity.apart,
+            unlisted: plan.capacity.unlisted,
             has_mask: scene.has_mask(),
             has_blend: scene.has_blend(),
             always_blends: kind.mode == DetectMode::Blended,
@@ -259,10 +259,10 @@ pub(crate) struct Growing<'a> {
     pub first_slot: u64,
 }
 
-/// Locations of a cell's samples, followed by those of a first run.
-pub(crate) fn with_probes(mut locations: Vec<[f32; 2]>) -> Result<Vec<[f32; 2]>, RenderError> {
-    locations.extend(Pattern::Sobol.offsets(Sample::PROBES)?);
-    Ok(locations)
+/// Offsets of a cell's samples, followed by those of a first run.
+pub(crate) fn with_probes(mut offsets: Vec<[f32; 2]>) -> Result<Vec<[f32; 2]>, RenderError> {
+    offsets.extend(Pattern::Sobol.offsets(Sample::PROBES)?);
+    Ok(offsets)
 }
 
 /// How many records the settings' shading asks for.

@@ -1,8 +1,8 @@
 //! What can go wrong with a frame.
 
-use super::PixelRect;
 #[cfg(feature = "gltf")]
-use super::SiteError;
+use super::LocationError;
+use super::PixelRect;
 use crate::sampling::PatternError;
 use crate::vulkan::VulkanError;
 
@@ -17,7 +17,7 @@ pub enum RenderError {
     Pattern(#[from] PatternError),
     /// Multisampling samples pixels.
     #[error("msaa samples the pixels of an image, not any locations; ask another method")]
-    SiteMethod,
+    LocationMethod,
     /// A plane of values that detection compares is not as large as the image.
     #[error(transparent)]
     Plane(#[from] crate::reference::detect::PlaneError),
@@ -33,12 +33,14 @@ pub enum RenderError {
         image: [u32; 2],
     },
     /// Only the pixels of an image have regions.
-    #[error("a region is a part of an image's pixels; of sites, hand over those that are wanted")]
-    SiteRegion,
+    #[error(
+        "a region is a part of an image's pixels; of locations, hand over those that are wanted"
+    )]
+    LocationRegion,
     /// A sampling location can't be used.
     #[cfg(feature = "gltf")]
     #[error(transparent)]
-    Site(#[from] SiteError),
+    Location(#[from] LocationError),
     /// The geometry contradicts itself.
     #[cfg(feature = "gltf")]
     #[error(transparent)]
@@ -67,7 +69,9 @@ pub enum RenderError {
     #[error(transparent)]
     Rig(#[from] crate::camera::RigError),
     /// A frame writes commands once, and shadows need the host between their steps.
-    #[error("a frame can't have exact shadows; sample sites, or ask Headless::render_with_shadows")]
+    #[error(
+        "a frame can't have exact shadows; sample locations, or ask Headless::render_with_shadows"
+    )]
     FrameShadows,
     /// The scene was not made ready for shadows.
     #[error("the scene can't cast shadows yet; hand it to Headless::prepare_shadows first")]
@@ -141,15 +145,15 @@ impl RenderError {
     #[must_use]
     pub fn is_usage(&self) -> bool {
         #[cfg(feature = "gltf")]
-        if matches!(self, Self::Site(_) | Self::Pinhole(_)) {
+        if matches!(self, Self::Location(_) | Self::Pinhole(_)) {
             return true;
         }
         matches!(
             self,
             Self::Pattern(_)
                 | Self::Samples { .. }
-                | Self::SiteMethod
-                | Self::SiteRegion
+                | Self::LocationMethod
+                | Self::LocationRegion
                 | Self::Region { .. }
                 | Self::FrameShadows
                 | Self::ShadowLights { .. }

@@ -10,7 +10,7 @@ const ALPHA_SIDE: f32 = 0.125;
 pub(crate) struct Footprints {
     /// At the centre of a pixel, in pixels of the region.
     pub centre: f32,
-    /// At the place of a visibility record, in pixels of the region; of [`Footprint::Sample`], over the root of the
+    /// At the place of a visibility sample, in pixels of the region; of [`Footprint::Sample`], over the root of the
     /// record's share of a cell.
     pub place: f32,
     /// At a sub-sample that tests alpha, in pixels of the region.

@@ -1,6 +1,6 @@
 //! A renderer with a device of its own, for images without a window.
 
-use super::plan::Effort;
+use super::plan::Capacity;
 use super::renderer::{PreparedScene, Renderer};
 use super::{Frame, RenderError, Settings, Statistics, Target};
 use crate::camera::Camera;
@@ -130,7 +130,7 @@ pub struct PixelAttributes {
     pub padding: u32,
 }
 
-/// Effort is doubled this often before a frame is given up.
+/// Capacity is doubled this often before a frame is given up.
 const RETRIES: u32 = 6;
 
 impl Headless {
@@ -200,7 +200,7 @@ impl Headless {
     }
 
     /// Asks before each submission whether what is made is still wanted; where it is not, that ends with
-    /// [`RenderError::Stopped`]. Sites are sampled in shorter runs then. Other threads may change the answer.
+    /// [`RenderError::Stopped`]. Locations are sampled in shorter runs then. Other threads may change the answer.
     pub fn stop_when(&mut self, is_unwanted: impl Fn() -> bool + Send + Sync + 'static) {
         self.is_unwanted = Some(Box::new(is_unwanted));
     }
@@ -234,7 +234,7 @@ impl Headless {
     }
 
     /// As [`Headless::upload`], for a scene that moves: its frames [show](Frame::show) other moments of the motion. Images
-    /// of sites are those of the first pose.
+    /// of locations are those of the first pose.
     ///
     /// # Errors
     /// As [`Headless::upload`]; [`RenderError::OtherMotion`] for a pose and motion that were not made together.
@@ -272,7 +272,7 @@ impl Headless {
         let scene = &scene.gpu_scene;
         self.check(scene)?;
         self.renderer
-            .prepare_with(scene, settings, None, Effort::least(), beside)
+            .prepare_with(scene, settings, None, Capacity::least(), beside)
     }
 
     /// Renders a frame and waits for it. Where its records outgrow its memory it is prepared again with more
@@ -287,12 +287,12 @@ impl Headless {
                 Err(RenderError::Unfinished { cells }) => {
                     let shortfall = frame.shortfall()?;
                     log::debug!("{cells} cells or tiles are left: {shortfall:?}");
-                    self.prepare_again(frame, frame.effort().more(shortfall))?;
+                    self.prepare_again(frame, frame.capacity().more(shortfall))?;
                 }
                 Ok(image) => {
                     // Tiles without a list made the image all the same, but slowly.
                     if image.statistics.unlisted_tiles > 0 && frame.lists_can_grow() {
-                        self.prepare_again(frame, frame.effort().with_doubled_lists())?;
+                        self.prepare_again(frame, frame.capacity().with_doubled_lists())?;
                     }
                     return Ok(image);
                 }
@@ -311,8 +311,8 @@ impl Headless {
         Ok(())
     }
 
-    fn prepare_again(&self, frame: &mut Frame, effort: Effort) -> Result<(), RenderError> {
-        *frame = self.renderer.prepare_like(frame, effort)?;
+    fn prepare_again(&self, frame: &mut Frame, capacity: Capacity) -> Result<(), RenderError> {
+        *frame = self.renderer.prepare_like(frame, capacity)?;
         Ok(())
     }
 

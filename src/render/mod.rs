@@ -13,12 +13,12 @@ mod frame;
 #[cfg(feature = "gltf")]
 mod headless;
 pub(crate) mod image_state;
+#[cfg(feature = "gltf")]
+mod locations;
 pub(crate) mod plan;
 #[cfg(feature = "gltf")]
 mod renderer;
 mod settings;
-#[cfg(feature = "gltf")]
-mod sites;
 pub(crate) mod statistics;
 
 pub use error::RenderError;
@@ -28,10 +28,10 @@ pub use frame::{Frame, Target};
 pub use headless::{Headless, HeadlessOptions, PixelAttributes, Rendered};
 pub use image_state::ImageState;
 #[cfg(feature = "gltf")]
+pub use locations::{LocationError, PointSample, Sampled};
+#[cfg(feature = "gltf")]
 pub use renderer::{PreparedScene, Renderer};
 pub use settings::{
     Coverage, Detection, Footprint, Method, PixelRect, Reference, Settings, Shading, Shadows,
 };
-#[cfg(feature = "gltf")]
-pub use sites::{PointSample, Sampled, SiteError};
 pub use statistics::{PassTime, Statistics, TriangleCounts};

@@ -71,18 +71,18 @@ pub(crate) struct Plan {
     pub sizes: ResourceSizes,
     /// Rounds of lists and records recorded for each region.
     pub rounds: u32,
-    /// BLEND layers of a chain, half the chains of a block, and a quarter of the records of one of several blocks, that
+    /// BLEND layers of a list, half the lists of a block, and a quarter of the records of one of several blocks, that
     /// tiles are admitted with.
     pub layers: u32,
     /// What it was planned for.
-    pub effort: Effort,
+    pub capacity: Capacity,
     /// Whether the device has room for longer lists.
     pub lists_can_grow: bool,
 }
 
 /// What a frame was found to need more of than first planned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Effort {
+pub(crate) struct Capacity {
     pub rounds: u32,
     pub layers: u32,
     /// Factor on the room for candidates.
@@ -93,7 +93,7 @@ pub(crate) struct Effort {
     pub unlisted: bool,
 }
 
-impl Effort {
+impl Capacity {
     /// Twice the lists.
     pub fn with_doubled_lists(self) -> Self {
         Self {
@@ -130,7 +130,7 @@ impl Effort {
     }
 }
 
-impl Default for Effort {
+impl Default for Capacity {
     fn default() -> Self {
         Self {
             rounds: 3,
@@ -148,7 +148,7 @@ const NEIGHBOURS: u32 = 3;
 /// Largest region in virtual pixels; larger images are rendered in parts.
 /// `schedule` takes 8 tiles a trip on CPU devices, which end loops after 65,535 trips.
 const REGION_PIXELS: u64 = 4 << 20;
-/// Most visibility records and candidates of a round.
+/// Most visibility samples and candidates of a round.
 const MOST_RECORDS: u64 = 6 << 20;
 const MOST_CANDIDATES: u64 = 2 << 20;
 /// Most pairs of a triangle and a tile, of all rounds, that a frame is first planned with.
@@ -168,7 +168,7 @@ impl Plan {
         scene: &dyn Content,
         limits: &Limits,
         encoding: Option<Encoding>,
-        effort: Effort,
+        capacity: Capacity,
         taken: u64,
     ) -> Result<Self, RenderError> {
         let side = settings.side();
@@ -178,7 +178,7 @@ impl Plan {
         let mut region = [width.min(longest), height.min(longest)];
         let allowed = settings.max_memory.map(|limit| limit.saturating_sub(taken));
         loop {
-            let mut plan = Self::with_region(settings, scene, limits, encoding, effort, region)?;
+            let mut plan = Self::with_region(settings, scene, limits, encoding, capacity, region)?;
             let pixels = u64::from(plan.sizes.pixels());
             let needed = plan.shrink(scene, settings, allowed);
             let fits = pixels <= most
@@ -207,11 +207,11 @@ impl Plan {
         settings: &Settings,
         scene: &dyn Content,
         limits: &Limits,
-        effort: Effort,
+        capacity: Capacity,
         taken: u64,
     ) -> Result<Self, RenderError> {
         let allowed = settings.max_memory.map(|limit| limit.saturating_sub(taken));
-        let mut plan = Self::with_region(settings, scene, limits, None, effort, settings.size)?;
+        let mut plan = Self::with_region(settings, scene, limits, None, capacity, settings.size)?;
         let needed = plan.shrink(scene, settings, allowed);
         let what = "the largest list of a frame";
         let (bytes, texels) = (plan.sizes.largest_storage(), plan.sizes.largest_texels());
@@ -246,7 +246,7 @@ impl Plan {
         scene: &dyn Content,
         limits: &Limits,
         encoding: Option<Encoding>,
-        effort: Effort,
+        capacity: Capacity,
         region: [u32; 2],
     ) -> Result<Self, RenderError> {
         let [width, height] = settings.size;
@@ -298,7 +298,7 @@ impl Plan {
         let samples_cells = detects || scene.has_blend();
         let at_most = |room: u64, most: u64| {
             let room = if samples_cells { room } else { 0 };
-            (room * u64::from(effort.lists)).min(most) as u32
+            (room * u64::from(capacity.lists)).min(most) as u32
         };
         let most_listed = ResourceSizes::most_pairs(limits);
         let triangles = u64::from(scene.index_count());
@@ -319,7 +319,7 @@ impl Plan {
         let sizes = ResourceSizes {
             region: outer,
             lanes: limits.lanes,
-            sites: None,
+            locations: None,
             // What survives is in a pair at the least.
             survivor_capacity: at_most(pairs, limits.max_storage_bytes / 4)
                 .min(scene.index_count()),
@@ -337,10 +337,10 @@ impl Plan {
             regions,
             sizes,
             // Tiles whose triangles are shaded in parts reserve room for all of these, and use a third of it.
-            rounds: (effort.rounds_for(settings.samples) * if by_part { 2 } else { 1 })
+            rounds: (capacity.rounds_for(settings.samples) * if by_part { 2 } else { 1 })
                 .max(pairs.div_ceil(candidates) as u32),
-            layers: effort.layers,
-            effort,
+            layers: capacity.layers,
+            capacity,
             lists_can_grow: u64::from(sizes.pair_capacity) < most_listed,
         })
     }

@@ -1,8 +1,8 @@
 //! The face of the renderer: what it needs of a device, and how scenes and frames are prepared.
 
 use super::frame::Frame;
-use super::plan::Effort;
-use super::sites::{Casters, HostTriangles};
+use super::locations::{Casters, HostTriangles};
+use super::plan::Capacity;
 use super::{RenderError, Settings, Shadows};
 use crate::passes::{Encoding, FrameLayout, GpuScene, SceneUploads};
 use crate::scene::{Motion, Pose, Scene};
@@ -24,7 +24,7 @@ pub struct PreparedScene {
     /// Shared with the frames that show it.
     pub(super) gpu_scene: Arc<GpuScene>,
     uploads: SceneUploads,
-    /// For what the host looks for in images of sites.
+    /// For what the host looks for in images of locations.
     pub(super) triangles: HostTriangles,
     /// What casts shadows, where the scene was made ready for them.
     pub(super) casters: Option<Box<Casters>>,
@@ -164,7 +164,7 @@ impl Renderer {
             &scene.gpu_scene,
             settings,
             encoding,
-            Effort::default(),
+            Capacity::default(),
             beside,
         )
     }
@@ -175,7 +175,7 @@ impl Renderer {
     /// # Errors
     /// As for [`Self::prepare`].
     pub fn prepare_again(&self, frame: &Frame) -> Result<Frame, RenderError> {
-        self.prepare_like(frame, frame.effort().more(frame.shortfall()?))
+        self.prepare_like(frame, frame.capacity().more(frame.shortfall()?))
     }
 
     /// Refuses a scene of another device.
@@ -187,14 +187,18 @@ impl Renderer {
         }
     }
 
-    pub(super) fn prepare_like(&self, frame: &Frame, effort: Effort) -> Result<Frame, RenderError> {
+    pub(super) fn prepare_like(
+        &self,
+        frame: &Frame,
+        capacity: Capacity,
+    ) -> Result<Frame, RenderError> {
         self.check(frame.scene())?;
         let mut like = Frame::new(
             &self.layout,
             frame.scene(),
             frame.settings(),
             frame.encoding(),
-            effort,
+            capacity,
             frame.beside(),
         )?;
         if let Some(moment) = frame.moment() {
@@ -209,7 +213,7 @@ impl Renderer {
         scene: &Arc<GpuScene>,
         settings: &Settings,
         encoding: Option<Encoding>,
-        effort: Effort,
+        capacity: Capacity,
         beside: u64,
     ) -> Result<Frame, RenderError> {
         if settings.shadows == Shadows::Exact {
@@ -217,6 +221,6 @@ impl Renderer {
         }
         self.check(scene)?;
         settings.check(self.gpu.limits())?;
-        Frame::new(&self.layout, scene, settings, encoding, effort, beside)
+        Frame::new(&self.layout, scene, settings, encoding, capacity, beside)
     }
 }

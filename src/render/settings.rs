@@ -76,7 +76,7 @@ pub enum Shadows {
     /// Lights shine through everything.
     None,
     /// Every point that is shaded asks every light whether another triangle lies before it: a sampling set on the light's
-    /// own image plane, without the aliasing of a map of depths. Sites alone can be sampled so, not a [`super::Frame`];
+    /// own image plane, without the aliasing of a map of depths. Locations alone can be sampled so, not a [`super::Frame`];
     /// see [`super::Headless::prepare_shadows`].
     Exact,
 }
@@ -160,7 +160,7 @@ pub struct Settings {
     pub footprint: Footprint,
     /// Whether surfaces keep the light from others.
     pub shadows: Shadows,
-    /// Width of lines in output pixels, above 0 and at most [`Self::LARGEST_STROKE`]. Where sites are sampled, these are the
+    /// Width of lines in output pixels, above 0 and at most [`Self::LARGEST_STROKE`]. Where locations are sampled, these are the
     /// pixels of their pinhole's plane.
     pub line_width: f32,
     /// Diameter of points in output pixels, with the same bounds.
@@ -257,8 +257,8 @@ impl Settings {
         }
     }
 
-    /// Locations of the sub-samples, relative to the pixel's centre.
-    pub(crate) fn locations(&self) -> Result<Vec<[f32; 2]>, RenderError> {
+    /// Offsets of the sub-samples, relative to the pixel's centre.
+    pub(crate) fn offsets(&self) -> Result<Vec<[f32; 2]>, RenderError> {
         match self.method {
             Method::None | Method::Ssaa => Ok(vec![[0.0, 0.0]]),
             Method::Superpixel => Ok(self.pattern.offsets(self.samples)?),
@@ -302,7 +302,7 @@ impl Settings {
             Method::Superpixel if !(1..=1024).contains(&self.samples) => {
                 refuse("superpixel", "1 to 1024".to_owned())
             }
-            Method::Superpixel => self.locations().map(|_| ()),
+            Method::Superpixel => self.offsets().map(|_| ()),
             Method::Ssaa => {
                 let side = self.samples.isqrt();
                 if side == 0 || side > 32 || side * side != self.samples {

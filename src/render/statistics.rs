@@ -48,7 +48,7 @@ pub struct Statistics {
     pub triangles: TriangleCounts,
     /// Triangles in the lists of tiles.
     pub candidates: u64,
-    /// Visibility records.
+    /// Visibility samples.
     pub records: u64,
     /// Tiles whose list outgrew its buffer, for which every triangle was a candidate.
     pub unlisted_tiles: u64,
@@ -139,7 +139,7 @@ pub(crate) struct Shortfall {
     pub unlisted: u64,
     /// Triangles that found no room among those that may touch a cell, or are thin.
     pub dropped: u64,
-    /// Whether the device ran kernels in other subgroups than they were made for, which no effort mends.
+    /// Whether the device ran kernels in other subgroups than they were made for, which no capacity mends.
     pub other_subgroups: bool,
 }
 

@@ -12,7 +12,7 @@ use gpc::scene::Moment;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// A frame's effort is raised this often before what is lacking is said.
+/// A frame's capacity is raised this often before what is lacking is said.
 const RETRIES: u32 = 6;
 
 /// A picture of the scene, at most as large as the window.

@@ -341,8 +341,8 @@ impl Maker {
         let (headless, shown) = self.show(task)?;
         let camera = camera(task, shown)?;
         let set = SamplingSet::mapped(size, map)?;
-        let rig = [(Pinhole::from_camera(&camera, size)?, set.sites())];
-        let rendered = headless.render_sites(&shown.prepared, &rig, size, &task.settings)?;
+        let rig = [(Pinhole::from_camera(&camera, size)?, set.locations())];
+        let rendered = headless.render_locations(&shown.prepared, &rig, size, &task.settings)?;
         check(headless)?;
         Ok(rendered)
     }

@@ -94,18 +94,18 @@ fn every_pixel_is_sampled_once_exactly_where_it_looks() {
         (Cubemap, 360.0, [80, 60]),
     ] {
         let panorama = panorama(projection, fov, size);
-        let sites = panorama.sites(&camera).unwrap();
-        let [columns, rows] = sites.size();
+        let locations = panorama.locations(&camera).unwrap();
+        let [columns, rows] = locations.size();
         let mut looks = vec![None; (columns * rows) as usize];
-        for (pinhole, sites) in sites.rig() {
+        for (pinhole, locations) in locations.rig() {
             assert_eq!(pinhole.eye(), camera.eye);
-            for site in sites {
-                let look = &mut looks[site.output as usize];
+            for location in locations {
+                let look = &mut looks[location.output as usize];
                 assert_eq!(*look, None, "sampled twice");
-                *look = Some(pinhole.ray(DVec2::from(site.uv)).direction);
+                *look = Some(pinhole.ray(DVec2::from(location.uv)).direction);
             }
         }
-        let looks = sites.crop(&looks, None);
+        let looks = locations.crop(&looks, None);
         assert_eq!(
             looks.len(),
             (panorama.size()[0] * panorama.size()[1]) as usize
@@ -135,7 +135,7 @@ fn every_pixel_is_sampled_once_exactly_where_it_looks() {
 fn a_narrow_panorama_takes_fewer_pinholes() {
     let count = |fov, size| {
         let narrow = panorama(Equirectangular, fov, size);
-        narrow.sites(&camera()).unwrap().rig().len()
+        narrow.locations(&camera()).unwrap().rig().len()
     };
     assert_eq!(count(60.0, [60, 30]), 1);
     assert_eq!(count(200.0, [200, 30]), 3);
@@ -168,6 +168,6 @@ fn impossible_panoramas_are_refused() {
         },
         ..camera()
     };
-    let refused = panorama(Fisheye, 90.0, [9, 9]).sites(&orthographic);
+    let refused = panorama(Fisheye, 90.0, [9, 9]).locations(&orthographic);
     assert_eq!(refused, Err(PanoramaError::Orthographic));
 }

@@ -51,11 +51,11 @@ fn each_pixel_is_sampled_once_and_jacobians_do_not_see_seams() {
     let sets = rig.sets(size, look).unwrap();
     let mut seen = vec![0; 90 * 45];
     for set in sets.iter().flatten() {
-        for site in set.sites() {
-            seen[site.output as usize] += 1;
+        for location in set.locations() {
+            seen[location.output as usize] += 1;
             // A pixel is 4 degrees, about 2.2 to 5 pixels of a face; narrow at the poles.
-            let [x, y] = site.jacobian.map(|column| DVec2::from(column).length());
-            assert!(x < 9.0 && (1.5..9.0).contains(&y), "{site:?}");
+            let [x, y] = location.jacobian.map(|column| DVec2::from(column).length());
+            assert!(x < 9.0 && (1.5..9.0).contains(&y), "{location:?}");
         }
     }
     assert!(seen.iter().all(|count| *count == 1));

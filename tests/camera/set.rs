@@ -58,9 +58,9 @@ fn a_planar_set_is_the_offset_set_without_offsets() {
     assert_eq!(statistics.lowest_rate, Some(1.0));
     assert_eq!(statistics.highest_rate, Some(1.0));
     assert_eq!((statistics.quads, statistics.folds), (72, 0));
-    for (index, site) in planar.sites().iter().enumerate() {
-        assert_eq!(site.output as usize, index);
-        assert_eq!(site.jacobian, [[1.0, 0.0], [0.0, 1.0]]);
+    for (index, location) in planar.locations().iter().enumerate() {
+        assert_eq!(location.output as usize, index);
+        assert_eq!(location.jacobian, [[1.0, 0.0], [0.0, 1.0]]);
     }
 }
 
@@ -195,8 +195,8 @@ fn jacobians_come_from_the_map_or_from_neighbours() {
     let mapped = SamplingSet::mapped([6, 5], &Sheared(matrix)).unwrap();
     let bare = SamplingSet::no_pattern([6, 5], mapped.samples().to_vec(), None, 4).unwrap();
     for set in [mapped, bare] {
-        for site in set.sites() {
-            let found = DMat2::from_cols_array_2d(&site.jacobian);
+        for location in set.locations() {
+            let found = DMat2::from_cols_array_2d(&location.jacobian);
             assert!((found - matrix).determinant().abs() < 1e-12);
             assert!((found.x_axis - matrix.x_axis).length() < 1e-12);
         }
@@ -208,9 +208,9 @@ fn jacobians_come_from_the_map_or_from_neighbours() {
         [place, 0.0]
     });
     let row = SamplingSet::no_pattern([3, 1], row, None, 4).unwrap();
-    assert_eq!(row.sites()[1].jacobian, [[3.0, 0.0], [0.0, 3.0]]);
+    assert_eq!(row.locations()[1].jacobian, [[3.0, 0.0], [0.0, 3.0]]);
     let lone = SamplingSet::no_pattern([1, 1], scattered(1, || [4.0, 4.0]), None, 4).unwrap();
-    assert_eq!(lone.sites()[0].jacobian, [[1.0, 0.0], [0.0, 1.0]]);
+    assert_eq!(lone.locations()[0].jacobian, [[1.0, 0.0], [0.0, 1.0]]);
 }
 
 #[test]
@@ -224,7 +224,11 @@ fn cells_far_apart_cost_no_memory() {
         at(last, last - 1, [8.0, 8.5]),
     ];
     let set = SamplingSet::no_pattern([1 << 14; 2], samples, None, 4).unwrap();
-    let jacobians: Vec<_> = set.sites().iter().map(|site| site.jacobian).collect();
+    let jacobians: Vec<_> = set
+        .locations()
+        .iter()
+        .map(|location| location.jacobian)
+        .collect();
     assert_eq!(jacobians[0], [[1.0, 0.5], [-0.5, 1.0]]);
     assert_eq!(jacobians[1], [[1.0, 0.0], [0.0, 1.0]]);
     assert_eq!(set.statistics().quads, 0);

@@ -8,8 +8,8 @@ use gpc::scene::{
     Sampler, Scene,
 };
 
+use crate::locations::{pinhole, planar};
 use crate::meshes::Random;
-use crate::sites::{pinhole, planar};
 use crate::stage::{Stage, camera, everywhere, flat, ids, on_gpu, once, textured};
 
 const SIZE: [u32; 2] = [96, 64];
@@ -250,18 +250,18 @@ fn contradictions_are_named() {
 }
 
 #[test]
-fn sites_see_them() {
+fn locations_see_them() {
     on_gpu(|gpu| {
         let (scene, pose) = scene();
         let image = render(gpu, (&scene, &pose), &once(SIZE));
         let prepared = gpu.upload(&scene, &pose, None).unwrap();
-        let sites = planar(SIZE);
+        let locations = planar(SIZE);
         let sampled = gpu
-            .sample_points(&prepared, &pinhole(SIZE), &sites, &once(SIZE))
+            .sample_points(&prepared, &pinhole(SIZE), &locations, &once(SIZE))
             .unwrap();
         let found: Vec<u32> = sampled.values.iter().map(|sample| sample.id).collect();
         let expected = ids(&image);
         let other = found.iter().zip(&expected).filter(|(a, b)| a != b).count();
-        assert!(other <= 2, "{other} of {} sites", sites.len());
+        assert!(other <= 2, "{other} of {} locations", locations.len());
     });
 }

@@ -16,6 +16,7 @@ mod host;
 mod instances;
 mod invariance;
 mod lobes;
+mod locations;
 mod mask;
 #[path = "../common/meshes.rs"]
 mod meshes;
@@ -27,7 +28,6 @@ mod region;
 mod scene_builder;
 mod scenes;
 mod shade;
-mod sites;
 mod soundness;
 mod stage;
 mod stop;

@@ -166,6 +166,6 @@ fn impossible_regions_are_refused() {
             ..Settings::new(SIZE[0], SIZE[1])
         };
         let refused = gpu.render_with_shadows(&prepared, &camera(), &settings);
-        assert!(matches!(refused, Err(RenderError::SiteRegion)));
+        assert!(matches!(refused, Err(RenderError::LocationRegion)));
     });
 }

@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use gpc::render::{Headless, HeadlessOptions, Method, RenderError, Settings};
 
+use crate::locations::{pinhole, planar};
 use crate::scenes::ball_over_checker;
-use crate::sites::{pinhole, planar};
 use crate::stage::camera;
 
 const SIZE: [u32; 2] = [96, 64];
@@ -39,27 +39,31 @@ fn what_is_unwanted_is_not_begun_and_the_device_goes_on() {
 }
 
 #[test]
-fn sites_are_stopped_between_runs_that_see_the_same() {
+fn locations_are_stopped_between_runs_that_see_the_same() {
     let mut gpu = headless();
     let prepared = ball_over_checker().upload(&mut gpu);
-    let sites = planar(SIZE);
+    let locations = planar(SIZE);
     let settings = Settings {
         method: Method::Ssaa,
         samples: 1024,
         ..Settings::new(96, 64)
     };
-    let rig = [(pinhole(SIZE), sites)];
-    let whole = gpu.render_sites(&prepared, &rig, SIZE, &settings).unwrap();
+    let rig = [(pinhole(SIZE), locations)];
+    let whole = gpu
+        .render_locations(&prepared, &rig, SIZE, &settings)
+        .unwrap();
     // Counts submissions, and stops before the last allowed one.
     let left = Arc::new(AtomicUsize::new(usize::MAX));
     let counted = left.clone();
     gpu.stop_when(move || counted.fetch_sub(1, Ordering::Relaxed) == 0);
-    let runs = gpu.render_sites(&prepared, &rig, SIZE, &settings).unwrap();
+    let runs = gpu
+        .render_locations(&prepared, &rig, SIZE, &settings)
+        .unwrap();
     assert_eq!(whole.colors, runs.colors);
     let submissions = usize::MAX - left.load(Ordering::Relaxed);
     assert!(submissions > 3, "{submissions}");
     left.store(submissions - 1, Ordering::Relaxed);
-    let stopped = gpu.render_sites(&prepared, &rig, SIZE, &settings);
+    let stopped = gpu.render_locations(&prepared, &rig, SIZE, &settings);
     assert!(matches!(stopped, Err(RenderError::Stopped)));
     assert_eq!(gpu.validation_messages(), Vec::<String>::new());
 }

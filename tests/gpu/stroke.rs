@@ -11,9 +11,9 @@ use gpc::sampling::Pattern;
 use gpc::scene::{Loaded, PoseRequest};
 use serde_json::{Value, json};
 
+use crate::locations::{pinhole, planar};
 use crate::meshes::Random;
 use crate::scene_builder::Builder;
-use crate::sites::{pinhole, planar};
 use crate::stage::{camera, centre, everywhere, on_gpu, once, seen_at};
 
 const SIZE: [u32; 2] = [64, 48];
@@ -397,9 +397,9 @@ fn lines_move_with_their_nodes() {
     });
 }
 
-/// Sites at the centres of an image's pixels.
+/// Locations at the centres of an image's pixels.
 #[test]
-fn sites_see_lines_as_wide() {
+fn locations_see_lines_as_wide() {
     on_gpu(|gpu| {
         let ends: Vec<_> = segments().into_iter().flatten().collect();
         let loaded = drawn(LINES, &ends);

@@ -1,4 +1,4 @@
-//! In how many parts superpixels are shaded, against the CPU's decision: each place is a visibility record.
+//! In how many parts superpixels are shaded, against the CPU's decision: each place is a visibility sample.
 
 use crate::meshes::Random;
 use crate::stage::{Stage, on_gpu, once, seen_at, textured};

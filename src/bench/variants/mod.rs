@@ -52,7 +52,7 @@ impl Variant {
             Self::Raster => {
                 "the centre of each pixel by the raster pass: the planar render that the others are held against"
             }
-            Self::Planar => "the same centres as sites of the engine that samples any location",
+            Self::Planar => "the same centres as locations of the engine that samples any location",
             Self::Offset => {
                 "one location a pixel, where a smooth zoom by 1 / 0.3 of the middle of the image sends it"
             }

@@ -5,7 +5,7 @@ use crate::bench::Random;
 use crate::camera::panorama::{Panorama, PanoramaProjection};
 use crate::camera::set::{Sample, SamplingSet, SetError};
 use crate::camera::zoom::{Shape, Transition, ZoomError, ZoomMap, ZoomRegion};
-use crate::camera::{Camera, Pinhole, Site};
+use crate::camera::{Camera, Pinhole, SampleLocation};
 use crate::render::{Frame, Headless, Method, PreparedScene, RenderError, Settings, Statistics};
 
 /// Most samples of a leaf of the quad-tree.
@@ -19,10 +19,10 @@ const MULTIPLICITY: f64 = 0.3;
 pub(super) enum Work {
     /// A frame of the raster pass.
     Frame(Box<Frame>),
-    /// One sample at each site of each pinhole.
-    Points(Vec<(Pinhole, Vec<Site>)>, Box<Settings>),
+    /// One sample at each location of each pinhole.
+    Points(Vec<(Pinhole, Vec<SampleLocation>)>, Box<Settings>),
     /// An image at two rates.
-    TwoRates(Vec<(Pinhole, Vec<Site>)>, Box<Settings>),
+    TwoRates(Vec<(Pinhole, Vec<SampleLocation>)>, Box<Settings>),
 }
 
 /// What a run did.
@@ -47,15 +47,18 @@ impl Work {
         };
         let once = with(Method::None, 1);
         let pinhole = Pinhole::from_camera(camera, size)?;
-        let points = |set: SamplingSet| vec![(pinhole, set.sites())];
+        let points = |set: SamplingSet| vec![(pinhole, set.locations())];
         let rig = match variant {
             Variant::Raster => {
                 return Ok(Self::Frame(Box::new(headless.prepare(scene, &once)?)));
             }
             Variant::Superpixel => {
                 let settings = with(Method::Superpixel, Settings::DEFAULT_SAMPLES);
-                let sites = SamplingSet::planar(size)?.sites();
-                return Ok(Self::TwoRates(vec![(pinhole, sites)], Box::new(settings)));
+                let locations = SamplingSet::planar(size)?.locations();
+                return Ok(Self::TwoRates(
+                    vec![(pinhole, locations)],
+                    Box::new(settings),
+                ));
             }
             Variant::Planar => points(SamplingSet::planar(size)?),
             Variant::Offset => points(SamplingSet::mapped(size, &zoom(size)?)?),
@@ -63,7 +66,7 @@ impl Work {
             Variant::Rig => {
                 let around = [size[0], size[0].div_ceil(2)];
                 let panorama = Panorama::new(PanoramaProjection::Equirectangular, 360.0, around)?;
-                panorama.sites(camera)?.rig().to_vec()
+                panorama.locations(camera)?.rig().to_vec()
             }
         };
         Ok(Self::Points(rig, Box::new(once)))
@@ -86,15 +89,15 @@ impl Work {
             }
             Self::Points(rig, settings) => {
                 let mut sum = done(0, &Statistics::default());
-                for (pinhole, sites) in rig {
-                    let sampled = headless.sample_points(scene, pinhole, sites, settings)?;
-                    sum.samples += sites.len() as u64;
+                for (pinhole, locations) in rig {
+                    let sampled = headless.sample_points(scene, pinhole, locations, settings)?;
+                    sum.samples += locations.len() as u64;
                     sum.gpu_ms += sampled.statistics.gpu_ms();
                 }
                 Ok(sum)
             }
             Self::TwoRates(rig, settings) => {
-                let rendered = headless.render_sites(scene, rig, settings.size, settings)?;
+                let rendered = headless.render_locations(scene, rig, settings.size, settings)?;
                 let pixels = rendered.colors.len() as u64;
                 let more = rendered.statistics.superpixels * u64::from(settings.samples);
                 Ok(done(pixels + more, &rendered.statistics))

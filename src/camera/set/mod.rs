@@ -29,7 +29,7 @@ pub use error::SetError;
 pub use quadtree::Leaf;
 pub use statistics::SetStatistics;
 
-use super::{LocationMap, Site};
+use super::{LocationMap, SampleLocation};
 use glam::{DMat2, DVec2};
 use neighbours::Neighbours;
 
@@ -305,9 +305,9 @@ impl SamplingSet {
     /// What the renderer samples, one for each sample in their order. Their Jacobians are those of the location map
     /// where there is one, otherwise differences of the locations of neighbouring rows and columns.
     #[must_use]
-    pub fn sites(&self) -> Vec<Site> {
+    pub fn locations(&self) -> Vec<SampleLocation> {
         let output = |sample: &Sample| sample.row * self.size[0] + sample.col;
-        let site = |sample: &Sample, jacobian: DMat2| Site {
+        let location = |sample: &Sample, jacobian: DMat2| SampleLocation {
             uv: sample.uv,
             jacobian: jacobian.to_cols_array_2d(),
             output: output(sample),
@@ -316,14 +316,14 @@ impl SamplingSet {
             Some(jacobians) => {
                 let pairs = self.samples.iter().zip(jacobians);
                 pairs
-                    .map(|(sample, jacobian)| site(sample, *jacobian))
+                    .map(|(sample, jacobian)| location(sample, *jacobian))
                     .collect()
             }
             None => {
                 let neighbours = Neighbours::new(self.size, &self.samples);
                 let samples = self.samples.iter();
                 samples
-                    .map(|sample| site(sample, neighbours.jacobian(sample.row, sample.col)))
+                    .map(|sample| location(sample, neighbours.jacobian(sample.row, sample.col)))
                     .collect()
             }
         }

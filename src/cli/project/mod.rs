@@ -160,8 +160,8 @@ pub fn run(args: &ProjectArgs) -> anyhow::Result<ExitCode> {
 /// The picture where a projector's pixels shine.
 fn shoot(stage: &mut Stage, projector: &Projector) -> anyhow::Result<Shot> {
     let pinhole = stage.pinhole()?;
-    let sites = projector.set()?.sites();
-    stage.render(projector.size(), &[(pinhole, sites)])
+    let locations = projector.set()?.locations();
+    stage.render(projector.size(), &[(pinhole, locations)])
 }
 
 /// What a projector shows: opaque, for a projector knows no other, and black where it lights nothing.

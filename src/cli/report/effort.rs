@@ -25,7 +25,7 @@ pub struct Superpixels {
     pub fraction: f64,
     /// Those that the first few of their samples did not settle.
     resampled: u64,
-    /// Visibility records: the places that are shaded, and the links of BLEND layers.
+    /// Visibility samples: the places that are shaded, and the links of BLEND layers.
     records: u64,
 }
 

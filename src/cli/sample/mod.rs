@@ -150,18 +150,18 @@ fn sample(
     set: &SamplingSet,
     aa: Antialiasing,
 ) -> anyhow::Result<Sampled<PointSample>> {
-    let sites = set.sites();
+    let locations = set.locations();
     let Stage {
         headless,
         scene,
         settings,
         ..
     } = stage;
-    let mut samples = headless.sample_points(scene, pinhole, &sites, settings)?;
+    let mut samples = headless.sample_points(scene, pinhole, &locations, settings)?;
     match aa {
         Antialiasing::None => {}
         Antialiasing::Superpixel | Antialiasing::Ssaa => {
-            let means = headless.sample_superpixels(scene, pinhole, &sites, settings)?;
+            let means = headless.sample_superpixels(scene, pinhole, &locations, settings)?;
             for (sample, color) in samples.values.iter_mut().zip(means.values) {
                 sample.color = color;
             }

@@ -194,5 +194,5 @@ fn rate(rate: Option<f64>) -> String {
 }
 
 fn render_set(stage: &mut Stage, pinhole: Pinhole, set: &SamplingSet) -> anyhow::Result<Shot> {
-    stage.render(set.size(), &[(pinhole, set.sites())])
+    stage.render(set.size(), &[(pinhole, set.locations())])
 }

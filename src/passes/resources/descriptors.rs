@@ -34,12 +34,12 @@ impl Resources {
             (24, &self.candidates),
             (27, &self.records),
             (29, &self.shaded),
-            (32, &set.locations),
+            (32, &set.offsets),
             (35, &self.filtered),
             (38, &self.pairs),
-            (42, &self.sites.sites),
-            (43, &self.sites.cells),
-            (44, &self.sites.groups),
+            (42, &self.locations.locations),
+            (43, &self.locations.cells),
+            (44, &self.locations.groups),
             (56, &self.record_shadows),
         ]
         .map(|(binding, texels)| (binding, texels.view));
@@ -75,8 +75,8 @@ impl Resources {
             (36, &self.attributes),
             (37, &self.encoded),
             (41, &self.marks),
-            (45, &self.sites.loads),
-            (54, &set.locations.buffer),
+            (45, &self.locations.loads),
+            (54, &set.offsets.buffer),
         ]
         .map(|(binding, buffer)| (binding, whole(buffer)));
         // A set shows either single-sampled or multisampled IDs; pipelines that could read the former but are

@@ -6,11 +6,11 @@ mod sample_set;
 mod sizes;
 
 pub use descriptors::IdViews;
-pub use sample_set::{Locations, SampleSet};
+pub use sample_set::{Offsets, SampleSet};
 pub use sizes::ResourceSizes;
 
+use super::locations::LocationBuffers;
 use super::pool::DescriptorPool;
-use super::sites::SiteBuffers;
 use super::{Argument, Content, Counter, FrameLayout};
 use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, VulkanError};
 use ash::vk;
@@ -39,7 +39,7 @@ pub struct Resources {
     filtered: BufferView,
     pub(crate) attributes: Buffer,
     pub(crate) encoded: Buffer,
-    pub(super) sites: SiteBuffers,
+    pub(super) locations: LocationBuffers,
     layout: Arc<FrameLayout>,
     _pool: DescriptorPool,
     sets: Vec<SampleSet>,
@@ -59,7 +59,7 @@ const TEXELS: vk::BufferUsageFlags = vk::BufferUsageFlags::from_raw(
 );
 
 impl Resources {
-    /// Allocates a frame's memory and one descriptor set for each list of sub-sample locations. `texels_of_others` are the
+    /// Allocates a frame's memory and one descriptor set for each list of offsets of sub-samples. `texels_of_others` are the
     /// texel buffers of `shaders/include/frame.glsl` that others own, by binding, as they own the lights.
     ///
     /// # Errors
@@ -71,12 +71,12 @@ impl Resources {
         (texels_of_others, lights): (&[(u32, vk::BufferView)], &Buffer),
         ids: &IdViews,
         sizes: ResourceSizes,
-        location_lists: &[Locations<'_>],
+        offset_lists: &[Offsets<'_>],
     ) -> Result<Self, VulkanError> {
         let pixels = sizes.colors();
         let tiles = u64::from(sizes.tiles());
         let records = u64::from(sizes.record_capacity);
-        let site_sizes = sizes.sites.unwrap_or_default();
+        let location_sizes = sizes.locations.unwrap_or_default();
         let storage_in = |name: &str, bytes: u64, location: MemoryUse| {
             memory.storage_buffer(name, bytes, STORAGE, location)
         };
@@ -87,18 +87,18 @@ impl Resources {
         let texels = |name: &str, elements: u64, format| {
             texels_in(name, elements, format, MemoryUse::Device)
         };
-        // The host writes the masks of sites and reads what they see, run by run.
-        let (input, output) = if sizes.sites.is_some() {
+        // The host writes the masks of locations and reads what they see, run by run.
+        let (input, output) = if sizes.locations.is_some() {
             (MemoryUse::Upload, MemoryUse::Readback)
         } else {
             (MemoryUse::Device, MemoryUse::Device)
         };
         let float4 = vk::Format::R32G32B32A32_SFLOAT;
         let uint4 = vk::Format::R32G32B32A32_UINT;
-        let pool = layout.pool(location_lists.len() as u32, 0)?;
-        let sets = location_lists
+        let pool = layout.pool(offset_lists.len() as u32, 0)?;
+        let sets = offset_lists
             .iter()
-            .map(|locations| SampleSet::new(layout, memory, &pool, locations))
+            .map(|offsets| SampleSet::new(layout, memory, &pool, offsets))
             .collect::<Result<Vec<_>, VulkanError>>()?;
         let resources = Self {
             sizes,
@@ -108,7 +108,7 @@ impl Resources {
             masks: storage_in("superpixel mask", tiles * 4, input)?,
             marks: storage(
                 "marks of pixels",
-                sizes.work_owners() * ResourceSizes::MARK_BYTES,
+                sizes.work_items() * ResourceSizes::MARK_BYTES,
             )?,
             tiles: storage("tiles", tiles * 16)?,
             tile_lists: storage("tile lists", sizes.work_bytes())?,
@@ -124,7 +124,7 @@ impl Resources {
                 uint4,
             )?,
             headers: storage("record headers", records * 8)?,
-            records: texels("visibility records", records, uint4)?,
+            records: texels("visibility samples", records, uint4)?,
             shaded: texels("shaded records", records, float4)?,
             record_shadows: texels_in(
                 "shadows of records",
@@ -147,7 +147,7 @@ impl Resources {
                 output,
             )?,
             encoded: storage("encoded colour", sizes.encoded)?,
-            sites: SiteBuffers::new(memory, &site_sizes, tiles)?,
+            locations: LocationBuffers::new(memory, &location_sizes, tiles)?,
             layout: layout.clone(),
             _pool: pool,
             sets,
@@ -164,7 +164,7 @@ impl Resources {
         &self.sizes
     }
 
-    /// The list of sub-sample locations at `index`.
+    /// The list of offsets of sub-samples at `index`.
     pub(crate) fn set(&self, index: usize) -> Option<&SampleSet> {
         self.sets.get(index)
     }

@@ -6,7 +6,7 @@ use crate::vulkan::{Buffer, Recorder};
 use ash::vk;
 
 impl Resources {
-    /// Copies the locations to the device and clears all counters, once.
+    /// Copies the offsets to the device and clears all counters, once.
     pub fn record_upload(&self, recorder: &Recorder<'_>) {
         for set in &self.sets {
             set.upload.record(recorder);
@@ -68,7 +68,7 @@ impl Resources {
         recorder.copy(&self.counters, bytes, to, slot * bytes);
     }
 
-    /// Copies the first `count` visibility records of a round to a buffer that has room for them.
+    /// Copies the first `count` visibility samples of a round to a buffer that has room for them.
     pub(crate) fn record_keep_records(&self, recorder: &Recorder<'_>, to: &Buffer, count: u32) {
         let bytes = 16 * u64::from(count.min(self.sizes.record_capacity));
         recorder.copy(&self.records.buffer, bytes, to, 0);

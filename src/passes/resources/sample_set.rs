@@ -1,4 +1,4 @@
-//! Sub-sample locations on the device, and the descriptor set of the passes that read them.
+//! Sub-sample offsets on the device, and the descriptor set of the passes that read them.
 
 use crate::passes::pool::DescriptorPool;
 use crate::passes::upload::Upload;
@@ -6,36 +6,36 @@ use crate::passes::{FrameLayout, FrameUniform};
 use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, VulkanError};
 use ash::vk;
 
-/// Sub-sample locations relative to the pixel's centre, in pixels.
+/// Offsets of sub-samples from the pixel's centre, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Locations<'a> {
+pub struct Offsets<'a> {
     /// Those of a cell, and then those of a first run of few samples where there is one.
     pub all: &'a [[f32; 2]],
     /// Samples of a cell.
     pub count: u32,
 }
 
-/// Sub-sample locations and the descriptor set that reads them.
+/// Sub-sample offsets and the descriptor set that reads them.
 pub struct SampleSet {
     pub(super) uniform: Buffer,
-    pub(super) locations: BufferView,
+    pub(super) offsets: BufferView,
     pub(super) upload: Upload,
     count: u32,
     set: vk::DescriptorSet,
 }
 
 impl SampleSet {
-    /// Allocates a list of locations, its uniform block and its set, which is not written yet.
+    /// Allocates a list of offsets, its uniform block and its set, which is not written yet.
     pub(super) fn new(
         layout: &FrameLayout,
         memory: &Memory,
         pool: &DescriptorPool,
-        Locations { all, count }: &Locations<'_>,
+        Offsets { all, count }: &Offsets<'_>,
     ) -> Result<Self, VulkanError> {
         let mut content = all.to_vec();
         content.extend(sums_of_runs(all, *count));
-        let locations = memory.texel_buffer(
-            "sub-sample locations",
+        let offsets = memory.texel_buffer(
+            "offsets of sub-samples",
             content.len() as u64,
             vk::Format::R32G32_SFLOAT,
             vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER
@@ -46,7 +46,7 @@ impl SampleSet {
         let upload = Upload::new(
             memory,
             "location upload",
-            &locations.buffer,
+            &offsets.buffer,
             bytemuck::cast_slice(&content),
         )?;
         Ok(Self {
@@ -56,14 +56,14 @@ impl SampleSet {
                 vk::BufferUsageFlags::UNIFORM_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
                 MemoryUse::Device,
             )?,
-            locations,
+            offsets,
             upload,
             count: *count,
             set: pool.allocate(layout.frame_set)?,
         })
     }
 
-    /// Number of locations.
+    /// Number of offsets.
     #[must_use]
     pub fn count(&self) -> u32 {
         self.count
@@ -80,7 +80,7 @@ const MASK: usize = 64;
 /// Samples of a run whose sums are listed.
 const RUN: usize = 4;
 
-/// For each run of four samples of the first 64, and for one behind them: the sums of the locations of those that the bits of
+/// For each run of four samples of the first 64, and for one behind them: the sums of the offsets of those that the bits of
 /// a number from 0 to 15 name.
 fn sums_of_runs(all: &[[f32; 2]], count: u32) -> Vec<[f32; 2]> {
     let known = &all[..all.len().min(count as usize).min(MASK)];
@@ -102,18 +102,18 @@ mod tests {
 
     #[test]
     fn sums_of_runs_are_those_of_the_samples_that_bits_name() {
-        let locations: Vec<[f32; 2]> = (0..100).map(|n| [1.0, (n * n) as f32]).collect();
+        let offsets: Vec<[f32; 2]> = (0..100).map(|n| [1.0, (n * n) as f32]).collect();
         for count in [1, 5, 64, 100] {
-            let sums = sums_of_runs(&locations, count);
+            let sums = sums_of_runs(&offsets, count);
             assert_eq!(sums.len(), 17 * 16);
             let number = |sample: usize| sample / 4 * 16 + (1 << (sample % 4));
             for sample in 0..64 {
                 let known = sample < count as usize;
-                let expected = if known { locations[sample] } else { [0.0; 2] };
+                let expected = if known { offsets[sample] } else { [0.0; 2] };
                 assert_eq!(sums[number(sample)], expected);
             }
             let first: [f32; 2] =
-                [0, 1].map(|axis| (0..4.min(count as usize)).map(|n| locations[n][axis]).sum());
+                [0, 1].map(|axis| (0..4.min(count as usize)).map(|n| offsets[n][axis]).sum());
             assert_eq!(sums[15], first);
             assert_eq!(sums[16 * 16 + 15], [0.0; 2]);
         }

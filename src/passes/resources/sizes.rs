@@ -1,6 +1,6 @@
 //! How much room a frame needs.
 
-use crate::passes::SiteSizes;
+use crate::passes::LocationSizes;
 use crate::vulkan::Limits;
 
 /// How much room a frame needs.
@@ -10,15 +10,15 @@ pub struct ResourceSizes {
     pub region: [u32; 2],
     /// Invocations of a subgroup: an entry of a work list is as many cells.
     pub lanes: u32,
-    /// Sites of a region, where cells are these instead of pixels.
-    pub sites: Option<SiteSizes>,
+    /// Locations of a region, where cells are these instead of pixels.
+    pub locations: Option<LocationSizes>,
     /// Triangles that may touch a cell, or are thin.
     pub survivor_capacity: u32,
     /// Pairs of a triangle and a tile of all rounds.
     pub pair_capacity: u32,
     /// Candidates of all lists of a round.
     pub list_capacity: u32,
-    /// Visibility records of a round; 0 where no cell is ever sampled.
+    /// Visibility samples of a round; 0 where no cell is ever sampled.
     pub record_capacity: u32,
     /// Pixels of a region after the box filter; 0 without one.
     pub filtered: u32,
@@ -37,7 +37,7 @@ impl ResourceSizes {
     pub const CANDIDATE_TEXELS: u64 = 4;
     /// Bytes of a candidate.
     pub const CANDIDATE_BYTES: u64 = 16 * Self::CANDIDATE_TEXELS;
-    /// Bytes of the marks of a tile or group of sites: three words.
+    /// Bytes of the marks of a tile or group of locations: three words.
     pub const MARK_BYTES: u64 = 12;
 
     /// Most pairs that a buffer of the device holds.
@@ -76,24 +76,26 @@ impl ResourceSizes {
     /// Colours of a region.
     #[must_use]
     pub fn colors(&self) -> u64 {
-        self.sites
-            .map_or(u64::from(self.pixels()), |sites| u64::from(sites.sites))
+        self.locations
+            .map_or(u64::from(self.pixels()), |locations| {
+                u64::from(locations.locations)
+            })
     }
 
-    /// Owners of cells: tiles or, where there are more, groups of sites.
-    pub(super) fn work_owners(&self) -> u64 {
-        let groups = self.sites.map_or(0, |sites| sites.groups);
+    /// Work items: tiles or, where there are more, groups of locations.
+    pub(super) fn work_items(&self) -> u64 {
+        let groups = self.locations.map_or(0, |locations| locations.groups);
         self.tiles().max(groups).into()
     }
 
-    /// Bytes of the work lists: six of them, with as many entries for an owner as its cells may fill.
+    /// Bytes of the work lists: six of them, with as many entries for a work item as its cells may fill.
     pub(super) fn work_bytes(&self) -> u64 {
-        let entries = if self.sites.is_some() {
+        let entries = if self.locations.is_some() {
             1
         } else {
             32 / self.lanes
         };
-        self.work_owners() * 6 * 4 * u64::from(entries)
+        self.work_items() * 6 * 4 * u64::from(entries)
     }
 
     /// Elements of the largest texel buffer.
@@ -101,16 +103,16 @@ impl ResourceSizes {
     pub fn largest_texels(&self) -> u64 {
         let [records, pairs, candidates] =
             [self.record_capacity, self.pair_capacity, self.list_capacity].map(u64::from);
-        let [sites, cells] = self
-            .sites
-            .map_or([0; 2], |sites| [sites.sites, sites.cells])
+        let [locations, cells] = self
+            .locations
+            .map_or([0; 2], |locations| [locations.locations, locations.cells])
             .map(u64::from);
         [
             self.colors(),
             records,
             pairs,
             candidates * Self::CANDIDATE_TEXELS,
-            2 * sites,
+            2 * locations,
             2 * cells,
         ]
         .into_iter()
@@ -131,7 +133,7 @@ impl ResourceSizes {
         let records = u64::from(self.record_capacity);
         pixels * (16 + 4 + 4 + 4)
             + tiles * 20
-            + self.work_owners() * Self::MARK_BYTES
+            + self.work_items() * Self::MARK_BYTES
             + self.work_bytes()
             + u64::from(self.list_capacity) * Self::CANDIDATE_BYTES
             + u64::from(self.pair_capacity) * Self::PAIR_BYTES
@@ -142,6 +144,6 @@ impl ResourceSizes {
             + if self.attributes { pixels * 32 } else { 0 }
             + if self.shadows { records * 4 } else { 0 }
             + self.encoded
-            + self.sites.map_or(0, |sites| sites.bytes(tiles))
+            + self.locations.map_or(0, |locations| locations.bytes(tiles))
     }
 }

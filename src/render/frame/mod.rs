@@ -9,11 +9,11 @@ mod uniform;
 
 pub use target::Target;
 
-use super::plan::{Effort, Plan};
+use super::plan::{Capacity, Plan};
 use super::{RenderError, Settings};
 use crate::camera::Camera;
 use crate::passes::{
-    Content, Counter, Encoding, FrameGeometry, FrameLayout, FrameLook, GpuScene, Locations,
+    Content, Counter, Encoding, FrameGeometry, FrameLayout, FrameLook, GpuScene, Offsets,
     RasterTargets, Resources,
 };
 use crate::render::engine::with_probes;
@@ -52,7 +52,7 @@ impl Frame {
         scene: &Arc<GpuScene>,
         settings: &Settings,
         encoding: Option<Encoding>,
-        effort: Effort,
+        capacity: Capacity,
         beside: u64,
     ) -> Result<Self, RenderError> {
         let gpu = scene.memory().gpu().clone();
@@ -63,7 +63,7 @@ impl Frame {
             &**scene,
             gpu.limits(),
             encoding,
-            effort,
+            capacity,
             beside_regions,
         )?;
         let memory = Memory::new(
@@ -78,15 +78,15 @@ impl Frame {
             raster_samples(settings),
             scene.has_blend(),
         )?;
-        let locations = settings.locations()?;
-        let sample_count = locations.len() as u32;
-        let locations = with_probes(locations)?;
-        let centre = Locations {
+        let offsets = settings.offsets()?;
+        let sample_count = offsets.len() as u32;
+        let offsets = with_probes(offsets)?;
+        let centre = Offsets {
             all: &[[0.0, 0.0]],
             count: 1,
         };
-        let locations = Locations {
-            all: &locations,
+        let offsets = Offsets {
+            all: &offsets,
             count: sample_count,
         };
         let geometry = FrameGeometry::new(&memory, scene, true)?;
@@ -100,7 +100,7 @@ impl Frame {
             (&texels, look.lights(scene)),
             &targets.views(),
             plan.sizes,
-            &[centre, locations],
+            &[centre, offsets],
         )?;
         let passes = Passes::new(layout, scene, settings, &plan, encoding)?;
         let regions = plan.regions.len() as u64;
@@ -168,11 +168,11 @@ impl Frame {
     }
 
     /// What it was planned for.
-    pub(super) fn effort(&self) -> Effort {
-        self.plan.effort
+    pub(super) fn capacity(&self) -> Capacity {
+        self.plan.capacity
     }
 
-    /// Whether [`Effort::with_doubled_lists`] makes any difference.
+    /// Whether [`Capacity::with_doubled_lists`] makes any difference.
     pub(super) fn lists_can_grow(&self) -> bool {
         self.plan.lists_can_grow && self.settings.max_memory.is_none()
     }

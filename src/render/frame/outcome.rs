@@ -9,7 +9,7 @@ use crate::render::{PassTime, RenderError, Statistics};
 impl Frame {
     /// What the last frame could not finish.
     pub(in crate::render) fn shortfall(&self) -> Result<Shortfall, RenderError> {
-        let unlisted = self.plan.effort.unlisted;
+        let unlisted = self.plan.capacity.unlisted;
         let mut shortfall = Shortfall::default();
         let room = self.plan.sizes.survivor_capacity;
         for (tiles, run, counters) in self.counted()? {

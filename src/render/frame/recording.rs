@@ -17,8 +17,8 @@ use std::ops::Range;
 
 /// Descriptor set with one sample at the pixel's centre.
 const CENTRE: usize = 0;
-/// Descriptor set with the method's sample locations.
-const LOCATIONS: usize = 1;
+/// Descriptor set with the method's sample offsets.
+const OFFSETS: usize = 1;
 
 /// The runs of the sampling engine over a region, each of which counts for itself.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -101,12 +101,11 @@ impl Recording<'_> {
 
     fn record_region(&self, recorder: &mut Recorder<'_>, index: usize, region: &Region) {
         let (passes, resources, scene) = (self.passes, self.resources, self.scene);
-        let (Some(centre), Some(locations)) = (resources.set(CENTRE), resources.set(LOCATIONS))
-        else {
+        let (Some(centre), Some(offsets)) = (resources.set(CENTRE), resources.set(OFFSETS)) else {
             return;
         };
         let main = if passes.multisampling.is_some() {
-            locations
+            offsets
         } else {
             centre
         };
@@ -180,13 +179,13 @@ impl Recording<'_> {
             resources.record_keep_counters(recorder, self.counters, Run::Blended.slot(index));
         }
         if let Some(engine) = &passes.superpixels {
-            let owned = self.uniform(region, locations.count(), true);
-            resources.record_begin(recorder, locations, &owned);
+            let owned = self.uniform(region, offsets.count(), true);
+            resources.record_begin(recorder, offsets, &owned);
             engine.record(recorder, resources, &shading, &work);
             resources.record_keep_counters(recorder, self.counters, Run::Superpixels.slot(index));
             let growing = Growing {
                 resources,
-                set: locations,
+                set: offsets,
                 uniform: owned,
                 work: Work {
                     rounds: self.plan.growth_rounds(),

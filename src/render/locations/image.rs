@@ -1,0 +1,271 @@
+//! An image whose pixels look where locations say: sampled once, then as superpixels where that aliases.
+
+use super::{LocationError, thin};
+use crate::camera::{Pinhole, SampleLocation};
+use crate::reference::detect;
+use crate::render::color::display_code;
+use crate::render::{
+    Coverage, Detection, Headless, Method, PixelAttributes, PreparedScene, RenderError, Rendered,
+    Settings, Shading, Shadows, Statistics,
+};
+use crate::sampling::Pattern;
+use std::time::Instant;
+
+/// One value for each output cell, as detection compares them.
+struct Cells {
+    colors: Vec<[f32; 4]>,
+    attributes: Vec<PixelAttributes>,
+    blend_ids: Vec<u32>,
+    codes: Vec<u32>,
+    /// What lights each lies in the shadow of.
+    shadows: Vec<u32>,
+}
+
+impl Headless {
+    /// Renders the image of `size` pixels whose pixel `row * width + column` looks where the location of that output index
+    /// does, on the plane of its pinhole. The pinholes of a list share a centre of projection as a rule, and together
+    /// see what one plane can't.
+    ///
+    /// Every location is sampled once. Where neighbours in the *output* alias, across pinholes too, locations are then sampled
+    /// as superpixels, and so are those that a triangle narrower than their cell crosses unseen. `ssaa` samples every
+    /// location by a grid and shades each sample. Pixels without a location show the background; of several locations of a
+    /// pixel the last one counts.
+    ///
+    /// # Errors
+    /// [`RenderError::Location`] names the first location that can't be sampled or has no place in the output,
+    /// [`RenderError::LocationMethod`] if the method is `msaa`, [`RenderError::LocationRegion`] if the settings have a region;
+    /// otherwise as [`Headless::render`].
+    pub fn render_locations(
+        &mut self,
+        scene: &PreparedScene,
+        rig: &[(Pinhole, Vec<SampleLocation>)],
+        size: [u32; 2],
+        settings: &Settings,
+    ) -> Result<Rendered, RenderError> {
+        let mut settings = Settings {
+            size,
+            ..settings.clone()
+        };
+        settings.check(self.gpu().limits())?;
+        match settings.method {
+            Method::Msaa => return Err(RenderError::LocationMethod),
+            Method::Ssaa => {
+                // Superpixels that are shaded as brute force is read textures as it does.
+                settings.method = Method::Superpixel;
+                settings.pattern = Pattern::Grid;
+                settings.detection = Detection::Every;
+                settings.coverage = Coverage::Samples;
+                settings.shading = Shading::Sample;
+            }
+            Method::None | Method::Superpixel => {}
+        }
+        if settings.region.is_some() {
+            return Err(RenderError::LocationRegion);
+        }
+        let count = u64::from(size[0]) * u64::from(size[1]);
+        for (index, location) in rig.iter().flat_map(|(_, locations)| locations).enumerate() {
+            if u64::from(location.output) >= count {
+                return Err(LocationError::Output {
+                    index,
+                    output: location.output,
+                    cells: count,
+                }
+                .into());
+            }
+        }
+        let samples_cells = settings.method != Method::None;
+        let every = samples_cells && settings.detection == Detection::Every;
+        let mut statistics = Statistics::default();
+        let mut cells = Cells::new(count as usize, &settings);
+        if !every || settings.attributes {
+            for (pinhole, locations) in rig.iter().filter(|(_, locations)| !locations.is_empty()) {
+                let seen = self.sample_points(scene, pinhole, locations, &settings)?;
+                statistics.append(seen.statistics);
+                for (location, seen) in locations.iter().zip(&seen.values) {
+                    cells.put(location.output as usize, seen);
+                }
+            }
+        }
+        if samples_cells {
+            let mut marked = if every {
+                vec![true; count as usize]
+            } else {
+                cells.aliasing(&settings)?
+            };
+            if settings.thin && !every {
+                cells.mark_thin(scene, rig, size[0], &mut marked);
+            }
+            statistics.append(self.sample_marked(scene, rig, &marked, &settings, &mut cells)?);
+            for _ in 0..settings.growths() {
+                marked = cells.beside(&marked, &settings);
+                statistics.append(self.sample_marked(scene, rig, &marked, &settings, &mut cells)?);
+            }
+        }
+        Ok(Rendered {
+            size,
+            colors: cells.colors,
+            attributes: if settings.attributes {
+                cells.attributes
+            } else {
+                Vec::new()
+            },
+            statistics,
+        })
+    }
+
+    /// Samples the locations of marked cells as superpixels.
+    fn sample_marked(
+        &mut self,
+        scene: &PreparedScene,
+        rig: &[(Pinhole, Vec<SampleLocation>)],
+        marked: &[bool],
+        settings: &Settings,
+        cells: &mut Cells,
+    ) -> Result<Statistics, RenderError> {
+        let mut statistics = Statistics::default();
+        for (pinhole, locations) in rig {
+            let chosen: Vec<SampleLocation> = locations
+                .iter()
+                .filter(|location| {
+                    marked
+                        .get(location.output as usize)
+                        .copied()
+                        .unwrap_or(false)
+                })
+                .copied()
+                .collect();
+            if chosen.is_empty() {
+                continue;
+            }
+            let resolved = self.sample_superpixels(scene, pinhole, &chosen, settings)?;
+            statistics.append(resolved.statistics);
+            for (location, color) in chosen.iter().zip(&resolved.values) {
+                cells.resolve(location.output as usize, *color, settings.samples);
+            }
+        }
+        Ok(statistics)
+    }
+}
+
+impl Cells {
+    fn new(count: usize, settings: &Settings) -> Self {
+        let background = settings.background_rgba();
+        let unseen = PixelAttributes {
+            samples: 1,
+            ..PixelAttributes::default()
+        };
+        Self {
+            colors: vec![background; count],
+            attributes: vec![unseen; count],
+            blend_ids: vec![0; count],
+            codes: vec![display_code(background); count],
+            shadows: vec![0; count],
+        }
+    }
+
+    fn put(&mut self, cell: usize, seen: &super::PointSample) {
+        if let (Some(color), Some(attributes), Some(blend_id), Some(code), Some(shadows)) = (
+            self.colors.get_mut(cell),
+            self.attributes.get_mut(cell),
+            self.blend_ids.get_mut(cell),
+            self.codes.get_mut(cell),
+            self.shadows.get_mut(cell),
+        ) {
+            *color = seen.color;
+            attributes.depth = seen.depth;
+            attributes.id = seen.id;
+            attributes.normal = seen.normal;
+            *blend_id = seen.blend_id;
+            *code = seen.code;
+            *shadows = seen.shadows;
+        }
+    }
+
+    fn resolve(&mut self, cell: usize, resolved: [f32; 4], samples: u32) {
+        if let (Some(color), Some(attributes)) =
+            (self.colors.get_mut(cell), self.attributes.get_mut(cell))
+        {
+            *color = resolved;
+            attributes.samples = samples;
+            attributes.superpixel = 1;
+        }
+    }
+
+    /// Whether each cell aliases: beside another triangle, or the border of a shadow.
+    fn aliasing(&self, settings: &Settings) -> Result<Vec<bool>, RenderError> {
+        let [width, height] = settings.size;
+        let mode = match settings.detection {
+            Detection::Contrast => detect::Mode::Contrast(settings.contrast),
+            Detection::Edges => detect::Mode::Edges(settings.contrast),
+            Detection::Exact | Detection::Every => detect::Mode::Exact,
+        };
+        let ids: Vec<u32> = self.attributes.iter().map(|seen| seen.id).collect();
+        let frame = detect::Frame::new(width, height, &ids, &self.blend_ids, &self.codes)?;
+        let mut mask = detect::superpixels(&frame, mode);
+        if settings.shadows == Shadows::Exact {
+            let no_layers = vec![0; self.shadows.len()];
+            let frame = detect::Frame::new(width, height, &self.shadows, &no_layers, &self.codes)?;
+            let borders = detect::superpixels(&frame, mode);
+            for (word, borders) in mask.iter_mut().zip(borders) {
+                *word |= borders;
+            }
+        }
+        let tiles = width.div_ceil(detect::TILE_WIDTH);
+        let marked = |pixel: u32| {
+            let (x, y) = (pixel % width, pixel / width);
+            let (column, row) = (x / detect::TILE_WIDTH, y / detect::TILE_HEIGHT);
+            let bit = y % detect::TILE_HEIGHT * detect::TILE_WIDTH + x % detect::TILE_WIDTH;
+            mask.get((row * tiles + column) as usize)
+                .is_some_and(|word| word >> bit & 1 != 0)
+        };
+        Ok((0..width * height).map(marked).collect())
+    }
+
+    /// Whether each cell grows beside others: it is no superpixel, and contrasts with what one of those `resolved` last was
+    /// found to show.
+    fn beside(&self, resolved: &[bool], settings: &Settings) -> Vec<bool> {
+        let [width, height] = settings.size.map(|side| side as usize);
+        let shown = |cell: usize| settings.output_code(self.colors[cell]).to_le_bytes();
+        let grows = |cell: usize| {
+            let own = self.codes[cell].to_le_bytes();
+            let (x, y) = (cell % width, cell / width);
+            let rows = y.saturating_sub(1)..(y + 2).min(height);
+            let mut around = rows.flat_map(|row| {
+                (x.saturating_sub(1)..(x + 2).min(width)).map(move |column| row * width + column)
+            });
+            self.attributes[cell].superpixel == 0
+                && around.any(|cell| {
+                    let mut channels = own.into_iter().zip(shown(cell));
+                    resolved[cell] && channels.any(|(a, b)| a.abs_diff(b) > settings.contrast)
+                })
+        };
+        (0..width * height).map(grows).collect()
+    }
+
+    /// Marks the cells that a thin triangle crosses unseen.
+    fn mark_thin(
+        &self,
+        scene: &PreparedScene,
+        rig: &[(Pinhole, Vec<SampleLocation>)],
+        width: u32,
+        marked: &mut [bool],
+    ) {
+        let start = Instant::now();
+        let output = thin::Output {
+            width,
+            attributes: &self.attributes,
+            blend_ids: &self.blend_ids,
+        };
+        for (pinhole, locations) in rig.iter().filter(|(_, locations)| !locations.is_empty()) {
+            for cell in thin::crossed(scene.triangles.get(), pinhole, locations, &output) {
+                if let Some(mark) = marked.get_mut(cell as usize) {
+                    *mark = true;
+                }
+            }
+        }
+        log::debug!(
+            "thin triangles: {:.1} ms",
+            start.elapsed().as_secs_f64() * 1e3
+        );
+    }
+}

@@ -1,0 +1,253 @@
+//! Sampling at any set of locations on a pinhole's image plane.
+//!
+//! A scene is sampled where [`SampleLocation`]s lie, once each ([`Headless::sample_points`]) or as superpixels
+//! ([`Headless::sample_superpixels`]); [`Headless::render_locations`] makes an image of both. They run on the engine that
+//! antialiases images; no picture is resampled.
+
+mod engine;
+mod error;
+mod image;
+mod layout;
+mod partition;
+mod plan;
+mod shadows;
+mod thin;
+mod triangles;
+
+pub use error::LocationError;
+pub(super) use shadows::Casters;
+pub(super) use triangles::{HostTriangles, Triangles};
+
+use super::{
+    Coverage, Headless, PreparedScene, RenderError, Settings, Shading, Shadows, Statistics,
+};
+use crate::camera::{Pinhole, SampleLocation};
+use crate::passes::Cells;
+use engine::{LocationEngine, LocationValues, Sampling, cell_sizes};
+use partition::{Partition, Sorted};
+use plan::LocationPlan;
+use rayon::prelude::*;
+use shadows::Receivers;
+
+/// What a sampling location sees.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PointSample {
+    /// Linear light, premultiplied alpha.
+    pub color: [f32; 4],
+    /// Distance from the eye along the view direction in world units; 0 for background.
+    pub depth: f32,
+    /// ID of the nearest opaque or MASK triangle; 0 is background.
+    pub id: u32,
+    /// ID of the nearest BLEND triangle in front of it; 0 where there is none.
+    pub blend_id: u32,
+    /// Unit normal of the opaque or MASK triangle in world space; 0 for background.
+    pub normal: [f32; 3],
+    /// The colour as detection compares it: 8-bit sRGB codes and alpha, red in the lowest byte.
+    pub code: u32,
+    /// With [`Shadows::Exact`](super::Shadows::Exact), a bit for each light of the pose, the first one lowest, that
+    /// another triangle keeps from the opaque or MASK triangle, or which shines on its other side; otherwise 0.
+    pub shadows: u32,
+}
+
+/// What is asked of the engine.
+#[derive(Clone, Copy)]
+struct Task<'a> {
+    scene: &'a PreparedScene,
+    pinhole: &'a Pinhole,
+    /// Whether lights may be hidden from records.
+    shadows: bool,
+    /// A word for each location, see `shaders/include/locations.glsl`; those that are missing are 0.
+    words: &'a [u32],
+}
+
+/// What a run of locations saw.
+struct Run<'a> {
+    /// Its locations in order.
+    locations: &'a [Sorted],
+    seen: LocationValues<'a>,
+    /// For each record, where lights may be hidden from it, a bit for each that is.
+    shadows: &'a [u32],
+}
+
+/// What a set of locations sees, in the order of the locations, and what it cost.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sampled<T> {
+    /// One value a location.
+    pub values: Vec<T>,
+    /// Figures of all runs, which count as regions; locations sampled as superpixels count as these.
+    pub statistics: Statistics,
+}
+
+impl Headless {
+    /// Samples a scene once at each location. Of the settings, size, method, samples and detection do not matter.
+    ///
+    /// # Errors
+    /// [`RenderError::Location`] names the first location that can't be sampled; with [`Shadows::Exact`](super::Shadows::Exact),
+    /// [`RenderError::NoCasters`] and [`RenderError::ShadowLights`]; otherwise as [`Headless::render`].
+    pub fn sample_points(
+        &mut self,
+        scene: &PreparedScene,
+        pinhole: &Pinhole,
+        locations: &[SampleLocation],
+        settings: &Settings,
+    ) -> Result<Sampled<PointSample>, RenderError> {
+        let partition = Partition::new(locations, Cells::Points)?;
+        let task = Task {
+            scene,
+            pinhole,
+            shadows: settings.shadows == Shadows::Exact,
+            words: &[],
+        };
+        let nothing = rayon::iter::repeat_n(PointSample::default(), locations.len());
+        let mut values: Vec<PointSample> = nothing.collect();
+        let statistics = self.run_locations(&partition, task, settings, |run| {
+            let seen = run.seen.colors.iter().zip(run.seen.attributes);
+            for (sorted, (color, [seen, normal])) in run.locations.iter().zip(seen) {
+                let [depth, id, blend_id, code] = *seen;
+                let [x, y, z, _] = normal.map(f32::from_bits);
+                values[sorted.index()] = PointSample {
+                    color: *color,
+                    depth: f32::from_bits(depth),
+                    id,
+                    blend_id,
+                    normal: [x, y, z],
+                    code,
+                    ..PointSample::default()
+                };
+            }
+            // Layers before a surface have none.
+            for (record, hidden) in run.seen.records.iter().zip(run.shadows) {
+                values[run.locations[record.location()].index()].shadows |= hidden;
+            }
+        })?;
+        Ok(Sampled { values, statistics })
+    }
+
+    /// Samples each location as a superpixel: as often as the settings say, at its location plus its Jacobian times the
+    /// offsets of their pattern. The values are resolved colours, linear light with premultiplied alpha. Of the
+    /// settings, size, method and detection do not matter. With [`Shadows::Exact`](super::Shadows::Exact) every
+    /// sub-sample is shaded by itself, whatever the settings say.
+    ///
+    /// # Errors
+    /// [`RenderError::Location`] names the first location that can't be sampled, [`RenderError::Pattern`] says which numbers of
+    /// samples there are; otherwise as [`Headless::render`].
+    pub fn sample_superpixels(
+        &mut self,
+        scene: &PreparedScene,
+        pinhole: &Pinhole,
+        locations: &[SampleLocation],
+        settings: &Settings,
+    ) -> Result<Sampled<[f32; 4]>, RenderError> {
+        let exact = settings.shadows == Shadows::Exact;
+        let by_sample = exact.then(|| Settings {
+            shading: Shading::Sample,
+            coverage: Coverage::Samples,
+            ..settings.clone()
+        });
+        let settings = by_sample.as_ref().unwrap_or(settings);
+        let partition = Partition::new(locations, Cells::Superpixels)?;
+        let task = Task {
+            scene,
+            pinhole,
+            shadows: exact,
+            words: &[],
+        };
+        let mut values = vec![[0.0; 4]; locations.len()];
+        let statistics = self.run_locations(&partition, task, settings, |run| {
+            for (sorted, color) in run.locations.iter().zip(run.seen.colors) {
+                values[sorted.index()] = *color;
+            }
+        })?;
+        Ok(Sampled { values, statistics })
+    }
+
+    /// Samples locations run by run; `take` is given what each run saw.
+    fn run_locations(
+        &mut self,
+        partition: &Partition<'_>,
+        task: Task<'_>,
+        settings: &Settings,
+        mut take: impl FnMut(&Run<'_>),
+    ) -> Result<Statistics, RenderError> {
+        let Task {
+            scene,
+            pinhole,
+            shadows,
+            words,
+        } = task;
+        self.check(&scene.gpu_scene)?;
+        let cells = partition.cells;
+        let sampling = Sampling { cells, shadows };
+        let layout = self.renderer.layout.clone();
+        let taken = scene.memory_bytes();
+        let plan = LocationPlan::new(
+            &layout,
+            &scene.gpu_scene,
+            settings,
+            (partition, sampling),
+            taken,
+            self.may_stop(),
+        )?;
+        let make =
+            |apart: bool| LocationEngine::new(&layout, scene, settings, sampling, &plan, apart);
+        let (mut engine, mut apart) = (make(false)?, false);
+        let sizes = cell_sizes(&layout, cells, settings.samples);
+        let mut statistics = Statistics::default();
+        let mut waiting: Vec<_> = plan.runs.iter().rev().cloned().collect();
+        while let Some(run) = waiting.pop() {
+            let window = partition.window(&run);
+            let data = partition.data(&run, &window, &sizes, words);
+            engine.write(&data)?;
+            // SAFETY: the last submission was waited for; scene and engine outlive this one, which is waited for.
+            self.submit(|commands| unsafe {
+                engine.record(scene, pinhole, &window, &data, commands);
+            })?;
+            match engine.check(&window) {
+                Ok(()) => {}
+                // One cell at a time gets through longer lists.
+                Err(RenderError::Unfinished { .. })
+                    if !apart && engine.shortfall(&window)?.stalled > 0 =>
+                {
+                    apart = true;
+                    engine = make(apart)?;
+                    waiting.push(run);
+                    continue;
+                }
+                // Half as many locations have half as many records.
+                Err(RenderError::Unfinished { cells }) if run.len() > 1 => {
+                    log::debug!(
+                        "{cells} cells or tiles of {} locations did not fit",
+                        run.len()
+                    );
+                    let middle = run.start + run.len() / 2;
+                    waiting.push(middle..run.end);
+                    waiting.push(run.start..middle);
+                    continue;
+                }
+                Err(error) => return Err(error),
+            }
+            let mut hidden = Vec::new();
+            if shadows {
+                let receivers = Receivers {
+                    scene,
+                    pinhole,
+                    partition,
+                    run: &run,
+                    records: engine.records()?,
+                    held_bytes: engine.memory_bytes(),
+                };
+                hidden = self.shadows(&receivers, settings, &mut statistics)?;
+                engine.write_shadows(&hidden)?;
+                // SAFETY: as above.
+                self.submit(|commands| unsafe { engine.record_shading(scene, commands) })?;
+            }
+            engine.add_statistics(scene, &window, &mut statistics)?;
+            take(&Run {
+                locations: partition.run(&run),
+                seen: engine.values(run.len())?,
+                shadows: &hidden,
+            });
+        }
+        Ok(statistics)
+    }
+}

@@ -1,0 +1,193 @@
+//! Locations at the places that other paths sample see the same.
+
+use gpc::render::{Coverage, PreparedScene, RenderError, Sampled, Settings, Shading, Statistics};
+use gpc::sampling::Pattern;
+
+use super::{pinhole, planar};
+use crate::blend::panes;
+use crate::mask::checker;
+use crate::meshes::Random;
+use crate::scenes::ball_over_checker;
+use crate::stage::{Stage, centre, everywhere, ids, on_gpu, once};
+use crate::twin::Twin;
+use crate::visibility::soup;
+
+/// Whole tiles, so that an image and its locations have the same middle.
+const SIZE: [u32; 2] = [64, 64];
+
+fn stages() -> [(&'static str, Stage); 4] {
+    [
+        ("soup", soup(7, 300, true, [-1.0, 5.0])),
+        ("lit", ball_over_checker()),
+        ("mask", checker()),
+        ("blend", panes()),
+    ]
+}
+
+/// The device's rasterizer rounds vertices to 2^-8 pixel.
+#[test]
+fn a_planar_set_sees_what_raster_sees() {
+    on_gpu(|gpu| {
+        let stage = soup(5, 300, true, [-1.0, 5.0]);
+        let raster = ids(&stage.render(gpu, &once(SIZE)));
+        let prepared = stage.upload(gpu);
+        let seen = gpu
+            .sample_points(&prepared, &pinhole(SIZE), &planar(SIZE), &once(SIZE))
+            .unwrap();
+        let twin = Twin::new(&stage, SIZE);
+        let mut differ = 0;
+        for (pixel, (raster, seen)) in raster.into_iter().zip(seen.values).enumerate() {
+            let exact = twin.nearest(pixel, centre(pixel, SIZE));
+            let doubtful = exact.contested() || exact.edge_margin < 1.0 / 128.0;
+            assert!(
+                raster == seen.id || doubtful,
+                "pixel {pixel}: {raster} and {}",
+                seen.id
+            );
+            differ += u32::from(raster != seen.id);
+        }
+        assert!(differ <= 41, "{differ} of 4096");
+    });
+}
+
+/// Opaque, MASK and BLEND surfaces: a superpixel of one sample at its centre is a point, to the bit.
+#[test]
+fn points_are_superpixels_of_one_sample() {
+    on_gpu(|gpu| {
+        for (name, stage) in stages() {
+            let settings = Settings {
+                background: Some([0.25, 0.5, 0.75]),
+                ..everywhere(SIZE, Pattern::Sobol, 1)
+            };
+            let image = stage.render(gpu, &settings);
+            let prepared = stage.upload(gpu);
+            let points = gpu
+                .sample_points(&prepared, &pinhole(SIZE), &planar(SIZE), &settings)
+                .unwrap();
+            for (pixel, (image, point)) in image.colors.iter().zip(&points.values).enumerate() {
+                assert_eq!(image, &point.color, "{name}, pixel {pixel}");
+            }
+            // And what the image without antialiasing shows, but for what raster rounds.
+            let once = Settings {
+                background: settings.background,
+                ..once(SIZE)
+            };
+            let none = stage.render(gpu, &once);
+            let far = |(a, b): &([f32; 4], [f32; 4])| (0..4).any(|c| (a[c] - b[c]).abs() > 1e-4);
+            let pairs = none.colors.iter().zip(&points.values);
+            let differ = pairs.map(|(a, b)| (*a, b.color)).filter(far).count();
+            assert!(differ <= 41, "{name}: {differ} of 4096");
+            let pairs = none.attributes.iter().zip(&points.values);
+            for (image, point) in pairs.filter(|(a, b)| a.id == b.id) {
+                assert!((image.depth - point.depth).abs() <= 1e-5 * image.depth);
+                assert!((0..3).all(|c| (image.normal[c] - point.normal[c]).abs() < 1e-5));
+            }
+        }
+    });
+}
+
+#[test]
+fn superpixels_of_pixels_are_the_antialiased_image() {
+    on_gpu(|gpu| {
+        for (name, stage) in stages() {
+            let prepared = stage.upload(gpu);
+            use {Coverage as C, Shading as S};
+            // The defaults, with a first run of few samples and without, and what they have to be the same without.
+            let mut cases = vec![(C::Area, S::Part, 256), (C::Samples, S::Triangle, 17)];
+            match name {
+                "soup" => cases.push((C::Samples, S::Triangle, 300)),
+                "lit" => cases.extend([(C::Area, S::Part, 64), (C::Samples, S::Sample, 64)]),
+                _ => {}
+            }
+            for (coverage, shading, samples) in cases {
+                let settings = Settings {
+                    coverage,
+                    shading,
+                    ..everywhere(SIZE, Pattern::Sobol, samples)
+                };
+                let image = stage.render(gpu, &settings);
+                let locations = gpu
+                    .sample_superpixels(&prepared, &pinhole(SIZE), &planar(SIZE), &settings)
+                    .unwrap();
+                let pairs = || image.colors.iter().zip(&locations.values);
+                if shading == S::Part {
+                    // Locations have no neighbours to tell what is alike, and are shaded in all parts.
+                    let sum = |value: &dyn Fn([f32; 4], [f32; 4]) -> f32| -> f32 {
+                        pairs().map(|(a, b)| value(*a, *b)).sum()
+                    };
+                    let apart = sum(&|a, b| (a[1] - b[1]).abs()) / sum(&|a, _| a[1].abs());
+                    assert!(apart < 0.01, "{name}, {samples} samples: {apart}");
+                    continue;
+                }
+                let differ = pairs().filter(|(a, b)| a != b).count();
+                assert_eq!(differ, 0, "{name}, {samples} samples");
+                let counts =
+                    |statistics: &Statistics| (statistics.superpixels, statistics.resampled);
+                assert_eq!(counts(&locations.statistics), counts(&image.statistics));
+            }
+        }
+    });
+}
+
+/// What a call returns with the least memory that it accepts, which cuts its locations into runs.
+fn least<T: std::fmt::Debug>(
+    prepared: &PreparedScene,
+    settings: &Settings,
+    mut call: impl FnMut(&Settings) -> Result<Sampled<T>, RenderError>,
+) -> Sampled<T> {
+    for extra in (0..256).map(|step| step << 16) {
+        let tight = Settings {
+            max_memory: Some(prepared.memory_bytes() + extra),
+            ..settings.clone()
+        };
+        match call(&tight) {
+            Err(RenderError::Memory { .. }) => {}
+            sampled => {
+                let sampled = sampled.unwrap();
+                assert!(sampled.statistics.regions > 1);
+                return sampled;
+            }
+        }
+    }
+    panic!("no memory is enough");
+}
+
+/// The order of locations, their duplicates and the memory that cuts them into runs do not show.
+#[test]
+fn the_order_of_locations_does_not_matter() {
+    on_gpu(|gpu| {
+        let pinhole = pinhole(SIZE);
+        for (name, stage) in stages() {
+            let prepared = stage.upload(gpu);
+            let settings = everywhere(SIZE, Pattern::Sobol, 16);
+            let locations = planar(SIZE);
+            let mut random = Random::new(11);
+            let mut shuffled: Vec<_> = locations
+                .iter()
+                .chain(&locations[100..900])
+                .copied()
+                .collect();
+            for last in (1..shuffled.len()).rev() {
+                shuffled.swap(last, random.below(last as u64 + 1) as usize);
+            }
+            let first = gpu
+                .sample_points(&prepared, &pinhole, &locations, &settings)
+                .unwrap();
+            let again = least(&prepared, &settings, |tight| {
+                gpu.sample_points(&prepared, &pinhole, &shuffled, tight)
+            });
+            for (location, value) in shuffled.iter().zip(&again.values) {
+                assert_eq!(*value, first.values[location.output as usize], "{name}");
+            }
+            let first = gpu
+                .sample_superpixels(&prepared, &pinhole, &locations, &settings)
+                .unwrap();
+            let again = least(&prepared, &settings, |tight| {
+                gpu.sample_superpixels(&prepared, &pinhole, &shuffled, tight)
+            });
+            for (location, value) in shuffled.iter().zip(&again.values) {
+                assert_eq!(*value, first.values[location.output as usize], "{name}");
+            }
+        }
+    });
+}

@@ -1,0 +1,180 @@
+//! Images whose pixels look where locations say.
+
+use gpc::camera::{Pinhole, SampleLocation};
+use gpc::render::{Coverage, Method, Rendered, Settings, Shading};
+use gpc::scene::{AlphaMode, Filter, Image, Sampler};
+
+use super::{location, pinhole, planar};
+use crate::scenes::ball_over_checker;
+use crate::stage::{Stage, on_gpu, once, seen_at, textured};
+
+const SIZE: [u32; 2] = [96, 64];
+
+fn differing(a: &Rendered, b: &Rendered) -> usize {
+    let far = |(a, b): &(&[f32; 4], &[f32; 4])| (0..4).any(|c| (a[c] - b[c]).abs() > 1e-3);
+    a.colors.iter().zip(&b.colors).filter(far).count()
+}
+
+/// A square of 64 pixels a side, with stripes two texels wide of a texture of as many texels that is repeated so often.
+fn striped(repeats: f32) -> Stage {
+    let mut stage = Stage::new(vec![textured(AlphaMode::Opaque)]);
+    // Stripes two texels wide, across u.
+    let texel = |i: u32| {
+        if i % 4 < 2 { [255; 4] } else { [0, 0, 0, 255] }
+    };
+    stage.texture = Some((
+        Image {
+            width: 64,
+            height: 64,
+            pixels: (0..64 * 64).flat_map(texel).collect(),
+        },
+        Sampler {
+            mag: Filter::Linear,
+            min: Filter::Linear,
+            mip: Some(Filter::Linear),
+            ..Sampler::default()
+        },
+    ));
+    let corner = |x: f64, y: f64| seen_at([x, y], 1.0, SIZE[1]);
+    stage.add_quad(
+        0,
+        [
+            corner(-32.0, -32.0),
+            corner(-32.0, 32.0),
+            corner(32.0, 32.0),
+            corner(32.0, -32.0),
+        ],
+    );
+    stage.triangles[0].uvs = [[0.0, 0.0], [0.0, repeats], [repeats, repeats]];
+    stage.triangles[1].uvs = [[0.0, 0.0], [repeats, repeats], [repeats, 0.0]];
+    stage
+}
+
+/// The antialiased image of a planar set is that of the camera, and a rig that shares the pixels out to two pinholes
+/// shows no seam.
+#[test]
+fn a_planar_image_is_the_cameras() {
+    on_gpu(|gpu| {
+        let stage = ball_over_checker();
+        let settings = Settings {
+            samples: 16,
+            // Locations have no neighbours to tell how many parts are enough, and are shaded in all.
+            shading: Shading::Triangle,
+            // Where more triangles meet than a subgroup has invocations, locations know no areas.
+            coverage: Coverage::Samples,
+            attributes: true,
+            background: Some([0.2, 0.3, 0.4]),
+            ..Settings::new(SIZE[0], SIZE[1])
+        };
+        let image = stage.render(gpu, &settings);
+        let prepared = stage.upload(gpu);
+        let pinhole = pinhole(SIZE);
+        let one = [(pinhole, planar(SIZE))];
+        let whole = gpu
+            .render_locations(&prepared, &one, SIZE, &settings)
+            .unwrap();
+        let superpixels = whole.statistics.superpixels;
+        assert!(superpixels > 200, "{superpixels}");
+        assert!(superpixels.abs_diff(image.statistics.superpixels) <= 12);
+        let count = |rendered: &Rendered| {
+            let seen = rendered.attributes.iter();
+            seen.filter(|p| p.superpixel == 1 && p.samples == 16)
+                .count() as u64
+        };
+        assert_eq!(count(&whole), superpixels);
+        assert!(differing(&image, &whole) <= 12);
+
+        let (left, right): (Vec<SampleLocation>, Vec<SampleLocation>) = planar(SIZE)
+            .into_iter()
+            .partition(|location| location.uv[0] < 41.0);
+        let rig: [(Pinhole, Vec<SampleLocation>); 2] = [(pinhole, right), (pinhole, left)];
+        let shared = gpu
+            .render_locations(&prepared, &rig, SIZE, &settings)
+            .unwrap();
+        assert!(shared.statistics.superpixels.abs_diff(superpixels) <= 2);
+        // The halves' positions are relative to middles of their own, and so rounded otherwise.
+        assert!(differing(&whole, &shared) <= 6);
+
+        // Brute force is a grid of samples in every pixel.
+        let brute = Settings {
+            method: Method::Ssaa,
+            ..settings.clone()
+        };
+        let reference = stage.render(
+            gpu,
+            &Settings {
+                attributes: false,
+                ..brute.clone()
+            },
+        );
+        let locations = gpu.render_locations(&prepared, &one, SIZE, &brute).unwrap();
+        assert_eq!(locations.statistics.superpixels, 96 * 64);
+        let error: f64 = reference
+            .colors
+            .iter()
+            .zip(&locations.colors)
+            .map(|(a, b)| f64::from((a[0] - b[0]).abs()))
+            .sum();
+        assert!(error / (96.0 * 64.0) < 2e-3, "{error}");
+    });
+}
+
+/// A texture of black and white texels is sharp where cells are small and grey where they are large, along the
+/// direction that they are large in.
+#[test]
+fn the_jacobian_is_the_footprint_of_textures() {
+    on_gpu(|gpu| {
+        let stage = striped(1.0);
+        let prepared = stage.upload(gpu);
+        // A texel is a pixel of the plane: stripes are white from 16 + 4 n to 18 + 4 n.
+        let at = |u: f64, side: f64| SampleLocation {
+            jacobian: [[side, 0.0], [0.0, side]],
+            ..location([u, 32.0], 0)
+        };
+        let locations: Vec<SampleLocation> = [0.01, 0.25, 16.0]
+            .into_iter()
+            .flat_map(|side| [at(33.0, side), at(35.0, side)])
+            .collect();
+        let seen = gpu
+            .sample_points(&prepared, &pinhole(SIZE), &locations, &once(SIZE))
+            .unwrap();
+        let red: Vec<f32> = seen.values.iter().map(|v| v.color[0]).collect();
+        for pair in red[..4].chunks(2) {
+            assert!(pair[0] > 0.999 && pair[1] < 0.001, "{red:?}");
+        }
+        for grey in &red[4..] {
+            assert!((0.15..0.6).contains(grey), "{red:?}");
+        }
+    });
+}
+
+/// Where stripes are finer than pixels, brute force sees them at each of its samples, and no mean of a whole pixel.
+#[test]
+fn brute_force_reads_textures_at_its_samples() {
+    on_gpu(|gpu| {
+        let stage = striped(3.0);
+        let settings = Settings {
+            method: Method::Ssaa,
+            samples: 16,
+            ..Settings::new(SIZE[0], SIZE[1])
+        };
+        let image = stage.render(gpu, &settings);
+        let prepared = stage.upload(gpu);
+        let rig = [(pinhole(SIZE), planar(SIZE))];
+        let locations = gpu
+            .render_locations(&prepared, &rig, SIZE, &settings)
+            .unwrap();
+        // Pixels of the square, without its border.
+        let inside = (20..44).flat_map(|y| (20..76).map(move |x| y * SIZE[0] as usize + x));
+        let reds =
+            inside.map(|pixel| [&image, &locations].map(|seen| f64::from(seen.colors[pixel][0])));
+        let reds: Vec<_> = reds.collect();
+        let mean =
+            |of: &dyn Fn(&[f64; 2]) -> f64| reds.iter().map(of).sum::<f64>() / reds.len() as f64;
+        let grey = mean(&|[image, _]| *image);
+        let contrast = mean(&|[image, _]| (image - grey).abs());
+        let difference = mean(&|[image, locations]| (image - locations).abs());
+        assert!(contrast > 0.05, "{contrast}");
+        assert!(difference < 0.1 * contrast, "{difference} of {contrast}");
+    });
+}
