@@ -40,6 +40,7 @@ type Variant = (
 const VARIANTS: &[Variant] = &[
     ("pose", "pose.comp", &[]),
     ("stroke", "stroke.comp", &[]),
+    ("prefilter", "prefilter.comp", &[]),
     ("raster_vertex", "raster.vert", &[]),
     ("raster_opaque", "raster.frag", &[]),
     ("raster_masked", "raster.frag", &[("MASKED", "")]),

@@ -41,8 +41,8 @@ pub fn environment(path: &Path) -> anyhow::Result<Environment> {
     let file = path.display();
     let bytes = std::fs::read(path).with_context(|| format!("{file} can't be read"))?;
     let ([width, height], pixels) = decode_linear(&bytes, &file.to_string())?;
-    let colors: Vec<[f32; 3]> = pixels.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect();
-    Environment::from_equirectangular(width, height, &colors)
+    let colors = pixels.into_iter().map(|[r, g, b, _]| [r, g, b]).collect();
+    Environment::from_equirectangular(width, height, colors)
         .with_context(|| format!("{file} is no environment"))
 }
 

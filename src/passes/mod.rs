@@ -5,6 +5,8 @@
 //!                              └─ pixel centres ─┘                 ▲             └─────── a round, as often as memory needs it ───────┘│
 //!                                                                  └───────────────────────── grow ◀────────────────────────────────┘
 //! ```
+//! `prefilter` runs once for a scene with an environment, before its first frame.
+//!
 //! Every pass records into a caller's command buffer and reads what the pass before left on the device. They share the
 //! geometry (`geometry/`) and what else the scene has (`scene/`), the memory that they hand to each other (`resources/`),
 //! the layout of descriptors (`layout.rs`) and the twins of what shaders include (`frame.rs`, `counters.rs`, `locations.rs`,
@@ -41,6 +43,8 @@ mod points;
 mod pool;
 #[cfg(feature = "gltf")]
 mod pose;
+#[cfg(feature = "gltf")]
+pub mod prefilter;
 mod raster;
 mod resolve;
 mod resources;

@@ -38,7 +38,7 @@ impl Upload {
 
 /// Fills device buffers: directly where the host sees them, else through an [`Upload`].
 pub(super) struct Uploader<'a> {
-    memory: &'a Memory,
+    pub(super) memory: &'a Memory,
     pub(super) uploads: Vec<Upload>,
 }
 

@@ -11,6 +11,7 @@ pub mod detect;
 pub mod edge;
 mod exact;
 pub mod grow;
+pub mod prefilter;
 pub mod sheen;
 pub mod srgb;
 pub mod stroke;

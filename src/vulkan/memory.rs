@@ -177,8 +177,20 @@ impl Memory {
     /// # Errors
     /// As [`Memory::buffer`]; also if the driver does not map the buffer.
     pub fn upload(&self, name: &str, bytes: &[u8]) -> Result<Buffer, VulkanError> {
+        self.filled(name, bytes, vk::BufferUsageFlags::TRANSFER_SRC)
+    }
+
+    /// A buffer of the host's that holds `bytes`.
+    ///
+    /// # Errors
+    /// As [`Memory::upload`].
+    pub(crate) fn filled(
+        &self,
+        name: &str,
+        bytes: &[u8],
+        usage: vk::BufferUsageFlags,
+    ) -> Result<Buffer, VulkanError> {
         let size = bytes.len() as u64;
-        let usage = vk::BufferUsageFlags::TRANSFER_SRC;
         let mut buffer = self.buffer(name, size, usage, MemoryUse::Upload)?;
         let unmapped = VulkanError::Call {
             call: "mapping an upload",

@@ -62,7 +62,7 @@ fn sky(radiance: impl Fn(DVec3) -> [f32; 3]) -> Environment {
             radiance(DVec3::new(sin * across, up, -cos * across))
         })
         .collect();
-    Environment::from_equirectangular(width, height, &pixels).unwrap()
+    Environment::from_equirectangular(width, height, pixels).unwrap()
 }
 
 #[test]

@@ -23,6 +23,7 @@ mod meshes;
 mod methods;
 mod partition;
 mod pose;
+mod prefilter;
 mod region;
 #[path = "../scene_builder/mod.rs"]
 mod scene_builder;
@@ -32,6 +33,7 @@ mod soundness;
 mod stage;
 mod stop;
 mod stroke;
+mod submit;
 mod ties;
 mod timers;
 mod twin;

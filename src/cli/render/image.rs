@@ -138,8 +138,12 @@ impl ImageArgs {
 
     /// Loads a scene with the variant, the environment and the edges asked for.
     pub fn load(&self, path: &Path) -> anyhow::Result<Loaded> {
-        let mut loaded = input::load_variant(path, self.camera.variant.as_deref())?;
-        if let Some(environment) = self.appearance.environment()? {
+        let (loaded, environment) = rayon::join(
+            || input::load_variant(path, self.camera.variant.as_deref()),
+            || self.appearance.environment(),
+        );
+        let mut loaded = loaded?;
+        if let Some(environment) = environment? {
             loaded.scene.environment = Some(environment);
         }
         if let Some(edges) = self.appearance.edges() {

@@ -26,7 +26,7 @@ use crate::vulkan::{Buffer, BufferView, Constants, Memory, Recorder, VulkanError
 use alpha_atlas::AlphaAtlas;
 use ash::vk;
 use bins::{Bins, MaterialBin};
-use environment::GpuEnvironment;
+use environment::{EnvironmentUpload, GpuEnvironment};
 use glam::DVec3;
 use light::GpuLight;
 use look::ChangingLook;
@@ -67,7 +67,7 @@ pub struct SceneUploads {
     buffers: Vec<Upload>,
     /// Of the scene's textures, in their order.
     textures: Vec<Buffer>,
-    environment: Option<Buffer>,
+    environment: Option<EnvironmentUpload>,
 }
 
 impl SceneUploads {
@@ -119,8 +119,8 @@ impl GpuScene {
         let uint4 = vk::Format::R32G32B32A32_UINT;
         let (bins, pool) = bins.allocate(layout, &textures)?;
         let surroundings = pose.environment(scene);
-        let (environment, environment_upload) = GpuEnvironment::new(memory, surroundings)?;
         let mut uploader = Uploader::new(memory);
+        let (environment, environment_upload) = GpuEnvironment::new(&mut uploader, surroundings)?;
         let device_geometry =
             GpuGeometry::new(&mut uploader, scene, (geometry, motion), &triangles.records)?;
         let TextureSet {

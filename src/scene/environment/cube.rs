@@ -91,7 +91,8 @@ fn place(d: DVec3) -> (u32, [f64; 2]) {
 
 /// Solid angle of a texel at a place of a face, in units of that of one in the middle.
 pub(super) fn solid_angle([a, b]: [f64; 2]) -> f64 {
-    (1.0 + a * a + b * b).powf(-1.5)
+    let square = 1.0 + a * a + b * b;
+    1.0 / (square * square.sqrt())
 }
 
 /// An equirectangular image as a cube, and ever coarser averages of it down to a texel a face.

@@ -71,7 +71,7 @@ mod tests {
                 [1.0 + latitude.cos() as f32; 3]
             })
             .collect();
-        let sky = Environment::from_equirectangular(width, height, &pixels).unwrap();
+        let sky = Environment::from_equirectangular(width, height, pixels).unwrap();
         for normal in [DVec3::Y, DVec3::X, DVec3::NEG_Y, DVec3::new(0.6, 0.8, 0.0)] {
             let found = sky.irradiance_towards(normal).x;
             let expected = 1.0 + 2.0 / 3.0 * normal.y;

@@ -1,8 +1,7 @@
-//! Light from all around: an environment map, filtered for shading.
+//! Light from all around: an environment map.
 
 mod cube;
 mod equirectangular;
-mod filter;
 mod harmonics;
 
 use glam::{DMat3, DQuat, DVec3};
@@ -37,20 +36,21 @@ pub enum EnvironmentError {
     },
 }
 
-/// What surfaces see of an environment map: for each roughness what a lobe of it averages, and what a matt surface gathers.
+/// What surfaces see of an environment map: all of it, and what a matt surface gathers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Environment {
     /// What it was made of, where that was one image.
     image: Option<Equirectangular>,
-    /// Level `i` of `n` is filtered for the perceptual roughness `i / (n - 1)`.
-    levels: Vec<Cube>,
+    /// The image as a cube, and ever coarser averages of it down to a texel a face. Where there was none, level `i` of `n` is
+    /// what a surface of the perceptual roughness `i / (n - 1)` reflects.
+    cubes: Vec<Cube>,
     irradiance: [[f32; 3]; 9],
     /// World space to that of the map.
     rotation: DMat3,
 }
 
 impl Environment {
-    /// Filters an equirectangular image, rows from the top, linear RGB. Its middle is seen along -z, its top along +y, and what
+    /// Takes an equirectangular image, rows from the top, linear RGB. Its middle is seen along -z, its top along +y, and what
     /// is right of the middle towards +x.
     ///
     /// # Errors
@@ -58,7 +58,7 @@ impl Environment {
     pub fn from_equirectangular(
         width: u32,
         height: u32,
-        pixels: &[[f32; 3]],
+        pixels: Vec<[f32; 3]>,
     ) -> Result<Self, EnvironmentError> {
         let found = pixels.len();
         if width < 2 || height < 1 || found as u64 != u64::from(width) * u64::from(height) {
@@ -79,13 +79,13 @@ impl Environment {
         let image = Equirectangular {
             width,
             height,
-            pixels: pixels.to_vec(),
+            pixels,
         };
-        let source = cube::pyramid(&image);
+        let cubes = cube::pyramid(&image);
         Ok(Self {
             image: Some(image),
-            irradiance: harmonics::irradiance(&source),
-            levels: filter::levels(&source),
+            irradiance: harmonics::irradiance(&cubes),
+            cubes,
             rotation: DMat3::IDENTITY,
         })
     }
@@ -100,7 +100,7 @@ impl Environment {
         let cube = |(side, texels)| Cube { side, texels };
         Self {
             image: None,
-            levels: levels.into_iter().map(cube).collect(),
+            cubes: levels.into_iter().map(cube).collect(),
             irradiance,
             rotation: DMat3::from_quat(rotation.inverse()),
         }
@@ -119,9 +119,14 @@ impl Environment {
         self.rotation
     }
 
-    /// Texels along the side of a face of each level, and the colours of its faces in Vulkan's order, row by row.
-    pub(crate) fn levels(&self) -> impl ExactSizeIterator<Item = (u32, &[[f32; 3]])> {
-        self.levels.iter().map(|cube| (cube.side, &cube.texels[..]))
+    /// Whether its cubes are what surfaces reflect, and not averages that the device has still to filter.
+    pub(crate) fn is_filtered(&self) -> bool {
+        self.image.is_none()
+    }
+
+    /// Texels along the side of a face of each cube, and the colours of its faces in Vulkan's order, row by row.
+    pub(crate) fn cubes(&self) -> impl ExactSizeIterator<Item = (u32, &[[f32; 3]])> {
+        self.cubes.iter().map(|cube| (cube.side, &cube.texels[..]))
     }
 
     /// Coefficients of the real spherical harmonics of the first three bands, in the map's space: what a surface gathers,
@@ -135,7 +140,7 @@ impl Environment {
     #[must_use]
     pub fn radiance(&self, towards: DVec3) -> DVec3 {
         let towards = self.rotation * towards.normalize();
-        match (&self.image, self.levels.first()) {
+        match (&self.image, self.cubes.first()) {
             (Some(image), _) => image.towards(towards),
             (None, Some(finest)) => finest.sample(towards).as_dvec3(),
             (None, None) => DVec3::ZERO,

@@ -10,6 +10,8 @@ use gpc::render::Headless;
 use gpc::vulkan::{Buffer, Gpu, Image, Memory, MemoryUse, Recorder};
 use std::sync::Arc;
 
+use crate::submit::submit;
+
 /// What a frame came to.
 pub struct Seen {
     pub colors: Vec<[f32; 4]>,
@@ -85,7 +87,6 @@ pub struct Machine<'a> {
     memory: Memory,
     antialiaser: Antialiaser,
     world: &'a World,
-    pool: vk::CommandPool,
     descriptors: vk::DescriptorPool,
     set_layout: vk::DescriptorSetLayout,
     layout: vk::PipelineLayout,
@@ -126,8 +127,6 @@ impl<'a> Machine<'a> {
         let compute = vk::ShaderStageFlags::COMPUTE;
         // SAFETY: plain creations on a live device.
         unsafe {
-            let info = vk::CommandPoolCreateInfo::default().queue_family_index(gpu.queue_family());
-            let pool = device.create_command_pool(&info, None).unwrap();
             let sizes = [vk::DescriptorPoolSize {
                 ty: vk::DescriptorType::STORAGE_BUFFER,
                 descriptor_count: 3,
@@ -176,7 +175,6 @@ impl<'a> Machine<'a> {
                 memory: Memory::new(gpu.clone(), None),
                 antialiaser,
                 world,
-                pool,
                 descriptors,
                 set_layout,
                 layout,
@@ -327,7 +325,7 @@ impl<'a> Machine<'a> {
         let aspect = vk::ImageAspectFlags::COLOR;
         let image = self.memory.image("alpha map", &info, aspect).unwrap();
         let bytes = self.filled(&map.levels.concat());
-        self.submit(|commands| {
+        submit(&self.gpu, |commands| {
             // SAFETY: the commands are waited for; image and buffer outlive them.
             let recorder = unsafe { Recorder::new(&self.gpu, commands, None) };
             recorder.transition(&image, vk::ImageLayout::UNDEFINED, WRITTEN.layout);
@@ -356,30 +354,6 @@ impl<'a> Machine<'a> {
         image
     }
 
-    /// Records commands, submits them and waits for them.
-    fn submit(&self, record: impl FnOnce(vk::CommandBuffer)) {
-        let device = self.gpu.device();
-        // SAFETY: the commands are waited for.
-        unsafe {
-            let info = vk::CommandBufferAllocateInfo::default()
-                .command_pool(self.pool)
-                .command_buffer_count(1);
-            let commands = device.allocate_command_buffers(&info).unwrap()[0];
-            let info = vk::CommandBufferBeginInfo::default();
-            device.begin_command_buffer(commands, &info).unwrap();
-            record(commands);
-            device.end_command_buffer(commands).unwrap();
-            let buffers = [commands];
-            let submits = [vk::SubmitInfo::default().command_buffers(&buffers)];
-            let queue = device.get_device_queue(self.gpu.queue_family(), 0);
-            device
-                .queue_submit(queue, &submits, vk::Fence::null())
-                .unwrap();
-            device.queue_wait_idle(queue).unwrap();
-            device.free_command_buffers(self.pool, &[commands]);
-        }
-    }
-
     /// Fills images, has them antialiased, and copies one of them.
     fn run(
         &self,
@@ -391,7 +365,7 @@ impl<'a> Machine<'a> {
         (shown, read_back): (&Image, &Buffer),
     ) {
         let device = self.gpu.device();
-        self.submit(|commands| {
+        submit(&self.gpu, |commands| {
             // SAFETY: the commands are waited for; all handles outlive them.
             unsafe {
                 for (image, aspect, bytes) in pictures {
@@ -531,7 +505,6 @@ impl Drop for Machine<'_> {
             device.destroy_pipeline_layout(self.layout, None);
             device.destroy_descriptor_set_layout(self.set_layout, None);
             device.destroy_descriptor_pool(self.descriptors, None);
-            device.destroy_command_pool(self.pool, None);
         }
     }
 }

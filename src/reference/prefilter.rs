@@ -1,0 +1,83 @@
+//! What a surface reflects of an environment along its normal: the average that `prefilter` makes of cubes.
+
+use glam::{DMat3, DVec3};
+
+/// A cube of `side` texels along a face; face by face in Vulkan's order, row by row.
+#[derive(Clone, Debug)]
+pub struct Cube {
+    /// Texels along the side of a face.
+    pub side: u32,
+    /// Radiance.
+    pub texels: Vec<DVec3>,
+}
+
+/// Unit vectors along which faces lie, to the right on them, and down.
+const FACES: [[DVec3; 3]; 6] = [
+    [DVec3::X, DVec3::NEG_Z, DVec3::NEG_Y],
+    [DVec3::NEG_X, DVec3::Z, DVec3::NEG_Y],
+    [DVec3::Y, DVec3::X, DVec3::Z],
+    [DVec3::NEG_Y, DVec3::X, DVec3::NEG_Z],
+    [DVec3::Z, DVec3::X, DVec3::NEG_Y],
+    [DVec3::NEG_Z, DVec3::NEG_X, DVec3::NEG_Y],
+];
+
+impl Cube {
+    /// The unit vector to the middle of a texel.
+    #[must_use]
+    pub fn direction(side: u32, index: u32) -> DVec3 {
+        let place = index % (side * side);
+        let middle = |i: u32| f64::from(2 * i + 1) / f64::from(side) - 1.0;
+        let [ahead, right, down] = FACES[(index / (side * side)) as usize];
+        (ahead + right * middle(place % side) + down * middle(place / side)).normalize()
+    }
+
+    /// Between the nearest texels of the face that a direction falls on.
+    fn read(&self, direction: DVec3) -> DVec3 {
+        let ahead = |face: usize| direction.dot(FACES[face][0]);
+        let face = (0..6).fold(0, |best, face| {
+            if ahead(face) > ahead(best) {
+                face
+            } else {
+                best
+            }
+        });
+        let last = f64::from(self.side - 1);
+        let along = |axis: usize| {
+            let at = direction.dot(FACES[face][axis]) / ahead(face);
+            let at = ((at + 1.0) / 2.0 * f64::from(self.side) - 0.5).clamp(0.0, last);
+            (at.floor(), (at.floor() + 1.0).min(last), at.fract())
+        };
+        let ((left, right, u), (top, bottom, v)) = (along(1), along(2));
+        let texel = |x: f64, y: f64| {
+            let row = face as u32 * self.side + y as u32;
+            self.texels[(row * self.side + x as u32) as usize]
+        };
+        let row = |y| texel(left, y).lerp(texel(right, y), u);
+        row(top).lerp(row(bottom), v)
+    }
+}
+
+/// The average about a unit vector of what rays about +z read: each a direction, whose z it is weighed by, and a level, between
+/// two of which it lies.
+#[must_use]
+pub fn average(levels: &[Cube], rays: &[[f32; 4]], normal: DVec3) -> DVec3 {
+    let turn = if normal.z >= 0.0 { 1.0 } else { -1.0 };
+    let a = -1.0 / (turn + normal.z);
+    let b = normal.x * normal.y * a;
+    let right = DVec3::new(
+        1.0 + turn * normal.x.powi(2) * a,
+        turn * b,
+        -turn * normal.x,
+    );
+    let up = DVec3::new(b, turn + normal.y.powi(2) * a, -normal.y);
+    let axes = DMat3::from_cols(right, up, normal);
+    let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
+    for ray in rays {
+        let [x, y, z, level] = ray.map(f64::from);
+        let towards = axes * DVec3::new(x, y, z);
+        let at = |level: f64| levels[(level as usize).min(levels.len() - 1)].read(towards);
+        sum += z * at(level).lerp(at(level + 1.0), level.fract());
+        weights += z;
+    }
+    sum / weights
+}
