@@ -12,7 +12,7 @@ use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
-use view_support::{Display, Loss, PATIENCE, Viewer, drop_file};
+use view_support::{Density, Display, Loss, PATIENCE, Viewer, drop_file};
 
 /// Runs a `gpc render` command, to a file of that name.
 fn render(folder: &Path, command: &[String], output: &str) -> Vec<u8> {
@@ -480,7 +480,7 @@ fn writing_is_stopped_by_a_key() {
 #[test]
 fn at_twice_the_density_the_panel_is_twice_as_large_and_pixels_are_the_windows() {
     let (display, folder) = (Display::open(), tempfile::tempdir().unwrap());
-    display.set_dots_per_inch(192);
+    let _density = Density::new(&display, 192);
     let scene = asset("letters.glb");
     let arguments = [&scene, "--size", "600x440", "--samples", "4"];
     let mut viewer = Viewer::open(&display, folder.path(), &arguments);
@@ -504,6 +504,34 @@ fn at_twice_the_density_the_panel_is_twice_as_large_and_pixels_are_the_windows()
         command.contains(&"--center=420,300".to_owned()),
         "{command:?}"
     );
+    viewer.close();
+}
+
+#[test]
+fn the_density_of_the_display_may_change() {
+    let (display, folder) = (Display::open(), tempfile::tempdir().unwrap());
+    let density = Density::new(&display, 96);
+    let scene = asset("letters.glb");
+    let arguments = [&scene, "--size", "300x200", "--samples", "16"];
+    let mut viewer = Viewer::open(&display, folder.path(), &arguments);
+    viewer.wait_for("at rest");
+    viewer.show_picture_alone();
+    display.input(&["mousemove", "630", "470"]);
+    // As where a window is moved to another monitor, it is as large as before for the eye.
+    for (dots, size) in [(192, [600, 400]), (96, [300, 200])] {
+        density.set(dots);
+        let asked = format!("{}x{}", size[0], size[1]);
+        let until = Instant::now() + PATIENCE;
+        let command = loop {
+            let command = viewer.command();
+            if command.contains(&asked) {
+                break command;
+            }
+            assert!(Instant::now() < until, "{command:?} is not of {asked}");
+        };
+        let rendered = render(folder.path(), &command, "rendered.png");
+        assert_shows(&display, size, &rendered);
+    }
     viewer.close();
 }
 
@@ -621,11 +649,18 @@ fn moving_triangle() -> Vec<u8> {
 #[test]
 fn what_can_not_be_opened_is_said_and_leaves_the_window_open() {
     let (display, folder) = (Display::open(), tempfile::tempdir().unwrap());
-    std::fs::write(folder.path().join("broken.glb"), "no scene").unwrap();
-    let scene = asset("checker.glb");
-    let arguments = ["broken.glb", &scene, "--size", "320x200", "--samples", "4"];
+    let path = |name: &str| folder.path().join(name);
+    std::fs::write(path("broken.glb"), "no scene").unwrap();
+    std::fs::write(path("empty.gltf"), r#"{"asset": {"version": "2.0"}}"#).unwrap();
+    std::fs::create_dir(path("nothing")).unwrap();
+    std::fs::create_dir(path("scenes")).unwrap();
+    std::fs::copy(asset("checker.glb"), path("scenes/checker.glb")).unwrap();
+    let files = ["nothing", "broken.glb", "empty.gltf", "scenes"];
+    let options = ["--size", "320x200", "--samples", "4"];
+    let arguments = [&files[..], &options].concat();
     let mut viewer = Viewer::open(&display, folder.path(), &arguments);
-    viewer.wait_for("broken.glb");
+    viewer.wait_for("error: nothing has no scene file");
+    viewer.wait_for("error: broken.glb");
     let until = Instant::now() + PATIENCE;
     while display
         .pixels([320, 200])
@@ -635,14 +670,21 @@ fn what_can_not_be_opened_is_said_and_leaves_the_window_open() {
         assert!(Instant::now() < until, "the window says nothing");
         std::thread::sleep(Duration::from_millis(100));
     }
-    // The next scene can be seen all the same.
-    viewer.repeat_until("shows ", |display| display.input(&["key", "Right"]));
+    // The next ones can be seen all the same.
+    viewer.repeat_until("nothing to draw", |display| {
+        display.input(&["key", "Right"]);
+    });
     viewer.wait_for("at rest");
+    viewer.key("Right");
+    viewer.wait_for("shows scenes/checker.glb");
+    viewer.wait_for("at rest");
+    viewer.key("Left");
+    viewer.wait_for("shows empty.gltf");
     // So can this one, once it is a scene.
     viewer.repeat_until("error: broken.glb", |display| {
         display.input(&["key", "Left"]);
     });
-    std::fs::copy(&scene, folder.path().join("broken.glb")).unwrap();
+    std::fs::copy(asset("checker.glb"), path("broken.glb")).unwrap();
     viewer.wait_for("shows broken.glb");
     viewer.wait_for("at rest");
     assert!(viewer.quit().success());
@@ -730,9 +772,9 @@ fn the_view_that_options_ask_for_is_flown_through_and_hidden() {
     );
     viewer.key("Escape");
 
-    // A window that is hidden is drawn again when it is seen.
+    // A window that is hidden is drawn again when it is seen. A key that went down meanwhile was meant for others.
     let window = display.window().to_string();
-    display.input(&["windowunmap", "--sync", &window]);
+    display.input(&["windowunmap", "--sync", &window, "keydown", "q"]);
     display.input(&[
         "windowmap",
         "--sync",
@@ -741,7 +783,7 @@ fn the_view_that_options_ask_for_is_flown_through_and_hidden() {
         "--sync",
         &window,
     ]);
-    display.input(&["mousemove", "600", "400"]);
+    display.input(&["mousemove", "600", "400", "keyup", "q"]);
     assert_shows(
         &display,
         [320, 200],

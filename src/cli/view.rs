@@ -1,6 +1,6 @@
 //! `gpc view`.
 
-use super::exit::{Usage, usage};
+use super::exit::{self, Usage, usage};
 use super::render::{Antialiasing, AppearanceArgs, CameraArgs, DeviceArgs, SamplingArgs};
 use super::values::{self, Background};
 use crate::view::{self, Appearance, Look, Options, Source, Start};
@@ -17,8 +17,8 @@ use std::process::ExitCode;
 /// While anything moves few samples are taken, and at rest more and more, up to those asked for.
 #[derive(Args)]
 pub struct ViewArgs {
-    /// Scenes, photographs (PNG or JPEG) and images of gpc zoom; the arrow keys go from one to the next
-    #[arg(id = "file", value_name = "SCENE|IMAGE", required = true)]
+    /// Scenes, folders of scenes, photographs (PNG or JPEG) and images of gpc zoom; the arrow keys go from one to the next
+    #[arg(id = "file", value_name = "SCENE|FOLDER|IMAGE", required = true)]
     scenes: Vec<PathBuf>,
     /// Width and height of the window in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = values::size)]
@@ -74,6 +74,7 @@ pub fn run(args: ViewArgs) -> anyhow::Result<ExitCode> {
             device: args.device.name,
             validation,
         },
+        describe: exit::message,
     })?;
     Ok(ExitCode::SUCCESS)
 }

@@ -10,6 +10,7 @@ use super::mouse::{NOTCH, pinched};
 use super::overlay::Overlay;
 use super::panel::Wishes;
 use super::photo::Framing;
+use super::pointer::Drag;
 use super::source::{Source, Stage};
 use super::standpoint::Standpoint;
 use super::studio::{Subject, Task};
@@ -20,6 +21,7 @@ use gpc::sampling::MAX_SAMPLES;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use winit::event::{ElementState, KeyEvent, MouseScrollDelta, WindowEvent};
+use winit::window::Fullscreen;
 
 impl View {
     /// Takes an event of the window.
@@ -35,7 +37,12 @@ impl View {
             WindowEvent::RedrawRequested | WindowEvent::Occluded(false) => self.is_dirty = true,
             WindowEvent::ModifiersChanged(modifiers) => self.modifiers = modifiers.state(),
             WindowEvent::DroppedFile(path) => self.open(path),
-            WindowEvent::KeyboardInput { event, .. } => self.on_key(event, response.consumed)?,
+            // Keys that were down before the window had the focus were meant for another one.
+            WindowEvent::KeyboardInput {
+                event,
+                is_synthetic: false,
+                ..
+            } => self.on_key(event, response.consumed)?,
             WindowEvent::Focused(false) => {
                 // Keys that are let go elsewhere are not heard of.
                 if let Some(flight) = &mut self.flight {
@@ -57,11 +64,17 @@ impl View {
                 _ => self.pointer.released(),
             },
             WindowEvent::MouseWheel { delta, .. } if !response.consumed => {
-                let notches = match delta {
-                    MouseScrollDelta::LineDelta(_, lines) => f64::from(*lines),
-                    MouseScrollDelta::PixelDelta(pixels) => self.notches(pixels.y),
+                let pixels = match delta {
+                    MouseScrollDelta::LineDelta(x, y) => {
+                        self.pixels_of_notches(DVec2::new(f64::from(*x), f64::from(*y)))
+                    }
+                    MouseScrollDelta::PixelDelta(pixels) => DVec2::new(pixels.x, pixels.y),
                 };
-                self.wheel(NOTCH.powf(notches));
+                if self.modifiers.shift_key() {
+                    self.drag(Drag::Pan, pixels);
+                } else {
+                    self.wheel(NOTCH.powf(self.notches(pixels.y)));
+                }
             }
             WindowEvent::PinchGesture { delta, .. } => self.wheel(pinched(*delta)),
             _ => {}
@@ -113,6 +126,11 @@ impl View {
         match action {
             Action::Help => self.shows_keys = !self.shows_keys,
             Action::Panel => self.shows_panel = !self.shows_panel,
+            Action::FullScreen => {
+                let is_full = self.window.fullscreen().is_some();
+                let full = Fullscreen::Borderless(None);
+                self.window.set_fullscreen((!is_full).then_some(full));
+            }
             Action::Back => {
                 if let Some(loading) = self.loading.take() {
                     self.notes

@@ -2,6 +2,7 @@
 
 use super::Options;
 use super::losses::{Losses, is_lost};
+use super::preparer::Prepared;
 use super::source::Opened;
 use super::studio::Made;
 use super::window::View;
@@ -17,6 +18,8 @@ pub enum Event {
     Opened(u64, Box<anyhow::Result<Opened>>),
     /// The file was written.
     Changed,
+    /// A frame.
+    Prepared(Box<Prepared>),
     /// A picture that frames can't make.
     Made(Made),
 }

@@ -3,8 +3,11 @@
 use super::compose::Piece;
 use super::engine::Engine;
 use super::layer::{Layer, Sight};
+use super::look::Look;
 use super::painter::{Painter, Painting};
 use super::picture::{self, DESTINATION, LAYERS, Picture, SOURCE, UNUSED};
+use super::preparer::{Prepared, Preparer};
+use super::presenter::{Fit, Presenter};
 use super::slot::{SLOTS, Slot};
 use super::source::Stage;
 use super::swapchain::{Acquired, Swapchain, Turn};
@@ -42,13 +45,21 @@ pub struct Canvas {
     turn: usize,
     /// The picture, or the two of a split, left first.
     layers: Vec<Layer>,
+    /// Pictures of the stage before, until there are layers.
+    before: Vec<Picture>,
     /// Seen in the stead of all pictures.
     cover: Option<Picture>,
     /// Whether pictures get more samples at rest.
     pub refines: bool,
     stage: Option<Stage>,
     is_uploaded: bool,
+    /// Whether memory is left that the upload needed.
+    has_uploads: bool,
     painter: Painter,
+    preparer: Preparer,
+    presenter: Presenter,
+    /// Whether the window's images have to be made anew.
+    is_stale: bool,
     /// `None` while the window has no pixels.
     swapchain: Option<Swapchain>,
     pub engine: Arc<Engine>,
@@ -64,19 +75,24 @@ pub struct Seen<'a> {
 }
 
 impl Canvas {
-    /// For a window of that size.
-    pub fn new(engine: Arc<Engine>, size: [u32; 2]) -> anyhow::Result<Self> {
+    /// For a window of that size. What the preparer delivers is to be handed to [`Self::prepared`].
+    pub fn new(engine: Arc<Engine>, size: [u32; 2], preparer: Preparer) -> anyhow::Result<Self> {
         let device = &engine.device;
         let swapchain = Swapchain::new(device, size, None)?;
         Ok(Self {
             slots: [Slot::new(device)?, Slot::new(device)?],
             turn: 0,
             layers: Vec::new(),
+            before: Vec::new(),
             cover: None,
             refines: true,
             stage: None,
             is_uploaded: false,
+            has_uploads: false,
             painter: Painter::new(device, swapchain.format)?,
+            preparer,
+            presenter: Presenter::new(device),
+            is_stale: false,
             swapchain: Some(swapchain),
             engine,
         })
@@ -91,6 +107,7 @@ impl Canvas {
     /// Fits the window's images to its size.
     pub fn resize(&mut self, size: [u32; 2]) -> anyhow::Result<()> {
         self.wait()?;
+        self.is_stale = false;
         let older = self.swapchain.take();
         if size.contains(&0) {
             return Ok(());
@@ -112,9 +129,10 @@ impl Canvas {
     /// Shows another scene, or none.
     pub fn set_stage(&mut self, stage: Option<Stage>) -> anyhow::Result<()> {
         self.wait()?;
-        self.layers.clear();
+        let layers = std::mem::take(&mut self.layers);
+        self.before = layers.into_iter().map(Layer::into_picture).collect();
         self.stage = stage;
-        self.is_uploaded = false;
+        (self.is_uploaded, self.has_uploads) = (false, false);
         Ok(())
     }
 
@@ -123,11 +141,26 @@ impl Canvas {
         &self.layers
     }
 
-    /// Shows other pictures.
-    pub fn set_layers(&mut self, layers: Vec<Layer>) -> anyhow::Result<()> {
+    /// Shows pictures with other looks, and those before until there is something to see.
+    pub fn set_looks(&mut self, looks: &[Look], now: Instant) -> anyhow::Result<()> {
         self.wait()?;
-        self.layers = layers;
+        let layers = std::mem::take(&mut self.layers).into_iter();
+        let before = std::mem::take(&mut self.before).into_iter();
+        let mut before = before.chain(layers.map(Layer::into_picture));
+        for look in looks {
+            let layer = Layer::new(&self.engine, look.clone(), before.next(), now)?;
+            self.layers.push(layer);
+        }
         Ok(())
+    }
+
+    /// Takes a frame that the preparer delivers.
+    pub fn prepared(&mut self, prepared: Prepared) -> anyhow::Result<()> {
+        let is_meant = |layer: &&mut Layer| layer.is_meant(&prepared.ticket);
+        match self.layers.iter_mut().find(is_meant) {
+            Some(layer) => Ok(layer.prepared(&prepared.settings, prepared.frame)?),
+            None => Ok(()),
+        }
     }
 
     /// Shows a picture in the stead of all others, or those again.
@@ -153,6 +186,9 @@ impl Canvas {
     pub fn collect(&mut self) -> anyhow::Result<bool> {
         let mut any = false;
         let mut outcome = Ok(());
+        if let Some(shown) = self.presenter.poll() {
+            self.is_stale |= shown? == Fit::Stale;
+        }
         for index in 0..SLOTS {
             if self.slots[index].poll()? {
                 any |= !self.slots[index].jobs.is_empty();
@@ -160,12 +196,13 @@ impl Canvas {
                 outcome = outcome.and(self.finish(index));
             }
         }
+        self.discard_uploads();
         outcome.map(|()| any)
     }
 
     /// Whether the device still has something to do.
     pub fn is_busy(&self) -> bool {
-        self.slots.iter().any(Slot::is_busy)
+        self.presenter.is_busy() || self.slots.iter().any(Slot::is_busy)
     }
 
     /// Whether the pictures have work that is due, or will be.
@@ -174,7 +211,7 @@ impl Canvas {
         self.layers
             .iter()
             .filter(|layer| self.refines || layer.schedule.is_draft())
-            .filter_map(|layer| layer.schedule.due())
+            .filter_map(Layer::due)
             .min()
     }
 
@@ -191,7 +228,7 @@ impl Canvas {
             } else {
                 !layer.schedule.is_draft()
             };
-            is_finished && !layer.has_again()
+            is_finished && !layer.has_again() && !layer.is_waiting()
         };
         !self.layers.is_empty()
             && self.layers.iter().all(is_done)
@@ -201,10 +238,16 @@ impl Canvas {
     /// An image of the window to draw. `None` where none is free now.
     pub fn acquire(&mut self) -> anyhow::Result<Option<Acquired>> {
         let slot = &self.slots[self.turn];
-        let Some(swapchain) = self.swapchain.as_ref().filter(|_| !slot.is_busy()) else {
+        let is_busy = slot.is_busy() || self.presenter.is_busy();
+        let Some(swapchain) = self.swapchain.as_ref().filter(|_| !is_busy) else {
             return Ok(None);
         };
-        match swapchain.acquire(slot.free)? {
+        let turn = if self.is_stale {
+            Turn::Stale
+        } else {
+            swapchain.acquire(slot.free)?
+        };
+        match turn {
             Turn::Ready(acquired) => Ok(Some(acquired)),
             Turn::Busy => Ok(None),
             Turn::Stale => {
@@ -222,7 +265,7 @@ impl Canvas {
     /// it all the same.
     pub fn draw(
         &mut self,
-        acquired: &Acquired,
+        acquired: Acquired,
         seen: &Seen<'_>,
         painting: Painting,
         now: Instant,
@@ -232,7 +275,7 @@ impl Canvas {
         // SAFETY: the commands are being recorded, and the slot keeps what they use until they are done.
         let (rendered, painted) = unsafe {
             let rendered = self.record_work(commands, seen, now);
-            self.record_pieces(commands, acquired, seen);
+            self.record_pieces(commands, &acquired, seen);
             let device = &self.engine.device;
             picture::change(device, commands, acquired.image, DESTINATION, DRAWN);
             let extent = self
@@ -250,15 +293,7 @@ impl Canvas {
         slot.textures = painting.textures.free;
         slot.submit(acquired.drawn)?;
         self.turn = (self.turn + 1) % SLOTS;
-        let presented = match &self.swapchain {
-            Some(swapchain) => swapchain.present(acquired)?,
-            None => Turn::Ready(()),
-        };
-        if matches!(presented, Turn::Stale)
-            && let Some(size) = self.size()
-        {
-            self.resize(size)?;
-        }
+        self.presenter.show(acquired);
         rendered.and(painted)
     }
 
@@ -290,11 +325,13 @@ impl Canvas {
             moment: seen.moment,
         };
         for (index, layer) in self.layers.iter_mut().enumerate() {
-            if !self.refines && !layer.schedule.is_draft() && !layer.has_again() {
+            let is_begun = layer.has_again() || layer.is_waiting();
+            if !self.refines && !layer.schedule.is_draft() && !is_begun {
                 continue;
             }
+            let makers = (&self.engine, &self.preparer);
             // SAFETY: passed on to the caller; the slot keeps the job.
-            let job = unsafe { layer.record(&self.engine, commands, &sight, now) }?;
+            let job = unsafe { layer.record(makers, commands, &sight, now) }?;
             slot.jobs.extend(job.map(|job| (index, job)));
         }
         Ok(())
@@ -317,7 +354,7 @@ impl Canvas {
         // SAFETY: passed on to the caller.
         unsafe {
             picture::change(device, commands, acquired.image, UNUSED, DESTINATION);
-            // What no picture covers: one that has not been rendered, or only for a smaller window.
+            // What no picture covers: there is none yet, or one of a smaller window.
             device.handle.cmd_clear_color_image(
                 commands,
                 acquired.image,
@@ -342,11 +379,12 @@ impl Canvas {
         let Some(picture) = self.cover.as_ref().or(layer) else {
             return;
         };
-        let size = picture.size();
-        let fits = |axis: usize| piece.from.corner[axis] + piece.from.size[axis] <= size[axis];
-        if !picture.is_written() || !fits(0) || !fits(1) {
+        let Some(piece) = piece
+            .within(picture.size())
+            .filter(|_| picture.is_written())
+        else {
             return;
-        }
+        };
         let offsets = |rect: &super::compose::Rect| {
             let corner = |add: [u32; 2]| vk::Offset3D {
                 x: (rect.corner[0] + add[0]) as i32,
@@ -379,12 +417,7 @@ impl Canvas {
         let slot = &mut self.slots[index];
         let textures = std::mem::take(&mut slot.textures);
         let jobs = std::mem::take(&mut slot.jobs);
-        if std::mem::take(&mut slot.uploads)
-            && let Some(stage) = &mut self.stage
-        {
-            // SAFETY: the commands that uploaded it are done, and stages are changed only when none are left.
-            unsafe { stage.prepared.discard_uploads() };
-        }
+        self.has_uploads |= std::mem::take(&mut slot.uploads);
         self.painter.free(&textures)?;
         let mut outcome = Ok(());
         for (index, job) in jobs {
@@ -395,9 +428,22 @@ impl Canvas {
         Ok(outcome?)
     }
 
+    /// Frees the memory that the upload needed, once no frame is being prepared.
+    fn discard_uploads(&mut self) {
+        let stage = self.stage.as_mut().filter(|_| self.has_uploads);
+        if let Some(prepared) = stage.and_then(|stage| Arc::get_mut(&mut stage.prepared)) {
+            // SAFETY: the commands that uploaded it are done, and stages are changed only when none are left.
+            unsafe { prepared.discard_uploads() };
+            self.has_uploads = false;
+        }
+    }
+
     /// Waits until nothing is in flight.
     fn wait(&mut self) -> anyhow::Result<()> {
         self.engine.device.wait();
+        if let Some(shown) = self.presenter.wait() {
+            self.is_stale |= shown? == Fit::Stale;
+        }
         // A picture that could not be finished is about to go.
         let _ = self.collect();
         if self.is_busy() {
@@ -409,6 +455,7 @@ impl Canvas {
 
 impl Drop for Canvas {
     fn drop(&mut self) {
-        self.engine.device.wait();
+        // What is lost needs not be waited for.
+        let _ = self.wait();
     }
 }

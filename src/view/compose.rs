@@ -16,6 +16,20 @@ pub struct Piece {
     pub to: Rect,
 }
 
+impl Piece {
+    /// The part of it that a picture of this size has, if any.
+    pub fn within(&self, size: [u32; 2]) -> Option<Self> {
+        let mut part = *self;
+        for (axis, end) in size.into_iter().enumerate() {
+            let factor = self.to.size[axis] / self.from.size[axis].max(1);
+            let left = end.saturating_sub(self.from.corner[axis]);
+            part.from.size[axis] = self.from.size[axis].min(left);
+            part.to.size[axis] = part.from.size[axis] * factor;
+        }
+        (!part.from.size.contains(&0)).then_some(part)
+    }
+}
+
 /// A square window into the pictures that shows their pixels enlarged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Magnifier {
@@ -161,5 +175,23 @@ mod tests {
             factor: 32,
         };
         assert!(magnified([20, 20], None, tiny).is_empty());
+    }
+
+    #[test]
+    fn of_a_smaller_picture_there_is_a_part() {
+        let piece = pictures([100, 50], Some(60))[1];
+        assert_eq!(piece.within([100, 50]), Some(piece));
+        let part = piece.within([80, 70]).unwrap();
+        assert_eq!((part.from.corner, part.from.size), ([60, 0], [20, 50]));
+        assert_eq!(part.to, part.from);
+        assert_eq!(piece.within([60, 50]), None);
+        let magnifier = Magnifier {
+            centre: [50, 25],
+            factor: 8,
+        };
+        let piece = magnified([100, 50], None, magnifier)[0];
+        let part = piece.within([50, 50]).unwrap();
+        assert_eq!(part.from.size[0], 50 - piece.from.corner[0]);
+        assert_eq!(part.to.size[0], 8 * part.from.size[0]);
     }
 }

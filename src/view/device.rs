@@ -5,7 +5,7 @@ use ash::vk;
 use gpc::vulkan::{Host, Requirements, SharedAllocator, VulkanError};
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use std::ffi::{CStr, c_void};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use winit::raw_window_handle::{HasDisplayHandle, HasWindowHandle};
 use winit::window::Window;
 
@@ -18,7 +18,8 @@ pub struct Device {
     pub handle: ash::Device,
     pub physical: vk::PhysicalDevice,
     pub queue_family: u32,
-    pub queue: vk::Queue,
+    /// Used by one thread at a time.
+    queue: Mutex<vk::Queue>,
     pub surface: vk::SurfaceKHR,
     pub surfaces: ash::khr::surface::Instance,
     pub swapchains: ash::khr::swapchain::Device,
@@ -133,7 +134,7 @@ impl Device {
             })
             .context("the allocator of device memory can't start")?;
             Ok(Self {
-                queue: device.get_device_queue(queue_family, 0),
+                queue: Mutex::new(device.get_device_queue(queue_family, 0)),
                 swapchains: ash::khr::swapchain::Device::new(&instance, &device),
                 handle: device,
                 physical,
@@ -173,10 +174,16 @@ impl Device {
         messages.unwrap_or_else(PoisonError::into_inner).clone()
     }
 
+    /// The queue, for as long as the caller holds it.
+    pub fn queue(&self) -> MutexGuard<'_, vk::Queue> {
+        self.queue.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     /// Waits until the device has done all that was submitted.
     pub fn wait(&self) {
-        // SAFETY: the device is alive, and its queue is used by the window's thread alone. A device that is lost has
-        // nothing left to do.
+        let _queue = self.queue();
+        // SAFETY: the device is alive, and no other thread uses its queue meanwhile. A device that is lost has nothing left
+        // to do.
         let _ = unsafe { self.handle.device_wait_idle() };
     }
 }

@@ -9,6 +9,7 @@ use winit::keyboard::{Key, ModifiersState, NamedKey};
 pub enum Action {
     Help,
     Panel,
+    FullScreen,
     Fit,
     LookFrom(Side),
     NextCamera,
@@ -77,9 +78,15 @@ const fn named(key: NamedKey, label: &'static str, action: Action, does: &'stati
 }
 
 /// Every key.
-static BINDINGS: [Binding; 34] = [
+static BINDINGS: [Binding; 35] = [
     text("h", "H", Action::Help, "list the keys"),
     text("p", "P", Action::Panel, "show or hide the panel"),
+    named(
+        NamedKey::F11,
+        "F11",
+        Action::FullScreen,
+        "fill the screen that the window is on, or leave it",
+    ),
     named(
         NamedKey::Enter,
         "Enter",
@@ -110,7 +117,7 @@ static BINDINGS: [Binding; 34] = [
         "f",
         "F",
         Action::Fly,
-        "fly: WASD or arrows, E and Q; drag looks, wheel sets speed",
+        "fly: WASD, arrows, E, Q; drag to look, wheel for speed",
     ),
     text(
         "s",
@@ -216,10 +223,14 @@ static BINDINGS: [Binding; 34] = [
 ];
 
 /// What the mouse does.
-pub const MOUSE: [(&str, &str); 6] = [
+pub const MOUSE: [(&str, &str); 7] = [
     ("Left drag", "turn around the target"),
     ("Shift + left drag, middle drag", "move sideways"),
-    ("Wheel, touchpad pinch", "zoom to the pointer"),
+    (
+        "Shift + wheel, shift + two fingers",
+        "the same with a touchpad",
+    ),
+    ("Wheel, two fingers, pinch", "zoom to the pointer"),
     ("Right drag", "zoom"),
     (
         "Double click",

@@ -3,13 +3,13 @@
 use super::engine::Engine;
 use super::look::Look;
 use super::picture::Picture;
+use super::preparer::{Preparer, Ticket};
 use super::schedule::{Schedule, Work};
 use ash::vk;
 use gpc::camera::Camera;
-use gpc::passes::Encoding;
 use gpc::render::{Frame, PixelRect, PreparedScene, RenderError, Settings, Shadows, Statistics};
 use gpc::scene::Moment;
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
 use std::time::Instant;
 
 /// A frame's capacity is raised this often before what is lacking is said.
@@ -20,8 +20,18 @@ pub struct Layer {
     pub look: Look,
     pub schedule: Schedule,
     picture: Picture,
+    /// Seen until there is something in the picture.
+    before: Option<Picture>,
+    /// What prepared frames are delivered by.
+    ticket: Ticket,
     /// Frames of drafts that nothing uses just now.
     spare: Vec<Frame>,
+    /// A frame of a band that nothing uses.
+    band: Option<Frame>,
+    /// Settings of the frames that are being prepared.
+    asked: Vec<Settings>,
+    /// Work that waits for its frame.
+    waiting: Option<Work>,
     /// Work to do again, in a frame that has more room.
     again: Option<(Work, Frame, u32)>,
     /// Counts pictures, so that the results of older ones are told apart.
@@ -44,19 +54,29 @@ pub struct Job {
 
 /// What is seen, and where from.
 pub struct Sight<'a> {
-    pub scene: &'a PreparedScene,
+    pub scene: &'a Arc<PreparedScene>,
     pub camera: &'a Camera,
     pub moment: Option<&'a Arc<Moment>>,
 }
 
 impl Layer {
-    /// A picture of which nothing is rendered.
-    pub fn new(engine: &Engine, look: Look, now: Instant) -> anyhow::Result<Self> {
+    /// A picture of which nothing is rendered; until something is, the one before is seen.
+    pub fn new(
+        engine: &Engine,
+        look: Look,
+        before: Option<Picture>,
+        now: Instant,
+    ) -> anyhow::Result<Self> {
         Ok(Self {
             picture: Picture::new(&engine.device, look.settings.size)?,
+            before,
             schedule: Schedule::new(&look, now),
             look,
+            ticket: Ticket::default(),
             spare: Vec::new(),
+            band: None,
+            asked: Vec::new(),
+            waiting: None,
             again: None,
             version: 0,
             shown: None,
@@ -64,29 +84,41 @@ impl Layer {
         })
     }
 
-    /// What is rendered so far.
+    /// What is seen so far.
     pub fn picture(&self) -> &Picture {
-        &self.picture
+        let before = self.before.as_ref();
+        before
+            .filter(|_| !self.picture.is_written())
+            .unwrap_or(&self.picture)
+    }
+
+    /// The same, to be seen until another layer has something.
+    pub fn into_picture(self) -> Picture {
+        match self.before {
+            Some(before) if !self.picture.is_written() => before,
+            _ => self.picture,
+        }
     }
 
     /// The picture is another one from now on: something moved.
     pub fn restart(&mut self, now: Instant) {
         self.schedule.restart(now);
         self.again = None;
+        self.waiting = None;
         self.version += 1;
     }
 
     /// Records the next work that is due, if any.
     ///
     /// # Errors
-    /// If memory runs out or the settings are impossible.
+    /// If memory runs out.
     ///
     /// # Safety
     /// `commands` is being recorded for the engine's device, after the upload of the scene; this and the job outlive their
     /// execution.
     pub unsafe fn record(
         &mut self,
-        engine: &Engine,
+        (engine, preparer): (&Arc<Engine>, &Preparer),
         commands: vk::CommandBuffer,
         sight: &Sight<'_>,
         now: Instant,
@@ -94,10 +126,19 @@ impl Layer {
         let (work, mut frame, tries) = match self.again.take() {
             Some(again) => again,
             None => {
-                let Some(work) = self.schedule.take(now) else {
+                let waited = self.waiting.take();
+                let Some(work) = waited.or_else(|| self.schedule.take(now)) else {
                     return Ok(None);
                 };
-                let frame = self.frame(engine, sight.scene, &work)?;
+                let settings = self.settings(&work);
+                let Some(frame) = self.frame(&settings) else {
+                    if !self.asked.contains(&settings) {
+                        self.asked.push(settings.clone());
+                        preparer.ask(&self.ticket, settings, sight.scene, engine);
+                    }
+                    self.waiting = Some(work);
+                    return Ok(None);
+                };
                 (work, frame, 0)
             }
         };
@@ -161,6 +202,39 @@ impl Layer {
         }
     }
 
+    /// Whether frames of this ticket are the layer's.
+    pub fn is_meant(&self, ticket: &Weak<()>) -> bool {
+        Weak::ptr_eq(&Arc::downgrade(&self.ticket), ticket)
+    }
+
+    /// Takes a frame that was asked for, or why there is none.
+    pub fn prepared(
+        &mut self,
+        settings: &Settings,
+        frame: Result<Frame, RenderError>,
+    ) -> Result<(), RenderError> {
+        self.asked.retain(|asked| asked != settings);
+        match frame {
+            Ok(frame) if settings.region.is_none() => self.spare.push(frame),
+            Ok(frame) => self.band = Some(frame),
+            Err(error) => {
+                self.waiting = None;
+                return Err(error);
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether there is work whose frame is being prepared.
+    pub fn is_waiting(&self) -> bool {
+        self.waiting.is_some()
+    }
+
+    /// When the next work is due, if it waits for nothing else.
+    pub fn due(&self) -> Option<Instant> {
+        self.schedule.due().filter(|_| !self.is_waiting())
+    }
+
     /// Whether there is work that waits for nothing.
     pub fn has_again(&self) -> bool {
         self.again.is_some()
@@ -191,22 +265,18 @@ impl Layer {
         self.statistics.append(statistics);
     }
 
-    /// A frame for some work: one that was used before, where it fits.
-    fn frame(
-        &mut self,
-        engine: &Engine,
-        scene: &PreparedScene,
-        work: &Work,
-    ) -> Result<Frame, RenderError> {
+    /// A frame of these settings, if one is prepared. Drafts use theirs again, and let go of others.
+    fn frame(&mut self, settings: &Settings) -> Option<Frame> {
+        if settings.region.is_some() {
+            return self.band.take_if(|frame| frame.settings() == settings);
+        }
+        self.spare.retain(|frame| frame.settings() == settings);
+        self.spare.pop()
+    }
+
+    fn settings(&self, work: &Work) -> Settings {
         let settings = match work {
-            Work::Draft { samples } => {
-                self.spare
-                    .retain(|frame| frame.settings().samples == *samples);
-                if let Some(frame) = self.spare.pop() {
-                    return Ok(frame);
-                }
-                self.look.draft(*samples)
-            }
+            Work::Draft { samples } => self.look.draft(*samples),
             Work::Band { samples, rows } => self.look.at(
                 *samples,
                 Some(PixelRect {
@@ -216,12 +286,9 @@ impl Layer {
             ),
         };
         // Shadows are for pictures of the studio: frames have none.
-        let settings = Settings {
+        Settings {
             shadows: Shadows::None,
             ..settings
-        };
-        engine
-            .renderer
-            .prepare(scene, &settings, Some(Encoding::Rgba8))
+        }
     }
 }

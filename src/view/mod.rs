@@ -33,6 +33,8 @@ mod pick;
 mod picture;
 mod player;
 mod pointer;
+mod preparer;
+mod presenter;
 mod progress;
 mod schedule;
 mod slot;
@@ -58,9 +60,9 @@ use winit::event_loop::EventLoop;
 /// What to look at, and how.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// What is opened first.
+    /// What is opened first: a file, or the scenes of a folder.
     pub source: Source,
-    /// Other files that the arrow keys go to.
+    /// Other files and folders that the arrow keys go to.
     pub others: Vec<PathBuf>,
     /// Where the first is seen from at first.
     pub start: Start,
@@ -74,6 +76,8 @@ pub struct Options {
     pub shows_environment: bool,
     /// How devices are opened: the window's, and those that write files.
     pub device: HeadlessOptions,
+    /// Puts errors into words.
+    pub describe: fn(&anyhow::Error) -> String,
 }
 
 /// There is nothing to open a window on.

@@ -136,6 +136,11 @@ impl View {
         pixels / (PIXELS_A_NOTCH * self.window.scale_factor())
     }
 
+    /// Pixels of a touchpad that notches of a wheel stand for.
+    pub fn pixels_of_notches(&self, notches: DVec2) -> DVec2 {
+        notches * (PIXELS_A_NOTCH * self.window.scale_factor())
+    }
+
     /// Enlarges what the wheel is for: the lens, the speed of flying, or what is under the pointer.
     pub fn wheel(&mut self, factor: f64) {
         if self.change_lens(|lenses| lenses.enlarge(factor)) {

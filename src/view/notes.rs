@@ -6,8 +6,12 @@ use std::time::{Duration, Instant};
 const SEEN: Duration = Duration::from_secs(6);
 
 /// Sentences in the window.
-#[derive(Debug, Default)]
-pub struct Notes(Vec<Note>);
+#[derive(Debug)]
+pub struct Notes {
+    notes: Vec<Note>,
+    /// Puts errors into words.
+    describe: fn(&anyhow::Error) -> String,
+}
 
 /// A sentence in the window.
 #[derive(Debug)]
@@ -18,24 +22,36 @@ pub struct Note {
 }
 
 impl Notes {
-    /// Says something, in the window and on standard error.
+    pub fn new(describe: fn(&anyhow::Error) -> String) -> Self {
+        Self {
+            notes: Vec::new(),
+            describe,
+        }
+    }
+
+    /// Says something, in the window and on standard error. What is said again is seen once.
     pub fn say(&mut self, text: impl Into<String>) {
         let text = text.into();
         log::info!("{text}");
+        self.notes.retain(|note| note.text != text);
         self.add(text, false);
     }
 
     /// Says what went wrong, once.
     pub fn fail(&mut self, error: &anyhow::Error) {
-        let text = format!("{error:#}");
-        if !self.0.iter().any(|note| note.is_error && note.text == text) {
+        let text = (self.describe)(error);
+        if !self
+            .notes
+            .iter()
+            .any(|note| note.is_error && note.text == text)
+        {
             log::error!("{text}");
             self.add(text, true);
         }
     }
 
     fn add(&mut self, text: String, is_error: bool) {
-        self.0.push(Note {
+        self.notes.push(Note {
             text,
             is_error,
             since: Instant::now(),
@@ -44,19 +60,19 @@ impl Notes {
 
     /// Forgets errors.
     pub fn clear_errors(&mut self) {
-        self.0.retain(|note| !note.is_error);
+        self.notes.retain(|note| !note.is_error);
     }
 
     /// What is to be seen now.
     pub fn seen(&mut self, now: Instant) -> &[Note] {
-        self.0
+        self.notes
             .retain(|note| note.is_error || now < note.since + SEEN);
-        &self.0
+        &self.notes
     }
 
     /// When the next note goes.
     pub fn next_change(&self) -> Option<Instant> {
-        let passing = self.0.iter().filter(|note| !note.is_error);
+        let passing = self.notes.iter().filter(|note| !note.is_error);
         passing.map(|note| note.since + SEEN).min()
     }
 }

@@ -84,6 +84,15 @@ impl View {
             }
         };
         self.notes.clear_errors();
+        if let Opened::Scene(stage) = &opened {
+            for warning in &stage.warnings {
+                log::warn!("{warning}");
+            }
+            if stage.prepared.triangle_count() == 0 {
+                let name = loading.source.name();
+                self.notes.say(format!("{name}: there is nothing to draw"));
+            }
+        }
         self.window
             .set_title(&format!("{} - gpc", loading.source.name()));
         log::debug!("shows {}", loading.source.path.display());

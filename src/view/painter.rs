@@ -52,8 +52,9 @@ impl Painter {
     pub fn upload(&mut self, painting: &Painting) -> anyhow::Result<()> {
         let changed = &painting.textures.set;
         if !changed.is_empty() {
+            let queue = self.device.queue();
             self.renderer
-                .set_textures(self.device.queue, self.pool, changed)
+                .set_textures(*queue, self.pool, changed)
                 .map_err(failure)?;
         }
         Ok(())

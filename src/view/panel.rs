@@ -57,6 +57,8 @@ pub struct PhotoFacts {
 /// What is known of the scene.
 pub struct SceneFacts<'a> {
     pub name: String,
+    /// What of the file can't be shown.
+    pub warnings: &'a [String],
     pub triangles: u64,
     /// Where it moves: the animations, which of them is played, and its time.
     pub motion: Option<(&'a [AnimationInfo], usize, &'a Player)>,
@@ -67,6 +69,8 @@ pub struct PictureFacts<'a> {
     pub look: &'a Look,
     /// Samples of what is seen, where all of it has as many.
     pub shown: Option<u32>,
+    /// Whether the device has kernels for it.
+    pub is_prepared: bool,
     pub statistics: &'a Statistics,
 }
 
@@ -141,6 +145,18 @@ fn show_panel(ctx: &egui::Context, facts: &Facts<'_>, wishes: &mut Wishes) {
 fn show_scene(ui: &mut egui::Ui, scene: &SceneFacts<'_>, facts: &Facts<'_>, wishes: &mut Wishes) {
     ui.strong(&scene.name);
     ui.label(format!("{} triangles", scene.triangles));
+    if !scene.warnings.is_empty() {
+        let title = format!("{} warnings", scene.warnings.len());
+        ui.collapsing(title, |ui| {
+            egui::ScrollArea::vertical()
+                .max_height(200.0)
+                .show(ui, |ui| {
+                    for warning in scene.warnings {
+                        ui.label(warning);
+                    }
+                });
+        });
+    }
     if let Some((animations, chosen, player)) = scene.motion {
         ui.separator();
         show_player(ui, animations, chosen, player, wishes);
@@ -354,7 +370,8 @@ fn show_figures(ui: &mut egui::Ui, picture: &PictureFacts<'_>) {
     match picture.shown {
         Some(1) => ui.label("one sample a pixel"),
         Some(samples) => ui.label(format!("{samples} samples a pixel")),
-        None => ui.label("being refined"),
+        None if picture.is_prepared => ui.label("being refined"),
+        None => ui.label("kernels are compiled"),
     };
     let [width, height] = picture.look.settings.size.map(f64::from);
     if picture.look.settings.method == Method::Superpixel {

@@ -126,7 +126,7 @@ impl Slot {
                 .map_err(VulkanError::of("vkResetFences"))?;
             self.device
                 .handle
-                .queue_submit2(self.device.queue, &submits, self.done)
+                .queue_submit2(*self.device.queue(), &submits, self.done)
                 .map_err(VulkanError::of("vkQueueSubmit2"))?;
         }
         self.is_busy = true;

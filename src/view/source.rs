@@ -41,7 +41,7 @@ pub enum Opened {
 pub struct Stage {
     pub source: Source,
     pub scene: Arc<Scene>,
-    pub prepared: PreparedScene,
+    pub prepared: Arc<PreparedScene>,
     /// Where the scene has animations.
     pub motion: Option<Motion>,
     pub animations: Vec<AnimationInfo>,
@@ -49,6 +49,8 @@ pub struct Stage {
     /// What is looked for under the pointer.
     pub geometry: Geometry,
     pub bounds: Bounds,
+    /// What of the file can't be shown.
+    pub warnings: Vec<String>,
     /// The scene's device goes after it.
     _engine: Arc<Engine>,
 }
@@ -114,9 +116,8 @@ impl Source {
             prepared = renderer.prepare_scene_in_motion(&loaded.scene, both, max_memory)?;
             (pose, motion) = (posed, Some(moving));
         }
-        for warning in loaded.warnings.iter().chain(&pose.warnings) {
-            log::warn!("{warning}");
-        }
+        let warnings = loaded.warnings.iter().chain(&pose.warnings);
+        let warnings: Vec<_> = warnings.map(ToString::to_string).collect();
         Ok(Opened::Scene(Box::new(Stage {
             source: self.clone(),
             scene: Arc::new(loaded.scene),
@@ -125,7 +126,8 @@ impl Source {
             geometry: pose.geometry,
             motion,
             animations,
-            prepared,
+            prepared: Arc::new(prepared),
+            warnings,
             _engine: engine,
         })))
     }

@@ -26,6 +26,7 @@ struct Shown {
 /// An image that is free to be drawn.
 #[derive(Clone, Copy)]
 pub struct Acquired {
+    pub swapchain: vk::SwapchainKHR,
     pub index: u32,
     pub image: vk::Image,
     pub view: vk::ImageView,
@@ -35,9 +36,9 @@ pub struct Acquired {
     pub stale: bool,
 }
 
-/// What came of asking for an image or showing it.
-pub enum Turn<T> {
-    Ready(T),
+/// What came of asking for an image.
+pub enum Turn {
+    Ready(Acquired),
     /// Nothing is free just now.
     Busy,
     /// The swapchain has to be made anew.
@@ -156,7 +157,7 @@ impl Swapchain {
     }
 
     /// An image to draw, which is free once `free` is signalled. Waits for nothing.
-    pub fn acquire(&self, free: vk::Semaphore) -> Result<Turn<Acquired>, VulkanError> {
+    pub fn acquire(&self, free: vk::Semaphore) -> Result<Turn, VulkanError> {
         // SAFETY: the semaphore is unsignalled and nobody waits for it: its frame's last submission is done.
         let acquired = unsafe {
             self.device
@@ -170,6 +171,7 @@ impl Swapchain {
                     .get(index as usize)
                     .map_or(Turn::Stale, |shown| {
                         Turn::Ready(Acquired {
+                            swapchain: self.handle,
                             index,
                             image: shown.image,
                             view: shown.view,
@@ -181,26 +183,6 @@ impl Swapchain {
             Err(vk::Result::NOT_READY | vk::Result::TIMEOUT) => Ok(Turn::Busy),
             Err(vk::Result::ERROR_OUT_OF_DATE_KHR) => Ok(Turn::Stale),
             Err(result) => Err(VulkanError::of("vkAcquireNextImageKHR")(result)),
-        }
-    }
-
-    /// Shows an image once it is drawn.
-    pub fn present(&self, acquired: &Acquired) -> Result<Turn<()>, VulkanError> {
-        let (waits, swapchains, indices) = ([acquired.drawn], [self.handle], [acquired.index]);
-        let info = vk::PresentInfoKHR::default()
-            .wait_semaphores(&waits)
-            .swapchains(&swapchains)
-            .image_indices(&indices);
-        // SAFETY: the image was acquired and its semaphore is signalled by what was submitted last; the queue is used by
-        // this thread alone.
-        match unsafe {
-            self.device
-                .swapchains
-                .queue_present(self.device.queue, &info)
-        } {
-            Ok(false) if !acquired.stale => Ok(Turn::Ready(())),
-            Ok(_) | Err(vk::Result::ERROR_OUT_OF_DATE_KHR) => Ok(Turn::Stale),
-            Err(result) => Err(VulkanError::of("vkQueuePresentKHR")(result)),
         }
     }
 }

@@ -6,8 +6,8 @@ use super::compose::{self, Magnifier};
 use super::cover::Cover;
 use super::device::Device;
 use super::engine::Engine;
+use super::files::scenes_at;
 use super::fly::Flight;
-use super::layer::Layer;
 use super::look::Look;
 use super::losses::is_lost;
 use super::notes::Notes;
@@ -17,6 +17,7 @@ use super::panel::{self, Facts, LoadingFacts, PhotoFacts, PictureFacts, SceneFac
 use super::photo::Easel;
 use super::player::Player;
 use super::pointer::Pointer;
+use super::preparer::Preparer;
 use super::source::{Appearance, Source};
 use super::standpoint::{Standpoint, Start};
 use super::studio::{Made, Studio};
@@ -120,7 +121,7 @@ impl View {
             .create_window(attributes)
             .map_err(|error| NoDisplay::new(&error))?;
         let window = Arc::new(window);
-        let canvas = canvas(&window, &options.device)?;
+        let canvas = canvas(&window, &options.device, &proxy)?;
         let interface = interface(&window);
         let deliver = proxy.clone();
         let studio = Studio::new(options.device.clone(), move |made| {
@@ -129,14 +130,23 @@ impl View {
         });
         let has_shadows = options.look.settings.shadows == Shadows::Exact;
         let cover = Cover::new(has_shadows, options.shows_environment);
+        let (mut scenes, mut notes) = (Vec::new(), Notes::new(options.describe));
+        let mut source = options.source;
+        for path in std::iter::once(&source.path).chain(&options.others) {
+            match scenes_at(path) {
+                Ok(found) => scenes.extend(found),
+                Err(error) => notes.fail(&error),
+            }
+        }
+        if let Some(first) = scenes.first() {
+            source.path.clone_from(first);
+        }
         let mut view = Self {
-            scenes: std::iter::once(options.source.path.clone())
-                .chain(options.others)
-                .collect(),
+            scenes,
             looks: vec![options.look],
             standpoint: Standpoint::Camera(0),
             start: Some(options.start),
-            source: options.source,
+            source,
             appearance: Arc::new(options.appearance),
             appearance_options: options.appearance_options,
             device: options.device,
@@ -161,7 +171,7 @@ impl View {
             cover_figures: None,
             easel: None,
             studio,
-            notes: Notes::default(),
+            notes,
             shows_keys: false,
             shows_panel: true,
             is_dirty: true,
@@ -171,7 +181,9 @@ impl View {
             messages: Vec::new(),
         };
         view.canvas.refines = !view.cover.is_wanted();
-        view.load(false);
+        if !view.scenes.is_empty() {
+            view.load(false);
+        }
         Ok(view)
     }
 
@@ -186,7 +198,7 @@ impl View {
         // The window's images go before it has others.
         drop(self.canvas);
         let mut view = Self {
-            canvas: canvas(&self.window, &self.device)?,
+            canvas: canvas(&self.window, &self.device, &self.proxy)?,
             interface: interface(&self.window),
             messages,
             moment: None,
@@ -229,6 +241,11 @@ impl View {
         match event {
             Event::Opened(number, opened) => self.opened(number, *opened)?,
             Event::Changed => self.reload = Some(Instant::now() + SETTLE),
+            Event::Prepared(prepared) => {
+                if let Err(error) = self.canvas.prepared(*prepared) {
+                    self.report(error)?;
+                }
+            }
             Event::Made(Made::File(path, written)) => {
                 self.studio.delivered(&path);
                 match written {
@@ -253,13 +270,7 @@ impl View {
         for look in &mut self.looks {
             look.settings.size = size;
         }
-        let layer = |look: &Look| Layer::new(&self.canvas.engine, look.clone(), now);
-        let layers = self
-            .looks
-            .iter()
-            .map(layer)
-            .collect::<anyhow::Result<_>>()?;
-        self.canvas.set_layers(layers)?;
+        self.canvas.set_looks(&self.looks, now)?;
         self.view_changed()
     }
 
@@ -368,7 +379,7 @@ impl View {
             pieces: &compose::pictures(size, split),
             magnified: &magnified,
         };
-        if let Err(error) = self.canvas.draw(&acquired, &seen, painting, now) {
+        if let Err(error) = self.canvas.draw(acquired, &seen, painting, now) {
             self.report(error)?;
         }
         self.fulfil(wishes)
@@ -408,6 +419,7 @@ impl View {
             }),
             scene: self.canvas.stage().map(|stage| SceneFacts {
                 name: stage.source.name(),
+                warnings: &stage.warnings,
                 triangles: stage.prepared.triangle_count(),
                 motion: self
                     .player
@@ -421,6 +433,7 @@ impl View {
                 .map(|layer| PictureFacts {
                     look: &layer.look,
                     shown: layer.shown,
+                    is_prepared: !layer.is_waiting(),
                     statistics: &layer.statistics,
                 })
                 .collect(),
@@ -513,14 +526,23 @@ impl View {
 }
 
 /// Opens a device that shows pictures in the window.
-fn canvas(window: &Arc<Window>, options: &HeadlessOptions) -> anyhow::Result<Canvas> {
+fn canvas(
+    window: &Arc<Window>,
+    options: &HeadlessOptions,
+    proxy: &EventLoopProxy<Event>,
+) -> anyhow::Result<Canvas> {
     let device = Device::new(
         window.clone(),
         options.device.as_deref(),
         options.validation,
     )?;
     let engine = Engine::new(Arc::new(device))?;
-    Canvas::new(Arc::new(engine), window.inner_size().into())
+    let deliver = proxy.clone();
+    let preparer = Preparer::new(move |prepared| {
+        // Nobody waits for it once the window is closed.
+        let _ = deliver.send_event(Event::Prepared(Box::new(prepared)));
+    });
+    Canvas::new(Arc::new(engine), window.inner_size().into(), preparer)
 }
 
 /// Lays out the panel, from nothing: the device has none of its textures.

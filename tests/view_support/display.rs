@@ -3,10 +3,6 @@
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
 use tempfile::TempDir;
-use x11rb::connection::Connection;
-use x11rb::protocol::xproto::{AtomEnum, PropMode};
-use x11rb::rust_connection::RustConnection;
-use x11rb::wrapper::ConnectionExt as _;
 
 /// A display without a screen.
 pub struct Display {
@@ -47,24 +43,6 @@ impl Display {
             name: format!(":{}", number.trim()),
             folder,
         }
-    }
-
-    /// Says how dense its pixels are, as desktops do; 96 is ordinary.
-    pub fn set_dots_per_inch(&self, dots: u32) {
-        let (connection, screen) = RustConnection::connect(Some(&self.name)).unwrap();
-        let root = connection.setup().roots[screen].root;
-        let resources = format!("Xft.dpi:\t{dots}\n");
-        connection
-            .change_property8(
-                PropMode::REPLACE,
-                root,
-                AtomEnum::RESOURCE_MANAGER,
-                AtomEnum::STRING,
-                resources.as_bytes(),
-            )
-            .unwrap()
-            .check()
-            .unwrap();
     }
 
     /// Sends input.

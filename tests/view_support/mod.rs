@@ -1,10 +1,12 @@
 //! A window on a display of its own, with real input.
 
+mod density;
 mod display;
 mod loss;
 mod viewer;
 mod xdnd;
 
+pub use density::Density;
 pub use display::Display;
 pub use loss::Loss;
 pub use viewer::Viewer;
