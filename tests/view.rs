@@ -1,4 +1,4 @@
-//! The window on a display of its own, with real input. Needs Xvfb and xdotool, and fails without them.
+//! The window on displays of its own, with real input. Needs Xvfb, xdotool, sway and grim, and fails without them.
 
 #[allow(dead_code, reason = "other tests use the rest")]
 mod cli_support;
@@ -12,7 +12,9 @@ use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
-use view_support::{Density, Display, Loss, PATIENCE, Viewer, drop_file};
+use view_support::{
+    Density, Display, Loss, Monitor, Monitors, PATIENCE, Program, Viewer, drop_file,
+};
 
 /// Runs a `gpc render` command, to a file of that name.
 fn render(folder: &Path, command: &[String], output: &str) -> Vec<u8> {
@@ -533,6 +535,67 @@ fn the_density_of_the_display_may_change() {
         assert_shows(&display, size, &rendered);
     }
     viewer.close();
+}
+
+#[test]
+fn a_window_goes_to_another_monitor_and_fills_it() {
+    let (monitors, folder) = (Monitors::open(), tempfile::tempdir().unwrap());
+    let options = ["--samples", "16", "--background=#2b2f36", "--camera", "0"];
+    let scene = asset("letters.glb");
+    let arguments = [&[scene.as_str(), "--size", "600x400"][..], &options].concat();
+    let mut viewer = monitors.start(&mut Program::viewer(folder.path(), &arguments));
+    viewer.wait_for("at rest");
+    let window = "[title=\"gpc$\"]";
+    for (orders, monitor, size, corner) in [
+        (
+            "move absolute position 20 30",
+            Monitor::Left,
+            [600, 400],
+            [20, 30],
+        ),
+        (
+            "move absolute position 650 10",
+            Monitor::Right,
+            [1200, 800],
+            [20, 20],
+        ),
+        ("fullscreen enable", Monitor::Right, [1280, 960], [0, 0]),
+        (
+            "fullscreen disable, move absolute position 20 30",
+            Monitor::Left,
+            [600, 400],
+            [20, 30],
+        ),
+    ] {
+        monitors.order(&format!("{window} {orders}"));
+        let asked = format!("{}x{}", size[0], size[1]);
+        let command = ["render", &scene, "-o", "there.png", "--size", &asked];
+        let command: Vec<_> = [&command[..], &options].concat();
+        let command: Vec<_> = command.into_iter().map(str::to_owned).collect();
+        let expected = render(folder.path(), &command, "there.png");
+        let expected = image::load_from_memory(&expected).unwrap().to_rgb8();
+        // The panel is left of the middle: its points are as large for the eye on both.
+        let panel = 2 * size[0] / 3;
+        let until = Instant::now() + PATIENCE;
+        loop {
+            let seen = monitors.picture(monitor);
+            let wrong = expected.enumerate_pixels().filter(|(x, y, color)| {
+                let shown = seen.get_pixel_checked(corner[0] + x, corner[1] + y);
+                *x >= panel && shown.is_none_or(|shown| differ(&shown.0, color))
+            });
+            let count = wrong.count();
+            if count == 0 {
+                break;
+            }
+            assert!(
+                Instant::now() < until,
+                "{count} pixels of {asked} are others"
+            );
+            std::thread::sleep(Duration::from_millis(200));
+        }
+    }
+    monitors.order(&format!("{window} kill"));
+    viewer.ended_well();
 }
 
 #[test]

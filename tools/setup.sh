@@ -103,10 +103,12 @@ libxkbcommon-x11.so.0 libxkbcommon-x11-0
 END
 }
 
-# A display without a screen, and a mouse without a hand.
+# A display without a screen, and a mouse without a hand; two monitors of Wayland without a screen, and what grabs them.
 needs_display() {
     has Xvfb || lacks "Xvfb" xvfb
     has xdotool || lacks "xdotool" xdotool
+    has sway || lacks "sway" sway
+    has grim || lacks "grim" grim
 }
 
 if ! has cargo; then

@@ -56,7 +56,7 @@ impl View {
                 }
                 self.is_dirty |= self.magnifier.is_some();
                 if self.easel.as_ref().is_some_and(|easel| easel.unzooms) {
-                    self.cover_changed()?;
+                    self.cover_changed();
                 }
             }
             WindowEvent::MouseInput { state, button, .. } => match state {
@@ -178,24 +178,24 @@ impl View {
             }
             Action::Lens => {
                 if self.cover.lenses.regions().is_empty() {
-                    self.add_lens()?;
+                    self.add_lens();
                 } else {
                     self.cover.lenses = Lenses::default();
-                    self.cover_changed()?;
+                    self.cover_changed();
                 }
             }
-            Action::AddLens => self.add_lens()?,
+            Action::AddLens => self.add_lens(),
             Action::RemoveLens => {
                 self.cover.lenses.remove();
-                self.cover_changed()?;
+                self.cover_changed();
             }
             Action::Tint => {
                 self.cover.tints = !self.cover.tints;
-                self.cover_changed()?;
+                self.cover_changed();
             }
-            Action::Unzoom => self.toggle_unzoom()?,
+            Action::Unzoom => self.toggle_unzoom(),
             Action::NextOverlay => {
-                self.set_overlay(Overlay::next(self.cover.overlay))?;
+                self.set_overlay(Overlay::next(self.cover.overlay));
             }
             Action::Screenshot => self.write_screenshot(),
             Action::CopyCommand => self.copy_command(),
@@ -206,7 +206,7 @@ impl View {
         Ok(())
     }
 
-    fn add_lens(&mut self) -> anyhow::Result<()> {
+    fn add_lens(&mut self) {
         let place = self.plane_place(self.pointer.place());
         let height = self.size()[1]
             * self
@@ -214,26 +214,25 @@ impl View {
                 .as_ref()
                 .map_or(1.0, |easel| easel.framing.step());
         self.cover.lenses.add(place, height);
-        self.cover_changed()
+        self.cover_changed();
     }
 
     /// Begins or ends to unzoom what is under the pointer.
-    fn toggle_unzoom(&mut self) -> anyhow::Result<()> {
+    fn toggle_unzoom(&mut self) {
         match &mut self.easel {
             Some(easel) if easel.photo.zoomed().is_some() => {
                 easel.unzooms = !easel.unzooms;
-                self.cover_changed()?;
+                self.cover_changed();
             }
             _ => self.notes.say("only an image of gpc zoom can be unzoomed"),
         }
-        Ok(())
     }
 
-    fn set_overlay(&mut self, overlay: Option<Overlay>) -> anyhow::Result<()> {
+    fn set_overlay(&mut self, overlay: Option<Overlay>) {
         self.cover.overlay = overlay;
         let name = overlay.map_or("colours", Overlay::name);
         self.notes.say(format!("shows {name}"));
-        self.cover_changed()
+        self.cover_changed();
     }
 
     fn next_camera(&mut self) {
@@ -301,7 +300,7 @@ impl View {
             self.act(action)?;
         }
         if let Some(overlay) = wishes.overlay {
-            self.set_overlay(overlay)?;
+            self.set_overlay(overlay);
         }
         if wishes.toggles_play {
             self.play_or_pause();
@@ -326,10 +325,11 @@ impl View {
     }
 
     fn change_speed(&mut self, steps: i32) {
-        if let Some(player) = &mut self.player {
-            player.change_speed(steps);
-            self.is_dirty = true;
+        match &mut self.player {
+            Some(player) => player.change_speed(steps),
+            None => self.notes.say("the scene has no animations"),
         }
+        self.is_dirty = true;
     }
 
     /// Begins or ends to show two methods side by side.

@@ -8,7 +8,7 @@ use super::painter::{Painter, Painting};
 use super::picture::{self, DESTINATION, LAYERS, Picture, SOURCE, UNUSED};
 use super::preparer::{Prepared, Preparer};
 use super::presenter::{Fit, Presenter};
-use super::slot::{SLOTS, Slot};
+use super::slot::{Kept, SLOTS, Slot};
 use super::source::Stage;
 use super::swapchain::{Acquired, Swapchain, Turn};
 use anyhow::bail;
@@ -16,6 +16,7 @@ use ash::vk;
 use gpc::camera::Camera;
 use gpc::render::ImageState;
 use gpc::scene::Moment;
+use std::rc::Rc;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -127,13 +128,17 @@ impl Canvas {
     }
 
     /// Shows another scene, or none.
-    pub fn set_stage(&mut self, stage: Option<Stage>) -> anyhow::Result<()> {
-        self.wait()?;
-        let layers = std::mem::take(&mut self.layers);
-        self.before = layers.into_iter().map(Layer::into_picture).collect();
-        self.stage = stage;
+    pub fn set_stage(&mut self, stage: Option<Stage>) {
+        let seen = self.take_pictures();
+        let before = std::mem::replace(&mut self.before, seen);
+        self.keep(Kept::Pictures(before));
+        if let Some(stage) = std::mem::replace(&mut self.stage, stage) {
+            self.keep(Kept::Stage(Box::new(stage)));
+        }
         (self.is_uploaded, self.has_uploads) = (false, false);
-        Ok(())
+        for slot in &mut self.slots {
+            slot.uploads = false;
+        }
     }
 
     /// The pictures.
@@ -143,15 +148,33 @@ impl Canvas {
 
     /// Shows pictures with other looks, and those before until there is something to see.
     pub fn set_looks(&mut self, looks: &[Look], now: Instant) -> anyhow::Result<()> {
-        self.wait()?;
-        let layers = std::mem::take(&mut self.layers).into_iter();
-        let before = std::mem::take(&mut self.before).into_iter();
-        let mut before = before.chain(layers.map(Layer::into_picture));
-        for look in looks {
-            let layer = Layer::new(&self.engine, look.clone(), before.next(), now)?;
-            self.layers.push(layer);
+        let layer = |look: &Look| Layer::new(&self.engine, look.clone(), now);
+        let layers = looks.iter().map(layer).collect::<anyhow::Result<_>>()?;
+        let mut before = std::mem::take(&mut self.before);
+        before.extend(self.take_pictures());
+        self.layers = layers;
+        let mut before = before.into_iter();
+        for (layer, picture) in self.layers.iter_mut().zip(before.by_ref()) {
+            layer.set_before(picture);
         }
+        self.keep(Kept::Pictures(before.collect()));
         Ok(())
+    }
+
+    /// Takes the pictures that are seen away from the layers, which end.
+    fn take_pictures(&mut self) -> Vec<Picture> {
+        let layers = std::mem::take(&mut self.layers);
+        let (seen, others): (_, Vec<_>) = layers.into_iter().map(Layer::into_pictures).unzip();
+        self.keep(Kept::Pictures(others.into_iter().flatten().collect()));
+        seen
+    }
+
+    /// Keeps something until no commands use it.
+    fn keep(&mut self, kept: Kept) {
+        let kept = Rc::new(kept);
+        for slot in self.slots.iter_mut().filter(|slot| slot.is_busy()) {
+            slot.kept.push(kept.clone());
+        }
     }
 
     /// Takes a frame that the preparer delivers.
@@ -164,12 +187,10 @@ impl Canvas {
     }
 
     /// Shows a picture in the stead of all others, or those again.
-    pub fn set_cover(&mut self, cover: Option<Picture>) -> anyhow::Result<()> {
-        if self.cover.is_some() {
-            self.wait()?;
+    pub fn set_cover(&mut self, cover: Option<Picture>) {
+        if let Some(before) = std::mem::replace(&mut self.cover, cover) {
+            self.keep(Kept::Pictures(vec![before]));
         }
-        self.cover = cover;
-        Ok(())
     }
 
     /// All pictures are others from now on: something moved.
@@ -306,7 +327,7 @@ impl Canvas {
         now: Instant,
     ) -> anyhow::Result<()> {
         if let Some(cover) = &mut self.cover {
-            // SAFETY: passed on to the caller; covers are changed only when no commands are left.
+            // SAFETY: passed on to the caller; a cover that is replaced is kept until its commands are done.
             unsafe { cover.record_pixels(commands) };
         }
         let (Some(stage), Some(camera)) = (&self.stage, seen.camera) else {
@@ -324,7 +345,7 @@ impl Canvas {
             camera,
             moment: seen.moment,
         };
-        for (index, layer) in self.layers.iter_mut().enumerate() {
+        for layer in &mut self.layers {
             let is_begun = layer.has_again() || layer.is_waiting();
             if !self.refines && !layer.schedule.is_draft() && !is_begun {
                 continue;
@@ -332,7 +353,7 @@ impl Canvas {
             let makers = (&self.engine, &self.preparer);
             // SAFETY: passed on to the caller; the slot keeps the job.
             let job = unsafe { layer.record(makers, commands, &sight, now) }?;
-            slot.jobs.extend(job.map(|job| (index, job)));
+            slot.jobs.extend(job);
         }
         Ok(())
     }
@@ -417,11 +438,13 @@ impl Canvas {
         let slot = &mut self.slots[index];
         let textures = std::mem::take(&mut slot.textures);
         let jobs = std::mem::take(&mut slot.jobs);
+        slot.kept.clear();
         self.has_uploads |= std::mem::take(&mut slot.uploads);
         self.painter.free(&textures)?;
         let mut outcome = Ok(());
-        for (index, job) in jobs {
-            if let Some(layer) = self.layers.get_mut(index) {
+        for job in jobs {
+            let is_meant = |layer: &&mut Layer| layer.is_meant(&job.ticket);
+            if let Some(layer) = self.layers.iter_mut().find(is_meant) {
                 outcome = outcome.and(layer.finish(&self.engine, job));
             }
         }
@@ -432,7 +455,7 @@ impl Canvas {
     fn discard_uploads(&mut self) {
         let stage = self.stage.as_mut().filter(|_| self.has_uploads);
         if let Some(prepared) = stage.and_then(|stage| Arc::get_mut(&mut stage.prepared)) {
-            // SAFETY: the commands that uploaded it are done, and stages are changed only when none are left.
+            // SAFETY: the commands that uploaded it are done: those of stages before are not counted.
             unsafe { prepared.discard_uploads() };
             self.has_uploads = false;
         }

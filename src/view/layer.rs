@@ -44,6 +44,8 @@ pub struct Layer {
 
 /// Work that the device has not done yet, and what it uses.
 pub struct Job {
+    /// Of the layer that takes it back.
+    pub ticket: Weak<()>,
     frame: Frame,
     work: Work,
     version: u64,
@@ -60,16 +62,11 @@ pub struct Sight<'a> {
 }
 
 impl Layer {
-    /// A picture of which nothing is rendered; until something is, the one before is seen.
-    pub fn new(
-        engine: &Engine,
-        look: Look,
-        before: Option<Picture>,
-        now: Instant,
-    ) -> anyhow::Result<Self> {
+    /// A picture of which nothing is rendered.
+    pub fn new(engine: &Engine, look: Look, now: Instant) -> anyhow::Result<Self> {
         Ok(Self {
             picture: Picture::new(&engine.device, look.settings.size)?,
-            before,
+            before: None,
             schedule: Schedule::new(&look, now),
             look,
             ticket: Ticket::default(),
@@ -84,6 +81,11 @@ impl Layer {
         })
     }
 
+    /// Has another picture seen until something is rendered of its own.
+    pub fn set_before(&mut self, before: Picture) {
+        self.before = Some(before);
+    }
+
     /// What is seen so far.
     pub fn picture(&self) -> &Picture {
         let before = self.before.as_ref();
@@ -92,11 +94,11 @@ impl Layer {
             .unwrap_or(&self.picture)
     }
 
-    /// The same, to be seen until another layer has something.
-    pub fn into_picture(self) -> Picture {
+    /// The same, to be seen until another layer has something, and one that is not seen.
+    pub fn into_pictures(self) -> (Picture, Option<Picture>) {
         match self.before {
-            Some(before) if !self.picture.is_written() => before,
-            _ => self.picture,
+            Some(before) if !self.picture.is_written() => (before, Some(self.picture)),
+            before => (self.picture, before),
         }
     }
 
@@ -114,8 +116,8 @@ impl Layer {
     /// If memory runs out.
     ///
     /// # Safety
-    /// `commands` is being recorded for the engine's device, after the upload of the scene; this and the job outlive their
-    /// execution.
+    /// `commands` is being recorded for the engine's device, after the upload of the scene; the job, and this or what
+    /// [`Self::into_pictures`] hands over, outlive their execution.
     pub unsafe fn record(
         &mut self,
         (engine, preparer): (&Arc<Engine>, &Preparer),
@@ -164,6 +166,7 @@ impl Layer {
             }
         };
         Ok(Some(Job {
+            ticket: Arc::downgrade(&self.ticket),
             frame,
             work,
             version: self.version,
@@ -202,7 +205,7 @@ impl Layer {
         }
     }
 
-    /// Whether frames of this ticket are the layer's.
+    /// Whether frames and jobs of this ticket are the layer's.
     pub fn is_meant(&self, ticket: &Weak<()>) -> bool {
         Weak::ptr_eq(&Arc::downgrade(&self.ticket), ticket)
     }

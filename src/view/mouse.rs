@@ -43,9 +43,7 @@ impl View {
     /// Everything has to be rendered again.
     pub fn restart(&mut self) {
         self.canvas.restart(Instant::now());
-        if let Err(error) = self.view_changed() {
-            self.notes.fail(&error);
-        }
+        self.view_changed();
     }
 
     /// Changes the lenses, where there are any. Says whether there are.
@@ -54,9 +52,7 @@ impl View {
             return false;
         }
         change(&mut self.cover.lenses);
-        if let Err(error) = self.cover_changed() {
-            self.notes.fail(&error);
-        }
+        self.cover_changed();
         true
     }
 
@@ -66,9 +62,7 @@ impl View {
             return false;
         };
         change(&mut easel.framing);
-        if let Err(error) = self.view_changed() {
-            self.notes.fail(&error);
-        }
+        self.view_changed();
         true
     }
 

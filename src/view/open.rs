@@ -98,7 +98,10 @@ impl View {
         log::debug!("shows {}", loading.source.path.display());
         match opened {
             Opened::Scene(stage) => self.set_stage(*stage, loading.keeps_view),
-            Opened::Photo(photo) => self.set_photo(photo, loading.keeps_view),
+            Opened::Photo(photo) => {
+                self.set_photo(photo, loading.keeps_view);
+                Ok(())
+            }
         }
     }
 
@@ -120,11 +123,11 @@ impl View {
             Player::new(stage.source.request.time, duration)
         });
         self.moment = None;
-        self.canvas.set_stage(Some(stage))?;
+        self.canvas.set_stage(Some(stage));
         self.renew_layers()
     }
 
-    fn set_photo(&mut self, photo: Photo, keeps_view: bool) -> anyhow::Result<()> {
+    fn set_photo(&mut self, photo: Photo, keeps_view: bool) {
         let mut easel = Easel::new(photo, self.pixels());
         if let Some(before) = self.easel.as_ref().filter(|_| keeps_view) {
             easel.framing = before.framing;
@@ -136,8 +139,8 @@ impl View {
         }
         (self.player, self.moment, self.flight) = (None, None, None);
         self.set_easel(Some(easel));
-        self.canvas.set_stage(None)?;
-        self.view_changed()
+        self.canvas.set_stage(None);
+        self.view_changed();
     }
 
     /// Goes from scenes to photographs or back, whose lenses are not at the same places.

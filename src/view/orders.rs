@@ -8,25 +8,23 @@ use std::time::Instant;
 
 impl View {
     /// What was made of another view is no longer seen, and asked for anew.
-    pub fn view_changed(&mut self) -> anyhow::Result<()> {
+    pub fn view_changed(&mut self) {
         self.is_dirty = true;
         // A photograph has no frames to be seen meanwhile.
         if !self.cover.is_photo {
-            self.canvas.set_cover(None)?;
+            self.canvas.set_cover(None);
         }
         self.begin_cover(true);
-        Ok(())
     }
 
     /// Asks for another cover of the same view, or for none.
-    pub fn cover_changed(&mut self) -> anyhow::Result<()> {
+    pub fn cover_changed(&mut self) {
         self.is_dirty = true;
         self.canvas.refines = !self.cover.is_wanted();
         if self.canvas.refines {
-            self.canvas.set_cover(None)?;
+            self.canvas.set_cover(None);
         }
         self.begin_cover(false);
-        Ok(())
     }
 
     /// Shows what the studio has made.
@@ -34,7 +32,7 @@ impl View {
         let arrival = self.cover.arrived(number, Instant::now());
         if arrival.is_shown {
             let picture = Picture::from_pixels(&self.canvas.engine.device, pixels)?;
-            self.canvas.set_cover(Some(picture))?;
+            self.canvas.set_cover(Some(picture));
             self.cover_figures.clone_from(&pixels.figures);
         }
         if arrival.refines {

@@ -2,12 +2,21 @@
 
 use super::device::Device;
 use super::layer::Job;
+use super::picture::Picture;
+use super::source::Stage;
 use ash::vk;
 use gpc::vulkan::VulkanError;
+use std::rc::Rc;
 use std::sync::Arc;
 
 /// How many frames may be in flight.
 pub const SLOTS: usize = 2;
+
+/// What commands may use though it is not shown any more.
+pub enum Kept {
+    Stage(#[expect(dead_code, reason = "kept until it is dropped")] Box<Stage>),
+    Pictures(#[expect(dead_code, reason = "kept until it is dropped")] Vec<Picture>),
+}
 
 /// A command buffer, and what its commands use until they are done.
 pub struct Slot {
@@ -18,8 +27,10 @@ pub struct Slot {
     /// Signalled when the window's image is free to be drawn.
     pub free: vk::Semaphore,
     is_busy: bool,
-    /// Work of the layers, by index.
-    pub jobs: Vec<(usize, Job)>,
+    /// Work of the layers.
+    pub jobs: Vec<Job>,
+    /// What was replaced while they used it.
+    pub kept: Vec<Rc<Kept>>,
     /// Textures of the panel that these commands are the last to use.
     pub textures: Vec<egui::TextureId>,
     /// Whether they put the scene on the device.
@@ -36,6 +47,7 @@ impl Slot {
             free: vk::Semaphore::null(),
             is_busy: false,
             jobs: Vec::new(),
+            kept: Vec::new(),
             textures: Vec::new(),
             uploads: false,
         };

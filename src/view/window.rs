@@ -271,7 +271,8 @@ impl View {
             look.settings.size = size;
         }
         self.canvas.set_looks(&self.looks, now)?;
-        self.view_changed()
+        self.view_changed();
+        Ok(())
     }
 
     /// Width / height of the picture.

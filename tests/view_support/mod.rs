@@ -3,12 +3,16 @@
 mod density;
 mod display;
 mod loss;
+mod monitors;
+mod program;
 mod viewer;
 mod xdnd;
 
 pub use density::Density;
 pub use display::Display;
 pub use loss::Loss;
+pub use monitors::{Monitor, Monitors};
+pub use program::Program;
 pub use viewer::Viewer;
 pub use xdnd::drop_file;
 
