@@ -243,6 +243,8 @@ typedef struct GpcGeometry {
     // VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, when a frame's first recording is executed, and keeps what they hold then. May
     // be NULL where there are none.
     const struct GpcAlphaMap *alpha_maps;
+    // VK_TRUE if draws may be blended.
+    VkBool32 blended;
 } GpcGeometry;
 
 // State of an image, as in VkImageMemoryBarrier2.
@@ -255,7 +257,7 @@ typedef struct GpcImageState {
     VkAccessFlags2 access;
 } GpcImageState;
 
-// An image: single-sampled, one level, one layer, of the size in GpcOptions.
+// An image: single-sampled, one level, one layer, of the size in GpcOptions or larger.
 typedef struct GpcImage {
     // The image.
     VkImage image;
@@ -287,6 +289,9 @@ typedef struct GpcImages {
     struct GpcImage depth;
     // Colours, made with VK_IMAGE_USAGE_SAMPLED_BIT and VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT.
     struct GpcImage color;
+    // Upper left corner of the part of these images that the frame is of, in pixels. The part has the size in GpcOptions; the
+    // library neither reads nor writes what lies around it.
+    uint32_t corner[2];
 } GpcImages;
 
 // How a frame is antialiased; gpc_options_init gives defaults.
@@ -343,7 +348,8 @@ typedef struct GpcDraw {
     uint32_t vertex_count;
     // With GPC_POSITION_SPACE_OBJECT, the matrix that leads from there to clip space, in columns. Otherwise ignored.
     float to_clip[4][4];
-    // 1 + the index of the alpha map that says where it is, 0 where it is opaque. Draws with alpha maps are the last.
+    // 1 + the index of the alpha map that says where it is, 0 where it is everywhere. Draws with alpha maps come after those
+    // without.
     uint32_t alpha_map;
     // The shading key, from 0: which of the application's pipelines shades it.
     uint32_t key;
@@ -355,6 +361,9 @@ typedef struct GpcDraw {
     // VK_TRUE if light or paint may change within a pixel, as with a texture or a glossy surface: it is then shaded in
     // several parts of a superpixel where the pixels around tell that it does.
     VkBool32 detailed;
+    // VK_TRUE if it is seen through: what the application's shading stores has an opacity then, and is composited over what
+    // lies behind. Such draws have no alpha map and come after all others; GpcGeometry.blended says that there may be some.
+    VkBool32 blended;
 } GpcDraw;
 
 // What a recording shows.

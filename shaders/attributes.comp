@@ -19,7 +19,7 @@ void main() {
     uvec2 size = frame.size / side;
     if (i >= size.x * size.y) return;
     uvec2 pixel = split(i, size.x) * side + side / 2u;
-    uint id = texelFetch(ids, ivec2(pixel), 0).x;
+    uint id = id_at(ivec2(pixel));
     Triangle k = triangle_at(max(id, 1u) - 1u);
     Barycentric w = barycentric(k.v0, k.v1, k.v2, frame.origin + vec2(pixel));
     float distance_ = dot(position_of(k, w.at) - frame.eye.xyz, frame.view_direction.xyz);

@@ -18,7 +18,7 @@ void main() {
     uint i = invocation_number();
     if (i >= band.count) return;
     uvec2 pixel = split(band.first + i, frame.size.x);
-    uint id = texelFetch(ids, ivec2(pixel), 0).x;
+    uint id = id_at(ivec2(pixel));
     if (GATHER) {
         vec4 c = id == 0u ? frame.background : to_output(vec4(texelFetch(shaded, int(i)).rgb, 1.0));
         color[band.first + i] = c;

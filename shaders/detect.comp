@@ -14,7 +14,7 @@ layout(local_size_x = 64) in;
 
 layout(constant_id = 0) const uint MODE = 0u;
 const uint CONTRAST = 0u, EDGES = 1u, EXACT = 2u, BLENDED = 3u, EVERY = 4u;
-layout(constant_id = 1) const bool HAS_BLEND = false;
+layout(constant_id = 1) const bool BLEND_IDS = false;
 layout(constant_id = 2) const bool THIN = false;    // pixels that `thin` marked are superpixels too; some, if they lie amid a triangle
 layout(constant_id = 3) const bool TRANSPARENT = false;  // colours differ in alpha too
 layout(constant_id = 4) const uint BEYOND = 0u;     // pixels around the region's own that are superpixels too, for `grow`
@@ -31,7 +31,7 @@ uint blend_at(ivec2 p) {
 }
 
 bool differs(uint id_a, uint id_b, uint blend_a, uint blend_b, uint color_a, uint color_b, int alpha_a, int alpha_b) {
-    bool other = id_a != id_b || (HAS_BLEND && blend_a != blend_b);
+    bool other = id_a != id_b || (BLEND_IDS && blend_a != blend_b);
     if (MODE == EXACT) return other;
     bool contrast = contrasting(color_a, color_b) || (TRANSPARENT && abs(alpha_a - alpha_b) > int(frame.contrast));
     return contrast && (MODE == CONTRAST || other);
@@ -67,8 +67,8 @@ void main() {
             int y = clamp(base.y + r, 0, last.y);
             [[unroll]] for (int i = 0; i < 10; i++) {
                 ivec2 p = ivec2(clamp(base.x - 1 + i, 0, last.x), y);
-                id[i] = texelFetch(ids, p, 0).x;
-                if (HAS_BLEND) blend[i] = blend_at(p);
+                id[i] = id_at(p);
+                if (BLEND_IDS) blend[i] = blend_at(p);
                 uint color_code = MODE == EXACT ? 0u : texelFetch(display, p.y * int(frame.size.x) + p.x).x;
                 code[i] = spread(color_code);
                 alpha[i] = int(color_code >> 24);

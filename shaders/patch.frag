@@ -13,7 +13,7 @@ layout(std430, set = 0, binding = 41) readonly buffer MarksIn { uint marks_in[];
 layout(location = 0) out vec4 drawn;
 
 void main() {
-    uvec2 pixel = min(uvec2(gl_FragCoord.xy), frame.size - 1u);
+    uvec2 pixel = min(uvec2(gl_FragCoord.xy) - frame.color_corner, frame.size - 1u);
     uint tile = pixel.y / 4u * frame.tiles.x + pixel.x / 8u, word = masks_in[tile];
     if (GROWN) word |= marks_in[2u * frame.tiles.x * frame.tiles.y + tile];
     if (!ALL && (word >> (pixel.y % 4u * 8u + pixel.x % 8u) & 1u) == 0u) discard;

@@ -73,7 +73,7 @@ void main() {
         uint columns = (frame.size.x + 7u) / 8u;
         uvec2 pixel = split(source, columns) * uvec2(8u, 1u) + uvec2(i % 8u, 0u);
         mine = pixel.x < frame.size.x;
-        id = texelFetch(ids, ivec2(min(pixel, frame.size - 1u)), 0).x;
+        id = id_at(ivec2(min(pixel, frame.size - 1u)));
         p = frame.origin + vec2(pixel);
         source = pixel.y * frame.size.x + pixel.x;
     } else {

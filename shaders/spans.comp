@@ -35,7 +35,7 @@ void main() {
         uint span = first_span + (s * LANES + lane) / 8u;
         uvec2 pixel = split(span, columns) * uvec2(8u, 1u) + uvec2((s * LANES + lane) % 8u, 0u);
         bool inside = span < span_count && pixel.x < frame.size.x;
-        uint id = texelFetch(ids, ivec2(inside ? pixel : uvec2(0u)), 0).x;
+        uint id = id_at(ivec2(inside ? pixel : uvec2(0u)));
         id = inside ? id : 0u;
         bin[s] = id == 0u ? NONE : ONE_BIN ? 0u : triangle_word(id - 1u) >> 16 & 0x3fffu;
     }

@@ -1,4 +1,4 @@
-// take: a host's image as what superpixels stand in: its colours in linear light, and the codes that detection compares.
+// take: a host's image, or a part of it, as what superpixels stand in: its colours in linear light, and the codes that detection compares.
 // Reads: the image. Writes: color, display. ENCODED: the host has written sRGB codes into a format of plain numbers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -16,7 +16,7 @@ vec3 srgb_decode(vec3 c) {
 void main() {
     uint i = invocation_number();
     if (i >= frame.size.x * frame.size.y) return;
-    vec4 c = texelFetch(host_image, ivec2(split(i, frame.size.x)), 0);
+    vec4 c = texelFetch(host_image, ivec2(frame.color_corner + split(i, frame.size.x)), 0);
     c.rgb = ENCODED ? srgb_decode(clamp(c.rgb, vec3(0.0), vec3(1.0))) : c.rgb;
     color[i] = c;
     display_out[i] = display_code(c);

@@ -16,7 +16,7 @@
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool SELECT = false;
-layout(constant_id = 1) const bool HAS_BLEND = false;
+layout(constant_id = 1) const bool BLEND_IDS = false;
 layout(constant_id = 2) const bool FARTHER_IS_LARGER = false;   // in raster's depth
 
 layout(set = 0, binding = 40) uniform texture2D raster_depth;
@@ -61,11 +61,11 @@ vec4 span_of(vec3 p, vec3 q, float left, float right) {
 
 // `depths`: the farthest and the nearest of the triangle there.
 void mark(ivec2 pixel, uint t, vec2 depths) {
-    float seen = texelFetch(raster_depth, pixel, 0).x;
+    float seen = texelFetch(raster_depth, ivec2(frame.seen_corner) + pixel, 0).x;
     seen = FARTHER_IS_LARGER ? 1.0 - seen : seen;
-    bool unseen = !HAS_BLEND || t < frame.first_blend || texelFetch(blend_ids, pixel, 0).x != t + 1u;
+    bool unseen = !BLEND_IDS || t < frame.first_blend || texelFetch(blend_ids, pixel, 0).x != t + 1u;
     bool apart = depths.x - seen > frame.gap.x * depths.x + frame.gap.y;
-    bool painted = depths.y >= seen && texelFetch(ids, pixel, 0).x != t + 1u;
+    bool painted = depths.y >= seen && id_at(pixel) != t + 1u;
     if (unseen && depths.y <= 1.0 && (apart || painted)) {
         uvec2 tile = uvec2(pixel) / uvec2(8u, 4u), within = uvec2(pixel) % uvec2(8u, 4u);
         uint word = (apart ? 0u : frame.tiles.x * frame.tiles.y) + tile.y * frame.tiles.x + tile.x;

@@ -175,6 +175,7 @@ impl<'a> Slot<'a> {
             keys: KEYS,
             coordinates: None,
             alpha_maps: Vec::new(),
+            blended: false,
             clip: ClipSpace {
                 y_up: true,
                 reversed_depth: true,
@@ -199,6 +200,7 @@ impl<'a> Slot<'a> {
                 format: COLOR,
                 encoded: false,
             },
+            corner: [0, 0],
         }
     }
 

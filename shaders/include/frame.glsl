@@ -45,6 +45,8 @@ layout(set = 0, binding = 0) uniform Frame {
     uint side;              // pixels of the region along an output pixel's side: k for k x k supersampling
     float reach;            // of samples around the centre of the pixel that owns their cell, in pixels; at least half a pixel
     uint group_count;       // groups of cells, where cells are locations
+    uvec2 seen_corner;      // where IDs and depth have the region's pixel (0, 0)
+    uvec2 color_corner;     // where a host's image of colours has it
 } frame;
 
 // On CPU devices a texel buffer is the quicker one to read and a storage buffer the quicker one to write, so that what
@@ -103,6 +105,11 @@ uvec2 split(uint n, uint width) {
     int r = int(n - q * width);
     q = r < 0 ? q - 1u : r >= int(width) ? q + 1u : q;
     return uvec2(n - q * width, q);
+}
+
+// What the centre of a pixel of the region sees: ID of a triangle, or 0.
+uint id_at(ivec2 pixel) {
+    return texelFetch(ids, ivec2(frame.seen_corner) + pixel, 0).x;
 }
 
 // Whether light or paint may change within a pixel on a triangle, by its last word.

@@ -83,7 +83,8 @@ bool gpc_sample(uint key, out GpcSample s) {
     return i < listed.x;
 }
 
-// Writes what a sample shows: linear light that the image's encoding is averaged in, and opacity.
+// Writes what a sample shows: linear light that the image's encoding is averaged in, and its opacity, which is 1 where the
+// draw is not blended. Light is not multiplied by the opacity before.
 void gpc_store(GpcSample s, vec4 light) {
     gpc_shaded[s.record] = light;
 }

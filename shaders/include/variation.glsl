@@ -63,7 +63,7 @@ Variation variation_around(uvec2 pixel) {
         ivec2 there = ivec2(pixel) + ivec2(place % 3u, place / 3u) - 1;
         bool exists = all(greaterThanEqual(there, ivec2(0))) && all(lessThan(there, ivec2(frame.size)));
         there = exists ? there : ivec2(min(pixel, frame.size - 1u));
-        uint id_there = texelFetch(ids, there, 0).x;
+        uint id_there = id_at(there);
         ids_[i] = exists ? id_there : 0u;
         materials_[i] = variation_material(ids_[i]);
         codes[i] = texelFetch(display, there.y * int(frame.size.x) + there.x).x;

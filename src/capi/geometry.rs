@@ -90,6 +90,8 @@ pub struct GpcGeometry {
     /// VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, when a frame's first recording is executed, and keeps what they hold then. May
     /// be NULL where there are none.
     pub alpha_maps: *const GpcAlphaMap,
+    /// VK_TRUE if draws may be blended.
+    pub blended: vk::Bool32,
 }
 
 // SAFETY: `repr(C)`, its size first; integers, raw handles and pointers may have any bytes.
@@ -147,6 +149,7 @@ impl GpcGeometry {
                 stride: self.coordinates_stride,
             }),
             alpha_maps: maps.iter().map(GpcAlphaMap::alpha_map).collect(),
+            blended: flag("GpcGeometry.blended", self.blended)?,
             clip: ClipSpace {
                 y_up: flag("GpcGeometry.y_up", self.y_up)?,
                 reversed_depth: flag("GpcGeometry.reversed_depth", self.reversed_depth)?,
@@ -170,7 +173,8 @@ pub struct GpcDraw {
     pub vertex_count: u32,
     /// With GPC_POSITION_SPACE_OBJECT, the matrix that leads from there to clip space, in columns. Otherwise ignored.
     pub to_clip: [[f32; 4]; 4],
-    /// 1 + the index of the alpha map that says where it is, 0 where it is opaque. Draws with alpha maps are the last.
+    /// 1 + the index of the alpha map that says where it is, 0 where it is everywhere. Draws with alpha maps come after those
+    /// without.
     pub alpha_map: u32,
     /// The shading key, from 0: which of the application's pipelines shades it.
     pub key: u32,
@@ -182,6 +186,9 @@ pub struct GpcDraw {
     /// VK_TRUE if light or paint may change within a pixel, as with a texture or a glossy surface: it is then shaded in
     /// several parts of a superpixel where the pixels around tell that it does.
     pub detailed: vk::Bool32,
+    /// VK_TRUE if it is seen through: what the application's shading stores has an opacity then, and is composited over what
+    /// lies behind. Such draws have no alpha map and come after all others; GpcGeometry.blended says that there may be some.
+    pub blended: vk::Bool32,
 }
 
 impl GpcDraw {
@@ -208,6 +215,7 @@ impl GpcDraw {
             })?,
             double_sided: flag("GpcDraw.double_sided", self.double_sided)?,
             detailed: flag("GpcDraw.detailed", self.detailed)?,
+            blended: flag("GpcDraw.blended", self.blended)?,
         })
     }
 }

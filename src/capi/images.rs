@@ -17,7 +17,7 @@ pub struct GpcImageState {
     pub access: vk::AccessFlags2,
 }
 
-/// An image: single-sampled, one level, one layer, of the size in GpcOptions.
+/// An image: single-sampled, one level, one layer, of the size in GpcOptions or larger.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct GpcImage {
@@ -53,6 +53,9 @@ pub struct GpcImages {
     pub depth: GpcImage,
     /// Colours, made with VK_IMAGE_USAGE_SAMPLED_BIT and VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT.
     pub color: GpcImage,
+    /// Upper left corner of the part of these images that the frame is of, in pixels. The part has the size in GpcOptions; the
+    /// library neither reads nor writes what lies around it.
+    pub corner: [u32; 2],
 }
 
 // SAFETY: `repr(C)`, its size first; integers and raw handles may have any bytes.
@@ -97,6 +100,7 @@ impl GpcImages {
                 format: self.color_format,
                 encoded: flag("GpcImages.color_encoded", self.color_encoded)?,
             },
+            corner: self.corner,
         })
     }
 }

@@ -3,7 +3,7 @@
 use super::draw::PlacedDraws;
 use super::{HostError, Images, Options, Shared};
 use crate::passes::{
-    Centres, Content, FrameUniform, OwnSet, Raster, RasterPush, RasterRun, RasterTargets,
+    Centres, Content, FrameUniform, HostDraw, OwnSet, Raster, RasterPush, RasterRun, RasterTargets,
     Resources, SampleSet, Sort,
 };
 use crate::render::engine::{RecordShading, record_shading};
@@ -108,14 +108,15 @@ impl Base {
     }
 }
 
-/// Neighbouring draws that are alike in whether their back faces show, and whether they are opaque, are drawn at once.
+/// Those that are not blended. Neighbouring draws that are alike in whether their back faces show, and whether they are opaque, are drawn at once.
 fn runs(placed: &PlacedDraws, transform: &[f32; 16]) -> Vec<RasterRun> {
     let push = RasterPush {
         matrix: *transform,
         words: [0, placed.triangles, 0, 0],
     };
     let mut runs: Vec<RasterRun> = Vec::new();
-    for (draw, triangle_count) in placed.counted() {
+    let solid = |draw: &HostDraw| draw.first_triangle < placed.solid;
+    for (draw, triangle_count) in placed.counted().filter(|(draw, _)| solid(draw)) {
         let double_sided = draw.is_double_sided();
         let masked = draw.first_triangle >= placed.opaque;
         match runs.last_mut() {

@@ -32,6 +32,7 @@ pub(super) struct HostContent {
     unread: Buffer,
     triangle_capacity: u32,
     keys: u32,
+    blended: bool,
 }
 
 impl HostContent {
@@ -79,6 +80,7 @@ impl HostContent {
             unread: memory.storage_buffer("unread", 64, usage, MemoryUse::Device)?,
             triangle_capacity: geometry.triangle_capacity,
             keys: geometry.keys,
+            blended: geometry.blended,
         })
     }
 
@@ -161,7 +163,7 @@ impl Content for HostContent {
     }
 
     fn has_blend(&self) -> bool {
-        false
+        self.blended
     }
 
     fn has_high_frequency(&self) -> bool {

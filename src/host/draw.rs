@@ -17,7 +17,8 @@ pub struct Draw {
     pub vertex_count: u32,
     /// Where positions are in object space, the matrix that leads from there to clip space, in columns. Otherwise not read.
     pub to_clip: [[f32; 4]; 4],
-    /// Which of [`Geometry::alpha_maps`] says where it is; `None` where it is opaque. Draws with alpha maps are the last.
+    /// Which of [`Geometry::alpha_maps`] says where it is; `None` where it is everywhere. Draws with alpha maps come after
+    /// those without.
     pub alpha_map: Option<u16>,
     /// The shading key: which of the host's pipelines shades it.
     pub key: u32,
@@ -29,6 +30,9 @@ pub struct Draw {
     /// Whether light or paint may change within a pixel, as with a texture or a glossy surface: it is then shaded in
     /// several parts of a superpixel where the pixels around tell that it does.
     pub detailed: bool,
+    /// Whether it is seen through: what the host's shading stores has an opacity then, and is composited over what lies
+    /// behind. Such draws have no alpha map and come after all others; [`Geometry::blended`] says that there may be some.
+    pub blended: bool,
 }
 
 impl Default for Draw {
@@ -47,6 +51,7 @@ impl Default for Draw {
             material: 0,
             double_sided: false,
             detailed: false,
+            blended: false,
         }
     }
 }
@@ -60,6 +65,8 @@ pub(super) struct PlacedDraws {
     pub triangles: u32,
     /// Triangles of those that are opaque.
     pub opaque: u32,
+    /// Triangles of those that are not blended.
+    pub solid: u32,
     /// Positions in clip space.
     pub positions: u32,
 }
@@ -85,6 +92,7 @@ impl PlacedDraws {
             matrices: Vec::new(),
             triangles: 0,
             opaque: 0,
+            solid: 0,
             positions: if in_clip { geometry.vertex_capacity } else { 0 },
         };
         for (number, draw) in draws.iter().enumerate() {
@@ -126,8 +134,15 @@ impl PlacedDraws {
                     ..common
                 }
             });
-            if draw.alpha_map.is_none() {
-                if placed.opaque < placed.triangles {
+            let comes_late = |before: u32| before < placed.triangles;
+            if !draw.blended {
+                if comes_late(placed.solid) {
+                    return Err(HostError::BlendedOrder { draw: number });
+                }
+                placed.solid = triangles as u32;
+            }
+            if !draw.blended && draw.alpha_map.is_none() {
+                if comes_late(placed.opaque) {
                     return Err(HostError::Order { draw: number });
                 }
                 placed.opaque = triangles as u32;
@@ -165,6 +180,12 @@ impl Draw {
                 key: self.key,
                 keys: geometry.keys,
             });
+        }
+        if self.blended && !geometry.blended {
+            return Err(HostError::NotBlended { draw });
+        }
+        if self.blended && self.alpha_map.is_some() {
+            return Err(HostError::BlendedMap { draw });
         }
         let maps = geometry.alpha_maps.len();
         if let Some(map) = self.alpha_map.filter(|map| usize::from(*map) >= maps) {
@@ -225,6 +246,7 @@ mod tests {
             clip: ClipSpace::default(),
             coordinates: None,
             alpha_maps: Vec::new(),
+            blended: false,
         }
     }
 
@@ -365,11 +387,45 @@ mod tests {
         };
         assert_eq!(
             refused(&[masked(0), draw(0, 1, 0)]),
-            "draw 1 has no alpha map and comes after one that has: these are the last ones"
+            "draw 1 has no alpha map and comes after one that has: draws without come first"
         );
         assert_eq!(
             refused(&[masked(2)]),
             "draw 0 has alpha map 2, and there are 2"
+        );
+    }
+
+    #[test]
+    fn blended_draws_come_last_of_all() {
+        let geometry = Geometry {
+            blended: true,
+            ..geometry()
+        };
+        let blended = Draw {
+            blended: true,
+            ..draw(0, 2, 0)
+        };
+        let placed = PlacedDraws::new(&geometry, &[draw(0, 3, 0), blended]).unwrap();
+        assert_eq!((placed.opaque, placed.solid, placed.triangles), (3, 3, 5));
+        let refused = |geometry: &Geometry, draws: &[Draw]| {
+            let placed = PlacedDraws::new(geometry, draws);
+            placed.err().unwrap().to_string()
+        };
+        assert_eq!(
+            refused(&geometry, &[blended, draw(0, 1, 0)]),
+            "draw 1 is not blended and comes after one that is: these are the last ones"
+        );
+        assert_eq!(
+            refused(&self::geometry(), &[blended]),
+            "draw 0 is blended; prepare the frame with Geometry::blended"
+        );
+        let tested = Draw {
+            alpha_map: Some(0),
+            ..blended
+        };
+        assert_eq!(
+            refused(&geometry, &[tested]),
+            "draw 0 is blended and has an alpha map: let its shader store an opacity of 0 instead"
         );
     }
 

@@ -62,6 +62,16 @@ pub enum HostError {
         "thin triangles are found by depth: lend the depth image, or set Options::thin to false"
     )]
     NoDepth,
+    /// The part of the images that the frame is of ends where no image does.
+    #[error(
+        "the frame's part of the images ends at {} x {} pixels; images have at most {most} on a side", .end[0], .end[1]
+    )]
+    Part {
+        /// Columns and rows before its lower right corner.
+        end: [u64; 2],
+        /// Most columns or rows of an image on the device.
+        most: u32,
+    },
     /// Alpha maps are looked up by coordinates.
     #[error("there are alpha maps and no texture coordinates: lend Geometry::coordinates")]
     NoCoordinates,
@@ -135,11 +145,36 @@ pub enum HostError {
         maps: usize,
     },
     /// An opaque draw comes after one with an alpha map.
-    #[error("draw {draw} has no alpha map and comes after one that has: these are the last ones")]
+    #[error("draw {draw} has no alpha map and comes after one that has: draws without come first")]
     Order {
         /// The draw, by its place in the list.
         draw: usize,
     },
+    /// A draw that is not blended comes after one that is.
+    #[error("draw {draw} is not blended and comes after one that is: these are the last ones")]
+    BlendedOrder {
+        /// The draw, by its place in the list.
+        draw: usize,
+    },
+    /// The frame was prepared without blended draws.
+    #[error("draw {draw} is blended; prepare the frame with Geometry::blended")]
+    NotBlended {
+        /// The draw, by its place in the list.
+        draw: usize,
+    },
+    /// A blended draw has an alpha map.
+    #[error(
+        "draw {draw} is blended and has an alpha map: let its shader store an opacity of 0 instead"
+    )]
+    BlendedMap {
+        /// The draw, by its place in the list.
+        draw: usize,
+    },
+    /// The library shades the centres of pixels by their nearest surface alone.
+    #[error(
+        "Geometry::blended with Options::shade_all: centres are shaded by the nearest surface alone; draw the colours yourself"
+    )]
+    BlendedCentres,
     /// A draw has a shading key that there is none of.
     #[error("draw {draw} has shading key {key}, and there are {keys}")]
     Key {

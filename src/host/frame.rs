@@ -92,7 +92,10 @@ impl Frame {
         let settings = options.settings();
         settings.check(gpu.limits())?;
         geometry.check(gpu)?;
-        images.check(options.thin)?;
+        if geometry.blended && options.shade_all {
+            return Err(HostError::BlendedCentres);
+        }
+        images.check(options.thin, settings.size, gpu.limits().max_image_side)?;
         let [width, height] = settings.size;
         let most = TRIPS * 32 * u64::from(gpu.limits().lanes);
         if u64::from(width) * u64::from(height) > most {
@@ -156,6 +159,7 @@ impl Frame {
             &output,
             &EngineKind {
                 farther_is_larger: own.is_none() && !geometry.clip.reversed_depth,
+                blend_ids: false,
                 ..EngineKind::superpixels(&settings)
             },
         )?;
@@ -353,8 +357,8 @@ impl Frame {
         recorder.barrier();
         self.images.record_draw(recorder);
         let view = self.images.color.lent.view;
-        self.patch
-            .record(recorder, set.descriptor(), view, self.settings.size);
+        let part = self.images.part(self.settings.size);
+        self.patch.record(recorder, set.descriptor(), view, part);
         recorder.mark("patch");
         self.images.record_end(recorder);
         Ok(())
@@ -438,7 +442,7 @@ impl Frame {
             gap: gap(projection, height),
             triangle_count: placed.triangles,
             first_mask: placed.opaque,
-            first_blend: placed.triangles,
+            first_blend: placed.solid,
             material_vectors: ROW as u32,
             sample_count: self.settings.samples,
             survivor_capacity: self.plan.sizes.survivor_capacity,
@@ -455,6 +459,8 @@ impl Frame {
             sample_footprint: footprints.sample,
             side: 1,
             reach: 0.5,
+            seen_corner: self.images.ids.map_or([0, 0], |_| self.images.corner),
+            color_corner: self.images.corner,
             ..FrameUniform::default()
         }
     }

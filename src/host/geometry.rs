@@ -56,6 +56,8 @@ pub struct Geometry {
     /// What draws are tested by that are not opaque. The library reads the images, in `SHADER_READ_ONLY_OPTIMAL`, when a
     /// frame's first recording is executed, and keeps what they hold then.
     pub alpha_maps: Vec<AlphaMap>,
+    /// Whether draws may be [blended](super::Draw::blended).
+    pub blended: bool,
     /// Indices, three a triangle. Made with `STORAGE_BUFFER`.
     pub indices: vk::Buffer,
     /// Where they begin, in bytes: a multiple of an index's size.

@@ -5,7 +5,7 @@ use crate::render::ImageState;
 use crate::vulkan::Recorder;
 use ash::vk;
 
-/// An image that is read: single-sampled, one level, one layer.
+/// An image that is read: single-sampled, one level, one layer, of the size in [`Options`](super::Options) or larger.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LentImage {
     /// The image.
@@ -42,6 +42,9 @@ pub struct Images {
     pub depth: Option<LentImage>,
     /// Colours.
     pub color: ColorImage,
+    /// Upper left corner of the part of these images that the frame is of, in pixels. The part has the size in
+    /// [`Options`](super::Options); the library neither reads nor writes what lies around it.
+    pub corner: [u32; 2],
 }
 
 /// Formats of colour that shaders read as floats and draw.
@@ -80,7 +83,12 @@ impl LentImage {
 }
 
 impl Images {
-    pub(super) fn check(&self, thin: bool) -> Result<(), HostError> {
+    /// `most` is the largest side of an image on the device.
+    pub(super) fn check(&self, thin: bool, size: [u32; 2], most: u32) -> Result<(), HostError> {
+        let end = [0, 1].map(|axis| u64::from(self.corner[axis]) + u64::from(size[axis]));
+        if end.iter().any(|end| *end > u64::from(most)) {
+            return Err(HostError::Part { end, most });
+        }
         if let Some(ids) = &self.ids {
             ids.check("the image of IDs", "the view of IDs")?;
         }
@@ -115,6 +123,15 @@ impl Images {
     pub(super) fn record_begin(&self, recorder: &Recorder<'_>) {
         for image in self.read().chain([&self.color.lent]) {
             image.record(recorder, image.before, ImageState::READ);
+        }
+    }
+
+    /// The part that the frame is of, `width` x `height` pixels large.
+    pub(super) fn part(&self, [width, height]: [u32; 2]) -> vk::Rect2D {
+        let [x, y] = self.corner.map(|corner| corner as i32);
+        vk::Rect2D {
+            offset: vk::Offset2D { x, y },
+            extent: vk::Extent2D { width, height },
         }
     }
 
@@ -156,16 +173,18 @@ mod tests {
                 format: vk::Format::B8G8R8A8_UNORM,
                 encoded: true,
             },
+            corner: [0, 0],
         }
     }
 
     #[test]
     fn what_is_missing_or_does_not_fit_is_named() {
-        assert!(images().check(true).is_ok());
+        let check = |images: &Images| images.check(true, [64, 32], 1024);
+        assert!(check(&images()).is_ok());
         let refused = |spoil: &dyn Fn(&mut Images)| {
             let mut images = images();
             spoil(&mut images);
-            images.check(true).unwrap_err().to_string()
+            check(&images).unwrap_err().to_string()
         };
         let ids = refused(&|images| {
             let ids = images.ids.as_mut();
@@ -178,6 +197,8 @@ mod tests {
         assert!(depth.starts_with("thin triangles are found by depth"));
         let alone = refused(&|images| images.ids = None);
         assert!(alone.starts_with("depth is lent without IDs"));
+        let beyond = refused(&|images| images.corner = [961, 0]);
+        assert!(beyond.starts_with("the frame's part of the images ends at 1025 x 32 pixels"));
         let integers = refused(&|images| images.color.format = vk::Format::R8G8B8A8_UINT);
         assert!(integers.starts_with("a colour image of format R8G8B8A8_UINT"));
         let twice = refused(&|images| images.color.format = vk::Format::B8G8R8A8_SRGB);

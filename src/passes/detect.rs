@@ -25,7 +25,7 @@ pub struct Detect {
 }
 
 impl Detect {
-    /// Makes the pipeline; `has_blend` compares the nearest BLEND triangles too, `thin` adds what
+    /// Makes the pipeline; `blend_ids` compares the nearest BLEND triangles too, `thin` adds what
     /// [`Thin`](super::Thin) marked, `transparent` compares alpha too, `multisampled` reads the IDs of a multisampled raster (for
     /// [`DetectMode::Blended`]), pixels `beyond` the region's own become superpixels
     /// too, for [`Grow`](super::Grow).
@@ -35,7 +35,7 @@ impl Detect {
     pub fn new(
         layout: &FrameLayout,
         mode: DetectMode,
-        has_blend: bool,
+        blend_ids: bool,
         thin: bool,
         transparent: bool,
         multisampled: bool,
@@ -43,7 +43,7 @@ impl Detect {
     ) -> Result<Self, VulkanError> {
         let constants = Constants::new()
             .with(0, mode as u32)
-            .flag(1, has_blend)
+            .flag(1, blend_ids)
             .flag(2, thin)
             .flag(3, transparent)
             .with(4, beyond);

@@ -39,6 +39,8 @@ pub struct FrameUniform {
     pub side: u32,
     pub reach: f32,
     pub group_count: u32,
+    pub seen_corner: [u32; 2],
+    pub color_corner: [u32; 2],
 }
 
 #[cfg(test)]
@@ -118,7 +120,9 @@ mod tests {
             sample_footprint,
             side,
             reach,
-            group_count
+            group_count,
+            seen_corner,
+            color_corner
         );
         assert_eq!(offsets, host);
         assert_eq!(offset, size_of::<FrameUniform>());

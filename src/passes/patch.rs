@@ -56,19 +56,15 @@ impl Patch {
         })
     }
 
-    /// Records it into a view of so many pixels, in the layout `COLOR_ATTACHMENT_OPTIMAL`.
+    /// Records it into a part of a view, which has the layout `COLOR_ATTACHMENT_OPTIMAL`.
     pub fn record(
         &self,
         recorder: &Recorder<'_>,
         set: vk::DescriptorSet,
         view: vk::ImageView,
-        [width, height]: [u32; 2],
+        area: vk::Rect2D,
     ) {
         let (device, raw) = (recorder.device(), recorder.raw());
-        let area = vk::Rect2D {
-            offset: vk::Offset2D::default(),
-            extent: vk::Extent2D { width, height },
-        };
         let color = [vk::RenderingAttachmentInfo::default()
             .image_view(view)
             .image_layout(vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL)
@@ -79,10 +75,12 @@ impl Patch {
             .layer_count(1)
             .color_attachments(&color);
         let viewport = vk::Viewport {
-            width: width as f32,
-            height: height as f32,
+            x: area.offset.x as f32,
+            y: area.offset.y as f32,
+            width: area.extent.width as f32,
+            height: area.extent.height as f32,
+            min_depth: 0.0,
             max_depth: 1.0,
-            ..vk::Viewport::default()
         };
         // SAFETY: the recorder's contract; the view is in the layout named, the set of the pipeline's layout.
         unsafe { device.cmd_begin_rendering(raw, &info) };

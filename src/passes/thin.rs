@@ -13,19 +13,21 @@ pub struct Thin {
 }
 
 impl Thin {
-    /// Makes the pipelines; `farther_is_larger` says how the depth that was drawn runs.
+    /// Makes the pipelines; `blend_ids` looks for BLEND triangles among the nearest ones of these, `farther_is_larger` says how
+    /// the depth that was drawn runs.
     ///
     /// # Errors
     /// If the driver refuses one.
     pub fn new(
         layout: &FrameLayout,
         scene: &dyn Content,
+        blend_ids: bool,
         farther_is_larger: bool,
     ) -> Result<Self, VulkanError> {
         let thin = |select| {
             let constants = Constants::new()
                 .flag(0, select)
-                .flag(1, scene.has_blend())
+                .flag(1, blend_ids)
                 .flag(2, farther_is_larger);
             layout.compute(spirv::THIN, &scene.constants(constants), None)
         };

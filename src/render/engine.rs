@@ -40,6 +40,8 @@ pub(crate) struct EngineKind {
     pub thin: bool,
     /// Whether the depth that was drawn grows with distance.
     pub farther_is_larger: bool,
+    /// Whether there are IDs of the nearest BLEND triangles, where there are any.
+    pub blend_ids: bool,
     /// Whether the triangle IDs are multisampled.
     pub multisampled: bool,
     /// Sub-samples of a cell.
@@ -62,6 +64,7 @@ impl EngineKind {
             },
             thin: settings.thin && settings.detection != Detection::Every,
             farther_is_larger: false,
+            blend_ids: true,
             multisampled: false,
             samples: settings.samples,
             growths: settings.growths(),
@@ -91,15 +94,16 @@ impl Engine {
             has_blend: scene.has_blend(),
             always_blends: kind.mode == DetectMode::Blended,
         };
+        let blend_ids = kind.blend_ids && scene.has_blend();
         let thin = || {
             kind.thin
-                .then(|| Thin::new(layout, scene, kind.farther_is_larger))
+                .then(|| Thin::new(layout, scene, blend_ids, kind.farther_is_larger))
         };
         let detect = || {
             Detect::new(
                 layout,
                 kind.mode,
-                scene.has_blend(),
+                blend_ids,
                 kind.thin,
                 settings.background.is_none(),
                 kind.multisampled,

@@ -202,6 +202,11 @@ static void recordings(GpcFrame *frame) {
     draws[1].alpha_map = 1;
     ANSWERS(RECORD, GPC_RESULT_VALUE, "draw 1 has alpha map 0, and there are 0");
     draws[1].alpha_map = 0;
+    draws[1].blended = 2;
+    ANSWERS(RECORD, GPC_RESULT_VALUE, "GpcDraw.blended is 2; it can be 0, 1");
+    draws[1].blended = VK_TRUE;
+    ANSWERS(RECORD, GPC_RESULT_VALUE, "draw 1 is blended; prepare the frame with Geometry::blended");
+    draws[1].blended = VK_FALSE;
     draws[1].triangle_count = 3;
     ANSWERS(RECORD, GPC_RESULT_CAPACITY, "draw 1 reads indices up to 15, and there are 12");
     draws[1].triangle_count = 2;
@@ -314,6 +319,16 @@ static void frames(void) {
     geometry.y_up = VK_TRUE;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "lend the depth image");
     options.thin = VK_FALSE;
+    images.corner[1] = 0xffffffffu;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "the frame's part of the images ends at");
+    images.corner[1] = 0;
+    geometry.blended = 2;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcGeometry.blended is 2; it can be 0, 1");
+    geometry.blended = VK_TRUE;
+    options.shade_all = VK_TRUE;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "Geometry::blended with Options::shade_all");
+    options.shade_all = VK_FALSE;
+    geometry.blended = VK_FALSE;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "a colour image of format R8G8B8A8_UINT");
     images.color_format = VK_FORMAT_R8G8B8A8_UNORM;
     images.depth.image = ids.image;

@@ -95,6 +95,7 @@ impl Passes {
                 mode: DetectMode::Blended,
                 thin: false,
                 farther_is_larger: false,
+                blend_ids: true,
                 multisampled,
                 samples: if multisampled { settings.samples } else { 1 },
                 growths: 0,

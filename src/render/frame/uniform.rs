@@ -72,6 +72,8 @@ impl Recording<'_> {
             side,
             reach: 0.5,
             group_count: 0,
+            seen_corner: [0, 0],
+            color_corner: [0, 0],
         }
     }
 }

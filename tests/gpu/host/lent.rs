@@ -1,6 +1,6 @@
 //! Buffers that are lent as they are.
 
-use super::machine::{Base, Machine, Seen};
+use super::machine::{AROUND, Base, Machine, Seen};
 use super::world::{PLACED, SIZE, Way, World};
 use crate::stage::on_gpu;
 use gpc::host::Options;
@@ -37,6 +37,7 @@ const WAYS: [Way; 5] = [
         stride: 20,
         short_indices: true,
         indices_offset: 6,
+        ..PLACED
     },
     Way {
         object_space: true,
@@ -113,5 +114,33 @@ fn indices_out_of_range_are_the_last_vertex() {
             assert_eq!(found.corners[1], corners(last, vertices - 1), "{way:?}");
             assert_eq!(found.corners[2], corners(0, 2), "{way:?}");
         }
+    });
+}
+
+/// What lies around the picture is neither read nor written.
+#[test]
+fn a_part_of_the_images_is_the_same_picture() {
+    on_gpu(|gpu| {
+        let world = World::new();
+        let (machine, drawn) = (Machine::new(gpu, &world), world.drawn());
+        let corner = [13, 5];
+        let way = Way { corner, ..PLACED };
+        for base in [Base::All(&drawn), Base::Colors(&drawn)] {
+            let whole = machine.see(&PLACED, base);
+            let part = machine.see(&way, base);
+            let expected = way.framed(&whole.colors, SIZE, AROUND);
+            assert!(bits(&part.colors) == bits(&expected));
+        }
+        // Colours of all pixels are the library's, and those around them nobody's.
+        let whole = machine.see(&PLACED, Base::Ids(&drawn));
+        let part = machine.see(&way, Base::Ids(&drawn));
+        let width = way.around(SIZE)[0] as usize;
+        let rows = part.colors.chunks_exact(width).skip(corner[1] as usize);
+        let inner = rows.take(SIZE[1] as usize).flat_map(|row| {
+            let row = row.iter().skip(corner[0] as usize);
+            row.take(SIZE[0] as usize)
+        });
+        let inner: Vec<_> = inner.copied().collect();
+        assert!(bits(&inner) == bits(&whole.colors));
     });
 }

@@ -1,6 +1,7 @@
 //! The host's Vulkan objects: what it makes, lends and reads back.
 
 use super::world::{Drawn, Lent, Map, SIZE, SKY, Way, World};
+use crate::submit::submit;
 use ash::vk;
 use gpc::host::{
     AlphaMap, Antialiaser, ClipSpace, ColorImage, Coordinates, Frame, Geometry, ImageState, Images,
@@ -10,10 +11,12 @@ use gpc::render::Headless;
 use gpc::vulkan::{Buffer, Gpu, Image, Memory, MemoryUse, Recorder};
 use std::sync::Arc;
 
-use crate::submit::submit;
+/// What images hold around the picture: more than any colour, and no triangle's ID.
+pub const AROUND: [f32; 4] = [9.0; 4];
 
 /// What a frame came to.
 pub struct Seen {
+    /// Of the whole image.
     pub colors: Vec<[f32; 4]>,
     /// Corners of all triangles in clip space, as the library has them.
     pub corners: Vec<[f32; 4]>,
@@ -192,7 +195,7 @@ impl<'a> Machine<'a> {
 
     /// The same of buffers of the caller's.
     pub fn see_lent(&self, way: &Way, lent: &Lent, base: Base<'_>, options: Options) -> Seen {
-        let size = options.size;
+        let size = way.around(options.size);
         let positions = self.filled(&lent.positions);
         let indices = self.filled(&lent.indices);
         let paints = self.filled(bytemuck::cast_slice(&lent.paints));
@@ -200,7 +203,7 @@ impl<'a> Machine<'a> {
         let with_image = |map| (self.map_image(map), map);
         let maps: Vec<_> = self.world.maps.iter().map(with_image).collect();
         let of_draws: Vec<_> = (self.world.parts.iter())
-            .map(|part| [part.color[0], part.color[1], part.color[2], 1.0])
+            .map(|part| [part.color[0], part.color[1], part.color[2], part.opacity])
             .collect();
         let of_draws = self.filled(bytemuck::cast_slice(&of_draws));
         let corner_bytes = 48 * u64::from(lent.triangle_count);
@@ -213,12 +216,14 @@ impl<'a> Machine<'a> {
         let color = self.image(size, vk::Format::R32G32B32A32_SFLOAT, plain);
         let mut pictures = Vec::new();
         if let Some(drawn) = base.ids() {
-            let (numbers, depths) = (&drawn.ids, &drawn.depths);
-            pictures.push((&ids, plain, self.filled(bytemuck::cast_slice(numbers))));
-            pictures.push((&depth, deep, self.filled(bytemuck::cast_slice(depths))));
+            let numbers = way.framed(&drawn.ids, options.size, u32::MAX);
+            let depths = way.framed(&drawn.depths, options.size, 0.5);
+            pictures.push((&ids, plain, self.filled(bytemuck::cast_slice(&numbers))));
+            pictures.push((&depth, deep, self.filled(bytemuck::cast_slice(&depths))));
         }
         if let Some(drawn) = base.colors() {
-            let colors = self.filled(bytemuck::cast_slice(&drawn.colors));
+            let colors = way.framed(&drawn.colors, options.size, AROUND);
+            let colors = self.filled(bytemuck::cast_slice(&colors));
             pictures.push((&color, plain, colors));
         }
         let geometry = Geometry {
@@ -246,6 +251,7 @@ impl<'a> Machine<'a> {
                 stride: 8,
             }),
             alpha_maps: maps.iter().map(|(image, map)| map.lent(image)).collect(),
+            blended: lent.draws.iter().any(|draw| draw.blended),
             clip: ClipSpace {
                 y_up: false,
                 reversed_depth: true,
@@ -267,6 +273,7 @@ impl<'a> Machine<'a> {
                 format: vk::Format::R32G32B32A32_SFLOAT,
                 encoded: false,
             },
+            corner: way.corner,
         };
         let options = Options {
             background: Some(SKY),

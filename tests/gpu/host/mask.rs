@@ -105,6 +105,7 @@ fn world(address: [vk::SamplerAddressMode; 2]) -> World {
         } else {
             [1.0; 3]
         },
+        opacity: 1.0,
         alpha_map: (number > 0).then_some(1),
     };
     let map = |levels: Vec<Vec<u8>>, side| Map {

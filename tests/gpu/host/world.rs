@@ -26,6 +26,8 @@ pub struct Part {
     pub mesh: usize,
     pub to_clip: Matrix,
     pub color: [f32; 3],
+    /// Below 1 where it is seen through.
+    pub opacity: f32,
     pub alpha_map: Option<u16>,
 }
 
@@ -44,7 +46,7 @@ pub struct World {
     pub projection: Matrix,
 }
 
-/// How vertices and indices are lent.
+/// How vertices, indices and images are lent.
 #[derive(Clone, Copy, Debug)]
 pub struct Way {
     /// Whether positions are in object space; otherwise the host has placed them itself.
@@ -53,6 +55,8 @@ pub struct Way {
     pub stride: u32,
     pub short_indices: bool,
     pub indices_offset: u64,
+    /// Where in the images the picture begins; as much lies behind its end.
+    pub corner: [u32; 2],
 }
 
 /// As a host that does all by itself lends it.
@@ -62,7 +66,26 @@ pub const PLACED: Way = Way {
     stride: 16,
     short_indices: false,
     indices_offset: 0,
+    corner: [0, 0],
 };
+
+impl Way {
+    /// Width and height of the images that a picture of `size` is a part of.
+    pub fn around(&self, size: [u32; 2]) -> [u32; 2] {
+        [0, 1].map(|axis| size[axis] + 2 * self.corner[axis])
+    }
+
+    /// Pixels of a picture as part of the images, with `around` around them.
+    pub fn framed<T: Copy>(&self, picture: &[T], size: [u32; 2], around: T) -> Vec<T> {
+        let [width, height] = self.around(size);
+        let mut pixels = vec![around; (width * height) as usize];
+        for (row, line) in picture.chunks_exact(size[0] as usize).enumerate() {
+            let first = (row + self.corner[1] as usize) * width as usize + self.corner[0] as usize;
+            pixels[first..first + line.len()].copy_from_slice(line);
+        }
+        pixels
+    }
+}
 
 /// Buffers and draws of a world.
 pub struct Lent {
@@ -152,6 +175,7 @@ impl World {
                 mesh,
                 to_clip: product(&projection(), &placed(0.31 + n, 0.4 * n, at)),
                 color: [1.0, 0.3 + 0.1 * n, 1.0 - 0.13 * n],
+                opacity: 1.0,
                 alpha_map: None,
             }
         };
@@ -202,6 +226,7 @@ impl World {
                 to_clip: part.to_clip,
                 material: number as u16,
                 alpha_map: part.alpha_map,
+                blended: part.opacity < 1.0,
                 double_sided: true,
                 ..Draw::default()
             });

@@ -11,5 +11,5 @@ void main() {
     GpcSample s;
     if (!gpc_sample(KEY, s)) return;
     float paint = dot(vec3(paints[s.vertices.x], paints[s.vertices.y], paints[s.vertices.z]), s.weights);
-    gpc_store(s, vec4(colors[s.draw].rgb * paint, 1.0));
+    gpc_store(s, vec4(colors[s.draw].rgb * paint, colors[s.draw].a));
 }
