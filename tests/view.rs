@@ -754,6 +754,23 @@ fn what_can_not_be_opened_is_said_and_leaves_the_window_open() {
 }
 
 #[test]
+fn a_scene_that_is_mended_is_seen_from_where_it_was_asked_for() {
+    let (display, folder) = (Display::open(), tempfile::tempdir().unwrap());
+    let file = folder.path().join("broken.glb");
+    std::fs::write(&file, "no scene").unwrap();
+    let arguments = ["broken.glb", "--size", "320x200", "--samples", "4"];
+    let arguments = [&arguments[..], &["--eye=3,4,5"]].concat();
+    let mut viewer = Viewer::open(&display, folder.path(), &arguments);
+    viewer.wait_for("error: broken.glb");
+    std::fs::copy(asset("checker.glb"), &file).unwrap();
+    viewer.wait_for("shows broken.glb");
+    viewer.wait_for("at rest");
+    let command = viewer.command();
+    assert!(command.contains(&"--eye=3,4,5".to_owned()), "{command:?}");
+    assert!(viewer.quit().success());
+}
+
+#[test]
 fn files_and_folders_that_are_dropped_are_opened() {
     let (display, folder) = (Display::open(), tempfile::tempdir().unwrap());
     let scenes = folder.path().join("scenes");

@@ -57,6 +57,13 @@ impl View {
         }));
     }
 
+    /// Whether what was asked for is shown, as it is now or as it was.
+    pub fn shows_source(&self) -> bool {
+        let scene = self.canvas.stage().map(|stage| &stage.source.path);
+        let photo = self.easel.as_ref().map(|easel| &easel.photo.path);
+        scene.or(photo) == Some(&self.source.path)
+    }
+
     /// Watches the file, whether it can be loaded or not.
     fn watch(&mut self, path: &Path) {
         let proxy = self.proxy.clone();

@@ -188,12 +188,12 @@ impl View {
     }
 
     /// The same view on a device that was opened again, after the one before was lost.
-    pub fn reopened(self) -> anyhow::Result<Self> {
-        let mut messages = self.messages;
+    pub fn reopened(mut self) -> anyhow::Result<Self> {
+        let mut messages = std::mem::take(&mut self.messages);
         messages.extend(self.canvas.engine.device.validation_messages());
         let keeps_view = match &self.loading {
             Some(loading) => loading.keeps_view,
-            None => self.canvas.stage().is_some() || self.easel.is_some(),
+            None => self.shows_source(),
         };
         // The window's images go before it has others.
         drop(self.canvas);
@@ -309,7 +309,7 @@ impl View {
         let is_due = |at: Option<Instant>| at.is_some_and(|at| at <= now);
         if is_due(self.reload) {
             self.source.request.time = self.time();
-            self.load(true);
+            self.load(self.shows_source());
         }
         self.is_dirty |= self.player.as_ref().is_some_and(Player::is_playing);
         self.is_dirty |= self.flight.as_ref().is_some_and(Flight::is_moving);
