@@ -110,15 +110,15 @@ impl Capacity {
         }
     }
 
-    /// Twice as much of what a frame lacked.
+    /// Twice as much of what a frame lacked, or as much as it is known to need.
     pub fn more(self, shortfall: Shortfall) -> Self {
         let factor = |lacked: bool| if lacked { 2 } else { 1 };
         let crowded = shortfall.crowded > 0;
+        let longer = crowded || shortfall.stalled + shortfall.unlisted + shortfall.dropped > 0;
         Self {
             rounds: self.rounds * factor(crowded || shortfall.waiting > 0),
             layers: self.layers * factor(crowded),
-            lists: self.lists
-                * factor(crowded || shortfall.stalled + shortfall.unlisted + shortfall.dropped > 0),
+            lists: self.lists * factor(longer).max(shortfall.rooms.next_power_of_two()),
             apart: self.apart || shortfall.stalled > 0,
             unlisted: self.unlisted || shortfall.unlisted > 0,
         }
@@ -359,5 +359,32 @@ impl Plan {
         let images =
             u64::from(self.sizes.pixels()) * samples * if scene.has_blend() { 12 } else { 8 };
         self.sizes.bytes() + images
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::passes::Counter;
+
+    /// A frame that dropped triangles says how many there were: it is not made again and again for lists that can't hold them.
+    #[test]
+    fn lists_grow_to_what_they_are_known_to_need() {
+        const ROOM: u32 = 1 << 14;
+        let mut counters = [0; Counter::COUNT];
+        counters[Counter::Survivors as usize] = 70 * ROOM + 1;
+        let mut shortfall = Shortfall::default();
+        shortfall.add(&counters, (1, ROOM), false);
+        assert_eq!(Capacity::default().more(shortfall).lists, 128);
+        // What is short without saying by how much is doubled, and nothing else grows.
+        let unlisted = Shortfall {
+            unlisted: 1,
+            ..Shortfall::default()
+        };
+        assert_eq!(Capacity::least().more(unlisted).lists, 2);
+        assert_eq!(
+            Capacity::default().more(Shortfall::default()),
+            Capacity::default()
+        );
     }
 }

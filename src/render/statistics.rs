@@ -139,6 +139,8 @@ pub(crate) struct Shortfall {
     pub unlisted: u64,
     /// Triangles that found no room among those that may touch a cell, or are thin.
     pub dropped: u64,
+    /// How many times the room there is these would have needed.
+    pub rooms: u32,
     /// Whether the device ran kernels in other subgroups than they were made for, which no capacity mends.
     pub other_subgroups: bool,
 }
@@ -159,6 +161,7 @@ impl Shortfall {
         let survivors = get(Counter::Survivors).saturating_add(get(Counter::Large));
         let listed = survivors.max(get(Counter::Thin));
         self.dropped += u64::from(listed.saturating_sub(room));
+        self.rooms = self.rooms.max(listed.div_ceil(room.max(1)));
     }
 
     /// Adds what kernels found of the subgroups that they were run in, as counters say at any later time.
