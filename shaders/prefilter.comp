@@ -54,7 +54,7 @@ vec3 average(uint level, uint face, vec2 at) {
 void main() {
     uint i = invocation_number(), area = push.side * push.side;
     if (i >= 6u * area) return;
-    uint in_face = i % area, coarsest = findMSB(push.finest);
+    uint in_face = i % area;
     uvec2 column_row = uvec2(in_face % push.side, in_face / push.side);
     vec3 normal = normalize(direction(i / area, (2.0 * vec2(column_row) + 1.0) / float(push.side) - 1.0));
     // Any two axes across it (Duff et al., "Building an Orthonormal Basis, Revisited", 2017).
@@ -65,9 +65,9 @@ void main() {
     float weights = 0.0;
     for (uint k = 0u; k < push.ray_count; k++) {
         vec4 ray = rays[push.first_ray + k];
-        uint face, finer = min(uint(ray.w), coarsest), coarser = min(finer + 1u, coarsest);
+        uint face;
         vec2 at = place(right * ray.x + up * ray.y + normal * ray.z, face);
-        sum += ray.z * mix(average(finer, face, at), average(coarser, face, at), fract(ray.w));
+        sum += ray.z * average(uint(ray.w), face, at);
         weights += ray.z;
     }
     sum /= weights;

@@ -130,8 +130,9 @@ pub fn lobe(level: u32, steps: u32, side: u32) -> Vec<[f32; 4]> {
         let density = square / (PI * bottom * bottom) / 4.0;
         let stands_for = 1.0 / (f64::from(count) * density);
         // Twice as wide as it needs to be on average, for those between which more lies.
-        let wide = 0.5 * (stands_for / texel).log2() + 1.0;
-        let vector = ray.extend(wide.max(0.0)).as_vec4();
+        let wide = (0.5 * (stands_for / texel).log2() + 1.0).round();
+        let coarsest = f64::from(side.ilog2());
+        let vector = ray.extend(wide.clamp(0.0, coarsest)).as_vec4();
         (ray.z > 0.0).then_some(vector.to_array())
     });
     rays.collect()
