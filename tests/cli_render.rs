@@ -443,3 +443,35 @@ fn a_dozen_real_scenes_render() {
         assert!(seen > 160 * 90 / 50, "{name} shows {seen} pixels");
     }
 }
+
+/// Without `--variant` the first materials show; a hidden node never does.
+#[test]
+fn variants_choose_materials_and_hidden_nodes_stay_hidden() {
+    let folder = tempfile::tempdir().unwrap();
+    let image = |name: &str, variant: &[&str]| {
+        let fixed = ["--size", "160x90", "--samples", "4", "-o", name];
+        render(folder.path(), "variants", &[&fixed[..], variant].concat()).ok();
+        read(&folder.path().join(name)).unwrap()
+    };
+    let plain = image("plain.png", &[]);
+    let day = image("day.png", &["--variant", "day"]);
+    let night = image("night.png", &["--variant", "night"]);
+    assert_eq!(plain.pixels, day.pixels);
+    let mean = |channel: usize| {
+        let means = [&day, &night].map(|image| {
+            let sum: f32 = image.pixels.iter().map(|pixel| pixel[channel]).sum();
+            sum / image.pixels.len() as f32
+        });
+        (means[0], means[1])
+    };
+    let ((day_red, night_red), (day_blue, night_blue)) = (mean(0), mean(2));
+    assert!(
+        day_red > 2.0 * night_red && day_red > day_blue,
+        "{day_red}, {night_red}"
+    );
+    assert!(night_blue > 2.0 * night_red, "{night_blue}");
+    // The hidden sphere is of a pure green that nothing else has.
+    for [r, g, b, _] in day.pixels.iter().chain(&night.pixels) {
+        assert!(*g < 0.5 || r + b > 0.3, "{r}, {g}, {b}");
+    }
+}

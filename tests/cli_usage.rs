@@ -9,7 +9,7 @@ use cli_support::{asset, files, gpc};
 fn wrong_usage_exits_with_2_and_names_what_can_be_had() {
     let folder = tempfile::tempdir().unwrap();
     let letters = asset("letters.glb");
-    let cases: [(&[&str], &[&str]); 36] = [
+    let cases: [(&[&str], &[&str]); 37] = [
         (&[], &["Usage"]),
         (&["-o", "a.tga"], &[".png", ".16.png", ".jpg", ".exr"]),
         (&["-o", "a.png", "--size", "0x7"], &["1280x720"]),
@@ -39,6 +39,7 @@ fn wrong_usage_exits_with_2_and_names_what_can_be_had() {
             &["contrast", "edges", "exact"],
         ),
         (&["-o", "a.png", "--contrast", "256"], &["256"]),
+        (&["-o", "a.png", "--line-width", "-1"], &["pixels above 0"]),
         (&["-o", "a.png", "--eye", "1,2"], &["X,Y,Z"]),
         (&["-o", "a.png", "--target", "1,2,3"], &["--eye"]),
         (

@@ -44,6 +44,7 @@ impl Placement {
 pub struct Builder {
     lists: Map<String, Value>,
     lights: Vec<Value>,
+    variants: Vec<&'static str>,
     environment: Option<Value>,
     extensions: BTreeSet<String>,
     binary: Vec<u8>,
@@ -138,6 +139,28 @@ impl Builder {
             })
             .collect();
         self.push("meshes", json!({ "primitives": primitives }))
+    }
+
+    /// A mesh of a surface with a material for each variant, the first of them where none is chosen.
+    pub fn mesh_of_variants(
+        &mut self,
+        surface: Surface,
+        materials: &[(&'static str, usize)],
+    ) -> usize {
+        const NAME: &str = "KHR_materials_variants";
+        let mesh = self.mesh(&[(surface, materials[0].1)]);
+        let mut mappings = Vec::new();
+        for &(name, material) in materials {
+            if !self.variants.contains(&name) {
+                self.variants.push(name);
+            }
+            let variant = self.variants.iter().position(|known| *known == name);
+            mappings.push(json!({ "material": material, "variants": [variant] }));
+        }
+        self.lists["meshes"][mesh]["primitives"][0]["extensions"] =
+            json!({ NAME: { "mappings": mappings } });
+        self.extensions.insert(NAME.to_owned());
+        mesh
     }
 
     /// A material as glTF writes it.
@@ -240,6 +263,15 @@ impl Builder {
         self.push("nodes", node);
     }
 
+    /// Hides what was placed last.
+    pub fn hide(&mut self) {
+        const NAME: &str = "KHR_node_visibility";
+        let nodes = self.lists["nodes"].as_array_mut();
+        let last = nodes.and_then(|nodes| nodes.last_mut());
+        last.expect("something was placed")["extensions"] = json!({ NAME: { "visible": false } });
+        self.extensions.insert(NAME.to_owned());
+    }
+
     fn camera(&mut self, name: &str, eye: DVec3, target: DVec3, camera: Value) {
         let camera = self.push("cameras", camera);
         self.push("nodes", json!({
@@ -327,6 +359,17 @@ impl Builder {
             extensions.insert(
                 "KHR_lights_punctual".into(),
                 json!({ "lights": self.lights }),
+            );
+        }
+        if !self.variants.is_empty() {
+            let variants: Vec<_> = self
+                .variants
+                .iter()
+                .map(|name| json!({ "name": name }))
+                .collect();
+            extensions.insert(
+                "KHR_materials_variants".into(),
+                json!({ "variants": variants }),
             );
         }
         if !extensions.is_empty() {

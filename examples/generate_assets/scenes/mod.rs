@@ -13,12 +13,13 @@ mod mesh;
 mod picture;
 mod pointer;
 mod spheres;
+mod variants;
 
 /// Builds the bytes of a `.glb` file.
 type Build = fn() -> Vec<u8>;
 
 /// File name and builder of every scene.
-pub const ALL: [(&str, Build); 17] = [
+pub const ALL: [(&str, Build); 18] = [
     ("anisotropy.glb", lobes::anisotropy),
     ("checker.glb", checker::build),
     ("clearcoat.glb", lobes::clearcoat),
@@ -36,4 +37,5 @@ pub const ALL: [(&str, Build); 17] = [
     ("specular_glossiness.glb", lobes::specular_glossiness),
     ("spheres.glb", spheres::build),
     ("transmission.glb", lobes::transmission),
+    ("variants.glb", variants::build),
 ];

@@ -55,14 +55,14 @@ pub struct AppearanceArgs {
     #[arg(long, default_value = "none")]
     pub shadows: Shadow,
     /// Width of lines in pixels of the image
-    #[arg(long, value_name = "PX", default_value_t = 1.0, value_parser = values::stroke)]
+    #[arg(long, value_name = "PX", default_value_t = 1.0, allow_negative_numbers = true, value_parser = values::stroke)]
     pub line_width: f64,
     /// Diameter of points in pixels of the image
-    #[arg(long, value_name = "PX", default_value_t = 3.0, value_parser = values::stroke)]
+    #[arg(long, value_name = "PX", default_value_t = 3.0, allow_negative_numbers = true, value_parser = values::stroke)]
     pub point_size: f64,
     /// Draw silhouettes, boundaries and creases of more than 30 degrees as lines of this width in pixels; black, or R,G,B of
     /// 0 to 1, or #rrggbb
-    #[arg(long, value_name = "WIDTH[,COLOUR]", value_parser = values::edges)]
+    #[arg(long, value_name = "WIDTH[,COLOUR]", allow_negative_numbers = true, value_parser = values::edges)]
     pub edges: Option<EdgeLines>,
 }
 
