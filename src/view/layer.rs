@@ -4,7 +4,7 @@ use super::engine::Engine;
 use super::look::Look;
 use super::picture::Picture;
 use super::preparer::{Preparer, Ticket};
-use super::schedule::{Schedule, Work};
+use super::schedule::{Schedule, Took, Work};
 use ash::vk;
 use gpc::camera::Camera;
 use gpc::render::{Frame, PixelRect, PreparedScene, RenderError, Settings, Shadows, Statistics};
@@ -185,7 +185,7 @@ impl Layer {
             Ok(statistics) => {
                 log::trace!("{:?} took {:.1} ms", job.work, statistics.gpu_ms());
                 self.schedule
-                    .learn(&job.work, statistics.gpu_ms(), Instant::now());
+                    .learn(&job.work, Took::of(&statistics), Instant::now());
                 if is_current {
                     self.note(&job.work, statistics);
                 }

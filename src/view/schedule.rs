@@ -1,7 +1,7 @@
 //! What to render next: few samples while anything moves, more and more at rest, in bands that leave time for the window.
 
 use super::look::Look;
-use gpc::render::Method;
+use gpc::render::{Method, Statistics};
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
@@ -17,6 +17,8 @@ const AGAIN: Duration = Duration::from_secs(2);
 const ROW_STEP: u32 = 4;
 /// How much longer a row is thought to take with the samples of the next step, until one has been rendered.
 const STEP_COST: f64 = 2.0;
+/// Passes that take as long for one row as for all: they go over the scene's triangles.
+const OF_TRIANGLES: [&str; 4] = ["pose", "stroke", "thin", "cull"];
 /// Samples while something moves, from the best.
 const DRAFTS: [u32; 5] = [16, 8, 4, 2, 1];
 /// Samples on the way to those asked for.
@@ -37,6 +39,30 @@ pub enum Work {
         /// The rows.
         rows: Range<u32>,
     },
+}
+
+/// What some work took of the device, in milliseconds.
+#[derive(Clone, Copy, Debug)]
+pub struct Took {
+    pub ms: f64,
+    /// Of that, what it would have taken for one row, too.
+    pub fixed_ms: f64,
+}
+
+impl Took {
+    pub fn of(statistics: &Statistics) -> Self {
+        let passes = statistics.passes.iter();
+        let fixed = passes.filter(|pass| OF_TRIANGLES.contains(&pass.pass));
+        Self {
+            ms: statistics.gpu_ms(),
+            fixed_ms: fixed.map(|pass| pass.ms).sum(),
+        }
+    }
+
+    /// Milliseconds of each of so many rows.
+    fn of_row(self, rows: u32) -> f64 {
+        (self.ms - self.fixed_ms) / f64::from(rows.max(1))
+    }
 }
 
 /// What is left to do for a picture.
@@ -60,6 +86,8 @@ pub struct Schedule {
     step: Step,
     /// Milliseconds that a row is thought to take.
     row_ms: f64,
+    /// Milliseconds that a band takes besides, however few rows it has.
+    fixed_ms: f64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -101,6 +129,7 @@ impl Schedule {
             changed: now,
             step: Step::Draft,
             row_ms: TARGET_MS / f64::from(height.max(1)),
+            fixed_ms: 0.0,
         }
     }
 
@@ -130,7 +159,9 @@ impl Schedule {
                     self.too_slow = None;
                     self.row_ms *= STEP_COST;
                 }
-                let rows = (TARGET_MS / self.row_ms).min(f64::from(self.height)) as u32;
+                // At least half of a band's time is its rows', or a picture of many triangles would never be done.
+                let target = TARGET_MS.max(2.0 * self.fixed_ms) - self.fixed_ms;
+                let rows = (target / self.row_ms).min(f64::from(self.height)) as u32;
                 let rows = (rows / ROW_STEP * ROW_STEP).max(ROW_STEP);
                 let end = (row + rows).min(self.height);
                 self.step = if end < self.height {
@@ -166,17 +197,19 @@ impl Schedule {
         self.step == Step::Done
     }
 
-    /// Learns from what work took on the device, in milliseconds.
-    pub fn learn(&mut self, work: &Work, ms: f64, now: Instant) {
+    /// Learns from what work took on the device.
+    pub fn learn(&mut self, work: &Work, took: Took, now: Instant) {
         match work {
             Work::Draft { samples } => {
-                self.row_ms = ms / f64::from(self.height);
+                self.row_ms = took.of_row(self.height);
+                self.fixed_ms = took.fixed_ms;
                 if *samples == self.draft_samples() {
-                    self.learn_draft(ms, now);
+                    self.learn_draft(took.ms, now);
                 }
             }
             Work::Band { samples, rows } if self.is_rendering(*samples) => {
-                let found = ms / f64::from(rows.end - rows.start);
+                self.fixed_ms = took.fixed_ms;
+                let found = took.of_row(rows.end - rows.start);
                 // What a row takes differs along the image: halfway there, but never far from what was found.
                 let halfway = (self.row_ms * found).sqrt();
                 self.row_ms = halfway.clamp(0.5 * found, 2.0 * found);
@@ -250,7 +283,9 @@ mod tests {
         let mut bands = Vec::new();
         while let Some(work) = schedule.take(now) {
             if let Work::Band { samples, rows } = &work {
-                schedule.learn(&work, ms * f64::from(rows.end - rows.start), now);
+                let fixed_ms = schedule.fixed_ms;
+                let ms = fixed_ms + ms * f64::from(rows.end - rows.start);
+                schedule.learn(&work, Took { ms, fixed_ms }, now);
                 bands.push((*samples, rows.clone()));
             }
         }
@@ -281,6 +316,25 @@ mod tests {
     }
 
     #[test]
+    fn bands_of_many_triangles_are_higher() {
+        let start = Instant::now();
+        let mut schedule = schedule(Method::Superpixel, 64, 540, start);
+        let draft = schedule.take(start).unwrap();
+        let took = Took {
+            ms: 740.0,
+            fixed_ms: 200.0,
+        };
+        schedule.learn(&draft, took, start);
+        let bands = bands(&mut schedule, 2.0, after(150, start));
+        // 200 ms for triangles, and as much for 100 rows.
+        let heights: Vec<_> = bands
+            .iter()
+            .map(|(_, rows)| rows.end - rows.start)
+            .collect();
+        assert_eq!(heights, [100, 100, 100, 100, 100, 40]);
+    }
+
+    #[test]
     fn a_change_begins_again() {
         let start = Instant::now();
         let mut schedule = schedule(Method::Superpixel, 64, 100, start);
@@ -304,7 +358,7 @@ mod tests {
         let draft = |schedule: &mut Schedule, ms: f64, now: Instant| {
             schedule.restart(now);
             let work = schedule.take(now).unwrap();
-            schedule.learn(&work, ms, now);
+            schedule.learn(&work, Took { ms, fixed_ms: 0.0 }, now);
             work
         };
         // One that is slow is no reason, two in a row are.
