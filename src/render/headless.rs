@@ -312,6 +312,7 @@ impl Headless {
     }
 
     fn prepare_again(&self, frame: &mut Frame, capacity: Capacity) -> Result<(), RenderError> {
+        log::debug!("the frame lacked room and is made again: {capacity:?}");
         *frame = self.renderer.prepare_like(frame, capacity)?;
         Ok(())
     }

@@ -151,6 +151,9 @@ const REGION_PIXELS: u64 = 4 << 20;
 /// Most visibility samples and candidates of a round.
 const MOST_RECORDS: u64 = 6 << 20;
 const MOST_CANDIDATES: u64 = 2 << 20;
+/// Visibility samples of a round, for each 64 samples of a superpixel, above which there is room for a third of them and
+/// twice as many rounds: rounds that find nothing to do cost little.
+const LARGE_RECORDS: u64 = 1 << 20;
 /// Most pairs of a triangle and a tile, of all rounds, that a frame is first planned with.
 const MOST_PAIRS: u64 = 8 << 20;
 /// The same for each tile where there are instances: their triangles are many, and what they take of memory is to be in
@@ -295,6 +298,12 @@ impl Plan {
             Method::None | Method::Ssaa if scene.has_blend() => pixels * 3,
             Method::None | Method::Ssaa => 0,
         };
+        let large = LARGE_RECORDS * samples.div_ceil(64);
+        let (records, rounds) = if detects && records > large {
+            ((records / 3).max(large), 2)
+        } else {
+            (records, 1)
+        };
         let samples_cells = detects || scene.has_blend();
         let at_most = |room: u64, most: u64| {
             let room = if samples_cells { room } else { 0 };
@@ -337,7 +346,7 @@ impl Plan {
             regions,
             sizes,
             // Tiles whose triangles are shaded in parts reserve room for all of these, and use a third of it.
-            rounds: (capacity.rounds_for(settings.samples) * if by_part { 2 } else { 1 })
+            rounds: (rounds * capacity.rounds_for(settings.samples) * if by_part { 2 } else { 1 })
                 .max(pairs.div_ceil(candidates) as u32),
             layers: capacity.layers,
             capacity,
