@@ -171,7 +171,7 @@ static BINDINGS: [Binding; 35] = [
         "o",
         "O",
         Action::NextOverlay,
-        "depth, IDs, normals, superpixels, samples, triangles, error",
+        "depth, IDs, normals, superpixels, triangles, error ...",
     ),
     named(
         NamedKey::Space,

@@ -146,7 +146,7 @@ fn show_scene(ui: &mut egui::Ui, scene: &SceneFacts<'_>, facts: &Facts<'_>, wish
     ui.strong(&scene.name);
     ui.label(format!("{} triangles", scene.triangles));
     if !scene.warnings.is_empty() {
-        let title = format!("{} warnings", scene.warnings.len());
+        let title = format!("warnings: {}", scene.warnings.len());
         ui.collapsing(title, |ui| {
             egui::ScrollArea::vertical()
                 .max_height(200.0)
@@ -435,8 +435,12 @@ fn show_notes(ctx: &egui::Context, facts: &Facts<'_>) {
 }
 
 fn show_keys(ctx: &egui::Context) {
+    // As much of the list as the window has room for.
+    const MARGIN: f32 = 48.0;
+    let height = ctx.content_rect().height() - MARGIN;
+    let area = egui::ScrollArea::vertical().min_scrolled_height(height);
     overlay("keys", egui::Align2::CENTER_CENTER).show(ctx, |ui| {
-        egui::ScrollArea::vertical().show(ui, |ui| {
+        area.show(ui, |ui| {
             egui::Grid::new("list of keys")
                 .striped(true)
                 .show(ui, |ui| {

@@ -67,11 +67,12 @@ impl Preparer {
 
 fn run(requests: &Receiver<Request>, deliver: impl Fn(Prepared)) {
     for request in requests {
+        // Dropped in the opposite order: the engine goes after what is its.
         let Request {
-            ticket,
-            settings,
-            scene,
             engine,
+            scene,
+            settings,
+            ticket,
         } = request;
         if ticket.strong_count() == 0 {
             continue;
