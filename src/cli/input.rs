@@ -1,7 +1,7 @@
 //! Scenes from files and from standard input.
 
 use anyhow::Context;
-use gpc::output::decode_linear;
+use gpc::output::decode_light;
 use gpc::scene::{Environment, Loaded, Scene};
 use std::io::Read;
 use std::path::Path;
@@ -40,8 +40,7 @@ pub fn load_variant(path: &Path, variant: Option<&str>) -> anyhow::Result<Loaded
 pub fn environment(path: &Path) -> anyhow::Result<Environment> {
     let file = path.display();
     let bytes = std::fs::read(path).with_context(|| format!("{file} can't be read"))?;
-    let ([width, height], pixels) = decode_linear(&bytes, &file.to_string())?;
-    let colors = pixels.into_iter().map(|[r, g, b, _]| [r, g, b]).collect();
+    let ([width, height], colors) = decode_light(&bytes, &file.to_string())?;
     Environment::from_equirectangular(width, height, colors)
         .with_context(|| format!("{file} is no environment"))
 }

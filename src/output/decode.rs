@@ -85,16 +85,35 @@ pub fn decode(bytes: &[u8], name: &str) -> Result<DecodedImage, OutputError> {
 /// # Errors
 /// [`OutputError::Decode`] if it is neither or broken.
 pub fn decode_linear(bytes: &[u8], name: &str) -> Result<([u32; 2], Vec<[f32; 4]>), OutputError> {
+    let opaque = |colors: Vec<[f32; 3]>| colors.into_iter().map(|[r, g, b]| [r, g, b, 1.0]);
     let decoded = if bytes.starts_with(&EXR_MAGIC) {
         exr::decode(bytes)
     } else {
+        radiance(bytes).map(|(size, colors)| (size, opaque(colors).collect()))
+    };
+    decoded.map_err(|reason| not_linear(name, reason))
+}
+
+/// As [`decode_linear`], but without alpha, and without a copy of a Radiance image's colours.
+///
+/// # Errors
+/// As [`decode_linear`].
+pub fn decode_light(bytes: &[u8], name: &str) -> Result<([u32; 2], Vec<[f32; 3]>), OutputError> {
+    let light = |pixels: Vec<[f32; 4]>| pixels.into_iter().map(|[r, g, b, _]| [r, g, b]);
+    let decoded = if bytes.starts_with(&EXR_MAGIC) {
+        exr::decode(bytes).map(|(size, pixels)| (size, light(pixels).collect()))
+    } else {
         radiance(bytes)
     };
-    decoded.map_err(|reason| OutputError::Decode {
+    decoded.map_err(|reason| not_linear(name, reason))
+}
+
+fn not_linear(name: &str, reason: String) -> OutputError {
+    OutputError::Decode {
         file: name.to_owned(),
         reason,
         expected: "an EXR or Radiance (.hdr) image",
-    })
+    }
 }
 
 /// Size and straight sRGB-encoded pixels.
@@ -110,8 +129,8 @@ fn display_referred(bytes: &[u8]) -> Result<([u32; 2], Vec<[f32; 4]>), String> {
     Ok((size, pixels))
 }
 
-/// Size and linear pixels of a Radiance image.
-fn radiance(bytes: &[u8]) -> Result<([u32; 2], Vec<[f32; 4]>), String> {
+/// Size and linear colours of a Radiance image.
+fn radiance(bytes: &[u8]) -> Result<([u32; 2], Vec<[f32; 3]>), String> {
     if !bytes.starts_with(b"#?") {
         return Err("not of a known format".to_owned());
     }
@@ -119,8 +138,10 @@ fn radiance(bytes: &[u8]) -> Result<([u32; 2], Vec<[f32; 4]>), String> {
         .decode()
         .map_err(|error| error.to_string())?;
     let size = [image.width(), image.height()];
-    let pixels = image.into_rgba32f().pixels().map(|p| p.0).collect();
-    Ok((size, pixels))
+    let numbers = image.into_rgb32f().into_raw();
+    let colors = bytemuck::try_cast_vec(numbers)
+        .unwrap_or_else(|(_, numbers)| numbers.as_chunks().0.to_vec());
+    Ok((size, colors))
 }
 
 fn show_linear([r, g, b, a]: [f32; 4]) -> [f32; 4] {

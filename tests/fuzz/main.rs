@@ -19,7 +19,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use gpc::output::decode_linear;
+use gpc::output::decode_light;
 use gpc::scene::{Edges, Environment, PoseRequest, Scene};
 use mutate::Mutator;
 
@@ -29,9 +29,8 @@ const SLOWEST: u64 = 20;
 /// Loads a file, adds edges and poses it, at a moment and in motion; whether it is drawable. A sky is one if it lights a scene.
 pub fn exercise(name: &str, bytes: &[u8], base: Option<&Path>) -> bool {
     if name.starts_with("sky") {
-        let decoded = decode_linear(bytes, "fuzz");
-        return decoded.is_ok_and(|([width, height], pixels)| {
-            let colors: Vec<_> = pixels.into_iter().map(|[r, g, b, _]| [r, g, b]).collect();
+        let decoded = decode_light(bytes, "fuzz");
+        return decoded.is_ok_and(|([width, height], colors)| {
             // Averaging depends on the size alone, and takes long.
             colors.len() > 1 << 10
                 || Environment::from_equirectangular(width, height, colors).is_ok()
