@@ -8,6 +8,9 @@
 //! The renderer is lent them, and says beforehand what it needs; it never submits, waits or allocates while it
 //! records.
 
+#[path = "common/arguments.rs"]
+mod arguments;
+
 use anyhow::{Context, anyhow, bail};
 use ash::vk;
 use gpc::camera::{Camera, Orbit};
@@ -25,11 +28,11 @@ const WIDTH: u32 = 640;
 const HEIGHT: u32 = 360;
 
 fn main() -> anyhow::Result<()> {
-    let mut arguments = std::env::args_os().skip(1).map(PathBuf::from);
-    let scene = arguments.next().unwrap_or_else(|| {
+    let [scene, out] = arguments::paths("embed [SCENE [OUT.png]]");
+    let scene = scene.unwrap_or_else(|| {
         PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/spheres.glb"))
     });
-    let out = arguments.next().unwrap_or_else(|| "embed.png".into());
+    let out = out.unwrap_or_else(|| "embed.png".into());
 
     let app = App::new()?;
     let pixels = app.render(&Scene::load(&scene)?.scene)?;

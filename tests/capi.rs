@@ -116,11 +116,16 @@ fn a_forward_renderer_is_antialiased_as_by_its_brute_force() {
     let libraries = pkg_config(&["--libs", "gpc", "vulkan"]);
     let options = ["-std=c++17", "-O2", "-Wno-missing-field-initializers"];
     let program = compiled("c++", "examples/forward/forward.cpp", &options, &libraries);
+    let program = || {
+        let mut command = Command::new(&program);
+        command.env("LD_LIBRARY_PATH", prefix().join("lib"));
+        command
+    };
+    example::takes_only(program, 2, "forward SPIRV_FOLDER OUT.ppm");
     let said = example::validated(
-        Command::new(program)
+        program()
             .arg(Path::new(ROOT).join("examples/forward/shaders/spirv"))
-            .arg(prefix().join("forward.ppm"))
-            .env("LD_LIBRARY_PATH", prefix().join("lib")),
+            .arg(prefix().join("forward.ppm")),
     );
     assert!(said.contains(" 0 left over"), "{said}");
     let brute = figure(&said, "error of brute force: ");

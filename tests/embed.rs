@@ -42,6 +42,12 @@ fn headless(width: u32, height: u32) -> Vec<[u8; 4]> {
 }
 
 #[test]
+fn embed_refuses_arguments_that_it_does_not_know() {
+    let program = || Command::new(example::built("embed"));
+    example::takes_only(program, 2, "embed [SCENE [OUT.png]]");
+}
+
+#[test]
 fn a_hosts_image_holds_what_a_headless_render_gives() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("embed.png");

@@ -8,6 +8,12 @@ use example::figure;
 use std::process::Command;
 
 #[test]
+fn visibility_refuses_arguments_that_it_does_not_know() {
+    let program = || Command::new(example::built("visibility"));
+    example::takes_only(program, 1, "visibility [OUT.png]");
+}
+
+#[test]
 fn a_hosts_own_materials_are_antialiased_as_by_its_brute_force() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("visibility.png");

@@ -535,8 +535,20 @@ void run(const std::string &shaders, const char *out) {
 } // namespace
 
 int main(int count, char **arguments) {
+    const char *usage = "forward SPIRV_FOLDER OUT.ppm";
+    for (int i = 1; i < count; ++i) {
+        const std::string argument = arguments[i];
+        if (argument == "--help" || argument == "-h") {
+            std::printf("Usage: %s\n", usage);
+            return 0;
+        }
+        if (i > 2 || argument[0] == '-') {
+            std::fprintf(stderr, "unexpected argument \"%s\"; usage: %s\n", arguments[i], usage);
+            return 2;
+        }
+    }
     if (count != 3) {
-        std::fprintf(stderr, "usage: %s SPIRV_FOLDER OUT.ppm\n", arguments[0]);
+        std::fprintf(stderr, "a path is missing; usage: %s\n", usage);
         return 2;
     }
     try {

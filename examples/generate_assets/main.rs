@@ -7,15 +7,15 @@
 //! Each scene holds something that aliases at one sample a pixel. The generator has no
 //! randomness of its own: the same sources write the same bytes, which `tests/assets.rs` checks.
 
+#[path = "../common/arguments.rs"]
+mod arguments;
 mod scenes;
 
 use std::path::PathBuf;
 
 fn main() -> std::io::Result<()> {
-    let folder = std::env::args_os().nth(1).map_or_else(
-        || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("assets"),
-        PathBuf::from,
-    );
+    let [folder] = arguments::paths("generate_assets [FOLDER]");
+    let folder = folder.unwrap_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("assets"));
     std::fs::create_dir_all(&folder)?;
     for (name, build) in scenes::ALL {
         let bytes = build();

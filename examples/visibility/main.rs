@@ -9,6 +9,8 @@
 //! frames are in flight, and half way through the images change their size. At the end, the last frame is compared with
 //! the host's own brute force.
 
+#[path = "../common/arguments.rs"]
+mod arguments;
 mod device;
 mod meshes;
 mod pipelines;
@@ -22,7 +24,6 @@ use gpc::sampling::Pattern;
 use meshes::World;
 use pipelines::Pipelines;
 use slot::{Antialiasing, SKY, Slot};
-use std::path::PathBuf;
 
 type Failure = Box<dyn std::error::Error>;
 
@@ -36,9 +37,8 @@ const BRUTE: u32 = 8;
 const REFERENCE: u32 = 32;
 
 fn main() -> Result<(), Failure> {
-    let out = std::env::args_os()
-        .nth(1)
-        .map_or_else(|| "visibility.png".into(), PathBuf::from);
+    let [out] = arguments::paths("visibility [OUT.png]");
+    let out = out.unwrap_or_else(|| "visibility.png".into());
     let device = Device::new()?;
     // SAFETY: the handles belong together, the features are enabled, and the device outlives the antialiaser.
     let antialiaser = unsafe { Antialiaser::new(device.lent()) }?;

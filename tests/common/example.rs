@@ -40,6 +40,34 @@ pub fn validated(program: &mut Command) -> String {
     said
 }
 
+/// Asserts that an example takes so many paths and prints its usage where help is asked for, refuses anything else in one
+/// line that names it, and writes nothing in either case.
+pub fn takes_only(program: impl Fn() -> Command, paths: usize, usage: &str) {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |arguments: &[&str]| {
+        let run = program()
+            .args(arguments)
+            .current_dir(folder.path())
+            .output();
+        let run = run.unwrap();
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+        (run.status.code(), text(run.stdout), text(run.stderr))
+    };
+    let said = format!("Usage: {usage}\n");
+    assert_eq!(run(&["--help"]), (Some(0), said, String::new()));
+    let too_many = [vec!["a"; paths], vec!["b"]].concat();
+    for (arguments, unexpected) in [
+        (vec!["--frames", "3"], "--frames"),
+        (vec!["a", "-o"], "-o"),
+        (too_many, "b"),
+    ] {
+        let (code, said, complained) = run(&arguments);
+        let expected = format!("unexpected argument \"{unexpected}\"; usage: {usage}\n");
+        assert_eq!((code, said, complained), (Some(2), String::new(), expected));
+    }
+}
+
 /// The number in a line of what a program said.
 pub fn figure(said: &str, name: &str) -> f64 {
     let line = said.lines().find_map(|line| line.strip_prefix(name));
