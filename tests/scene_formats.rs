@@ -100,12 +100,38 @@ fn obj_without_its_mtl_is_grey_with_a_warning() {
 
 #[test]
 fn obj_with_indices_beyond_its_vertices_is_refused() {
-    refused(b"v 0 0 0\nf 1 2 3\n", "face vertex index out of bounds");
-    refused(b"v 0 0 zero\n", "the OBJ file is broken");
     refused(b"o nothing\n", "nor OBJ, STL or PLY");
-    // Found by fuzzing: a texture coordinate before the first one.
-    let before = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/-9 2/1 3/1\n";
-    refused(before, "the OBJ file is broken");
+    let corners = "v 0 0 0\r\nv 1 0 0\nv 0 1 \\\n0\n";
+    for (statements, line, reason) in [
+        ("v 0 0 zero", 5, "position parse error"),
+        ("# of nothing\nvt 1 zero", 6, "texcoord parse error"),
+        ("f 1 2 three", 5, "\"three\" names no corner"),
+        (
+            "f 1 2 3\n\nf 1 2 4\no next\nv 0 0 1",
+            7,
+            "vertex 4 is named, and there are 3",
+        ),
+        ("l 1 0", 5, "vertex 0 is named, and there are 3"),
+        (
+            "f -1 -2 -3\nf -1 -2 -4",
+            6,
+            "vertex -4 is named, and there are 3",
+        ),
+        (
+            "f 1 2 4\nv 0 0 1\nvn 0 0 1\nf 1//1 2//1 3//2",
+            8,
+            "normal 2 is named, and there are 1",
+        ),
+        // Found by fuzzing: a texture coordinate before the first one.
+        (
+            "vt 0 0\nf 1/-9 2/1 3/1",
+            6,
+            "texture coordinate -9 is named, and there are 1",
+        ),
+    ] {
+        let expected = format!("line {line}: the OBJ file is broken: {reason}");
+        refused(format!("{corners}{statements}\n").as_bytes(), &expected);
+    }
 }
 
 /// A binary STL with this text in its header.
@@ -267,7 +293,10 @@ fn lines_and_points_of_obj_are_no_faces() {
     assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
     let (low, high) = pose.geometry.bounds().unwrap();
     assert_eq!((low, high), (DVec3::ZERO, DVec3::new(1.0, 1.0, 0.0)));
-    refused(b"v 0 0 0\nl 1 2\n", "face vertex index out of bounds");
+    refused(
+        b"v 0 0 0\nl 1 2\n",
+        "line 2: the OBJ file is broken: vertex 2 is named",
+    );
 }
 
 #[test]

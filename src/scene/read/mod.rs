@@ -27,6 +27,7 @@ mod meshopt;
 mod model;
 mod node;
 mod obj;
+mod obj_fault;
 mod packed;
 mod ply;
 mod pointer;

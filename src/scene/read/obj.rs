@@ -12,6 +12,7 @@ use tobj::{LoadError, LoadOptions};
 
 use super::{
     image::Images,
+    obj_fault,
     shape::{Drawing, Shape, linear, plain},
     uri,
 };
@@ -76,8 +77,12 @@ pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, Sce
             loaded
                 .unwrap_or(Err(LoadError::GenericFailure))
                 .map_err(|error| {
-                    let reason = format!("the OBJ file is broken: {error}; export it again");
-                    Fault::new("statements", reason).into_error(file)
+                    let unplaced = || {
+                        let reason = format!("the OBJ file is broken: {error}; export it again");
+                        Fault::new("statements", reason)
+                    };
+                    let found = obj_fault::find(bytes);
+                    found.unwrap_or_else(unplaced).into_error(file)
                 })
         };
     let text = plain_text(bytes);
