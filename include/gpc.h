@@ -172,8 +172,8 @@ typedef struct GpcDevice {
     VkDevice device;
 } GpcDevice;
 
-// What a draw's alpha is tested by: a surface is there where the map's alpha, between texels and levels, is at least the
-// cutoff.
+// What a draw's alpha is tested by: a surface is there where the map's alpha is at least the cutoff. Filters and address
+// modes are best those of the sampler that the application's own pass reads the map with.
 typedef struct GpcAlphaMap {
     // A two-dimensional view of an image made with VK_IMAGE_USAGE_SAMPLED_BIT, of floats or normalised numbers. Its fourth
     // component is alpha; that of a view may be any of the image.
@@ -184,6 +184,12 @@ typedef struct GpcAlphaMap {
     uint32_t height;
     // How many mipmap levels there are; 1 for none.
     uint32_t levels;
+    // How alpha lies between texels that are larger than pixels: VK_FILTER_LINEAR or NEAREST.
+    VkFilter mag_filter;
+    // The same where texels are smaller.
+    VkFilter min_filter;
+    // Whether alpha is that of two levels, blended (VK_SAMPLER_MIPMAP_MODE_LINEAR), or of the nearest one (NEAREST).
+    VkSamplerMipmapMode mipmap_mode;
     // What is beyond the image along u: VK_SAMPLER_ADDRESS_MODE_REPEAT, MIRRORED_REPEAT or CLAMP_TO_EDGE.
     VkSamplerAddressMode address_u;
     // The same along v.

@@ -15,8 +15,8 @@ pub enum GpcPositionSpace {
     Object = 1,
 }
 
-/// What a draw's alpha is tested by: a surface is there where the map's alpha, between texels and levels, is at least the
-/// cutoff.
+/// What a draw's alpha is tested by: a surface is there where the map's alpha is at least the cutoff. Filters and address
+/// modes are best those of the sampler that the application's own pass reads the map with.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct GpcAlphaMap {
@@ -29,6 +29,12 @@ pub struct GpcAlphaMap {
     pub height: u32,
     /// How many mipmap levels there are; 1 for none.
     pub levels: u32,
+    /// How alpha lies between texels that are larger than pixels: VK_FILTER_LINEAR or NEAREST.
+    pub mag_filter: vk::Filter,
+    /// The same where texels are smaller.
+    pub min_filter: vk::Filter,
+    /// Whether alpha is that of two levels, blended (VK_SAMPLER_MIPMAP_MODE_LINEAR), or of the nearest one (NEAREST).
+    pub mipmap_mode: vk::SamplerMipmapMode,
     /// What is beyond the image along u: VK_SAMPLER_ADDRESS_MODE_REPEAT, MIRRORED_REPEAT or CLAMP_TO_EDGE.
     pub address_u: vk::SamplerAddressMode,
     /// The same along v.
@@ -105,6 +111,9 @@ impl GpcAlphaMap {
             view: self.view,
             size: [self.width, self.height],
             levels: self.levels,
+            mag_filter: self.mag_filter,
+            min_filter: self.min_filter,
+            mipmap_mode: self.mipmap_mode,
             address: [self.address_u, self.address_v],
             cutoff: self.cutoff,
         }

@@ -4,15 +4,16 @@ use super::content::HostContent;
 use super::geometry::Geometry;
 use super::{HostError, Shared};
 use crate::passes::alpha_flags::{
-    CLAMP_TO_EDGE, MIRRORED_REPEAT, NO_MIP, REPEAT, TEXTURED, beyond,
+    CLAMP_TO_EDGE, MIRRORED_REPEAT, NEAREST_MAG, NEAREST_MIN, NEAREST_MIP, NO_MIP, REPEAT,
+    TEXTURED, beyond,
 };
 use crate::passes::{AlphaLevel, OwnSet};
 use crate::vulkan::{BufferView, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// What a draw's alpha is tested by: a surface is there where the map's alpha, between texels and levels, is at least the
-/// cutoff.
+/// What a draw's alpha is tested by: a surface is there where the map's alpha is at least the cutoff. Filters and address
+/// modes are best those of the sampler that the host's own pass reads the map with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AlphaMap {
     /// A two-dimensional view of an image made with `SAMPLED`, of floats or normalised numbers. Its fourth component is
@@ -22,6 +23,12 @@ pub struct AlphaMap {
     pub size: [u32; 2],
     /// How many mipmap levels there are; 1 for none.
     pub levels: u32,
+    /// How alpha lies between texels that are larger than pixels: `LINEAR` or `NEAREST`.
+    pub mag_filter: vk::Filter,
+    /// The same where texels are smaller.
+    pub min_filter: vk::Filter,
+    /// Whether alpha is that of two levels, blended (`LINEAR`), or of the nearest one (`NEAREST`).
+    pub mipmap_mode: vk::SamplerMipmapMode,
     /// What is beyond the image along u and v: `REPEAT`, `MIRRORED_REPEAT` or `CLAMP_TO_EDGE`.
     pub address: [vk::SamplerAddressMode; 2],
     /// The least alpha that is there.
@@ -59,6 +66,22 @@ impl AlphaMap {
         if let Some(found) = unknown {
             return Err(HostError::Address { map, found });
         }
+        for (name, filter) in [
+            ("mag_filter", self.mag_filter),
+            ("min_filter", self.min_filter),
+            (
+                "mipmap_mode",
+                vk::Filter::from_raw(self.mipmap_mode.as_raw()),
+            ),
+        ] {
+            if !matches!(filter, vk::Filter::LINEAR | vk::Filter::NEAREST) {
+                return Err(HostError::Filter {
+                    map,
+                    name,
+                    found: filter.as_raw(),
+                });
+            }
+        }
         if !self.cutoff.is_finite() {
             return Err(HostError::Cutoff { map });
         }
@@ -70,8 +93,17 @@ impl AlphaMap {
     }
 
     fn flags(&self) -> u32 {
-        let no_mip = if self.levels > 1 { 0 } else { NO_MIP };
-        TEXTURED | no_mip | beyond(self.modes())
+        let optional = [
+            (NEAREST_MAG, self.mag_filter == vk::Filter::NEAREST),
+            (NEAREST_MIN, self.min_filter == vk::Filter::NEAREST),
+            (
+                NEAREST_MIP,
+                self.mipmap_mode == vk::SamplerMipmapMode::NEAREST,
+            ),
+            (NO_MIP, self.levels == 1),
+        ];
+        let set = optional.into_iter().filter(|(_, set)| *set);
+        set.fold(TEXTURED | beyond(self.modes()), |all, (flag, _)| all | flag)
     }
 
     /// Its row, if its table of levels is at `table`.
@@ -233,6 +265,9 @@ mod tests {
             view: vk::ImageView::from_raw(1),
             size,
             levels,
+            mag_filter: vk::Filter::LINEAR,
+            min_filter: vk::Filter::LINEAR,
+            mipmap_mode: vk::SamplerMipmapMode::LINEAR,
             address: [
                 vk::SamplerAddressMode::REPEAT,
                 vk::SamplerAddressMode::CLAMP_TO_EDGE,
@@ -286,6 +321,14 @@ mod tests {
             ..map([4, 4], 1)
         };
         assert!(refused(border).starts_with("alpha map 3 has the address mode CLAMP_TO_BORDER"));
+        let cubic = AlphaMap {
+            min_filter: vk::Filter::CUBIC_EXT,
+            ..map([4, 4], 1)
+        };
+        assert_eq!(
+            refused(cubic),
+            "alpha map 3 has the min_filter 1000015000; it can be NEAREST (0) or LINEAR (1)"
+        );
         let broken = AlphaMap {
             cutoff: f32::NAN,
             ..map([4, 4], 1)

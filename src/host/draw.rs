@@ -365,6 +365,9 @@ mod tests {
             view: vk::ImageView::from_raw(3),
             size: [1, 1],
             levels: 1,
+            mag_filter: vk::Filter::LINEAR,
+            min_filter: vk::Filter::LINEAR,
+            mipmap_mode: vk::SamplerMipmapMode::LINEAR,
             address: [vk::SamplerAddressMode::REPEAT; 2],
             cutoff: 0.5,
         };

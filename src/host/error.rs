@@ -85,6 +85,16 @@ pub enum HostError {
         /// Its mode along one axis.
         found: vk::SamplerAddressMode,
     },
+    /// A filter between texels or levels is one that is not known.
+    #[error("alpha map {map} has the {name} {found}; it can be NEAREST (0) or LINEAR (1)")]
+    Filter {
+        /// The map, by its place in the list.
+        map: usize,
+        /// Which filter.
+        name: &'static str,
+        /// Its value.
+        found: i32,
+    },
     /// A cutoff is not finite.
     #[error("the cutoff of alpha map {map} is not finite")]
     Cutoff {

@@ -1,12 +1,9 @@
 //! Flags of the alpha test, as in `shaders/include/alpha.glsl`.
 
 pub(crate) const TEXTURED: u32 = 1;
-#[cfg(feature = "gltf")]
 pub(crate) const NEAREST_MAG: u32 = 2;
-#[cfg(feature = "gltf")]
 pub(crate) const NEAREST_MIN: u32 = 4;
 pub(crate) const NO_MIP: u32 = 8;
-#[cfg(feature = "gltf")]
 pub(crate) const NEAREST_MIP: u32 = 16;
 
 /// What is beyond an image.

@@ -271,6 +271,9 @@ static void frames(void) {
     map.address_v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "alpha map 0 has the address mode CLAMP_TO_BORDER");
     map.address_v = VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    map.mipmap_mode = (VkSamplerMipmapMode)2;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "alpha map 0 has the mipmap_mode 2; it can be NEAREST (0) or LINEAR (1)");
+    map.mipmap_mode = VK_SAMPLER_MIPMAP_MODE_LINEAR;
     map.cutoff = 0.0f / zero;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "the cutoff of alpha map 0 is not finite");
     map.cutoff = 0.5f;

@@ -479,6 +479,9 @@ impl Map {
             view: image.view(),
             size: [self.side; 2],
             levels: self.levels.len() as u32,
+            mag_filter: self.mag_filter,
+            min_filter: self.min_filter,
+            mipmap_mode: self.mipmap_mode,
             address: self.address,
             cutoff: self.cutoff,
         }

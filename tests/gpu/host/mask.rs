@@ -7,7 +7,7 @@ use ash::vk;
 use gpc::bench::stress::stage::NEAR;
 use gpc::host::Options;
 use gpc::render::{Method, Settings};
-use gpc::scene::{AlphaMode, Image, Sampler, Wrap};
+use gpc::scene::{AlphaMode, Filter, Image, Sampler, Wrap};
 
 const SIDE: u32 = 8;
 const CUTOFF: f32 = 0.5;
@@ -85,7 +85,22 @@ fn stage(sampler: Sampler) -> Stage {
     stage
 }
 
-fn world(address: [vk::SamplerAddressMode; 2]) -> World {
+fn filter(filter: Filter) -> vk::Filter {
+    match filter {
+        Filter::Nearest => vk::Filter::NEAREST,
+        Filter::Linear => vk::Filter::LINEAR,
+    }
+}
+
+fn address(wrap: Wrap) -> vk::SamplerAddressMode {
+    match wrap {
+        Wrap::Repeat => vk::SamplerAddressMode::REPEAT,
+        Wrap::MirroredRepeat => vk::SamplerAddressMode::MIRRORED_REPEAT,
+        Wrap::ClampToEdge => vk::SamplerAddressMode::CLAMP_TO_EDGE,
+    }
+}
+
+fn world(sampler: &Sampler) -> World {
     let mut camera = [[0.0; 4]; 4];
     (camera[0][0], camera[1][1]) = (1.0, -1.0);
     (camera[2][3], camera[3][2]) = (-1.0, NEAR as f32);
@@ -111,7 +126,13 @@ fn world(address: [vk::SamplerAddressMode; 2]) -> World {
     let map = |levels: Vec<Vec<u8>>, side| Map {
         side,
         levels,
-        address,
+        mag_filter: filter(sampler.mag),
+        min_filter: filter(sampler.min),
+        mipmap_mode: match sampler.mip {
+            Some(Filter::Nearest) => vk::SamplerMipmapMode::NEAREST,
+            _ => vk::SamplerMipmapMode::LINEAR,
+        },
+        address: [sampler.wrap_u, sampler.wrap_v].map(address),
         cutoff: CUTOFF,
     };
     World {
@@ -126,25 +147,29 @@ fn world(address: [vk::SamplerAddressMode; 2]) -> World {
 #[test]
 fn alpha_maps_are_tested_as_those_of_files() {
     on_gpu(|gpu| {
-        use vk::SamplerAddressMode as Mode;
         let object = Way {
             object_space: true,
             stride: 12,
             short_indices: true,
             ..PLACED
         };
-        for (wraps, modes) in [
-            ([Wrap::Repeat; 2], [Mode::REPEAT; 2]),
-            (
-                [Wrap::ClampToEdge, Wrap::MirroredRepeat],
-                [Mode::CLAMP_TO_EDGE, Mode::MIRRORED_REPEAT],
-            ),
-        ] {
-            let sampler = Sampler {
-                wrap_u: wraps[0],
-                wrap_v: wraps[1],
+        for sampler in [
+            Sampler::default(),
+            Sampler {
+                wrap_u: Wrap::ClampToEdge,
+                wrap_v: Wrap::MirroredRepeat,
                 ..Sampler::default()
-            };
+            },
+            Sampler {
+                mag: Filter::Nearest,
+                mip: Some(Filter::Nearest),
+                ..Sampler::default()
+            },
+            Sampler {
+                min: Filter::Nearest,
+                ..Sampler::default()
+            },
+        ] {
             let settings = Settings {
                 method: Method::Superpixel,
                 thin: true,
@@ -163,7 +188,7 @@ fn alpha_maps_are_tested_as_those_of_files() {
                 ..settings.clone()
             };
             let expected_of_own = stage.render(gpu, &without_depth);
-            let world = world(modes);
+            let world = world(&sampler);
             let machine = Machine::new(gpu, &world);
             for (way, base, expected) in [
                 (PLACED, Base::Nothing, &expected),
@@ -185,7 +210,7 @@ fn alpha_maps_are_tested_as_those_of_files() {
                 assert!(mixed.count() > 100, "{superpixels} superpixels");
                 // Colours of the files' renderer come from a texture.
                 let worst = farthest(&found.colors, &expected.colors);
-                assert!(worst < 1e-6, "{way:?}: {worst}");
+                assert!(worst < 1e-6, "{sampler:?}, {way:?}: {worst}");
             }
         }
     });

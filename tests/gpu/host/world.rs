@@ -35,6 +35,9 @@ pub struct Part {
 pub struct Map {
     pub side: u32,
     pub levels: Vec<Vec<u8>>,
+    pub mag_filter: vk::Filter,
+    pub min_filter: vk::Filter,
+    pub mipmap_mode: vk::SamplerMipmapMode,
     pub address: [vk::SamplerAddressMode; 2],
     pub cutoff: f32,
 }
