@@ -19,6 +19,8 @@ const VISIBILITY: &[Variant] = &[
     ("pose", "pose.comp", &[]),
     ("ids_vertex", "ids.vert", &[]),
     ("ids_fragment", "ids.frag", &[]),
+    ("ids_masked_vertex", "ids.vert", &[("MASKED", "")]),
+    ("ids_masked_fragment", "ids.frag", &[("MASKED", "")]),
     ("screen_vertex", "screen.vert", &[]),
     ("screen_fragment", "screen.frag", &[]),
     ("samples", "samples.comp", &[]),

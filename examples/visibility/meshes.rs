@@ -1,26 +1,28 @@
-//! The host's meshes, where their instances are at a time, and the texture.
+//! The host's meshes, and where their instances are at a time.
 
 use crate::Failure;
 use crate::device::{Buffer, Device, Texture};
+use crate::textures;
 use ash::vk;
 use glam::{Mat4, Quat, Vec3};
-use gpc::host::Draw;
+use gpc::host::{AlphaMap, Draw};
 use std::f32::consts::TAU;
 
 /// Shading keys, as in `shaders/materials.glsl`.
 pub const WAVES: u32 = 0;
 pub const BRICKS: u32 = 1;
 pub const GLOW: u32 = 2;
-pub const KEYS: u32 = 3;
+pub const FENCE: u32 = 3;
+pub const KEYS: u32 = 4;
 
 /// As in `shaders/host.glsl`.
 #[repr(C)]
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 struct Vertex {
     position: [f32; 3],
-    u: f32,
+    _unused: f32,
     normal: [f32; 3],
-    v: f32,
+    _unused_too: f32,
 }
 
 /// As in `shaders/host.glsl`.
@@ -53,12 +55,16 @@ pub struct World<'a> {
     pub meshes: Vec<Mesh>,
     pub triangle_count: u32,
     pub posed_count: u32,
+    /// Texture coordinates of posed vertices.
+    pub coordinates: Buffer<'a>,
     pub bricks: Texture<'a>,
+    pub fence: Texture<'a>,
 }
 
 #[derive(Default)]
 struct Builder {
     vertices: Vec<Vertex>,
+    coordinates: Vec<[f32; 2]>,
     indices: Vec<u32>,
 }
 
@@ -78,10 +84,10 @@ impl Builder {
                 let (position, normal) = at(u, v);
                 self.vertices.push(Vertex {
                     position: position.to_array(),
-                    u: u * repeat[0],
                     normal: normal.to_array(),
-                    v: v * repeat[1],
+                    ..bytemuck::Zeroable::zeroed()
                 });
+                self.coordinates.push([u * repeat[0], v * repeat[1]]);
             }
         }
         for row in 0..rows {
@@ -117,13 +123,21 @@ impl<'a> World<'a> {
         });
         let ring = builder.torus(0.3, [96, 32]);
         let wire = builder.torus(0.006, [128, 6]);
+        let fence = builder.grid([48, 1], [30.0, 3.0], |u, v| {
+            let around = 2.0 * u - 1.0;
+            let out = Vec3::new(around.sin(), 0.0, around.cos());
+            (2.7 * out + Vec3::Y * (0.6 - 0.54 * v), out)
+        });
         let mut parts = vec![(floor, WAVES)];
         parts.extend([(ring, BRICKS); 5]);
         parts.extend([(wire, GLOW); 4]);
+        // What has an alpha map comes last.
+        parts.push((fence, FENCE));
 
         let mut draws = Vec::new();
         let mut table = Vec::new();
         let mut draw_of = Vec::new();
+        let mut coordinates = Vec::new();
         let mut posed = 0;
         for (index, &(mesh, key)) in parts.iter().enumerate() {
             table.push([draw_of.len() as u32, mesh.first_index, posed, key]);
@@ -137,10 +151,14 @@ impl<'a> World<'a> {
                 vertex_offset: posed as i32,
                 key,
                 material: index as u16,
-                double_sided: false,
-                detailed: key != GLOW,
+                alpha_map: (key == FENCE).then_some(0),
+                double_sided: key == FENCE,
+                detailed: matches!(key, WAVES | BRICKS),
                 ..Draw::default()
             });
+            let first = mesh.first_vertex as usize;
+            let of_mesh = first..first + mesh.vertex_count as usize;
+            coordinates.extend_from_slice(&builder.coordinates[of_mesh]);
             posed += mesh.vertex_count;
         }
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::INDEX_BUFFER;
@@ -157,8 +175,24 @@ impl<'a> World<'a> {
             draws,
             meshes: parts.iter().map(|(mesh, _)| *mesh).collect(),
             posed_count: posed,
-            bricks: bricks(device)?,
+            coordinates: device.filled(&coordinates)?,
+            bricks: textures::bricks(device)?,
+            fence: textures::fence(device)?,
         })
+    }
+
+    /// The fence's alpha, as the host's own pass reads and tests it.
+    pub fn alpha_map(&self) -> AlphaMap {
+        AlphaMap {
+            view: self.fence.view,
+            size: [textures::FENCE_SIDE; 2],
+            levels: 1,
+            mag_filter: vk::Filter::LINEAR,
+            min_filter: vk::Filter::LINEAR,
+            mipmap_mode: vk::SamplerMipmapMode::NEAREST,
+            address: [vk::SamplerAddressMode::REPEAT; 2],
+            cutoff: 0.5,
+        }
     }
 
     /// Where each draw's mesh is at a time, in seconds.
@@ -177,6 +211,7 @@ impl<'a> World<'a> {
                     );
                     Mat4::from_rotation_translation(turn, at) * Mat4::from_scale(Vec3::splat(0.7))
                 }
+                FENCE => Mat4::from_rotation_y(0.1 * time),
                 _ => {
                     let turn = Quat::from_rotation_z(0.3 * number + 0.2 * time);
                     let at = Vec3::new(0.9 * (number - 7.5), 1.2, 1.0);
@@ -191,90 +226,4 @@ impl<'a> World<'a> {
             })
             .collect()
     }
-}
-
-/// A wall of bricks with all its mipmap levels, linear.
-fn bricks(device: &Device) -> Result<Texture<'_>, Failure> {
-    const SIDE: u32 = 128;
-    let levels = SIDE.ilog2() + 1;
-    let texel = |x: u32, y: u32| -> [f32; 4] {
-        let row = y / 16;
-        let column = x + 16 * (row % 2);
-        let mortar = y % 16 < 2 || column % 32 < 2;
-        let shade = ((row * 7 + (column % SIDE) / 32 * 13) % 5) as f32 / 5.0;
-        if mortar {
-            [0.7, 0.68, 0.62, 1.0]
-        } else {
-            [0.35 + 0.25 * shade, 0.1 + 0.06 * shade, 0.06, 1.0]
-        }
-    };
-    let mut level: Vec<[f32; 4]> = (0..SIDE * SIDE)
-        .map(|i| texel(i % SIDE, i / SIDE))
-        .collect();
-    let mut bytes: Vec<u8> = Vec::new();
-    let mut regions = Vec::new();
-    for number in 0..levels {
-        let side = SIDE >> number;
-        regions.push(
-            vk::BufferImageCopy::default()
-                .buffer_offset(bytes.len() as u64)
-                .image_subresource(vk::ImageSubresourceLayers {
-                    aspect_mask: vk::ImageAspectFlags::COLOR,
-                    mip_level: number,
-                    base_array_layer: 0,
-                    layer_count: 1,
-                })
-                .image_extent(vk::Extent3D {
-                    width: side,
-                    height: side,
-                    depth: 1,
-                }),
-        );
-        bytes.extend(
-            level
-                .iter()
-                .flatten()
-                .map(|value| (255.0 * value).round() as u8),
-        );
-        let half = (side / 2).max(1) as usize;
-        let at = |x: usize, y: usize| {
-            level[(y.min(side as usize - 1)) * side as usize + x.min(side as usize - 1)]
-        };
-        level = (0..half * half)
-            .map(|i| {
-                let (x, y) = (2 * (i % half), 2 * (i / half));
-                let four = [at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1)];
-                [0, 1, 2, 3]
-                    .map(|channel| four.iter().map(|texel| texel[channel]).sum::<f32>() / 4.0)
-            })
-            .collect();
-    }
-    let usage = vk::BufferUsageFlags::TRANSFER_SRC;
-    let mut upload = device.buffer(bytes.len() as u64, usage)?;
-    upload.bytes_mut()?[..bytes.len()].copy_from_slice(&bytes);
-    let texture = device.image(
-        vk::Format::R8G8B8A8_UNORM,
-        [SIDE; 2],
-        levels,
-        vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST,
-        vk::ImageAspectFlags::COLOR,
-    )?;
-    device.run(|commands| {
-        let written = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
-        let shown = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
-        let change = |from, to| crate::slot::change(device, commands, &texture, levels, from, to);
-        change(vk::ImageLayout::UNDEFINED, written);
-        // SAFETY: the buffer holds all levels; the commands are waited for.
-        unsafe {
-            device.raw.cmd_copy_buffer_to_image(
-                commands,
-                upload.raw,
-                texture.raw,
-                written,
-                &regions,
-            );
-        }
-        change(written, shown);
-    })?;
-    Ok(texture)
 }

@@ -12,10 +12,11 @@ pub const DEPTH: vk::Format = vk::Format::D32_SFLOAT;
 pub const COLOR: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
 
 /// What is bound at each binding of `shaders/host.glsl` and `shaders/posed.glsl`.
-pub const BINDINGS: [vk::DescriptorType; 9] = {
-    let mut kinds = [vk::DescriptorType::STORAGE_BUFFER; 9];
-    kinds[7] = vk::DescriptorType::COMBINED_IMAGE_SAMPLER;
-    kinds[8] = vk::DescriptorType::SAMPLED_IMAGE;
+pub const BINDINGS: [vk::DescriptorType; 11] = {
+    let mut kinds = [vk::DescriptorType::STORAGE_BUFFER; 11];
+    kinds[8] = vk::DescriptorType::COMBINED_IMAGE_SAMPLER;
+    kinds[9] = vk::DescriptorType::COMBINED_IMAGE_SAMPLER;
+    kinds[10] = vk::DescriptorType::SAMPLED_IMAGE;
     kinds
 };
 
@@ -34,6 +35,8 @@ pub struct Pipelines<'a> {
     samples_layout: vk::PipelineLayout,
     pub pose: vk::Pipeline,
     pub ids: vk::Pipeline,
+    /// Of surfaces with holes, seen from both sides.
+    pub ids_masked: vk::Pipeline,
     pub screen: vk::Pipeline,
     samples: Vec<vk::Pipeline>,
     pub sampler: vk::Sampler,
@@ -83,15 +86,23 @@ impl<'a> Pipelines<'a> {
                 samples_layout,
                 pose: vk::Pipeline::null(),
                 ids: vk::Pipeline::null(),
+                ids_masked: vk::Pipeline::null(),
                 screen: vk::Pipeline::null(),
                 samples: Vec::new(),
                 sampler: raw.create_sampler(&info, None)?,
             };
             pipelines.pose = pipelines.compute(spirv!("pose"), layout, 0)?;
             let stages = [&spirv!("ids_vertex")[..], &spirv!("ids_fragment")[..]];
-            pipelines.ids = pipelines.graphics(stages, IDS, Some(DEPTH))?;
+            let back = vk::CullModeFlags::BACK;
+            pipelines.ids = pipelines.graphics(stages, IDS, Some(DEPTH), back)?;
+            let stages = [
+                &spirv!("ids_masked_vertex")[..],
+                &spirv!("ids_masked_fragment")[..],
+            ];
+            let none = vk::CullModeFlags::NONE;
+            pipelines.ids_masked = pipelines.graphics(stages, IDS, Some(DEPTH), none)?;
             let stages = [&spirv!("screen_vertex")[..], &spirv!("screen_fragment")[..]];
-            pipelines.screen = pipelines.graphics(stages, COLOR, None)?;
+            pipelines.screen = pipelines.graphics(stages, COLOR, None, none)?;
             for key in 0..KEYS {
                 let pipeline = pipelines.compute(spirv!("samples"), samples_layout, key)?;
                 pipelines.samples.push(pipeline);
@@ -157,6 +168,7 @@ impl<'a> Pipelines<'a> {
         [vertex, fragment]: [&[u8]; 2],
         color: vk::Format,
         depth: Option<vk::Format>,
+        cull: vk::CullModeFlags,
     ) -> Result<vk::Pipeline, Failure> {
         // SAFETY: passed on to the caller.
         let modules = unsafe { [self.module(vertex)?, self.module(fragment)?] };
@@ -176,11 +188,6 @@ impl<'a> Pipelines<'a> {
         let viewport = vk::PipelineViewportStateCreateInfo::default()
             .viewport_count(1)
             .scissor_count(1);
-        let cull = if depth.is_some() {
-            vk::CullModeFlags::BACK
-        } else {
-            vk::CullModeFlags::NONE
-        };
         let rasterization = vk::PipelineRasterizationStateCreateInfo::default()
             .cull_mode(cull)
             .front_face(vk::FrontFace::COUNTER_CLOCKWISE)
@@ -238,7 +245,7 @@ impl Drop for Pipelines<'_> {
         // SAFETY: every submission was waited for.
         unsafe {
             let all = self.samples.iter().copied();
-            for pipeline in all.chain([self.pose, self.ids, self.screen]) {
+            for pipeline in all.chain([self.pose, self.ids, self.ids_masked, self.screen]) {
                 raw.destroy_pipeline(pipeline, None);
             }
             raw.destroy_pipeline_layout(self.samples_layout, None);

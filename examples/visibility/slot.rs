@@ -7,8 +7,8 @@ use crate::pipelines::{BINDINGS, COLOR, DEPTH, IDS, Pipelines};
 use ash::vk;
 use glam::Mat4;
 use gpc::host::{
-    Antialiaser, ClipSpace, ColorImage, Frame, Geometry, ImageState, Images, LentImage, Options,
-    PositionSpace, Scenery,
+    Antialiaser, ClipSpace, ColorImage, Coordinates, Frame, Geometry, ImageState, Images,
+    LentImage, Options, PositionSpace, Scenery,
 };
 
 /// What the library prepared for a slot.
@@ -101,13 +101,14 @@ impl<'a> Slot<'a> {
             &world.draw_of,
             &positions,
             &posed,
+            &world.coordinates,
         ]
         .map(|buffer| {
             [vk::DescriptorBufferInfo::default()
                 .buffer(buffer.raw)
                 .range(vk::WHOLE_SIZE)]
         });
-        let images = [&world.bricks, &ids].map(|texture| {
+        let images = [&world.bricks, &world.fence, &ids].map(|texture| {
             [vk::DescriptorImageInfo::default()
                 .sampler(pipelines.sampler)
                 .image_view(texture.view)
@@ -173,8 +174,12 @@ impl<'a> Slot<'a> {
             triangle_capacity: world.triangle_count,
             draw_capacity: world.draws.len() as u32,
             keys: KEYS,
-            coordinates: None,
-            alpha_maps: Vec::new(),
+            coordinates: Some(Coordinates {
+                buffer: world.coordinates.raw,
+                offset: 0,
+                stride: 8,
+            }),
+            alpha_maps: vec![world.alpha_map()],
             blended: false,
             clip: ClipSpace {
                 y_up: true,
@@ -353,10 +358,14 @@ impl<'a> Slot<'a> {
             self.change(&self.ids, UNDEFINED, COLOR_DRAWN);
             self.change(&self.depth, UNDEFINED, DEPTH_DRAWN);
             self.begin_rendering(&self.ids, Some(&self.depth));
-            self.bind(vk::PipelineBindPoint::GRAPHICS, pipelines, pipelines.ids);
             raw.cmd_bind_index_buffer(commands, world.indices.raw, 0, vk::IndexType::UINT32);
             let mut first_triangle = 0_u32;
             for draw in &world.draws {
+                let pipeline = match draw.alpha_map {
+                    Some(_) => pipelines.ids_masked,
+                    None => pipelines.ids,
+                };
+                self.bind(vk::PipelineBindPoint::GRAPHICS, pipelines, pipeline);
                 self.push(pipelines, &[first_triangle]);
                 raw.cmd_draw_indexed(
                     commands,

@@ -3,7 +3,7 @@
 #define HOST_SET 0
 #endif
 
-struct Vertex { vec4 position_u; vec4 normal_v; };      // of a mesh; the texture's coordinates in w
+struct Vertex { vec3 position, normal; };
 struct Instance { mat4 to_clip; mat4 to_world; };
 struct Draw { uint first_triangle, first_index; uint vertex_offset, key; };
 
@@ -12,5 +12,7 @@ layout(std430, set = HOST_SET, binding = 1) readonly buffer Instances { Instance
 layout(std430, set = HOST_SET, binding = 2) readonly buffer Indices { uint indices[]; };
 layout(std430, set = HOST_SET, binding = 3) readonly buffer Draws { Draw draws[]; };
 layout(std430, set = HOST_SET, binding = 4) readonly buffer DrawOf { uint draw_of[]; };     // of each triangle
-layout(set = HOST_SET, binding = 7) uniform sampler2D bricks;
-layout(set = HOST_SET, binding = 8) uniform utexture2D ids;
+layout(std430, set = HOST_SET, binding = 7) readonly buffer Coordinates { vec2 coordinates[]; };    // of posed vertices
+layout(set = HOST_SET, binding = 8) uniform sampler2D bricks;
+layout(set = HOST_SET, binding = 9) uniform sampler2D fence;
+layout(set = HOST_SET, binding = 10) uniform utexture2D ids;

@@ -12,8 +12,8 @@ void main() {
     if (i >= push.vertex_count) return;
     Vertex v = vertices[push.first_vertex + i];
     Instance instance = instances[push.instance];
-    vec4 position = vec4(v.position_u.xyz, 1.0);
+    vec4 position = vec4(v.position, 1.0);
     positions[push.first_posed + i] = instance.to_clip * position;
-    posed[push.first_posed + i].position_u = vec4((instance.to_world * position).xyz, v.position_u.w);
-    posed[push.first_posed + i].normal_v = vec4(mat3(instance.to_world) * v.normal_v.xyz, v.normal_v.w);
+    posed[push.first_posed + i].position = (instance.to_world * position).xyz;
+    posed[push.first_posed + i].normal = mat3(instance.to_world) * v.normal;
 }
