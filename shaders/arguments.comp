@@ -12,7 +12,9 @@ const uint DETECT = 0u, CULL = 1u, SAMPLE = 2u, RECORDS = 3u, SPANS = 4u, THIN =
 
 void main() {
     if (push.after == DETECT) {
-        arguments[ARGUMENT_CULL] = counters[COUNTER_TILES] == 0u ? uvec4(0u) : groups((frame.triangle_count + 511u) / 512u);
+        bool any_tile = counters[COUNTER_TILES] != 0u;
+        arguments[ARGUMENT_CULL] = any_tile ? groups((frame.triangle_count + 511u) / 512u) : uvec4(0u);
+        arguments[ARGUMENT_TALLY] = any_tile ? groups((frame.tiles.x * frame.tiles.y + STRETCH - 1u) / STRETCH) : uvec4(0u);
     } else if (push.after == CULL) {
         arguments[ARGUMENT_BIN_SMALL] = groups((counters[COUNTER_SURVIVORS] + 63u) / 64u);
         arguments[ARGUMENT_BIN_LARGE] = groups(counters[COUNTER_LARGE]);

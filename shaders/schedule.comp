@@ -1,115 +1,87 @@
-// schedule: places the candidate lists of as many tiles as fit, from where the last round ended, and sorts
-// these tiles by what their samples need: PLAIN, MASKED (alpha tests), BLENDED (lists of layers) or UNLISTED
-// (a list that outgrows the buffer: every triangle is a candidate).
-// Reads: tiles (counts from `bin`), masks. Writes: tiles, tile_lists, arguments of the round, counters.
+// schedule: how many tiles fit in a round, from where the last round ended; `enlist` then gives each of them its place.
+// Reads: loads of stretches, tiles, masks. Writes: loads of the round's stretches, arguments of the round, counters.
 // LOCATIONS: `groups` then lists groups of cells in the place of tiles.
-// One subgroup does it all, in tile order, so that a round's content is the same in every run.
+// One subgroup does it all, in tile order, so that a round's content is the same in every run: an invocation takes a
+// stretch, or a tile of one that is not in the round as a whole.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
-#include "include/tiles.glsl"
-#include "include/work.glsl"
+#include "include/load.glsl"
 layout(local_size_x_id = 0) in;
-// What samples need is no constant of the kernel: one is made for all.
-layout(push_constant) uniform Push {
-    uint block;             // samples of a header
-    uint per_sample;        // 1 where each sample is a record
-    uint layers;            // BLEND layers of a list that a tile is admitted with
-    uint parts;             // records of a triangle in a block
-    uint subgroups_first;   // that `sample` gives an entry, where it may PROBE it
-    uint subgroups;         // and where it takes all samples
-} push;
+
+// Sums of candidates, records and headers over the invocations up to this one.
+uvec3 sums_up_to(uvec3 needs) {
+    uint lane = gl_SubgroupInvocationID;
+    [[unroll]] for (uint apart = 1u; apart < 32u; apart *= 2u) {
+        if (apart < LANES) {
+            uvec3 before = subgroupShuffle(needs, (lane - apart) & (LANES - 1u));
+            needs = add(needs, lane >= apart ? before : uvec3(0u));
+        }
+    }
+    return needs;
+}
 
 void main() {
     uint lane = gl_SubgroupInvocationID;
-    uint tile_count = frame.tiles.x * frame.tiles.y;
     bool any_tile = counters[COUNTER_TILES] != 0u && !in_other_subgroups(LANES);
-    uint start = any_tile ? counters[COUNTER_NEXT_TILE] : tile_count;
-    uint previous = any_tile ? counters[COUNTER_ROUND_FIRST] : tile_count;
-    // Lists of the round before are spent.
-    uint p = previous + lane;
-    while (p < start) {
-        tiles[p].w = 0u;
-        p += LANES;
-    }
-
-    uint blocks = (frame.sample_count + push.block - 1u) / push.block;
-    bool per_sample = push.per_sample != 0u;
-    // Different lists of layers that a block is admitted with, too; most need less than half of these records. Both grow
-    // where a frame found too few.
-    uint lists_of_block = push.parts > 8u ? push.layers * push.parts / 4u : push.layers * 2u;
-    // Records of a block that it is admitted with where a cell has several: these are small, and see few triangles.
-    uint crowd = push.layers * 4u;
-    uint most_records = blocks == 1u ? push.block : crowd;
-    uint list_used = 0u, records_used = 0u, headers_used = 0u, placed = 0u, unlisted = 0u;
-    uvec4 entries = uvec4(0u);      // of each list
+    uint start = any_tile ? counters[COUNTER_NEXT_TILE] : tile_count();
+    uint spent = any_tile ? counters[COUNTER_ROUND_FIRST] : tile_count();
+    uint blocks = blocks_of_cell();
+    Load taken = no_load();
     uint next = start;
-    bool open_ = start < tile_count;
+    bool divided = false;       // the stretch at hand does not fit as a whole
+    bool open_ = start < tile_count();
     while (open_) {
-        uint tile = next + lane;
-        bool exists = tile < tile_count;
-        uint word = exists ? masks[tile] : 0u;
-        uvec4 t = exists ? tiles[tile] : uvec4(0u);
-        uvec2 load = LOCATIONS && exists ? tile_loads[tile] : uvec2(0u);
-        uint cells = LOCATIONS ? load.x : bitCount(word);
-        uint samples = LOCATIONS ? load.y : cells * frame.sample_count;
-        bool busy = cells != 0u;
-        bool listed = busy && (t.w & TILE_OVERFLOW) == 0u;
-        bool blend = (t.w & TILE_HAS_BLEND) != 0u, mask_ = (t.w & TILE_HAS_MASK) != 0u;
-        uint candidates_ = listed ? t.x : frame.triangle_count;
-        uint lists = per_sample || POINTS ? samples : min(cells * blocks * lists_of_block, samples);
-        uint record_need = blend || (!listed && frame.first_blend < frame.triangle_count)
-            ? lists * (2u + min(candidates_, push.layers))
-            : per_sample ? samples : min(cells * blocks * min(push.parts * candidates_, most_records), samples);
-        uint list_need = listed ? t.x : 0u, header_need = cells * blocks;
-        uint list_first = list_used + subgroupExclusiveAdd(list_need);
-        uint record_end = records_used + subgroupInclusiveAdd(record_need);
-        uint header_first = headers_used + subgroupExclusiveAdd(header_need);
-        bool fits = list_first + list_need <= frame.list_capacity
-            && max(record_end, header_first + header_need) <= frame.record_capacity;
+        bool whole = next % STRETCH == 0u && !divided;
+        uint stretch = next / STRETCH;
+        uint first = whole ? stretch : next;
+        uint end = whole ? stretch_count() : min((stretch + 1u) * STRETCH, tile_count());
+        uint item = min(first + lane, end - 1u), tile = whole ? 0u : item;
+        Load load = load_of(tile, tiles[tile], blocks), kept = load_kept(whole ? item : stretch);
+        load.needs = whole ? kept.needs : load.needs;
+        load.entries = whole ? kept.entries : load.entries;
+        bool exists = first + lane < end;
+        uvec3 sums = sums_up_to(exists ? min(load.needs.xyz, room() + 1u) : uvec3(0u));
         // The first tile of a round is always taken: what does not fit then is counted by `sample`.
-        fits = fits || (next == start && lane == 0u);
-        uvec4 refused = subgroupBallot(!fits);
-        uint taken = subgroupBallotBitCount(refused) == 0u ? LANES : subgroupBallotFindLSB(refused);
-        bool mine = busy && lane < taken;
-        if (mine) {
-            tiles[tile] = uvec4(t.x, list_first, header_first,
-                (t.w & (TILE_HAS_MASK | TILE_HAS_BLEND)) | TILE_PLACED | (listed ? TILE_LISTED : 0u) | (listed ? t.x : 0u) << TILE_COUNT_SHIFT);
-        }
-        uint list = !listed ? 3u : blend ? 2u : mask_ ? 1u : 0u;
-        // Lengths of all lists in one scan, a byte each.
-        uint parts = !mine || LOCATIONS ? 0u : (cells + LANES - 1u) / LANES;
-        uint before = subgroupExclusiveAdd(parts << (8u * list)), added = subgroupAdd(parts << (8u * list));
-        uint at = first_entry(list) + entries[list] + (before >> (8u * list) & 0xffu);
-        [[unroll]] for (uint part = 0u; part < PARTS_OF_TILE; part++)
-            if (part < parts) tile_lists[at + part] = work_entry(tile, part);
-        entries += uvec4(added, added >> 8, added >> 16, added >> 24) & 0xffu;
-        unlisted += subgroupBallotBitCount(subgroupBallot(mine && !listed));
-        list_used += subgroupAdd(mine ? list_need : 0u);
-        records_used += subgroupAdd(mine ? record_need : 0u);
-        headers_used += subgroupAdd(mine ? header_need : 0u);
-        placed += subgroupBallotBitCount(subgroupBallot(mine));
-        next += taken;
-        open_ = taken == LANES && next < tile_count;
+        bool fits = all(lessThanEqual(add(taken.needs.xyz, sums), room())) || (!whole && next == start && lane == 0u);
+        uvec4 refused = subgroupBallot(exists && !fits);
+        bool any_refused = subgroupBallotBitCount(refused) != 0u;
+        uint count = any_refused ? subgroupBallotFindLSB(refused) : min(end - first, LANES);
+        bool mine = exists && lane < count;
+        load.needs = mine ? load.needs : uvec4(0u);
+        load.entries = mine ? load.entries : uvec4(0u);
+        Load before;
+        before.needs = taken.needs + (whole ? uvec4(sums - load.needs.xyz, 0u) : uvec4(0u));
+        before.entries = taken.entries + subgroupExclusiveAdd(load.entries);
+        // Where the tiles of a stretch that are in the round begin.
+        bool begins = whole ? mine : mine && lane == 0u && (next == start || next % STRETCH == 0u);
+        if (begins) keep_load(whole ? item : stretch, before);
+        taken.needs += subgroupAdd(load.needs);
+        taken.entries += subgroupAdd(load.entries);
+        next = min(next + count * (whole ? STRETCH : 1u), tile_count());
+        open_ = next < tile_count() && (whole || !any_refused);
+        divided = divided || any_refused;
     }
-    next = min(next, tile_count);
 
     if (subgroupElect()) {
-        bool idle = placed == 0u;
+        bool idle = taken.needs.z == 0u;
+        uint stretches = start < tile_count() ? (next + STRETCH - 1u) / STRETCH - spent / STRETCH : 0u;
+        counters[COUNTER_SPENT_FIRST] = spent;
         counters[COUNTER_ROUND_FIRST] = start;
         counters[COUNTER_NEXT_TILE] = next;
         counters[COUNTER_RECORDS] = 0u;
-        [[unroll]] for (uint list = 0u; list < 4u; list++) counters[COUNTER_PLAIN_TILES + list] = entries[list];
+        [[unroll]] for (uint list = 0u; list < 4u; list++) counters[COUNTER_PLAIN_TILES + list] = taken.entries[list];
         counters[COUNTER_PLAIN_LEFT] = 0u;
         counters[COUNTER_MASKED_LEFT] = 0u;
         counters[COUNTER_ROUNDS] += idle ? 0u : 1u;
-        counters[COUNTER_CANDIDATES_TOTAL] += list_used;
-        counters[COUNTER_UNLISTED_TOTAL] += unlisted;
+        counters[COUNTER_CANDIDATES_TOTAL] += taken.needs.x;
+        counters[COUNTER_UNLISTED_TOTAL] += taken.needs.w;
+        arguments[ARGUMENT_ENLIST] = groups(stretches);
         arguments[ARGUMENT_SETUP] = idle ? uvec4(0u) : groups((min(counters[COUNTER_PAIRS], frame.pair_capacity) + 63u) / 64u);
         arguments[ARGUMENT_GROUPS] = idle ? uvec4(0u) : groups((frame.group_count + 63u) / 64u);
-        arguments[ARGUMENT_SAMPLE_PLAIN] = groups(entries.x * push.subgroups_first);
-        arguments[ARGUMENT_SAMPLE_MASKED] = groups(entries.y * push.subgroups_first);
-        arguments[ARGUMENT_SAMPLE_BLENDED] = groups(entries.z * push.subgroups);
-        arguments[ARGUMENT_SAMPLE_UNLISTED] = groups(entries.w * push.subgroups);
+        arguments[ARGUMENT_SAMPLE_PLAIN] = groups(taken.entries.x * push.subgroups_first);
+        arguments[ARGUMENT_SAMPLE_MASKED] = groups(taken.entries.y * push.subgroups_first);
+        arguments[ARGUMENT_SAMPLE_BLENDED] = groups(taken.entries.z * push.subgroups);
+        arguments[ARGUMENT_SAMPLE_UNLISTED] = groups(taken.entries.w * push.subgroups);
     }
 }

@@ -1,4 +1,4 @@
-// Indices into `counters` and `arguments`; the host reads this file.
+// Indices into `counters` and `arguments`, and sizes; the host reads this file.
 #define COUNTER_SUPERPIXELS 0
 #define COUNTER_TILES 1
 #define COUNTER_SURVIVORS 2
@@ -26,7 +26,8 @@
 #define COUNTER_PLAIN_LEFT 24
 #define COUNTER_MASKED_LEFT 25
 #define COUNTER_STALLED 26
-#define COUNTER_SUBGROUPS 27
+#define COUNTER_SPENT_FIRST 27
+#define COUNTER_SUBGROUPS 28
 #define COUNTER_COUNT 32
 
 #define ARGUMENT_CULL 0
@@ -42,7 +43,12 @@
 #define ARGUMENT_GROUPS 10
 #define ARGUMENT_PLAIN_LEFT 11
 #define ARGUMENT_MASKED_LEFT 12
-#define ARGUMENT_SHADE 13
+#define ARGUMENT_TALLY 13
+#define ARGUMENT_ENLIST 14
+#define ARGUMENT_SHADE 15
+
+// Tiles of a stretch, see load.glsl.
+#define STRETCH 256
 
 // An indirect dispatch of n workgroups, folded into rows of 32,768.
 uvec4 groups(uint n) {

@@ -79,7 +79,7 @@ layout(std430, set = 0, binding = 17) writeonly buffer DisplayOut { uint display
 layout(std430, set = 0, binding = 18) buffer Color { vec4 color[]; };
 layout(std430, set = 0, binding = 19) buffer Counters { uint counters[]; };
 layout(std430, set = 0, binding = 20) buffer Masks { uint masks[]; };
-layout(std430, set = 0, binding = 21) buffer Tiles { uvec4 tiles[]; };   // candidates, first, first header, flags
+layout(std430, set = 0, binding = 21) buffer Tiles { uvec4 tiles[]; };   // candidates, first, first header, flags; then stretches, see load.glsl
 layout(std430, set = 0, binding = 22) buffer TileLists { uint tile_lists[]; };
 layout(std430, set = 0, binding = 23) buffer Survivors { uint survivors[]; };
 layout(set = 0, binding = 24) uniform utextureBuffer candidates;  // 4 vectors each, floats as bits

@@ -64,7 +64,7 @@ pub struct Frame {
     shared: Arc<Shared>,
 }
 
-/// Trips that loops have on CPU devices, with some to spare; in each, an invocation of `schedule` takes a tile of 32 pixels.
+/// Trips that loops have on CPU devices, with some to spare; in each, a workgroup of `bin` takes 64 tiles of 32 pixels.
 const TRIPS: u64 = 60_000;
 
 impl Frame {
@@ -97,7 +97,7 @@ impl Frame {
         }
         images.check(options.thin, settings.size, gpu.limits().max_image_side)?;
         let [width, height] = settings.size;
-        let most = TRIPS * 32 * u64::from(gpu.limits().lanes);
+        let most = TRIPS * 64 * 32;
         if u64::from(width) * u64::from(height) > most {
             return Err(HostError::Count {
                 what: "the number of pixels",

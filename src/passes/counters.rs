@@ -34,6 +34,8 @@ pub enum Counter {
     MaskedLeft,
     /// Cells with more candidates than loops may have trips.
     Stalled,
+    /// First tile of the round before.
+    SpentFirst,
     /// Whether a kernel was run in other subgroups than it was made for. It stays: those before it alone are cleared.
     Subgroups,
 }
@@ -65,9 +67,14 @@ pub enum Argument {
     Groups,
     PlainLeft,
     MaskedLeft,
+    Tally,
+    Enlist,
     /// The first material bin's; the others follow.
     Shade,
 }
+
+/// Tiles whose needs `tally` sums up; `shaders/include/load.glsl` calls them a stretch.
+pub(crate) const STRETCH: u32 = 256;
 
 #[cfg(test)]
 mod tests {
@@ -127,12 +134,14 @@ mod tests {
             C::PlainLeft,
             C::MaskedLeft,
             C::Stalled,
+            C::SpentFirst,
             C::Subgroups,
         ] {
             let name = format!("COUNTER_{}", shouted(&format!("{counter:?}")));
             assert_eq!(shader_constant(&name), Some(counter as usize), "{name}");
         }
         assert_eq!(shader_constant("COUNTER_COUNT"), Some(Counter::COUNT));
+        assert_eq!(shader_constant("STRETCH"), Some(STRETCH as usize));
         use Argument as A;
         for argument in [
             A::Cull,
@@ -148,6 +157,8 @@ mod tests {
             A::Groups,
             A::PlainLeft,
             A::MaskedLeft,
+            A::Tally,
+            A::Enlist,
             A::Shade,
         ] {
             let name = format!("ARGUMENT_{}", shouted(&format!("{argument:?}")));

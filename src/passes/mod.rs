@@ -1,9 +1,9 @@
-//! The passes of a frame, one file each, named like their shaders in `shaders/`.
+//! The passes of a frame, one file each, named like their shaders in `shaders/`; `tally` and `enlist` are in that of `schedule`.
 //!
 //! ```text
-//! pose ─▶ stroke ─▶ raster ─▶ spans ─▶ shade ─▶ thin ─▶ detect ─▶ cull ─▶ bin ─▶ schedule ─▶ setup ─▶ sample ─▶ sort ─▶ shade ─▶ resolve
-//!                              └─ pixel centres ─┘                 ▲             └─────── a round, as often as memory needs it ───────┘│
-//!                                                                  └───────────────────────── grow ◀────────────────────────────────┘
+//! pose ─▶ stroke ─▶ raster ─▶ spans ─▶ shade ─▶ thin ─▶ detect ─▶ cull ─▶ bin ─▶ tally ─▶ schedule ─▶ enlist ─▶ setup ─▶ sample ─▶ sort ─▶ shade ─▶ resolve
+//!                      └─ pixel centres ─┘                          ▲                        └───────── a round, as often as memory needs it ─────────┘│
+//!                                                                   └───────────────────────────────────── grow ◀──────────────────────────────────────┘
 //! ```
 //! `prefilter` runs once for a scene with an environment, before its first frame.
 //!
@@ -80,6 +80,7 @@ pub use box_filter::BoxFilter;
 pub(crate) use centres::Centres;
 pub use content::Content;
 pub(crate) use coordinates::Coordinates;
+pub(crate) use counters::STRETCH;
 pub use counters::{Argument, Counter};
 pub use cull::Cull;
 pub use detect::{Detect, DetectMode};

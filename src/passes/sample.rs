@@ -5,7 +5,7 @@ use super::{Argument, Cells, Content, FrameLayout, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
-/// The lists that `schedule` sorts tiles into, in the order of `shaders/schedule.comp`.
+/// The lists that `enlist` sorts tiles into, in the order of `shaders/include/load.glsl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TileList {
     /// Opaque triangles alone.

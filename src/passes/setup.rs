@@ -4,7 +4,7 @@ use super::{Argument, Content, FrameLayout, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
-/// Fills the lists that `schedule` has placed.
+/// Fills the lists that `enlist` has placed.
 pub struct Setup {
     pipeline: Arc<Pipeline>,
 }

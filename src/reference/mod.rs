@@ -12,6 +12,7 @@ pub mod edge;
 mod exact;
 pub mod grow;
 pub mod prefilter;
+pub mod schedule;
 pub mod sheen;
 pub mod srgb;
 pub mod stroke;

@@ -226,8 +226,9 @@ impl Engine {
         recorder.mark("cull");
         self.bin.record(recorder, arguments);
         recorder.mark("bin");
+        self.schedule.record_tally(recorder, arguments);
         for _ in 0..work.rounds {
-            self.schedule.record(recorder);
+            self.schedule.record(recorder, arguments);
             recorder.mark("schedule");
             self.setup.record(recorder, arguments);
             recorder.mark("setup");

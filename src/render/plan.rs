@@ -145,8 +145,8 @@ impl Default for Capacity {
 /// How far away what a pixel shows can matter, in pixels: it is compared with neighbours, which may be superpixels that
 /// grew beside others, which grew beside others.
 const NEIGHBOURS: u32 = 3;
-/// Largest region in virtual pixels; larger images are rendered in parts.
-/// `schedule` takes 8 tiles a trip on CPU devices, which end loops after 65,535 trips.
+/// Largest region in virtual pixels; larger images are rendered in parts, each of which is a submission of its own where
+/// the renderer has a device to itself.
 const REGION_PIXELS: u64 = 4 << 20;
 /// Most visibility samples and candidates of a round.
 const MOST_RECORDS: u64 = 6 << 20;

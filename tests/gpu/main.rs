@@ -28,6 +28,7 @@ mod region;
 #[path = "../scene_builder/mod.rs"]
 mod scene_builder;
 mod scenes;
+mod schedule;
 mod shade;
 mod soundness;
 mod stage;

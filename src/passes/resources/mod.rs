@@ -21,11 +21,15 @@ pub struct Resources {
     sizes: ResourceSizes,
     display: BufferView,
     pub(crate) color: BufferView,
-    counters: Buffer,
-    pub(super) masks: Buffer,
+    /// A word for each [`Counter`].
+    pub counters: Buffer,
+    /// A word for each tile, a bit for each superpixel.
+    pub masks: Buffer,
     pub(crate) marks: Buffer,
-    tiles: Buffer,
-    tile_lists: Buffer,
+    /// Four words for each tile, see `shaders/include/frame.glsl`.
+    pub tiles: Buffer,
+    /// The work lists, see `shaders/include/work.glsl`.
+    pub tile_lists: Buffer,
     survivors: Buffer,
     pairs: BufferView,
     candidates: BufferView,
@@ -35,7 +39,8 @@ pub struct Resources {
     pub(super) record_shadows: BufferView,
     pub(super) shade_order: Buffer,
     pub(crate) bins: Buffer,
-    pub(crate) arguments: Buffer,
+    /// Four words for each [`Argument`].
+    pub arguments: Buffer,
     filtered: BufferView,
     pub(crate) attributes: Buffer,
     pub(crate) encoded: Buffer,
@@ -110,7 +115,7 @@ impl Resources {
                 "marks of pixels",
                 sizes.work_items() * ResourceSizes::MARK_BYTES,
             )?,
-            tiles: storage("tiles", tiles * 16)?,
+            tiles: storage("tiles", sizes.tile_bytes())?,
             tile_lists: storage("tile lists", sizes.work_bytes())?,
             survivors: storage("survivors", u64::from(sizes.survivor_capacity) * 4)?,
             pairs: texels(
@@ -165,7 +170,8 @@ impl Resources {
     }
 
     /// The list of offsets of sub-samples at `index`.
-    pub(crate) fn set(&self, index: usize) -> Option<&SampleSet> {
+    #[must_use]
+    pub fn set(&self, index: usize) -> Option<&SampleSet> {
         self.sets.get(index)
     }
 }

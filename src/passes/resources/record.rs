@@ -16,12 +16,7 @@ impl Resources {
     }
 
     /// Begins work on a region: its uniform block, cleared counters and tiles, bound sets.
-    pub(crate) fn record_begin(
-        &self,
-        recorder: &Recorder<'_>,
-        set: &SampleSet,
-        uniform: &FrameUniform,
-    ) {
+    pub fn record_begin(&self, recorder: &Recorder<'_>, set: &SampleSet, uniform: &FrameUniform) {
         recorder.barrier();
         recorder.update(&set.uniform, 0, bytemuck::bytes_of(uniform));
         recorder.clear_first(&self.counters, Counter::CLEARED_BYTES);

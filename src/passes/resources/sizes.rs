@@ -1,6 +1,6 @@
 //! How much room a frame needs.
 
-use crate::passes::LocationSizes;
+use crate::passes::{LocationSizes, STRETCH};
 use crate::vulkan::Limits;
 
 /// How much room a frame needs.
@@ -125,6 +125,12 @@ impl ResourceSizes {
         self.region[0].div_ceil(8) * self.region[1].div_ceil(4)
     }
 
+    /// Bytes of the buffer of tiles: a vector a tile, and two a stretch of them.
+    pub(super) fn tile_bytes(&self) -> u64 {
+        let stretches = self.tiles().div_ceil(STRETCH);
+        16 * (u64::from(self.tiles()) + 2 * u64::from(stretches))
+    }
+
     /// About how many bytes [`super::Resources`] of this size take.
     #[must_use]
     pub fn bytes(&self) -> u64 {
@@ -132,7 +138,8 @@ impl ResourceSizes {
         let tiles = u64::from(self.tiles());
         let records = u64::from(self.record_capacity);
         pixels * (16 + 4 + 4 + 4)
-            + tiles * 20
+            + tiles * 4
+            + self.tile_bytes()
             + self.work_items() * Self::MARK_BYTES
             + self.work_bytes()
             + u64::from(self.list_capacity) * Self::CANDIDATE_BYTES

@@ -348,8 +348,9 @@ impl LocationEngine {
             recorder.clear(&resources.marks);
             recorder.barrier();
         }
+        self.schedule.record_tally(recorder, arguments);
         for _ in 0..self.rounds {
-            self.schedule.record(recorder);
+            self.schedule.record(recorder, arguments);
             self.groups.record(recorder, arguments);
             recorder.mark("schedule");
             self.setup.record(recorder, arguments);

@@ -1,0 +1,48 @@
+// enlist: gives the tiles of a round their places in the round's memory, and enters them in the work lists.
+// Reads: tiles, masks, loads of stretches (from `schedule`). Writes: tiles, tile_lists.
+// A subgroup takes a stretch, in tile order, so that lists are the same in every run.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "include/frame.glsl"
+#include "include/workgroup.glsl"
+#include "include/load.glsl"
+layout(local_size_x_id = 0) in;
+
+void main() {
+    if (in_other_subgroups(LANES)) return;
+    uint spent = counters[COUNTER_SPENT_FIRST], start = counters[COUNTER_ROUND_FIRST], next = counters[COUNTER_NEXT_TILE];
+    uint stretch = spent / STRETCH + workgroup_number();
+    if (stretch >= stretch_count()) return;
+    uint blocks = blocks_of_cell();
+    Load before = load_kept(stretch);
+    uint i = 0u;
+    do {
+        uint index = stretch * STRETCH + i + gl_SubgroupInvocationID;
+        // Lists of the round before are spent.
+        if (index >= spent && index < start) tiles[index].w = 0u;
+        bool taken = index >= start && index < next;
+        index = min(index, tile_count() - 1u);
+        uvec4 tile = tiles[index];
+        Load load = load_of(index, tile, blocks);
+        bool busy = taken && load.needs.z != 0u;
+        load.needs = busy ? load.needs : uvec4(0u);
+        load.entries = busy ? load.entries : uvec4(0u);
+        uint list = list_of(tile);
+        uvec2 added = uvec2(load.needs.x, load.needs.z);
+        uvec2 at = uvec2(before.needs.x, before.needs.z) + subgroupExclusiveAdd(added);
+        uint length_ = list == 3u ? 0u : tile.x;
+        uint flags = (tile.w & (TILE_HAS_MASK | TILE_HAS_BLEND)) | TILE_PLACED | (list == 3u ? 0u : TILE_LISTED);
+        if (busy) tiles[index] = uvec4(tile.x, at, flags | length_ << TILE_COUNT_SHIFT);
+        // Lengths of all lists in one scan, a byte each.
+        uvec4 lengths = load.entries << uvec4(0u, 8u, 16u, 24u);
+        uint together = lengths.x | lengths.y | lengths.z | lengths.w;
+        uint first = first_entry(list) + before.entries[list] + (subgroupExclusiveAdd(together) >> (8u * list) & 0xffu);
+        uint parts = load.entries[list];
+        [[unroll]] for (uint part = 0u; part < PARTS_OF_TILE; part++)
+            if (part < parts) tile_lists[first + part] = work_entry(index, part);
+        added = subgroupAdd(added);
+        before.needs += uvec4(added.x, 0u, added.y, 0u);
+        before.entries += (uvec4(subgroupAdd(together)) >> uvec4(0u, 8u, 16u, 24u)) & 0xffu;
+        i += LANES;
+    } while (i < STRETCH);
+}

@@ -1,0 +1,79 @@
+// What the samples of a tile need of a round's memory and of its work lists, and sums of that over stretches: STRETCH tiles
+// one after the other, in the order of the region. Twin: src/reference/schedule.rs.
+#ifndef LOAD_GLSL
+#define LOAD_GLSL
+#include "tiles.glsl"
+#include "work.glsl"
+
+// What samples need is no constant of the kernels: one of each is made for all.
+layout(push_constant) uniform Push {
+    uint block;             // samples of a header
+    uint per_sample;        // 1 where each sample is a record
+    uint layers;            // BLEND layers of a list that a tile is admitted with
+    uint parts;             // records of a triangle in a block
+    uint subgroups_first;   // that `sample` gives an entry, where it may PROBE it
+    uint subgroups;         // and where it takes all samples
+} push;
+
+struct Load {
+    uvec4 needs;    // candidates, records, headers; tiles without a list, of which every triangle is a candidate
+    uvec4 entries;  // of the work lists
+};
+
+uint tile_count() { return frame.tiles.x * frame.tiles.y; }
+uint stretch_count() { return (tile_count() + STRETCH - 1u) / STRETCH; }
+uint blocks_of_cell() { return (frame.sample_count + push.block - 1u) / push.block; }
+
+// Of candidates, records and headers.
+uvec3 room() { return uvec3(frame.list_capacity, frame.record_capacity, frame.record_capacity); }
+
+// Sums that count no further than what is too much: so they can't overflow.
+uvec3 add(uvec3 a, uvec3 b) { return min(a + b, room() + 1u); }
+
+// What is kept of a stretch follows the tiles of the region: from `tally` what all its tiles need, from `schedule` what
+// tiles of the round before it take.
+Load load_kept(uint stretch) {
+    uint at = tile_count() + 2u * stretch;
+    return Load(tiles[at], tiles[at + 1u]);
+}
+
+void keep_load(uint stretch, Load load) {
+    uint at = tile_count() + 2u * stretch;
+    tiles[at] = load.needs;
+    tiles[at + 1u] = load.entries;
+}
+
+// Number of the work list of a tile that has superpixels: PLAIN, MASKED (alpha tests), BLENDED (lists of layers) or UNLISTED
+// (a list that outgrows its buffer).
+uint list_of(uvec4 tile) {
+    bool listed = (tile.w & TILE_OVERFLOW) == 0u && tile.x <= frame.list_capacity;
+    return !listed ? 3u : (tile.w & TILE_HAS_BLEND) != 0u ? 2u : (tile.w & TILE_HAS_MASK) != 0u ? 1u : 0u;
+}
+
+// What tile `index` needs as `bin` left it.
+Load load_of(uint index, uvec4 tile, uint blocks) {
+    uvec2 located = LOCATIONS ? tile_loads[index] : uvec2(0u);
+    uint cells = LOCATIONS ? located.x : uint(bitCount(masks[index]));
+    uint samples = LOCATIONS ? located.y : cells * frame.sample_count;
+    uint list = list_of(tile);
+    bool busy = cells != 0u, listed = list != 3u, per_sample = push.per_sample != 0u;
+    bool layered = (tile.w & TILE_HAS_BLEND) != 0u || (!listed && frame.first_blend < frame.triangle_count);
+    uint candidates_ = listed ? tile.x : frame.triangle_count;
+    // Different lists of layers that a block is admitted with, too; most need less than half of these records. Both grow
+    // where a frame found too few.
+    uint lists_of_block = push.parts > 8u ? push.layers * push.parts / 4u : push.layers * 2u;
+    uint lists = per_sample || POINTS ? samples : min(cells * blocks * lists_of_block, samples);
+    // Records of a block that it is admitted with where a cell has several: these are small, and see few triangles.
+    uint most_records = blocks == 1u ? push.block : push.layers * 4u;
+    uint records_ = layered ? lists * (2u + min(candidates_, push.layers))
+        : per_sample ? samples : min(cells * blocks * min(push.parts * candidates_, most_records), samples);
+    uint entries = LOCATIONS ? 0u : (cells + LANES - 1u) / LANES;
+    Load load;
+    load.needs = uvec4(busy && listed ? tile.x : 0u, records_, cells * blocks, busy && !listed ? 1u : 0u);
+    load.entries = entries * uvec4(equal(uvec4(list), uvec4(0u, 1u, 2u, 3u)));
+    return load;
+}
+
+Load no_load() { return Load(uvec4(0u), uvec4(0u)); }
+
+#endif

@@ -1,0 +1,496 @@
+//! What `tally`, `schedule` and `enlist` take into rounds, against the CPU's.
+
+use ash::vk;
+use gpc::bench::Random;
+use gpc::passes::{
+    Argument, Cells, Content, Counter, FrameLayout, FrameUniform, Offsets, RasterTargets,
+    RecordRate, ResourceSizes, Resources, Sample, SampleOptions, Schedule,
+};
+use gpc::reference::schedule::{List, Placed, Round, Rounds, Tile};
+use gpc::render::Headless;
+use gpc::vulkan::{Buffer, Constants, Memory, MemoryUse, Recorder};
+
+use crate::stage::on_gpu;
+use crate::submit::submit;
+
+const TRIANGLES: u32 = 30_000;
+const LAYERS: u32 = 4;
+
+/// A scene that no pass of these reads.
+struct Unread;
+
+impl Content for Unread {
+    fn index_count(&self) -> u32 {
+        TRIANGLES
+    }
+
+    fn is_instanced(&self) -> bool {
+        false
+    }
+
+    fn constants(&self, constants: Constants) -> Constants {
+        constants
+    }
+
+    fn has_mask(&self) -> bool {
+        false
+    }
+
+    fn has_blend(&self) -> bool {
+        false
+    }
+
+    fn has_high_frequency(&self) -> bool {
+        true
+    }
+
+    fn is_mostly_high_frequency(&self) -> bool {
+        true
+    }
+
+    fn is_tinted(&self) -> bool {
+        false
+    }
+
+    fn bin_count(&self) -> u32 {
+        1
+    }
+
+    fn environment_map(&self) -> Option<vk::DescriptorImageInfo> {
+        None
+    }
+}
+
+/// What is taken into rounds, and how much fits.
+struct Case {
+    name: &'static str,
+    /// In tiles.
+    size: [u32; 2],
+    samples: u32,
+    records_are: RecordRate,
+    /// Whether some triangles are BLEND.
+    blends: bool,
+    candidates: u32,
+    records: u32,
+    /// One tile of so many has superpixels.
+    sparseness: u64,
+    /// One of so many of these has more candidates than fit, and another one pairs that were not kept.
+    rarity: u64,
+}
+
+const USUAL: Case = Case {
+    name: "usual",
+    size: [160, 180],
+    samples: 64,
+    records_are: RecordRate::Triangle,
+    blends: false,
+    candidates: 20_000,
+    records: 200_000,
+    sparseness: 5,
+    rarity: 2_000,
+};
+
+impl Case {
+    /// Superpixels of each tile, and what `bin` leaves there: candidates, 0, 0, flags.
+    fn tiles(&self, random: &mut Random) -> Vec<(u32, [u32; 4])> {
+        let count = self.size[0] * self.size[1];
+        let tile = |_| {
+            if random.below(self.sparseness) != 0 {
+                return (0, [0; 4]);
+            }
+            let mask = (random.bits() & random.bits()) as u32 | 1;
+            let kind = random.below(8);
+            let flags = match kind {
+                0 => MASK,
+                1 if self.blends => BLEND,
+                2 if self.blends => MASK | BLEND,
+                _ => 0,
+            };
+            let (candidates, overflow) = match random.below(self.rarity) {
+                0 => (u64::from(self.candidates) + 1 + random.below(9), 0),
+                1 => (random.below(50), OVERFLOW),
+                2 => (u64::from(self.candidates), 0),
+                _ => (random.below(60), 0),
+            };
+            (mask, [candidates as u32, 0, 0, flags | overflow])
+        };
+        (0..count).map(tile).collect()
+    }
+}
+
+/// Flags of tiles, see `shaders/include/tiles.glsl`.
+const MASK: u32 = 1;
+const BLEND: u32 = 2;
+const LISTED: u32 = 4;
+const OVERFLOW: u32 = 8;
+const PLACED: u32 = 16;
+
+/// A round as the device left it.
+struct Found {
+    counters: Vec<u32>,
+    tiles: Vec<[u32; 4]>,
+    work: Vec<u32>,
+}
+
+/// Buffers of the host's that rounds are copied to.
+struct Kept {
+    counters: Buffer,
+    tiles: Buffer,
+    work: Buffer,
+}
+
+impl Kept {
+    fn new(memory: &Memory, resources: &Resources) -> Self {
+        let like = |buffer: &Buffer| {
+            let usage = vk::BufferUsageFlags::TRANSFER_DST;
+            memory
+                .buffer("kept", buffer.size(), usage, MemoryUse::Readback)
+                .unwrap()
+        };
+        Self {
+            counters: like(&resources.counters),
+            tiles: like(&resources.tiles),
+            work: like(&resources.tile_lists),
+        }
+    }
+
+    fn read(&self, tiles: usize) -> Found {
+        let all = |buffer: &Buffer| buffer.read(buffer.size() as usize / 4).unwrap().to_vec();
+        Found {
+            counters: all(&self.counters),
+            tiles: self.tiles.read(tiles).unwrap().to_vec(),
+            work: all(&self.work),
+        }
+    }
+}
+
+fn copy(gpu: &Headless, commands: vk::CommandBuffer, from: &Buffer, to: &Buffer) {
+    let size = from.size().min(to.size());
+    let all = [vk::BufferCopy::default().size(size)];
+    // SAFETY: the commands are being recorded; both buffers were made for copies and outlive them.
+    unsafe {
+        gpu.gpu()
+            .device()
+            .cmd_copy_buffer(commands, from.handle(), to.handle(), &all);
+    }
+}
+
+/// The passes and their memory, and the twin that takes as much into a round.
+struct Passes<'a> {
+    gpu: &'a Headless,
+    memory: Memory,
+    resources: Resources,
+    schedule: Schedule,
+    uniform: FrameUniform,
+    twin: Rounds,
+    /// What no pass of these reads, but descriptors show.
+    _shown: (RasterTargets, Buffer),
+}
+
+impl<'a> Passes<'a> {
+    fn new(gpu: &'a Headless, case: &Case) -> Self {
+        let layout = FrameLayout::new(gpu.gpu()).unwrap();
+        let memory = Memory::new(gpu.gpu().clone(), None);
+        let targets =
+            RasterTargets::new(&memory, 8, 4, vk::SampleCountFlags::TYPE_1, false).unwrap();
+        let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
+        let lights = memory
+            .buffer("no lights", 16, storage, MemoryUse::Device)
+            .unwrap();
+        let sizes = ResourceSizes {
+            region: [8 * case.size[0], 4 * case.size[1]],
+            lanes: gpu.gpu().limits().lanes,
+            locations: None,
+            survivor_capacity: 1,
+            pair_capacity: 1,
+            list_capacity: case.candidates,
+            record_capacity: case.records,
+            filtered: 0,
+            shadows: false,
+            attributes: false,
+            encoded: 0,
+        };
+        let offsets = vec![[0.0; 2]; case.samples as usize];
+        let offsets = [Offsets {
+            all: &offsets,
+            count: case.samples,
+        }];
+        let resources = Resources::new(
+            &layout,
+            &memory,
+            &Unread,
+            (&[], &lights),
+            &targets.views(),
+            sizes,
+            &offsets,
+        )
+        .unwrap();
+        let options = SampleOptions {
+            cells: Cells::Pixels,
+            samples: case.samples,
+            records: case.records_are,
+            exact_areas: false,
+            can_settle: false,
+            apart: false,
+            unlisted: false,
+            has_mask: false,
+            has_blend: false,
+            always_blends: false,
+        };
+        let sample = Sample::new(&layout, &Unread, &options).unwrap();
+        let schedule = Schedule::new(&layout, &sample, LAYERS).unwrap();
+        let uniform = FrameUniform {
+            size: sizes.region,
+            tiles: case.size,
+            triangle_count: TRIANGLES,
+            first_mask: 10,
+            first_blend: if case.blends { 20 } else { TRIANGLES },
+            sample_count: case.samples,
+            pair_capacity: 1,
+            list_capacity: case.candidates,
+            record_capacity: case.records,
+            ..FrameUniform::default()
+        };
+        let twin = Rounds {
+            samples: case.samples,
+            block: sample.block(),
+            per_sample: case.records_are == RecordRate::Sample,
+            parts: sample.parts(),
+            layers: LAYERS,
+            triangles: TRIANGLES,
+            blends: case.blends,
+            candidates: case.candidates,
+            records: case.records,
+        };
+        Self {
+            gpu,
+            memory,
+            resources,
+            schedule,
+            uniform,
+            twin,
+            _shown: (targets, lights),
+        }
+    }
+
+    /// What the device takes into each of `count` rounds.
+    fn run(&self, content: &[(u32, [u32; 4])], count: usize) -> Vec<Found> {
+        let Self {
+            gpu,
+            memory,
+            resources,
+            schedule,
+            uniform,
+            ..
+        } = self;
+        let masks: Vec<u32> = content.iter().map(|tile| tile.0).collect();
+        let tiles: Vec<[u32; 4]> = content.iter().map(|tile| tile.1).collect();
+        let busy = masks.iter().filter(|&&mask| mask != 0).count() as u32;
+        let upload = |words: &[u32]| {
+            memory
+                .upload("upload", bytemuck::cast_slice(words))
+                .unwrap()
+        };
+        let (mask_upload, tile_upload) = (upload(&masks), upload(tiles.as_flattened()));
+        let mut counters = [0; Counter::COUNT];
+        counters[Counter::Tiles as usize] = busy;
+        let mut arguments = [0; 4 * Argument::Shade as usize];
+        let stretches = (content.len() as u32).div_ceil(256);
+        arguments[4 * Argument::Tally as usize..][..4].copy_from_slice(&[stretches, 1, 1, 0]);
+        let (counter_upload, argument_upload) = (upload(&counters), upload(&arguments));
+        let kept: Vec<Kept> = (0..count).map(|_| Kept::new(memory, resources)).collect();
+        submit(gpu.gpu(), |commands| {
+            // SAFETY: the commands are waited for, and what they refer to outlives them.
+            let recorder = || unsafe { Recorder::new(gpu.gpu(), commands, None) };
+            resources.record_upload(&recorder());
+            resources.record_begin(&recorder(), resources.set(0).unwrap(), uniform);
+            copy(gpu, commands, &mask_upload, &resources.masks);
+            copy(gpu, commands, &tile_upload, &resources.tiles);
+            copy(gpu, commands, &counter_upload, &resources.counters);
+            copy(gpu, commands, &argument_upload, &resources.arguments);
+            recorder().barrier();
+            schedule.record_tally(&recorder(), &resources.arguments);
+            for kept in &kept {
+                schedule.record(&recorder(), &resources.arguments);
+                copy(gpu, commands, &resources.counters, &kept.counters);
+                copy(gpu, commands, &resources.tiles, &kept.tiles);
+                copy(gpu, commands, &resources.tile_lists, &kept.work);
+                recorder().barrier();
+            }
+        });
+        kept.iter().map(|kept| kept.read(content.len())).collect()
+    }
+}
+
+/// As the twin knows them.
+fn twins_of(content: &[(u32, [u32; 4])]) -> Vec<Tile> {
+    let tile = |&(mask, [candidates, _, _, flags]): &(u32, [u32; 4])| Tile {
+        cells: mask.count_ones(),
+        candidates,
+        overflows: flags & OVERFLOW != 0,
+        has_mask: flags & MASK != 0,
+        has_blend: flags & BLEND != 0,
+    };
+    content.iter().map(tile).collect()
+}
+
+/// The entries of each list, in order.
+fn entries(round: &Round, tiles: &[Tile], lanes: u32) -> [Vec<u32>; 4] {
+    [List::Plain, List::Masked, List::Blended, List::Unlisted].map(|list| {
+        let placed = round.placed.iter().filter(|placed| placed.list == list);
+        let parts = |placed: &Placed| {
+            let cells = tiles[placed.tile].cells;
+            let item = (placed.tile as u32) << 3;
+            (0..cells.div_ceil(lanes)).map(move |part| item | part)
+        };
+        placed.flat_map(parts).collect()
+    })
+}
+
+fn assert_rounds_are_the_twins(passes: &Passes<'_>, case: &Case, seed: u64) -> usize {
+    let content = case.tiles(&mut Random::new(seed));
+    let twins = twins_of(&content);
+    // Rounds that find nothing follow.
+    const IDLE: usize = 2;
+    let expected = passes.twin.of(&twins);
+    let found = passes.run(&content, expected.len() + IDLE);
+    let lanes = passes.gpu.gpu().limits().lanes;
+    let mut tiles: Vec<[u32; 4]> = content.iter().map(|tile| tile.1).collect();
+    let (mut busy_rounds, mut candidates, mut unlisted) = (0, 0, 0);
+    let mut spent = 0..0;
+    for (number, found) in found.iter().enumerate() {
+        let what = format!("{}, seed {seed}, round {number}", case.name);
+        let round = expected.get(number).cloned().unwrap_or_else(|| Round {
+            tiles: content.len()..content.len(),
+            placed: Vec::new(),
+        });
+        let counter = |counter: Counter| found.counters[counter as usize];
+        assert_eq!(
+            counter(Counter::RoundFirst),
+            round.tiles.start as u32,
+            "{what}"
+        );
+        assert_eq!(counter(Counter::NextTile), round.tiles.end as u32, "{what}");
+        if number < expected.len() {
+            for tile in &mut tiles[spent] {
+                tile[3] = 0;
+            }
+        } else {
+            // What the last round took is left as it is.
+            assert!(round.placed.is_empty());
+        }
+        spent = round.tiles.clone();
+        for placed in &round.placed {
+            let tile = &mut tiles[placed.tile];
+            let listed = placed.list != List::Unlisted;
+            let length = if listed { tile[0] } else { 0 };
+            let flags = tile[3] & (MASK | BLEND) | PLACED | if listed { LISTED } else { 0 };
+            tile[1] = placed.first_candidate as u32;
+            tile[2] = placed.first_header as u32;
+            tile[3] = flags | length << 8;
+            candidates += length;
+            unlisted += u32::from(!listed);
+        }
+        assert!(found.tiles == tiles, "{what}: {:?}", {
+            let differs = (0..tiles.len()).find(|&tile| tiles[tile] != found.tiles[tile]);
+            differs.map(|tile| (tile, tiles[tile], found.tiles[tile]))
+        });
+        let first_of_list = content.len() * (32 / lanes) as usize;
+        for (list, entries) in entries(&round, &twins, lanes).iter().enumerate() {
+            let length = found.counters[Counter::PlainTiles as usize + list] as usize;
+            let entered = &found.work[list * first_of_list..][..length];
+            assert_eq!(entered, entries, "{what}, list {list}");
+        }
+        busy_rounds += u32::from(!round.placed.is_empty());
+        assert_eq!(counter(Counter::Rounds), busy_rounds, "{what}");
+        assert_eq!(counter(Counter::CandidatesTotal), candidates, "{what}");
+        assert_eq!(counter(Counter::UnlistedTotal), unlisted, "{what}");
+    }
+    expected.len()
+}
+
+/// Rounds of many stretches and of parts of one, with cuts between tiles and between stretches, and tiles that fit nowhere.
+#[test]
+fn rounds_are_the_twins() {
+    on_gpu(|gpu| {
+        let cases = [
+            USUAL,
+            Case {
+                name: "one tile",
+                size: [1, 1],
+                sparseness: 1,
+                ..USUAL
+            },
+            Case {
+                name: "all in one round",
+                size: [240, 270],
+                candidates: 400_000,
+                records: 4_000_000,
+                sparseness: 20,
+                rarity: 1 << 40,
+                ..USUAL
+            },
+            Case {
+                name: "little room",
+                size: [33, 31],
+                candidates: 500,
+                records: 4_000,
+                sparseness: 2,
+                rarity: 60,
+                ..USUAL
+            },
+            Case {
+                name: "layers by part",
+                samples: 256,
+                records_are: RecordRate::Part,
+                blends: true,
+                records: 1_000_000,
+                rarity: 500,
+                ..USUAL
+            },
+            Case {
+                name: "records of samples",
+                samples: 16,
+                records_are: RecordRate::Sample,
+                blends: true,
+                ..USUAL
+            },
+        ];
+        let counts = cases.map(|case| {
+            let passes = Passes::new(gpu, &case);
+            [1, 2].map(|seed| assert_rounds_are_the_twins(&passes, &case, seed))[0]
+        });
+        // One tile and all in one round take one; the others several.
+        assert_eq!([counts[1], counts[2]], [1, 1]);
+        assert!(
+            [0, 3, 4, 5].iter().all(|&case| counts[case] > 3),
+            "{counts:?}"
+        );
+    });
+}
+
+/// Tiles that all need the same, so that rounds end with stretches: these are taken as a whole, and those after them begin a
+/// round.
+#[test]
+fn rounds_end_with_stretches() {
+    on_gpu(|gpu| {
+        let case = Case {
+            name: "even",
+            size: [256, 40],
+            samples: 4,
+            candidates: 9 * 256,
+            records: 1 << 20,
+            ..USUAL
+        };
+        let content = vec![(1, [3, 0, 0, 0]); 256 * 40];
+        let passes = Passes::new(gpu, &case);
+        let expected = passes.twin.of(&twins_of(&content));
+        let found = passes.run(&content, expected.len());
+        for (round, found) in expected.iter().zip(&found) {
+            assert_eq!(round.tiles.len() % 256, 0);
+            let next = found.counters[Counter::NextTile as usize];
+            assert_eq!(next as usize, round.tiles.end);
+        }
+        assert_eq!(expected.len(), 14);
+    });
+}
