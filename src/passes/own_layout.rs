@@ -152,7 +152,7 @@ impl PipelineLayout {
         sets: &[vk::DescriptorSet],
         push: &impl bytemuck::NoUninit,
     ) {
-        let (device, raw) = (recorder.device(), recorder.raw());
+        let (device, raw) = (recorder.device(), recorder.bindings());
         // SAFETY: the recorder's contract; sets and constants are of this layout.
         unsafe {
             device.cmd_bind_descriptor_sets(

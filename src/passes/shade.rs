@@ -97,7 +97,7 @@ impl Shade {
             // SAFETY: the recorder's contract; the set matches the pipelines' layout.
             unsafe {
                 recorder.device().cmd_bind_descriptor_sets(
-                    recorder.raw(),
+                    recorder.bindings(),
                     vk::PipelineBindPoint::COMPUTE,
                     self.layout.pipeline,
                     1,

@@ -63,7 +63,7 @@ impl Take {
         // SAFETY: the recorder's contract; the sets are of the pipeline's layout.
         unsafe {
             recorder.device().cmd_bind_descriptor_sets(
-                recorder.raw(),
+                recorder.bindings(),
                 vk::PipelineBindPoint::COMPUTE,
                 self.layout.raw,
                 0,

@@ -1,5 +1,6 @@
 //! Recording into a command buffer, and the time that each pass takes.
 
+use super::barriers::{Barriers, Commands};
 use super::{Buffer, Gpu, Image, Pipeline, VulkanError};
 use ash::vk;
 use std::cell::Cell;
@@ -14,9 +15,9 @@ pub(crate) const PUSH_STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_
 pub struct Recorder<'a> {
     gpu: &'a Gpu,
     raw: vk::CommandBuffer,
-    /// A barrier that is still to be recorded, before the next command. A mark goes before it: some drivers take the time
-    /// of a timestamp no earlier than at the barrier that follows it.
-    pending: Cell<bool>,
+    /// A barrier that is asked for is recorded before the next command. A mark goes before it: some drivers take the time of
+    /// a timestamp no earlier than at the barrier that follows it.
+    barriers: Cell<Barriers>,
     timings: Option<&'a mut Timings>,
 }
 
@@ -33,24 +34,31 @@ impl<'a> Recorder<'a> {
         Self {
             gpu,
             raw,
-            pending: Cell::new(false),
+            barriers: Cell::new(Barriers::new()),
             timings,
         }
     }
 
-    /// The command buffer, to record into it until the next [`Self::barrier`].
+    /// The command buffer, to record commands of any kind until the next [`Self::barrier`].
     pub(crate) fn raw(&self) -> vk::CommandBuffer {
-        if self.pending.take() {
-            let all = vk::PipelineStageFlags2::ALL_COMMANDS;
-            let barriers = [vk::MemoryBarrier2::default()
-                .src_stage_mask(all)
-                .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
-                .dst_stage_mask(all)
-                .dst_access_mask(vk::AccessFlags2::MEMORY_READ | vk::AccessFlags2::MEMORY_WRITE)];
+        self.before(Commands::Any)
+    }
+
+    /// The command buffer, to record what is bound and pushed: that waits for nothing.
+    pub(crate) fn bindings(&self) -> vk::CommandBuffer {
+        self.raw
+    }
+
+    /// The command buffer, after the barrier that commands of a kind need.
+    fn before(&self, next: Commands) -> vk::CommandBuffer {
+        let mut barriers = self.barriers.get();
+        if let Some(commands) = barriers.before(next) {
+            let barriers = [commands.barrier()];
             let info = vk::DependencyInfo::default().memory_barriers(&barriers);
             // SAFETY: `new`'s contract; synchronization2 is enabled.
             unsafe { self.gpu.device.cmd_pipeline_barrier2(self.raw, &info) };
         }
+        self.barriers.set(barriers);
         self.raw
     }
 
@@ -60,7 +68,9 @@ impl<'a> Recorder<'a> {
 
     /// Everything before is visible to everything after.
     pub fn barrier(&self) {
-        self.pending.set(true);
+        let mut barriers = self.barriers.get();
+        barriers.ask();
+        self.barriers.set(barriers);
     }
 
     /// Moves an image to another layout, after all before and ahead of all after.
@@ -86,7 +96,7 @@ impl<'a> Recorder<'a> {
         unsafe {
             self.gpu
                 .device
-                .cmd_bind_pipeline(self.raw(), pipeline.bind_point, pipeline.raw)
+                .cmd_bind_pipeline(self.bindings(), pipeline.bind_point, pipeline.raw)
         };
     }
 
@@ -100,11 +110,12 @@ impl<'a> Recorder<'a> {
     pub fn dispatch_unordered(&self, pipeline: &Pipeline, groups: u64) {
         self.bind(pipeline);
         let rows = groups.div_ceil(32768) as u32;
+        let raw = self.before(Commands::Dispatches);
         // SAFETY: `new`'s contract; 32,768 is below every device's limit of 65,535.
         unsafe {
             self.gpu
                 .device
-                .cmd_dispatch(self.raw(), groups.min(32768) as u32, rows, 1)
+                .cmd_dispatch(raw, groups.min(32768) as u32, rows, 1)
         };
     }
 
@@ -117,11 +128,12 @@ impl<'a> Recorder<'a> {
     /// The same without a barrier after it, for dispatches that write different places.
     pub fn dispatch_indirect_unordered(&self, pipeline: &Pipeline, arguments: &Buffer, index: u32) {
         self.bind(pipeline);
+        let raw = self.before(Commands::Dispatches);
         // SAFETY: `new`'s contract; the buffer is larger than the index and was created for indirect use.
         unsafe {
             self.gpu
                 .device
-                .cmd_dispatch_indirect(self.raw(), arguments.raw, u64::from(index) * 16)
+                .cmd_dispatch_indirect(raw, arguments.raw, u64::from(index) * 16)
         };
     }
 
@@ -132,7 +144,7 @@ impl<'a> Recorder<'a> {
         unsafe {
             self.gpu
                 .device
-                .cmd_push_constants(self.raw(), layout, PUSH_STAGES, 0, bytes)
+                .cmd_push_constants(self.bindings(), layout, PUSH_STAGES, 0, bytes)
         };
     }
 
@@ -140,11 +152,12 @@ impl<'a> Recorder<'a> {
     /// know their sizes.
     pub(crate) fn copy(&self, from: &Buffer, bytes: u64, to: &Buffer, first_byte: u64) {
         let region = [vk::BufferCopy::default().dst_offset(first_byte).size(bytes)];
+        let raw = self.before(Commands::Dispatches);
         // SAFETY: `new`'s contract; the bytes lie in both buffers, as callers say.
         unsafe {
             self.gpu
                 .device
-                .cmd_copy_buffer(self.raw(), from.raw, to.raw, &region)
+                .cmd_copy_buffer(raw, from.raw, to.raw, &region)
         };
     }
 
@@ -152,13 +165,14 @@ impl<'a> Recorder<'a> {
     pub(crate) fn update(&self, buffer: &Buffer, first_byte: u64, bytes: &[u8]) {
         /// Bytes that an inline update can have.
         const AT_ONCE: usize = 65_536;
+        let raw = self.before(Commands::Dispatches);
         for (chunk, bytes) in (0..).zip(bytes.chunks(AT_ONCE)) {
             let offset = first_byte + chunk * AT_ONCE as u64;
             // SAFETY: `new`'s contract; the buffer was created as a transfer destination, and callers know its size.
             unsafe {
                 self.gpu
                     .device
-                    .cmd_update_buffer(self.raw(), buffer.raw, offset, bytes)
+                    .cmd_update_buffer(raw, buffer.raw, offset, bytes)
             };
         }
     }
@@ -170,11 +184,12 @@ impl<'a> Recorder<'a> {
 
     /// Fills the first `bytes` bytes of a buffer with zeros.
     pub fn clear_first(&self, buffer: &Buffer, bytes: u64) {
+        let raw = self.before(Commands::Dispatches);
         // SAFETY: `new`'s contract; the buffer was created as a transfer destination, and callers know its size.
         unsafe {
             self.gpu
                 .device
-                .cmd_fill_buffer(self.raw(), buffer.raw, 0, bytes, 0)
+                .cmd_fill_buffer(raw, buffer.raw, 0, bytes, 0)
         };
     }
 

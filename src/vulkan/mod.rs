@@ -1,5 +1,6 @@
 //! A thin layer over Vulkan 1.3: devices, memory, pipelines, command recording. It knows nothing of rendering.
 
+mod barriers;
 mod commands;
 mod error;
 mod gpu;

@@ -30,7 +30,7 @@ impl Resources {
         // SAFETY: the recorder's contract; the set matches the layout of all pipelines.
         unsafe {
             recorder.device().cmd_bind_descriptor_sets(
-                recorder.raw(),
+                recorder.bindings(),
                 vk::PipelineBindPoint::COMPUTE,
                 self.layout.pipeline,
                 0,
