@@ -16,20 +16,23 @@ layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 50, rgba32f) uniform writeonly imageBuffer positions_out;
 layout(set = 0, binding = 51, rgba32f) uniform writeonly imageBuffer normals_out;
-// Of each corner two vectors: the vertex to place, and those of the end that it belongs to, of the segment's other end and
-// of where the line goes on, or the first of these again; what it is, and a disc's corner from its centre, floats as bits, or
-// the third vertices of the faces at an edge: from this end to the other, and back. An end stands for none.
+// Of each corner of points and lines two vectors: the vertex to place, and those of the end that it belongs to, of the
+// segment's other end and of where the line goes on, or the first of these again; what it is, and a disc's corner from its
+// centre, floats as bits. Then of each edge two vectors: the first of four vertices to place, those of both ends, flags; the
+// third vertices of its faces: from the first end to the second, and back. An end stands for none.
 layout(set = 0, binding = 55) uniform utextureBuffer strokes;
 
 layout(push_constant) uniform Push {
     vec4 right;     // xyz: one pixel to the right in the image, at w = 1; w: half the width of lines in pixels
     vec4 down;      // xyz: one pixel down; w: half the size of points in pixels
-    uint count;     // corners
+    uint corners;   // of points and lines
     float half_edge;    // half the width of edges in pixels
     float apart;        // least distance of edges from their ends, towards the camera, in pixels
+    uint edges;
 } part;
 const uint LEFT = 0u, RIGHT = 1u, JOINT_CENTRE = 2u, JOINT_FIRST = 3u, JOINT_SECOND = 4u, DISC = 5u;
-const uint FACES_CAMERA = 1u << 31, EDGE = 1u << 30, SMOOTH = 1u << 29, DOUBLE_SIDED = 1u << 28, KIND = 255u;
+const uint FACES_CAMERA = 1u << 31, KIND = 255u;   // of a corner
+const uint SMOOTH = 1u, DOUBLE_SIDED = 2u;          // of an edge
 
 const float LONGEST_MITRE = 4.0;    // in widths of the line
 const float CREASE_END = 1.0, SMOOTH_END = 0.25, MOST_RISE = 16.0; // in halves of the width
@@ -101,13 +104,26 @@ float rise(vec3 along, vec3 third, vec3 view, vec3 across, float most) {
 
 void main() {
     uint i = invocation_number();
-    if (i >= part.count) return;
-    uvec4 ends = texelFetch(strokes, int(2u * i)), shape = texelFetch(strokes, int(2u * i + 1u));
+    if (i >= part.corners + 4u * part.edges) return;
+    bool is_edge = i >= part.corners;
+    uint corner_of_edge = (i - part.corners) & 3u;
+    uint record = is_edge ? part.corners + (i - part.corners) / 4u : i;
+    uvec4 ends = texelFetch(strokes, int(2u * record)), shape = texelFetch(strokes, int(2u * record + 1u));
+    uint flags = 0u;
+    uvec2 opposite = uvec2(0u);
+    if (is_edge) {
+        // As a line's corner: left of the first end, right and left of the second, right of the first.
+        bool is_first = corner_of_edge == 0u || corner_of_edge == 3u;
+        flags = ends.w;
+        opposite = is_first ? shape.xy : shape.yx;
+        ends = is_first ? uvec4(ends.x + corner_of_edge, ends.y, ends.z, ends.y) : uvec4(ends.x + corner_of_edge, ends.z, ends.y, ends.z);
+        shape = uvec4((corner_of_edge & 1u) == 0u ? LEFT | FACES_CAMERA : RIGHT | FACES_CAMERA, uvec3(0u));
+    }
     vec4 p = texelFetch(positions, int(ends.y)), q = texelFetch(positions, int(ends.z));
     vec4 at = to_clip(frame.transform, p), other = to_clip(frame.transform, q);
     vec4 beyond = to_clip(frame.transform, texelFetch(positions, int(ends.w)));
     uint kind = shape.x & KIND;
-    bool is_line = kind != DISC, goes_on = ends.w != ends.y, is_edge = (shape.x & EDGE) != 0u;
+    bool is_line = kind != DISC, goes_on = ends.w != ends.y;
     bool seen = !is_behind(at);
     vec3 end = p.xyz, along = q.xyz - end;
     if (is_line && kind <= RIGHT && !seen && !is_behind(other)) {
@@ -126,20 +142,20 @@ void main() {
             other = mix(at, other, t);
         }
         // On along the edge itself, whose depth the line keeps.
-        float beyond_end = half_width * ((shape.x & SMOOTH) != 0u ? SMOOTH_END : CREASE_END), span = other.w * way_from(at, other).z;
+        float beyond_end = half_width * ((flags & SMOOTH) != 0u ? SMOOTH_END : CREASE_END), span = other.w * way_from(at, other).z;
         float share = span > 0.0 ? beyond_end * at.w / max(span - beyond_end * (at.w - other.w), 0.5 * span) : 0.0;
         p += (p - q) * share;
         at += (at - other) * share;
     }
     vec2 offset = is_line ? corner(kind, at, other, beyond, goes_on, half_width) * half_width : uintBitsToFloat(shape.yz) * part.down.w;
-    seen = seen && (!is_edge || edge_shows(ends.yz, shape.yz, shape.x));
+    seen = seen && (!is_edge || edge_shows(ends.yz, opposite, flags));
     // What is not seen has no area.
     offset = seen ? offset * at.w : vec2(0.0);
     vec3 beside = offset.x * part.right.xyz + offset.y * part.down.xyz, placed = p.xyz + beside;
     if (is_edge && seen) {
         vec3 view = normalize(to_camera(p.xyz));
         float pixel = at.w * length(part.right.xyz), most = MOST_RISE * half_width * pixel;
-        vec3 c = texelFetch(positions, int(shape.y)).xyz - end, d = texelFetch(positions, int(shape.z)).xyz - end;
+        vec3 c = texelFetch(positions, int(opposite.x)).xyz - end, d = texelFetch(positions, int(opposite.y)).xyz - end;
         float lift = max(rise(along, c, view, beside, most), rise(along, d, view, beside, most)) + part.apart * pixel;
         bool parallel = frame.view_direction.w != 0.0;
         vec3 sight = to_camera(placed);

@@ -6,9 +6,6 @@ use gpc::scene::{Edges, Geometry, PoseRequest};
 use scene_builder::Builder;
 use serde_json::{Value, json};
 
-/// Corners of a line.
-const SEGMENT: usize = 4;
-
 /// Two squares of two faces each, whose planes meet at an angle in degrees.
 fn folded(degrees: f32) -> Vec<[f32; 3]> {
     let (sin, cos) = degrees.to_radians().sin_cos();
@@ -53,14 +50,9 @@ fn edges_of(primitives: &[Vec<[f32; 3]>]) -> Geometry {
 
 /// Smooth edges, and others.
 fn counts(geometry: &Geometry) -> [usize; 2] {
-    let edges: Vec<_> = geometry
-        .strokes
-        .iter()
-        .filter_map(|stroke| stroke.edge)
-        .collect();
-    assert_eq!(edges.len() % SEGMENT, 0);
-    let smooth = edges.iter().filter(|edge| edge.is_smooth).count() / SEGMENT;
-    [smooth, edges.len() / SEGMENT - smooth]
+    let edges = &geometry.edges;
+    let smooth = edges.iter().filter(|edge| edge.is_smooth).count();
+    [smooth, edges.len() - smooth]
 }
 
 /// The side that two faces in a plane share is no edge.
@@ -91,9 +83,8 @@ fn a_third_face_makes_an_edge_that_shows() {
     fan.extend([[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]]);
     let geometry = edges_of(&[fan]);
     assert_eq!(counts(&geometry), [0, 9]);
-    let double_sided = geometry.strokes.iter().filter_map(|stroke| stroke.edge);
-    let double_sided = double_sided.filter(|edge| edge.is_double_sided).count();
-    assert_eq!(double_sided, SEGMENT);
+    let double_sided = geometry.edges.iter().filter(|edge| edge.is_double_sided);
+    assert_eq!(double_sided.count(), 1);
 }
 
 #[test]
@@ -107,8 +98,7 @@ fn faces_back_to_back_are_one() {
     let both: Vec<_> = sheet.iter().copied().chain(back).collect();
     let geometry = edges_of(&[both]);
     assert_eq!(counts(&geometry), [0, 6]);
-    let mut edges = geometry.strokes.iter().filter_map(|stroke| stroke.edge);
-    assert!(edges.all(|edge| edge.is_double_sided));
+    assert!(geometry.edges.iter().all(|edge| edge.is_double_sided));
 }
 
 #[test]
@@ -120,10 +110,14 @@ fn edges_are_where_the_faces_are() {
         [0, 1, 2].map(|axis| p[axis] + geometry.origin[axis] as f32)
     };
     let near = |a: [f32; 3], b: &[f32; 3]| (0..3).all(|axis| (a[axis] - b[axis]).abs() < 1e-6);
-    for stroke in &geometry.strokes {
-        let edge = stroke.edge.unwrap();
-        for v in [stroke.at, stroke.other, edge.opposite[0], edge.opposite[1]] {
+    for edge in &geometry.edges {
+        let ([from, to], [a, b]) = (edge.ends, edge.opposite);
+        for v in [from, to, a, b] {
             assert!(corners.iter().any(|corner| near(relative(v), corner)));
+        }
+        // Until a camera places them, corners are at their ends.
+        for (corner, end) in (edge.first_vertex..).zip([from, to, to, from]) {
+            assert_eq!(relative(corner), relative(end));
         }
     }
 }

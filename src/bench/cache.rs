@@ -45,7 +45,7 @@ impl Fingerprint {
         // The debug format of floats is exact.
         let places = &geometry.instances;
         let sizes = [probe.line_width, probe.point_size, probe.edge_width];
-        let strokes = (&geometry.strokes, sizes);
+        let strokes = (&geometry.strokes, &geometry.edges, sizes);
         format!("{camera:?} {:?} {places:?} {strokes:?}", probe.footprint).hash(&mut hasher);
         hasher.write(bytemuck::cast_slice(&geometry.positions));
         hasher.write(bytemuck::cast_slice(&geometry.triangles));

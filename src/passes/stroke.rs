@@ -1,6 +1,7 @@
 //! stroke: points and lines, for a camera.
 
 use super::{FrameGeometry, FrameLayout, GpuScene, spirv};
+use crate::scene::Edge;
 use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
 use glam::{DMat4, DVec3, Vec4Swizzles};
 use std::sync::Arc;
@@ -62,10 +63,13 @@ impl Stroke {
         let mut words = Vec::new();
         words.extend(vector(right, sizes.line_width));
         words.extend(vector(down, sizes.point_size));
-        words.push(strokes.count);
+        words.push(strokes.corner_count);
         words.extend([half(sizes.edge_width), APART * side].map(f32::to_bits));
+        words.push(strokes.edge_count);
         recorder.push(self.layout.pipeline, &words);
-        recorder.dispatch(&self.pipeline, u64::from(strokes.count.div_ceil(64)));
+        let corners = u64::from(strokes.corner_count)
+            + u64::from(Edge::CORNERS) * u64::from(strokes.edge_count);
+        recorder.dispatch(&self.pipeline, corners.div_ceil(64));
     }
 }
 

@@ -12,7 +12,10 @@ use gltf::json::{
 };
 
 use super::{
-    environment::Environment, light::Light, stroke::StrokePart, surface::strokes::Corner,
+    environment::Environment,
+    light::Light,
+    stroke::{Edge, StrokePart},
+    surface::strokes::Corner,
     view::SceneProjection,
 };
 
@@ -143,6 +146,8 @@ pub struct Primitive {
     pub influences: Vec<Influences>,
     /// Of points and lines, the last vertices in their order.
     pub corners: Vec<Corner>,
+    /// Of edges of a mesh, whose corners are the last vertices.
+    pub edges: Vec<Edge>,
 }
 
 impl Primitive {
@@ -156,9 +161,9 @@ impl Primitive {
         [count(StrokePart::Disc(0)), count(StrokePart::Left) / 2]
     }
 
-    /// Whether it is of points or lines.
+    /// Whether it is of points or lines, edges among them.
     pub fn is_strokes(&self) -> bool {
-        !self.corners.is_empty()
+        !self.corners.is_empty() || !self.edges.is_empty()
     }
 }
 

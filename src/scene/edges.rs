@@ -9,7 +9,7 @@ use super::{
     Material, Scene,
     document::{Influences, Primitive, Target},
     stroke::Edge,
-    surface::strokes::Strokes,
+    surface::triangles,
 };
 
 /// Which edges are drawn, and how.
@@ -162,7 +162,7 @@ impl<'p> Surface<'p> {
         let smallest_cosine = crease.to_radians().cos();
         let deforms = |p: &&Primitive| !p.targets.is_empty() || !p.influences.is_empty();
         let deforms = self.primitives.iter().any(deforms);
-        let mut strokes = Strokes::default();
+        let mut edges = Vec::new();
         for group in sides.chunk_by(|a, b| a.key() == b.key()) {
             let [first, rest @ ..] = group else {
                 continue;
@@ -178,7 +178,9 @@ impl<'p> Surface<'p> {
             if !deforms && normals.is_some_and(is_flat) && !rest.iter().any(turned) {
                 continue;
             }
-            let edge = Edge {
+            edges.push(Edge {
+                first_vertex: 0,
+                ends: [first.from, first.to],
                 opposite: [
                     first.opposite,
                     second.map_or(first.from, |side| side.opposite),
@@ -188,13 +190,12 @@ impl<'p> Surface<'p> {
                 is_double_sided: group.iter().any(is_double_sided)
                     || rest.iter().any(turned)
                     || rest.len() > 1,
-            };
-            strokes.add_edge([first.from, first.to], edge);
+            });
         }
-        let sources = strokes.compact(self.vertices.len());
+        let sources = compact(&mut edges, self.vertices.len());
         let sources: Vec<(usize, usize)> =
             sources.iter().map(|&v| self.vertices[v as usize]).collect();
-        self.primitive(strokes, &sources, material)
+        self.primitive(edges, &sources, material)
     }
 
     /// Normals of a face and another one beyond its side; zero of one without area.
@@ -206,10 +207,10 @@ impl<'p> Surface<'p> {
         [normal, other].map(DVec3::normalize_or_zero)
     }
 
-    /// Lines with these vertices, which move as those of the surface do.
+    /// Edges with these vertices, which move as those of the surface do.
     fn primitive(
         &self,
-        strokes: Strokes,
+        edges: Vec<Edge>,
         sources: &[(usize, usize)],
         material: usize,
     ) -> Primitive {
@@ -241,11 +242,29 @@ impl<'p> Surface<'p> {
                 .collect(),
             targets: targets.collect(),
             influences: influences.collect(),
-            triangles: strokes.triangles,
-            corners: strokes.corners,
+            triangles: edges.iter().flat_map(Edge::triangles).collect(),
+            edges,
             ..Primitive::default()
         }
     }
+}
+
+/// The vertices that edges refer to, and those of their corners; they then refer to that list.
+fn compact(edges: &mut [Edge], vertex_count: usize) -> Vec<u32> {
+    let named = |edge: &Edge| {
+        let ([from, to], [a, b]) = (edge.ends, edge.opposite);
+        [[from, to, from], [a, b, from]]
+    };
+    let mut named: Vec<[u32; 3]> = edges.iter().flat_map(named).collect();
+    let used = triangles::compact(&mut named, vertex_count);
+    let corners = (used.len() as u32..).step_by(Edge::CORNERS as usize);
+    for ((edge, named), first_vertex) in edges.iter_mut().zip(named.as_chunks().0).zip(corners) {
+        let [[from, to, _], [a, b, _]] = *named;
+        (edge.first_vertex, edge.ends, edge.opposite) = (first_vertex, [from, to], [a, b]);
+    }
+    let of_corners = edges.iter().flat_map(Edge::corners);
+    let of_corners: Vec<u32> = of_corners.map(|v| used[v as usize]).collect();
+    [used, of_corners].concat()
 }
 
 /// Whether faces of these normals lie in a plane, but for what positions are rounded by.

@@ -1,7 +1,7 @@
 //! Triangles of one scene at one moment, and where they are drawn.
 
 use super::material::{AlphaMode, Material};
-use super::stroke::Stroke;
+use super::stroke::{Edge, Stroke};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 use std::borrow::Cow;
@@ -141,6 +141,8 @@ pub struct Geometry {
     pub instances: Vec<Instance>,
     /// The vertices that are corners of points and lines; in range, in ascending order, and in world space.
     pub strokes: Vec<Stroke>,
+    /// Edges of meshes; in range, and in world space.
+    pub edges: Vec<Edge>,
 }
 
 /// Why a [`Geometry`] can't be drawn.
@@ -201,6 +203,16 @@ pub enum GeometryError {
         stroke: usize,
         /// The index.
         index: u32,
+        /// How many vertices there are.
+        vertices: usize,
+    },
+    /// An edge of a mesh refers to a vertex that there is none of.
+    #[error("edge {edge} has vertex {index}, and there are {vertices}")]
+    Edge {
+        /// The first such edge.
+        edge: usize,
+        /// The index.
+        index: u64,
         /// How many vertices there are.
         vertices: usize,
     },
@@ -281,11 +293,21 @@ impl Geometry {
         }
         for (stroke, corner) in self.strokes.iter().enumerate() {
             let named = [corner.vertex, corner.at, corner.other, corner.beyond];
-            let opposite = corner.edge.iter().flat_map(|edge| edge.opposite);
-            let mut named = named.into_iter().chain(opposite);
-            if let Some(index) = named.find(|index| *index as usize >= vertices) {
+            if let Some(&index) = named.iter().find(|index| **index as usize >= vertices) {
                 return Err(GeometryError::Stroke {
                     stroke,
+                    index,
+                    vertices,
+                });
+            }
+        }
+        for (edge, found) in self.edges.iter().enumerate() {
+            let ([a, b], [c, d]) = (found.ends, found.opposite);
+            let last_corner = u64::from(found.first_vertex) + u64::from(Edge::CORNERS - 1);
+            let named = [a, b, c, d].map(u64::from).into_iter().chain([last_corner]);
+            if let Some(index) = named.into_iter().find(|&index| index >= vertices as u64) {
+                return Err(GeometryError::Edge {
+                    edge,
                     index,
                     vertices,
                 });
@@ -372,6 +394,12 @@ impl Geometry {
             .partition_point(|draw| draw.triangles().end <= own.start);
         let after = self.draws.get(first..).unwrap_or(&[]).iter();
         after.take_while(move |draw| draw.triangles().start < own.end)
+    }
+
+    /// Whether some vertices are placed for each camera.
+    #[must_use]
+    pub fn has_strokes(&self) -> bool {
+        !self.strokes.is_empty() || !self.edges.is_empty()
     }
 
     /// Number of triangles that are drawn.

@@ -16,15 +16,18 @@ pub struct Stroke {
     pub beyond: u32,
     /// Whether its normal is to face the camera, for want of one of its own.
     pub faces_camera: bool,
-    /// What is beside the segment if it is an edge of a mesh.
-    pub edge: Option<Edge>,
 }
 
-/// The faces at an edge of a mesh.
+/// An edge of a mesh, drawn as a line of two triangles, whose corners a renderer places for each camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Edge {
-    /// The vertices of its faces that are not the edge's: of the one that runs from this end of the edge to the other
-    /// one, and of the one that runs back; an end of the edge where there is no such face.
+    /// The first of four vertices to place, which follow each other: the left corner of the first end, right and left of the
+    /// second, and right of the first, as [`StrokePart`] has them.
+    pub first_vertex: u32,
+    /// The vertices at its ends.
+    pub ends: [u32; 2],
+    /// The vertices of its faces that are not the edge's: of the one that runs from the first end to the second, and of the
+    /// one that runs back; an end of the edge where there is no such face.
     pub opposite: [u32; 2],
     /// Whether it shows as a silhouette alone: one of its faces is seen from the front, the other from behind.
     pub is_smooth: bool,
@@ -33,19 +36,27 @@ pub struct Edge {
 }
 
 impl Edge {
-    /// The same seen from its other end.
-    pub(crate) fn reversed(self) -> Self {
-        let [a, b] = self.opposite;
-        Self {
-            opposite: [b, a],
-            ..self
-        }
+    /// How many corners it has.
+    pub const CORNERS: u32 = 4;
+
+    /// The end that each corner belongs to.
+    pub(crate) fn corners(&self) -> [u32; 4] {
+        let [from, to] = self.ends;
+        [from, to, to, from]
     }
 
-    /// The same with other numbers of vertices.
-    pub(crate) fn offset(self, first: u32) -> Self {
+    /// The triangles that it is drawn by.
+    pub(crate) fn triangles(&self) -> [[u32; 3]; 2] {
+        [[0, 1, 2], [0, 2, 3]].map(|corners| corners.map(|corner| self.first_vertex + corner))
+    }
+
+    /// The same with vertices counted from another one, of a mesh that may be mirrored, so that faces run the other way.
+    pub(crate) fn placed(self, first: u32, mirrored: bool) -> Self {
+        let [a, b] = self.opposite.map(|v| v + first);
         Self {
-            opposite: self.opposite.map(|v| v + first),
+            first_vertex: self.first_vertex + first,
+            ends: self.ends.map(|v| v + first),
+            opposite: if mirrored { [b, a] } else { [a, b] },
             ..self
         }
     }

@@ -62,6 +62,7 @@ impl Mesh {
             draws,
             instances: Vec::new(),
             strokes: Vec::new(),
+            edges: Vec::new(),
         };
         let pose = Pose {
             geometry,

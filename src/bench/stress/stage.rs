@@ -205,6 +205,7 @@ impl Stage {
             draws,
             instances: Vec::new(),
             strokes: Vec::new(),
+            edges: Vec::new(),
         };
         let pose = Pose {
             geometry,

@@ -64,7 +64,7 @@ impl FrameGeometry {
                 geometry
                     .strokes
                     .as_ref()
-                    .map(|strokes| (55, &strokes.corners)),
+                    .map(|strokes| (55, &strokes.records)),
             );
         }
         if let Some(motion) = &geometry.motion {

@@ -141,8 +141,9 @@ impl GpuGeometry {
             )?,
             runs: runs(geometry),
             places: places(geometry, motion.is_some()),
-            strokes: (!geometry.strokes.is_empty())
-                .then(|| GpuStrokes::new(uploader, &geometry.strokes))
+            strokes: geometry
+                .has_strokes()
+                .then(|| GpuStrokes::new(uploader, &geometry.strokes, &geometry.edges))
                 .transpose()?,
             motion: motion
                 .map(|motion| GpuMotion::new(uploader, motion))
@@ -210,7 +211,7 @@ fn places(geometry: &Geometry, moves: bool) -> Vec<Place> {
     }
     // Instances of a mesh share its box.
     let mut boxes: HashMap<(u32, u32), [DVec3; 2]> = HashMap::new();
-    let changes = moves || !geometry.strokes.is_empty();
+    let changes = moves || geometry.has_strokes();
     let place = |instance: &Instance| {
         if changes && instance.transform == DAffine3::IDENTITY {
             return Place::of(instance, everywhere);
@@ -302,7 +303,6 @@ mod tests {
             other: 1,
             beyond: 0,
             faces_camera: true,
-            edge: None,
         });
         assert_eq!(known(&geometry, false), [false, true]);
     }

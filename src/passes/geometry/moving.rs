@@ -3,7 +3,7 @@
 
 use super::GpuGeometry;
 use crate::passes::upload::Uploader;
-use crate::scene::{Moment, Motion, MotionPart, Stroke};
+use crate::scene::{Edge, Moment, Motion, MotionPart, Stroke};
 use crate::vulkan::{BufferView, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
@@ -44,47 +44,47 @@ impl GpuMotion {
 
 /// What `stroke` reads of a scene.
 pub(in crate::passes) struct GpuStrokes {
-    /// Two vectors of each corner.
-    pub(in crate::passes) corners: BufferView,
-    pub(in crate::passes) count: u32,
+    /// Two vectors of each corner of points and lines, then two of each edge.
+    pub(in crate::passes) records: BufferView,
+    /// Of points and lines.
+    pub(in crate::passes) corner_count: u32,
+    pub(in crate::passes) edge_count: u32,
 }
 
-/// Flags of a corner in `shaders/stroke.comp`.
+/// Flag of a corner in `shaders/stroke.comp`.
 const FACES_CAMERA: u32 = 1 << 31;
-const EDGE: u32 = 1 << 30;
-const SMOOTH: u32 = 1 << 29;
-const DOUBLE_SIDED: u32 = 1 << 28;
+/// Flags of an edge there.
+const SMOOTH: u32 = 1;
+const DOUBLE_SIDED: u32 = 2;
 
 impl GpuStrokes {
     /// Allocates and fills its buffer.
     pub(super) fn new(
         uploader: &mut Uploader<'_>,
         strokes: &[Stroke],
+        edges: &[Edge],
     ) -> Result<Self, VulkanError> {
-        let vectors = |stroke: &Stroke| {
-            let flag = |bit: u32, set: bool| if set { bit } else { 0 };
-            let mut flags = flag(FACES_CAMERA, stroke.faces_camera);
-            let mut further = stroke.part.offset().map(f32::to_bits);
-            if let Some(edge) = stroke.edge {
-                flags |=
-                    EDGE | flag(SMOOTH, edge.is_smooth) | flag(DOUBLE_SIDED, edge.is_double_sided);
-                further = edge.opposite;
-            }
-            let [x, y] = further;
+        let flag = |bit: u32, set: bool| if set { bit } else { 0 };
+        let of_corner = |stroke: &Stroke| {
+            let [x, y] = stroke.part.offset().map(f32::to_bits);
+            let shape = stroke.part.code() | flag(FACES_CAMERA, stroke.faces_camera);
             [
                 [stroke.vertex, stroke.at, stroke.other, stroke.beyond],
-                [stroke.part.code() | flags, x, y, 0],
+                [shape, x, y, 0],
             ]
         };
-        let corners: Vec<[[u32; 4]; 2]> = strokes.iter().map(vectors).collect();
+        let of_edge = |edge: &Edge| {
+            let flags = flag(SMOOTH, edge.is_smooth) | flag(DOUBLE_SIDED, edge.is_double_sided);
+            let ([from, to], [a, b]) = (edge.ends, edge.opposite);
+            [[edge.first_vertex, from, to, flags], [a, b, 0, 0]]
+        };
+        let corners = strokes.iter().map(of_corner);
+        let records: Vec<[[u32; 4]; 2]> = corners.chain(edges.iter().map(of_edge)).collect();
         let uint4 = vk::Format::R32G32B32A32_UINT;
         Ok(Self {
-            corners: uploader.texels(
-                "corners of points and lines",
-                uint4,
-                corners.as_flattened(),
-            )?,
-            count: strokes.len() as u32,
+            records: uploader.texels("points, lines and edges", uint4, records.as_flattened())?,
+            corner_count: strokes.len() as u32,
+            edge_count: edges.len() as u32,
         })
     }
 }

@@ -26,6 +26,7 @@ impl HostTriangles {
             draws: geometry.draws.clone(),
             instances: geometry.instances.clone(),
             strokes: Vec::new(),
+            edges: Vec::new(),
         };
         Self {
             geometry: Mutex::new(Some(geometry)),

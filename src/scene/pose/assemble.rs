@@ -9,7 +9,7 @@ use std::collections::HashMap;
 
 use super::placement::Placement;
 use crate::scene::{
-    Draw, DrawClass, Geometry, Instance, Material, Scene, SceneError, Stroke, VertexStreams,
+    Draw, DrawClass, Edge, Geometry, Instance, Material, Scene, SceneError, Stroke, VertexStreams,
     document::Primitive,
     error::{Fault, Warnings},
     read::MAX_ELEMENTS,
@@ -88,6 +88,7 @@ pub fn assemble(
         draws: draws(&jobs),
         instances: instances(&jobs, origin),
         strokes: jobs.iter().flat_map(Job::strokes).collect(),
+        edges: jobs.iter().flat_map(Job::edges).collect(),
     };
     let indices = geometry.index_count();
     if indices > MAX_ELEMENTS {
@@ -431,7 +432,6 @@ impl Job<'_, '_> {
     fn strokes(&self) -> impl Iterator<Item = Stroke> {
         let primitive = self.placement.primitive;
         let first = self.first_vertex;
-        let mirrored = self.placement.mirrored;
         let corners = primitive.positions.len() - primitive.corners.len();
         let vertices = first + corners as u32..;
         vertices
@@ -443,11 +443,13 @@ impl Job<'_, '_> {
                 other: first + corner.other,
                 beyond: first + corner.beyond,
                 faces_camera: primitive.normals.is_empty(),
-                edge: corner.edge.map(|edge| {
-                    let edge = edge.offset(first);
-                    if mirrored { edge.reversed() } else { edge }
-                }),
             })
+    }
+
+    /// Its edges.
+    fn edges(&self) -> impl Iterator<Item = Edge> {
+        let edges = self.placement.primitive.edges.iter();
+        edges.map(|edge| edge.placed(self.first_vertex, self.placement.mirrored))
     }
 
     /// Normals of triangles that have three vertices each for themselves, from vertex `first` on.

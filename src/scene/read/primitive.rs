@@ -144,6 +144,7 @@ pub fn read(
         targets: reader.targets(targets, &sources, notes),
         influences: reader.influences(&sources, notes),
         corners,
+        edges: Vec::new(),
     };
     if let Some(uv_set) = material.tangent_uv_set() {
         let given = reader.tangents(&primitive.normals, &sources, notes);

@@ -3,7 +3,7 @@
 use gltf::json::mesh::Mode;
 
 use super::triangles;
-use crate::scene::stroke::{Edge, StrokePart};
+use crate::scene::stroke::StrokePart;
 
 /// A corner of a point or line, of the vertices of one primitive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,7 +14,6 @@ pub struct Corner {
     pub at: u32,
     pub other: u32,
     pub beyond: u32,
-    pub edge: Option<Edge>,
 }
 
 /// Points or lines.
@@ -107,7 +106,6 @@ impl Strokes {
                     at,
                     other: at,
                     beyond: at,
-                    edge: None,
                 }));
             let fan = (1..StrokePart::DISC_CORNERS - 1).map(|k| [first, first + k, first + k + 1]);
             strokes.triangles.extend(fan);
@@ -154,14 +152,12 @@ impl Strokes {
             at: from,
             other: to,
             beyond: before.unwrap_or(from),
-            edge: None,
         };
         let end = |part| Corner {
             part,
             at: to,
             other: from,
             beyond: after.unwrap_or(to),
-            edge: None,
         };
         use StrokePart::{JointCentre, JointFirst, JointSecond, Left, Right};
         self.corners
@@ -175,34 +171,16 @@ impl Strokes {
         }
     }
 
-    /// Adds an edge of a mesh, whose faces are those seen from its first end.
-    pub fn add_edge(&mut self, [from, to]: [u32; 2], edge: Edge) {
-        let first = self.corners.len();
-        self.add_segment(None, from, to, None);
-        for corner in self.corners.iter_mut().skip(first) {
-            let is_first_end = corner.at == from;
-            corner.edge = Some(if is_first_end { edge } else { edge.reversed() });
-        }
-    }
-
     /// The vertices that they refer to; they then refer to that list, which the corners follow.
     pub fn compact(&mut self, vertex_count: usize) -> Vec<u32> {
-        let named = |corner: &Corner| {
-            let [a, b] = corner.edge.map_or([corner.at; 2], |edge| edge.opposite);
-            [[corner.at, corner.other, corner.beyond], [a, b, corner.at]]
-        };
-        let mut named: Vec<[u32; 3]> = self.corners.iter().flat_map(named).collect();
+        let named = |corner: &Corner| [corner.at, corner.other, corner.beyond];
+        let mut named: Vec<[u32; 3]> = self.corners.iter().map(named).collect();
         let used = triangles::compact(&mut named, vertex_count);
-        for (corner, ends) in self.corners.iter_mut().zip(named.as_chunks().0) {
-            let [[at, other, beyond], [a, b, _]] = *ends;
+        for (corner, [at, other, beyond]) in self.corners.iter_mut().zip(named) {
             *corner = Corner {
                 at,
                 other,
                 beyond,
-                edge: corner.edge.map(|edge| Edge {
-                    opposite: [a, b],
-                    ..edge
-                }),
                 ..*corner
             };
         }

@@ -52,6 +52,7 @@ pub(super) fn caster_scene(scene: &Scene, pose: &Pose) -> (Scene, Pose) {
     geometry.draws = draws;
     // A size in pixels is none that a light could see.
     geometry.strokes.clear();
+    geometry.edges.clear();
     let mut casting = Scene::from_materials(materials);
     casting.images = images;
     casting.textures = scene.textures.clone();
