@@ -1,5 +1,5 @@
 // enlist: gives the tiles of a round their places in the round's memory, and enters them in the work lists.
-// Reads: tiles, masks, loads of stretches (from `schedule`). Writes: tiles, tile_lists.
+// Reads: tiles, masks, loads of stretches (from `schedule`). Writes: tiles, tile_lists, COUNTER_UNLISTED_TOTAL.
 // A subgroup takes a stretch, in tile order, so that lists are the same in every run.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -13,9 +13,9 @@ void main() {
     uint spent = counters[COUNTER_SPENT_FIRST], start = counters[COUNTER_ROUND_FIRST], next = counters[COUNTER_NEXT_TILE];
     uint stretch = spent / STRETCH + workgroup_number();
     if (stretch >= stretch_count()) return;
-    uint blocks = blocks_of_cell();
+    begin_loads();
     Load before = load_kept(stretch);
-    uint i = 0u;
+    uint unlisted = 0u, i = 0u;
     do {
         uint index = stretch * STRETCH + i + gl_SubgroupInvocationID;
         // Lists of the round before are spent.
@@ -23,7 +23,7 @@ void main() {
         bool taken = index >= start && index < next;
         index = min(index, tile_count() - 1u);
         uvec4 tile = tiles[index];
-        Load load = load_of(index, tile, blocks);
+        Load load = load_of(index, tile);
         bool busy = taken && load.needs.z != 0u;
         load.needs = busy ? load.needs : uvec4(0u);
         load.entries = busy ? load.entries : uvec4(0u);
@@ -43,6 +43,8 @@ void main() {
         added = subgroupAdd(added);
         before.needs += uvec4(added.x, 0u, added.y, 0u);
         before.entries += (uvec4(subgroupAdd(together)) >> uvec4(0u, 8u, 16u, 24u)) & 0xffu;
+        unlisted += subgroupBallotBitCount(subgroupBallot(busy && list == 3u));
         i += LANES;
     } while (i < STRETCH);
+    if (unlisted != 0u && subgroupElect()) atomicAdd(counters[COUNTER_UNLISTED_TOTAL], unlisted);
 }

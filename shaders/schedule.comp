@@ -9,13 +9,13 @@
 #include "include/load.glsl"
 layout(local_size_x_id = 0) in;
 
-// Sums of candidates, records and headers over the invocations up to this one.
-uvec3 sums_up_to(uvec3 needs) {
+// Sums over the invocations up to this one.
+uvec4 sums_up_to(uvec4 needs) {
     uint lane = gl_SubgroupInvocationID;
     [[unroll]] for (uint apart = 1u; apart < 32u; apart *= 2u) {
         if (apart < LANES) {
-            uvec3 before = subgroupShuffle(needs, (lane - apart) & (LANES - 1u));
-            needs = add(needs, lane >= apart ? before : uvec3(0u));
+            uvec4 before = subgroupShuffle(needs, (lane - apart) & (LANES - 1u));
+            needs = add(needs, lane >= apart ? before : uvec4(0u));
         }
     }
     return needs;
@@ -26,7 +26,7 @@ void main() {
     bool any_tile = counters[COUNTER_TILES] != 0u && !in_other_subgroups(LANES);
     uint start = any_tile ? counters[COUNTER_NEXT_TILE] : tile_count();
     uint spent = any_tile ? counters[COUNTER_ROUND_FIRST] : tile_count();
-    uint blocks = blocks_of_cell();
+    begin_loads();
     Load taken = no_load();
     uint next = start;
     bool divided = false;       // the stretch at hand does not fit as a whole
@@ -37,13 +37,13 @@ void main() {
         uint first = whole ? stretch : next;
         uint end = whole ? stretch_count() : min((stretch + 1u) * STRETCH, tile_count());
         uint item = min(first + lane, end - 1u), tile = whole ? 0u : item;
-        Load load = load_of(tile, tiles[tile], blocks), kept = load_kept(whole ? item : stretch);
+        Load load = load_of(tile, tiles[tile]), kept = load_kept(whole ? item : stretch);
         load.needs = whole ? kept.needs : load.needs;
         load.entries = whole ? kept.entries : load.entries;
         bool exists = first + lane < end;
-        uvec3 sums = sums_up_to(exists ? min(load.needs.xyz, room() + 1u) : uvec3(0u));
+        uvec4 sums = sums_up_to(exists ? min(load.needs, room + 1u) : uvec4(0u));
         // The first tile of a round is always taken: what does not fit then is counted by `sample`.
-        bool fits = all(lessThanEqual(add(taken.needs.xyz, sums), room())) || (!whole && next == start && lane == 0u);
+        bool fits = all(lessThanEqual(add(taken.needs, sums), room)) || (!whole && next == start && lane == 0u);
         uvec4 refused = subgroupBallot(exists && !fits);
         bool any_refused = subgroupBallotBitCount(refused) != 0u;
         uint count = any_refused ? subgroupBallotFindLSB(refused) : min(end - first, LANES);
@@ -51,7 +51,7 @@ void main() {
         load.needs = mine ? load.needs : uvec4(0u);
         load.entries = mine ? load.entries : uvec4(0u);
         Load before;
-        before.needs = taken.needs + (whole ? uvec4(sums - load.needs.xyz, 0u) : uvec4(0u));
+        before.needs = taken.needs + (whole ? sums - load.needs : uvec4(0u));
         before.entries = taken.entries + subgroupExclusiveAdd(load.entries);
         // Where the tiles of a stretch that are in the round begin.
         bool begins = whole ? mine : mine && lane == 0u && (next == start || next % STRETCH == 0u);
@@ -75,7 +75,6 @@ void main() {
         counters[COUNTER_MASKED_LEFT] = 0u;
         counters[COUNTER_ROUNDS] += idle ? 0u : 1u;
         counters[COUNTER_CANDIDATES_TOTAL] += taken.needs.x;
-        counters[COUNTER_UNLISTED_TOTAL] += taken.needs.w;
         arguments[ARGUMENT_ENLIST] = groups(stretches);
         arguments[ARGUMENT_SETUP] = idle ? uvec4(0u) : groups((min(counters[COUNTER_PAIRS], frame.pair_capacity) + 63u) / 64u);
         arguments[ARGUMENT_GROUPS] = idle ? uvec4(0u) : groups((frame.group_count + 63u) / 64u);

@@ -12,24 +12,20 @@ void main() {
     if (in_other_subgroups(LANES)) return;
     uint stretch = workgroup_number();
     if (stretch >= stretch_count()) return;
-    uint blocks = blocks_of_cell();
-    uvec3 needs = uvec3(0u);
-    uint unlisted = 0u;
-    uvec4 entries = uvec4(0u);
+    begin_loads();
+    uvec4 needs = uvec4(0u), entries = uvec4(0u);
     uint i = 0u;
     do {
         uint tile = stretch * STRETCH + i + gl_SubgroupInvocationID;
         bool exists = tile < tile_count();
         tile = min(tile, tile_count() - 1u);
-        Load load = load_of(tile, tiles[tile], blocks);
-        needs = add(needs, exists ? min(load.needs.xyz, room() + 1u) : uvec3(0u));
-        unlisted += exists ? load.needs.w : 0u;
+        Load load = load_of(tile, tiles[tile]);
+        needs = add(needs, exists ? min(load.needs, room + 1u) : uvec4(0u));
         entries += exists ? load.entries : uvec4(0u);
         i += LANES;
     } while (i < STRETCH);
     [[unroll]] for (uint apart = 1u; apart < 32u; apart *= 2u)
         if (apart < LANES) needs = add(needs, subgroupShuffleXor(needs, apart));
-    unlisted = lanes_add(unlisted);
     entries = uvec4(lanes_add(entries.x), lanes_add(entries.y), lanes_add(entries.z), lanes_add(entries.w));
-    if (subgroupElect()) keep_load(stretch, Load(uvec4(needs, unlisted), entries));
+    if (subgroupElect()) keep_load(stretch, Load(needs, entries));
 }

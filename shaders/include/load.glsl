@@ -16,19 +16,27 @@ layout(push_constant) uniform Push {
 } push;
 
 struct Load {
-    uvec4 needs;    // candidates, records, headers; tiles without a list, of which every triangle is a candidate
+    uvec4 needs;    // candidates, records, headers; cells of tiles without a list, in which every triangle is tried
     uvec4 entries;  // of the work lists
 };
 
 uint tile_count() { return frame.tiles.x * frame.tiles.y; }
 uint stretch_count() { return (tile_count() + STRETCH - 1u) / STRETCH; }
-uint blocks_of_cell() { return (frame.sample_count + push.block - 1u) / push.block; }
 
-// Of candidates, records and headers.
-uvec3 room() { return uvec3(frame.list_capacity, frame.record_capacity, frame.record_capacity); }
+// Trials of a triangle in a cell that a round takes where tiles have no list: some tenths of a second on small GPUs, well
+// below what systems let a dispatch take.
+#define MOST_TRIALS 0x80000000u
+
+uvec4 room;     // of a round, for needs
+uint blocks;    // of a cell
+
+void begin_loads() {
+    room = uvec4(frame.list_capacity, uvec2(frame.record_capacity), MOST_TRIALS / max(frame.triangle_count, 1u));
+    blocks = (frame.sample_count + push.block - 1u) / push.block;
+}
 
 // Sums that count no further than what is too much: so they can't overflow.
-uvec3 add(uvec3 a, uvec3 b) { return min(a + b, room() + 1u); }
+uvec4 add(uvec4 a, uvec4 b) { return min(a + b, room + 1u); }
 
 // What is kept of a stretch follows the tiles of the region: from `tally` what all its tiles need, from `schedule` what
 // tiles of the round before it take.
@@ -51,7 +59,7 @@ uint list_of(uvec4 tile) {
 }
 
 // What tile `index` needs as `bin` left it.
-Load load_of(uint index, uvec4 tile, uint blocks) {
+Load load_of(uint index, uvec4 tile) {
     uvec2 located = LOCATIONS ? tile_loads[index] : uvec2(0u);
     uint cells = LOCATIONS ? located.x : uint(bitCount(masks[index]));
     uint samples = LOCATIONS ? located.y : cells * frame.sample_count;
@@ -69,7 +77,7 @@ Load load_of(uint index, uvec4 tile, uint blocks) {
         : per_sample ? samples : min(cells * blocks * min(push.parts * candidates_, most_records), samples);
     uint entries = LOCATIONS ? 0u : (cells + LANES - 1u) / LANES;
     Load load;
-    load.needs = uvec4(busy && listed ? tile.x : 0u, records_, cells * blocks, busy && !listed ? 1u : 0u);
+    load.needs = uvec4(busy && listed ? tile.x : 0u, records_, cells * blocks, listed ? 0u : cells);
     load.entries = entries * uvec4(equal(uvec4(list), uvec4(0u, 1u, 2u, 3u)));
     return load;
 }

@@ -5,6 +5,9 @@
 
 use std::ops::Range;
 
+/// Trials of a triangle in a cell that a round takes where tiles have no list.
+const MOST_TRIALS: u64 = 1 << 31;
+
 /// What is known of a tile before the first round.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tile {
@@ -93,8 +96,8 @@ impl Rounds {
         }
     }
 
-    /// Candidates, records and headers that a tile is admitted with.
-    fn needs(&self, tile: Tile) -> [u64; 3] {
+    /// What a tile is admitted with: candidates, records, headers and cells in which every triangle is tried.
+    fn needs(&self, tile: Tile) -> [u64; 4] {
         let [samples, block, parts, layers] =
             [self.samples, self.block, self.parts, self.layers].map(u64::from);
         let unlisted = self.list(tile) == List::Unlisted;
@@ -124,24 +127,30 @@ impl Rounds {
             let most = if blocks == 1 { block } else { 4 * layers };
             all_samples.min(headers * most.min(parts * candidates))
         };
-        let listed = !unlisted && tile.cells > 0;
-        [if listed { candidates } else { 0 }, records, headers]
+        let cells = u64::from(tile.cells);
+        match (unlisted, cells) {
+            (_, 0) => [0; 4],
+            (true, _) => [0, records, headers, cells],
+            (false, _) => [candidates, records, headers, 0],
+        }
     }
 
     /// The rounds that all tiles take.
     #[must_use]
     pub fn of(&self, tiles: &[Tile]) -> Vec<Round> {
-        let room = [self.candidates, self.records, self.records].map(u64::from);
+        let [candidates, records] = [self.candidates, self.records].map(u64::from);
+        let tried = MOST_TRIALS / u64::from(self.triangles);
+        let room = [candidates, records, records, tried];
         let mut rounds = Vec::new();
         let mut next = 0;
         while next < tiles.len() {
             let first = next;
-            let mut used = [0; 3];
+            let mut used = [0; 4];
             let mut placed = Vec::new();
             while let Some(&tile) = tiles.get(next) {
                 let needs = self.needs(tile);
-                let after = [0, 1, 2].map(|what| used[what] + needs[what]);
-                let fits = (0..3).all(|what| after[what] <= room[what]);
+                let after = [0, 1, 2, 3].map(|what| used[what] + needs[what]);
+                let fits = (0..4).all(|what| after[what] <= room[what]);
                 if !fits && next > first {
                     break;
                 }

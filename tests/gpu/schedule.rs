@@ -13,7 +13,6 @@ use gpc::vulkan::{Buffer, Constants, Memory, MemoryUse, Recorder};
 use crate::stage::on_gpu;
 use crate::submit::submit;
 
-const TRIANGLES: u32 = 30_000;
 const LAYERS: u32 = 4;
 
 /// A scene that no pass of these reads.
@@ -21,7 +20,7 @@ struct Unread;
 
 impl Content for Unread {
     fn index_count(&self) -> u32 {
-        TRIANGLES
+        1
     }
 
     fn is_instanced(&self) -> bool {
@@ -68,6 +67,7 @@ struct Case {
     size: [u32; 2],
     samples: u32,
     records_are: RecordRate,
+    triangles: u32,
     /// Whether some triangles are BLEND.
     blends: bool,
     candidates: u32,
@@ -83,6 +83,7 @@ const USUAL: Case = Case {
     size: [160, 180],
     samples: 64,
     records_are: RecordRate::Triangle,
+    triangles: 30_000,
     blends: false,
     candidates: 20_000,
     records: 200_000,
@@ -242,9 +243,9 @@ impl<'a> Passes<'a> {
         let uniform = FrameUniform {
             size: sizes.region,
             tiles: case.size,
-            triangle_count: TRIANGLES,
+            triangle_count: case.triangles,
             first_mask: 10,
-            first_blend: if case.blends { 20 } else { TRIANGLES },
+            first_blend: if case.blends { 20 } else { case.triangles },
             sample_count: case.samples,
             pair_capacity: 1,
             list_capacity: case.candidates,
@@ -257,7 +258,7 @@ impl<'a> Passes<'a> {
             per_sample: case.records_are == RecordRate::Sample,
             parts: sample.parts(),
             layers: LAYERS,
-            triangles: TRIANGLES,
+            triangles: case.triangles,
             blends: case.blends,
             candidates: case.candidates,
             records: case.records,
@@ -449,6 +450,14 @@ fn rounds_are_the_twins() {
                 ..USUAL
             },
             Case {
+                name: "many triangles to try",
+                size: [60, 40],
+                triangles: 20_000_000,
+                records: 1_000_000,
+                rarity: 10,
+                ..USUAL
+            },
+            Case {
                 name: "records of samples",
                 samples: 16,
                 records_are: RecordRate::Sample,
@@ -463,7 +472,7 @@ fn rounds_are_the_twins() {
         // One tile and all in one round take one; the others several.
         assert_eq!([counts[1], counts[2]], [1, 1]);
         assert!(
-            [0, 3, 4, 5].iter().all(|&case| counts[case] > 3),
+            [0, 3, 4, 5, 6].iter().all(|&case| counts[case] > 3),
             "{counts:?}"
         );
     });
