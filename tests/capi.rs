@@ -142,5 +142,10 @@ fn a_forward_renderer_is_antialiased_as_by_its_brute_force() {
         "error of superpixels, samples where brute force has them: ",
     );
     assert!(placed <= 1.25 * brute, "{said}");
+    let each = figure(
+        &said,
+        "error of superpixels, each of these samples shaded: ",
+    );
+    assert!(each <= 1.2 * brute, "{said}");
     assert!(figure(&said, "share of superpixels: ") < 0.45, "{said}");
 }

@@ -222,9 +222,10 @@ double decoded(double code) {
 // Draws into images of one size, with the library or alone.
 class Renderer {
   public:
-    // For images of `side` times the width and height; with an antialiaser, its samples lie in a pattern.
+    // For images of `side` times the width and height; with an antialiaser, its samples lie in a pattern, and some or all of
+    // them are shaded.
     Renderer(const Device &device, const World &world, const Meshes &meshes, const Pipelines &pipelines, uint32_t side,
-             const GpcAntialiaser *antialiaser, GpcPattern pattern)
+             const GpcAntialiaser *antialiaser, GpcPattern pattern, GpcShading shading)
         : device(device), world(world), meshes(meshes), pipelines(pipelines), size{SIZE.width * side, SIZE.height * side},
           objects(device, world.parts.size() * sizeof(Object), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT),
           color(device, size, COLOR,
@@ -258,7 +259,7 @@ class Renderer {
         write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
         write.pBufferInfo = buffers;
         vkUpdateDescriptorSets(device.raw, 1, &write, 0, nullptr);
-        if (antialiaser) prepare(antialiaser, pattern);
+        if (antialiaser) prepare(antialiaser, pattern, shading);
     }
 
     Renderer(const Renderer &) = delete;
@@ -330,7 +331,7 @@ class Renderer {
     GpcFrame *frame{};
 
     // gpc: what is lent for this size, once.
-    void prepare(const GpcAntialiaser *antialiaser, GpcPattern pattern) {
+    void prepare(const GpcAntialiaser *antialiaser, GpcPattern pattern, GpcShading shading) {
         GpcGeometry geometry{};
         geometry.size = sizeof geometry;
         geometry.positions = meshes.vertices.raw;
@@ -355,6 +356,9 @@ class Renderer {
         options.size = sizeof options;
         check(gpc_options_init(&options, size.width, size.height));
         options.pattern = pattern;
+        options.shading = shading;
+        // Next to no contrast is left where all is shaded.
+        if (shading == GPC_SHADING_SAMPLE) options.contrast = 2;
         options.has_background = VK_TRUE;
         std::memcpy(options.background, SKY, sizeof SKY);
         check(gpc_frame_create(antialiaser, &geometry, &images, &options, &frame));
@@ -511,23 +515,26 @@ void run(const std::string &shaders, const char *out) {
     const Pipelines pipelines(device, shaders, gpc_antialiaser_samples_layout(made));
 
     const float moments[] = {0, 0.5f, 1};
-    Renderer renderer(device, world, meshes, pipelines, 1, made, GPC_PATTERN_SOBOL);
+    Renderer renderer(device, world, meshes, pipelines, 1, made, GPC_PATTERN_SOBOL, GPC_SHADING_PART);
     for (float moment : moments) renderer.draw(moment);
     const GpcOutcome outcome = renderer.outcome();
     std::printf("%llu superpixels, %llu left over, %.1f ms of the library on the GPU, %.1f MB\n",
                 static_cast<unsigned long long>(outcome.superpixels), static_cast<unsigned long long>(outcome.left_over),
                 outcome.gpu_milliseconds, double(outcome.memory_bytes) / 1e6);
-    const auto last = [&](uint32_t side, const GpcAntialiaser *antialiaser) {
-        Renderer renderer(device, world, meshes, pipelines, side, antialiaser, GPC_PATTERN_GRID);
+    const auto last = [&](uint32_t side, const GpcAntialiaser *antialiaser, GpcShading shading) {
+        Renderer renderer(device, world, meshes, pipelines, side, antialiaser, GPC_PATTERN_GRID, shading);
         renderer.draw(moments[2]);
         return renderer.picture(side);
     };
-    const auto alone = [&](uint32_t side) { return last(side, nullptr); };
+    const auto alone = [&](uint32_t side) { return last(side, nullptr, GPC_SHADING_PART); };
     const Picture truth = alone(REFERENCE), antialiased = renderer.picture(1);
     std::printf("error of one sample: %.6f\n", error(alone(1), truth));
     std::printf("error of brute force: %.6f\n", error(rounded(alone(BRUTE)), truth));
     std::printf("error of superpixels: %.6f\n", error(antialiased, truth));
-    std::printf("error of superpixels, samples where brute force has them: %.6f\n", error(last(1, made), truth));
+    std::printf("error of superpixels, samples where brute force has them: %.6f\n",
+                error(last(1, made, GPC_SHADING_PART), truth));
+    std::printf("error of superpixels, each of these samples shaded: %.6f\n",
+                error(last(1, made, GPC_SHADING_SAMPLE), truth));
     std::printf("share of superpixels: %.4f\n", double(outcome.superpixels) / (SIZE.width * SIZE.height));
     save(antialiased, out);
 }
