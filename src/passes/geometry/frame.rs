@@ -38,10 +38,12 @@ impl FrameGeometry {
     #[must_use]
     pub fn texels(&self, scene: &GpuScene) -> Vec<(u32, vk::BufferView)> {
         let geometry = &scene.geometry;
-        let (positions, normals, tangents) = match &self.moving {
-            Some(moving) => (&moving.positions, &moving.normals, &moving.tangents),
-            None => (&geometry.positions, &geometry.normals, &geometry.tangents),
+        let (positions, normals) = match &self.moving {
+            Some(moving) => (&moving.positions, &moving.normals),
+            None => (&geometry.positions, &geometry.normals),
         };
+        let moving_tangents = self.moving.as_ref().and_then(|m| m.tangents.as_ref());
+        let tangents = moving_tangents.unwrap_or(&geometry.tangents);
         let mut texels = vec![
             (1, positions),
             (2, &geometry.triangles),
@@ -54,11 +56,8 @@ impl FrameGeometry {
             (11, &self.placed.buffer),
         ];
         if let Some(moving) = &self.moving {
-            texels.extend([
-                (50, &moving.positions),
-                (51, &moving.normals),
-                (52, &moving.tangents),
-            ]);
+            texels.extend([(50, &moving.positions), (51, &moving.normals)]);
+            texels.extend(moving_tangents.map(|tangents| (52, tangents)));
             texels.extend(moving.moment.as_ref().map(|moment| (46, moment)));
             texels.extend(
                 geometry

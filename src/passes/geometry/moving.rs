@@ -93,7 +93,8 @@ impl GpuStrokes {
 pub(in crate::passes) struct MovingVertices {
     pub(in crate::passes) positions: BufferView,
     pub(in crate::passes) normals: BufferView,
-    pub(in crate::passes) tangents: BufferView,
+    /// Where something moves in the world: a camera turns none.
+    pub(in crate::passes) tangents: Option<BufferView>,
     /// Matrices and weights, which the host writes before each recording.
     pub(in crate::passes) moment: Option<BufferView>,
 }
@@ -135,29 +136,35 @@ impl MovingVertices {
         Ok(Some(Self {
             positions: like("moving positions", &geometry.positions)?,
             normals: like("moving normals", &geometry.normals)?,
-            tangents: like("moving tangents", &geometry.tangents)?,
+            tangents: geometry
+                .is_posed()
+                .then(|| like("moving tangents", &geometry.tangents))
+                .transpose()?,
             moment: geometry.motion.as_ref().map(moment).transpose()?,
         }))
     }
 
     /// Bytes of device memory for the vertices of a geometry.
     pub(in crate::passes) fn bytes(geometry: &GpuGeometry) -> u64 {
-        let streams = [&geometry.positions, &geometry.normals, &geometry.tangents];
         if !geometry.vertices_move() {
             return 0;
         }
-        let vertices: u64 = streams.iter().map(|view| view.buffer.size()).sum();
+        let tangents = geometry.is_posed().then_some(&geometry.tangents);
+        let streams = [&geometry.positions, &geometry.normals];
+        let streams = streams.into_iter().chain(tangents);
+        let vertices: u64 = streams.map(|view| view.buffer.size()).sum();
         let motion = geometry.motion.as_ref();
         vertices + motion.map_or(0, |motion| motion.vector_count * 16)
     }
 
     /// Records copies of the vertices of the first pose, of which those that don't move stay.
     pub(in crate::passes) fn record_upload(&self, recorder: &Recorder<'_>, geometry: &GpuGeometry) {
-        for (from, to) in [
+        let tangents = self.tangents.as_ref().map(|to| (&geometry.tangents, to));
+        let streams = [
             (&geometry.positions, &self.positions),
             (&geometry.normals, &self.normals),
-            (&geometry.tangents, &self.tangents),
-        ] {
+        ];
+        for (from, to) in streams.into_iter().chain(tangents) {
             recorder.copy(&from.buffer, from.buffer.size(), &to.buffer, 0);
         }
         recorder.barrier();
