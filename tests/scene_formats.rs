@@ -132,6 +132,9 @@ fn obj_with_indices_beyond_its_vertices_is_refused() {
         let expected = format!("line {line}: the OBJ file is broken: {reason}");
         refused(format!("{corners}{statements}\n").as_bytes(), &expected);
     }
+    // A statement of a great many lines takes no longer than others.
+    let long = format!("{corners}f 1 2 {}9\nf 1 2 3\n", "\\\n".repeat(300_000));
+    refused(long.as_bytes(), "line 5: the OBJ file is broken: vertex 9");
 }
 
 /// A binary STL with this text in its header.

@@ -112,10 +112,12 @@ fn statements(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
     std::iter::from_fn(move || {
         let (number, line) = lines.next()?;
         let mut statement = Cow::Borrowed(line);
-        // A backslash goes on in the next line.
-        while let Some(begun) = statement.strip_suffix('\\') {
-            let next = lines.next().map_or("", |(_, next)| next);
-            statement = format!("{begun} {next}").into();
+        // After a backslash it goes on in the next line.
+        while statement.ends_with('\\') {
+            let joined = statement.to_mut();
+            joined.pop();
+            joined.push(' ');
+            joined.push_str(lines.next().map_or("", |(_, next)| next));
         }
         Some((number, statement))
     })
