@@ -91,11 +91,12 @@ manifest_of_swiftshader() {
     find "$folder/swiftshader" -name vk_swiftshader_icd.json 2>/dev/null | head -n 1
 }
 
-# Makes a driver ready: sets `environment` and `runner` for its programs. Prints why where it can't.
+# Makes a driver ready: sets `environment`, `runner` and `kibibytes` for its programs. Prints why where it can't.
 prepare() { # NAME
     local root json
     environment=(VK_DRIVER_FILES= VK_ICD_FILENAMES=)
     runner=()
+    kibibytes=$((8 << 20))
     case "$1" in
         *-512) grep -qw avx512f /proc/cpuinfo || { echo "the processor has no vectors of 512 bits"; return 1; } ;;
     esac
@@ -121,6 +122,7 @@ prepare() { # NAME
         gpu)
             "$gpc" devices | grep -qE '^  (discrete|integrated|virtual),' || { echo "there is none"; return 1; }
             environment=()
+            kibibytes=unlimited
             return
             ;;
     esac
@@ -132,8 +134,8 @@ prepare() { # NAME
     esac
 }
 
-# Runs a program on the driver; one that takes too long is ended.
-run() { env "${environment[@]}" timeout "${LIMIT:-3600}" "${runner[@]}" "$@"; }
+# Runs a program on the driver; one that takes too long, or on a CPU too much memory, is ended.
+run() { (ulimit -v "$kibibytes" && env "${environment[@]}" timeout "${LIMIT:-3600}" "${runner[@]}" "$@"); }
 
 cargo build --release --bin gpc || exit 1
 tests="$(cargo test --release --test gpu --no-run 2>&1 | sed -nE 's/.*Executable .*\((.*)\)$/\1/p')"
@@ -155,7 +157,7 @@ while IFS='|' read -r name what; do
     image="out/drivers/$name.png"
     # A driver that can't do this much is broken.
     if ! LIMIT=600 run "$gpc" render "$scene" --size 320x180 -o "$image" --quiet 2>/dev/null; then
-        echo "   not tested: it crashes, or takes more than ten minutes, on an image of $scene"
+        echo "   not tested: it crashes, or takes more than ten minutes or 8 GiB, on an image of $scene"
         continue
     fi
     if [ -z "$first" ]; then
