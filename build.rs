@@ -67,6 +67,7 @@ const VARIANTS: &[Variant] = &[
     ("tally", "tally.comp", &[]),
     ("schedule", "schedule.comp", &[]),
     ("enlist", "enlist.comp", &[]),
+    ("distribute", "distribute.comp", &[]),
     ("groups", "groups.comp", &[]),
     ("arguments", "arguments.comp", &[]),
     ("sample_1", "sample.comp", &[("ROWS", "1")]),

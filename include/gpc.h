@@ -156,6 +156,9 @@ typedef struct GpcAntialiaser GpcAntialiaser;
 // Pipelines and memory to antialias one frame in flight.
 typedef struct GpcFrame GpcFrame;
 
+// Pipelines and memory to sample the locations of a list, of one frame in flight.
+typedef struct GpcList GpcList;
+
 // A device that the application lends.
 typedef struct GpcDevice {
     // sizeof(GpcDevice).
@@ -400,9 +403,9 @@ typedef struct GpcVisibilitySamples {
 } GpcVisibilitySamples;
 
 // Records the shading of a round's samples into a command buffer: for each key a pipeline, the samples' set, and the
-// key's indirect dispatch. It is called a fixed number of times during gpc_frame_record, on its thread, outside of a render
+// key's indirect dispatch. It is called a fixed number of times during gpc_frame_record or gpc_list_record, on its thread, outside of a render
 // pass. Dispatches need no barrier between them: what the library wrote is visible to them, and it waits for what they
-// write. It may bind and push what it likes, must not throw or jump out, and must not use the frame. `samples` lives until
+// write. It may bind and push what it likes, must not throw or jump out, and must not use the frame or list. `samples` lives until
 // it returns.
 typedef void (*GpcShade)(void *user, VkCommandBuffer commands, const struct GpcVisibilitySamples *samples);
 
@@ -425,6 +428,51 @@ typedef struct GpcOutcome {
     // Time of the library's commands on the device in milliseconds; 0 where the queue has no timestamps.
     double gpu_milliseconds;
 } GpcOutcome;
+
+// Where a list of locations lies, and where what they see goes.
+typedef struct GpcLocationList {
+    // sizeof(GpcLocationList).
+    uint32_t size;
+    // Most locations of a recording.
+    uint32_t capacity;
+    // GpcLocations, made with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT and VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT. They may change
+    // with every recording.
+    VkBuffer locations;
+    // Where the first one is, in bytes: a multiple of 256, or of what the device's descriptors of buffers may begin at.
+    uint64_t offset;
+    // What they see, made with VK_BUFFER_USAGE_TRANSFER_DST_BIT: four floats a location, in their order: linear light and
+    // opacity, by which the light is multiplied.
+    VkBuffer colors;
+    // Where that of the first location goes, in bytes: a multiple of 4.
+    uint64_t colors_offset;
+} GpcLocationList;
+
+// What a recording of a list did.
+typedef struct GpcListOutcome {
+    // sizeof(GpcListOutcome).
+    uint32_t size;
+    // Locations off the image, or that are no numbers. They show the background.
+    uint32_t left_out;
+    // Cells and tiles that found no room, and show the background. gpc_list_grow makes a list with more.
+    uint64_t left_over;
+    // Visibility samples that were shaded.
+    uint64_t visibility_samples;
+    // Bytes of device memory that the list takes, beside what the application lends.
+    uint64_t memory_bytes;
+    // Time of the library's commands on the device in milliseconds; 0 where the queue has no timestamps.
+    double gpu_milliseconds;
+} GpcListOutcome;
+
+// A place on the image plane, as it lies in the buffer of a GpcLocationList: 32 bytes.
+typedef struct GpcLocation {
+    // The pixel that it lies in: column and row from the upper left corner of the image that GpcOptions names.
+    int32_t pixel[2];
+    // Where it lies in the pixel, x and y down, from 0 to 1.
+    float within[2];
+    // How far apart it lies from its neighbours, in pixels: the change of x and y to the next column, and to the next row, of
+    // what the application makes of the list. Sub-samples and filters of textures spread over this parallelogram.
+    float jacobian[2][2];
+} GpcLocation;
 
 #ifdef __cplusplus
 extern "C" {
@@ -525,6 +573,63 @@ uint64_t gpc_frame_memory_bytes(const struct GpcFrame *frame);
 //
 // Threads: no other call uses the frame at the time.
 void gpc_frame_destroy(struct GpcFrame *frame);
+
+// Makes the pipelines and memory to sample a list of locations. With one sample each location is sampled where it is, with
+// more as a superpixel around it. Of the options, detection, contrast, thin and shade_all do not matter; width and height are
+// those of the image whose pixels locations count in.
+//
+// Threads: any; several lists may be created at once.
+// Lifetime: the buffers and views lent outlive the list. The structs are read during the call alone.
+// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_VALUE, GPC_RESULT_OUT_OF_MEMORY, GPC_RESULT_DEVICE_LOST,
+// GPC_RESULT_VULKAN. `*list` is then NULL.
+GpcResult gpc_list_create(const struct GpcAntialiaser *antialiaser,
+                          const struct GpcGeometry *geometry,
+                          const struct GpcLocationList *locations,
+                          const struct GpcOptions *options,
+                          struct GpcList **list);
+
+// Makes a list like this one, for the same buffers, with more of what its last recording lacked. Where it lacked nothing, the
+// new one has as much. The old one is still to be destroyed.
+//
+// Threads: no other call uses the list at the time. Lifetime: the commands of its last recording are done, and the buffers and
+// views lent outlive the new list too.
+// Errors: as gpc_list_create. `*grown` is then NULL.
+GpcResult gpc_list_grow(const struct GpcList *list,
+                        struct GpcList **grown);
+
+// Records the sampling of the first `location_count` locations, which see `draw_count` draws; these are read during the call
+// alone, and `draws` may be NULL where there are none. It submits nothing, waits for nothing, allocates nothing on the device
+// and updates no descriptor. `commands` is being recorded, outside of a render pass, for a queue of the family lent; what was
+// bound and pushed before has to be bound and pushed again, and what is recorded is visible to all commands after it. `user`
+// is handed to `shade`, whose shaders write no memory of the library but by gpc_store.
+//
+// Threads: no other call uses the list or the command buffer at the time. Different lists may be recorded at once.
+// Lifetime: the commands of the list's last recording are done. The list, the buffers and what `shade` records outlive the
+// execution of the commands.
+// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_VALUE, GPC_RESULT_CAPACITY. Nothing is recorded then.
+GpcResult gpc_list_record(struct GpcList *list,
+                          VkCommandBuffer commands,
+                          const struct GpcDraw *draws,
+                          uint32_t draw_count,
+                          uint32_t location_count,
+                          GpcShade shade,
+                          void *user);
+
+// What the last recording did. It waits for nothing: its commands are done.
+//
+// Threads: no gpc_list_record of the list runs at the time.
+// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_DEVICE_LOST, GPC_RESULT_VULKAN.
+GpcResult gpc_list_outcome(const struct GpcList *list, struct GpcListOutcome *outcome);
+
+// Bytes of device memory that a list takes, beside what the application lends; 0 for NULL.
+//
+// Threads: any.
+uint64_t gpc_list_memory_bytes(const struct GpcList *list);
+
+// Destroys a list, whose commands are done. NULL does nothing.
+//
+// Threads: no other call uses the list at the time.
+void gpc_list_destroy(struct GpcList *list);
 
 // Defaults for images of a size: 64 samples, contrast and thin triangles detected, shading in parts. Set
 // `options->size` before.

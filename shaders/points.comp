@@ -1,6 +1,6 @@
-// points: what each location sees that is sampled once: its colour and attributes, from its visibility samples.
-// Reads: records, shaded, the geometry. Writes: color, and two vectors a location, floats as bits:
-// (distance along the view direction, ID, ID of the nearest BLEND layer, display code), (world normal, 0).
+// points: what each location sees that is sampled once: its colour and, where asked, attributes, from its visibility samples.
+// Reads: records, shaded, the geometry. Writes: color, and two vectors a location, floats as
+// bits: (distance along the view direction, ID, ID of the nearest BLEND layer, display code), (world normal, 0).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -12,6 +12,7 @@
 #include "include/locations.glsl"
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
+layout(constant_id = 2) const bool ATTRIBUTES = false;
 layout(std430, set = 0, binding = 36) writeonly buffer AttributesOut { uvec4 attributes_out[]; };
 
 void main() {
@@ -25,7 +26,9 @@ void main() {
     bool hits = nearest != ~0u;
     nearest = hits ? nearest : i;
     vec4 c = hits ? composite(nearest) : frame.background;
+    uvec4 at = texelFetch(locations, int(2u * location));
     color[location] = c;
+    if (!ATTRIBUTES) return;
 
     uint seen = texelFetch(records, int(nearest)).y, blend_id = seen > frame.first_blend ? seen : 0u;
     uint last = nearest, next = farther(last);
@@ -35,8 +38,7 @@ void main() {
     }
     uint id = texelFetch(records, int(last)).y;
     id = id > frame.first_blend ? 0u : id;
-    uvec4 at = texelFetch(locations, int(2u * location));
-    vec2 p = tile_center(ivec2(split(at.z, frame.tiles.x))) + uintBitsToFloat(at.xy);
+    vec2 p = tile_center(ivec2(at.xy) >> ivec2(3, 2)) + place_in_tile(at);
     Triangle k = triangle_at(max(id, 1u) - 1u);
     Barycentric w = barycentric(k.v0, k.v1, k.v2, p);
     float distance_ = dot(position_of(k, w.at) - frame.eye.xyz, frame.view_direction.xyz);

@@ -70,5 +70,5 @@ void main() {
     } while (++block < filled);
     sum = (sum + frame.background * (float(frame.sample_count) - covered)) * share;
     if (LAYERED && trips > MOST_TRIPS) atomicAdd(counters[COUNTER_STALLED], 1u);
-    if (mine) write(LOCATIONS ? uvec2(location_group.y + cell, 0u) : corner + uvec2(bit & 7u, bit >> 3), sum);
+    if (mine) write(LOCATIONS ? uvec2(texelFetch(location_cells, int(2u * (location_group.y + cell) + 1u)).x, 0u) : corner + uvec2(bit & 7u, bit >> 3), sum);
 }

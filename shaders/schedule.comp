@@ -77,7 +77,7 @@ void main() {
         counters[COUNTER_CANDIDATES_TOTAL] += taken.needs.x;
         arguments[ARGUMENT_ENLIST] = groups(stretches);
         arguments[ARGUMENT_SETUP] = idle ? uvec4(0u) : groups((min(counters[COUNTER_PAIRS], frame.pair_capacity) + 63u) / 64u);
-        arguments[ARGUMENT_GROUPS] = idle ? uvec4(0u) : groups((frame.group_count + 63u) / 64u);
+        arguments[ARGUMENT_GROUPS] = idle ? uvec4(0u) : groups((counters[COUNTER_GROUPS] + 63u) / 64u);
         arguments[ARGUMENT_SAMPLE_PLAIN] = groups(taken.entries.x * push.subgroups_first);
         arguments[ARGUMENT_SAMPLE_MASKED] = groups(taken.entries.y * push.subgroups_first);
         arguments[ARGUMENT_SAMPLE_BLENDED] = groups(taken.entries.z * push.subgroups);

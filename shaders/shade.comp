@@ -85,7 +85,7 @@ void main() {
             location = record.x & POINT_LOCATION;
             uvec4 at = texelFetch(locations, int(2u * location));
             shadows = SHADOWS ? texelFetch(record_shadows, int(source)).x : 0u;
-            p = tile_center(ivec2(split(at.z, frame.tiles.x))) + uintBitsToFloat(at.xy) + location_jacobian(location) * offset;
+            p = tile_center(ivec2(at.xy) >> ivec2(3, 2)) + place_in_tile(at) + location_jacobian(location) * offset;
         } else {
             p = frame.origin + vec2(record.x & 0xffffu, record.x >> 16) + offset;
         }

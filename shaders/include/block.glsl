@@ -18,7 +18,7 @@ struct Cell {
     float hidden;           // nothing farther than this shows
     vec2 at, half_side;     // its middle from the tile's centre, and half its sides
     mat2 pixel;             // its axes: how far a sample's offsets of 1 take it
-    uint location;          // of LOCATIONS, its first one in the block
+    uint location;          // its index or, of POINTS, where in their order those in the block begin
     uint samples;           // in the block
 };
 
@@ -49,7 +49,8 @@ vec2 position_of(Cell cell, int g) {
 }
 
 uint location_of(Cell cell, int g) {
-    return cell.location + min(sample_of(g), max(cell.samples, 1u) - 1u);
+    if (!POINTS) return cell.location;
+    return texelFetch(location_order, int(cell.location + min(sample_of(g), max(cell.samples, 1u) - 1u))).x;
 }
 
 // The Jacobian at a sample: that of its location where cells hold several.
@@ -85,10 +86,11 @@ void begin_cell(Cell cell) {
         id[g] = 0u;
         own[g] = 0u;
         if (LOCATIONS)
-            place[g] = POINTS ? uintBitsToFloat(texelFetch(locations, int(2u * location_of(cell, g))).xy) : cell.at + cell.pixel * offset[g];
+            place[g] = POINTS ? place_in_tile(texelFetch(locations, int(2u * location_of(cell, g)))) : cell.at + cell.pixel * offset[g];
         if (OCCLUDERS) {
-            own[g] = texelFetch(locations, int(2u * location_of(cell, g))).w;
-            depth[g] = uintBitsToFloat(texelFetch(locations, int(2u * location_of(cell, g) + 1u)).x);
+            uvec2 surface = texelFetch(locations, int(2u * location_of(cell, g) + 1u)).xy;
+            depth[g] = uintBitsToFloat(surface.x);
+            own[g] = surface.y;
         }
     }
     nearby.id = 0u;

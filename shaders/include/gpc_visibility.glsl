@@ -17,7 +17,7 @@
 //     }
 //
 // A visibility sample is a record of four words:
-//     x   pixel: x | y << 16
+//     x   pixel: x | y << 16; of a list of locations, its location's index (the topmost bit says no more of it)
 //     y   triangle ID: 1 + index of the triangle in the order of the frame's draws
 //     z   place in the pixel: offset from its centre, x and y in 12 bits each, signed, in units of 2^-12 of a pixel, and
 //         above them how large a part of the pixel it stands for (place.glsl)
@@ -36,6 +36,7 @@ layout(set = GPC_SET, binding = 0) uniform GpcFrame {
     vec2 half_size;     // of the image, in pixels
     float place_side;   // of the square that textures are filtered over; with `box`, in what the sample's place says
     uint box;           // whether each place says how wide and how high a part of the pixel it stands for
+    uint list;          // whether locations are sampled in the place of pixels
 } gpc_frame;
 layout(std430, set = GPC_SET, binding = 1) readonly buffer GpcKeys { uvec4 gpc_keys[]; };           // samples, first in the order
 layout(std430, set = GPC_SET, binding = 2) readonly buffer GpcOrder { uint gpc_order[]; };          // indices of records
@@ -45,6 +46,7 @@ layout(std430, set = GPC_SET, binding = 5) readonly buffer GpcPositions { vec4 g
 layout(std430, set = GPC_SET, binding = 6) writeonly buffer GpcShaded { vec4 gpc_shaded[]; };
 layout(std430, set = GPC_SET, binding = 7) readonly buffer GpcDraws { uvec4 gpc_draws[]; };         // two each; in the second, what leads from a position to the vertex, and the material
 layout(std430, set = GPC_SET, binding = 8) readonly buffer GpcDrawOf { uint gpc_draw_of[]; };       // of each triangle
+layout(std430, set = GPC_SET, binding = 9) readonly buffer GpcLocations { uvec4 gpc_locations[]; }; // two each: pixel and place in it; Jacobian
 
 struct GpcSample {
     uint record;        // index, for gpc_store
@@ -52,6 +54,7 @@ struct GpcSample {
     uint draw;          // index of its draw
     uint material;      // that of its draw
     uvec3 vertices;     // indices, the draw's vertex offset added
+    uint location;      // of a list: the index of its location
     vec2 position;      // in the image, in pixels from its upper left corner, y down
     vec3 weights;       // barycentric coordinates, perspective-correct: an attribute is the sum of the vertices' weighted
     vec3 dx, dy;        // their change over the rectangle that the sample stands for, to the right and down: gradients of an
@@ -71,14 +74,29 @@ bool gpc_sample(uint key, out GpcSample s) {
     uvec4 draw = gpc_draws[2u * s.draw + 1u];
     s.vertices = words.xyz + draw.z;
     s.material = draw.w;
-    vec2 centred = vec2(record.x & 0xffffu, record.x >> 16) + 0.5 - gpc_frame.half_size + place_location(record.z);
+    vec2 place = place_location(record.z), centred;
+    mat2 jacobian = mat2(1.0);
+    s.location = gpc_frame.list != 0u ? record.x & 0x7fffffffu : 0u;
+    if (gpc_frame.list != 0u) {
+        uvec4 at = gpc_locations[2u * s.location];
+        vec4 axes = uintBitsToFloat(gpc_locations[2u * s.location + 1u]);
+        jacobian = mat2(axes.xy, axes.zw);
+        // From the middle of a tile of 8 x 4 pixels, as samples lie.
+        ivec2 in_tile = ivec2(at.xy) & ivec2(7, 3);
+        vec2 middle = vec2(ivec2(at.xy) - in_tile + ivec2(4, 2)) - gpc_frame.half_size;
+        centred = middle + (vec2(in_tile - ivec2(4, 2)) + uintBitsToFloat(at.zw)) + jacobian * place;
+    } else {
+        centred = vec2(record.x & 0xffffu, record.x >> 16) + 0.5 - gpc_frame.half_size + place;
+    }
     s.position = centred + gpc_frame.half_size;
     vec4 scale = vec4(gpc_frame.scale, 1.0, 1.0);
     Barycentric b = barycentric(gpc_positions[words.x] * scale, gpc_positions[words.y] * scale, gpc_positions[words.z] * scale, centred);
     vec2 sides = gpc_frame.place_side * (gpc_frame.box != 0u ? place_sides(record.z) : vec2(1.0));
     s.weights = b.at;
-    s.dx = b.dx * sides.x;
-    s.dy = b.dy * sides.y;
+    mat2x3 change = mat2x3(b.dx, b.dy);
+    if (gpc_frame.list != 0u) change = change * jacobian;
+    s.dx = change[0] * sides.x;
+    s.dy = change[1] * sides.y;
     s.front = b.facing;
     return i < listed.x;
 }

@@ -51,9 +51,9 @@ pub struct GpcVisibilitySamples {
 }
 
 /// Records the shading of a round's samples into a command buffer: for each key a pipeline, the samples' set, and the
-/// key's indirect dispatch. It is called a fixed number of times during gpc_frame_record, on its thread, outside of a render
+/// key's indirect dispatch. It is called a fixed number of times during gpc_frame_record or gpc_list_record, on its thread, outside of a render
 /// pass. Dispatches need no barrier between them: what the library wrote is visible to them, and it waits for what they
-/// write. It may bind and push what it likes, must not throw or jump out, and must not use the frame. `samples` lives until
+/// write. It may bind and push what it likes, must not throw or jump out, and must not use the frame or list. `samples` lives until
 /// it returns.
 pub type GpcShade = Option<
     unsafe extern "C" fn(
@@ -168,13 +168,8 @@ pub unsafe extern "C" fn gpc_frame_record(
             return Err(Error::Null("commands"));
         }
         let shade = shade.ok_or(Error::Null("shade"))?;
-        let draws: &[GpcDraw] = match scenery.draw_count as usize {
-            0 => &[],
-            _ if scenery.draws.is_null() => return Err(Error::Null("GpcScenery.draws")),
-            // SAFETY: passed on to the caller; the pointer is not null.
-            count => unsafe { std::slice::from_raw_parts(scenery.draws, count) },
-        };
-        let draws: Vec<_> = draws.iter().map(GpcDraw::draw).collect::<Result<_, _>>()?;
+        // SAFETY: passed on to the caller.
+        let draws = unsafe { GpcDraw::all(scenery.draws, scenery.draw_count, "GpcScenery.draws") }?;
         let scenery = Scenery {
             draws: &draws,
             projection: scenery.projection,
@@ -248,9 +243,9 @@ pub unsafe extern "C" fn gpc_frame_destroy(frame: *mut GpcFrame) {
 }
 
 /// An application's materials behind a function of C.
-struct Callback {
-    shade: unsafe extern "C" fn(*mut c_void, vk::CommandBuffer, *const GpcVisibilitySamples),
-    user: *mut c_void,
+pub(super) struct Callback {
+    pub shade: unsafe extern "C" fn(*mut c_void, vk::CommandBuffer, *const GpcVisibilitySamples),
+    pub user: *mut c_void,
 }
 
 impl ShadeSamples for Callback {

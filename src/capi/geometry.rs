@@ -201,6 +201,24 @@ pub struct GpcDraw {
 }
 
 impl GpcDraw {
+    /// Draws that a pointer, the argument or member `name`, shows; none where their number is 0.
+    ///
+    /// # Safety
+    /// The pointer is null, or shows so many draws.
+    pub(super) unsafe fn all(
+        draws: *const Self,
+        count: u32,
+        name: &'static str,
+    ) -> Result<Vec<Draw>, Error> {
+        let draws: &[Self] = match count as usize {
+            0 => &[],
+            _ if draws.is_null() => return Err(Error::Null(name)),
+            // SAFETY: passed on to the caller; the pointer is not null.
+            count => unsafe { std::slice::from_raw_parts(draws, count) },
+        };
+        draws.iter().map(Self::draw).collect()
+    }
+
     pub(super) fn draw(&self) -> Result<Draw, Error> {
         Ok(Draw {
             first_index: self.first_index,

@@ -12,6 +12,7 @@ mod frame;
 mod geometry;
 mod images;
 mod input;
+mod list;
 mod options;
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! What programs in C can't provoke.
 
 use super::error::{Error, GpcResult, answer, last_error};
-use crate::host::{Antialiaser, Frame};
+use crate::host::{Antialiaser, Frame, List};
 
 #[test]
 fn a_panic_ends_at_the_boundary_with_a_message() {
@@ -31,4 +31,5 @@ fn objects_can_be_used_from_threads_as_the_header_says() {
     fn shared<T: Send + Sync>() {}
     shared::<Antialiaser>();
     shared::<Frame>();
+    shared::<List>();
 }

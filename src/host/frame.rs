@@ -1,15 +1,16 @@
 //! One of a host's frames in flight.
 
 use super::adoption::Adoption;
-use super::alpha::{AlphaReading, ROW};
+use super::alpha::AlphaReading;
 use super::base::Base;
 use super::content::HostContent;
 use super::draw::PlacedDraws;
 use super::shading::{HostShading, ShadeSamples, VisibilitySamples};
+use super::uniform::{check_size, scale, uniform};
 use super::{Draw, Geometry, HostError, Images, LentImage, Options, Shared};
 use crate::passes::{
     Counter, FrameUniform, IdViews, Offsets, OwnSet, Patch, Patched, RasterTargets, Resources,
-    VisibilityUniform,
+    VisibilityUniform, VisibleGeometry,
 };
 use crate::render::engine::{Engine, EngineKind, Growing, Work, with_probes};
 use crate::render::footprint::Footprints;
@@ -64,9 +65,6 @@ pub struct Frame {
     shared: Arc<Shared>,
 }
 
-/// Trips that loops have on CPU devices, with some to spare; in each, a workgroup of `bin` takes 64 tiles of 32 pixels.
-const TRIPS: u64 = 60_000;
-
 impl Frame {
     /// # Safety
     /// As [`super::Antialiaser::prepare`].
@@ -96,15 +94,8 @@ impl Frame {
             return Err(HostError::BlendedCentres);
         }
         images.check(options.thin, settings.size, gpu.limits().max_image_side)?;
+        check_size(settings.size)?;
         let [width, height] = settings.size;
-        let most = TRIPS * 64 * 32;
-        if u64::from(width) * u64::from(height) > most {
-            return Err(HostError::Count {
-                what: "the number of pixels",
-                found: width.saturating_mul(height),
-                most: most as u32,
-            });
-        }
         let memory = Memory::new(gpu.clone(), settings.max_memory);
         // SAFETY: passed on to the caller.
         let content = unsafe { HostContent::new(gpu, &memory, geometry) }?;
@@ -163,18 +154,18 @@ impl Frame {
                 ..EngineKind::superpixels(&settings)
             },
         )?;
+        let visible = VisibleGeometry {
+            triangles: content.triangles(),
+            positions: content.positions_info(),
+            draws: &adoption.draws,
+            draw_of: content.draw_of(),
+            locations: None,
+        };
         // SAFETY: of the host's handles, as the caller says; the rest goes with the frame.
         let (base, visibility_set) = unsafe {
             (
                 Base::new(shared, &content, images, options, own, &output)?,
-                resources.visibility_set(
-                    &shared.visibility,
-                    &visibility,
-                    content.triangles(),
-                    content.positions_info(),
-                    &adoption.draws,
-                    content.draw_of(),
-                )?,
+                resources.visibility_set(&shared.visibility, &visibility, &visible)?,
             )
         };
         let growths = engine.growths() as u32;
@@ -317,7 +308,8 @@ impl Frame {
             half_size: self.settings.size.map(|side| 0.5 * side as f32),
             place_side,
             boxes: u32::from(boxes),
-            padding: [0; 2],
+            list: 0,
+            padding: 0,
         };
         let at_centres = visible(footprints.centre, false);
         let at_places = visible(footprints.place, self.settings.filters_boxes());
@@ -414,62 +406,20 @@ impl Frame {
 
     fn uniform(&self, placed: &PlacedDraws, projection: &[[f32; 4]; 4]) -> FrameUniform {
         let [width, height] = self.settings.size;
-        let half = [width, height].map(|side| 0.5 * side as f32);
-        let [x, y] = scale(&self.geometry, self.settings.size);
-        // Depth in which larger is nearer: z, or w - z.
-        let (z, z_of_w) = if self.geometry.clip.reversed_depth {
-            (1.0, 0.0)
-        } else {
-            (-1.0, 1.0)
-        };
         let footprints = Footprints::new(&self.settings, self.settings.samples);
+        let (geometry, sizes) = (&self.geometry, &self.plan.sizes);
         FrameUniform {
-            transform: [
-                [x, 0.0, 0.0, 0.0],
-                [0.0, y, 0.0, 0.0],
-                [0.0, 0.0, z, 0.0],
-                [0.0, 0.0, z_of_w, 1.0],
-            ]
-            .as_flattened()
-            .try_into()
-            .unwrap_or_default(),
-            background: self.settings.background_rgba(),
-            raster_scale: half.map(|half| 1.0 / half),
-            origin: half.map(|half| 0.5 - half),
-            size: [width, height],
-            tiles: [width.div_ceil(8), height.div_ceil(4)],
+            raster_scale: [width, height].map(|side| 2.0 / side as f32),
             interior_high: [width, height],
             gap: gap(projection, height),
-            triangle_count: placed.triangles,
-            first_mask: placed.opaque,
-            first_blend: placed.solid,
-            material_vectors: ROW as u32,
-            sample_count: self.settings.samples,
-            survivor_capacity: self.plan.sizes.survivor_capacity,
-            pair_capacity: self.plan.sizes.pair_capacity,
-            list_capacity: self.plan.sizes.list_capacity,
-            record_capacity: self.plan.sizes.record_capacity,
-            bin_count: self.geometry.keys + 1,
             contrast: u32::from(self.settings.contrast),
             // Materials that are filtered over their pixel vary within it by more than centres tell.
             alike: u32::from(self.settings.contrast).div_ceil(4),
-            exposure: 1.0,
-            footprint: footprints.centre,
-            place_footprint: footprints.place,
-            sample_footprint: footprints.sample,
-            side: 1,
-            reach: 0.5,
             seen_corner: self.images.ids.map_or([0, 0], |_| self.images.corner),
             color_corner: self.images.corner,
-            ..FrameUniform::default()
+            ..uniform(geometry, &self.settings, sizes, &footprints, placed)
         }
     }
-}
-
-/// Clip space to pixels from the image's centre, y down.
-fn scale(geometry: &Geometry, size: [u32; 2]) -> [f32; 2] {
-    let [x, y] = size.map(|side| 0.5 * side as f32);
-    [x, if geometry.clip.y_up { -y } else { y }]
 }
 
 /// Factor on a depth, and constant, by which a surface nearer by a pixel's width has a larger depth.
@@ -506,7 +456,8 @@ mod tests {
                 "vec2 scale",
                 "vec2 half_size",
                 "float place_side",
-                "uint box"
+                "uint box",
+                "uint list"
             ]
         );
         assert_eq!(size_of::<VisibilityUniform>() % 16, 0);

@@ -11,6 +11,9 @@
 //!                                                                    └──────── rounds ──────────┘
 //! ```
 //!
+//! [`List`] samples locations that the application lends in a buffer, wherever they lie on the image plane, in the place of an
+//! image's pixels: `distribute` sorts them into tiles, and the rounds are the same.
+//!
 //! Nothing here knows a material, a light or a file. `docs/embedding.md` is the manual.
 
 mod adoption;
@@ -22,8 +25,10 @@ mod error;
 mod frame;
 mod geometry;
 mod images;
+mod list;
 mod options;
 mod shading;
+mod uniform;
 
 pub use crate::render::ImageState;
 pub use alpha::AlphaMap;
@@ -32,6 +37,7 @@ pub use error::HostError;
 pub use frame::{Frame, Outcome, Scenery};
 pub use geometry::{ClipSpace, Coordinates, Geometry, PositionSpace};
 pub use images::{ColorImage, Images, LentImage};
+pub use list::{List, ListOutcome, Location, LocationList};
 pub use options::Options;
 pub use shading::{SHADER_INCLUDES, ShadeSamples, VisibilitySamples};
 
@@ -122,5 +128,25 @@ impl Antialiaser {
     ) -> Result<Frame, HostError> {
         // SAFETY: passed on to the caller.
         unsafe { Frame::new(&self.shared, geometry, images, options) }
+    }
+
+    /// Makes the pipelines and memory to sample a list of locations, for each frame in flight that does. With one sample each
+    /// location is sampled where it is, with more as a superpixel around it. Of the options, detection, contrast, thin and
+    /// `shade_all` do not matter; the size is that of the image whose pixels locations count in.
+    ///
+    /// # Errors
+    /// [`HostError`] names what can't be had; nothing is left behind.
+    ///
+    /// # Safety
+    /// - The buffers are alive, of this device, of the sizes named, made with the usage flags that [`Geometry`] and
+    ///   [`LocationList`] name, and outlive the list.
+    pub unsafe fn prepare_list(
+        &self,
+        geometry: &Geometry,
+        list: &LocationList,
+        options: &Options,
+    ) -> Result<List, HostError> {
+        // SAFETY: passed on to the caller.
+        unsafe { List::new(&self.shared, geometry, list, options) }
     }
 }

@@ -36,13 +36,21 @@ pub enum Counter {
     Stalled,
     /// First tile of the round before.
     SpentFirst,
+    /// Of a list's locations, those that lie in its region, and those that do not.
+    Placed,
+    LeftOut,
+    /// Cells and groups of a list.
+    Cells,
+    Groups,
+    /// How far samples lie from the centre of the pixel that holds their location, at the most: a float.
+    Reach,
     /// Whether a kernel was run in other subgroups than it was made for. It stays: those before it alone are cleared.
     Subgroups,
 }
 
 impl Counter {
     /// Length of the buffer of counters.
-    pub const COUNT: usize = 32;
+    pub const COUNT: usize = 36;
     /// Bytes of the buffer of counters.
     pub(crate) const BYTES: u64 = 4 * Self::COUNT as u64;
     /// Bytes of those that are cleared before each run.
@@ -135,6 +143,11 @@ mod tests {
             C::MaskedLeft,
             C::Stalled,
             C::SpentFirst,
+            C::Placed,
+            C::LeftOut,
+            C::Cells,
+            C::Groups,
+            C::Reach,
             C::Subgroups,
         ] {
             let name = format!("COUNTER_{}", shouted(&format!("{counter:?}")));

@@ -14,7 +14,7 @@ pub(super) const SLOTS: usize = 15;
 pub(super) const PUSH_BYTES: u32 = 80;
 
 /// The bindings of set 0.
-const BINDINGS: [(u32, vk::DescriptorType); 57] = {
+const BINDINGS: [(u32, vk::DescriptorType); 58] = {
     use vk::DescriptorType as T;
     [
         (0, T::UNIFORM_BUFFER),
@@ -74,6 +74,7 @@ const BINDINGS: [(u32, vk::DescriptorType); 57] = {
         (54, T::UNIFORM_BUFFER),
         (55, T::UNIFORM_TEXEL_BUFFER),
         (56, T::UNIFORM_TEXEL_BUFFER),
+        (57, T::UNIFORM_TEXEL_BUFFER),
     ]
 };
 

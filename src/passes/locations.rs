@@ -1,7 +1,9 @@
 //! Sample locations of the caller's own on the device, in the place of pixels.
 
-use super::Resources;
-use crate::vulkan::{Buffer, BufferView, Constants, Memory, MemoryUse, VulkanError};
+use super::distribute::{Distribute, ListRegion};
+use super::own_layout::whole;
+use super::{FrameLayout, Resources, SampleSet};
+use crate::vulkan::{Buffer, BufferView, Constants, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 
 /// What a cell is.
@@ -42,30 +44,86 @@ pub struct LocationSizes {
     pub cells: u32,
     /// Groups of cells that a subgroup takes.
     pub groups: u32,
+    /// Whether an application lends the list and takes the colours on the device.
+    pub lent: bool,
 }
 
 impl LocationSizes {
+    /// Room for so many locations in a region of so many tiles.
+    #[must_use]
+    pub fn new(locations: u32, tiles: u32, cells: &CellSizes) -> Self {
+        let cell_count = cells.most_cells(locations, tiles);
+        Self {
+            locations,
+            cells: cell_count,
+            groups: most_parts(cell_count, cells.in_group, tiles),
+            lent: false,
+        }
+    }
+
     /// Bytes of the buffers that locations need beside those of pixels, over `tiles` tiles.
     #[must_use]
     pub fn bytes(&self, tiles: u64) -> u64 {
         let [locations, cells, groups] = [self.locations, self.cells, self.groups].map(u64::from);
-        32 * (locations + cells) + 16 * groups + 8 * tiles
+        let listed = if self.lent { 0 } else { locations };
+        32 * (listed + cells)
+            + 4 * locations
+            + 16 * groups
+            + (8 + 4 * LocationBuffers::LOAD) * tiles
     }
 }
 
-/// One run's locations, as `shaders/include/locations.glsl` lays them out, and the tiles that they lie in.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct LocationData {
-    /// Two vectors a location.
-    pub locations: Vec<[[u32; 4]; 2]>,
-    /// Two vectors a cell.
-    pub cells: Vec<[[u32; 4]; 2]>,
-    /// Tile, first cell, cells, number of the first cell within the tile.
-    pub groups: Vec<[u32; 4]>,
-    /// A bit for each pixel of a tile of 8 x 4 that holds a location.
-    pub masks: Vec<u32>,
-    /// Cells and samples of each tile.
-    pub loads: Vec<[u32; 2]>,
+/// A sample location, as `shaders/include/locations.glsl` describes it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct ListedLocation {
+    /// The pixel of the plane that it lies in.
+    pub pixel: [i32; 2],
+    /// Where it lies in the pixel, x and y from 0 to 1, as the bits of floats.
+    pub within: [u32; 2],
+    /// Its second vector.
+    pub rest: [u32; 4],
+}
+
+/// How locations share cells, and cells groups.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CellSizes {
+    /// Most locations of a cell.
+    pub in_cell: u32,
+    /// Most cells of a group.
+    pub in_group: u32,
+    /// Samples of a cell that is one location.
+    pub samples: u32,
+}
+
+impl CellSizes {
+    /// Locations of a cell that are sampled once each, at the least; a subgroup may hold more.
+    const POINTS_IN_CELL: u32 = 16;
+
+    /// Those that suit a device.
+    #[must_use]
+    pub fn new(layout: &FrameLayout, cells: Cells, samples: u32) -> Self {
+        let lanes = layout.gpu.limits().lanes;
+        let in_cell = match cells {
+            Cells::Points | Cells::Occluders => Self::POINTS_IN_CELL.next_multiple_of(lanes),
+            Cells::Superpixels | Cells::Pixels => 1,
+        };
+        Self {
+            in_cell,
+            in_group: lanes,
+            samples,
+        }
+    }
+
+    /// Most cells that so many locations make in a region of so many tiles.
+    pub(super) fn most_cells(&self, locations: u32, tiles: u32) -> u32 {
+        most_parts(locations, self.in_cell, tiles)
+    }
+}
+
+/// Most parts of at most `size` that so many things make, where each tile has parts of its own.
+fn most_parts(count: u32, size: u32, tiles: u32) -> u32 {
+    count.min((count / size).saturating_add(tiles))
 }
 
 /// A visibility sample of locations, see `shaders/sample.comp`.
@@ -90,36 +148,55 @@ impl VisibilitySample {
     }
 }
 
-/// The buffers; the host writes them before each run.
-pub(crate) struct LocationBuffers {
-    pub locations: BufferView,
+/// The buffers of a list, see `shaders/include/locations.glsl`.
+pub struct LocationBuffers {
+    /// The list, where no application lends it.
+    pub locations: Option<BufferView>,
+    /// Indices of locations that are sampled once each, cell by cell.
+    pub order: BufferView,
+    /// Two vectors a cell.
     pub cells: BufferView,
+    /// A vector a group.
     pub groups: BufferView,
-    pub loads: Buffer,
+    /// Cells and samples of each tile.
+    pub tile_loads: Buffer,
+    loads: Buffer,
 }
 
 impl LocationBuffers {
-    pub fn new(memory: &Memory, sizes: &LocationSizes, tiles: u64) -> Result<Self, VulkanError> {
-        let vectors = |name, count: u32| {
-            memory.texel_buffer(
-                name,
-                count.into(),
-                vk::Format::R32G32B32A32_UINT,
-                vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER,
-                MemoryUse::Upload,
-            )
+    /// Words of a tile in `loads`.
+    const LOAD: u64 = 36;
+
+    pub(super) fn new(
+        memory: &Memory,
+        sizes: &LocationSizes,
+        tiles: u64,
+    ) -> Result<Self, VulkanError> {
+        let storage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_SRC;
+        let texels = |name, count: u32, format, place| {
+            let usage = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | storage;
+            memory.texel_buffer(name, count.into(), format, usage, place)
         };
+        let uint4 = vk::Format::R32G32B32A32_UINT;
+        let vectors = |name, count| texels(name, count, uint4, MemoryUse::Device);
+        let listed = || texels("locations", 2 * sizes.locations, uint4, MemoryUse::Upload);
         let tiles = if sizes.locations == 0 { 0 } else { tiles };
+        let words = |name, count: u64| {
+            let usage = storage | vk::BufferUsageFlags::TRANSFER_DST;
+            memory.buffer(name, 4 * count, usage, MemoryUse::Device)
+        };
         Ok(Self {
-            locations: vectors("locations", 2 * sizes.locations)?,
+            locations: (!sizes.lent).then(listed).transpose()?,
+            order: texels(
+                "order of locations",
+                sizes.locations,
+                vk::Format::R32_UINT,
+                MemoryUse::Device,
+            )?,
             cells: vectors("cells of locations", 2 * sizes.cells)?,
             groups: vectors("groups of cells", sizes.groups)?,
-            loads: memory.buffer(
-                "loads of tiles",
-                tiles * 8,
-                vk::BufferUsageFlags::STORAGE_BUFFER,
-                MemoryUse::Upload,
-            )?,
+            tile_loads: words("cells and samples of tiles", 2 * tiles)?,
+            loads: words("loads of tiles", Self::LOAD * tiles)?,
         })
     }
 }
@@ -130,39 +207,80 @@ impl Resources {
     /// # Errors
     /// If they do not fit, or the driver did not map the buffer.
     pub(crate) fn write_shadows(&mut self, words: &[u32]) -> Result<(), VulkanError> {
-        put(&mut self.record_shadows.buffer, bytemuck::cast_slice(words))
+        let bytes = bytemuck::cast_slice::<_, u8>(words);
+        let place = mapped(&mut self.record_shadows.buffer, bytes.len())?;
+        place.copy_from_slice(bytes);
+        Ok(())
     }
 
-    /// Writes a run's locations, which [`LocationSizes`] must have room for, while the device is idle.
+    /// The first `count` locations of the list, to be written while the device is idle.
     ///
     /// # Errors
-    /// If they do not fit, or the driver did not map the buffers.
-    pub(crate) fn write_locations(&mut self, data: &LocationData) -> Result<(), VulkanError> {
-        put(
-            &mut self.locations.locations.buffer,
-            bytemuck::cast_slice(&data.locations),
-        )?;
-        put(
-            &mut self.locations.cells.buffer,
-            bytemuck::cast_slice(&data.cells),
-        )?;
-        put(
-            &mut self.locations.groups.buffer,
-            bytemuck::cast_slice(&data.groups),
-        )?;
-        put(&mut self.locations.loads, bytemuck::cast_slice(&data.loads))?;
-        put(&mut self.masks, bytemuck::cast_slice(&data.masks))
+    /// If there is no room for so many, or the driver did not map the buffer.
+    pub fn listed_mut(&mut self, count: usize) -> Result<&mut [ListedLocation], VulkanError> {
+        let bytes = count * size_of::<ListedLocation>();
+        let listed = self.locations.locations.as_mut().ok_or(UNMAPPED)?;
+        Ok(bytemuck::cast_slice_mut(mapped(&mut listed.buffer, bytes)?))
+    }
+
+    /// The whole list, where no application lends it.
+    ///
+    /// # Errors
+    /// If one does.
+    pub fn listed(&self) -> Result<vk::BufferView, VulkanError> {
+        let listed = self.locations.locations.as_ref().ok_or(UNMAPPED)?;
+        Ok(listed.view)
+    }
+
+    /// All that `distribute` reads and writes.
+    pub(super) fn location_buffers(
+        &self,
+        locations: vk::BufferView,
+    ) -> ([vk::DescriptorBufferInfo; 8], [vk::BufferView; 2]) {
+        let LocationBuffers {
+            order,
+            cells,
+            groups,
+            tile_loads,
+            loads,
+            ..
+        } = &self.locations;
+        let buffers = [
+            whole(loads),
+            // Nothing is shaded yet.
+            whole(&self.shade_order),
+            whole(&order.buffer),
+            whole(&cells.buffer),
+            whole(&groups.buffer),
+            whole(tile_loads),
+            whole(&self.masks),
+            whole(&self.counters),
+        ];
+        (buffers, [locations, order.view])
+    }
+
+    /// Records the sorting of a list into a region that has begun.
+    pub fn record_locations(
+        &self,
+        recorder: &Recorder<'_>,
+        (set, distribute): (&SampleSet, &Distribute),
+        region: &ListRegion,
+    ) {
+        recorder.clear(&self.locations.loads);
+        recorder.barrier();
+        distribute.record(recorder, region);
+        self.record_reach(recorder, set);
+        self.record_bind(recorder, set);
     }
 }
 
-fn put(buffer: &mut Buffer, bytes: &[u8]) -> Result<(), VulkanError> {
-    let place = buffer.bytes_mut().get_mut(..bytes.len());
-    let place = place.ok_or(VulkanError::Call {
-        call: "mapping locations",
-        result: vk::Result::ERROR_MEMORY_MAP_FAILED,
-    })?;
-    place.copy_from_slice(bytes);
-    Ok(())
+const UNMAPPED: VulkanError = VulkanError::Call {
+    call: "mapping locations",
+    result: vk::Result::ERROR_MEMORY_MAP_FAILED,
+};
+
+fn mapped(buffer: &mut Buffer, bytes: usize) -> Result<&mut [u8], VulkanError> {
+    buffer.bytes_mut().get_mut(..bytes).ok_or(UNMAPPED)
 }
 
 #[cfg(test)]

@@ -5,7 +5,8 @@
 //!                      └─ pixel centres ─┘                          ▲                        └───────── a round, as often as memory needs it ─────────┘│
 //!                                                                   └───────────────────────────────────── grow ◀──────────────────────────────────────┘
 //! ```
-//! `prefilter` runs once for a scene with an environment, before its first frame.
+//! `prefilter` runs once for a scene with an environment, before its first frame. Of lists of sample locations, `distribute` takes
+//! the place of what finds superpixels, from `raster` to `detect`; `groups` follows `enlist`, and `points` may stand for `resolve`.
 //!
 //! Every pass records into a caller's command buffer and reads what the pass before left on the device. They share the
 //! geometry (`geometry/`) and what else the scene has (`scene/`), the memory that they hand to each other (`resources/`),
@@ -25,6 +26,7 @@ mod coordinates;
 mod counters;
 mod cull;
 mod detect;
+mod distribute;
 mod draws;
 mod encode;
 mod frame;
@@ -84,6 +86,7 @@ pub(crate) use counters::STRETCH;
 pub use counters::{Argument, Counter};
 pub use cull::Cull;
 pub use detect::{Detect, DetectMode};
+pub use distribute::{Distribute, ListRegion};
 pub(crate) use draws::{Draws, HostDraw};
 pub use encode::{Encode, Encoding};
 pub use frame::FrameUniform;
@@ -92,7 +95,9 @@ pub use geometry::FrameGeometry;
 pub use groups::Groups;
 pub use grow::Grow;
 pub use layout::FrameLayout;
-pub use locations::{Cells, LocationData, LocationSizes, VisibilitySample};
+pub use locations::{
+    CellSizes, Cells, ListedLocation, LocationBuffers, LocationSizes, VisibilitySample,
+};
 pub use multisample::Multisample;
 pub(crate) use own_layout::{OwnSet, SetLayout};
 pub(crate) use patch::{Patch, Patched};
@@ -118,4 +123,4 @@ pub(crate) use take::Take;
 pub use thin::Thin;
 pub(crate) use transform::{Transform, VertexCounts};
 pub(crate) use triangle_word::TriangleWord;
-pub(crate) use visibility::{VisibilityUniform, visibility_layout};
+pub(crate) use visibility::{VisibilityUniform, VisibleGeometry, visibility_layout};

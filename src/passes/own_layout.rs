@@ -95,6 +95,26 @@ impl OwnSet {
         unsafe { self.gpu.device.update_descriptor_sets(&writes, &[]) };
     }
 
+    /// Shows texel buffers at the set's bindings from one on, in their order.
+    ///
+    /// # Safety
+    /// The set is not in use, and its bindings are those of texel buffers, which outlive its use.
+    pub unsafe fn write_texels(&self, first: u32, views: &[vk::BufferView]) {
+        let kinds = self.kinds.iter().skip(first as usize);
+        let writes: Vec<_> = (first..)
+            .zip(views.iter().zip(kinds))
+            .map(|(binding, (view, kind))| {
+                vk::WriteDescriptorSet::default()
+                    .dst_set(self.raw)
+                    .dst_binding(binding)
+                    .descriptor_type(*kind)
+                    .texel_buffer_view(std::slice::from_ref(view))
+            })
+            .collect();
+        // SAFETY: passed on to the caller.
+        unsafe { self.gpu.device.update_descriptor_sets(&writes, &[]) };
+    }
+
     /// Shows an image, in the layout `SHADER_READ_ONLY_OPTIMAL`, at binding 0.
     ///
     /// # Safety

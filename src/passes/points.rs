@@ -4,13 +4,14 @@ use super::{Argument, Cells, Content, FrameLayout, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
-/// Writes a colour and two vectors a location, see `shaders/points.comp`.
+/// Writes a colour and, where asked, two vectors a location, see `shaders/points.comp`.
 pub struct Points {
     pipeline: Arc<Pipeline>,
 }
 
 impl Points {
-    /// Makes the pipeline; `output` are the colour constants of `shaders/include/color.glsl`.
+    /// Makes the pipeline; `output` are the colour constants of `shaders/include/color.glsl`,
+    /// and `attributes` says whether these are written.
     ///
     /// # Errors
     /// If the driver refuses it.
@@ -18,8 +19,10 @@ impl Points {
         layout: &FrameLayout,
         scene: &dyn Content,
         output: &Constants,
+        attributes: bool,
     ) -> Result<Self, VulkanError> {
         let constants = Cells::Points.constants(scene.constants(output.clone()));
+        let constants = constants.flag(2, attributes);
         Ok(Self {
             pipeline: layout.compute(spirv::POINTS, &constants, None)?,
         })

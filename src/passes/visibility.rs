@@ -15,43 +15,56 @@ pub(crate) struct VisibilityUniform {
     pub half_size: [f32; 2],
     pub place_side: f32,
     pub boxes: u32,
-    pub padding: [u32; 2],
+    pub list: u32,
+    pub padding: u32,
 }
 
 /// The set's layout, which hosts make their pipelines with.
 pub(crate) fn visibility_layout(gpu: &Arc<Gpu>) -> Result<SetLayout, VulkanError> {
-    let mut kinds = [vk::DescriptorType::STORAGE_BUFFER; 9];
+    let mut kinds = [vk::DescriptorType::STORAGE_BUFFER; 10];
     kinds[0] = vk::DescriptorType::UNIFORM_BUFFER;
     SetLayout::new(gpu, &kinds)
 }
 
+/// What a host's shaders see beside a frame's resources.
+pub(crate) struct VisibleGeometry<'a> {
+    pub triangles: &'a Buffer,
+    /// In clip space.
+    pub positions: vk::DescriptorBufferInfo,
+    pub draws: &'a Draws,
+    /// The draw of each triangle.
+    pub draw_of: &'a Buffer,
+    /// Where a list is sampled.
+    pub locations: Option<vk::DescriptorBufferInfo>,
+}
+
 impl Resources {
-    /// A set that shows these resources, triangles, positions in clip space, draws and the draw of each triangle.
+    /// A set that shows these resources and a host's geometry.
     ///
     /// # Safety
-    /// Positions that are the host's outlive the set's use.
+    /// Positions and locations that are the host's outlive the set's use.
     pub(crate) unsafe fn visibility_set(
         &self,
         layout: &SetLayout,
         uniform: &Buffer,
-        triangles: &Buffer,
-        positions: vk::DescriptorBufferInfo,
-        draws: &Draws,
-        draw_of: &Buffer,
+        geometry: &VisibleGeometry<'_>,
     ) -> Result<OwnSet, VulkanError> {
         let set = layout.allocate()?;
+        let draw_of = whole(geometry.draw_of);
         let buffers = [
             whole(uniform),
             whole(&self.bins),
             whole(&self.shade_order),
             whole(&self.records.buffer),
-            whole(triangles),
-            positions,
+            whole(geometry.triangles),
+            geometry.positions,
             whole(&self.shaded.buffer),
-            whole(&draws.table),
-            whole(draw_of),
+            whole(&geometry.draws.table),
+            draw_of,
+            // A frame's shaders read none.
+            geometry.locations.unwrap_or(draw_of),
         ];
-        // SAFETY: the set is new; of the host's buffer as the caller says, ours go with the frame.
+        // SAFETY: the set is new; of the host's buffers as the caller says, ours go with the frame.
         unsafe { set.write_buffers(0, &buffers) };
         Ok(set)
     }

@@ -8,6 +8,7 @@
 pub mod area;
 pub mod coverage;
 pub mod detect;
+pub mod distribute;
 pub mod edge;
 mod exact;
 pub mod grow;

@@ -13,6 +13,7 @@ mod frame;
 #[cfg(feature = "gltf")]
 mod headless;
 pub(crate) mod image_state;
+pub(crate) mod list;
 #[cfg(feature = "gltf")]
 mod locations;
 pub(crate) mod plan;

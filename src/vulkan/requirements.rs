@@ -99,9 +99,9 @@ impl Requirements {
     /// Storage buffers that a pipeline's layout shows to a stage.
     pub(crate) const STORAGE_BUFFERS: u32 = 20;
     /// Images and texel buffers that it shows to be read.
-    pub(crate) const SAMPLED_IMAGES: u32 = 46;
+    pub(crate) const SAMPLED_IMAGES: u32 = 47;
     /// All that it shows, and an attachment.
-    pub(crate) const RESOURCES: u32 = 73;
+    pub(crate) const RESOURCES: u32 = 74;
 
     /// Features to enable at device creation, as they stand in Vulkan 1.3's structures:
     /// `dynamicRendering`, `synchronization2`, `maintenance4`, `subgroupSizeControl` and

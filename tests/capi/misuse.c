@@ -49,7 +49,7 @@ static VkBuffer make_buffer(VkDeviceSize bytes, VkDeviceMemory *memory) {
     VkBufferCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
         .size = bytes,
-        .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+        .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
     };
     VkMemoryRequirements needs;
     VkBuffer buffer;
@@ -229,6 +229,67 @@ static void recordings(GpcFrame *frame) {
     vkDestroyCommandPool(device, info.commandPool, NULL);
 }
 
+static void lists(const GpcGeometry *geometry, const GpcOptions *options) {
+    enum { LOCATIONS = 8 };
+    VkCommandPoolCreateInfo pool_info = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, .queueFamilyIndex = family};
+    VkCommandBufferAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, .commandBufferCount = 1};
+    VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    VkCommandBuffer commands;
+    VkDeviceMemory memory[2];
+    VkBuffer locations = make_buffer(sizeof(GpcLocation) * LOCATIONS, &memory[0]), colors = make_buffer(16 * LOCATIONS, &memory[1]);
+    GpcLocationList lent = {.size = 0, .capacity = 0};
+    GpcDraw draw = {.triangle_count = 2, .vertex_count = 3};
+    GpcListOutcome outcome = {.size = 0};
+    GpcList *list = (GpcList *)&list;
+    int calls = 0;
+
+    MUST(vkCreateCommandPool(device, &pool_info, NULL, &info.commandPool));
+    MUST(vkAllocateCommandBuffers(device, &info, &commands));
+    MUST(vkBeginCommandBuffer(commands, &begin));
+#define CREATE_LIST gpc_list_create(antialiaser, geometry, &lent, options, &list)
+    ANSWERS(gpc_list_create(antialiaser, geometry, &lent, options, NULL), GPC_RESULT_NULL, "list is NULL");
+    ANSWERS(gpc_list_create(NULL, geometry, &lent, options, &list), GPC_RESULT_NULL, "antialiaser is NULL");
+    EXPECT(list == NULL, "what failed gives nothing");
+    ANSWERS(CREATE_LIST, GPC_RESULT_STRUCT_SIZE, "GpcLocationList.size is 0");
+    lent.size = sizeof lent;
+    ANSWERS(CREATE_LIST, GPC_RESULT_NULL, "the buffer of locations is VK_NULL_HANDLE");
+    lent.locations = locations;
+    ANSWERS(CREATE_LIST, GPC_RESULT_NULL, "the buffer of colours is VK_NULL_HANDLE");
+    lent.colors = colors;
+    ANSWERS(CREATE_LIST, GPC_RESULT_VALUE, "the capacity of locations is 0; it can be 1 to");
+    lent.capacity = LOCATIONS;
+    lent.offset = 8;
+    ANSWERS(CREATE_LIST, GPC_RESULT_VALUE, "the offset of locations is 8 bytes; it can be a multiple of");
+    lent.offset = 0;
+    lent.colors_offset = 2;
+    ANSWERS(CREATE_LIST, GPC_RESULT_VALUE, "the offset of colours is 2 bytes; it can be a multiple of 4");
+    lent.colors_offset = 0;
+    MUST((VkResult)CREATE_LIST);
+    EXPECT(gpc_list_memory_bytes(list) > 0, "the memory of a list");
+    EXPECT(gpc_list_memory_bytes(NULL) == 0, "no list, no memory");
+
+#define RECORD_LIST(count) gpc_list_record(list, commands, &draw, 1, count, shade_nothing, &calls)
+    ANSWERS(gpc_list_record(NULL, commands, &draw, 1, 1, shade_nothing, NULL), GPC_RESULT_NULL, "list is NULL");
+    ANSWERS(gpc_list_record(list, NULL, &draw, 1, 1, shade_nothing, NULL), GPC_RESULT_NULL, "commands is NULL");
+    ANSWERS(gpc_list_record(list, commands, NULL, 1, 1, shade_nothing, NULL), GPC_RESULT_NULL, "draws is NULL");
+    ANSWERS(gpc_list_record(list, commands, &draw, 1, 1, NULL, NULL), GPC_RESULT_NULL, "shade is NULL");
+    ANSWERS(RECORD_LIST(LOCATIONS + 1), GPC_RESULT_CAPACITY, "9 locations; the frame was prepared for 8");
+    draw.key = 1;
+    ANSWERS(RECORD_LIST(LOCATIONS), GPC_RESULT_VALUE, "draw 0 has shading key 1, and there are 1");
+    draw.key = 0;
+    EXPECT(calls == 0, "what is refused records nothing");
+    EXPECT(RECORD_LIST(0) == GPC_RESULT_SUCCESS && calls > 0, "a recording of no locations");
+    EXPECT(RECORD_LIST(LOCATIONS) == GPC_RESULT_SUCCESS, "a recording");
+    ANSWERS(gpc_list_outcome(list, &outcome), GPC_RESULT_STRUCT_SIZE, "GpcListOutcome.size is 0");
+    MUST(vkEndCommandBuffer(commands));
+    vkDestroyCommandPool(device, info.commandPool, NULL);
+    gpc_list_destroy(list);
+    gpc_list_destroy(NULL);
+    vkDestroyBuffer(device, locations, NULL);
+    vkDestroyBuffer(device, colors, NULL);
+    for (int i = 0; i < 2; ++i) vkFreeMemory(device, memory[i], NULL);
+}
+
 static void frames(void) {
     VkDeviceMemory memory[4];
     VkBuffer positions = make_buffer(16 * VERTICES, &memory[0]), indices = make_buffer(4 * INDICES, &memory[1]);
@@ -365,6 +426,7 @@ static void frames(void) {
     MUST((VkResult)CREATE);
     EXPECT(gpc_frame_memory_bytes(frame) > 0, "the memory of a frame");
     recordings(frame);
+    lists(&geometry, &options);
 
     gpc_antialiaser_destroy(antialiaser); /* before its frame */
     gpc_frame_destroy(frame);

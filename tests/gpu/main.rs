@@ -5,6 +5,7 @@ mod blend;
 mod coverage;
 mod detect;
 mod devices;
+mod distribute;
 mod edges;
 mod environment;
 mod extremes;

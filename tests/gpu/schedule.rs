@@ -16,7 +16,7 @@ use crate::submit::submit;
 const LAYERS: u32 = 4;
 
 /// A scene that no pass of these reads.
-struct Unread;
+pub struct Unread;
 
 impl Content for Unread {
     fn index_count(&self) -> u32 {
@@ -165,7 +165,7 @@ impl Kept {
     }
 }
 
-fn copy(gpu: &Headless, commands: vk::CommandBuffer, from: &Buffer, to: &Buffer) {
+pub fn copy(gpu: &Headless, commands: vk::CommandBuffer, from: &Buffer, to: &Buffer) {
     let size = from.size().min(to.size());
     let all = [vk::BufferCopy::default().size(size)];
     // SAFETY: the commands are being recorded; both buffers were made for copies and outlive them.

@@ -37,16 +37,19 @@ impl Resources {
             (32, &set.offsets),
             (35, &self.filtered),
             (38, &self.pairs),
-            (42, &self.locations.locations),
+            (57, &self.locations.order),
             (43, &self.locations.cells),
             (44, &self.locations.groups),
             (56, &self.record_shadows),
         ]
         .map(|(binding, texels)| (binding, texels.view));
+        let listed = self.locations.locations.as_ref();
+        let listed = listed.map(|listed| (42, listed.view));
         let texels: Vec<_> = texels
             .iter()
             .copied()
             .chain(own_texels)
+            .chain(listed)
             .map(|(binding, view)| (binding, [view]))
             .collect();
         let whole = |buffer: &Buffer| {
@@ -75,7 +78,7 @@ impl Resources {
             (36, &self.attributes),
             (37, &self.encoded),
             (41, &self.marks),
-            (45, &self.locations.loads),
+            (45, &self.locations.tile_loads),
             (54, &set.offsets.buffer),
         ]
         .map(|(binding, buffer)| (binding, whole(buffer)));

@@ -9,7 +9,7 @@ pub use descriptors::IdViews;
 pub use sample_set::{Offsets, SampleSet};
 pub use sizes::ResourceSizes;
 
-use super::locations::LocationBuffers;
+use super::locations::{LocationBuffers, LocationSizes};
 use super::pool::DescriptorPool;
 use super::{Argument, Content, Counter, FrameLayout};
 use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, VulkanError};
@@ -44,7 +44,8 @@ pub struct Resources {
     filtered: BufferView,
     pub(crate) attributes: Buffer,
     pub(crate) encoded: Buffer,
-    pub(super) locations: LocationBuffers,
+    /// What lists of locations need.
+    pub locations: LocationBuffers,
     layout: Arc<FrameLayout>,
     _pool: DescriptorPool,
     sets: Vec<SampleSet>,
@@ -92,11 +93,10 @@ impl Resources {
         let texels = |name: &str, elements: u64, format| {
             texels_in(name, elements, format, MemoryUse::Device)
         };
-        // The host writes the masks of locations and reads what they see, run by run.
-        let (input, output) = if sizes.locations.is_some() {
-            (MemoryUse::Upload, MemoryUse::Readback)
-        } else {
-            (MemoryUse::Device, MemoryUse::Device)
+        // The host reads what its own locations see, run by run.
+        let output = match sizes.locations {
+            Some(LocationSizes { lent: false, .. }) => MemoryUse::Readback,
+            _ => MemoryUse::Device,
         };
         let float4 = vk::Format::R32G32B32A32_SFLOAT;
         let uint4 = vk::Format::R32G32B32A32_UINT;
@@ -110,7 +110,7 @@ impl Resources {
             display: texels("display codes", pixels, vk::Format::R32_UINT)?,
             color: texels_in("colour", pixels, float4, output)?,
             counters: storage("counters", Counter::BYTES)?,
-            masks: storage_in("superpixel mask", tiles * 4, input)?,
+            masks: storage("superpixel mask", tiles * 4)?,
             marks: storage(
                 "marks of pixels",
                 sizes.work_items() * ResourceSizes::MARK_BYTES,

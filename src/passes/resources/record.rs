@@ -40,20 +40,21 @@ impl Resources {
         }
     }
 
-    /// Sets counters, where the host knows what other frames detect.
-    pub(crate) fn record_counters(&self, recorder: &Recorder<'_>, values: &[(Counter, u32)]) {
-        for (counter, value) in values {
-            // SAFETY: the recorder's contract; the counter lies in the buffer.
-            unsafe {
-                recorder.device().cmd_fill_buffer(
-                    recorder.raw(),
-                    self.counters.raw,
-                    4 * *counter as u64,
-                    4,
-                    *value,
-                )
-            };
-        }
+    /// Tells the passes that follow how far samples of a list's locations reach.
+    pub(in crate::passes) fn record_reach(&self, recorder: &Recorder<'_>, set: &SampleSet) {
+        let region = [vk::BufferCopy::default()
+            .src_offset(4 * Counter::Reach as u64)
+            .dst_offset(std::mem::offset_of!(FrameUniform, reach) as u64)
+            .size(4)];
+        // SAFETY: the recorder's contract; counter and member lie in the buffers, which were made for copies.
+        unsafe {
+            recorder.device().cmd_copy_buffer(
+                recorder.raw(),
+                self.counters.raw,
+                set.uniform.raw,
+                &region,
+            )
+        };
         recorder.barrier();
     }
 
@@ -61,6 +62,30 @@ impl Resources {
     pub(crate) fn record_keep_counters(&self, recorder: &Recorder<'_>, to: &Buffer, slot: u64) {
         let bytes = Counter::BYTES;
         recorder.copy(&self.counters, bytes, to, slot * bytes);
+    }
+
+    /// Copies the first bytes of the colours to a buffer of a host's, from a byte of that on.
+    ///
+    /// # Safety
+    /// The buffer outlives the execution of the commands, was made for copies, and has room for them.
+    pub(crate) unsafe fn record_keep_colors(
+        &self,
+        recorder: &Recorder<'_>,
+        to: vk::Buffer,
+        first_byte: u64,
+        bytes: u64,
+    ) {
+        if bytes == 0 {
+            return;
+        }
+        let region = [vk::BufferCopy::default().dst_offset(first_byte).size(bytes)];
+        let from = self.color.buffer.raw;
+        // SAFETY: the recorder's contract; of the host's buffer as the caller says.
+        unsafe {
+            recorder
+                .device()
+                .cmd_copy_buffer(recorder.raw(), from, to, &region)
+        };
     }
 
     /// Copies the first `count` visibility samples of a round to a buffer that has room for them.

@@ -1,30 +1,24 @@
 //! The passes and memory that sample locations: the engine of superpixels with the caller's cells in the place of pixels.
 
-use super::layout::CellSizes;
 use super::partition::Window;
 use super::plan::LocationPlan;
 use crate::camera::Pinhole;
 use crate::passes::{
-    Bin, Cells, Content, Counter, Cull, FrameGeometry, FrameLayout, FrameLook, FrameUniform,
-    GpuScene, Groups, LocationData, Offsets, Points, RasterTargets, RecordRate, Resolve, Resources,
-    Sample, SampleOptions, Schedule, Setup, Shade, ShadeSource, Sort, Stroke, StrokeSizes, Then,
+    Cells, Content, Counter, FrameGeometry, FrameLayout, FrameLook, FrameUniform, GpuScene,
+    ListedLocation, Offsets, RasterTargets, Resources, Shade, ShadeSource, Stroke, StrokeSizes,
     VisibilitySample,
 };
-use crate::render::engine::{can_settle, record_rate, record_shading, with_probes};
 use crate::render::footprint::Footprints;
 use crate::render::frame::recording::SceneShading;
+use crate::render::list::{ListEngine, ListKind};
+use crate::render::plan::Capacity;
 use crate::render::renderer::PreparedScene;
 use crate::render::statistics::Shortfall;
-use crate::render::{Coverage, PassTime, RenderError, Settings, Statistics};
+use crate::render::{PassTime, RenderError, Settings, Statistics};
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings, VulkanError};
 use ash::vk;
 use glam::{DMat4, DVec2};
 use std::sync::Arc;
-
-/// Locations of a cell that are sampled once each, at the least; a subgroup may hold more.
-const POINTS_IN_CELL: u32 = 16;
-/// BLEND layers of a list, and half the lists of a block, that tiles are admitted with.
-const LAYERS: u32 = 4;
 
 /// What is sampled, and what is asked of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,12 +38,21 @@ impl Sampling {
     fn shades(self) -> bool {
         self.cells != Cells::Occluders
     }
-}
 
-/// What makes values of shaded records.
-enum Finish {
-    Points(Points),
-    Resolve(Resolve),
+    /// What the engine is made for; `apart` says whether a subgroup samples one cell at a time.
+    pub fn kind(self, apart: bool) -> ListKind {
+        let Capacity {
+            layers, unlisted, ..
+        } = Capacity::default();
+        ListKind {
+            cells: self.cells,
+            attributes: self.cells == Cells::Points,
+            lent: false,
+            apart,
+            unlisted,
+            layers,
+        }
+    }
 }
 
 /// Pipelines and memory to sample runs of locations of one scene.
@@ -58,14 +61,9 @@ pub(super) struct LocationEngine {
     /// Rounds of lists and records recorded for a run.
     rounds: u32,
     stroke: Option<Stroke>,
-    cull: Cull,
-    bin: Bin,
-    schedule: Schedule,
-    groups: Groups,
-    setup: Setup,
-    sample: Sample,
+    engine: ListEngine,
     /// Nothing where records are all that is asked for.
-    shading: Option<Shading>,
+    shade: Option<Shade>,
     /// Where the host is given the records, and how many there may be.
     records: Option<Buffer>,
     handed: u32,
@@ -78,13 +76,6 @@ pub(super) struct LocationEngine {
     uploaded: bool,
 }
 
-/// The passes that make values of records.
-struct Shading {
-    sort: Sort,
-    shade: Shade,
-    finish: Finish,
-}
-
 /// What the locations of a run saw, in their order.
 pub(super) struct LocationValues<'a> {
     /// Where the host is given them.
@@ -95,45 +86,9 @@ pub(super) struct LocationValues<'a> {
     pub attributes: &'a [[[u32; 4]; 2]],
 }
 
-/// How locations share cells and groups on a device.
-pub(super) fn cell_sizes(layout: &FrameLayout, cells: Cells, samples: u32) -> CellSizes {
-    let lanes = layout.gpu.limits().lanes;
-    let in_cell = match cells {
-        Cells::Points | Cells::Occluders => POINTS_IN_CELL.next_multiple_of(lanes),
-        Cells::Superpixels | Cells::Pixels => 1,
-    };
-    CellSizes {
-        in_cell: in_cell as usize,
-        in_group: lanes as usize,
-        samples,
-    }
-}
-
 /// From the space of a scene's geometry to clip space around a window's middle.
 fn to_clip(scene: &GpuScene, pinhole: &Pinhole, window: &Window) -> DMat4 {
     pinhole.pixel_matrix(scene.origin(), DVec2::from_array(window.middle))
-}
-
-impl Shading {
-    fn record(&self, recorder: &mut Recorder<'_>, resources: &Resources, scene: &GpuScene) {
-        let shade = Some(&self.shade);
-        record_shading(
-            recorder,
-            resources,
-            &self.sort,
-            &SceneShading { scene, shade },
-        );
-        match &self.finish {
-            Finish::Points(points) => {
-                points.record(recorder, &resources.arguments);
-                recorder.mark("points");
-            }
-            Finish::Resolve(resolve) => {
-                resolve.record(recorder, &resources.arguments);
-                recorder.mark("resolve");
-            }
-        }
-    }
 }
 
 impl LocationEngine {
@@ -159,37 +114,11 @@ impl LocationEngine {
             gpu.clone(),
             settings.max_memory.map(|limit| limit.saturating_sub(taken)),
         );
-        let cells = sampling.cells;
-        let points = cells.are_points();
-        let CellSizes { in_cell, .. } = cell_sizes(layout, cells, settings.samples);
-        let options = SampleOptions {
-            cells,
-            samples: if points {
-                in_cell as u32
-            } else {
-                settings.samples
-            },
-            records: if points {
-                RecordRate::Sample
-            } else {
-                record_rate(settings, scene)
-            },
-            exact_areas: settings.coverage == Coverage::Area && settings.samples > 1 && !points,
-            can_settle: can_settle(settings, scene),
-            apart,
-            unlisted: true,
-            has_mask: scene.has_mask(),
-            has_blend: scene.has_blend(),
-            always_blends: false,
-        };
-        let offsets = with_probes(if points {
-            vec![[0.0; 2]]
-        } else {
-            settings.pattern.offsets(settings.samples)?
-        })?;
+        let kind = sampling.kind(apart);
+        let (offsets, count) = kind.offsets(layout, settings)?;
         let offsets = Offsets {
             all: &offsets,
-            count: options.samples,
+            count,
         };
         let targets = RasterTargets::new(
             &memory,
@@ -212,62 +141,41 @@ impl LocationEngine {
             &[offsets],
         )?;
         let output = settings.color_constants(scene);
-        let sample = Sample::new(layout, scene, &options)?;
-        let finish = || -> Result<Finish, RenderError> {
-            Ok(if points {
-                Finish::Points(Points::new(layout, scene, &output)?)
-            } else {
-                Finish::Resolve(Resolve::new(
-                    layout,
-                    &sample,
-                    scene.has_blend(),
-                    Then::Nothing,
-                    &output,
-                )?)
-            })
-        };
         let source = ShadeSource::Records {
-            cells,
+            cells: sampling.cells,
             shadows: sampling.shadows,
         };
-        let shading = || -> Result<Shading, RenderError> {
-            Ok(Shading {
-                sort: Sort::new(layout, scene, scene.bin_count() == 1)?,
-                shade: Shade::new(layout, scene, source, &output)?,
-                finish: finish()?,
-            })
+        let read_back = |name, bytes| {
+            let usage = vk::BufferUsageFlags::TRANSFER_DST;
+            memory.buffer(name, bytes, usage, MemoryUse::Readback)
         };
-        let records = || {
-            memory.buffer(
-                "records for the host",
-                16 * u64::from(*handed),
-                vk::BufferUsageFlags::TRANSFER_DST,
-                MemoryUse::Readback,
+        let records = || read_back("records for the host", 16 * u64::from(*handed));
+        let listed = resources.listed()?;
+        // SAFETY: the list goes with the resources, and has room for as many locations.
+        let engine = unsafe {
+            ListEngine::new(
+                layout,
+                scene,
+                settings,
+                &kind,
+                (&resources, listed),
+                &output,
             )
-        };
+        }?;
+        let shade = || Shade::new(layout, scene, source, &output);
         Ok(Self {
             settings: settings.clone(),
             stroke: scene
                 .has_strokes()
                 .then(|| Stroke::new(layout))
                 .transpose()?,
-            cull: Cull::new(layout, scene)?,
-            bin: Bin::new(layout, scene)?,
-            schedule: Schedule::new(layout, &sample, LAYERS)?,
-            groups: Groups::new(layout, &sample)?,
-            setup: Setup::new(layout, scene)?,
-            shading: sampling.shades().then(shading).transpose()?,
+            shade: engine.shades().then(shade).transpose()?,
+            engine,
             records: sampling.hands_over_records().then(records).transpose()?,
-            sample,
             geometry,
             resources,
             targets,
-            counters: memory.buffer(
-                "counter read-back",
-                Counter::BYTES,
-                vk::BufferUsageFlags::TRANSFER_DST,
-                MemoryUse::Readback,
-            )?,
+            counters: read_back("counter read-back", Counter::BYTES)?,
             rounds: *rounds,
             handed: *handed,
             timings: Timings::new(&gpu, 16 + 8 * rounds)?,
@@ -276,9 +184,9 @@ impl LocationEngine {
         })
     }
 
-    /// Writes a run's locations for the device to read.
-    pub fn write(&mut self, data: &LocationData) -> Result<(), VulkanError> {
-        self.resources.write_locations(data)
+    /// The list of a run of so many locations, to be written while the device is idle.
+    pub fn listed_mut(&mut self, count: usize) -> Result<&mut [ListedLocation], VulkanError> {
+        self.resources.listed_mut(count)
     }
 
     /// Writes a word for each record: a bit for each light that it lies in the shadow of.
@@ -286,7 +194,7 @@ impl LocationEngine {
         self.resources.write_shadows(words)
     }
 
-    /// Records a run whose locations have been written: all of it or, where the host is given the records, up to these.
+    /// Records a run of so many locations, which have been written: all of it or, where the host is given the records, up to these.
     ///
     /// # Safety
     /// - `commands` is being recorded, outside of a render pass, for the device and queue family of the renderer.
@@ -297,10 +205,10 @@ impl LocationEngine {
         scene: &PreparedScene,
         pinhole: &Pinhole,
         window: &Window,
-        data: &LocationData,
+        count: usize,
         commands: vk::CommandBuffer,
     ) {
-        let uniform = self.uniform(&scene.gpu_scene, pinhole, window, data);
+        let uniform = self.uniform(&scene.gpu_scene, pinhole, window);
         let to_clip = to_clip(&scene.gpu_scene, pinhole, window);
         self.geometry.place(&scene.gpu_scene, &to_clip, None);
         let scene = &*scene.gpu_scene;
@@ -309,7 +217,6 @@ impl LocationEngine {
         let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
         let recorder = &mut recorder;
         let resources = &self.resources;
-        let arguments = &resources.arguments;
         if !self.uploaded {
             self.geometry.record_upload(recorder, scene);
             resources.record_upload(recorder);
@@ -321,15 +228,6 @@ impl LocationEngine {
             return;
         };
         resources.record_begin(recorder, set, &uniform);
-        let superpixels = match self.sample.options().cells {
-            Cells::Superpixels | Cells::Pixels => data.cells.len() as u32,
-            Cells::Points | Cells::Occluders => 0,
-        };
-        let tiles = data.loads.iter().filter(|[cells, _]| *cells > 0).count() as u32;
-        resources.record_counters(
-            recorder,
-            &[(Counter::Superpixels, superpixels), (Counter::Tiles, tiles)],
-        );
         if let Some(stroke) = &self.stroke {
             let sizes = StrokeSizes {
                 line_width: self.settings.line_width,
@@ -340,27 +238,16 @@ impl LocationEngine {
             stroke.record(recorder, scene, &self.geometry, &to_clip, sizes);
             recorder.mark("stroke");
         }
-        self.cull.record(recorder, arguments);
-        recorder.mark("cull");
-        self.bin.record(recorder, arguments);
-        recorder.mark("bin");
-        if self.sample.options().probes() {
-            recorder.clear(&resources.marks);
-            recorder.barrier();
-        }
-        self.schedule.record_tally(recorder, arguments);
+        let region = window.region(count);
+        let engine = &self.engine;
+        engine.record_candidates(recorder, (resources, set), &region);
+        let shade = self.shade.as_ref();
+        let shading = SceneShading { scene, shade };
         for _ in 0..self.rounds {
-            self.schedule.record(recorder, arguments);
-            self.groups.record(recorder, arguments);
-            recorder.mark("schedule");
-            self.setup.record(recorder, arguments);
-            recorder.mark("setup");
-            self.sample.record(recorder, arguments);
-            recorder.mark("sample");
-            match (&self.records, &self.shading) {
-                (Some(records), _) => resources.record_keep_records(recorder, records, self.handed),
-                (None, Some(shading)) => shading.record(recorder, resources, scene),
-                (None, None) => {}
+            engine.record_round(recorder, resources);
+            match &self.records {
+                Some(records) => resources.record_keep_records(recorder, records, self.handed),
+                None => engine.record_values(recorder, resources, &shading),
             }
         }
         resources.record_keep_counters(recorder, &self.counters, 0);
@@ -377,9 +264,12 @@ impl LocationEngine {
         let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
         let resources = &self.resources;
         recorder.go_on();
-        if let (Some(shading), Some(set)) = (&self.shading, resources.set(0)) {
+        if let Some(set) = resources.set(0) {
+            let (scene, shade) = (&*scene.gpu_scene, self.shade.as_ref());
+            let shading = SceneShading { scene, shade };
             resources.record_bind(&recorder, set);
-            shading.record(&mut recorder, resources, &scene.gpu_scene);
+            self.engine
+                .record_values(&mut recorder, resources, &shading);
         }
         resources.record_keep_counters(&recorder, &self.counters, 0);
         recorder.barrier();
@@ -406,9 +296,9 @@ impl LocationEngine {
         } = &self.resources;
         Ok(LocationValues {
             records: self.records()?,
-            colors: match &self.shading {
-                Some(_) => color.buffer.read(locations)?,
-                None => &[],
+            colors: match self.engine.shades() {
+                true => color.buffer.read(locations)?,
+                false => &[],
             },
             attributes: match self.resources.sizes().attributes {
                 true => attributes.read(locations)?,
@@ -469,13 +359,7 @@ impl LocationEngine {
         Ok(())
     }
 
-    fn uniform(
-        &self,
-        scene: &GpuScene,
-        pinhole: &Pinhole,
-        window: &Window,
-        data: &LocationData,
-    ) -> FrameUniform {
+    fn uniform(&self, scene: &GpuScene, pinhole: &Pinhole, window: &Window) -> FrameUniform {
         let middle = window.middle;
         let eye = (pinhole.eye() - scene.origin()).as_vec3();
         // Parallel rays need not be at right angles to the plane.
@@ -484,8 +368,8 @@ impl LocationEngine {
             .map_or(pinhole.direction(), |to_centre| -to_centre)
             .as_vec3();
         let parallel = if pinhole.is_parallel() { 1.0 } else { 0.0 };
-        let points = self.sample.options().cells.are_points();
-        let samples = self.sample.options().samples;
+        let points = self.engine.options().cells.are_points();
+        let samples = self.engine.options().samples;
         let footprints = Footprints::new(&self.settings, if points { 1 } else { samples });
         FrameUniform {
             transform: to_clip(scene, pinhole, window).as_mat4().to_cols_array(),
@@ -513,8 +397,11 @@ impl LocationEngine {
             place_footprint: footprints.place,
             sample_footprint: footprints.sample,
             side: 1,
-            reach: window.reach as f32,
-            group_count: data.groups.len() as u32,
+            group_count: self
+                .resources
+                .sizes()
+                .locations
+                .map_or(0, |sizes| sizes.groups),
             ..FrameUniform::default()
         }
     }

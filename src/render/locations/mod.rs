@@ -7,7 +7,6 @@
 mod engine;
 mod error;
 mod image;
-mod layout;
 mod partition;
 mod plan;
 mod shadows;
@@ -23,11 +22,12 @@ use super::{
 };
 use crate::camera::{Pinhole, SampleLocation};
 use crate::passes::Cells;
-use engine::{LocationEngine, LocationValues, Sampling, cell_sizes};
-use partition::{Partition, Sorted};
+use engine::{LocationEngine, LocationValues, Sampling};
+use partition::Partition;
 use plan::LocationPlan;
 use rayon::prelude::*;
 use shadows::Receivers;
+use std::ops::Range;
 
 /// What a sampling location sees.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -56,14 +56,14 @@ struct Task<'a> {
     pinhole: &'a Pinhole,
     /// Whether lights may be hidden from records.
     shadows: bool,
-    /// A word for each location, see `shaders/include/locations.glsl`; those that are missing are 0.
-    words: &'a [u32],
+    /// What a location has in the place of its Jacobian, by its index.
+    rest: Option<&'a (dyn Fn(usize) -> [u32; 4] + Sync)>,
 }
 
 /// What a run of locations saw.
 struct Run<'a> {
-    /// Its locations in order.
-    locations: &'a [Sorted],
+    /// Its locations, as places in the order of the partition.
+    places: Range<usize>,
     seen: LocationValues<'a>,
     /// For each record, where lights may be hidden from it, a bit for each that is.
     shadows: &'a [u32],
@@ -96,30 +96,29 @@ impl Headless {
             scene,
             pinhole,
             shadows: settings.shadows == Shadows::Exact,
-            words: &[],
+            rest: None,
         };
-        let nothing = rayon::iter::repeat_n(PointSample::default(), locations.len());
-        let mut values: Vec<PointSample> = nothing.collect();
+        let mut values: Vec<PointSample> = Vec::with_capacity(locations.len());
         let statistics = self.run_locations(&partition, task, settings, |run| {
-            let seen = run.seen.colors.iter().zip(run.seen.attributes);
-            for (sorted, (color, [seen, normal])) in run.locations.iter().zip(seen) {
-                let [depth, id, blend_id, code] = *seen;
+            values.par_extend((0..run.places.len()).into_par_iter().map(|i| {
+                let [[depth, id, blend_id, code], normal] = run.seen.attributes[i];
                 let [x, y, z, _] = normal.map(f32::from_bits);
-                values[sorted.index()] = PointSample {
-                    color: *color,
+                PointSample {
+                    color: run.seen.colors[i],
                     depth: f32::from_bits(depth),
                     id,
                     blend_id,
                     normal: [x, y, z],
                     code,
                     ..PointSample::default()
-                };
-            }
+                }
+            }));
             // Layers before a surface have none.
             for (record, hidden) in run.seen.records.iter().zip(run.shadows) {
-                values[run.locations[record.location()].index()].shadows |= hidden;
+                values[run.places.start + record.location()].shadows |= hidden;
             }
         })?;
+        let values = partition.unsorted(values);
         Ok(Sampled { values, statistics })
     }
 
@@ -150,18 +149,17 @@ impl Headless {
             scene,
             pinhole,
             shadows: exact,
-            words: &[],
+            rest: None,
         };
-        let mut values = vec![[0.0; 4]; locations.len()];
+        let mut values: Vec<[f32; 4]> = Vec::with_capacity(locations.len());
         let statistics = self.run_locations(&partition, task, settings, |run| {
-            for (sorted, color) in run.locations.iter().zip(run.seen.colors) {
-                values[sorted.index()] = *color;
-            }
+            values.extend_from_slice(run.seen.colors);
         })?;
+        let values = partition.unsorted(values);
         Ok(Sampled { values, statistics })
     }
 
-    /// Samples locations run by run; `take` is given what each run saw.
+    /// Samples locations run by run, in the partition's order; `take` is given what each run saw.
     fn run_locations(
         &mut self,
         partition: &Partition<'_>,
@@ -173,7 +171,7 @@ impl Headless {
             scene,
             pinhole,
             shadows,
-            words,
+            rest,
         } = task;
         self.check(&scene.gpu_scene)?;
         let cells = partition.cells;
@@ -191,16 +189,14 @@ impl Headless {
         let make =
             |apart: bool| LocationEngine::new(&layout, scene, settings, sampling, &plan, apart);
         let (mut engine, mut apart) = (make(false)?, false);
-        let sizes = cell_sizes(&layout, cells, settings.samples);
         let mut statistics = Statistics::default();
         let mut waiting: Vec<_> = plan.runs.iter().rev().cloned().collect();
         while let Some(run) = waiting.pop() {
             let window = partition.window(&run);
-            let data = partition.data(&run, &window, &sizes, words);
-            engine.write(&data)?;
+            partition.list((&run, &window), rest, engine.listed_mut(run.len())?);
             // SAFETY: the last submission was waited for; scene and engine outlive this one, which is waited for.
             self.submit(|commands| unsafe {
-                engine.record(scene, pinhole, &window, &data, commands);
+                engine.record(scene, pinhole, &window, run.len(), commands);
             })?;
             match engine.check(&window) {
                 Ok(()) => {}
@@ -243,8 +239,8 @@ impl Headless {
             }
             engine.add_statistics(scene, &window, &mut statistics)?;
             take(&Run {
-                locations: partition.run(&run),
                 seen: engine.values(run.len())?,
+                places: run,
                 shadows: &hidden,
             });
         }

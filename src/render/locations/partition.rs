@@ -1,11 +1,10 @@
-//! Locations into runs, tiles, cells and groups: what the sampling engine works through instead of an image's pixels.
+//! Locations into regions of the plane and runs: what is sampled at once. The device sorts a run's locations by tile.
 //!
-//! The plane is cut into regions on a fixed grid; regions without locations cost nothing. Within a region, locations are sorted
-//! by tile of 8 x 4 pixels, and within a tile along a Morton curve, so that neighbours share a cell.
+//! The plane is cut into regions on a fixed grid; regions without locations cost nothing.
 
 use super::LocationError;
 use crate::camera::SampleLocation;
-use crate::passes::Cells;
+use crate::passes::{Cells, ListRegion, ListedLocation};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -13,54 +12,31 @@ use std::ops::Range;
 /// Tiles of a region: 2,048 x 2,048 pixels.
 const REGION_TILES: [i64; 2] = [256, 512];
 /// Pixels of a tile.
-pub(super) const TILE: [i64; 2] = [8, 4];
+const TILE: [i64; 2] = [8, 4];
 /// Up to this many pixels locations share what positions are relative to, so that they see the same however they are cut
 /// into runs, and what an image of their plane sees; beyond it 32-bit positions are finer from the middle of each window.
 const COMPACT: f64 = 8192.0;
-/// Factor on the reach of large cells, whose samples are rounded to 32 bits.
-pub(super) const ROUNDING: f64 = 1.0 + 1.0 / 1_048_576.0;
-/// Bits of a [`Sorted`] word: the index of a location, and above it the place in its tile, below the tile.
-const INDEX_BITS: u32 = 31;
-const PLACE_BITS: u32 = 16;
+/// Locations of a stretch of a list.
+const STRETCH: usize = 4096;
+/// A list whose stretches lie in areas of so many times the whole one is in no order that runs may follow.
+const SCATTERED: f64 = 32.0;
+/// Pixels along the side of the blocks that such a list is ordered by.
+const BLOCK: f64 = 64.0;
+/// Most locations of a list.
+const MOST: usize = (1 << 31) - 1;
 
 /// Locations in the order in which they are sampled.
 pub(super) struct Partition<'a> {
     locations: &'a [SampleLocation],
-    order: Vec<Sorted>,
+    /// Indices of locations in the order; nothing where that is the caller's.
+    order: Option<Vec<u32>>,
     pub cells: Cells,
     /// What clip-space positions of all runs are relative to, if they lie close enough together.
     middle: Option<[f64; 2]>,
-    regions: Vec<Region>,
-}
-
-/// A part of the order that lies in one region.
-struct Region {
-    range: Range<usize>,
-    /// Its upper left tile.
-    low: [i64; 2],
-}
-
-/// A location by what locations of a region are sorted by: its tile, its place there along a Morton curve, and its index in the
-/// caller's list.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Sorted(u64);
-
-impl Sorted {
-    /// The location's index in the caller's list.
-    pub fn index(self) -> usize {
-        (self.0 & ((1 << INDEX_BITS) - 1)) as usize
-    }
-
-    /// The tile within its region.
-    fn tile(self) -> [i64; 2] {
-        let tile = (self.0 >> (INDEX_BITS + PLACE_BITS)) as i64;
-        [tile % REGION_TILES[0], tile / REGION_TILES[0]]
-    }
-
-    /// Whether two locations of a region lie in the same tile.
-    pub fn shares_tile(self, other: Self) -> bool {
-        self.tile() == other.tile()
-    }
+    /// What each stretch of the caller's list lies in.
+    stretches: Vec<Bounds>,
+    /// The parts of the order, each of one region.
+    regions: Vec<Range<usize>>,
 }
 
 /// The part of the plane that a run's locations lie in.
@@ -72,8 +48,6 @@ pub(super) struct Window {
     pub tiles: [u32; 2],
     /// The place on the plane that clip-space positions are relative to, in pixels.
     pub middle: [f64; 2],
-    /// The farthest that samples are from the centre of the pixel that holds their location.
-    pub reach: f64,
 }
 
 impl Window {
@@ -86,10 +60,18 @@ impl Window {
     pub fn size(&self) -> [u32; 2] {
         [0, 1].map(|axis| self.tiles[axis] * TILE[axis] as u32)
     }
+
+    /// It, as what a list of so many locations is of.
+    pub fn region(&self, count: usize) -> ListRegion {
+        ListRegion {
+            tiles: self.tiles,
+            count: count as u32,
+        }
+    }
 }
 
 impl<'a> Partition<'a> {
-    /// Sorts `locations`.
+    /// Parts `locations`.
     ///
     /// # Errors
     /// The first location that is not finite or too far off the image.
@@ -97,54 +79,41 @@ impl<'a> Partition<'a> {
         if locations.is_empty() {
             return Err(LocationError::Empty);
         }
-        if locations.len() > (1 << INDEX_BITS) - 1 {
+        if locations.len() > MOST {
             return Err(LocationError::TooMany {
                 found: locations.len(),
             });
         }
-        // Which one is found first depends on the threads.
-        let offender = locations
-            .par_iter()
+        let surveys: Vec<Survey> = locations
+            .par_chunks(STRETCH)
             .enumerate()
-            .filter_map(|(index, location)| {
-                check(location, index, cells)
-                    .err()
-                    .map(|error| (index, error))
+            .map(|(stretch, locations)| {
+                let numbered = (stretch * STRETCH..).zip(locations);
+                numbered.fold(Survey::NOTHING, |survey, (index, location)| {
+                    survey.with(index, location, cells)
+                })
             })
-            .min_by_key(|(index, _)| *index);
-        if let Some((_, error)) = offender {
-            return Err(error);
-        }
-        let keyed: Vec<(u64, Sorted)> = locations
-            .par_iter()
-            .enumerate()
-            .map(|(index, location)| (region(location, cells), sorted(location, index)))
             .collect();
-        let mut by_region: BTreeMap<u64, Vec<Sorted>> = BTreeMap::new();
-        for part in keyed.chunk_by(|(a, _), (b, _)| a == b) {
-            if let Some((region, _)) = part.first() {
-                let members = by_region.entry(*region).or_default();
-                members.extend(part.iter().map(|(_, sorted)| *sorted));
-            }
+        let survey = surveys.iter().copied().fold(Survey::NOTHING, Survey::and);
+        if let Some(first) = survey.offender {
+            check(&locations[first], first, cells)?;
         }
-        let mut order: Vec<Sorted> = Vec::with_capacity(locations.len());
-        let mut regions: Vec<Region> = Vec::new();
-        for mut members in by_region.into_values() {
-            members.par_sort_unstable();
-            let low = members.first().map(|first| {
-                let (tile, within) = (tile_of(&locations[first.index()]), first.tile());
-                [0, 1].map(|axis| tile[axis] - within[axis])
-            });
-            regions.push(Region {
-                range: order.len()..order.len() + members.len(),
-                low: low.unwrap_or_default(),
-            });
-            order.append(&mut members);
-        }
-        let bounds = Bounds::of(locations.par_iter().map(tile_of));
+        let bounds = survey.bounds;
+        let stretches: Vec<Bounds> = surveys.iter().map(|survey| survey.bounds).collect();
+        let area: f64 = stretches.iter().map(Bounds::area).sum();
+        let (order, regions) = if survey.regions[0] != survey.regions[1] {
+            let (order, regions) = by_region(locations, cells);
+            (Some(order), regions)
+        } else {
+            let scattered = area > SCATTERED * bounds.area();
+            let order = scattered.then(|| by_block(locations, &bounds));
+            let all = 0..locations.len();
+            (order, vec![all])
+        };
         Ok(Self {
             order,
             middle: bounds.is_compact().then(|| bounds.middle()),
+            stretches,
             locations,
             cells,
             regions,
@@ -154,65 +123,176 @@ impl<'a> Partition<'a> {
     /// Runs of at most `longest` locations, each in one region.
     pub fn runs(&self, longest: usize) -> Vec<Range<usize>> {
         let longest = longest.max(1);
-        let pieces = |region: &Region| {
-            let end = region.range.end;
-            let starts = region.range.clone().step_by(longest);
+        let pieces = |region: &Range<usize>| {
+            let end = region.end;
+            let starts = region.clone().step_by(longest);
             starts.map(move |start| start..end.min(start + longest))
         };
         self.regions.iter().flat_map(pieces).collect()
     }
 
-    /// The region of a place in the order.
-    fn region(&self, place: usize) -> Option<&Region> {
-        let next = self
-            .regions
-            .partition_point(|region| region.range.start <= place);
-        self.regions.get(next.checked_sub(1)?)
+    /// The index in the caller's list of a place in the order.
+    pub fn index(&self, place: usize) -> usize {
+        self.order
+            .as_ref()
+            .map_or(place, |order| order[place] as usize)
     }
 
-    /// A run in order.
-    pub fn run(&self, run: &Range<usize>) -> &[Sorted] {
-        self.order.get(run.clone()).unwrap_or(&[])
-    }
-
-    /// A location.
+    /// The location at a place in the order.
     ///
     /// # Panics
-    /// If it is not one of the partition's.
-    pub fn location(&self, sorted: Sorted) -> &SampleLocation {
-        &self.locations[sorted.index()]
+    /// If there is none.
+    pub fn location(&self, place: usize) -> &SampleLocation {
+        &self.locations[self.index(place)]
+    }
+
+    /// Values in this order, in that of the caller's list.
+    pub fn unsorted<T: Copy + Send + Sync>(&self, values: Vec<T>) -> Vec<T> {
+        let Some(order) = &self.order else {
+            return values;
+        };
+        let mut places = vec![0_u32; order.len()];
+        for (place, index) in (0..).zip(order) {
+            places[*index as usize] = place;
+        }
+        places
+            .into_par_iter()
+            .map(|place| values[place as usize])
+            .collect()
+    }
+
+    /// Writes a run's locations as the device takes them, in pixels of its window. `rest` makes the second vector of each, by
+    /// its index in the caller's list; without it this is the Jacobian.
+    pub fn list(
+        &self,
+        (run, window): (&Range<usize>, &Window),
+        rest: Option<&(dyn Fn(usize) -> [u32; 4] + Sync)>,
+        to: &mut [ListedLocation],
+    ) {
+        to.par_iter_mut().enumerate().for_each(|(i, listed)| {
+            let index = self.index(run.start + i);
+            let SampleLocation { uv, jacobian, .. } = &self.locations[index];
+            let floor = uv.map(f64::floor);
+            let own = || {
+                let [[a, b], [c, d]] = jacobian.map(|column| column.map(bits));
+                [a, b, c, d]
+            };
+            *listed = ListedLocation {
+                pixel: [0, 1].map(|axis| (floor[axis] as i64 - window.low[axis]) as i32),
+                within: [0, 1].map(|axis| bits(uv[axis] - floor[axis])),
+                rest: rest.map_or_else(own, |rest| rest(index)),
+            };
+        });
     }
 
     /// The window around a run.
     pub fn window(&self, run: &Range<usize>) -> Window {
-        let low = self.region(run.start).map_or([0; 2], |region| region.low);
-        let sorted = self.run(run).par_iter();
-        let tile = |sorted: &Sorted| {
-            let tile = sorted.tile();
-            [0, 1].map(|axis| low[axis] + tile[axis])
-        };
-        let bounds = Bounds::of(sorted.clone().map(tile));
-        let reach = |location: &SampleLocation| {
-            let extent = half_extent(location, self.cells);
-            let from_centre = location.uv.map(|v| (v - v.floor() - 0.5).abs());
-            (from_centre[0] + extent[0]).max(from_centre[1] + extent[1])
-        };
-        let reach = if self.cells.are_points() {
-            0.5
-        } else {
-            let reaches = sorted.map(|sorted| reach(self.location(*sorted)));
-            reaches.reduce(|| 0.5, f64::max)
+        let bounds = match self.order {
+            None => {
+                let stretches = run.start / STRETCH..run.end.div_ceil(STRETCH);
+                let all = self.stretches[stretches].iter().copied();
+                all.fold(Bounds::NOTHING, Bounds::and)
+            }
+            Some(_) => {
+                let places = run.clone().into_par_iter();
+                Bounds::of(places.map(|place| tile_of(self.location(place))))
+            }
         };
         Window {
             low: bounds.low.map(|pixel| pixel as i64),
             tiles: bounds.tiles(),
             middle: self.middle.unwrap_or_else(|| bounds.middle()),
-            reach: reach * ROUNDING,
         }
     }
 }
 
+/// What has to be known of some locations.
+#[derive(Clone, Copy)]
+struct Survey {
+    /// The first one that can't be sampled.
+    offender: Option<usize>,
+    bounds: Bounds,
+    /// The least and the largest key of a region.
+    regions: [u64; 2],
+}
+
+impl Survey {
+    const NOTHING: Self = Self {
+        offender: None,
+        bounds: Bounds::NOTHING,
+        regions: [u64::MAX, 0],
+    };
+
+    fn with(self, index: usize, location: &SampleLocation, cells: Cells) -> Self {
+        if check(location, index, cells).is_err() {
+            let first = self.offender.unwrap_or(index).min(index);
+            return Self {
+                offender: Some(first),
+                ..self
+            };
+        }
+        let key = region(location, cells);
+        Self {
+            bounds: self.bounds.with(tile_of(location)),
+            regions: [self.regions[0].min(key), self.regions[1].max(key)],
+            ..self
+        }
+    }
+
+    fn and(self, other: Self) -> Self {
+        Self {
+            offender: self.offender.into_iter().chain(other.offender).min(),
+            bounds: self.bounds.and(other.bounds),
+            regions: [
+                self.regions[0].min(other.regions[0]),
+                self.regions[1].max(other.regions[1]),
+            ],
+        }
+    }
+}
+
+/// Indices of locations, region by region, and the part of each region.
+fn by_region(locations: &[SampleLocation], cells: Cells) -> (Vec<u32>, Vec<Range<usize>>) {
+    let keyed: Vec<(u64, u32)> = (0..locations.len() as u32)
+        .into_par_iter()
+        .map(|index| (region(&locations[index as usize], cells), index))
+        .collect();
+    let mut members: BTreeMap<u64, Vec<u32>> = BTreeMap::new();
+    for part in keyed.chunk_by(|(a, _), (b, _)| a == b) {
+        if let Some((region, _)) = part.first() {
+            let members = members.entry(*region).or_default();
+            members.extend(part.iter().map(|(_, index)| *index));
+        }
+    }
+    let mut order = Vec::with_capacity(locations.len());
+    let mut regions = Vec::with_capacity(members.len());
+    for members in members.into_values() {
+        regions.push(order.len()..order.len() + members.len());
+        order.extend(members);
+    }
+    (order, regions)
+}
+
+/// Indices of locations, block by block of the plane.
+fn by_block(locations: &[SampleLocation], bounds: &Bounds) -> Vec<u32> {
+    let columns = ((bounds.high[0] - bounds.low[0]) / BLOCK) as u64 + 1;
+    let key = |index: u32| {
+        let uv = locations[index as usize].uv;
+        let [x, y] = [0, 1].map(|axis| ((uv[axis] - bounds.low[axis]) / BLOCK) as u64);
+        (y * columns + x) << 32 | u64::from(index)
+    };
+    let keys = (0..locations.len() as u32).into_par_iter().map(key);
+    let mut keys: Vec<u64> = keys.collect();
+    keys.par_sort_unstable();
+    keys.into_iter().map(|key| key as u32).collect()
+}
+
+fn bits(v: f64) -> u32 {
+    (v as f32).to_bits()
+}
+
 /// A rectangle around tiles, in pixels of the plane.
+#[derive(Clone, Copy)]
 struct Bounds {
     low: [f64; 2],
     high: [f64; 2],
@@ -252,13 +332,17 @@ impl Bounds {
         [0, 1].map(|axis| ((self.high[axis] - self.low[axis]) / TILE[axis] as f64) as u32)
     }
 
+    fn area(&self) -> f64 {
+        (self.high[0] - self.low[0]) * (self.high[1] - self.low[1])
+    }
+
     fn is_compact(&self) -> bool {
         (0..2).all(|axis| self.high[axis] - self.low[axis] <= COMPACT)
     }
 }
 
 /// The tile of the plane that a location lies in.
-pub(super) fn tile_of(location: &SampleLocation) -> [i64; 2] {
+fn tile_of(location: &SampleLocation) -> [i64; 2] {
     [0, 1].map(|axis| (location.uv[axis] / TILE[axis] as f64).floor() as i64)
 }
 
@@ -314,22 +398,53 @@ fn region(location: &SampleLocation, cells: Cells) -> u64 {
     level << 22 | row << 11 | column
 }
 
-/// A location with what it is sorted by within its region.
-fn sorted(location: &SampleLocation, index: usize) -> Sorted {
-    let tile = tile_of(location);
-    let in_region = [0, 1].map(|axis| tile[axis].rem_euclid(REGION_TILES[axis]) as u64);
-    let [x, y] = [0, 1].map(|axis| {
-        let place = location.uv[axis] / TILE[axis] as f64;
-        ((place - place.floor()) * 256.0).min(255.0) as u64
-    });
-    let tile = in_region[1] << 8 | in_region[0];
-    let place = spread(y) << 1 | spread(x);
-    Sorted((tile << PLACE_BITS | place) << INDEX_BITS | index as u64)
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// The bits of a byte on every other place.
-fn spread(v: u64) -> u64 {
-    let v = (v | v << 4) & 0x0f0f;
-    let v = (v | v << 2) & 0x3333;
-    (v | v << 1) & 0x5555
+    fn location(uv: [f64; 2]) -> SampleLocation {
+        SampleLocation {
+            uv,
+            jacobian: [[2.0, 0.0], [0.0, 1.0]],
+            output: 0,
+        }
+    }
+
+    #[test]
+    fn runs_hold_every_location_once_and_windows_hold_runs() {
+        // Seven locations in one tile, one in the next, one left of the plane's corner by less than 64 bits resolve.
+        let mut locations: Vec<SampleLocation> = (0..7)
+            .map(|i| location([f64::from(i) + 0.5, 3.5]))
+            .collect();
+        locations.extend([location([9.0, 0.0]), location([-1e-20, 0.0])]);
+        let partition = Partition::new(&locations, Cells::Superpixels).unwrap();
+        // The region left of the corner is one of its own.
+        let runs = partition.runs(100);
+        assert_eq!(runs, [0..1, 1..9]);
+        assert_eq!(partition.runs(5), [0..1, 1..6, 6..9]);
+        let windows: Vec<_> = runs.iter().map(|run| partition.window(run)).collect();
+        assert_eq!((windows[0].low, windows[0].tiles), ([-8, 0], [1, 1]));
+        assert_eq!((windows[1].low, windows[1].tiles), ([0, 0], [2, 1]));
+        let mut seen = Vec::new();
+        for (run, window) in runs.iter().zip(&windows) {
+            let mut listed = vec![ListedLocation::default(); run.len()];
+            partition.list((run, window), None, &mut listed);
+            seen.extend(listed.iter().map(|listed| 1 + listed.pixel[0]));
+            for (place, listed) in run.clone().zip(&listed) {
+                let uv = partition.location(place).uv;
+                let [x, y] = [0, 1].map(|axis| {
+                    window.low[axis] as f64
+                        + f64::from(listed.pixel[axis])
+                        + f64::from(f32::from_bits(listed.within[axis]))
+                });
+                assert!((x - uv[0]).abs() < 1e-7 && (y - uv[1]).abs() < 1e-7);
+                assert_eq!(listed.rest.map(f32::from_bits), [2.0, 0.0, 0.0, 1.0]);
+            }
+        }
+        assert_eq!(partition.unsorted(seen), [1, 2, 3, 4, 5, 6, 7, 10, 8]);
+        // Where all lie in one region, the order is the caller's.
+        let partition = Partition::new(&locations[..8], Cells::Points).unwrap();
+        assert!(partition.order.is_none());
+        assert_eq!(partition.runs(3), [0..3, 3..6, 6..8]);
+    }
 }

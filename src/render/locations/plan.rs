@@ -1,12 +1,10 @@
 //! How many locations are sampled at once: what memory and the device's limits allow.
 
-use super::engine::{Sampling, cell_sizes};
+use super::engine::Sampling;
 use super::partition::{Partition, Window};
-use crate::passes::{
-    Cells, Content, FrameGeometry, FrameLayout, GpuScene, LocationSizes, ResourceSizes,
-};
+use crate::passes::{Content, FrameGeometry, FrameLayout, GpuScene, ResourceSizes};
 use crate::render::plan::Capacity;
-use crate::render::{RenderError, Settings, Shading};
+use crate::render::{RenderError, Settings};
 use std::ops::Range;
 
 /// Most locations of a run: memory that stays at hand is used again.
@@ -17,12 +15,6 @@ const MOST_STOPPABLE: usize = 1 << 20;
 const MOST_HANDED: usize = 1 << 18;
 /// Fewest locations of a run, or records that the host is given, to which runs are cut where memory is bounded.
 const FEWEST_LOCATIONS: usize = 1 << 10;
-/// Most visibility samples and candidates of a round.
-const MOST_RECORDS: u64 = 6 << 20;
-const MOST_CANDIDATES: u64 = 2 << 20;
-/// Most pairs of a triangle and a tile.
-const MOST_PAIRS: u64 = 8 << 20;
-
 /// The runs of a set of locations and the memory that the largest of them needs.
 pub(super) struct LocationPlan {
     pub runs: Vec<Range<usize>>,
@@ -77,13 +69,12 @@ impl LocationPlan {
             let fits = sizes.largest_storage() <= limits.max_storage_bytes
                 && sizes.largest_texels() <= limits.max_texel_elements;
             if fits && settings.max_memory.is_none_or(|allowed| needed <= allowed) {
-                // Tiles reserve room for as many records as samples.
-                let reserved = ((most * samples) as u64).div_ceil(records) as u32;
-                let usual = Capacity::default().rounds_for(samples as u32);
+                let kind = sampling.kind(false);
+                let usual = kind.rounds(&sizes, settings, Capacity::default());
                 return Ok(Self {
                     runs,
                     sizes,
-                    rounds: if handed { 1 } else { usual.max(reserved) },
+                    rounds: if handed { 1 } else { usual },
                     handed: most_handed as u32,
                 });
             }
@@ -111,7 +102,6 @@ fn sizes(
     windows: impl Iterator<Item = Window>,
     most: u64,
 ) -> ResourceSizes {
-    let limits = layout.gpu.limits();
     let region = windows.fold([0; 2], |most: [u32; 2], window| {
         let [width, height] = window.size();
         // Windows share one buffer of tiles, however long and wide each is.
@@ -121,46 +111,11 @@ fn sizes(
             most
         }
     });
-    let tiles = u64::from(region[0] / 8) * u64::from(region[1] / 4);
-    let Sampling { cells, shadows } = sampling;
-    let cell_sizes = cell_sizes(layout, cells, settings.samples);
-    let [in_cell, in_group] = [cell_sizes.in_cell, cell_sizes.in_group].map(|size| size as u64);
-    let cell_count = most.min(most / in_cell + tiles);
-    let group_count = cell_count.min(cell_count / in_group + tiles);
-    let samples = u64::from(settings.samples);
-    let handed = sampling.hands_over_records();
-    // Where one round holds all, tiles reserve room for as many as samples, or for lists of layers.
-    let in_sample = if scene.has_blend() { 6 } else { 1 };
-    let records = match cells {
-        Cells::Superpixels if handed => most * samples * in_sample,
-        Cells::Points if handed => most * in_sample,
-        Cells::Points if scene.has_blend() => 4 * most,
-        Cells::Points | Cells::Occluders => most,
-        _ if settings.shading == Shading::Sample || scene.has_blend() => most * samples.min(64),
-        _ => most * (6 * samples.div_ceil(64)).min(samples).max(2),
-    };
-    let triangles = scene.triangle_count();
-    let pairs = (triangles * 4 + tiles * 16).clamp(1 << 14, MOST_PAIRS);
-    let candidates = if handed {
-        pairs.min(MOST_CANDIDATES)
-    } else {
-        (triangles * 3 + tiles * 8).clamp(1 << 14, MOST_CANDIDATES)
-    };
+    let room = (most as u32, region);
+    let kind = sampling.kind(false);
+    let at_once = sampling.hands_over_records();
     ResourceSizes {
-        region,
-        lanes: limits.lanes,
-        locations: Some(LocationSizes {
-            locations: most as u32,
-            cells: cell_count as u32,
-            groups: group_count as u32,
-        }),
-        survivor_capacity: scene.index_count(),
-        pair_capacity: pairs.min(ResourceSizes::most_pairs(limits)) as u32,
-        list_capacity: candidates.min(ResourceSizes::most_candidates(limits)) as u32,
-        record_capacity: records.clamp(1 << 16, MOST_RECORDS) as u32,
-        filtered: 0,
-        shadows,
-        attributes: cells == Cells::Points,
-        encoded: 0,
+        shadows: sampling.shadows,
+        ..kind.sizes(layout, scene, settings, room, 1, at_once)
     }
 }

@@ -5,7 +5,8 @@ use crate::submit::submit;
 use ash::vk;
 use gpc::host::{
     AlphaMap, Antialiaser, ClipSpace, ColorImage, Coordinates, Frame, Geometry, ImageState, Images,
-    LentImage, Options, Outcome, PositionSpace, Scenery, ShadeSamples, VisibilitySamples,
+    LentImage, ListOutcome, Location, LocationList, Options, Outcome, PositionSpace, Scenery,
+    ShadeSamples, VisibilitySamples,
 };
 use gpc::render::Headless;
 use gpc::vulkan::{Buffer, Gpu, Image, Memory, MemoryUse, Recorder};
@@ -94,6 +95,72 @@ pub struct Machine<'a> {
     set_layout: vk::DescriptorSetLayout,
     layout: vk::PipelineLayout,
     pipelines: [vk::Pipeline; 2],
+}
+
+/// Buffers and maps on the device, and how they are lent.
+struct Lending<'a> {
+    _positions: Buffer,
+    _indices: Buffer,
+    _coordinates: Buffer,
+    paints: Buffer,
+    of_draws: Buffer,
+    _maps: Vec<(Image, &'a Map)>,
+    geometry: Geometry,
+}
+
+impl<'a> Lending<'a> {
+    fn new(machine: &Machine<'a>, way: &Way, lent: &Lent) -> Self {
+        let positions = machine.filled(&lent.positions);
+        let indices = machine.filled(&lent.indices);
+        let paints = machine.filled(bytemuck::cast_slice(&lent.paints));
+        let coordinates = machine.filled(bytemuck::cast_slice(&lent.coordinates));
+        let with_image = |map| (machine.map_image(map), map);
+        let maps: Vec<_> = machine.world.maps.iter().map(with_image).collect();
+        let of_draws: Vec<_> = (machine.world.parts.iter())
+            .map(|part| [part.color[0], part.color[1], part.color[2], part.opacity])
+            .collect();
+        let of_draws = machine.filled(bytemuck::cast_slice(&of_draws));
+        let geometry = Geometry {
+            positions: positions.handle(),
+            positions_offset: way.positions_offset,
+            position_stride: way.stride,
+            position_space: if way.object_space {
+                PositionSpace::Object {
+                    capacity: lent.drawn_vertices,
+                }
+            } else {
+                PositionSpace::Clip
+            },
+            vertex_capacity: lent.vertex_count,
+            indices: indices.handle(),
+            indices_offset: way.indices_offset,
+            index_type: lent.index_type,
+            index_capacity: lent.index_count,
+            triangle_capacity: lent.triangle_count,
+            draw_capacity: lent.draws.len() as u32,
+            keys: 1,
+            coordinates: (!maps.is_empty()).then(|| Coordinates {
+                buffer: coordinates.handle(),
+                offset: 0,
+                stride: 8,
+            }),
+            alpha_maps: maps.iter().map(|(image, map)| map.lent(image)).collect(),
+            blended: lent.draws.iter().any(|draw| draw.blended),
+            clip: ClipSpace {
+                y_up: false,
+                reversed_depth: true,
+            },
+        };
+        Self {
+            _positions: positions,
+            _indices: indices,
+            _coordinates: coordinates,
+            paints,
+            of_draws,
+            _maps: maps,
+            geometry,
+        }
+    }
 }
 
 const STORAGE: vk::BufferUsageFlags = vk::BufferUsageFlags::from_raw(
@@ -196,16 +263,7 @@ impl<'a> Machine<'a> {
     /// The same of buffers of the caller's.
     pub fn see_lent(&self, way: &Way, lent: &Lent, base: Base<'_>, options: Options) -> Seen {
         let size = way.around(options.size);
-        let positions = self.filled(&lent.positions);
-        let indices = self.filled(&lent.indices);
-        let paints = self.filled(bytemuck::cast_slice(&lent.paints));
-        let coordinates = self.filled(bytemuck::cast_slice(&lent.coordinates));
-        let with_image = |map| (self.map_image(map), map);
-        let maps: Vec<_> = self.world.maps.iter().map(with_image).collect();
-        let of_draws: Vec<_> = (self.world.parts.iter())
-            .map(|part| [part.color[0], part.color[1], part.color[2], part.opacity])
-            .collect();
-        let of_draws = self.filled(bytemuck::cast_slice(&of_draws));
+        let lending = Lending::new(self, way, lent);
         let corner_bytes = 48 * u64::from(lent.triangle_count);
         let corners = self.read_back(corner_bytes);
         let pixels = size[0] as usize * size[1] as usize;
@@ -226,37 +284,6 @@ impl<'a> Machine<'a> {
             let colors = self.filled(bytemuck::cast_slice(&colors));
             pictures.push((&color, plain, colors));
         }
-        let geometry = Geometry {
-            positions: positions.handle(),
-            positions_offset: way.positions_offset,
-            position_stride: way.stride,
-            position_space: if way.object_space {
-                PositionSpace::Object {
-                    capacity: lent.drawn_vertices,
-                }
-            } else {
-                PositionSpace::Clip
-            },
-            vertex_capacity: lent.vertex_count,
-            indices: indices.handle(),
-            indices_offset: way.indices_offset,
-            index_type: lent.index_type,
-            index_capacity: lent.index_count,
-            triangle_capacity: lent.triangle_count,
-            draw_capacity: lent.draws.len() as u32,
-            keys: 1,
-            coordinates: (!maps.is_empty()).then(|| Coordinates {
-                buffer: coordinates.handle(),
-                offset: 0,
-                stride: 8,
-            }),
-            alpha_maps: maps.iter().map(|(image, map)| map.lent(image)).collect(),
-            blended: lent.draws.iter().any(|draw| draw.blended),
-            clip: ClipSpace {
-                y_up: false,
-                reversed_depth: true,
-            },
-        };
         let lend = |image: &Image, aspects, before, after| LentImage {
             image: image.handle(),
             view: image.view(),
@@ -281,15 +308,12 @@ impl<'a> Machine<'a> {
             ..options
         };
         // SAFETY: what is lent is as it says, and outlives the frame.
-        let mut frame = unsafe { self.antialiaser.prepare(&geometry, &images, &options) }.unwrap();
-        let shading = Shading {
-            device: self.gpu.device(),
-            layout: self.layout,
-            set: self.set([&of_draws, &paints, &corners]),
-            samples: self.pipelines[0],
-            corners: self.pipelines[1],
-            triangles: lent.triangle_count,
-        };
+        let mut frame = unsafe {
+            self.antialiaser
+                .prepare(&lending.geometry, &images, &options)
+        }
+        .unwrap();
+        let shading = self.shading(&lending, &corners, lent.triangle_count);
         let scenery = Scenery {
             draws: &lent.draws,
             projection: self.world.projection,
@@ -311,6 +335,70 @@ impl<'a> Machine<'a> {
                 .to_vec(),
             outcome,
         }
+    }
+
+    /// What a list of locations sees of the world, and what sampling it came to.
+    pub fn see_list(
+        &self,
+        way: &Way,
+        locations: &[Location],
+        options: Options,
+    ) -> (Vec<[f32; 4]>, ListOutcome) {
+        let lent = self.world.lent(way);
+        let lending = Lending::new(self, way, &lent);
+        let corners = self.read_back(48 * u64::from(lent.triangle_count));
+        let colors = self.read_back(16 * locations.len() as u64);
+        let listed = self.filled(bytemuck::cast_slice(locations));
+        let list = LocationList {
+            locations: listed.handle(),
+            offset: 0,
+            capacity: locations.len() as u32,
+            colors: colors.handle(),
+            colors_offset: 0,
+        };
+        let options = Options {
+            background: Some(SKY),
+            ..options
+        };
+        let prepared = |geometry: &Geometry| {
+            // SAFETY: what is lent is as it says, and outlives the list.
+            unsafe { self.antialiaser.prepare_list(geometry, &list, &options) }.unwrap()
+        };
+        let mut list = prepared(&lending.geometry);
+        let shading = self.shading(&lending, &corners, lent.triangle_count);
+        submit(&self.gpu, |commands| {
+            // SAFETY: the commands are waited for; all handles outlive them.
+            unsafe {
+                list.record(commands, &lent.draws, locations.len() as u32, &shading)
+                    .unwrap();
+                self.show_to_host(commands);
+            }
+        });
+        let seen = colors.read(locations.len()).unwrap().to_vec();
+        (seen, list.outcome().unwrap())
+    }
+
+    fn shading(&self, lending: &Lending<'_>, corners: &Buffer, triangles: u32) -> Shading<'_> {
+        Shading {
+            device: self.gpu.device(),
+            layout: self.layout,
+            set: self.set([&lending.of_draws, &lending.paints, corners]),
+            samples: self.pipelines[0],
+            corners: self.pipelines[1],
+            triangles,
+        }
+    }
+
+    /// Makes what commands before wrote visible to the host.
+    unsafe fn show_to_host(&self, commands: vk::CommandBuffer) {
+        let barriers = [vk::MemoryBarrier2::default()
+            .src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
+            .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
+            .dst_stage_mask(vk::PipelineStageFlags2::HOST)
+            .dst_access_mask(vk::AccessFlags2::HOST_READ)];
+        let info = vk::DependencyInfo::default().memory_barriers(&barriers);
+        // SAFETY: the commands are being recorded.
+        unsafe { self.gpu.device().cmd_pipeline_barrier2(commands, &info) };
     }
 
     /// An image of a map's levels, ready to be read.
@@ -394,13 +482,7 @@ impl<'a> Machine<'a> {
                     read_back.handle(),
                     &[copy(size, vk::ImageAspectFlags::COLOR, 0)],
                 );
-                let barriers = [vk::MemoryBarrier2::default()
-                    .src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
-                    .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
-                    .dst_stage_mask(vk::PipelineStageFlags2::HOST)
-                    .dst_access_mask(vk::AccessFlags2::HOST_READ)];
-                let info = vk::DependencyInfo::default().memory_barriers(&barriers);
-                device.cmd_pipeline_barrier2(commands, &info);
+                self.show_to_host(commands);
             }
         });
     }

@@ -3,6 +3,7 @@
 mod base;
 mod blend;
 mod lent;
+mod list;
 mod machine;
 mod mask;
 mod world;

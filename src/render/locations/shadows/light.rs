@@ -30,10 +30,10 @@ const MOST_PIXELS: f64 = 2_000.0;
 /// A pinhole of a light, and the receivers that it sees: a sampling set without any pattern.
 pub(super) struct LightView {
     pub pinhole: Pinhole,
-    /// Their places on the plane and, where others have the Jacobian, the least depth of what shadows them.
+    /// Their places on the plane.
     pub locations: Vec<SampleLocation>,
-    /// IDs of their triangles.
-    pub ids: Vec<u32>,
+    /// The least depth of what shadows them, and IDs of their triangles.
+    surfaces: Vec<(f32, u32)>,
     /// Indices of their records.
     pub indices: Vec<usize>,
 }
@@ -197,18 +197,24 @@ impl LightView {
             };
             let location = SampleLocation {
                 uv: uv.to_array(),
-                jacobian: [[least, 0.0], [0.0; 2]],
+                jacobian: [[0.0; 2]; 2],
                 output: 0,
             };
-            Some((location, (receiver.id, receiver.index)))
+            Some((location, ((least as f32, receiver.id), receiver.index)))
         };
         let seen = receivers.par_iter().zip(sights).filter_map(location);
-        let (locations, (ids, indices)) = seen.unzip();
+        let (locations, (surfaces, indices)) = seen.unzip();
         Self {
             pinhole,
             locations,
-            ids,
+            surfaces,
             indices,
         }
+    }
+
+    /// What `shaders/include/locations.glsl` has of a receiver in its location's second vector.
+    pub fn surface(&self, location: usize) -> [u32; 4] {
+        let (least, id) = self.surfaces[location];
+        [least.to_bits(), id, 0, 0]
     }
 }

@@ -120,11 +120,11 @@ impl Headless {
                     scene: &casters.scene,
                     pinhole: &view.pinhole,
                     shadows: false,
-                    words: &view.ids,
+                    rest: Some(&|location| view.surface(location)),
                 };
                 let run = self.run_locations(&partition, task, &settings, |run| {
                     for record in run.seen.records.iter().filter(|record| record.id() != 0) {
-                        let location = run.locations[record.location()].index();
+                        let location = partition.index(run.places.start + record.location());
                         shadows[view.indices[location]] |= 1 << bit;
                     }
                 })?;

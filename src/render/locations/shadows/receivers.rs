@@ -37,12 +37,12 @@ impl Receivers<'_> {
     pub(super) fn receivers(&self) -> Vec<Receiver> {
         let triangles = self.scene.triangles.get();
         let first_blend = self.scene.gpu_scene.first_blend();
-        let locations = self.partition.run(self.run);
         let records = self.records.par_iter().enumerate();
         records
             .filter(|(_, record)| (1..=first_blend).contains(&record.id()))
             .filter_map(|(index, record)| {
-                let location = self.partition.location(*locations.get(record.location())?);
+                let place = self.run.start + record.location();
+                let location = self.partition.location(place);
                 let [column, row] = location.jacobian.map(DVec2::from_array);
                 let [x, y] = record.offset();
                 let at = DVec2::from_array(location.uv) + column * x + row * y;

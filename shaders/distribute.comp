@@ -1,0 +1,147 @@
+// distribute: the sample locations of a list to the tiles that they lie in, and there to cells and groups of cells: a
+// counting sort, in four STEPs.
+//   NUMBER   a location: as which of those of its pixel it came
+//   LAY_OUT  a tile: where its locations, cells and groups begin
+//   ARRANGE  a location: to its place in the order, tile by tile, and there pixel by pixel along a Morton curve; the first
+//            one of a cell makes it, and the first one of a group that
+//   ENCLOSE  a cell: the rectangle around its locations
+// Reads: the list. Writes: what `include/locations.glsl` describes, masks, counters. Which of the locations of a pixel comes
+// first varies from run to run; what they see does not depend on it.
+// What is not finite, or lies off the region of the plane, is left out and counted.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_EXT_control_flow_attributes : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "include/workgroup.glsl"
+#include "include/counters.glsl"
+#include "include/finite.glsl"
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint STEP = 0u;
+layout(constant_id = 1) const bool POINTS = false;      // locations are sampled once each, and several share a cell
+const uint NUMBER = 0u, LAY_OUT = 1u, ARRANGE = 2u, ENCLOSE = 3u;
+
+// For each tile: locations of each pixel, later where they begin in the tile; first location, locations, first cell, first group
+layout(std430, set = 0, binding = 0) buffer Loads { uint loads[]; };
+layout(std430, set = 0, binding = 1) buffer Ranks { uint ranks[]; };           // of a location in its pixel; ~0: left out
+layout(std430, set = 0, binding = 2) writeonly buffer OrderOut { uint order_out[]; };
+layout(std430, set = 0, binding = 3) buffer CellsOut { uvec4 cells_out[]; };
+layout(std430, set = 0, binding = 4) writeonly buffer GroupsOut { uvec4 groups_out[]; };
+layout(std430, set = 0, binding = 5) writeonly buffer TileLoads { uvec2 tile_loads[]; };
+layout(std430, set = 0, binding = 6) writeonly buffer Masks { uint masks[]; };
+layout(std430, set = 0, binding = 7) buffer Counters { uint counters[]; };
+// Quicker to read on CPU devices.
+layout(set = 0, binding = 8) uniform utextureBuffer locations;
+layout(set = 0, binding = 9) uniform utextureBuffer order;
+layout(push_constant) uniform Push {
+    uvec2 tiles;            // of the region
+    uint count;             // locations
+    uint in_cell;           // most locations of a cell
+    uint in_group;          // most cells of a group
+    uint samples;           // of a cell that is one location
+} push;
+
+const uint LOAD = 36u;      // words of a tile in `loads`
+const uint FIRST = 32u, COUNT = 33u, FIRST_CELL = 34u, FIRST_GROUP = 35u;
+// Half of a cell's sides beyond its samples, in pixels: covers the rounding of edge functions; and a factor, for that of samples.
+const float SLACK = 1.0 / 64.0, ROUNDING = 1.0 + 1.0 / 1048576.0;
+// The farthest that a sample may lie from its location's pixel, in pixels.
+const float FARTHEST = 1048576.0;
+
+vec2 half_extent(uint location) {
+    if (POINTS) return vec2(0.0);
+    vec4 j = abs(uintBitsToFloat(texelFetch(locations, int(2u * location + 1u))));
+    return 0.5 * (j.xy + j.zw);
+}
+
+// The pixel's number in its tile, row by row.
+uint bit_of(ivec2 pixel) { return uint(pixel.x & 7) | uint(pixel.y & 3) << 3; }
+
+uint tile_of(ivec2 pixel) { return uint(pixel.y >> 2) * push.tiles.x + uint(pixel.x >> 3); }
+
+void number(uint i) {
+    uvec4 at = texelFetch(locations, int(2u * i));
+    ivec2 pixel = ivec2(at.xy);
+    vec2 within = uintBitsToFloat(at.zw), extent = half_extent(i);
+    // Neither holds of what is not a number.
+    bool valid = all(greaterThanEqual(within, vec2(0.0))) && all(lessThanEqual(within, vec2(1.0)))
+        && is_finite(extent.x) && is_finite(extent.y) && max(extent.x, extent.y) <= FARTHEST;
+    valid = valid && all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(uvec2(pixel) >> uvec2(3u, 2u), push.tiles));
+    ranks[i] = ~0u;
+    if (valid) ranks[i] = atomicAdd(loads[tile_of(pixel) * LOAD + bit_of(pixel)], 1u);
+    vec2 reach = abs(within - 0.5) + extent;
+    uint left_out = subgroupAdd(valid ? 0u : 1u);
+    float farthest = subgroupMax(valid && !POINTS ? max(reach.x, reach.y) * ROUNDING : 0.5);
+    if (subgroupElect()) {
+        if (left_out != 0u) atomicAdd(counters[COUNTER_LEFT_OUT], left_out);
+        atomicMax(counters[COUNTER_REACH], floatBitsToUint(farthest));
+    }
+}
+
+void lay_out(uint tile) {
+    uint base = tile * LOAD, count = 0u, mask = 0u;
+    [[unroll]] for (uint place = 0u; place < 32u; place++) {
+        uint bit = (place & 1u) | (place >> 1 & 2u) | (place >> 2 & 4u) | (place & 2u) << 2 | (place & 8u) << 1;
+        uint more = loads[base + bit];
+        loads[base + bit] = count;
+        count += more;
+        mask |= more != 0u ? 1u << bit : 0u;
+    }
+    uint cells = (count + push.in_cell - 1u) / push.in_cell, groups = (cells + push.in_group - 1u) / push.in_group;
+    masks[tile] = mask;
+    tile_loads[tile] = uvec2(cells, POINTS ? count : cells * push.samples);
+    if (count != 0u) {
+        loads[base + FIRST] = atomicAdd(counters[COUNTER_PLACED], count);
+        loads[base + COUNT] = count;
+        loads[base + FIRST_CELL] = atomicAdd(counters[COUNTER_CELLS], cells);
+        loads[base + FIRST_GROUP] = atomicAdd(counters[COUNTER_GROUPS], groups);
+        atomicAdd(counters[COUNTER_TILES], 1u);
+        if (!POINTS) atomicAdd(counters[COUNTER_SUPERPIXELS], cells);
+    }
+}
+
+void arrange(uint i) {
+    uint rank = ranks[i];
+    if (rank == ~0u) return;
+    ivec2 pixel = ivec2(texelFetch(locations, int(2u * i)).xy);
+    uint tile = tile_of(pixel), base = tile * LOAD;
+    uint in_tile = loads[base + bit_of(pixel)] + rank, count = loads[base + COUNT];
+    uint place = loads[base + FIRST] + in_tile;
+    if (POINTS) order_out[place] = i;
+    uint cell = in_tile / push.in_cell;
+    if (cell * push.in_cell != in_tile) return;
+    uint first_cell = loads[base + FIRST_CELL];
+    cells_out[2u * (first_cell + cell) + 1u] = uvec4(POINTS ? place : i, min(push.in_cell, count - in_tile), 0u, 0u);
+    uint group = cell / push.in_group, cells = (count + push.in_cell - 1u) / push.in_cell;
+    if (group * push.in_group != cell) return;
+    groups_out[loads[base + FIRST_GROUP] + group] = uvec4(tile, first_cell + cell, min(push.in_group, cells - cell), cell);
+}
+
+void enclose(uint cell) {
+    if (cell >= counters[COUNTER_CELLS]) return;
+    uvec2 held = cells_out[2u * cell + 1u].xy;
+    vec2 low = vec2(3.4e38), high = vec2(-3.4e38), at;
+    uint member = 0u;
+    do {
+        uint location = POINTS ? texelFetch(order, int(held.x + min(member, held.y - 1u))).x : held.x;
+        uvec4 found = texelFetch(locations, int(2u * location));
+        at = vec2((ivec2(found.xy) & ivec2(7, 3)) - ivec2(4, 2)) + uintBitsToFloat(found.zw);
+        vec2 extent = half_extent(location);
+        low = min(low, at - extent);
+        high = max(high, at + extent);
+    } while (++member < push.in_cell);
+    // A lone location is the middle itself, to the bit.
+    vec2 middle = held.y == 1u ? at : 0.5 * (low + high);
+    vec2 half_side = max(high - middle, middle - low) * ROUNDING + SLACK;
+    cells_out[2u * cell] = floatBitsToUint(vec4(middle, half_side));
+}
+
+void main() {
+    uint i = invocation_number();
+    uint tile_count = push.tiles.x * push.tiles.y;
+    if (STEP == NUMBER && i < push.count) number(i);
+    if (STEP == LAY_OUT && i < tile_count) lay_out(i);
+    if (STEP == ARRANGE && i < push.count) arrange(i);
+    if (STEP == ENCLOSE) enclose(i);
+}

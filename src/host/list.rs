@@ -1,0 +1,469 @@
+//! Sample locations that a host lends, in the place of an image's pixels.
+
+use super::adoption::Adoption;
+use super::alpha::AlphaReading;
+use super::content::HostContent;
+use super::draw::PlacedDraws;
+use super::shading::{HostShading, ShadeSamples, VisibilitySamples};
+use super::uniform::{check_size, scale, uniform};
+use super::{Draw, Geometry, HostError, Options, Shared};
+use crate::passes::{
+    Cells, Counter, FrameUniform, ListRegion, Offsets, OwnSet, RasterTargets, ResourceSizes,
+    Resources, VisibilityUniform, VisibleGeometry,
+};
+use crate::render::footprint::Footprints;
+use crate::render::list::{ListEngine, ListKind};
+use crate::render::plan::Capacity;
+use crate::render::statistics::Shortfall;
+use crate::render::{PassTime, RenderError, Settings, Statistics};
+use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, TexelView, Timings, VulkanError};
+use ash::vk;
+use std::sync::Arc;
+
+/// Where a host's list of sample locations lies, and where what they see goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LocationList {
+    /// [`Location`]s, made with `STORAGE_BUFFER` and `UNIFORM_TEXEL_BUFFER`. They may change with every recording.
+    pub locations: vk::Buffer,
+    /// Where the first one is, in bytes: a multiple of 256, or of what the device's descriptors of buffers may begin at.
+    pub offset: u64,
+    /// Most locations of a recording.
+    pub capacity: u32,
+    /// What they see, made with `TRANSFER_DST`: four floats a location, in their order: linear light and opacity, by which the
+    /// light is multiplied.
+    pub colors: vk::Buffer,
+    /// Where that of the first location goes, in bytes: a multiple of 4.
+    pub colors_offset: u64,
+}
+
+/// A place on the image plane, as it lies in a [`LocationList`]: 32 bytes.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Location {
+    /// The pixel that it lies in: column and row from the upper left corner of the image that [`Options::size`] names.
+    pub pixel: [i32; 2],
+    /// Where it lies in the pixel, x and y down, from 0 to 1.
+    pub within: [f32; 2],
+    /// How far apart it lies from its neighbours, in pixels: the change of x and y to the next column and to the next row of
+    /// what the host makes of the list. Sub-samples and filters of textures spread over this parallelogram.
+    pub jacobian: [[f32; 2]; 2],
+}
+
+/// What the last recording of a [`List`] did.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ListOutcome {
+    /// Figures.
+    pub statistics: Statistics,
+    /// Cells and tiles that found no room, and show the background. [`List::grow`] makes a list with more.
+    pub left_over: u64,
+    /// Locations off the image, or that are no numbers. They show the background.
+    pub left_out: u32,
+}
+
+/// Pipelines and memory to sample a host's locations, of one of its frames in flight.
+pub struct List {
+    geometry: Geometry,
+    list: LocationList,
+    options: Options,
+    settings: Settings,
+    capacity: Capacity,
+    rounds: u32,
+    content: HostContent,
+    alpha: AlphaReading,
+    resources: Resources,
+    targets: RasterTargets,
+    engine: ListEngine,
+    adoption: Adoption,
+    visibility: Buffer,
+    visibility_set: OwnSet,
+    counters: Buffer,
+    timings: Timings,
+    memory: Memory,
+    uploaded: bool,
+    triangles: u32,
+    _locations: TexelView,
+    /// Last: layouts go after what was made with them.
+    shared: Arc<Shared>,
+}
+
+impl LocationList {
+    const LOCATION_BYTES: u64 = size_of::<Location>() as u64;
+    const COLOR_BYTES: u64 = 16;
+
+    fn check(&self, alignment: u64, most: u32) -> Result<(), HostError> {
+        if self.locations == vk::Buffer::null() {
+            return Err(HostError::NullHandle("the buffer of locations"));
+        }
+        if self.colors == vk::Buffer::null() {
+            return Err(HostError::NullHandle("the buffer of colours"));
+        }
+        if !(1..=most).contains(&self.capacity) {
+            return Err(HostError::Count {
+                what: "the capacity of locations",
+                found: self.capacity,
+                most,
+            });
+        }
+        let offsets = [
+            ("the offset of locations", self.offset, alignment),
+            ("the offset of colours", self.colors_offset, 4),
+        ];
+        for (what, offset, alignment) in offsets {
+            if offset % alignment != 0 {
+                return Err(HostError::Alignment {
+                    what,
+                    offset,
+                    alignment,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn bytes(&self) -> u64 {
+        u64::from(self.capacity) * Self::LOCATION_BYTES
+    }
+
+    fn info(&self) -> vk::DescriptorBufferInfo {
+        vk::DescriptorBufferInfo::default()
+            .buffer(self.locations)
+            .offset(self.offset)
+            .range(self.bytes())
+    }
+}
+
+impl List {
+    /// # Safety
+    /// As [`super::Antialiaser::prepare_list`].
+    pub(super) unsafe fn new(
+        shared: &Arc<Shared>,
+        geometry: &Geometry,
+        list: &LocationList,
+        options: &Options,
+    ) -> Result<Self, HostError> {
+        // SAFETY: passed on to the caller.
+        unsafe { Self::with_capacity(shared, geometry, list, options, Capacity::default()) }
+    }
+
+    unsafe fn with_capacity(
+        shared: &Arc<Shared>,
+        geometry: &Geometry,
+        list: &LocationList,
+        options: &Options,
+        capacity: Capacity,
+    ) -> Result<Self, HostError> {
+        let gpu = &shared.gpu;
+        let limits = gpu.limits();
+        let layout = &shared.frame;
+        let settings = options.settings();
+        settings.check(limits)?;
+        geometry.check(gpu)?;
+        check_size(settings.size)?;
+        let texels = limits.max_texel_elements / 2;
+        let most = texels.min(limits.max_storage_bytes / LocationList::LOCATION_BYTES);
+        list.check(limits.buffer_alignment.max(16), most.min(1 << 30) as u32)?;
+        let memory = Memory::new(gpu.clone(), settings.max_memory);
+        // SAFETY: passed on to the caller.
+        let content = unsafe { HostContent::new(gpu, &memory, geometry) }?;
+        // SAFETY: passed on to the caller.
+        let alpha = unsafe { AlphaReading::new(shared, geometry, &content) }?;
+        // SAFETY: passed on to the caller.
+        let adoption = unsafe { Adoption::new(shared, &memory, geometry, &content) }?;
+        let visibility = memory.buffer(
+            "visibility uniform",
+            size_of::<VisibilityUniform>() as u64,
+            vk::BufferUsageFlags::UNIFORM_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
+            MemoryUse::Device,
+        )?;
+        let kind = ListKind {
+            cells: if settings.samples == 1 {
+                Cells::Points
+            } else {
+                Cells::Superpixels
+            },
+            attributes: false,
+            lent: true,
+            apart: capacity.apart,
+            unlisted: capacity.unlisted,
+            layers: capacity.layers,
+        };
+        let room = (list.capacity, padded(settings.size));
+        let sizes = kind.sizes(layout, &content, &settings, room, capacity.lists, false);
+        let what = "the largest list of a recording";
+        VulkanError::check_limit(
+            what,
+            sizes.largest_storage(),
+            "bytes",
+            limits.max_storage_bytes,
+        )
+        .map_err(RenderError::from)?;
+        VulkanError::check_limit(
+            what,
+            sizes.largest_texels(),
+            "elements",
+            limits.max_texel_elements,
+        )
+        .map_err(RenderError::from)?;
+        let (offsets, count) = kind.offsets(layout, &settings)?;
+        let single = vk::SampleCountFlags::TYPE_1;
+        let targets = RasterTargets::new(&memory, 1, 1, single, false)?;
+        let uint4 = vk::Format::R32G32B32A32_UINT;
+        // SAFETY: passed on to the caller.
+        let locations =
+            unsafe { TexelView::new(gpu, list.locations, uint4, list.offset, list.bytes()) }?;
+        let mut shown = content.texels().to_vec();
+        shown.push((42, locations.raw));
+        let resources = Resources::new(
+            layout,
+            &memory,
+            &content,
+            (&shown, content.lights()),
+            &targets.views(),
+            sizes,
+            &[Offsets {
+                all: &offsets,
+                count,
+            }],
+        )?;
+        let output = settings.color_constants(&content);
+        let visible = VisibleGeometry {
+            triangles: content.triangles(),
+            positions: content.positions_info(),
+            draws: &adoption.draws,
+            draw_of: content.draw_of(),
+            locations: Some(list.info()),
+        };
+        // SAFETY: of the list as the caller says; the rest goes with this.
+        let (engine, visibility_set) = unsafe {
+            let shown = (&resources, locations.raw);
+            (
+                ListEngine::new(layout, &content, &settings, &kind, shown, &output)?,
+                resources.visibility_set(&shared.visibility, &visibility, &visible)?,
+            )
+        };
+        let rounds = kind.rounds(&sizes, &settings, capacity);
+        Ok(Self {
+            counters: memory.buffer(
+                "counter read-back",
+                Counter::BYTES,
+                vk::BufferUsageFlags::TRANSFER_DST,
+                MemoryUse::Readback,
+            )?,
+            timings: Timings::new(gpu, 16 + 8 * rounds)?,
+            geometry: geometry.clone(),
+            list: *list,
+            options: options.clone(),
+            settings,
+            capacity,
+            rounds,
+            content,
+            alpha,
+            resources,
+            targets,
+            engine,
+            adoption,
+            visibility,
+            visibility_set,
+            memory,
+            uploaded: false,
+            triangles: 0,
+            _locations: locations,
+            shared: shared.clone(),
+        })
+    }
+
+    /// The options that it was prepared with.
+    #[must_use]
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+
+    /// Bytes of device memory that it takes, beside what the host lends.
+    #[must_use]
+    pub fn memory_bytes(&self) -> u64 {
+        self.memory.used()
+    }
+
+    /// A list like this one, with more of what the last recording lacked: rounds, and memory for lists of triangles. Where it
+    /// lacked nothing, it is made with as much.
+    ///
+    /// # Errors
+    /// If memory runs out, or what was counted can't be read.
+    ///
+    /// # Safety
+    /// As [`super::Antialiaser::prepare_list`]; and the commands of the last recording are done.
+    pub unsafe fn grow(&self) -> Result<Self, HostError> {
+        let capacity = self.capacity.more(self.shortfall()?);
+        let (shared, geometry) = (&self.shared, &self.geometry);
+        // SAFETY: passed on to the caller.
+        unsafe { Self::with_capacity(shared, geometry, &self.list, &self.options, capacity) }
+    }
+
+    /// Records the sampling of the first `count` locations. It submits nothing, waits for nothing, allocates nothing on the
+    /// device and updates no descriptor. `shading` is called once a round.
+    ///
+    /// # Errors
+    /// If draws or locations are more than there is room for, or a draw is impossible. Nothing is recorded then.
+    ///
+    /// # Safety
+    /// - `commands` is being recorded, outside of a render pass, for the device of the antialiaser and a queue family with
+    ///   compute. What was bound and pushed before has to be bound and pushed again.
+    /// - The commands of this list's last recording are done: its memory is used again.
+    /// - In the first recording, alpha maps are in `SHADER_READ_ONLY_OPTIMAL`, and were written before on the same queue or
+    ///   made visible to it.
+    /// - Writes to the lent buffers by the device were recorded into the same queue before, or made visible to it; those to
+    ///   the buffer of colours are done. What this records is visible to all commands after it on the queue.
+    /// - The list, the buffers and what `shading` records outlive the execution of the commands.
+    /// - What `shading` records is valid, and writes no memory of the list but by `gpc_store`.
+    pub unsafe fn record(
+        &mut self,
+        commands: vk::CommandBuffer,
+        draws: &[Draw],
+        count: u32,
+        shading: &dyn ShadeSamples,
+    ) -> Result<(), HostError> {
+        let placed = PlacedDraws::new(&self.geometry, draws)?;
+        if count > self.list.capacity {
+            return Err(HostError::Capacity {
+                what: "locations",
+                found: u64::from(count),
+                capacity: self.list.capacity,
+            });
+        }
+        self.triangles = placed.triangles;
+        let uniform = self.uniform(&placed);
+        let footprints = self.footprints();
+        let gpu = self.shared.gpu.clone();
+        let resources = &self.resources;
+        let Some(set) = resources.set(0) else {
+            return Ok(());
+        };
+        // SAFETY: passed on to the caller.
+        let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
+        let recorder = &mut recorder;
+        recorder.barrier();
+        if !self.uploaded {
+            resources.record_upload(recorder);
+            self.targets.record_unused(recorder);
+        }
+        recorder.begin();
+        if !self.uploaded {
+            self.alpha.record(recorder, &self.content);
+            self.uploaded = true;
+        }
+        self.adoption.record(recorder, &placed);
+        let visible = VisibilityUniform {
+            scale: scale(&self.geometry, self.settings.size),
+            half_size: self.settings.size.map(|side| 0.5 * side as f32),
+            place_side: footprints.place,
+            boxes: u32::from(self.settings.filters_boxes()),
+            list: 1,
+            padding: 0,
+        };
+        recorder.barrier();
+        recorder.update(&self.visibility, 0, bytemuck::bytes_of(&visible));
+        if count > 0 {
+            resources.record_background(recorder, count, uniform.background, 0);
+        }
+        resources.record_begin(recorder, set, &uniform);
+        let region = ListRegion {
+            tiles: uniform.tiles,
+            count,
+        };
+        self.engine
+            .record_candidates(recorder, (resources, set), &region);
+        let shading = HostShading {
+            shading,
+            samples: VisibilitySamples {
+                set: self.visibility_set.raw,
+                arguments: resources.arguments.handle(),
+                keys: self.geometry.keys,
+            },
+            set,
+        };
+        for _ in 0..self.rounds {
+            self.engine.record_round(recorder, resources);
+            self.engine.record_values(recorder, resources, &shading);
+        }
+        resources.record_keep_counters(recorder, &self.counters, 0);
+        let bytes = LocationList::COLOR_BYTES * u64::from(count);
+        // SAFETY: the buffer has room for the colours of as many locations as there can be, as the host says.
+        unsafe {
+            resources.record_keep_colors(recorder, self.list.colors, self.list.colors_offset, bytes)
+        };
+        recorder.barrier();
+        Ok(())
+    }
+
+    /// What the last recording did. Call it when its commands are done, at any time later: it waits for nothing.
+    ///
+    /// # Errors
+    /// If what was counted or timed can't be read, or the driver ran kernels in subgroups that they were not made for.
+    pub fn outcome(&self) -> Result<ListOutcome, HostError> {
+        let counters = self.counted()?;
+        let mut statistics = Statistics {
+            regions: 1,
+            memory_bytes: self.memory.used(),
+            tiles: u64::from(self.tiles()),
+            ..Statistics::default()
+        };
+        statistics.triangles.total = u64::from(self.triangles);
+        statistics.add(counters);
+        for (pass, ms) in self.timings.read()? {
+            statistics.add_time(PassTime { pass, ms });
+        }
+        let shortfall = self.shortfall()?;
+        shortfall
+            .check_subgroups(self.resources.sizes().lanes)
+            .map_err(RenderError::from)?;
+        let left_out = counters.get(Counter::LeftOut as usize);
+        Ok(ListOutcome {
+            statistics,
+            left_over: shortfall.left(),
+            left_out: left_out.copied().unwrap_or(0),
+        })
+    }
+
+    fn counted(&self) -> Result<&[u32], HostError> {
+        Ok(self.counters.read(Counter::COUNT)?)
+    }
+
+    fn shortfall(&self) -> Result<Shortfall, HostError> {
+        let counters = self.counted()?;
+        let mut shortfall = Shortfall::default();
+        let room = self.resources.sizes().survivor_capacity;
+        shortfall.add(counters, (self.tiles(), room), self.capacity.unlisted);
+        shortfall.add_subgroups(counters);
+        Ok(shortfall)
+    }
+
+    fn tiles(&self) -> u32 {
+        self.resources.sizes().tiles()
+    }
+
+    fn footprints(&self) -> Footprints {
+        Footprints::new(&self.settings, self.settings.samples)
+    }
+
+    fn uniform(&self, placed: &PlacedDraws) -> FrameUniform {
+        let sizes: &ResourceSizes = self.resources.sizes();
+        FrameUniform {
+            // Locations may lie anywhere in the tiles at the border.
+            size: sizes.region,
+            sample_count: self.engine.options().samples,
+            group_count: sizes.locations.map_or(0, |sizes| sizes.groups),
+            ..uniform(
+                &self.geometry,
+                &self.settings,
+                sizes,
+                &self.footprints(),
+                placed,
+            )
+        }
+    }
+}
+
+/// A size in whole tiles.
+fn padded([width, height]: [u32; 2]) -> [u32; 2] {
+    [width.next_multiple_of(8), height.next_multiple_of(4)]
+}
