@@ -24,6 +24,7 @@ const VISIBILITY: &[Variant] = &[
     ("screen_vertex", "screen.vert", &[]),
     ("screen_fragment", "screen.frag", &[]),
     ("samples", "samples.comp", &[]),
+    ("lens", "lens.comp", &[]),
 ];
 
 /// Shaders of the tests' host.

@@ -188,7 +188,10 @@ impl Device {
     }
 
     /// Records, submits and waits.
-    pub fn run(&self, record: impl FnOnce(vk::CommandBuffer)) -> Result<(), Failure> {
+    pub fn run(
+        &self,
+        record: impl FnOnce(vk::CommandBuffer) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
         // SAFETY: plain use of handles that live as long as `self`; the queue is used by this thread alone.
         unsafe {
             let info = vk::CommandBufferAllocateInfo::default()
@@ -197,7 +200,7 @@ impl Device {
             let buffers = self.raw.allocate_command_buffers(&info)?;
             self.raw
                 .begin_command_buffer(buffers[0], &vk::CommandBufferBeginInfo::default())?;
-            record(buffers[0]);
+            record(buffers[0])?;
             self.raw.end_command_buffer(buffers[0])?;
             let submitted = [vk::SubmitInfo::default().command_buffers(&buffers)];
             self.raw
@@ -206,6 +209,21 @@ impl Device {
             self.raw.free_command_buffers(self.pool, &buffers);
         }
         Ok(())
+    }
+
+    /// Makes what commands before copied visible to the host.
+    ///
+    /// # Safety
+    /// The command buffer is being recorded for the device, outside of a render pass.
+    pub unsafe fn show_to_host(&self, commands: vk::CommandBuffer) {
+        let barriers = [vk::MemoryBarrier2::default()
+            .src_stage_mask(vk::PipelineStageFlags2::COPY)
+            .src_access_mask(vk::AccessFlags2::TRANSFER_WRITE)
+            .dst_stage_mask(vk::PipelineStageFlags2::HOST)
+            .dst_access_mask(vk::AccessFlags2::HOST_READ)];
+        let info = vk::DependencyInfo::default().memory_barriers(&barriers);
+        // SAFETY: passed on to the caller.
+        unsafe { self.raw.cmd_pipeline_barrier2(commands, &info) };
     }
 }
 
@@ -238,6 +256,12 @@ impl Buffer<'_> {
     pub fn read(&self) -> Result<&[u8], Failure> {
         let memory = self.memory.as_ref().and_then(Allocation::mapped_slice);
         Ok(memory.ok_or("a buffer is not mapped")?)
+    }
+
+    /// Colours that fill it, of four floats each.
+    pub fn colors(&self) -> Result<&[[f32; 4]], Failure> {
+        let bytes = &self.read()?[..self.bytes as usize];
+        Ok(bytemuck::try_cast_slice(bytes).map_err(|error| error.to_string())?)
     }
 }
 
@@ -276,6 +300,30 @@ pub struct Image {
 }
 
 impl Image {
+    /// A picture of this size, of means of `side` x `side` colours.
+    pub fn means(colors: &[[f32; 4]], size: [u32; 2], side: u32) -> Self {
+        let [width, height] = size.map(|pixels| pixels as usize);
+        let side = side as usize;
+        let mean = |x: usize, y: usize| {
+            let mut sum = [0.0; 3];
+            for line in 0..side {
+                let first = ((y * side + line) * width + x) * side;
+                for color in &colors[first..first + side] {
+                    for (sum, channel) in sum.iter_mut().zip(color) {
+                        *sum += channel;
+                    }
+                }
+            }
+            sum.map(|sum| sum / (side * side) as f32)
+        };
+        Self {
+            size,
+            colors: (0..width * height)
+                .map(|i| mean(i % width, i / width))
+                .collect(),
+        }
+    }
+
     fn codes(&self) -> impl Iterator<Item = f64> {
         self.colors.iter().flatten().map(|&linear| {
             let linear = f64::from(linear).clamp(0.0, 1.0);

@@ -1,17 +1,19 @@
 //! A host with a visibility buffer, materials and an animation of its own, antialiased by the library's engine.
 //!
 //! ```text
-//! cargo run --release --no-default-features --example visibility [OUT.png]
+//! cargo run --release --no-default-features --example visibility [OUT.png [LENS.png]]
 //! ```
 //!
 //! The host poses its meshes by a compute shader into clip space, draws triangle IDs and depth, and shades the centres of
 //! pixels from these. The library then samples the pixels that alias, and has the host shade what the samples see. Two
 //! frames are in flight, and half way through the images change their size. At the end, the last frame is compared with
-//! the host's own brute force.
+//! the host's own brute force. Told where to write it, the host then shows the same scene through a magnifying glass: it
+//! writes the locations that are seen, has the library sample these, and compares the picture in the same way.
 
 #[path = "../common/arguments.rs"]
 mod arguments;
 mod device;
+mod lens;
 mod meshes;
 mod pipelines;
 mod slot;
@@ -22,6 +24,7 @@ use glam::{Mat4, Vec3};
 use gpc::host::{Antialiaser, Options};
 use gpc::render::Shading;
 use gpc::sampling::Pattern;
+use lens::Lens;
 use meshes::World;
 use pipelines::Pipelines;
 use slot::{Antialiasing, SKY, Slot};
@@ -36,9 +39,17 @@ const IN_FLIGHT: usize = 2;
 /// Samples along a pixel's side: of the brute force that takes as many as the library, and of the reference.
 const BRUTE: u32 = 8;
 const REFERENCE: u32 = 32;
+/// What is compared with the reference, of each view.
+const COMPARED: [&str; 5] = [
+    "one sample",
+    "brute force",
+    "superpixels",
+    "superpixels, samples where brute force has them",
+    "superpixels, each of these samples shaded",
+];
 
 fn main() -> Result<(), Failure> {
-    let [out] = arguments::paths("visibility [OUT.png]");
+    let [out, lens_out] = arguments::paths("visibility [OUT.png [LENS.png]]");
     let out = out.unwrap_or_else(|| "visibility.png".into());
     let device = Device::new()?;
     // SAFETY: the handles belong together, the features are enabled, and the device outlives the antialiaser.
@@ -109,28 +120,48 @@ fn main() -> Result<(), Failure> {
         slot.pixels(side)
     };
     let reference = last(REFERENCE, None)?;
-    for (what, image) in [
-        ("one sample", &last(1, None)?),
-        ("brute force", &last(BRUTE, None)?),
-        ("superpixels", &own),
-        (
-            "superpixels, samples where brute force has them",
-            &last(1, Some(&placed))?,
-        ),
-        (
-            "superpixels, each of these samples shaded",
-            &last(1, Some(&each))?,
-        ),
-    ] {
-        println!("error of {what}: {:.6}", image.error(&reference));
-    }
+    let images = [
+        &last(1, None)?,
+        &last(BRUTE, None)?,
+        &own,
+        &last(1, Some(&placed))?,
+        &last(1, Some(&each))?,
+    ];
+    print_errors("", &reference, images);
     println!(
         "share of superpixels: {:.4}",
         superpixels as f64 / f64::from(SIZE[0] * SIZE[1])
     );
     own.save(&out)?;
     println!("{}", out.display());
+
+    if let Some(out) = lens_out {
+        let shown = (&world, &pipelines, &slots[(FRAMES - 1) % IN_FLIGHT]);
+        let lens = Lens::new(&device, &antialiaser, shown)?;
+        let points = Options {
+            samples: 1,
+            ..options(SIZE)
+        };
+        let reference = lens.picture(&points, REFERENCE)?;
+        let own = lens.picture(&options(SIZE), 1)?;
+        let images = [
+            &lens.picture(&points, 1)?,
+            &lens.picture(&points, BRUTE)?,
+            &own,
+            &lens.picture(&placed, 1)?,
+            &lens.picture(&each, 1)?,
+        ];
+        print_errors("through the lens, ", &reference, images);
+        own.save(&out)?;
+        println!("{}", out.display());
+    }
     Ok(())
+}
+
+fn print_errors(view: &str, reference: &Image, images: [&Image; COMPARED.len()]) {
+    for (what, image) in COMPARED.iter().zip(images) {
+        println!("{view}error of {what}: {:.6}", image.error(reference));
+    }
 }
 
 /// Seconds of the animation.

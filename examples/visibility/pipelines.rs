@@ -25,6 +25,7 @@ macro_rules! spirv {
         include_bytes!(concat!("shaders/spirv/", $name, ".spv"))
     };
 }
+pub(crate) use spirv;
 
 pub struct Pipelines<'a> {
     device: &'a Device,
@@ -124,7 +125,7 @@ impl<'a> Pipelines<'a> {
     ///
     /// # Safety
     /// Code and layout fit.
-    unsafe fn compute(
+    pub unsafe fn compute(
         &self,
         code: &[u8],
         layout: vk::PipelineLayout,

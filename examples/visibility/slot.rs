@@ -3,7 +3,7 @@
 use crate::Failure;
 use crate::device::{Buffer, Device, Image, Texture};
 use crate::meshes::{Instance, KEYS, World};
-use crate::pipelines::{BINDINGS, COLOR, DEPTH, IDS, Pipelines};
+use crate::pipelines::{BINDINGS, COLOR, DEPTH, IDS, Materials, Pipelines};
 use ash::vk;
 use glam::Mat4;
 use gpc::host::{
@@ -160,7 +160,7 @@ impl<'a> Slot<'a> {
     }
 
     /// The buffers that the library is lent.
-    fn geometry(&self, world: &World<'_>) -> Geometry {
+    pub fn geometry(&self, world: &World<'_>) -> Geometry {
         Geometry {
             positions: self.positions.raw,
             positions_offset: 0,
@@ -209,6 +209,11 @@ impl<'a> Slot<'a> {
         }
     }
 
+    /// Materials that read what the slot shows.
+    pub fn materials<'p>(&self, pipelines: &'p Pipelines<'p>) -> Materials<'p> {
+        pipelines.materials(self.set)
+    }
+
     pub fn size(&self) -> [u32; 2] {
         self.size
     }
@@ -242,12 +247,13 @@ impl<'a> Slot<'a> {
             self.record_pose(world, pipelines);
             self.record_ids(world, pipelines);
             self.record_screen(pipelines);
+            let materials = self.materials(pipelines);
             if let Some(Antialiasing { frame, projection }) = &mut self.antialiasing {
                 let scenery = Scenery {
                     draws: &world.draws,
                     projection: projection.to_cols_array_2d(),
                 };
-                frame.record(commands, &scenery, &pipelines.materials(self.set))?;
+                frame.record(commands, &scenery, &materials)?;
             } else {
                 self.change(&self.color, COLOR_DRAWN, COPIED);
             }
@@ -273,31 +279,8 @@ impl<'a> Slot<'a> {
 
     /// What was drawn, means of `side` x `side` pixels.
     pub fn pixels(&self, side: u32) -> Result<Image, Failure> {
-        let bytes = self.read_back.read()?;
-        let pixels: &[[f32; 4]] = bytemuck::try_cast_slice(&bytes[..self.read_back.bytes as usize])
-            .map_err(|error| error.to_string())?;
         let size = self.size.map(|pixels| pixels / side);
-        let side = side as usize;
-        let row = self.size[0] as usize;
-        let mean = |x: usize, y: usize| {
-            let mut sum = [0.0; 3];
-            for line in 0..side {
-                let first = (y * side + line) * row + x * side;
-                for pixel in &pixels[first..first + side] {
-                    for (sum, channel) in sum.iter_mut().zip(pixel) {
-                        *sum += channel;
-                    }
-                }
-            }
-            sum.map(|sum| sum / (side * side) as f32)
-        };
-        let [width, height] = size.map(|pixels| pixels as usize);
-        Ok(Image {
-            size,
-            colors: (0..width * height)
-                .map(|i| mean(i % width, i / width))
-                .collect(),
-        })
+        Ok(Image::means(self.read_back.colors()?, size, side))
     }
 
     unsafe fn bind(
@@ -451,17 +434,11 @@ impl<'a> Slot<'a> {
                 height,
                 depth: 1,
             });
-        let barriers = [vk::MemoryBarrier2::default()
-            .src_stage_mask(vk::PipelineStageFlags2::COPY)
-            .src_access_mask(vk::AccessFlags2::TRANSFER_WRITE)
-            .dst_stage_mask(vk::PipelineStageFlags2::HOST)
-            .dst_access_mask(vk::AccessFlags2::HOST_READ)];
-        let to_host = vk::DependencyInfo::default().memory_barriers(&barriers);
         let (from, to) = (self.color.raw, self.read_back.raw);
         // SAFETY: passed on to the caller; image and buffer are of the same size.
         unsafe {
             raw.cmd_copy_image_to_buffer(commands, from, COPIED.layout, to, &[region]);
-            raw.cmd_pipeline_barrier2(commands, &to_host);
+            self.device.show_to_host(commands);
         }
     }
 

@@ -107,6 +107,7 @@ fn texture(
             );
         }
         change(written, shown);
+        Ok(())
     })?;
     Ok(texture)
 }
