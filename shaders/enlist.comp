@@ -10,17 +10,14 @@ layout(local_size_x_id = 0) in;
 
 void main() {
     if (in_other_subgroups(LANES)) return;
-    uint spent = counters[COUNTER_SPENT_FIRST], start = counters[COUNTER_ROUND_FIRST], next = counters[COUNTER_NEXT_TILE];
-    uint stretch = spent / STRETCH + workgroup_number();
+    uint stretch = counters[COUNTER_ROUND_FIRST] / STRETCH + workgroup_number();
     if (stretch >= stretch_count()) return;
     begin_loads();
     Load before = load_kept(stretch);
     uint unlisted = 0u, i = 0u;
     do {
         uint index = stretch * STRETCH + i + gl_SubgroupInvocationID;
-        // Lists of the round before are spent.
-        if (index >= spent && index < start) tiles[index].w = 0u;
-        bool taken = index >= start && index < next;
+        bool taken = in_round(index);
         index = min(index, tile_count() - 1u);
         uvec4 tile = tiles[index];
         Load load = load_of(index, tile);
@@ -31,7 +28,7 @@ void main() {
         uvec2 added = uvec2(load.needs.x, load.needs.z);
         uvec2 at = uvec2(before.needs.x, before.needs.z) + subgroupExclusiveAdd(added);
         uint length_ = list == 3u ? 0u : tile.x;
-        uint flags = (tile.w & (TILE_HAS_MASK | TILE_HAS_BLEND)) | TILE_PLACED | (list == 3u ? 0u : TILE_LISTED);
+        uint flags = (tile.w & (TILE_HAS_MASK | TILE_HAS_BLEND)) | (list == 3u ? 0u : TILE_LISTED);
         if (busy) tiles[index] = uvec4(tile.x, at, flags | length_ << TILE_COUNT_SHIFT);
         // Lengths of all lists in one scan, a byte each.
         uvec4 lengths = load.entries << uvec4(0u, 8u, 16u, 24u);

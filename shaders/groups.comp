@@ -11,8 +11,8 @@ layout(local_size_x = 64) in;
 void main() {
     uint i = invocation_number();
     uint count = counters[COUNTER_GROUPS];
-    uint flags = tiles[texelFetch(location_groups, int(min(i, max(count, 1u) - 1u))).x].w;
-    bool placed = i < count && (flags & TILE_PLACED) != 0u;
+    uint tile = texelFetch(location_groups, int(min(i, max(count, 1u) - 1u))).x, flags = tiles[tile].w;
+    bool placed = i < count && in_round(tile);
     uint needs = (flags & TILE_LISTED) == 0u ? 3u : (flags & TILE_HAS_BLEND) != 0u ? 2u : (flags & TILE_HAS_MASK) != 0u ? 1u : 0u;
     for (uint list = 0u; list < 4u; list++) {
         bool mine = placed && needs == list;

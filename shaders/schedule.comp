@@ -25,7 +25,6 @@ void main() {
     uint lane = gl_SubgroupInvocationID;
     bool any_tile = counters[COUNTER_TILES] != 0u && !in_other_subgroups(LANES);
     uint start = any_tile ? counters[COUNTER_NEXT_TILE] : tile_count();
-    uint spent = any_tile ? counters[COUNTER_ROUND_FIRST] : tile_count();
     begin_loads();
     Load taken = no_load();
     uint next = start;
@@ -65,8 +64,6 @@ void main() {
 
     if (subgroupElect()) {
         bool idle = taken.needs.z == 0u;
-        uint stretches = start < tile_count() ? (next + STRETCH - 1u) / STRETCH - spent / STRETCH : 0u;
-        counters[COUNTER_SPENT_FIRST] = spent;
         counters[COUNTER_ROUND_FIRST] = start;
         counters[COUNTER_NEXT_TILE] = next;
         counters[COUNTER_RECORDS] = 0u;
@@ -75,7 +72,7 @@ void main() {
         counters[COUNTER_MASKED_LEFT] = 0u;
         counters[COUNTER_ROUNDS] += idle ? 0u : 1u;
         counters[COUNTER_CANDIDATES_TOTAL] += taken.needs.x;
-        arguments[ARGUMENT_ENLIST] = groups(stretches);
+        arguments[ARGUMENT_ENLIST] = idle ? uvec4(0u) : groups((next + STRETCH - 1u) / STRETCH - start / STRETCH);
         arguments[ARGUMENT_SETUP] = idle ? uvec4(0u) : groups((min(counters[COUNTER_PAIRS], frame.pair_capacity) + 63u) / 64u);
         arguments[ARGUMENT_GROUPS] = idle ? uvec4(0u) : groups((counters[COUNTER_GROUPS] + 63u) / 64u);
         arguments[ARGUMENT_SAMPLE_PLAIN] = groups(taken.entries.x * push.subgroups_first);

@@ -18,7 +18,7 @@ void main() {
     uvec2 pair = texelFetch(pairs, int(i)).xy;
     uint tile_index = pair_tile(pair);
     uvec4 tile = tiles[tile_index];
-    if ((tile.w & TILE_LISTED) == 0u) return;
+    if (!in_round(tile_index) || (tile.w & TILE_LISTED) == 0u) return;
     Triangle k = triangle_at(pair.x);
     ivec2 tile_at = ivec2(split(tile_index, frame.tiles.x));
     Setup s = setup_triangle(k.v0, k.v1, k.v2, tile_center(tile_at), (k.word >> 31) == 0u);

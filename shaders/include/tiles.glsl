@@ -58,7 +58,11 @@ vec2 tile_center(ivec2 tile) {
 #define TILE_HAS_BLEND 2u
 #define TILE_LISTED 4u
 #define TILE_OVERFLOW 8u    // a pair of the tile was not kept
-#define TILE_PLACED 16u     // in the round at hand
 #define TILE_COUNT_SHIFT 8
+
+// Whether a tile is in the round at hand: what `enlist` wrote of those before is spent.
+bool in_round(uint tile) {
+    return tile >= counters[COUNTER_ROUND_FIRST] && tile < counters[COUNTER_NEXT_TILE];
+}
 
 #endif

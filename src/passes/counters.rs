@@ -34,8 +34,6 @@ pub enum Counter {
     MaskedLeft,
     /// Cells with more candidates than loops may have trips.
     Stalled,
-    /// First tile of the round before.
-    SpentFirst,
     /// Of a list's locations, those that lie in its region, and those that do not.
     Placed,
     LeftOut,
@@ -142,7 +140,6 @@ mod tests {
             C::PlainLeft,
             C::MaskedLeft,
             C::Stalled,
-            C::SpentFirst,
             C::Placed,
             C::LeftOut,
             C::Cells,
