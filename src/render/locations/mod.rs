@@ -25,7 +25,6 @@ use crate::passes::Cells;
 use engine::{LocationEngine, LocationValues, Sampling};
 use partition::Partition;
 use plan::LocationPlan;
-use rayon::prelude::*;
 use shadows::Receivers;
 use std::ops::Range;
 
@@ -100,7 +99,7 @@ impl Headless {
         };
         let mut values: Vec<PointSample> = Vec::with_capacity(locations.len());
         let statistics = self.run_locations(&partition, task, settings, |run| {
-            values.par_extend((0..run.places.len()).into_par_iter().map(|i| {
+            partition.put(&run.places, &mut values, |i| {
                 let [[depth, id, blend_id, code], normal] = run.seen.attributes[i];
                 let [x, y, z, _] = normal.map(f32::from_bits);
                 PointSample {
@@ -112,13 +111,12 @@ impl Headless {
                     code,
                     ..PointSample::default()
                 }
-            }));
+            });
             // Layers before a surface have none.
             for (record, hidden) in run.seen.records.iter().zip(run.shadows) {
-                values[run.places.start + record.location()].shadows |= hidden;
+                values[partition.index(run.places.start + record.location())].shadows |= hidden;
             }
         })?;
-        let values = partition.unsorted(values);
         Ok(Sampled { values, statistics })
     }
 
@@ -153,9 +151,8 @@ impl Headless {
         };
         let mut values: Vec<[f32; 4]> = Vec::with_capacity(locations.len());
         let statistics = self.run_locations(&partition, task, settings, |run| {
-            values.extend_from_slice(run.seen.colors);
+            partition.put(&run.places, &mut values, |i| run.seen.colors[i]);
         })?;
-        let values = partition.unsorted(values);
         Ok(Sampled { values, statistics })
     }
 

@@ -20,8 +20,6 @@ const COMPACT: f64 = 8192.0;
 const STRETCH: usize = 4096;
 /// A list whose stretches lie in areas of so many times the whole one is in no order that runs may follow.
 const SCATTERED: f64 = 32.0;
-/// Pixels along the side of the blocks that such a list is ordered by.
-const BLOCK: f64 = 64.0;
 /// Most locations of a list.
 const MOST: usize = (1 << 31) - 1;
 
@@ -33,8 +31,8 @@ pub(super) struct Partition<'a> {
     pub cells: Cells,
     /// What clip-space positions of all runs are relative to, if they lie close enough together.
     middle: Option<[f64; 2]>,
-    /// What each stretch of the caller's list lies in.
-    stretches: Vec<Bounds>,
+    /// What each stretch of the order lies in, where all is of one region.
+    stretches: Option<Vec<Bounds>>,
     /// The parts of the order, each of one region.
     regions: Vec<Range<usize>>,
 }
@@ -101,14 +99,15 @@ impl<'a> Partition<'a> {
         let bounds = survey.bounds;
         let stretches: Vec<Bounds> = surveys.iter().map(|survey| survey.bounds).collect();
         let area: f64 = stretches.iter().map(Bounds::area).sum();
-        let (order, regions) = if survey.regions[0] != survey.regions[1] {
+        let all = 0..locations.len();
+        let (order, stretches, regions) = if survey.regions[0] != survey.regions[1] {
             let (order, regions) = by_region(locations, cells);
-            (Some(order), regions)
+            (Some(order), None, regions)
+        } else if area > SCATTERED * bounds.area() {
+            let (order, stretches) = by_tile(locations, &bounds);
+            (Some(order), Some(stretches), vec![all])
         } else {
-            let scattered = area > SCATTERED * bounds.area();
-            let order = scattered.then(|| by_block(locations, &bounds));
-            let all = 0..locations.len();
-            (order, vec![all])
+            (None, Some(stretches), vec![all])
         };
         Ok(Self {
             order,
@@ -146,19 +145,23 @@ impl<'a> Partition<'a> {
         &self.locations[self.index(place)]
     }
 
-    /// Values in this order, in that of the caller's list.
-    pub fn unsorted<T: Copy + Send + Sync>(&self, values: Vec<T>) -> Vec<T> {
-        let Some(order) = &self.order else {
-            return values;
-        };
-        let mut places = vec![0_u32; order.len()];
-        for (place, index) in (0..).zip(order) {
-            places[*index as usize] = place;
+    /// Puts the value of each location of a run, counted from the run's first, to its place in the caller's list. Runs come one
+    /// after the other.
+    pub fn put<T: Clone + Default + Send>(
+        &self,
+        run: &Range<usize>,
+        values: &mut Vec<T>,
+        value: impl Fn(usize) -> T + Send + Sync,
+    ) {
+        match &self.order {
+            None => values.par_extend((0..run.len()).into_par_iter().map(value)),
+            Some(order) => {
+                values.resize(order.len(), T::default());
+                for (i, index) in order[run.clone()].iter().enumerate() {
+                    values[*index as usize] = value(i);
+                }
+            }
         }
-        places
-            .into_par_iter()
-            .map(|place| values[place as usize])
-            .collect()
     }
 
     /// Writes a run's locations as the device takes them, in pixels of its window. `rest` makes the second vector of each, by
@@ -187,13 +190,13 @@ impl<'a> Partition<'a> {
 
     /// The window around a run.
     pub fn window(&self, run: &Range<usize>) -> Window {
-        let bounds = match self.order {
-            None => {
-                let stretches = run.start / STRETCH..run.end.div_ceil(STRETCH);
-                let all = self.stretches[stretches].iter().copied();
+        let bounds = match &self.stretches {
+            Some(stretches) => {
+                let of_run = run.start / STRETCH..run.end.div_ceil(STRETCH);
+                let all = stretches[of_run].iter().copied();
                 all.fold(Bounds::NOTHING, Bounds::and)
             }
-            Some(_) => {
+            None => {
                 let places = run.clone().into_par_iter();
                 Bounds::of(places.map(|place| tile_of(self.location(place))))
             }
@@ -273,18 +276,30 @@ fn by_region(locations: &[SampleLocation], cells: Cells) -> (Vec<u32>, Vec<Range
     (order, regions)
 }
 
-/// Indices of locations, block by block of the plane.
-fn by_block(locations: &[SampleLocation], bounds: &Bounds) -> Vec<u32> {
-    let columns = ((bounds.high[0] - bounds.low[0]) / BLOCK) as u64 + 1;
+/// Indices of locations, tile by tile of the plane, and what each stretch of them lies in.
+fn by_tile(locations: &[SampleLocation], bounds: &Bounds) -> (Vec<u32>, Vec<Bounds>) {
+    let columns = u64::from(bounds.tiles()[0]);
+    let low = [0, 1].map(|axis| bounds.low[axis] as i64 / TILE[axis]);
     let key = |index: u32| {
-        let uv = locations[index as usize].uv;
-        let [x, y] = [0, 1].map(|axis| ((uv[axis] - bounds.low[axis]) / BLOCK) as u64);
+        let tile = tile_of(&locations[index as usize]);
+        let [x, y] = [0, 1].map(|axis| (tile[axis] - low[axis]) as u64);
         (y * columns + x) << 32 | u64::from(index)
     };
     let keys = (0..locations.len() as u32).into_par_iter().map(key);
     let mut keys: Vec<u64> = keys.collect();
     keys.par_sort_unstable();
-    keys.into_iter().map(|key| key as u32).collect()
+    let tile = |key: &u64| {
+        let tile = key >> 32;
+        [
+            low[0] + (tile % columns) as i64,
+            low[1] + (tile / columns) as i64,
+        ]
+    };
+    let stretches = keys
+        .par_chunks(STRETCH)
+        .map(|keys| keys.iter().map(tile).fold(Bounds::NOTHING, Bounds::with))
+        .collect();
+    (keys.into_iter().map(|key| key as u32).collect(), stretches)
 }
 
 fn bits(v: f64) -> u32 {
@@ -429,7 +444,7 @@ mod tests {
         for (run, window) in runs.iter().zip(&windows) {
             let mut listed = vec![ListedLocation::default(); run.len()];
             partition.list((run, window), None, &mut listed);
-            seen.extend(listed.iter().map(|listed| 1 + listed.pixel[0]));
+            partition.put(run, &mut seen, |i| 1 + listed[i].pixel[0]);
             for (place, listed) in run.clone().zip(&listed) {
                 let uv = partition.location(place).uv;
                 let [x, y] = [0, 1].map(|axis| {
@@ -441,7 +456,7 @@ mod tests {
                 assert_eq!(listed.rest.map(f32::from_bits), [2.0, 0.0, 0.0, 1.0]);
             }
         }
-        assert_eq!(partition.unsorted(seen), [1, 2, 3, 4, 5, 6, 7, 10, 8]);
+        assert_eq!(seen, [1, 2, 3, 4, 5, 6, 7, 10, 8]);
         // Where all lie in one region, the order is the caller's.
         let partition = Partition::new(&locations[..8], Cells::Points).unwrap();
         assert!(partition.order.is_none());
