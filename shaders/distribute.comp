@@ -17,6 +17,7 @@
 #include "include/workgroup.glsl"
 #include "include/counters.glsl"
 #include "include/finite.glsl"
+#include "include/place_in_tile.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint STEP = 0u;
 layout(constant_id = 1) const bool POINTS = false;      // locations are sampled once each, and several share a cell
@@ -125,8 +126,7 @@ void enclose(uint cell) {
     uint member = 0u;
     do {
         uint location = POINTS ? texelFetch(order, int(held.x + min(member, held.y - 1u))).x : held.x;
-        uvec4 found = texelFetch(locations, int(2u * location));
-        at = vec2((ivec2(found.xy) & ivec2(7, 3)) - ivec2(4, 2)) + uintBitsToFloat(found.zw);
+        at = place_in_tile(texelFetch(locations, int(2u * location)));
         vec2 extent = half_extent(location);
         low = min(low, at - extent);
         high = max(high, at + extent);

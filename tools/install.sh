@@ -17,7 +17,7 @@ install -m 755 "$built/libgpc.so" "$root/lib/libgpc.so.$version"
 ln -sf "libgpc.so.$version" "$root/lib/$soname"
 ln -sf "$soname" "$root/lib/libgpc.so"
 # What an application's shaders include, and what that includes.
-for name in gpc_visibility gpc_texture gpc_position place barycentric finite; do
+for name in gpc_visibility gpc_texture gpc_position place place_in_tile barycentric finite; do
     install -m 644 "shaders/include/$name.glsl" "$root/share/gpc/shaders/"
 done
 cat >"$root/lib/pkgconfig/gpc.pc" <<END

@@ -50,7 +50,7 @@ vec2 position_of(Cell cell, int g) {
 
 uint location_of(Cell cell, int g) {
     if (!POINTS) return cell.location;
-    return texelFetch(location_order, int(cell.location + min(sample_of(g), max(cell.samples, 1u) - 1u))).x;
+    return location_at(cell.location + min(sample_of(g), max(cell.samples, 1u) - 1u));
 }
 
 // The Jacobian at a sample: that of its location where cells hold several.

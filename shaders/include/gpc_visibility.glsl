@@ -25,6 +25,7 @@
 #ifndef GPC_VISIBILITY_GLSL
 #define GPC_VISIBILITY_GLSL
 #include "place.glsl"
+#include "place_in_tile.glsl"
 #include "barycentric.glsl"
 
 #ifndef GPC_SET
@@ -82,9 +83,8 @@ bool gpc_sample(uint key, out GpcSample s) {
         vec4 axes = uintBitsToFloat(gpc_locations[2u * s.location + 1u]);
         jacobian = mat2(axes.xy, axes.zw);
         // From the middle of a tile of 8 x 4 pixels, as samples lie.
-        ivec2 in_tile = ivec2(at.xy) & ivec2(7, 3);
-        vec2 middle = vec2(ivec2(at.xy) - in_tile + ivec2(4, 2)) - gpc_frame.half_size;
-        centred = middle + (vec2(in_tile - ivec2(4, 2)) + uintBitsToFloat(at.zw)) + jacobian * place;
+        vec2 middle = vec2((ivec2(at.xy) & ~ivec2(7, 3)) + ivec2(4, 2)) - gpc_frame.half_size;
+        centred = middle + place_in_tile(at) + jacobian * place;
     } else {
         centred = vec2(record.x & 0xffffu, record.x >> 16) + 0.5 - gpc_frame.half_size + place;
     }

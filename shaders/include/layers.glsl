@@ -55,7 +55,7 @@ bool add_nodes(uint cell_id, uint samples) {
         uint slot = allocate_records(subgroupAdd(mine), fits) + before;
         [[unroll]] for (int g = 0; g < ROWS; g++) {
             bool moves = (left >> g & 1u) != 0u;
-            if (moves && fits) records_out[slot] = uvec4(POINTS ? texelFetch(location_order, int(cell_id + sample_of(g))).x : cell_id, next_id[g], POINTS ? 0u : place_of(offset[g], 1.0), node[g]);
+            if (moves && fits) records_out[slot] = uvec4(POINTS ? location_at(cell_id + sample_of(g)) : cell_id, next_id[g], POINTS ? 0u : place_of(offset[g], 1.0), node[g]);
             node[g] = moves ? slot : node[g];
             slot += moves ? 1u : 0u;
         }
@@ -93,7 +93,7 @@ uvec2 add_leaves(uint cell_id, uint samples, bool complete) {
         [[unroll]] for (int g = 0; g < ROWS; g++) {
             uint s = sample_of(g);
             if (fits && s < samples)
-                records_out[base + s] = uvec4(POINTS ? texelFetch(location_order, int(cell_id + s)).x | POINT_VALUE : cell_id, 0u, floatBitsToUint(1.0), node[g]);
+                records_out[base + s] = uvec4(POINTS ? location_at(cell_id + s) | POINT_VALUE : cell_id, 0u, floatBitsToUint(1.0), node[g]);
         }
         return uvec2(base, fits ? samples : 0u);
     }

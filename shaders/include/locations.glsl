@@ -4,6 +4,7 @@
 // its index in the list.
 #ifndef LOCATIONS_GLSL
 #define LOCATIONS_GLSL
+#include "place_in_tile.glsl"
 
 layout(constant_id = 20) const bool LOCATIONS = false;
 layout(constant_id = 21) const bool POINTS = false;
@@ -27,8 +28,7 @@ layout(set = 0, binding = 57) uniform utextureBuffer location_order;
 #define POINT_VALUE 0x80000000u
 #define POINT_LOCATION 0x7fffffffu
 
-// From its tile's centre.
-vec2 place_in_tile(uvec4 at) { return vec2((ivec2(at.xy) & ivec2(7, 3)) - ivec2(4, 2)) + uintBitsToFloat(at.zw); }
+uint location_at(uint place) { return texelFetch(location_order, int(place)).x; }
 
 // OCCLUDERS have no extent: textures are read at their finest level.
 mat2 location_jacobian(uint location) {

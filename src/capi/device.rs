@@ -1,7 +1,7 @@
 //! A lent device, and what its frames share.
 
 use super::error::{Error, GpcResult, answer};
-use super::input::{Struct, place, read};
+use super::input::{Struct, hand_over, place, read, take_back};
 use crate::host::Antialiaser;
 use crate::vulkan::{Host, Requirements};
 use ash::vk;
@@ -119,18 +119,16 @@ pub unsafe extern "C" fn gpc_antialiaser_create(
     device: *const GpcDevice,
     antialiaser: *mut *mut GpcAntialiaser,
 ) -> GpcResult {
-    answer(|| {
-        // SAFETY: passed on to the caller.
-        let answer = unsafe { place(antialiaser, "antialiaser") }?;
-        *answer = std::ptr::null_mut();
+    let make = || {
         // SAFETY: passed on to the caller.
         let inner = unsafe {
             let host = load_host(&read(device)?)?;
             Antialiaser::new(host)
         }?;
-        *answer = Box::into_raw(Box::new(GpcAntialiaser { inner }));
-        Ok(())
-    })
+        Ok(GpcAntialiaser { inner })
+    };
+    // SAFETY: passed on to the caller.
+    unsafe { hand_over(antialiaser, "antialiaser", make) }
 }
 
 /// The layout of the descriptor set that shaders read visibility samples from, for the layouts of the application's own
@@ -153,13 +151,8 @@ pub unsafe extern "C" fn gpc_antialiaser_samples_layout(
 /// Threads: no other call uses the antialiaser at the time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_antialiaser_destroy(antialiaser: *mut GpcAntialiaser) {
-    answer(|| {
-        if !antialiaser.is_null() {
-            // SAFETY: the caller's pointer came from `Box::into_raw` and is not used again.
-            drop(unsafe { Box::from_raw(antialiaser) });
-        }
-        Ok(())
-    });
+    // SAFETY: passed on to the caller.
+    unsafe { take_back(antialiaser) };
 }
 
 /// Functions that are looked up before any is called, since calling one that is absent ends the program.

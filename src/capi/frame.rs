@@ -4,7 +4,7 @@ use super::device::GpcAntialiaser;
 use super::error::{Error, GpcResult, answer};
 use super::geometry::{GpcDraw, GpcGeometry};
 use super::images::GpcImages;
-use super::input::{Struct, check, object, place, read};
+use super::input::{Struct, check, hand_over, object, place, read, take_back};
 use super::options::GpcOptions;
 use crate::host::{Frame, Scenery, ShadeSamples, VisibilitySamples};
 use ash::vk;
@@ -105,10 +105,7 @@ pub unsafe extern "C" fn gpc_frame_create(
     options: *const GpcOptions,
     frame: *mut *mut GpcFrame,
 ) -> GpcResult {
-    answer(|| {
-        // SAFETY: passed on to the caller.
-        let answer = unsafe { place(frame, "frame") }?;
-        *answer = std::ptr::null_mut();
+    let make = || {
         // SAFETY: passed on to the caller.
         let inner = unsafe {
             let antialiaser = object(antialiaser, "antialiaser")?;
@@ -117,9 +114,10 @@ pub unsafe extern "C" fn gpc_frame_create(
             let options = read(options)?.options()?;
             antialiaser.inner.prepare(&geometry, &images, &options)
         }?;
-        *answer = Box::into_raw(Box::new(GpcFrame { inner }));
-        Ok(())
-    })
+        Ok(GpcFrame { inner })
+    };
+    // SAFETY: passed on to the caller.
+    unsafe { hand_over(frame, "frame", make) }
 }
 
 /// Makes a frame like this one, for the same buffers and images, with more of what its last recording lacked. Where it
@@ -133,15 +131,13 @@ pub unsafe extern "C" fn gpc_frame_grow(
     frame: *const GpcFrame,
     grown: *mut *mut GpcFrame,
 ) -> GpcResult {
-    answer(|| {
-        // SAFETY: passed on to the caller.
-        let answer = unsafe { place(grown, "grown") }?;
-        *answer = std::ptr::null_mut();
+    let make = || {
         // SAFETY: passed on to the caller.
         let inner = unsafe { object(frame, "frame")?.inner.grow() }?;
-        *answer = Box::into_raw(Box::new(GpcFrame { inner }));
-        Ok(())
-    })
+        Ok(GpcFrame { inner })
+    };
+    // SAFETY: passed on to the caller.
+    unsafe { hand_over(grown, "grown", make) }
 }
 
 /// Records the antialiasing of what the application has drawn. It submits nothing, waits for nothing, allocates nothing on
@@ -233,13 +229,8 @@ pub unsafe extern "C" fn gpc_frame_memory_bytes(frame: *const GpcFrame) -> u64 {
 /// Threads: no other call uses the frame at the time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_frame_destroy(frame: *mut GpcFrame) {
-    answer(|| {
-        if !frame.is_null() {
-            // SAFETY: the caller's pointer came from `Box::into_raw` and is not used again.
-            drop(unsafe { Box::from_raw(frame) });
-        }
-        Ok(())
-    });
+    // SAFETY: passed on to the caller.
+    unsafe { take_back(frame) };
 }
 
 /// An application's materials behind a function of C.

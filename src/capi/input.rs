@@ -1,6 +1,6 @@
 //! Reading what C hands over.
 
-use super::error::Error;
+use super::error::{Error, GpcResult, answer};
 
 /// A struct that C fills.
 ///
@@ -61,6 +61,38 @@ pub(super) unsafe fn object<'a, T>(pointer: *const T, name: &'static str) -> Res
 pub(super) unsafe fn place<'a, T>(pointer: *mut T, name: &'static str) -> Result<&'a mut T, Error> {
     // SAFETY: passed on to the caller.
     unsafe { pointer.as_mut() }.ok_or(Error::Null(name))
+}
+
+/// Hands over an object that is made, the argument `name`; NULL where it can't be.
+///
+/// # Safety
+/// The pointer is null, or shows a place that nobody else uses meanwhile.
+pub(super) unsafe fn hand_over<T>(
+    to: *mut *mut T,
+    name: &'static str,
+    make: impl FnOnce() -> Result<T, Error>,
+) -> GpcResult {
+    answer(|| {
+        // SAFETY: passed on to the caller.
+        let to = unsafe { place(to, name) }?;
+        *to = std::ptr::null_mut();
+        *to = Box::into_raw(Box::new(make()?));
+        Ok(())
+    })
+}
+
+/// Destroys an object that was handed over, if there is one.
+///
+/// # Safety
+/// The pointer is null or came from [`hand_over`], and is not used again.
+pub(super) unsafe fn take_back<T>(object: *mut T) {
+    answer(|| {
+        if !object.is_null() {
+            // SAFETY: passed on to the caller.
+            drop(unsafe { Box::from_raw(object) });
+        }
+        Ok(())
+    });
 }
 
 /// A number of C's for one of a few values.

@@ -4,7 +4,7 @@ use super::device::GpcAntialiaser;
 use super::error::{Error, GpcResult, answer};
 use super::frame::{Callback, GpcShade};
 use super::geometry::{GpcDraw, GpcGeometry};
-use super::input::{Struct, check, object, place, read};
+use super::input::{Struct, check, hand_over, object, place, read, take_back};
 use super::options::GpcOptions;
 use crate::host::{List, Location, LocationList};
 use ash::vk;
@@ -106,10 +106,7 @@ pub unsafe extern "C" fn gpc_list_create(
     options: *const GpcOptions,
     list: *mut *mut GpcList,
 ) -> GpcResult {
-    answer(|| {
-        // SAFETY: passed on to the caller.
-        let answer = unsafe { place(list, "list") }?;
-        *answer = std::ptr::null_mut();
+    let make = || {
         // SAFETY: passed on to the caller.
         let inner = unsafe {
             let antialiaser = object(antialiaser, "antialiaser")?;
@@ -120,9 +117,10 @@ pub unsafe extern "C" fn gpc_list_create(
                 .inner
                 .prepare_list(&geometry, &locations, &options)
         }?;
-        *answer = Box::into_raw(Box::new(GpcList { inner }));
-        Ok(())
-    })
+        Ok(GpcList { inner })
+    };
+    // SAFETY: passed on to the caller.
+    unsafe { hand_over(list, "list", make) }
 }
 
 /// Makes a list like this one, for the same buffers, with more of what its last recording lacked. Where it lacked nothing, the
@@ -136,15 +134,13 @@ pub unsafe extern "C" fn gpc_list_grow(
     list: *const GpcList,
     grown: *mut *mut GpcList,
 ) -> GpcResult {
-    answer(|| {
-        // SAFETY: passed on to the caller.
-        let answer = unsafe { place(grown, "grown") }?;
-        *answer = std::ptr::null_mut();
+    let make = || {
         // SAFETY: passed on to the caller.
         let inner = unsafe { object(list, "list")?.inner.grow() }?;
-        *answer = Box::into_raw(Box::new(GpcList { inner }));
-        Ok(())
-    })
+        Ok(GpcList { inner })
+    };
+    // SAFETY: passed on to the caller.
+    unsafe { hand_over(grown, "grown", make) }
 }
 
 /// Records the sampling of the first `location_count` locations, which see `draw_count` draws; these are read during the call
@@ -233,11 +229,6 @@ pub unsafe extern "C" fn gpc_list_memory_bytes(list: *const GpcList) -> u64 {
 /// Threads: no other call uses the list at the time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_list_destroy(list: *mut GpcList) {
-    answer(|| {
-        if !list.is_null() {
-            // SAFETY: the caller's pointer came from `Box::into_raw` and is not used again.
-            drop(unsafe { Box::from_raw(list) });
-        }
-        Ok(())
-    });
+    // SAFETY: passed on to the caller.
+    unsafe { take_back(list) };
 }

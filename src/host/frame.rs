@@ -1,22 +1,19 @@
 //! One of a host's frames in flight.
 
-use super::adoption::Adoption;
-use super::alpha::AlphaReading;
 use super::base::Base;
-use super::content::HostContent;
 use super::draw::PlacedDraws;
-use super::shading::{HostShading, ShadeSamples, VisibilitySamples};
-use super::uniform::{check_size, scale, uniform};
+use super::lending::Lending;
+use super::shading::ShadeSamples;
+use super::uniform::{check_size, uniform};
 use super::{Draw, Geometry, HostError, Images, LentImage, Options, Shared};
 use crate::passes::{
     Counter, FrameUniform, IdViews, Offsets, OwnSet, Patch, Patched, RasterTargets, Resources,
-    VisibilityUniform, VisibleGeometry,
 };
 use crate::render::engine::{Engine, EngineKind, Growing, Work, with_probes};
 use crate::render::footprint::Footprints;
 use crate::render::plan::{Capacity, Plan};
 use crate::render::statistics::Shortfall;
-use crate::render::{PassTime, RenderError, Settings, Statistics};
+use crate::render::{Settings, Statistics};
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;
 use std::sync::Arc;
@@ -42,25 +39,19 @@ pub struct Outcome {
 
 /// Pipelines and memory to antialias one frame in flight of a host.
 pub struct Frame {
-    geometry: Geometry,
+    lending: Lending,
     images: Images,
     options: Options,
     settings: Settings,
     plan: Plan,
-    content: HostContent,
-    alpha: AlphaReading,
     resources: Resources,
     engine: Engine,
-    adoption: Adoption,
     base: Base,
     patch: Patch,
-    visibility: Buffer,
     visibility_set: OwnSet,
     counters: Buffer,
     timings: Timings,
     memory: Memory,
-    uploaded: bool,
-    triangles: u32,
     /// Last: layouts go after what was made with them.
     shared: Arc<Shared>,
 }
@@ -98,19 +89,10 @@ impl Frame {
         let [width, height] = settings.size;
         let memory = Memory::new(gpu.clone(), settings.max_memory);
         // SAFETY: passed on to the caller.
-        let content = unsafe { HostContent::new(gpu, &memory, geometry) }?;
-        // SAFETY: passed on to the caller.
-        let alpha = unsafe { AlphaReading::new(shared, geometry, &content) }?;
-        // SAFETY: passed on to the caller.
-        let adoption = unsafe { Adoption::new(shared, &memory, geometry, &content) }?;
-        let visibility = memory.buffer(
-            "visibility uniform",
-            size_of::<VisibilityUniform>() as u64,
-            vk::BufferUsageFlags::UNIFORM_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
-            MemoryUse::Device,
-        )?;
+        let lending = unsafe { Lending::new(shared, &memory, geometry) }?;
+        let content = &lending.content;
         let taken = memory.used();
-        let plan = Plan::whole(&settings, &content, gpu.limits(), capacity, taken)?;
+        let plan = Plan::whole(&settings, content, gpu.limits(), capacity, taken)?;
         let offsets = settings.offsets()?;
         let count = offsets.len() as u32;
         let offsets = with_probes(offsets)?;
@@ -132,7 +114,7 @@ impl Frame {
         let resources = Resources::new(
             layout,
             &memory,
-            &content,
+            content,
             (&content.texels(), content.lights()),
             &views,
             plan.sizes,
@@ -141,10 +123,10 @@ impl Frame {
                 count,
             }],
         )?;
-        let output = settings.color_constants(&content);
+        let output = settings.color_constants(content);
         let engine = Engine::new(
             layout,
-            &content,
+            content,
             &settings,
             &plan,
             &output,
@@ -154,18 +136,11 @@ impl Frame {
                 ..EngineKind::superpixels(&settings)
             },
         )?;
-        let visible = VisibleGeometry {
-            triangles: content.triangles(),
-            positions: content.positions_info(),
-            draws: &adoption.draws,
-            draw_of: content.draw_of(),
-            locations: None,
-        };
         // SAFETY: of the host's handles, as the caller says; the rest goes with the frame.
         let (base, visibility_set) = unsafe {
             (
-                Base::new(shared, &content, images, options, own, &output)?,
-                resources.visibility_set(&shared.visibility, &visibility, &visible)?,
+                Base::new(shared, content, images, options, own, &output)?,
+                lending.visibility_set(shared, &resources, None)?,
             )
         };
         let growths = engine.growths() as u32;
@@ -187,21 +162,15 @@ impl Frame {
                 MemoryUse::Readback,
             )?,
             timings: Timings::new(gpu, 32 + 8 * (growths + shadings))?,
-            geometry: geometry.clone(),
+            lending,
             images: *images,
             options: options.clone(),
             settings,
             plan,
-            content,
-            alpha,
             resources,
             engine,
-            adoption,
-            visibility,
             visibility_set,
             memory,
-            uploaded: false,
-            triangles: 0,
             shared: shared.clone(),
         })
     }
@@ -232,7 +201,7 @@ impl Frame {
         unsafe {
             Self::with_capacity(
                 &self.shared,
-                &self.geometry,
+                &self.lending.geometry,
                 &self.images,
                 &self.options,
                 capacity,
@@ -263,8 +232,7 @@ impl Frame {
         scenery: &Scenery<'_>,
         shading: &dyn ShadeSamples,
     ) -> Result<(), HostError> {
-        let placed = PlacedDraws::new(&self.geometry, scenery.draws)?;
-        let triangles = placed.triangles;
+        let placed = PlacedDraws::new(&self.lending.geometry, scenery.draws)?;
         if !scenery
             .projection
             .as_flattened()
@@ -273,7 +241,6 @@ impl Frame {
         {
             return Err(HostError::Projection);
         }
-        self.triangles = triangles;
         let uniform = self.uniform(&placed, &scenery.projection);
         let gpu = self.shared.gpu.clone();
         let resources = &self.resources;
@@ -283,52 +250,32 @@ impl Frame {
         // SAFETY: passed on to the caller.
         let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
         let recorder = &mut recorder;
-        if !self.uploaded {
-            resources.record_upload(recorder);
-        }
-        recorder.begin();
-        if !self.uploaded {
-            self.alpha.record(recorder, &self.content);
-            self.uploaded = true;
-        }
+        self.lending
+            .record_begin(recorder, placed.triangles, |recorder| {
+                resources.record_upload(recorder);
+            });
+        let lending = &self.lending;
         self.images.record_begin(recorder);
-        self.adoption.record(recorder, &placed);
-        let shading = HostShading {
-            shading,
-            samples: VisibilitySamples {
-                set: self.visibility_set.raw,
-                arguments: resources.arguments.handle(),
-                keys: self.geometry.keys,
-            },
-            set,
-        };
+        lending.record_triangles(recorder, &placed);
+        let shading = lending.shading(shading, &self.visibility_set, (resources, set));
         let footprints = Footprints::new(&self.settings, self.settings.samples);
-        let visible = |place_side, boxes| VisibilityUniform {
-            scale: scale(&self.geometry, self.settings.size),
-            half_size: self.settings.size.map(|side| 0.5 * side as f32),
-            place_side,
-            boxes: u32::from(boxes),
-            list: 0,
-            padding: 0,
-        };
-        let at_centres = visible(footprints.centre, false);
-        let at_places = visible(footprints.place, self.settings.filters_boxes());
+        let boxes = self.settings.filters_boxes();
+        let at_centres = lending.visible(&self.settings, footprints.centre, false);
+        let at_places = lending.visible(&self.settings, footprints.place, boxes);
         let shades_all = self.options.shade_all;
         let first = if shades_all { at_centres } else { at_places };
-        recorder.barrier();
-        recorder.update(&self.visibility, 0, bytemuck::bytes_of(&first));
+        lending.record_visible(recorder, &first);
         resources.record_begin(recorder, set, &uniform);
         let seen = (&uniform, &placed);
         self.base
             .record(recorder, &self.shared, (resources, set), seen, &shading);
         if shades_all {
-            recorder.barrier();
-            recorder.update(&self.visibility, 0, bytemuck::bytes_of(&at_places));
+            lending.record_visible(recorder, &at_places);
             // What the centres counted is not of superpixels.
             resources.record_begin(recorder, set, &uniform);
         }
         let work = Work {
-            triangles,
+            triangles: placed.triangles,
             tiles: uniform.tiles[0] * uniform.tiles[1],
             rounds: self.plan.rounds,
         };
@@ -364,9 +311,8 @@ impl Frame {
     }
 
     fn shortfall(&self) -> Result<Shortfall, HostError> {
-        let [width, height] = self.settings.size;
         let mut shortfall = Shortfall::default();
-        let tiles = width.div_ceil(8) * height.div_ceil(4);
+        let tiles = self.plan.sizes.tiles();
         let room = self.plan.sizes.survivor_capacity;
         for counters in self.counted()? {
             shortfall.add(counters, (tiles, room), self.plan.capacity.unlisted);
@@ -380,24 +326,13 @@ impl Frame {
     /// # Errors
     /// If what was counted or timed can't be read, or the driver ran kernels in subgroups that they were not made for.
     pub fn outcome(&self) -> Result<Outcome, HostError> {
-        let [width, height] = self.settings.size;
-        let mut statistics = Statistics {
-            regions: 1,
-            memory_bytes: self.memory.used(),
-            tiles: u64::from(width.div_ceil(8)) * u64::from(height.div_ceil(4)),
-            ..Statistics::default()
-        };
-        statistics.triangles.total = u64::from(self.triangles);
-        for counters in self.counted()? {
-            statistics.add(counters);
-        }
-        for (pass, ms) in self.timings.read()? {
-            statistics.add_time(PassTime { pass, ms });
-        }
         let shortfall = self.shortfall()?;
-        shortfall
-            .check_subgroups(self.plan.sizes.lanes)
-            .map_err(RenderError::from)?;
+        let statistics = self.lending.statistics(
+            self.counted()?,
+            (&self.timings, &self.memory),
+            self.plan.sizes.tiles(),
+            (&shortfall, self.plan.sizes.lanes),
+        )?;
         Ok(Outcome {
             statistics,
             left_over: shortfall.left(),
@@ -407,7 +342,7 @@ impl Frame {
     fn uniform(&self, placed: &PlacedDraws, projection: &[[f32; 4]; 4]) -> FrameUniform {
         let [width, height] = self.settings.size;
         let footprints = Footprints::new(&self.settings, self.settings.samples);
-        let (geometry, sizes) = (&self.geometry, &self.plan.sizes);
+        let (geometry, sizes) = (&self.lending.geometry, &self.plan.sizes);
         FrameUniform {
             raster_scale: [width, height].map(|side| 2.0 / side as f32),
             interior_high: [width, height],
@@ -436,32 +371,6 @@ fn gap(projection: &[[f32; 4]; 4], height: u32) -> [f32; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_uniform_block_is_the_shaders() {
-        let text = include_str!("../../shaders/include/gpc_visibility.glsl");
-        let block = text
-            .split("uniform GpcFrame {")
-            .nth(1)
-            .and_then(|rest| rest.split("} gpc_frame;").next())
-            .unwrap();
-        let fields: Vec<_> = block
-            .lines()
-            .filter_map(|line| line.split_once(';'))
-            .map(|(field, _)| field.trim())
-            .collect();
-        assert_eq!(
-            fields,
-            [
-                "vec2 scale",
-                "vec2 half_size",
-                "float place_side",
-                "uint box",
-                "uint list"
-            ]
-        );
-        assert_eq!(size_of::<VisibilityUniform>() % 16, 0);
-    }
 
     #[test]
     fn a_pixels_width_in_depth() {

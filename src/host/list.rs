@@ -1,22 +1,20 @@
 //! Sample locations that a host lends, in the place of an image's pixels.
 
-use super::adoption::Adoption;
-use super::alpha::AlphaReading;
-use super::content::HostContent;
 use super::draw::PlacedDraws;
-use super::shading::{HostShading, ShadeSamples, VisibilitySamples};
-use super::uniform::{check_size, scale, uniform};
+use super::lending::Lending;
+use super::shading::ShadeSamples;
+use super::uniform::{check_size, uniform};
 use super::{Draw, Geometry, HostError, Options, Shared};
 use crate::passes::{
     Cells, Counter, FrameUniform, ListRegion, Offsets, OwnSet, RasterTargets, ResourceSizes,
-    Resources, VisibilityUniform, VisibleGeometry,
+    Resources, VisibilityUniform,
 };
 use crate::render::footprint::Footprints;
 use crate::render::list::{ListEngine, ListKind};
 use crate::render::plan::Capacity;
 use crate::render::statistics::Shortfall;
-use crate::render::{PassTime, RenderError, Settings, Statistics};
-use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, TexelView, Timings, VulkanError};
+use crate::render::{Settings, Statistics};
+use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, TexelView, Timings};
 use ash::vk;
 use std::sync::Arc;
 
@@ -62,25 +60,19 @@ pub struct ListOutcome {
 
 /// Pipelines and memory to sample a host's locations, of one of its frames in flight.
 pub struct List {
-    geometry: Geometry,
+    lending: Lending,
     list: LocationList,
     options: Options,
     settings: Settings,
     capacity: Capacity,
     rounds: u32,
-    content: HostContent,
-    alpha: AlphaReading,
     resources: Resources,
     targets: RasterTargets,
     engine: ListEngine,
-    adoption: Adoption,
-    visibility: Buffer,
     visibility_set: OwnSet,
     counters: Buffer,
     timings: Timings,
     memory: Memory,
-    uploaded: bool,
-    triangles: u32,
     _locations: TexelView,
     /// Last: layouts go after what was made with them.
     shared: Arc<Shared>,
@@ -164,17 +156,8 @@ impl List {
         list.check(limits.buffer_alignment.max(16), most.min(1 << 30) as u32)?;
         let memory = Memory::new(gpu.clone(), settings.max_memory);
         // SAFETY: passed on to the caller.
-        let content = unsafe { HostContent::new(gpu, &memory, geometry) }?;
-        // SAFETY: passed on to the caller.
-        let alpha = unsafe { AlphaReading::new(shared, geometry, &content) }?;
-        // SAFETY: passed on to the caller.
-        let adoption = unsafe { Adoption::new(shared, &memory, geometry, &content) }?;
-        let visibility = memory.buffer(
-            "visibility uniform",
-            size_of::<VisibilityUniform>() as u64,
-            vk::BufferUsageFlags::UNIFORM_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
-            MemoryUse::Device,
-        )?;
+        let lending = unsafe { Lending::new(shared, &memory, geometry) }?;
+        let content = &lending.content;
         let kind = ListKind {
             cells: if settings.samples == 1 {
                 Cells::Points
@@ -188,22 +171,8 @@ impl List {
             layers: capacity.layers,
         };
         let room = (list.capacity, padded(settings.size));
-        let sizes = kind.sizes(layout, &content, &settings, room, capacity.lists, false);
-        let what = "the largest list of a recording";
-        VulkanError::check_limit(
-            what,
-            sizes.largest_storage(),
-            "bytes",
-            limits.max_storage_bytes,
-        )
-        .map_err(RenderError::from)?;
-        VulkanError::check_limit(
-            what,
-            sizes.largest_texels(),
-            "elements",
-            limits.max_texel_elements,
-        )
-        .map_err(RenderError::from)?;
+        let sizes = kind.sizes(layout, content, &settings, room, capacity.lists, false);
+        sizes.check("the largest list of a recording", limits)?;
         let (offsets, count) = kind.offsets(layout, &settings)?;
         let single = vk::SampleCountFlags::TYPE_1;
         let targets = RasterTargets::new(&memory, 1, 1, single, false)?;
@@ -216,7 +185,7 @@ impl List {
         let resources = Resources::new(
             layout,
             &memory,
-            &content,
+            content,
             (&shown, content.lights()),
             &targets.views(),
             sizes,
@@ -225,20 +194,13 @@ impl List {
                 count,
             }],
         )?;
-        let output = settings.color_constants(&content);
-        let visible = VisibleGeometry {
-            triangles: content.triangles(),
-            positions: content.positions_info(),
-            draws: &adoption.draws,
-            draw_of: content.draw_of(),
-            locations: Some(list.info()),
-        };
+        let output = settings.color_constants(content);
         // SAFETY: of the list as the caller says; the rest goes with this.
         let (engine, visibility_set) = unsafe {
             let shown = (&resources, locations.raw);
             (
-                ListEngine::new(layout, &content, &settings, &kind, shown, &output)?,
-                resources.visibility_set(&shared.visibility, &visibility, &visible)?,
+                ListEngine::new(layout, content, &settings, &kind, shown, &output)?,
+                lending.visibility_set(shared, &resources, Some(list.info()))?,
             )
         };
         let rounds = kind.rounds(&sizes, &settings, capacity);
@@ -250,23 +212,17 @@ impl List {
                 MemoryUse::Readback,
             )?,
             timings: Timings::new(gpu, 16 + 8 * rounds)?,
-            geometry: geometry.clone(),
+            lending,
             list: *list,
             options: options.clone(),
             settings,
             capacity,
             rounds,
-            content,
-            alpha,
             resources,
             targets,
             engine,
-            adoption,
-            visibility,
             visibility_set,
             memory,
-            uploaded: false,
-            triangles: 0,
             _locations: locations,
             shared: shared.clone(),
         })
@@ -294,7 +250,7 @@ impl List {
     /// As [`super::Antialiaser::prepare_list`]; and the commands of the last recording are done.
     pub unsafe fn grow(&self) -> Result<Self, HostError> {
         let capacity = self.capacity.more(self.shortfall()?);
-        let (shared, geometry) = (&self.shared, &self.geometry);
+        let (shared, geometry) = (&self.shared, &self.lending.geometry);
         // SAFETY: passed on to the caller.
         unsafe { Self::with_capacity(shared, geometry, &self.list, &self.options, capacity) }
     }
@@ -322,7 +278,7 @@ impl List {
         count: u32,
         shading: &dyn ShadeSamples,
     ) -> Result<(), HostError> {
-        let placed = PlacedDraws::new(&self.geometry, draws)?;
+        let placed = PlacedDraws::new(&self.lending.geometry, draws)?;
         if count > self.list.capacity {
             return Err(HostError::Capacity {
                 what: "locations",
@@ -330,7 +286,6 @@ impl List {
                 capacity: self.list.capacity,
             });
         }
-        self.triangles = placed.triangles;
         let uniform = self.uniform(&placed);
         let footprints = self.footprints();
         let gpu = self.shared.gpu.clone();
@@ -342,26 +297,19 @@ impl List {
         let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
         let recorder = &mut recorder;
         recorder.barrier();
-        if !self.uploaded {
-            resources.record_upload(recorder);
-            self.targets.record_unused(recorder);
-        }
-        recorder.begin();
-        if !self.uploaded {
-            self.alpha.record(recorder, &self.content);
-            self.uploaded = true;
-        }
-        self.adoption.record(recorder, &placed);
+        self.lending
+            .record_begin(recorder, placed.triangles, |recorder| {
+                resources.record_upload(recorder);
+                self.targets.record_unused(recorder);
+            });
+        let lending = &self.lending;
+        lending.record_triangles(recorder, &placed);
+        let boxes = self.settings.filters_boxes();
         let visible = VisibilityUniform {
-            scale: scale(&self.geometry, self.settings.size),
-            half_size: self.settings.size.map(|side| 0.5 * side as f32),
-            place_side: footprints.place,
-            boxes: u32::from(self.settings.filters_boxes()),
             list: 1,
-            padding: 0,
+            ..lending.visible(&self.settings, footprints.place, boxes)
         };
-        recorder.barrier();
-        recorder.update(&self.visibility, 0, bytemuck::bytes_of(&visible));
+        lending.record_visible(recorder, &visible);
         if count > 0 {
             resources.record_background(recorder, count, uniform.background, 0);
         }
@@ -372,15 +320,7 @@ impl List {
         };
         self.engine
             .record_candidates(recorder, (resources, set), &region);
-        let shading = HostShading {
-            shading,
-            samples: VisibilitySamples {
-                set: self.visibility_set.raw,
-                arguments: resources.arguments.handle(),
-                keys: self.geometry.keys,
-            },
-            set,
-        };
+        let shading = lending.shading(shading, &self.visibility_set, (resources, set));
         for _ in 0..self.rounds {
             self.engine.record_round(recorder, resources);
             self.engine.record_values(recorder, resources, &shading);
@@ -401,21 +341,14 @@ impl List {
     /// If what was counted or timed can't be read, or the driver ran kernels in subgroups that they were not made for.
     pub fn outcome(&self) -> Result<ListOutcome, HostError> {
         let counters = self.counted()?;
-        let mut statistics = Statistics {
-            regions: 1,
-            memory_bytes: self.memory.used(),
-            tiles: u64::from(self.tiles()),
-            ..Statistics::default()
-        };
-        statistics.triangles.total = u64::from(self.triangles);
-        statistics.add(counters);
-        for (pass, ms) in self.timings.read()? {
-            statistics.add_time(PassTime { pass, ms });
-        }
         let shortfall = self.shortfall()?;
-        shortfall
-            .check_subgroups(self.resources.sizes().lanes)
-            .map_err(RenderError::from)?;
+        let sizes = self.resources.sizes();
+        let statistics = self.lending.statistics(
+            std::iter::once(counters),
+            (&self.timings, &self.memory),
+            sizes.tiles(),
+            (&shortfall, sizes.lanes),
+        )?;
         let left_out = counters.get(Counter::LeftOut as usize);
         Ok(ListOutcome {
             statistics,
@@ -431,14 +364,11 @@ impl List {
     fn shortfall(&self) -> Result<Shortfall, HostError> {
         let counters = self.counted()?;
         let mut shortfall = Shortfall::default();
-        let room = self.resources.sizes().survivor_capacity;
-        shortfall.add(counters, (self.tiles(), room), self.capacity.unlisted);
+        let sizes = self.resources.sizes();
+        let room = (sizes.tiles(), sizes.survivor_capacity);
+        shortfall.add(counters, room, self.capacity.unlisted);
         shortfall.add_subgroups(counters);
         Ok(shortfall)
-    }
-
-    fn tiles(&self) -> u32 {
-        self.resources.sizes().tiles()
     }
 
     fn footprints(&self) -> Footprints {
@@ -451,9 +381,8 @@ impl List {
             // Locations may lie anywhere in the tiles at the border.
             size: sizes.region,
             sample_count: self.engine.options().samples,
-            group_count: sizes.locations.map_or(0, |sizes| sizes.groups),
             ..uniform(
-                &self.geometry,
+                &self.lending.geometry,
                 &self.settings,
                 sizes,
                 &self.footprints(),

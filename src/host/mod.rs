@@ -25,6 +25,7 @@ mod error;
 mod frame;
 mod geometry;
 mod images;
+mod lending;
 mod list;
 mod options;
 mod shading;

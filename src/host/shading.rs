@@ -8,7 +8,7 @@ use ash::vk;
 /// Names and text of the GLSL includes for a host's shaders: `gpc_visibility.glsl`, which says how a visibility sample is
 /// laid out and what to do with it, `gpc_texture.glsl`, which filters textures over it, `gpc_position.glsl`, which places
 /// vertices as the library does, and what they include.
-pub const SHADER_INCLUDES: [(&str, &str); 6] = [
+pub const SHADER_INCLUDES: [(&str, &str); 7] = [
     (
         "gpc_visibility.glsl",
         include_str!("../../shaders/include/gpc_visibility.glsl"),
@@ -24,6 +24,10 @@ pub const SHADER_INCLUDES: [(&str, &str); 6] = [
     (
         "place.glsl",
         include_str!("../../shaders/include/place.glsl"),
+    ),
+    (
+        "place_in_tile.glsl",
+        include_str!("../../shaders/include/place_in_tile.glsl"),
     ),
     (
         "barycentric.glsl",

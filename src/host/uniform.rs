@@ -58,10 +58,6 @@ pub(super) fn uniform(
         first_blend: placed.solid,
         material_vectors: ROW as u32,
         sample_count: settings.samples,
-        survivor_capacity: sizes.survivor_capacity,
-        pair_capacity: sizes.pair_capacity,
-        list_capacity: sizes.list_capacity,
-        record_capacity: sizes.record_capacity,
         bin_count: geometry.keys + 1,
         exposure: 1.0,
         footprint: footprints.centre,
@@ -69,7 +65,7 @@ pub(super) fn uniform(
         sample_footprint: footprints.sample,
         side: 1,
         reach: 0.5,
-        ..FrameUniform::default()
+        ..FrameUniform::with_room(sizes)
     }
 }
 

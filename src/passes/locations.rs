@@ -2,7 +2,7 @@
 
 use super::distribute::{Distribute, ListRegion};
 use super::own_layout::whole;
-use super::{FrameLayout, Resources, SampleSet};
+use super::{Resources, SampleSet};
 use crate::vulkan::{Buffer, BufferView, Constants, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 
@@ -100,10 +100,9 @@ impl CellSizes {
     /// Locations of a cell that are sampled once each, at the least; a subgroup may hold more.
     const POINTS_IN_CELL: u32 = 16;
 
-    /// Those that suit a device.
+    /// Those that suit a device, of whose subgroups so many invocations are used.
     #[must_use]
-    pub fn new(layout: &FrameLayout, cells: Cells, samples: u32) -> Self {
-        let lanes = layout.gpu.limits().lanes;
+    pub fn new(lanes: u32, cells: Cells, samples: u32) -> Self {
         let in_cell = match cells {
             Cells::Points | Cells::Occluders => Self::POINTS_IN_CELL.next_multiple_of(lanes),
             Cells::Superpixels | Cells::Pixels => 1,

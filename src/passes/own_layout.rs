@@ -80,19 +80,8 @@ impl OwnSet {
     /// # Safety
     /// The set is not in use, and its bindings are those of buffers, which outlive its use.
     pub unsafe fn write_buffers(&self, first: u32, buffers: &[vk::DescriptorBufferInfo]) {
-        let kinds = self.kinds.iter().skip(first as usize);
-        let writes: Vec<_> = (first..)
-            .zip(buffers.iter().zip(kinds))
-            .map(|(binding, (info, kind))| {
-                vk::WriteDescriptorSet::default()
-                    .dst_set(self.raw)
-                    .dst_binding(binding)
-                    .descriptor_type(*kind)
-                    .buffer_info(std::slice::from_ref(info))
-            })
-            .collect();
         // SAFETY: passed on to the caller.
-        unsafe { self.gpu.device.update_descriptor_sets(&writes, &[]) };
+        unsafe { self.write(first, buffers, vk::WriteDescriptorSet::buffer_info) };
     }
 
     /// Shows texel buffers at the set's bindings from one on, in their order.
@@ -100,15 +89,27 @@ impl OwnSet {
     /// # Safety
     /// The set is not in use, and its bindings are those of texel buffers, which outlive its use.
     pub unsafe fn write_texels(&self, first: u32, views: &[vk::BufferView]) {
+        // SAFETY: passed on to the caller.
+        unsafe { self.write(first, views, vk::WriteDescriptorSet::texel_buffer_view) };
+    }
+
+    /// # Safety
+    /// The set is not in use, and its bindings are of what `show` shows there, which outlives its use.
+    unsafe fn write<'a, T>(
+        &self,
+        first: u32,
+        shown: &'a [T],
+        show: impl Fn(vk::WriteDescriptorSet<'a>, &'a [T]) -> vk::WriteDescriptorSet<'a>,
+    ) {
         let kinds = self.kinds.iter().skip(first as usize);
         let writes: Vec<_> = (first..)
-            .zip(views.iter().zip(kinds))
-            .map(|(binding, (view, kind))| {
-                vk::WriteDescriptorSet::default()
+            .zip(shown.chunks(1).zip(kinds))
+            .map(|(binding, (one, kind))| {
+                let write = vk::WriteDescriptorSet::default()
                     .dst_set(self.raw)
                     .dst_binding(binding)
-                    .descriptor_type(*kind)
-                    .texel_buffer_view(std::slice::from_ref(view))
+                    .descriptor_type(*kind);
+                show(write, one)
             })
             .collect();
         // SAFETY: passed on to the caller.
@@ -123,12 +124,8 @@ impl OwnSet {
         let info = [vk::DescriptorImageInfo::default()
             .image_view(view)
             .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)];
-        let write = vk::WriteDescriptorSet::default()
-            .dst_set(self.raw)
-            .descriptor_type(vk::DescriptorType::SAMPLED_IMAGE)
-            .image_info(&info);
         // SAFETY: passed on to the caller.
-        unsafe { self.gpu.device.update_descriptor_sets(&[write], &[]) };
+        unsafe { self.write(0, &info, vk::WriteDescriptorSet::image_info) };
     }
 }
 

@@ -69,3 +69,34 @@ impl Resources {
         Ok(set)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_uniform_block_is_the_shaders() {
+        let text = include_str!("../../shaders/include/gpc_visibility.glsl");
+        let block = text
+            .split("uniform GpcFrame {")
+            .nth(1)
+            .and_then(|rest| rest.split("} gpc_frame;").next())
+            .unwrap();
+        let fields: Vec<_> = block
+            .lines()
+            .filter_map(|line| line.split_once(';'))
+            .map(|(field, _)| field.trim())
+            .collect();
+        assert_eq!(
+            fields,
+            [
+                "vec2 scale",
+                "vec2 half_size",
+                "float place_side",
+                "uint box",
+                "uint list"
+            ]
+        );
+        assert_eq!(size_of::<VisibilityUniform>() % 16, 0);
+    }
+}

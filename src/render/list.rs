@@ -1,8 +1,8 @@
 //! The sampling engine for lists of sample locations: from a list to what its locations see, in rounds.
 
 use super::engine::{RecordShading, can_settle, record_rate, record_shading, with_probes};
-use super::plan::Capacity;
-use super::{Coverage, RenderError, Settings, Shading};
+use super::plan::{Capacity, MOST_CANDIDATES, MOST_PAIRS, MOST_RECORDS, records_of_superpixel};
+use super::{Coverage, RenderError, Settings};
 use crate::passes::{
     Bin, CellSizes, Cells, Content, Cull, Distribute, FrameLayout, Groups, ListRegion,
     LocationSizes, Points, RecordRate, Resolve, ResourceSizes, Resources, Sample, SampleOptions,
@@ -11,12 +11,6 @@ use crate::passes::{
 use crate::vulkan::{Constants, Recorder};
 use ash::vk;
 use std::sync::Arc;
-
-/// Most visibility samples and candidates of a round.
-const MOST_RECORDS: u64 = 6 << 20;
-const MOST_CANDIDATES: u64 = 2 << 20;
-/// Most pairs of a triangle and a tile.
-const MOST_PAIRS: u64 = 8 << 20;
 
 /// What a [`ListEngine`] is made for.
 #[derive(Clone, Copy, Debug)]
@@ -54,7 +48,7 @@ impl ListKind {
     }
 
     fn cell_sizes(&self, layout: &FrameLayout, settings: &Settings) -> CellSizes {
-        CellSizes::new(layout, self.cells, settings.samples)
+        CellSizes::new(layout.gpu.limits().lanes, self.cells, settings.samples)
     }
 
     fn sample_options(
@@ -107,8 +101,7 @@ impl ListKind {
             Cells::Points if at_once => most * in_sample,
             Cells::Points if scene.has_blend() => 4 * most,
             Cells::Points | Cells::Occluders => most,
-            _ if settings.shading == Shading::Sample || scene.has_blend() => most * samples.min(64),
-            _ => most * (6 * samples.div_ceil(64)).min(samples).max(2),
+            Cells::Superpixels | Cells::Pixels => most * records_of_superpixel(settings, scene),
         };
         let triangles = u64::from(scene.index_count());
         let pairs = (triangles * 4 + tiles * 16).clamp(1 << 14, MOST_PAIRS);

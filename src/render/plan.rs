@@ -4,7 +4,7 @@ use super::engine::record_rate;
 use super::statistics::Shortfall;
 use super::{Method, RenderError, Settings, Shading};
 use crate::passes::{Content, Encoding, RecordRate, ResourceSizes};
-use crate::vulkan::{Limits, VulkanError};
+use crate::vulkan::Limits;
 
 /// A part of the image, in output pixels. Where a part of the image is wanted alone, it is what is wanted of one of the
 /// regions that the whole image has, and drawn in that region's place: devices round vertices to a fraction of a pixel
@@ -149,17 +149,28 @@ const NEIGHBOURS: u32 = 3;
 /// the renderer has a device to itself.
 const REGION_PIXELS: u64 = 4 << 20;
 /// Most visibility samples and candidates of a round.
-const MOST_RECORDS: u64 = 6 << 20;
-const MOST_CANDIDATES: u64 = 2 << 20;
+pub(super) const MOST_RECORDS: u64 = 6 << 20;
+pub(super) const MOST_CANDIDATES: u64 = 2 << 20;
 /// Visibility samples of a round, for each 64 samples of a superpixel, above which there is room for a third of them and
 /// twice as many rounds: rounds that find nothing to do cost little.
 const LARGE_RECORDS: u64 = 1 << 20;
 /// Most pairs of a triangle and a tile, of all rounds, that a frame is first planned with.
-const MOST_PAIRS: u64 = 8 << 20;
+pub(super) const MOST_PAIRS: u64 = 8 << 20;
 /// The same for each tile where there are instances: their triangles are many, and what they take of memory is to be in
 /// proportion to the image. Rounds of fewer candidates are more rounds, which cost little.
 const TILE_PAIRS: u64 = 160;
 const TILE_CANDIDATES: u64 = 10;
+
+/// Visibility samples that superpixels have room for, on average.
+pub(super) fn records_of_superpixel(settings: &Settings, scene: &dyn Content) -> u64 {
+    let samples = u64::from(settings.samples);
+    let usual = if settings.shading == Shading::Sample || scene.has_blend() {
+        samples.min(64)
+    } else {
+        6 * samples.div_ceil(64)
+    };
+    usual.min(samples).max(2)
+}
 
 impl Plan {
     /// Plans an image.
@@ -216,10 +227,7 @@ impl Plan {
         let allowed = settings.max_memory.map(|limit| limit.saturating_sub(taken));
         let mut plan = Self::with_region(settings, scene, limits, None, capacity, settings.size)?;
         let needed = plan.shrink(scene, settings, allowed);
-        let what = "the largest list of a frame";
-        let (bytes, texels) = (plan.sizes.largest_storage(), plan.sizes.largest_texels());
-        VulkanError::check_limit(what, bytes, "bytes", limits.max_storage_bytes)?;
-        VulkanError::check_limit(what, texels, "elements", limits.max_texel_elements)?;
+        plan.sizes.check("the largest list of a frame", limits)?;
         match allowed {
             Some(allowed) if needed > allowed => Err(RenderError::Memory {
                 needed: needed + taken,
@@ -287,12 +295,7 @@ impl Plan {
         let samples = u64::from(settings.samples);
         let records = match settings.method {
             Method::Superpixel => {
-                let usual = if settings.shading == Shading::Sample || scene.has_blend() {
-                    samples.min(64)
-                } else {
-                    6 * samples.div_ceil(64)
-                };
-                (pixels * usual.min(samples).max(2)).clamp(1 << 16, MOST_RECORDS)
+                (pixels * records_of_superpixel(settings, scene)).clamp(1 << 16, MOST_RECORDS)
             }
             Method::Msaa => tiles * 32 * samples * if scene.has_blend() { 2 } else { 1 },
             Method::None | Method::Ssaa if scene.has_blend() => pixels * 3,

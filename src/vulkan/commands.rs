@@ -151,14 +151,27 @@ impl<'a> Recorder<'a> {
     /// Copies the first bytes of a buffer to another one, from a byte of that on. Both were created for copies, and callers
     /// know their sizes.
     pub(crate) fn copy(&self, from: &Buffer, bytes: u64, to: &Buffer, first_byte: u64) {
-        let region = [vk::BufferCopy::default().dst_offset(first_byte).size(bytes)];
+        // SAFETY: as documented.
+        unsafe { self.copy_raw((from.raw, 0), (to.raw, first_byte), bytes) };
+    }
+
+    /// Copies bytes of a buffer to another one, from a byte of each on.
+    ///
+    /// # Safety
+    /// Both were created for copies, and the bytes lie in them, which outlive the execution of the commands.
+    pub(crate) unsafe fn copy_raw(
+        &self,
+        (from, from_byte): (vk::Buffer, u64),
+        (to, to_byte): (vk::Buffer, u64),
+        bytes: u64,
+    ) {
+        let region = [vk::BufferCopy::default()
+            .src_offset(from_byte)
+            .dst_offset(to_byte)
+            .size(bytes)];
         let raw = self.before(Commands::Dispatches);
-        // SAFETY: `new`'s contract; the bytes lie in both buffers, as callers say.
-        unsafe {
-            self.gpu
-                .device
-                .cmd_copy_buffer(raw, from.raw, to.raw, &region)
-        };
+        // SAFETY: `new`'s contract; the rest is passed on to the caller.
+        unsafe { self.gpu.device.cmd_copy_buffer(raw, from, to, &region) };
     }
 
     /// Writes bytes, a multiple of four, to a buffer from a byte on, another multiple.

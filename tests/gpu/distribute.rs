@@ -1,16 +1,15 @@
 //! What tiles, cells and groups `distribute` makes of a list, against the CPU's.
 
-use ash::vk;
 use gpc::bench::Random;
 use gpc::passes::{
-    CellSizes, Cells, Counter, Distribute, FrameLayout, FrameUniform, ListRegion, ListedLocation,
-    LocationSizes, Offsets, RasterTargets, ResourceSizes, Resources,
+    CellSizes, Cells, Counter, Distribute, FrameUniform, ListRegion, ListedLocation, LocationSizes,
+    ResourceSizes,
 };
 use gpc::reference::distribute::{Location, Region};
 use gpc::render::Headless;
-use gpc::vulkan::{Buffer, Memory, MemoryUse, Recorder};
+use gpc::vulkan::{Buffer, Recorder};
 
-use crate::schedule::{Unread, copy};
+use crate::bare::{Bare, copy};
 use crate::stage::on_gpu;
 use crate::submit::submit;
 
@@ -29,18 +28,12 @@ struct Found {
 }
 
 fn distributed(gpu: &Headless, cells: Cells, list: &[Location]) -> (Found, CellSizes) {
-    let layout = FrameLayout::new(gpu.gpu()).unwrap();
-    let memory = Memory::new(gpu.gpu().clone(), None);
-    let targets = RasterTargets::new(&memory, 8, 4, vk::SampleCountFlags::TYPE_1, false).unwrap();
-    let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
-    let lights = memory
-        .buffer("no lights", 16, storage, MemoryUse::Device)
-        .unwrap();
-    let cell_sizes = CellSizes::new(&layout, cells, SAMPLES);
+    let lanes = gpu.gpu().limits().lanes;
+    let cell_sizes = CellSizes::new(lanes, cells, SAMPLES);
     let tiles = TILES[0] * TILES[1];
     let sizes = ResourceSizes {
         region: [8 * TILES[0], 4 * TILES[1]],
-        lanes: gpu.gpu().limits().lanes,
+        lanes,
         locations: Some(LocationSizes::new(list.len() as u32, tiles, &cell_sizes)),
         survivor_capacity: 1,
         pair_capacity: 1,
@@ -51,15 +44,9 @@ fn distributed(gpu: &Headless, cells: Cells, list: &[Location]) -> (Found, CellS
         attributes: false,
         encoded: 0,
     };
-    let offsets = [Offsets {
-        all: &[[0.0; 2]],
-        count: 1,
-    }];
-    let views = targets.views();
-    let shown = (&[][..], &lights);
-    let mut resources =
-        Resources::new(&layout, &memory, &Unread, shown, &views, sizes, &offsets).unwrap();
-    for (to, location) in resources
+    let mut bare = Bare::new(gpu, sizes, 1);
+    for (to, location) in bare
+        .resources
         .listed_mut(list.len())
         .unwrap()
         .iter_mut()
@@ -72,16 +59,11 @@ fn distributed(gpu: &Headless, cells: Cells, list: &[Location]) -> (Found, CellS
             rest: [a, b, c, d],
         };
     }
+    let resources = &bare.resources;
     let listed = resources.listed().unwrap();
     // SAFETY: the list goes with the resources, which outlive this.
     let distribute =
-        unsafe { Distribute::new(&layout, cells, cell_sizes, &resources, listed) }.unwrap();
-    let like = |buffer: &Buffer| {
-        let usage = vk::BufferUsageFlags::TRANSFER_DST;
-        memory
-            .buffer("kept", buffer.size(), usage, MemoryUse::Readback)
-            .unwrap()
-    };
+        unsafe { Distribute::new(&bare.layout, cells, cell_sizes, resources, listed) }.unwrap();
     let own = &resources.locations;
     let kept = [
         &resources.counters,
@@ -91,7 +73,7 @@ fn distributed(gpu: &Headless, cells: Cells, list: &[Location]) -> (Found, CellS
         &own.cells.buffer,
         &own.groups.buffer,
     ]
-    .map(|buffer| (buffer, like(buffer)));
+    .map(|buffer| (buffer, bare.like(buffer)));
     submit(gpu.gpu(), |commands| {
         // SAFETY: the commands are waited for, and what they refer to outlives them.
         let recorder = unsafe { Recorder::new(gpu.gpu(), commands, None) };

@@ -1,6 +1,7 @@
 //! The renderer on a device, under the validation layer, against the exact twins of `gpc::reference`.
 
 mod area;
+mod bare;
 mod blend;
 mod coverage;
 mod detect;

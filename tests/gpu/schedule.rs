@@ -1,64 +1,19 @@
 //! What `tally`, `schedule` and `enlist` take into rounds, against the CPU's.
 
-use ash::vk;
 use gpc::bench::Random;
 use gpc::passes::{
-    Argument, Cells, Content, Counter, FrameLayout, FrameUniform, Offsets, RasterTargets,
-    RecordRate, ResourceSizes, Resources, Sample, SampleOptions, Schedule,
+    Argument, Cells, Counter, FrameUniform, RecordRate, ResourceSizes, Sample, SampleOptions,
+    Schedule,
 };
 use gpc::reference::schedule::{List, Placed, Round, Rounds, Tile};
 use gpc::render::Headless;
-use gpc::vulkan::{Buffer, Constants, Memory, MemoryUse, Recorder};
+use gpc::vulkan::{Buffer, Recorder};
 
+use crate::bare::{Bare, Unread, copy};
 use crate::stage::on_gpu;
 use crate::submit::submit;
 
 const LAYERS: u32 = 4;
-
-/// A scene that no pass of these reads.
-pub struct Unread;
-
-impl Content for Unread {
-    fn index_count(&self) -> u32 {
-        1
-    }
-
-    fn is_instanced(&self) -> bool {
-        false
-    }
-
-    fn constants(&self, constants: Constants) -> Constants {
-        constants
-    }
-
-    fn has_mask(&self) -> bool {
-        false
-    }
-
-    fn has_blend(&self) -> bool {
-        false
-    }
-
-    fn has_high_frequency(&self) -> bool {
-        true
-    }
-
-    fn is_mostly_high_frequency(&self) -> bool {
-        true
-    }
-
-    fn is_tinted(&self) -> bool {
-        false
-    }
-
-    fn bin_count(&self) -> u32 {
-        1
-    }
-
-    fn environment_map(&self) -> Option<vk::DescriptorImageInfo> {
-        None
-    }
-}
 
 /// What is taken into rounds, and how much fits.
 struct Case {
@@ -140,13 +95,8 @@ struct Kept {
 }
 
 impl Kept {
-    fn new(memory: &Memory, resources: &Resources) -> Self {
-        let like = |buffer: &Buffer| {
-            let usage = vk::BufferUsageFlags::TRANSFER_DST;
-            memory
-                .buffer("kept", buffer.size(), usage, MemoryUse::Readback)
-                .unwrap()
-        };
+    fn new(bare: &Bare) -> Self {
+        let (resources, like) = (&bare.resources, |buffer| bare.like(buffer));
         Self {
             counters: like(&resources.counters),
             tiles: like(&resources.tiles),
@@ -164,39 +114,17 @@ impl Kept {
     }
 }
 
-pub fn copy(gpu: &Headless, commands: vk::CommandBuffer, from: &Buffer, to: &Buffer) {
-    let size = from.size().min(to.size());
-    let all = [vk::BufferCopy::default().size(size)];
-    // SAFETY: the commands are being recorded; both buffers were made for copies and outlive them.
-    unsafe {
-        gpu.gpu()
-            .device()
-            .cmd_copy_buffer(commands, from.handle(), to.handle(), &all);
-    }
-}
-
 /// The passes and their memory, and the twin that takes as much into a round.
 struct Passes<'a> {
     gpu: &'a Headless,
-    memory: Memory,
-    resources: Resources,
+    bare: Bare,
     schedule: Schedule,
     uniform: FrameUniform,
     twin: Rounds,
-    /// What no pass of these reads, but descriptors show.
-    _shown: (RasterTargets, Buffer),
 }
 
 impl<'a> Passes<'a> {
     fn new(gpu: &'a Headless, case: &Case) -> Self {
-        let layout = FrameLayout::new(gpu.gpu()).unwrap();
-        let memory = Memory::new(gpu.gpu().clone(), None);
-        let targets =
-            RasterTargets::new(&memory, 8, 4, vk::SampleCountFlags::TYPE_1, false).unwrap();
-        let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
-        let lights = memory
-            .buffer("no lights", 16, storage, MemoryUse::Device)
-            .unwrap();
         let sizes = ResourceSizes {
             region: [8 * case.size[0], 4 * case.size[1]],
             lanes: gpu.gpu().limits().lanes,
@@ -210,21 +138,7 @@ impl<'a> Passes<'a> {
             attributes: false,
             encoded: 0,
         };
-        let offsets = vec![[0.0; 2]; case.samples as usize];
-        let offsets = [Offsets {
-            all: &offsets,
-            count: case.samples,
-        }];
-        let resources = Resources::new(
-            &layout,
-            &memory,
-            &Unread,
-            (&[], &lights),
-            &targets.views(),
-            sizes,
-            &offsets,
-        )
-        .unwrap();
+        let bare = Bare::new(gpu, sizes, case.samples);
         let options = SampleOptions {
             cells: Cells::Pixels,
             samples: case.samples,
@@ -237,8 +151,8 @@ impl<'a> Passes<'a> {
             has_blend: false,
             always_blends: false,
         };
-        let sample = Sample::new(&layout, &Unread, &options).unwrap();
-        let schedule = Schedule::new(&layout, &sample, LAYERS).unwrap();
+        let sample = Sample::new(&bare.layout, &Unread, &options).unwrap();
+        let schedule = Schedule::new(&bare.layout, &sample, LAYERS).unwrap();
         let uniform = FrameUniform {
             size: sizes.region,
             tiles: case.size,
@@ -264,12 +178,10 @@ impl<'a> Passes<'a> {
         };
         Self {
             gpu,
-            memory,
-            resources,
+            bare,
             schedule,
             uniform,
             twin,
-            _shown: (targets, lights),
         }
     }
 
@@ -277,8 +189,9 @@ impl<'a> Passes<'a> {
     fn run(&self, content: &[(u32, [u32; 4])], count: usize) -> Vec<Found> {
         let Self {
             gpu,
-            memory,
-            resources,
+            bare: Bare {
+                memory, resources, ..
+            },
             schedule,
             uniform,
             ..
@@ -298,7 +211,7 @@ impl<'a> Passes<'a> {
         let stretches = (content.len() as u32).div_ceil(256);
         arguments[4 * Argument::Tally as usize..][..4].copy_from_slice(&[stretches, 1, 1, 0]);
         let (counter_upload, argument_upload) = (upload(&counters), upload(&arguments));
-        let kept: Vec<Kept> = (0..count).map(|_| Kept::new(memory, resources)).collect();
+        let kept: Vec<Kept> = (0..count).map(|_| Kept::new(&self.bare)).collect();
         submit(gpu.gpu(), |commands| {
             // SAFETY: the commands are waited for, and what they refer to outlives them.
             let recorder = || unsafe { Recorder::new(gpu.gpu(), commands, None) };

@@ -42,19 +42,10 @@ impl Resources {
 
     /// Tells the passes that follow how far samples of a list's locations reach.
     pub(in crate::passes) fn record_reach(&self, recorder: &Recorder<'_>, set: &SampleSet) {
-        let region = [vk::BufferCopy::default()
-            .src_offset(4 * Counter::Reach as u64)
-            .dst_offset(std::mem::offset_of!(FrameUniform, reach) as u64)
-            .size(4)];
-        // SAFETY: the recorder's contract; counter and member lie in the buffers, which were made for copies.
-        unsafe {
-            recorder.device().cmd_copy_buffer(
-                recorder.raw(),
-                self.counters.raw,
-                set.uniform.raw,
-                &region,
-            )
-        };
+        let counter = 4 * Counter::Reach as u64;
+        let member = std::mem::offset_of!(FrameUniform, reach) as u64;
+        // SAFETY: counter and member lie in the buffers, which were made for copies and go with the frame.
+        unsafe { recorder.copy_raw((self.counters.raw, counter), (set.uniform.raw, member), 4) };
         recorder.barrier();
     }
 
@@ -75,17 +66,10 @@ impl Resources {
         first_byte: u64,
         bytes: u64,
     ) {
-        if bytes == 0 {
-            return;
+        if bytes > 0 {
+            // SAFETY: passed on to the caller; the resources have room for as many colours.
+            unsafe { recorder.copy_raw((self.color.buffer.raw, 0), (to, first_byte), bytes) };
         }
-        let region = [vk::BufferCopy::default().dst_offset(first_byte).size(bytes)];
-        let from = self.color.buffer.raw;
-        // SAFETY: the recorder's contract; of the host's buffer as the caller says.
-        unsafe {
-            recorder
-                .device()
-                .cmd_copy_buffer(recorder.raw(), from, to, &region)
-        };
     }
 
     /// Copies the first `count` visibility samples of a round to a buffer that has room for them.

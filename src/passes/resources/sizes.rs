@@ -1,7 +1,7 @@
 //! How much room a frame needs.
 
 use crate::passes::{LocationSizes, STRETCH};
-use crate::vulkan::Limits;
+use crate::vulkan::{Limits, VulkanError};
 
 /// How much room a frame needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -129,6 +129,16 @@ impl ResourceSizes {
     pub(super) fn tile_bytes(&self) -> u64 {
         let stretches = self.tiles().div_ceil(STRETCH);
         16 * (u64::from(self.tiles()) + 2 * u64::from(stretches))
+    }
+
+    /// Fails where a buffer of these sizes is larger than the device's can be; `what` names the largest.
+    ///
+    /// # Errors
+    /// [`VulkanError::TooLarge`].
+    pub(crate) fn check(&self, what: &'static str, limits: &Limits) -> Result<(), VulkanError> {
+        let (bytes, texels) = (self.largest_storage(), self.largest_texels());
+        VulkanError::check_limit(what, bytes, "bytes", limits.max_storage_bytes)?;
+        VulkanError::check_limit(what, texels, "elements", limits.max_texel_elements)
     }
 
     /// About how many bytes [`super::Resources`] of this size take.

@@ -56,10 +56,6 @@ impl Recording<'_> {
             first_mask: scene.first_mask(),
             first_blend: scene.first_blend(),
             sample_count: samples,
-            survivor_capacity: self.plan.sizes.survivor_capacity,
-            pair_capacity: self.plan.sizes.pair_capacity,
-            list_capacity: self.plan.sizes.list_capacity,
-            record_capacity: self.plan.sizes.record_capacity,
             bin_count: scene.bin_count(),
             light_count: scene.light_features().count,
             material_vectors: scene.material_vectors(),
@@ -71,9 +67,7 @@ impl Recording<'_> {
             sample_footprint: footprints.sample,
             side,
             reach: 0.5,
-            group_count: 0,
-            seen_corner: [0, 0],
-            color_corner: [0, 0],
+            ..FrameUniform::with_room(&self.plan.sizes)
         }
     }
 }

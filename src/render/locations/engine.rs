@@ -385,10 +385,6 @@ impl LocationEngine {
             first_mask: scene.first_mask(),
             first_blend: scene.first_blend(),
             sample_count: samples,
-            survivor_capacity: self.resources.sizes().survivor_capacity,
-            pair_capacity: self.resources.sizes().pair_capacity,
-            list_capacity: self.resources.sizes().list_capacity,
-            record_capacity: self.resources.sizes().record_capacity,
             bin_count: scene.bin_count(),
             light_count: scene.light_features().count,
             material_vectors: scene.material_vectors(),
@@ -397,12 +393,7 @@ impl LocationEngine {
             place_footprint: footprints.place,
             sample_footprint: footprints.sample,
             side: 1,
-            group_count: self
-                .resources
-                .sizes()
-                .locations
-                .map_or(0, |sizes| sizes.groups),
-            ..FrameUniform::default()
+            ..FrameUniform::with_room(self.resources.sizes())
         }
     }
 }

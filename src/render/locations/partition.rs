@@ -16,9 +16,9 @@ const TILE: [i64; 2] = [8, 4];
 /// Up to this many pixels locations share what positions are relative to, so that they see the same however they are cut
 /// into runs, and what an image of their plane sees; beyond it 32-bit positions are finer from the middle of each window.
 const COMPACT: f64 = 8192.0;
-/// Locations of a stretch of a list.
-const STRETCH: usize = 4096;
-/// A list whose stretches lie in areas of so many times the whole one is in no order that runs may follow.
+/// Locations of a chunk of a list.
+const CHUNK: usize = 4096;
+/// A list whose chunks lie in areas of so many times the whole one is in no order that runs may follow.
 const SCATTERED: f64 = 32.0;
 /// Most locations of a list.
 const MOST: usize = (1 << 31) - 1;
@@ -31,8 +31,8 @@ pub(super) struct Partition<'a> {
     pub cells: Cells,
     /// What clip-space positions of all runs are relative to, if they lie close enough together.
     middle: Option<[f64; 2]>,
-    /// What each stretch of the order lies in, where all is of one region.
-    stretches: Option<Vec<Bounds>>,
+    /// What each chunk of the order lies in, where all is of one region.
+    chunks: Option<Vec<Bounds>>,
     /// The parts of the order, each of one region.
     regions: Vec<Range<usize>>,
 }
@@ -83,10 +83,10 @@ impl<'a> Partition<'a> {
             });
         }
         let surveys: Vec<Survey> = locations
-            .par_chunks(STRETCH)
+            .par_chunks(CHUNK)
             .enumerate()
-            .map(|(stretch, locations)| {
-                let numbered = (stretch * STRETCH..).zip(locations);
+            .map(|(chunk, locations)| {
+                let numbered = (chunk * CHUNK..).zip(locations);
                 numbered.fold(Survey::NOTHING, |survey, (index, location)| {
                     survey.with(index, location, cells)
                 })
@@ -97,22 +97,22 @@ impl<'a> Partition<'a> {
             check(&locations[first], first, cells)?;
         }
         let bounds = survey.bounds;
-        let stretches: Vec<Bounds> = surveys.iter().map(|survey| survey.bounds).collect();
-        let area: f64 = stretches.iter().map(Bounds::area).sum();
+        let chunks: Vec<Bounds> = surveys.iter().map(|survey| survey.bounds).collect();
+        let area: f64 = chunks.iter().map(Bounds::area).sum();
         let all = 0..locations.len();
-        let (order, stretches, regions) = if survey.regions[0] != survey.regions[1] {
+        let (order, chunks, regions) = if survey.regions[0] != survey.regions[1] {
             let (order, regions) = by_region(locations, cells);
             (Some(order), None, regions)
         } else if area > SCATTERED * bounds.area() {
-            let (order, stretches) = by_tile(locations, &bounds);
-            (Some(order), Some(stretches), vec![all])
+            let (order, chunks) = by_tile(locations, &bounds);
+            (Some(order), Some(chunks), vec![all])
         } else {
-            (None, Some(stretches), vec![all])
+            (None, Some(chunks), vec![all])
         };
         Ok(Self {
             order,
             middle: bounds.is_compact().then(|| bounds.middle()),
-            stretches,
+            chunks,
             locations,
             cells,
             regions,
@@ -190,10 +190,10 @@ impl<'a> Partition<'a> {
 
     /// The window around a run.
     pub fn window(&self, run: &Range<usize>) -> Window {
-        let bounds = match &self.stretches {
-            Some(stretches) => {
-                let of_run = run.start / STRETCH..run.end.div_ceil(STRETCH);
-                let all = stretches[of_run].iter().copied();
+        let bounds = match &self.chunks {
+            Some(chunks) => {
+                let of_run = run.start / CHUNK..run.end.div_ceil(CHUNK);
+                let all = chunks[of_run].iter().copied();
                 all.fold(Bounds::NOTHING, Bounds::and)
             }
             None => {
@@ -276,7 +276,7 @@ fn by_region(locations: &[SampleLocation], cells: Cells) -> (Vec<u32>, Vec<Range
     (order, regions)
 }
 
-/// Indices of locations, tile by tile of the plane, and what each stretch of them lies in.
+/// Indices of locations, tile by tile of the plane, and what each chunk of them lies in.
 fn by_tile(locations: &[SampleLocation], bounds: &Bounds) -> (Vec<u32>, Vec<Bounds>) {
     let columns = u64::from(bounds.tiles()[0]);
     let low = [0, 1].map(|axis| bounds.low[axis] as i64 / TILE[axis]);
@@ -295,11 +295,11 @@ fn by_tile(locations: &[SampleLocation], bounds: &Bounds) -> (Vec<u32>, Vec<Boun
             low[1] + (tile / columns) as i64,
         ]
     };
-    let stretches = keys
-        .par_chunks(STRETCH)
+    let chunks = keys
+        .par_chunks(CHUNK)
         .map(|keys| keys.iter().map(tile).fold(Bounds::NOTHING, Bounds::with))
         .collect();
-    (keys.into_iter().map(|key| key as u32).collect(), stretches)
+    (keys.into_iter().map(|key| key as u32).collect(), chunks)
 }
 
 fn bits(v: f64) -> u32 {

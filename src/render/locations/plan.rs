@@ -15,6 +15,7 @@ const MOST_STOPPABLE: usize = 1 << 20;
 const MOST_HANDED: usize = 1 << 18;
 /// Fewest locations of a run, or records that the host is given, to which runs are cut where memory is bounded.
 const FEWEST_LOCATIONS: usize = 1 << 10;
+
 /// The runs of a set of locations and the memory that the largest of them needs.
 pub(super) struct LocationPlan {
     pub runs: Vec<Range<usize>>,

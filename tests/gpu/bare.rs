@@ -1,0 +1,113 @@
+//! Memory of passes that are run by themselves, without a scene.
+
+use ash::vk;
+use gpc::passes::{Content, FrameLayout, Offsets, RasterTargets, ResourceSizes, Resources};
+use gpc::render::Headless;
+use gpc::vulkan::{Buffer, Constants, Memory, MemoryUse};
+use std::sync::Arc;
+
+/// A scene that no pass of these reads.
+pub struct Unread;
+
+impl Content for Unread {
+    fn index_count(&self) -> u32 {
+        1
+    }
+
+    fn is_instanced(&self) -> bool {
+        false
+    }
+
+    fn constants(&self, constants: Constants) -> Constants {
+        constants
+    }
+
+    fn has_mask(&self) -> bool {
+        false
+    }
+
+    fn has_blend(&self) -> bool {
+        false
+    }
+
+    fn has_high_frequency(&self) -> bool {
+        true
+    }
+
+    fn is_mostly_high_frequency(&self) -> bool {
+        true
+    }
+
+    fn is_tinted(&self) -> bool {
+        false
+    }
+
+    fn bin_count(&self) -> u32 {
+        1
+    }
+
+    fn environment_map(&self) -> Option<vk::DescriptorImageInfo> {
+        None
+    }
+}
+
+/// Resources of some sizes.
+pub struct Bare {
+    pub memory: Memory,
+    pub layout: Arc<FrameLayout>,
+    pub resources: Resources,
+    /// What no pass reads, but descriptors show.
+    _shown: (RasterTargets, Buffer),
+}
+
+impl Bare {
+    pub fn new(gpu: &Headless, sizes: ResourceSizes, samples: u32) -> Self {
+        let layout = FrameLayout::new(gpu.gpu()).unwrap();
+        let memory = Memory::new(gpu.gpu().clone(), None);
+        let targets =
+            RasterTargets::new(&memory, 8, 4, vk::SampleCountFlags::TYPE_1, false).unwrap();
+        let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
+        let lights = memory
+            .buffer("no lights", 16, storage, MemoryUse::Device)
+            .unwrap();
+        let offsets = vec![[0.0; 2]; samples as usize];
+        let resources = Resources::new(
+            &layout,
+            &memory,
+            &Unread,
+            (&[], &lights),
+            &targets.views(),
+            sizes,
+            &[Offsets {
+                all: &offsets,
+                count: samples,
+            }],
+        )
+        .unwrap();
+        Self {
+            memory,
+            layout,
+            resources,
+            _shown: (targets, lights),
+        }
+    }
+
+    /// A buffer of the host's that another one may be copied to.
+    pub fn like(&self, buffer: &Buffer) -> Buffer {
+        let usage = vk::BufferUsageFlags::TRANSFER_DST;
+        self.memory
+            .buffer("kept", buffer.size(), usage, MemoryUse::Readback)
+            .unwrap()
+    }
+}
+
+pub fn copy(gpu: &Headless, commands: vk::CommandBuffer, from: &Buffer, to: &Buffer) {
+    let size = from.size().min(to.size());
+    let all = [vk::BufferCopy::default().size(size)];
+    // SAFETY: the commands are being recorded; both buffers were made for copies and outlive them.
+    unsafe {
+        gpu.gpu()
+            .device()
+            .cmd_copy_buffer(commands, from.handle(), to.handle(), &all);
+    }
+}
