@@ -154,6 +154,8 @@ const VARIANTS: &[Variant] = &[
         &[("ROWS", "16"), ("LAYERED", ""), ("UNLISTED", "")],
     ),
     ("sort", "sort.comp", &[]),
+    ("receivers", "receivers.comp", &[]),
+    ("shadow", "shadow.comp", &[]),
     ("shade", "shade.comp", &[]),
     ("resolve", "resolve.comp", &[]),
     ("points", "points.comp", &[]),

@@ -15,7 +15,7 @@ use anyhow::{Context, anyhow, bail};
 use ash::vk;
 use gpc::camera::{Camera, Orbit};
 use gpc::passes::Encoding;
-use gpc::render::{ImageState, Renderer, Settings, Target};
+use gpc::render::{ImageState, Renderer, Settings, Shadows, Target};
 use gpc::scene::{PoseRequest, Scene};
 use gpc::vulkan::{Host, Requirements, SharedAllocator};
 use gpu_allocator::MemoryLocation;
@@ -127,11 +127,12 @@ impl App {
         let renderer = unsafe { Renderer::new(host) }?;
 
         // All that can fail happens here: memory, pipelines, limits.
+        let pose = scene.pose(&PoseRequest::default())?;
         let settings = Settings {
             background: Some([0.2, 0.3, 0.5]),
+            shadows: Shadows::Exact,
             ..Settings::new(WIDTH, HEIGHT)
         };
-        let pose = scene.pose(&PoseRequest::default())?;
         let (low, high) = pose
             .geometry
             .bounds()
@@ -140,7 +141,8 @@ impl App {
             Some(camera) => Camera::from_scene(camera),
             None => Orbit::default().frame(low, high, f64::from(WIDTH) / f64::from(HEIGHT))?,
         };
-        let prepared = renderer.prepare_scene(scene, &pose, settings.max_memory)?;
+        let mut prepared = renderer.prepare_scene(scene, &pose, settings.max_memory)?;
+        renderer.prepare_shadows(&mut prepared, scene, &pose, settings.max_memory)?;
         let mut frame = renderer.prepare(&prepared, &settings, Some(Encoding::Rgba8))?;
         let target = OwnImage::new(self)?;
 

@@ -1,6 +1,6 @@
 // detect: which pixels are superpixels, one bit a pixel in a word a tile of 8 x 4 pixels.
 // A pixel is one if any of its 8 neighbours shows a contrasting colour, by display-encoded 8-bit codes; EDGES asks for
-// another triangle there (opaque or the nearest BLEND one) as well, EXACT for that alone.
+// another triangle there (opaque or the nearest BLEND one) or the shadow of another light as well, EXACT for that alone.
 // Twin: src/reference/detect.rs.
 // Reads: ids, blend_ids, display, marks. Writes: masks, COUNTER_SUPERPIXELS, COUNTER_TILES.
 // An invocation takes a tile: it keeps rows in registers and compares every pair of neighbours once.
@@ -10,6 +10,7 @@
 #include "include/workgroup.glsl"
 #include "include/contrast.glsl"
 #include "include/interior.glsl"
+#include "include/shadows.glsl"
 layout(local_size_x = 64) in;
 
 layout(constant_id = 0) const uint MODE = 0u;
@@ -30,8 +31,8 @@ uint blend_at(ivec2 p) {
 #endif
 }
 
-bool differs(uint id_a, uint id_b, uint blend_a, uint blend_b, uint color_a, uint color_b, int alpha_a, int alpha_b) {
-    bool other = id_a != id_b || (BLEND_IDS && blend_a != blend_b);
+bool differs(uint id_a, uint id_b, uint blend_a, uint blend_b, uint shadow_a, uint shadow_b, uint color_a, uint color_b, int alpha_a, int alpha_b) {
+    bool other = id_a != id_b || (BLEND_IDS && blend_a != blend_b) || shadow_a != shadow_b;
     if (MODE == EXACT) return other;
     bool contrast = contrasting(color_a, color_b) || (TRANSPARENT && abs(alpha_a - alpha_b) > int(frame.contrast));
     return contrast && (MODE == CONTRAST || other);
@@ -55,10 +56,10 @@ void main() {
             word |= blend_at(p) != 0u ? 1u << i : 0u;
         }
     } else {
-        uint id[10], blend[10], code[10], above_id[10], above_blend[10], above_code[10];
+        uint id[10], blend[10], shadow[10], code[10], above_id[10], above_blend[10], above_shadow[10], above_code[10];
         int alpha[10], above_alpha[10];
         [[unroll]] for (int i = 0; i < 10; i++) {
-            above_id[i] = 0u; above_blend[i] = 0u; above_code[i] = 0u; blend[i] = 0u; above_alpha[i] = 0;
+            above_id[i] = 0u; above_blend[i] = 0u; above_code[i] = 0u; blend[i] = 0u; shadow[i] = 0u; above_shadow[i] = 0u; above_alpha[i] = 0;
         }
         // The tile's rows and one beyond on both sides; what the first ones say is shifted out. Not unrolled: the code would
         // take CPU drivers six times as long to compile.
@@ -68,24 +69,26 @@ void main() {
             [[unroll]] for (int i = 0; i < 10; i++) {
                 ivec2 p = ivec2(clamp(base.x - 1 + i, 0, last.x), y);
                 id[i] = id_at(p);
+                int place = p.y * int(frame.size.x) + p.x;
                 if (BLEND_IDS) blend[i] = blend_at(p);
-                uint color_code = MODE == EXACT ? 0u : texelFetch(display, p.y * int(frame.size.x) + p.x).x;
+                shadow[i] = shadows_at(uint(place));
+                uint color_code = MODE == EXACT ? 0u : texelFetch(display, place).x;
                 code[i] = spread(color_code);
                 alpha[i] = int(color_code >> 24);
             }
             uint row = 0u, above = 0u;
             [[unroll]] for (int i = 0; i < 9; i++)
-                row |= differs(id[i], id[i + 1], blend[i], blend[i + 1], code[i], code[i + 1], alpha[i], alpha[i + 1]) ? 3u << i : 0u;
+                row |= differs(id[i], id[i + 1], blend[i], blend[i + 1], shadow[i], shadow[i + 1], code[i], code[i + 1], alpha[i], alpha[i + 1]) ? 3u << i : 0u;
             [[unroll]] for (int i = 1; i < 9; i++) {
-                uint bit = differs(id[i], above_id[i], blend[i], above_blend[i], code[i], above_code[i], alpha[i], above_alpha[i]) ? 1u << i : 0u;
+                uint bit = differs(id[i], above_id[i], blend[i], above_blend[i], shadow[i], above_shadow[i], code[i], above_code[i], alpha[i], above_alpha[i]) ? 1u << i : 0u;
                 row |= bit;
                 above |= bit;
             }
             [[unroll]] for (int i = 0; i < 9; i++) {
-                bool falling = differs(above_id[i], id[i + 1], above_blend[i], blend[i + 1], above_code[i], code[i + 1], above_alpha[i], alpha[i + 1]);
+                bool falling = differs(above_id[i], id[i + 1], above_blend[i], blend[i + 1], above_shadow[i], shadow[i + 1], above_code[i], code[i + 1], above_alpha[i], alpha[i + 1]);
                 row |= falling ? 2u << i : 0u;
                 above |= falling ? 1u << i : 0u;
-                bool rising = differs(above_id[i + 1], id[i], above_blend[i + 1], blend[i], above_code[i + 1], code[i], above_alpha[i + 1], alpha[i]);
+                bool rising = differs(above_id[i + 1], id[i], above_blend[i + 1], blend[i], above_shadow[i + 1], shadow[i], above_code[i + 1], code[i], above_alpha[i + 1], alpha[i]);
                 row |= rising ? 1u << i : 0u;
                 above |= rising ? 2u << i : 0u;
             }
@@ -102,6 +105,7 @@ void main() {
             [[unroll]] for (int i = 0; i < 10; i++) {
                 above_id[i] = id[i];
                 above_blend[i] = blend[i];
+                above_shadow[i] = shadow[i];
                 above_code[i] = code[i];
                 above_alpha[i] = alpha[i];
             }

@@ -2,9 +2,9 @@
 // counting sort, in four STEPs.
 //   NUMBER   a location: as which of those of its pixel it came
 //   LAY_OUT  a tile: where its locations, cells and groups begin
-//   ARRANGE  a location: to its place in the order, tile by tile, and there pixel by pixel along a Morton curve; the first
-//            one of a cell makes it, and the first one of a group that
-//   ENCLOSE  a cell: the rectangle around its locations
+//   ARRANGE  a location: to its place in the order, tile by tile, and there pixel by pixel along a Morton curve; the first one of
+//            a cell tells that its tile
+//   ENCLOSE  a cell: its locations and the rectangle around them; the first one of a group makes that
 // Reads: the list. Writes: what `include/locations.glsl` describes, masks, counters. Which of the locations of a pixel comes
 // first varies from run to run; what they see does not depend on it.
 // What is not finite, or lies off the region of the plane, is left out and counted.
@@ -23,7 +23,7 @@ layout(constant_id = 0) const uint STEP = 0u;
 layout(constant_id = 1) const bool POINTS = false;      // locations are sampled once each, and several share a cell
 const uint NUMBER = 0u, LAY_OUT = 1u, ARRANGE = 2u, ENCLOSE = 3u;
 
-// For each tile: locations of each pixel, later where they begin in the tile; first location, locations, first cell, first group
+// For each tile: locations of each pixel, later their first place; the tile's first place, locations, first group
 layout(std430, set = 0, binding = 0) buffer Loads { uint loads[]; };
 layout(std430, set = 0, binding = 1) buffer Ranks { uint ranks[]; };           // of a location in its pixel; ~0: left out
 layout(std430, set = 0, binding = 2) writeonly buffer OrderOut { uint order_out[]; };
@@ -43,8 +43,8 @@ layout(push_constant) uniform Push {
     uint samples;           // of a cell that is one location
 } push;
 
-const uint LOAD = 36u;      // words of a tile in `loads`
-const uint FIRST = 32u, COUNT = 33u, FIRST_CELL = 34u, FIRST_GROUP = 35u;
+const uint LOAD = 35u;      // words of a tile in `loads`
+const uint FIRST = 32u, COUNT = 33u, FIRST_GROUP = 34u;
 // Half of a cell's sides beyond its samples, in pixels: covers the rounding of edge functions; and a factor, for that of samples.
 const float SLACK = 1.0 / 64.0, ROUNDING = 1.0 + 1.0 / 1048576.0;
 // The farthest that a sample may lie from its location's pixel, in pixels.
@@ -59,6 +59,9 @@ vec2 half_extent(uint location) {
 // The pixel's number in its tile, row by row.
 uint bit_of(ivec2 pixel) { return uint(pixel.x & 7) | uint(pixel.y & 3) << 3; }
 
+// That of the pixel at a place of a Morton curve through a tile.
+uint bit_at(uint place) { return (place & 1u) | (place >> 1 & 2u) | (place >> 2 & 4u) | (place & 2u) << 2 | (place & 8u) << 1; }
+
 uint tile_of(ivec2 pixel) { return uint(pixel.y >> 2) * push.tiles.x + uint(pixel.x >> 3); }
 
 void number(uint i) {
@@ -71,57 +74,58 @@ void number(uint i) {
     valid = valid && all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(uvec2(pixel) >> uvec2(3u, 2u), push.tiles));
     ranks[i] = ~0u;
     if (valid) ranks[i] = atomicAdd(loads[tile_of(pixel) * LOAD + bit_of(pixel)], 1u);
-    vec2 reach = abs(within - 0.5) + extent;
     uint left_out = subgroupAdd(valid ? 0u : 1u);
-    float farthest = subgroupMax(valid && !POINTS ? max(reach.x, reach.y) * ROUNDING : 0.5);
-    if (subgroupElect()) {
-        if (left_out != 0u) atomicAdd(counters[COUNTER_LEFT_OUT], left_out);
-        atomicMax(counters[COUNTER_REACH], floatBitsToUint(farthest));
+    if (subgroupElect() && left_out != 0u) atomicAdd(counters[COUNTER_LEFT_OUT], left_out);
+    if (POINTS) {
+        if (i == 0u) counters[COUNTER_REACH] = floatBitsToUint(0.5);
+        return;
     }
+    vec2 reach = abs(within - 0.5) + extent;
+    float farthest = subgroupMax(valid ? max(reach.x, reach.y) * ROUNDING : 0.5);
+    if (subgroupElect()) atomicMax(counters[COUNTER_REACH], floatBitsToUint(farthest));
 }
 
 void lay_out(uint tile) {
     uint base = tile * LOAD, count = 0u, mask = 0u;
     [[unroll]] for (uint place = 0u; place < 32u; place++) {
-        uint bit = (place & 1u) | (place >> 1 & 2u) | (place >> 2 & 4u) | (place & 2u) << 2 | (place & 8u) << 1;
-        uint more = loads[base + bit];
-        loads[base + bit] = count;
+        uint more = loads[base + bit_at(place)];
         count += more;
-        mask |= more != 0u ? 1u << bit : 0u;
+        mask |= more != 0u ? 1u << bit_at(place) : 0u;
     }
     uint cells = (count + push.in_cell - 1u) / push.in_cell, groups = (cells + push.in_group - 1u) / push.in_group;
     masks[tile] = mask;
     tile_loads[tile] = uvec2(cells, POINTS ? count : cells * push.samples);
-    if (count != 0u) {
-        loads[base + FIRST] = atomicAdd(counters[COUNTER_PLACED], count);
-        loads[base + COUNT] = count;
-        loads[base + FIRST_CELL] = atomicAdd(counters[COUNTER_CELLS], cells);
-        loads[base + FIRST_GROUP] = atomicAdd(counters[COUNTER_GROUPS], groups);
-        atomicAdd(counters[COUNTER_TILES], 1u);
-        if (!POINTS) atomicAdd(counters[COUNTER_SUPERPIXELS], cells);
+    if (count == 0u) return;
+    // Places are as many as cells have room for: a tile's locations begin with a cell.
+    uint first = atomicAdd(counters[COUNTER_CELLS], cells) * push.in_cell, next = first;
+    [[unroll]] for (uint place = 0u; place < 32u; place++) {
+        uint more = loads[base + bit_at(place)];
+        loads[base + bit_at(place)] = next;
+        next += more;
     }
+    loads[base + FIRST] = first;
+    loads[base + COUNT] = count;
+    loads[base + FIRST_GROUP] = atomicAdd(counters[COUNTER_GROUPS], groups);
+    atomicAdd(counters[COUNTER_PLACED], count);
+    atomicAdd(counters[COUNTER_TILES], 1u);
+    if (!POINTS) atomicAdd(counters[COUNTER_SUPERPIXELS], cells);
 }
 
 void arrange(uint i) {
     uint rank = ranks[i];
     if (rank == ~0u) return;
     ivec2 pixel = ivec2(texelFetch(locations, int(2u * i)).xy);
-    uint tile = tile_of(pixel), base = tile * LOAD;
-    uint in_tile = loads[base + bit_of(pixel)] + rank, count = loads[base + COUNT];
-    uint place = loads[base + FIRST] + in_tile;
+    uint tile = tile_of(pixel), place = loads[tile * LOAD + bit_of(pixel)] + rank, cell = place / push.in_cell;
     if (POINTS) order_out[place] = i;
-    uint cell = in_tile / push.in_cell;
-    if (cell * push.in_cell != in_tile) return;
-    uint first_cell = loads[base + FIRST_CELL];
-    cells_out[2u * (first_cell + cell) + 1u] = uvec4(POINTS ? place : i, min(push.in_cell, count - in_tile), 0u, 0u);
-    uint group = cell / push.in_group, cells = (count + push.in_cell - 1u) / push.in_cell;
-    if (group * push.in_group != cell) return;
-    groups_out[loads[base + FIRST_GROUP] + group] = uvec4(tile, first_cell + cell, min(push.in_group, cells - cell), cell);
+    if (cell * push.in_cell == place) cells_out[2u * cell + 1u] = uvec4(POINTS ? place : i, tile, 0u, 0u);
 }
 
 void enclose(uint cell) {
     if (cell >= counters[COUNTER_CELLS]) return;
     uvec2 held = cells_out[2u * cell + 1u].xy;
+    uint tile = held.y, base = tile * LOAD, first_cell = loads[base + FIRST] / push.in_cell, number = cell - first_cell;
+    uint count = loads[base + COUNT], cells = (count + push.in_cell - 1u) / push.in_cell;
+    held.y = min(push.in_cell, count - number * push.in_cell);
     vec2 low = vec2(3.4e38), high = vec2(-3.4e38), at;
     uint member = 0u;
     do {
@@ -135,6 +139,10 @@ void enclose(uint cell) {
     vec2 middle = held.y == 1u ? at : 0.5 * (low + high);
     vec2 half_side = max(high - middle, middle - low) * ROUNDING + SLACK;
     cells_out[2u * cell] = floatBitsToUint(vec4(middle, half_side));
+    cells_out[2u * cell + 1u] = uvec4(held, 0u, 0u);
+    uint group = number / push.in_group;
+    if (group * push.in_group == number)
+        groups_out[loads[base + FIRST_GROUP] + group] = uvec4(tile, cell, min(push.in_group, cells - number), number);
 }
 
 void main() {

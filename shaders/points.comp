@@ -1,6 +1,7 @@
 // points: what each location sees that is sampled once: its colour and, where asked, attributes, from its visibility samples.
 // Reads: records, shaded, the geometry. Writes: color, and two vectors a location, floats as
-// bits: (distance along the view direction, ID, ID of the nearest BLEND layer, display code), (world normal, 0).
+// bits: (distance along the view direction, ID, ID of the nearest BLEND layer, display code), (world normal, which lights the
+// opaque or MASK triangle lies in the shadow of).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
@@ -9,7 +10,7 @@
 #include "include/color.glsl"
 #include "include/barycentric.glsl"
 #include "include/composite.glsl"
-#include "include/locations.glsl"
+#include "include/shadows.glsl"
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = 2) const bool ATTRIBUTES = false;
@@ -46,5 +47,5 @@ void main() {
     n *= inversesqrt(max(dot(n, n), 1e-30));
     bool hit = id != 0u;
     attributes_out[2u * location] = uvec4(floatBitsToUint(hit ? distance_ : 0.0), id, blend_id, display_code(c));
-    attributes_out[2u * location + 1u] = uvec4(floatBitsToUint(hit ? n : vec3(0.0)), 0u);
+    attributes_out[2u * location + 1u] = uvec4(floatBitsToUint(hit ? n : vec3(0.0)), hit ? shadows_at(place_of_record(last)) : 0u);
 }

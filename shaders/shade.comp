@@ -10,9 +10,8 @@
 #include "include/color.glsl"
 #include "include/environment.glsl"
 #include "include/finite.glsl"
-#include "include/tiles.glsl"
-#include "include/locations.glsl"
-#include "include/place.glsl"
+#include "include/record_position.glsl"
+#include "include/shadows.glsl"
 #include "include/triangle.glsl"
 #include "include/tint.glsl"
 #include "include/texture.glsl"
@@ -26,7 +25,6 @@ layout(constant_id = 9) const bool UNLIT = false;
 layout(constant_id = 10) const bool PUNCTUAL = false;   // the scene has lights
 layout(constant_id = 11) const bool LOCAL_LIGHTS = false; // point or spot lights among them
 layout(constant_id = 12) const bool BLENDED = false;    // opacity is used
-layout(constant_id = 13) const bool SHADOWS = false;    // it is known which lights reach a record
 layout(constant_id = 32) const bool SPECULAR = false;   // this and what follows: of the materials
 layout(constant_id = 33) const bool CLEARCOAT = false;
 layout(constant_id = 34) const bool SHEEN = false;
@@ -45,8 +43,6 @@ const bool TANGENTS = NORMAL_TEXTURE != 0u || CLEARCOAT_NORMAL_TEXTURE != 0u || 
 #include "include/transmission.glsl"
 
 layout(push_constant) uniform Push { uint bin; } push;
-
-layout(set = 0, binding = 56) uniform utextureBuffer record_shadows;    // SHADOWS: a bit for each light that a record lies in the shadow of
 
 // Light left of the studio in a scene with lights of its own, so that what faces away from them shows.
 const float STUDIO_AMBIENT = 0.06;
@@ -68,7 +64,7 @@ void main() {
     vec2 p;
     bool mine = true;
     vec2 sides = vec2(frame.footprint); // of what textures are filtered over
-    uint location = 0u, shadows = 0u;       // a bit for each light that the surface lies in the shadow of
+    uint location = 0u, shadow_place;
     if (PIXELS) {
         uint columns = (frame.size.x + 7u) / 8u;
         uvec2 pixel = split(source, columns) * uvec2(8u, 1u) + uvec2(i % 8u, 0u);
@@ -76,19 +72,14 @@ void main() {
         id = id_at(ivec2(min(pixel, frame.size - 1u)));
         p = frame.origin + vec2(pixel);
         source = pixel.y * frame.size.x + pixel.x;
+        shadow_place = source;
     } else {
         uvec4 record = texelFetch(records, int(source));
         id = record.y;
-        vec2 offset = place_location(record.z);
+        p = record_position(record);
         sides = frame.place_footprint * (BOX_FILTER ? place_sides(record.z) : vec2(1.0));
-        if (LOCATIONS) {
-            location = record.x & POINT_LOCATION;
-            uvec4 at = texelFetch(locations, int(2u * location));
-            shadows = SHADOWS ? texelFetch(record_shadows, int(source)).x : 0u;
-            p = tile_center(ivec2(at.xy) >> ivec2(3, 2)) + place_in_tile(at) + location_jacobian(location) * offset;
-        } else {
-            p = frame.origin + vec2(record.x & 0xffffu, record.x >> 16) + offset;
-        }
+        location = record.x & POINT_LOCATION;
+        shadow_place = place_of_record(source);
     }
 
     Triangle k = triangle_at(max(id, 1u) - 1u);
@@ -205,6 +196,7 @@ void main() {
         }
 
         if (PUNCTUAL) {
+            uint shadows = shadows_at(shadow_place);
             for (uint l = 0u; l < frame.light_count; l++) {
                 Light light = lights[l];
                 vec3 to_light = -light.direction_kind.xyz;
@@ -218,7 +210,7 @@ void main() {
                     float cone = clamp(dot(-to_light, light.direction_kind.xyz) * light.color_scale.w + light.offset.x, 0.0, 1.0);
                     e *= light.direction_kind.w == 2.0 ? cone * cone : 1.0;
                 }
-                e *= SHADOWS && l < 32u && (shadows >> l & 1u) != 0u ? 0.0 : 1.0;
+                e *= light_share(shadow_place, shadows, l);
                 radiance += reflect_light(s, to_eye, to_light, e);
                 if (SHEEN) of_sheen += sheen_light(sheen, s.normal, to_eye, to_light, e);
                 if (CLEARCOAT) of_coat += coat_light(coat, to_eye, to_light, e);

@@ -71,14 +71,19 @@ fn a_triangle_casts_its_shadow() {
         decode_linear(&bytes, name).unwrap().1
     };
     let open = render("open.exr", &[]);
-    let shadowed = render("shadowed.exr", &["--shadows", "exact"]);
-    // Beside the triangle's shadow, and under its nearer side, where the triangle itself does not hide the floor.
-    for beside in [[2.0, 0.0], [-2.0, 0.5], [0.0, 2.0], [1.2, 0.3]] {
-        assert!((at(&open, beside) - at(&shadowed, beside)).abs() < 0.01);
-        assert!(at(&shadowed, beside) > 0.1);
-    }
-    for under in [[0.0, 0.35], [-0.5, 0.35], [0.5, 0.3]] {
-        assert!(at(&shadowed, under) < 0.3 * at(&open, under), "{under:?}");
+    for method in ["superpixel", "none", "msaa", "ssaa"] {
+        let shadowed = render("shadowed.exr", &["--shadows", "exact", "--aa", method]);
+        // Beside the triangle's shadow, and under its nearer side, where the triangle itself does not hide the floor.
+        for beside in [[2.0, 0.0], [-2.0, 0.5], [0.0, 2.0], [1.2, 0.3]] {
+            assert!((at(&open, beside) - at(&shadowed, beside)).abs() < 0.01);
+            assert!(at(&shadowed, beside) > 0.1);
+        }
+        for under in [[0.0, 0.35], [-0.5, 0.35], [0.5, 0.3]] {
+            assert!(
+                at(&shadowed, under) < 0.3 * at(&open, under),
+                "{under:?} {method}"
+            );
+        }
     }
 }
 
@@ -117,10 +122,12 @@ fn other_commands_cast_shadows_and_what_can_not_says_so() {
     assert!(shadowed < open - 1.0, "{shadowed} of {open}");
 
     let msaa = [
-        "render",
+        "panorama",
         &scene,
         "-o",
         "c.png",
+        "--projection",
+        "fisheye",
         "--shadows",
         "exact",
         "--aa",

@@ -6,7 +6,7 @@ mod example;
 
 use gpc::camera::Camera;
 use gpc::reference::srgb;
-use gpc::render::{Headless, HeadlessOptions, Settings};
+use gpc::render::{Headless, HeadlessOptions, Settings, Shadows};
 use gpc::scene::{PoseRequest, Scene};
 use std::path::Path;
 use std::process::Command;
@@ -23,9 +23,13 @@ fn headless(width: u32, height: u32) -> Vec<[u8; 4]> {
     let scene = Scene::load(Path::new(SCENE)).unwrap().scene;
     let pose = scene.pose(&PoseRequest::default()).unwrap();
     let camera = Camera::from_scene(pose.cameras.first().unwrap());
-    let prepared = headless.upload(&scene, &pose, None).unwrap();
+    let mut prepared = headless.upload(&scene, &pose, None).unwrap();
+    headless
+        .prepare_shadows(&mut prepared, &scene, &pose, None)
+        .unwrap();
     let settings = Settings {
         background: Some([0.2, 0.3, 0.5]),
+        shadows: Shadows::Exact,
         ..Settings::new(width, height)
     };
     let mut frame = headless.prepare(&prepared, &settings).unwrap();

@@ -1,14 +1,8 @@
 // BLEND layers over an opaque surface or the background.
 #ifndef COMPOSITE_GLSL
 #define COMPOSITE_GLSL
+#include "layer_list.glsl"
 #include "tint.glsl"
-
-// What a record links to, or ~0. Links go to records that come before: nothing else is followed, so that lists end even
-// where a record found no room, and what is there is left from another round.
-uint farther(uint node) {
-    uint next = texelFetch(records, int(node)).w;
-    return next < node ? next : ~0u;
-}
 
 uint trips = 0u;            // of loops over lists of layers, by this invocation
 

@@ -6,8 +6,8 @@ use super::shading::ShadeSamples;
 use super::uniform::{check_size, uniform};
 use super::{Draw, Geometry, HostError, Options, Shared};
 use crate::passes::{
-    Cells, Counter, FrameUniform, ListRegion, Offsets, OwnSet, RasterTargets, ResourceSizes,
-    Resources, VisibilityUniform,
+    Cells, Counter, FrameUniform, ListLength, ListRegion, Offsets, OwnSet, RasterTargets,
+    ResourceSizes, Resources, VisibilityUniform,
 };
 use crate::render::footprint::Footprints;
 use crate::render::list::{ListEngine, ListKind};
@@ -165,13 +165,14 @@ impl List {
                 Cells::Superpixels
             },
             attributes: false,
+            shadow_words: 0,
             lent: true,
             apart: capacity.apart,
             unlisted: capacity.unlisted,
             layers: capacity.layers,
         };
         let room = (list.capacity, padded(settings.size));
-        let sizes = kind.sizes(layout, content, &settings, room, capacity.lists, false);
+        let sizes = kind.sizes(layout, content, &settings, room, capacity.lists);
         sizes.check("the largest list of a recording", limits)?;
         let (offsets, count) = kind.offsets(layout, &settings)?;
         let single = vk::SampleCountFlags::TYPE_1;
@@ -319,7 +320,7 @@ impl List {
             count,
         };
         self.engine
-            .record_candidates(recorder, (resources, set), &region);
+            .record_candidates(recorder, (resources, set), &region, ListLength::Known);
         let shading = lending.shading(shading, &self.visibility_set, (resources, set));
         for _ in 0..self.rounds {
             self.engine.record_round(recorder, resources);

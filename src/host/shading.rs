@@ -96,7 +96,7 @@ pub(super) struct HostShading<'a> {
 }
 
 impl RecordShading for HostShading<'_> {
-    fn record(&self, recorder: &Recorder<'_>, resources: &Resources) {
+    fn record(&self, recorder: &mut Recorder<'_>, resources: &Resources) {
         self.shading.record(recorder.raw(), &self.samples);
         recorder.barrier();
         resources.record_bind(recorder, self.set);

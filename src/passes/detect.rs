@@ -27,7 +27,7 @@ pub struct Detect {
 impl Detect {
     /// Makes the pipeline; `blend_ids` compares the nearest BLEND triangles too, `thin` adds what
     /// [`Thin`](super::Thin) marked, `transparent` compares alpha too, `multisampled` reads the IDs of a multisampled raster (for
-    /// [`DetectMode::Blended`]), pixels `beyond` the region's own become superpixels
+    /// [`DetectMode::Blended`]), places have so many words of shadows, pixels `beyond` the region's own become superpixels
     /// too, for [`Grow`](super::Grow).
     ///
     /// # Errors
@@ -39,6 +39,7 @@ impl Detect {
         thin: bool,
         transparent: bool,
         multisampled: bool,
+        shadow_words: u32,
         beyond: u32,
     ) -> Result<Self, VulkanError> {
         let constants = Constants::new()
@@ -46,7 +47,8 @@ impl Detect {
             .flag(1, blend_ids)
             .flag(2, thin)
             .flag(3, transparent)
-            .with(4, beyond);
+            .with(4, beyond)
+            .with(25, shadow_words);
         let code = if multisampled {
             spirv::DETECT_MULTISAMPLED
         } else {

@@ -2,8 +2,8 @@
 
 use super::locations::CellSizes;
 use super::own_layout::{OwnSet, PipelineLayout, SetLayout};
-use super::{Cells, FrameLayout, Resources, spirv};
-use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+use super::{Argument, Cells, FrameLayout, Resources, spirv};
+use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
 use ash::vk;
 use std::sync::Arc;
 
@@ -31,6 +31,15 @@ pub struct ListRegion {
     pub tiles: [u32; 2],
     /// Locations in the list.
     pub count: u32,
+}
+
+/// How long a list is.
+#[derive(Clone, Copy)]
+pub enum ListLength<'a> {
+    /// As its region says.
+    Known,
+    /// That at the most: there are as many workgroups of locations as an indirect dispatch has.
+    Counted(&'a Buffer, Argument),
 }
 
 /// Sorts one list after another into the same memory.
@@ -90,7 +99,7 @@ impl Distribute {
     }
 
     /// Records it; afterwards the frame's set is no longer bound.
-    pub fn record(&self, recorder: &Recorder<'_>, region: &ListRegion) {
+    pub fn record(&self, recorder: &Recorder<'_>, region: &ListRegion, length: ListLength<'_>) {
         let push = Push {
             tiles: region.tiles,
             count: region.count,
@@ -101,10 +110,14 @@ impl Distribute {
         self.layout.bind(recorder, &[self.set.raw], &push);
         for (step, pipeline) in (0..).zip(&self.steps) {
             let tiles = region.tiles[0] * region.tiles[1];
-            let invocations = match step {
-                LAY_OUT => tiles,
-                ENCLOSE => self.sizes.most_cells(region.count, tiles),
-                _ => region.count,
+            let invocations = match (step, length) {
+                (LAY_OUT, _) => tiles,
+                (ENCLOSE, _) => self.sizes.most_cells(region.count, tiles),
+                (_, ListLength::Known) => region.count,
+                (_, ListLength::Counted(arguments, argument)) => {
+                    recorder.dispatch_indirect(pipeline, arguments, argument as u32);
+                    continue;
+                }
             };
             recorder.dispatch(pipeline, u64::from(invocations.div_ceil(64)));
         }

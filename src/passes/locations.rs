@@ -1,6 +1,6 @@
 //! Sample locations of the caller's own on the device, in the place of pixels.
 
-use super::distribute::{Distribute, ListRegion};
+use super::distribute::{Distribute, ListLength, ListRegion};
 use super::own_layout::whole;
 use super::{Resources, SampleSet};
 use crate::vulkan::{Buffer, BufferView, Constants, Memory, MemoryUse, Recorder, VulkanError};
@@ -42,6 +42,8 @@ pub struct LocationSizes {
     pub locations: u32,
     /// Cells.
     pub cells: u32,
+    /// Places of the order: cells have room for as many locations.
+    pub places: u32,
     /// Groups of cells that a subgroup takes.
     pub groups: u32,
     /// Whether an application lends the list and takes the colours on the device.
@@ -56,6 +58,7 @@ impl LocationSizes {
         Self {
             locations,
             cells: cell_count,
+            places: cell_count.saturating_mul(cells.in_cell),
             groups: most_parts(cell_count, cells.in_group, tiles),
             lent: false,
         }
@@ -64,25 +67,23 @@ impl LocationSizes {
     /// Bytes of the buffers that locations need beside those of pixels, over `tiles` tiles.
     #[must_use]
     pub fn bytes(&self, tiles: u64) -> u64 {
-        let [locations, cells, groups] = [self.locations, self.cells, self.groups].map(u64::from);
+        let [locations, cells, places, groups] =
+            [self.locations, self.cells, self.places, self.groups].map(u64::from);
         let listed = if self.lent { 0 } else { locations };
-        32 * (listed + cells)
-            + 4 * locations
-            + 16 * groups
-            + (8 + 4 * LocationBuffers::LOAD) * tiles
+        32 * (listed + cells) + 4 * places + 16 * groups + (8 + 4 * LocationBuffers::LOAD) * tiles
     }
 }
 
 /// A sample location, as `shaders/include/locations.glsl` describes it.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct ListedLocation {
     /// The pixel of the plane that it lies in.
     pub pixel: [i32; 2],
-    /// Where it lies in the pixel, x and y from 0 to 1, as the bits of floats.
-    pub within: [u32; 2],
-    /// Its second vector.
-    pub rest: [u32; 4],
+    /// Where it lies in the pixel, x and y from 0 to 1.
+    pub within: [f32; 2],
+    /// Its Jacobian, by columns: change of x and y a column, and a row, of the output.
+    pub jacobian: [[f32; 2]; 2],
 }
 
 /// How locations share cells, and cells groups.
@@ -125,28 +126,6 @@ fn most_parts(count: u32, size: u32, tiles: u32) -> u32 {
     count.min((count / size).saturating_add(tiles))
 }
 
-/// A visibility sample of locations, see `shaders/sample.comp`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
-#[repr(transparent)]
-pub struct VisibilitySample([u32; 4]);
-
-impl VisibilitySample {
-    /// Its location's place in the run.
-    pub(crate) fn location(self) -> usize {
-        (self.0[0] & 0x7fff_ffff) as usize
-    }
-
-    /// ID of its triangle; 0 where there is none.
-    pub(crate) fn id(self) -> u32 {
-        self.0[1]
-    }
-
-    /// Where it is shaded, from the middle of its cell in sides of that: `place_location` of `shaders/include/place.glsl`.
-    pub(crate) fn offset(self) -> [f64; 2] {
-        [20, 8].map(|shift| f64::from((self.0[2] << shift) as i32 >> 20) / 4096.0)
-    }
-}
-
 /// The buffers of a list, see `shaders/include/locations.glsl`.
 pub struct LocationBuffers {
     /// The list, where no application lends it.
@@ -164,7 +143,7 @@ pub struct LocationBuffers {
 
 impl LocationBuffers {
     /// Words of a tile in `loads`.
-    const LOAD: u64 = 36;
+    const LOAD: u64 = 35;
 
     pub(super) fn new(
         memory: &Memory,
@@ -188,7 +167,7 @@ impl LocationBuffers {
             locations: (!sizes.lent).then(listed).transpose()?,
             order: texels(
                 "order of locations",
-                sizes.locations,
+                sizes.places,
                 vk::Format::R32_UINT,
                 MemoryUse::Device,
             )?,
@@ -201,17 +180,6 @@ impl LocationBuffers {
 }
 
 impl Resources {
-    /// Writes a word for each record of the round: a bit for each light that it lies in the shadow of.
-    ///
-    /// # Errors
-    /// If they do not fit, or the driver did not map the buffer.
-    pub(crate) fn write_shadows(&mut self, words: &[u32]) -> Result<(), VulkanError> {
-        let bytes = bytemuck::cast_slice::<_, u8>(words);
-        let place = mapped(&mut self.record_shadows.buffer, bytes.len())?;
-        place.copy_from_slice(bytes);
-        Ok(())
-    }
-
     /// The first `count` locations of the list, to be written while the device is idle.
     ///
     /// # Errors
@@ -264,10 +232,11 @@ impl Resources {
         recorder: &Recorder<'_>,
         (set, distribute): (&SampleSet, &Distribute),
         region: &ListRegion,
+        length: ListLength<'_>,
     ) {
         recorder.clear(&self.locations.loads);
         recorder.barrier();
-        distribute.record(recorder, region);
+        distribute.record(recorder, region, length);
         self.record_reach(recorder, set);
         self.record_bind(recorder, set);
     }
@@ -280,18 +249,4 @@ const UNMAPPED: VulkanError = VulkanError::Call {
 
 fn mapped(buffer: &mut Buffer, bytes: usize) -> Result<&mut [u8], VulkanError> {
     buffer.bytes_mut().get_mut(..bytes).ok_or(UNMAPPED)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn records_say_which_location_sees_what_where() {
-        // As `pack_place` of `shaders/include/place.glsl` packs (-1 / 4096, 2047 / 4096), wide and with a share.
-        let place = 1 << 31 | 9 << 24 | 2047 << 12 | 0xfff;
-        let record = VisibilitySample([0x8000_0007, 5, place, 0]);
-        assert_eq!((record.location(), record.id()), (7, 5));
-        assert_eq!(record.offset(), [-1.0 / 4096.0, 2047.0 / 4096.0]);
-    }
 }

@@ -7,6 +7,7 @@
 //! ```
 //! `prefilter` runs once for a scene with an environment, before its first frame. Of lists of sample locations, `distribute` takes
 //! the place of what finds superpixels, from `raster` to `detect`; `groups` follows `enlist`, and `points` may stand for `resolve`.
+//! Before `shade`, `receivers` makes such a list for each light that may be hidden, and `shadow` follows its `sample`.
 //!
 //! Every pass records into a caller's command buffer and reads what the pass before left on the device. They share the
 //! geometry (`geometry/`) and what else the scene has (`scene/`), the memory that they hand to each other (`resources/`),
@@ -48,6 +49,8 @@ mod pose;
 #[cfg(feature = "gltf")]
 pub mod prefilter;
 mod raster;
+#[cfg(feature = "gltf")]
+mod receivers;
 mod resolve;
 mod resources;
 mod sample;
@@ -57,6 +60,8 @@ mod schedule;
 mod setup;
 #[cfg(feature = "gltf")]
 mod shade;
+#[cfg(feature = "gltf")]
+mod shadow;
 mod sort;
 mod spans;
 #[cfg(feature = "gltf")]
@@ -86,7 +91,7 @@ pub(crate) use counters::STRETCH;
 pub use counters::{Argument, Counter};
 pub use cull::Cull;
 pub use detect::{Detect, DetectMode};
-pub use distribute::{Distribute, ListRegion};
+pub use distribute::{Distribute, ListLength, ListRegion};
 pub(crate) use draws::{Draws, HostDraw};
 pub use encode::{Encode, Encoding};
 pub use frame::FrameUniform;
@@ -95,9 +100,7 @@ pub use geometry::FrameGeometry;
 pub use groups::Groups;
 pub use grow::Grow;
 pub use layout::FrameLayout;
-pub use locations::{
-    CellSizes, Cells, ListedLocation, LocationBuffers, LocationSizes, VisibilitySample,
-};
+pub use locations::{CellSizes, Cells, ListedLocation, LocationBuffers, LocationSizes};
 pub use multisample::Multisample;
 pub(crate) use own_layout::{OwnSet, SetLayout};
 pub(crate) use patch::{Patch, Patched};
@@ -106,6 +109,8 @@ pub use points::Points;
 pub use pose::Pose;
 pub use raster::{Raster, RasterTargets};
 pub(crate) use raster::{RasterPush, RasterRun};
+#[cfg(feature = "gltf")]
+pub use receivers::{LightPlane, Receivers, Receiving};
 pub use resolve::{Resolve, Then};
 pub use resources::{IdViews, Offsets, ResourceSizes, Resources, SampleSet};
 pub use sample::{RecordRate, Sample, SampleOptions, TileList};
@@ -115,6 +120,8 @@ pub use schedule::Schedule;
 pub use setup::Setup;
 #[cfg(feature = "gltf")]
 pub use shade::{Shade, ShadeSource};
+#[cfg(feature = "gltf")]
+pub use shadow::Shadow;
 pub use sort::Sort;
 pub use spans::Spans;
 #[cfg(feature = "gltf")]

@@ -11,7 +11,7 @@ pub struct Points {
 
 impl Points {
     /// Makes the pipeline; `output` are the colour constants of `shaders/include/color.glsl`,
-    /// and `attributes` says whether these are written.
+    /// `attributes` says whether these are written, and places have so many words of shadows.
     ///
     /// # Errors
     /// If the driver refuses it.
@@ -19,10 +19,10 @@ impl Points {
         layout: &FrameLayout,
         scene: &dyn Content,
         output: &Constants,
-        attributes: bool,
+        (attributes, shadow_words): (bool, u32),
     ) -> Result<Self, VulkanError> {
         let constants = Cells::Points.constants(scene.constants(output.clone()));
-        let constants = constants.flag(2, attributes);
+        let constants = constants.flag(2, attributes).with(25, shadow_words);
         Ok(Self {
             pipeline: layout.compute(spirv::POINTS, &constants, None)?,
         })

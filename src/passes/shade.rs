@@ -19,8 +19,6 @@ pub enum ShadeSource {
     Records {
         /// Of such cells.
         cells: Cells,
-        /// Whether it is known which lights reach them.
-        shadows: bool,
     },
 }
 
@@ -34,7 +32,7 @@ pub struct Shade {
 }
 
 impl Shade {
-    /// Makes a pipeline for each set of features in the scene; `output` are the colour constants of
+    /// Makes a pipeline for each set of features in the scene; places have so many words of shadows, `output` are the colour constants of
     /// `shaders/include/color.glsl`.
     ///
     /// # Errors
@@ -42,13 +40,13 @@ impl Shade {
     pub fn new(
         layout: &Arc<FrameLayout>,
         scene: &GpuScene,
-        source: ShadeSource,
+        (source, shadow_words): (ShadeSource, u32),
         output: &Constants,
     ) -> Result<Self, VulkanError> {
         let lights = scene.light_features();
-        let (pixels, cells, shadows) = match source {
-            ShadeSource::Pixels { .. } => (true, Cells::Pixels, false),
-            ShadeSource::Records { cells, shadows } => (false, cells, shadows),
+        let (pixels, cells) = match source {
+            ShadeSource::Pixels { .. } => (true, Cells::Pixels),
+            ShadeSource::Records { cells } => (false, cells),
         };
         let common = cells
             .constants(scene.constants(output.clone()))
@@ -64,7 +62,7 @@ impl Shade {
             .flag(10, lights.count > 0)
             .flag(11, lights.local)
             .flag(12, !pixels && scene.has_blend())
-            .flag(13, shadows)
+            .with(25, shadow_words)
             .flag(17, scene.has_environment());
         let mut known: HashMap<ShadeFeatures, usize> = HashMap::new();
         let mut pipelines = Vec::new();

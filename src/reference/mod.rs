@@ -14,6 +14,7 @@ mod exact;
 pub mod grow;
 pub mod prefilter;
 pub mod schedule;
+pub mod shadow;
 pub mod sheen;
 pub mod srgb;
 pub mod stroke;

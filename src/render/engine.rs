@@ -13,7 +13,7 @@ use std::sync::Arc;
 /// Shades visibility samples: writes the radiance of each to its place in the buffer of shaded records.
 pub(crate) trait RecordShading {
     /// Records the shading of a round, sorted by key. Set 0 is bound before, and bound again after it.
-    fn record(&self, recorder: &Recorder<'_>, resources: &Resources);
+    fn record(&self, recorder: &mut Recorder<'_>, resources: &Resources);
 }
 
 /// Detects cells and samples them: it knows triangles and shading keys, no materials. A frame has one for BLEND pixels and
@@ -107,6 +107,11 @@ impl Engine {
                 kind.thin,
                 settings.background.is_none(),
                 kind.multisampled,
+                if kind.mode == DetectMode::Blended {
+                    0
+                } else {
+                    plan.sizes.shadow_words
+                },
                 kind.growths,
             )
         };

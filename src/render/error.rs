@@ -64,17 +64,13 @@ pub enum RenderError {
     #[cfg(feature = "gltf")]
     #[error(transparent)]
     Pinhole(#[from] crate::camera::PinholeError),
-    /// The lights of a scene make no rig of pinholes.
-    #[cfg(feature = "gltf")]
-    #[error(transparent)]
-    Rig(#[from] crate::camera::RigError),
-    /// A frame writes commands once, and shadows need the host between their steps.
+    /// What casts shadows is of the pose that the scene was prepared with.
     #[error(
-        "a frame can't have exact shadows; sample locations, or ask Headless::render_with_shadows"
+        "a frame with exact shadows can't show another moment; prepare the scene and its shadows anew for each pose"
     )]
-    FrameShadows,
+    MovingShadows,
     /// The scene was not made ready for shadows.
-    #[error("the scene can't cast shadows yet; hand it to Headless::prepare_shadows first")]
+    #[error("the scene can't cast shadows yet; hand it to prepare_shadows of the renderer first")]
     NoCasters,
     /// A point has 32 bits for lights.
     #[error("{found} lights can't all cast shadows; 32 can")]
@@ -155,7 +151,7 @@ impl RenderError {
                 | Self::LocationMethod
                 | Self::LocationRegion
                 | Self::Region { .. }
-                | Self::FrameShadows
+                | Self::MovingShadows
                 | Self::ShadowLights { .. }
                 | Self::Attributes
                 | Self::Footprint(_)

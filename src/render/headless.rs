@@ -229,8 +229,9 @@ impl Headless {
         pose: &Pose,
         max_memory: Option<u64>,
     ) -> Result<PreparedScene, RenderError> {
-        let prepared = self.renderer.prepare_scene(scene, pose, max_memory)?;
-        self.put(prepared)
+        let mut prepared = self.renderer.prepare_scene(scene, pose, max_memory)?;
+        self.put(&mut prepared)?;
+        Ok(prepared)
     }
 
     /// As [`Headless::upload`], for a scene that moves: its frames [show](Frame::show) other moments of the motion. Images
@@ -244,18 +245,19 @@ impl Headless {
         pose: (&Pose, &Motion),
         max_memory: Option<u64>,
     ) -> Result<PreparedScene, RenderError> {
-        let prepared = self
+        let mut prepared = self
             .renderer
             .prepare_scene_in_motion(scene, pose, max_memory)?;
-        self.put(prepared)
+        self.put(&mut prepared)?;
+        Ok(prepared)
     }
 
-    fn put(&mut self, mut prepared: PreparedScene) -> Result<PreparedScene, RenderError> {
+    pub(super) fn put(&mut self, prepared: &mut PreparedScene) -> Result<(), RenderError> {
         // SAFETY: the commands are submitted and waited for while the scene is alive.
         self.submit(|commands| unsafe { prepared.record_upload(commands) })?;
         // SAFETY: the commands were waited for.
         unsafe { prepared.discard_uploads() };
-        Ok(prepared)
+        Ok(())
     }
 
     /// Makes the pipelines and memory for frames of a scene.
@@ -268,9 +270,8 @@ impl Headless {
         scene: &PreparedScene,
         settings: &Settings,
     ) -> Result<Frame, RenderError> {
-        let beside = scene.casters_bytes() + ReadBack::bytes(settings);
-        let scene = &scene.gpu_scene;
-        self.check(scene)?;
+        let beside = ReadBack::bytes(settings);
+        self.check(&scene.gpu_scene)?;
         self.renderer
             .prepare_with(scene, settings, None, Capacity::least(), beside)
     }

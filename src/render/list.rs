@@ -4,7 +4,7 @@ use super::engine::{RecordShading, can_settle, record_rate, record_shading, with
 use super::plan::{Capacity, MOST_CANDIDATES, MOST_PAIRS, MOST_RECORDS, records_of_superpixel};
 use super::{Coverage, RenderError, Settings};
 use crate::passes::{
-    Bin, CellSizes, Cells, Content, Cull, Distribute, FrameLayout, Groups, ListRegion,
+    Bin, CellSizes, Cells, Content, Cull, Distribute, FrameLayout, Groups, ListLength, ListRegion,
     LocationSizes, Points, RecordRate, Resolve, ResourceSizes, Resources, Sample, SampleOptions,
     SampleSet, Schedule, Setup, Sort, Then,
 };
@@ -18,6 +18,8 @@ pub(crate) struct ListKind {
     pub cells: Cells,
     /// Whether locations that are sampled once have attributes.
     pub attributes: bool,
+    /// Words of each place that say which lights reach it.
+    pub shadow_words: u32,
     /// Whether an application lends the list and takes the colours on the device.
     pub lent: bool,
     /// Whether a subgroup samples one cell at a time.
@@ -81,7 +83,6 @@ impl ListKind {
     }
 
     /// Room for `locations` locations in a region of so many pixels, whole tiles, and for `lists` times the usual candidates.
-    /// Where one round is to hold all (`at_once`), tiles reserve room for as many records as samples, or for lists of layers.
     pub fn sizes(
         &self,
         layout: &FrameLayout,
@@ -89,27 +90,18 @@ impl ListKind {
         settings: &Settings,
         (locations, region): (u32, [u32; 2]),
         lists: u32,
-        at_once: bool,
     ) -> ResourceSizes {
         let limits = layout.gpu.limits();
         let tiles = u64::from(region[0] / 8) * u64::from(region[1] / 4);
         let most = u64::from(locations);
-        let samples = u64::from(settings.samples);
-        let in_sample = if scene.has_blend() { 6 } else { 1 };
         let records = match self.cells {
-            Cells::Superpixels if at_once => most * samples * in_sample,
-            Cells::Points if at_once => most * in_sample,
-            Cells::Points if scene.has_blend() => 4 * most,
+            Cells::Points | Cells::Occluders if scene.has_blend() => 4 * most,
             Cells::Points | Cells::Occluders => most,
             Cells::Superpixels | Cells::Pixels => most * records_of_superpixel(settings, scene),
         };
         let triangles = u64::from(scene.index_count());
         let pairs = (triangles * 4 + tiles * 16).clamp(1 << 14, MOST_PAIRS);
-        let candidates = if at_once {
-            pairs.min(MOST_CANDIDATES)
-        } else {
-            (triangles * 3 + tiles * 8).clamp(1 << 14, MOST_CANDIDATES)
-        };
+        let candidates = (triangles * 3 + tiles * 8).clamp(1 << 14, MOST_CANDIDATES);
         let cell_sizes = self.cell_sizes(layout, settings);
         let at_most = |room: u64, most: u64| (room * u64::from(lists)).min(most) as u32;
         ResourceSizes {
@@ -124,7 +116,7 @@ impl ListKind {
             list_capacity: at_most(candidates, ResourceSizes::most_candidates(limits)),
             record_capacity: records.clamp(1 << 16, MOST_RECORDS) as u32,
             filtered: 0,
-            shadows: false,
+            shadow_words: self.shadow_words,
             attributes: self.attributes,
             encoded: 0,
         }
@@ -153,14 +145,15 @@ pub(crate) struct ListEngine {
     groups: Groups,
     setup: Setup,
     sample: Sample,
-    /// Nothing of [`Cells::Occluders`], where records are all that is asked for.
+    /// Nothing where the triangles of records are all that is asked for.
     values: Option<Values>,
 }
 
 /// The passes that make values of records.
 struct Values {
     sort: Sort,
-    finish: Finish,
+    /// Nothing of [`Cells::Occluders`], of which opacities are asked for.
+    finish: Option<Finish>,
 }
 
 enum Finish {
@@ -187,18 +180,30 @@ impl ListEngine {
         let sizes = kind.cell_sizes(layout, settings);
         let options = kind.sample_options(layout, scene, settings);
         let sample = Sample::new(layout, scene, &options)?;
+        let blend = scene.has_blend();
+        let finish = || -> Result<Option<Finish>, RenderError> {
+            let of_points = (kind.attributes, kind.shadow_words);
+            Ok(match kind.cells {
+                Cells::Occluders => None,
+                Cells::Points => Some(Finish::Points(Points::new(
+                    layout, scene, output, of_points,
+                )?)),
+                Cells::Superpixels | Cells::Pixels => Some(Finish::Resolve(Resolve::new(
+                    layout,
+                    &sample,
+                    blend,
+                    Then::Nothing,
+                    output,
+                )?)),
+            })
+        };
         let values = || -> Result<Values, RenderError> {
             Ok(Values {
                 sort: Sort::new(layout, scene, scene.bin_count() == 1)?,
-                finish: if kind.cells.are_points() {
-                    Finish::Points(Points::new(layout, scene, output, kind.attributes)?)
-                } else {
-                    let blend = scene.has_blend();
-                    Finish::Resolve(Resolve::new(layout, &sample, blend, Then::Nothing, output)?)
-                },
+                finish: finish()?,
             })
         };
-        let shades = kind.cells != Cells::Occluders;
+        let shades = kind.cells != Cells::Occluders || blend;
         Ok(Self {
             // SAFETY: passed on to the caller.
             distribute: unsafe {
@@ -219,20 +224,16 @@ impl ListEngine {
         self.sample.options()
     }
 
-    /// Whether records are shaded.
-    pub fn shades(&self) -> bool {
-        self.values.is_some()
-    }
-
     /// Records the sorting of a list and which triangles may show in its tiles. The region has begun.
     pub fn record_candidates(
         &self,
         recorder: &mut Recorder<'_>,
         (resources, set): (&Resources, &SampleSet),
         region: &ListRegion,
+        length: ListLength<'_>,
     ) {
         let arguments = &resources.arguments;
-        resources.record_locations(recorder, (set, &self.distribute), region);
+        resources.record_locations(recorder, (set, &self.distribute), region, length);
         recorder.mark("distribute");
         self.cull.record(recorder, arguments);
         recorder.mark("cull");
@@ -269,14 +270,15 @@ impl ListEngine {
         };
         record_shading(recorder, resources, sort, shading);
         match finish {
-            Finish::Points(points) => {
+            Some(Finish::Points(points)) => {
                 points.record(recorder, &resources.arguments);
                 recorder.mark("points");
             }
-            Finish::Resolve(resolve) => {
+            Some(Finish::Resolve(resolve)) => {
                 resolve.record(recorder, &resources.arguments);
                 recorder.mark("resolve");
             }
+            None => {}
         }
     }
 }

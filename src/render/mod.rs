@@ -18,8 +18,12 @@ pub(crate) mod list;
 mod locations;
 pub(crate) mod plan;
 #[cfg(feature = "gltf")]
+mod plane;
+#[cfg(feature = "gltf")]
 mod renderer;
 mod settings;
+#[cfg(feature = "gltf")]
+mod shadows;
 pub(crate) mod statistics;
 
 pub use error::RenderError;

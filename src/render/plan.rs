@@ -114,12 +114,14 @@ impl Capacity {
     pub fn more(self, shortfall: Shortfall) -> Self {
         let factor = |lacked: bool| if lacked { 2 } else { 1 };
         let crowded = shortfall.crowded > 0;
-        let longer = crowded || shortfall.stalled + shortfall.unlisted + shortfall.dropped > 0;
+        let of_lights = shortfall.unshadowed > 0;
+        let short = shortfall.stalled + shortfall.unlisted + shortfall.dropped > 0;
+        let longer = crowded || of_lights || short;
         Self {
-            rounds: self.rounds * factor(crowded || shortfall.waiting > 0),
+            rounds: self.rounds * factor(crowded || of_lights || shortfall.waiting > 0),
             layers: self.layers * factor(crowded),
             lists: self.lists * factor(longer).max(shortfall.rooms.next_power_of_two()),
-            apart: self.apart || shortfall.stalled > 0,
+            apart: self.apart || of_lights || shortfall.stalled > 0,
             unlisted: self.unlisted || shortfall.unlisted > 0,
         }
     }
@@ -173,7 +175,8 @@ pub(super) fn records_of_superpixel(settings: &Settings, scene: &dyn Content) ->
 }
 
 impl Plan {
-    /// Plans an image.
+    /// Plans an image whose places have so many words of shadows; `taken` says how many bytes of what the settings allow others
+    /// take beside memory of some sizes.
     ///
     /// # Errors
     /// [`RenderError::Memory`] if not even a region of 8 x 8 pixels fits.
@@ -181,20 +184,21 @@ impl Plan {
         settings: &Settings,
         scene: &dyn Content,
         limits: &Limits,
-        encoding: Option<Encoding>,
+        (encoding, shadow_words): (Option<Encoding>, u32),
         capacity: Capacity,
-        taken: u64,
+        taken: &dyn Fn(&ResourceSizes) -> u64,
     ) -> Result<Self, RenderError> {
         let side = settings.side();
         let [width, height] = settings.size;
         let most = REGION_PIXELS;
         let longest = limits.max_image_side.min(65_535) / side - 11;
         let mut region = [width.min(longest), height.min(longest)];
-        let allowed = settings.max_memory.map(|limit| limit.saturating_sub(taken));
+        let allowed = settings.max_memory;
         loop {
             let mut plan = Self::with_region(settings, scene, limits, encoding, capacity, region)?;
+            plan.sizes.shadow_words = shadow_words;
             let pixels = u64::from(plan.sizes.pixels());
-            let needed = plan.shrink(scene, settings, allowed);
+            let needed = plan.shrink(scene, settings, taken);
             let fits = pixels <= most
                 && plan.sizes.largest_storage() <= limits.max_storage_bytes
                 && plan.sizes.largest_texels() <= limits.max_texel_elements;
@@ -204,8 +208,8 @@ impl Plan {
             let longer = usize::from(region[1] > region[0]);
             if region[longer] <= 8 {
                 return Err(RenderError::Memory {
-                    needed: needed + taken,
-                    allowed: settings.max_memory.unwrap_or(0),
+                    needed,
+                    allowed: allowed.unwrap_or(0),
                 });
             }
             // Whole tiles, so that a region's tiles are those of the image.
@@ -224,30 +228,32 @@ impl Plan {
         capacity: Capacity,
         taken: u64,
     ) -> Result<Self, RenderError> {
-        let allowed = settings.max_memory.map(|limit| limit.saturating_sub(taken));
         let mut plan = Self::with_region(settings, scene, limits, None, capacity, settings.size)?;
-        let needed = plan.shrink(scene, settings, allowed);
+        let needed = plan.shrink(scene, settings, &|_| taken);
         plan.sizes.check("the largest list of a frame", limits)?;
-        match allowed {
-            Some(allowed) if needed > allowed => Err(RenderError::Memory {
-                needed: needed + taken,
-                allowed: settings.max_memory.unwrap_or(0),
-            }),
+        match settings.max_memory {
+            Some(allowed) if needed > allowed => Err(RenderError::Memory { needed, allowed }),
             _ => Ok(plan),
         }
     }
 
-    /// Trades room for rounds until the plan takes what is allowed, if it can. Returns what it takes.
-    fn shrink(&mut self, scene: &dyn Content, settings: &Settings, allowed: Option<u64>) -> u64 {
-        let mut needed = self.bytes(scene, settings);
+    /// Trades room for rounds until the plan takes what is allowed, if it can, with what others take. Returns what it takes.
+    fn shrink(
+        &mut self,
+        scene: &dyn Content,
+        settings: &Settings,
+        taken: &dyn Fn(&ResourceSizes) -> u64,
+    ) -> u64 {
+        let all = |plan: &Self| plan.bytes(scene, settings) + taken(&plan.sizes);
+        let mut needed = all(self);
         // Fewer records mean more rounds, which cost less than more regions.
-        while allowed.is_some_and(|allowed| needed > allowed)
+        while settings.max_memory.is_some_and(|allowed| needed > allowed)
             && self.sizes.record_capacity > 1 << 16
         {
             self.sizes.record_capacity /= 2;
             self.sizes.list_capacity = (self.sizes.list_capacity / 2).max(1 << 12);
             self.rounds *= 2;
-            needed = self.bytes(scene, settings);
+            needed = all(self);
         }
         needed
     }
@@ -322,7 +328,7 @@ impl Plan {
         let room = |wanted: u64, most: u64| wanted.min(most).max(1 << 14);
         let pairs = room(triangles * 4 + tiles * 16, most_pairs);
         let candidates = room(triangles * 3 + tiles * 8, most_candidates);
-        let by_part = detects && record_rate(settings, scene) == RecordRate::Part;
+        let several = detects && record_rate(settings, scene) != RecordRate::Triangle;
         let filtered = if side > 1 {
             pixels / u64::from(side * side)
         } else {
@@ -339,7 +345,7 @@ impl Plan {
             list_capacity: at_most(candidates, ResourceSizes::most_candidates(limits)),
             record_capacity: records as u32,
             filtered: filtered as u32,
-            shadows: false,
+            shadow_words: 0,
             attributes: settings.attributes,
             encoded: encoding
                 .filter(|e| *e != Encoding::Rgba32Float)
@@ -348,8 +354,9 @@ impl Plan {
         Ok(Self {
             regions,
             sizes,
-            // Tiles whose triangles are shaded in parts reserve room for all of these, and use a third of it.
-            rounds: (rounds * capacity.rounds_for(settings.samples) * if by_part { 2 } else { 1 })
+            // Tiles whose triangles are shaded in parts reserve room for all of these, and use a third of it; where every sample is
+            // shaded, superpixels have as many records.
+            rounds: (rounds * capacity.rounds_for(settings.samples) * if several { 2 } else { 1 })
                 .max(pairs.div_ceil(candidates) as u32),
             layers: capacity.layers,
             capacity,

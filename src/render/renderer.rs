@@ -1,9 +1,10 @@
 //! The face of the renderer: what it needs of a device, and how scenes and frames are prepared.
 
 use super::frame::Frame;
-use super::locations::{Casters, HostTriangles};
+use super::locations::HostTriangles;
 use super::plan::Capacity;
-use super::{RenderError, Settings, Shadows};
+use super::shadows::Casters;
+use super::{RenderError, Settings};
 use crate::passes::{Encoding, FrameLayout, GpuScene, SceneUploads};
 use crate::scene::{Motion, Pose, Scene};
 use crate::vulkan::{Gpu, Host, Memory, Recorder, VulkanError};
@@ -23,11 +24,12 @@ pub struct Renderer {
 pub struct PreparedScene {
     /// Shared with the frames that show it.
     pub(super) gpu_scene: Arc<GpuScene>,
-    uploads: SceneUploads,
+    pub(super) uploads: SceneUploads,
     /// For what the host looks for in images of locations.
     pub(super) triangles: HostTriangles,
     /// What casts shadows, where the scene was made ready for them.
-    pub(super) casters: Option<Box<Casters>>,
+    pub(super) casters: Option<Arc<Casters>>,
+    pub(super) caster_uploads: SceneUploads,
 }
 
 impl PreparedScene {
@@ -49,7 +51,7 @@ impl PreparedScene {
         self.gpu_scene.triangle_count()
     }
 
-    /// Records the copies of the scene to the device. Once, before the first frame that shows it.
+    /// Records the copies of the scene, and of what casts shadows, to the device. Once, before the first frame that shows it.
     ///
     /// # Safety
     /// - `commands` is being recorded for the device and queue family of the renderer that prepared the scene.
@@ -57,7 +59,12 @@ impl PreparedScene {
     pub unsafe fn record_upload(&self, commands: vk::CommandBuffer) {
         // SAFETY: passed on to the caller.
         let recorder = unsafe { Recorder::new(self.gpu_scene.memory().gpu(), commands, None) };
-        self.uploads.record(&recorder, &self.gpu_scene);
+        if !self.gpu_scene.is_uploaded() {
+            self.uploads.record(&recorder, &self.gpu_scene);
+        }
+        if let Some(casters) = &self.casters {
+            self.caster_uploads.record(&recorder, casters.scene());
+        }
     }
 
     /// Frees the memory that the upload needed.
@@ -66,6 +73,7 @@ impl PreparedScene {
     /// The commands of [`Self::record_upload`] are done.
     pub unsafe fn discard_uploads(&mut self) {
         self.uploads = SceneUploads::default();
+        self.caster_uploads = SceneUploads::default();
     }
 }
 
@@ -144,6 +152,7 @@ impl Renderer {
             uploads,
             triangles: HostTriangles::new(&pose.geometry),
             casters: None,
+            caster_uploads: SceneUploads::default(),
         })
     }
 
@@ -151,7 +160,8 @@ impl Renderer {
     /// buffers of linear float RGBA.
     ///
     /// # Errors
-    /// [`RenderError::OtherDevice`] for a scene of another renderer's device; if the settings are impossible, memory runs
+    /// [`RenderError::OtherDevice`] for a scene of another renderer's device; [`RenderError::NoCasters`] if shadows are asked for
+    /// and the scene was not made ready for them; if the settings are impossible, memory runs
     /// out, or the driver refuses something.
     pub fn prepare(
         &self,
@@ -159,14 +169,7 @@ impl Renderer {
         settings: &Settings,
         encoding: Option<Encoding>,
     ) -> Result<Frame, RenderError> {
-        let beside = scene.casters_bytes();
-        self.prepare_with(
-            &scene.gpu_scene,
-            settings,
-            encoding,
-            Capacity::default(),
-            beside,
-        )
+        self.prepare_with(scene, settings, encoding, Capacity::default(), 0)
     }
 
     /// Makes a frame like another one that ended as [`RenderError::Unfinished`], with more of what it lacked: rounds, memory for
@@ -195,7 +198,7 @@ impl Renderer {
         self.check(frame.scene())?;
         let mut like = Frame::new(
             &self.layout,
-            frame.scene(),
+            (frame.scene(), frame.casters()),
             frame.settings(),
             frame.encoding(),
             capacity,
@@ -210,17 +213,16 @@ impl Renderer {
     /// Of what the settings allow, `beside` bytes are kept free for others.
     pub(super) fn prepare_with(
         &self,
-        scene: &Arc<GpuScene>,
+        scene: &PreparedScene,
         settings: &Settings,
         encoding: Option<Encoding>,
         capacity: Capacity,
         beside: u64,
     ) -> Result<Frame, RenderError> {
-        if settings.shadows == Shadows::Exact {
-            return Err(RenderError::FrameShadows);
-        }
-        self.check(scene)?;
+        self.check(&scene.gpu_scene)?;
         settings.check(self.gpu.limits())?;
-        Frame::new(&self.layout, scene, settings, encoding, capacity, beside)
+        let shown = (&scene.gpu_scene, scene.casters.as_ref());
+        let beside = beside + scene.casters_bytes();
+        Frame::new(&self.layout, shown, settings, encoding, capacity, beside)
     }
 }

@@ -76,8 +76,8 @@ pub enum Shadows {
     /// Lights shine through everything.
     None,
     /// Every point that is shaded asks every light whether another triangle lies before it: a sampling set on the light's
-    /// own image plane, without the aliasing of a map of depths. Locations alone can be sampled so, not a [`super::Frame`];
-    /// see [`super::Headless::prepare_shadows`].
+    /// own image plane, without the aliasing of a map of depths. Superpixels then are shaded at every sample, whatever
+    /// [`Settings::shading`] says. The scene has to be made ready for it: see `Renderer::prepare_shadows`.
     Exact,
 }
 
@@ -217,6 +217,26 @@ impl Settings {
     #[must_use]
     pub fn output_size(&self) -> [u32; 2] {
         self.region.map_or(self.size, |region| region.size)
+    }
+
+    /// Pixels of the whole image as it is drawn.
+    #[cfg(feature = "gltf")]
+    pub(crate) fn drawn_pixels(&self) -> u64 {
+        let drawn = self.size.map(|side| u64::from(side * self.side()));
+        drawn.into_iter().product()
+    }
+
+    /// These, with superpixels that are shaded at every sample where it is asked which lights reach them.
+    pub(crate) fn with_shadowed_samples(&self) -> Self {
+        let settings = self.clone();
+        match self.shadows {
+            Shadows::None => settings,
+            Shadows::Exact => Self {
+                shading: Shading::Sample,
+                coverage: Coverage::Samples,
+                ..settings
+            },
+        }
     }
 
     /// Whether superpixels are shaded as brute force is: each sample with the texture levels of the samples' distance.

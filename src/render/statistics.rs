@@ -139,6 +139,8 @@ pub(crate) struct Shortfall {
     pub unlisted: u64,
     /// Triangles that found no room among those that may touch a cell, or are thin.
     pub dropped: u64,
+    /// Tiles and triangles of a light's view that were left, and cells in them.
+    pub unshadowed: u64,
     /// How many times the room there is these would have needed.
     pub rooms: u32,
     /// Whether the device ran kernels in other subgroups than they were made for, which no capacity mends.
@@ -169,9 +171,16 @@ impl Shortfall {
         self.other_subgroups |= counters.get(Counter::Subgroups as usize) != Some(&0);
     }
 
+    /// Whether cells one at a time might get further.
+    #[cfg(feature = "gltf")]
+    pub fn walks_too_far(&self) -> bool {
+        self.stalled + self.unshadowed > 0
+    }
+
     /// Cells and tiles that are left.
     pub fn left(&self) -> u64 {
-        self.waiting + self.crowded + self.stalled + self.unlisted + self.dropped
+        let of_lights = self.unshadowed;
+        self.waiting + self.crowded + self.stalled + self.unlisted + self.dropped + of_lights
     }
 
     /// Fails where kernels that count on subgroups of `lanes` invocations had others.

@@ -18,7 +18,7 @@ pub struct Cover {
     /// Whether their transitions are coloured.
     pub tints: bool,
     pub overlay: Option<Overlay>,
-    /// Whether pictures have shadows, which frames have not.
+    /// Whether pictures have shadows, which are made without them while something moves.
     pub has_shadows: bool,
     /// Whether an environment is seen behind the scene, as it is not in frames.
     pub shows_environment: bool,

@@ -288,7 +288,7 @@ impl Layer {
                 }),
             ),
         };
-        // Shadows are for pictures of the studio: frames have none.
+        // Shadows are for pictures of the studio: they would take frames too long.
         Settings {
             shadows: Shadows::None,
             ..settings

@@ -469,13 +469,6 @@ impl Maker {
     }
 
     fn render(&mut self, task: &SceneTask, settings: &Settings) -> anyhow::Result<Rendered> {
-        if settings.shadows == Shadows::Exact {
-            let (headless, shown) = self.show(task)?;
-            let camera = camera(task, shown)?;
-            let rendered = headless.render_with_shadows(&shown.prepared, &camera, settings)?;
-            check(headless)?;
-            return Ok(rendered);
-        }
         let mut whole = Rendered {
             size: settings.size,
             colors: Vec::new(),

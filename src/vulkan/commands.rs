@@ -220,6 +220,14 @@ impl<'a> Recorder<'a> {
         }
     }
 
+    /// Records without marks: what takes time is booked by the next mark after it.
+    #[cfg(feature = "gltf")]
+    pub(crate) fn untimed(&mut self, record: impl FnOnce(&mut Self)) {
+        let timings = self.timings.take();
+        record(self);
+        self.timings = timings;
+    }
+
     /// Begins timing.
     pub fn begin(&mut self) {
         if let Some(timings) = self.timings.as_deref_mut() {

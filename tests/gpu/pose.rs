@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 use gpc::camera::{Camera, Orbit};
-use gpc::render::{Frame, Headless, Method, RenderError, Rendered, Settings};
+use gpc::render::{Frame, Headless, Method, RenderError, Rendered, Settings, Shadows};
 use gpc::scene::{Instance, Loaded, Motion, Pose, PoseRequest};
 use serde_json::json;
 
@@ -421,5 +421,30 @@ fn what_does_not_belong_together_is_refused() {
         let other = crate::blend::panes().build();
         let refused = gpu.upload_in_motion(&other.0, (&other.1, &first.motion), None);
         assert!(matches!(refused, Err(RenderError::OtherMotion)));
+    });
+}
+
+/// What casts shadows is of one pose.
+#[test]
+fn a_frame_with_shadows_shows_no_other_moment() {
+    on_gpu(|gpu| {
+        let scene = film().scene;
+        let (pose, motion) = scene.pose_in_motion(&at(0.0)).unwrap();
+        let mut prepared = gpu
+            .upload_in_motion(&scene, (&pose, &motion), None)
+            .unwrap();
+        gpu.prepare_shadows(&mut prepared, &scene, &pose, None)
+            .unwrap();
+        let settings = Settings {
+            shadows: Shadows::Exact,
+            ..once(SIZE)
+        };
+        let mut frame = gpu.prepare(&prepared, &settings).unwrap();
+        let moment = motion.at(&scene, 0.5).unwrap().unwrap();
+        let refused = frame.show(Arc::new(moment));
+        assert!(
+            matches!(refused, Err(RenderError::MovingShadows)),
+            "{refused:?}"
+        );
     });
 }

@@ -1,6 +1,6 @@
 //! A region of an image holds the numbers of the whole image.
 
-use gpc::render::{Headless, Method, PixelRect, RenderError, Rendered, Settings, Shading, Shadows};
+use gpc::render::{Headless, Method, PixelRect, RenderError, Rendered, Settings, Shading};
 use gpc::scene::{AlphaMode, Material};
 
 use crate::scenes::ball_over_checker;
@@ -162,10 +162,9 @@ fn impossible_regions_are_refused() {
         }
         let settings = Settings {
             region: Some(region([0, 0], [8, 8])),
-            shadows: Shadows::Exact,
             ..Settings::new(SIZE[0], SIZE[1])
         };
-        let refused = gpu.render_with_shadows(&prepared, &camera(), &settings);
+        let refused = gpu.render_locations(&prepared, &[], SIZE, &settings);
         assert!(matches!(refused, Err(RenderError::LocationRegion)));
     });
 }

@@ -134,7 +134,7 @@ impl<'a> Passes<'a> {
             list_capacity: case.candidates,
             record_capacity: case.records,
             filtered: 0,
-            shadows: false,
+            shadow_words: 0,
             attributes: false,
             encoded: 0,
         };

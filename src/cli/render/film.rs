@@ -41,7 +41,7 @@ impl<'a> Film<'a> {
         first: f64,
         steps: &[Step],
     ) -> anyhow::Result<Self> {
-        // Shadows are not those of a frame, which moves.
+        // A frame with shadows shows no other moment.
         let moves = steps.iter().any(|step| step.time != first)
             && image.appearance.shadows.shadows() == Shadows::None;
         let (pose, motion) = if moves {

@@ -26,7 +26,7 @@ use super::input;
 use super::values::Background;
 use film::Film;
 use gpc::output::{Format, Picture, VideoWriter};
-use gpc::render::{Settings, Shadows};
+use gpc::render::Settings;
 use indicatif::{ProgressBar, ProgressStyle};
 use report::{Origin, Report};
 use sequence::Step;
@@ -144,11 +144,6 @@ fn settings(args: &RenderArgs) -> anyhow::Result<(Format, Settings)> {
     };
     if let Some(region) = args.region {
         region.end(settings.size)?;
-        if settings.shadows == Shadows::Exact {
-            usage!(
-                "--region: exact shadows are those of a whole image; leave out one of --region and --shadows"
-            );
-        }
     }
     Ok((format, settings))
 }

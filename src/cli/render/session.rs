@@ -16,14 +16,7 @@ use std::time::Instant;
 pub struct Session {
     headless: Headless,
     settings: Settings,
-    shown: Option<Shown>,
-}
-
-/// A scene, and how it is rendered.
-struct Shown {
-    scene: PreparedScene,
-    /// Nothing with shadows, which no frame has.
-    frame: Option<Frame>,
+    shown: Option<Frame>,
 }
 
 /// An image, and the times of all renderings that it took.
@@ -109,22 +102,17 @@ impl Session {
             None => upload(&mut self.headless, scene, pose, &self.settings)?,
         };
         clock.lap("upload");
-        let frame = match self.settings.shadows {
-            Shadows::None => Some(self.headless.prepare(&scene, &self.settings)?),
-            Shadows::Exact => None,
-        };
+        let frame = self.headless.prepare(&scene, &self.settings)?;
         clock.lap("pipelines");
-        self.shown = Some(Shown { scene, frame });
+        self.shown = Some(frame);
         Ok(())
     }
 
     /// Moves what is shown.
     pub fn show_moment(&mut self, moment: Moment) -> Result<(), RenderError> {
         match &mut self.shown {
-            Some(Shown {
-                frame: Some(frame), ..
-            }) => frame.show(Arc::new(moment)),
-            _ => Err(RenderError::OtherMotion),
+            Some(frame) => frame.show(Arc::new(moment)),
+            None => Err(RenderError::OtherMotion),
         }
     }
 
@@ -151,15 +139,10 @@ impl Session {
     }
 
     fn render(&mut self, camera: &Camera) -> anyhow::Result<Rendered> {
-        let Some(Shown { scene, frame }) = &mut self.shown else {
+        let Some(frame) = &mut self.shown else {
             anyhow::bail!("nothing was put on the device to render");
         };
-        Ok(match frame {
-            Some(frame) => self.headless.render(frame, camera)?,
-            None => self
-                .headless
-                .render_with_shadows(scene, camera, &self.settings)?,
-        })
+        Ok(self.headless.render(frame, camera)?)
     }
 
     /// What the validation layer has said, if it was asked.

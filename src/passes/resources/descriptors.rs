@@ -40,7 +40,7 @@ impl Resources {
             (57, &self.locations.order),
             (43, &self.locations.cells),
             (44, &self.locations.groups),
-            (56, &self.record_shadows),
+            (56, &self.shadow_words),
         ]
         .map(|(binding, texels)| (binding, texels.view));
         let listed = self.locations.locations.as_ref();

@@ -36,7 +36,7 @@ pub struct Resources {
     headers: Buffer,
     pub(super) records: BufferView,
     pub(super) shaded: BufferView,
-    pub(super) record_shadows: BufferView,
+    pub(crate) shadow_words: BufferView,
     pub(super) shade_order: Buffer,
     pub(crate) bins: Buffer,
     /// Four words for each [`Argument`].
@@ -131,12 +131,7 @@ impl Resources {
             headers: storage("record headers", records * 8)?,
             records: texels("visibility samples", records, uint4)?,
             shaded: texels("shaded records", records, float4)?,
-            record_shadows: texels_in(
-                "shadows of records",
-                if sizes.shadows { records } else { 0 },
-                vk::Format::R32_UINT,
-                MemoryUse::Upload,
-            )?,
+            shadow_words: texels("shadows", sizes.all_shadow_words(), vk::Format::R32_UINT)?,
             shade_order: storage("shading order", records.max(pixels) * 4)?,
             bins: storage("material bins", u64::from(scene.bin_count()) * 16)?,
             arguments: memory.buffer(

@@ -72,12 +72,6 @@ impl Resources {
         }
     }
 
-    /// Copies the first `count` visibility samples of a round to a buffer that has room for them.
-    pub(crate) fn record_keep_records(&self, recorder: &Recorder<'_>, to: &Buffer, count: u32) {
-        let bytes = 16 * u64::from(count.min(self.sizes.record_capacity));
-        recorder.copy(&self.records.buffer, bytes, to, 0);
-    }
-
     /// Puts the first `pixels` pixels that the box filter made in the place of those that it made them of.
     pub(crate) fn record_keep_filtered(&self, recorder: &Recorder<'_>, pixels: u32) {
         let (from, to) = (&self.filtered.buffer, &self.color.buffer);

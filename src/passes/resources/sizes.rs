@@ -22,8 +22,9 @@ pub struct ResourceSizes {
     pub record_capacity: u32,
     /// Pixels of a region after the box filter; 0 without one.
     pub filtered: u32,
-    /// Whether the host says which lights reach records.
-    pub shadows: bool,
+    /// Words of each place that is shaded, which say what lights reach it; 0 where that is not asked. See
+    /// `shaders/include/shadows.glsl`.
+    pub shadow_words: u32,
     /// Whether attributes are asked for.
     pub attributes: bool,
     /// Bytes of a region encoded for a host's image; 0 without one.
@@ -62,9 +63,13 @@ impl ResourceSizes {
         let attributes = if self.attributes { 2 * colors } else { 0 };
         let pairs = u64::from(self.pair_capacity) * Self::PAIR_BYTES;
         let work = self.work_bytes();
-        [attributes, colors, records, candidates, pairs, work]
-            .into_iter()
-            .fold(0, u64::max)
+        let receivers = u64::from(self.receivers()) * 32;
+        let shadows = self.all_shadow_words() * 4;
+        [
+            attributes, colors, records, candidates, pairs, work, receivers, shadows,
+        ]
+        .into_iter()
+        .fold(0, u64::max)
     }
 
     /// Pixels of a region.
@@ -80,6 +85,23 @@ impl ResourceSizes {
             .map_or(u64::from(self.pixels()), |locations| {
                 u64::from(locations.locations)
             })
+    }
+
+    /// Most places that are shaded at once, where it is asked which lights reach them; otherwise 0.
+    #[must_use]
+    pub fn receivers(&self) -> u32 {
+        let pixels = self.locations.map_or(self.pixels(), |_| 0);
+        match self.shadow_words {
+            0 => 0,
+            _ => pixels.max(self.record_capacity),
+        }
+    }
+
+    /// Words of all places: of the pixels, where cells are these, and of visibility samples.
+    #[must_use]
+    pub fn all_shadow_words(&self) -> u64 {
+        let pixels = self.locations.map_or(self.pixels(), |_| 0);
+        u64::from(self.shadow_words) * (u64::from(pixels) + u64::from(self.record_capacity))
     }
 
     /// Work items: tiles or, where there are more, groups of locations.
@@ -103,17 +125,20 @@ impl ResourceSizes {
     pub fn largest_texels(&self) -> u64 {
         let [records, pairs, candidates] =
             [self.record_capacity, self.pair_capacity, self.list_capacity].map(u64::from);
-        let [locations, cells] = self
+        let [locations, cells, places] = self
             .locations
-            .map_or([0; 2], |locations| [locations.locations, locations.cells])
+            .map_or([0; 3], |sizes| [sizes.locations, sizes.cells, sizes.places])
             .map(u64::from);
         [
             self.colors(),
             records,
+            self.all_shadow_words(),
+            2 * u64::from(self.receivers()),
             pairs,
             candidates * Self::CANDIDATE_TEXELS,
             2 * locations,
             2 * cells,
+            places,
         ]
         .into_iter()
         .fold(0, u64::max)
@@ -159,7 +184,7 @@ impl ResourceSizes {
             + u64::from(self.survivor_capacity) * 4
             + u64::from(self.filtered) * 16
             + if self.attributes { pixels * 32 } else { 0 }
-            + if self.shadows { records * 4 } else { 0 }
+            + self.all_shadow_words() * 4
             + self.encoded
             + self.locations.map_or(0, |locations| locations.bytes(tiles))
     }

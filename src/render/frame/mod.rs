@@ -10,11 +10,12 @@ mod uniform;
 pub use target::Target;
 
 use super::plan::{Capacity, Plan};
-use super::{RenderError, Settings};
+use super::shadows::{Casters, ShadowEngine};
+use super::{RenderError, Settings, Shadows};
 use crate::camera::Camera;
 use crate::passes::{
-    Content, Counter, Encoding, FrameGeometry, FrameLayout, FrameLook, GpuScene, Offsets,
-    RasterTargets, Resources,
+    Cells, Content, Counter, Encoding, FrameGeometry, FrameLayout, FrameLook, GpuScene, Offsets,
+    RasterTargets, ResourceSizes, Resources,
 };
 use crate::render::engine::with_probes;
 use crate::scene::Moment;
@@ -28,6 +29,9 @@ use std::sync::Arc;
 /// Pipelines and memory for frames of one scene, which it keeps alive, of one size and method.
 pub struct Frame {
     scene: Arc<GpuScene>,
+    /// What casts shadows, and what finds these, where the settings ask for it.
+    casters: Option<Arc<Casters>>,
+    shadows: Option<ShadowEngine>,
     /// What is shown in the stead of the first pose.
     moment: Option<Arc<Moment>>,
     encoding: Option<Encoding>,
@@ -49,22 +53,36 @@ impl Frame {
     /// Of what the settings allow, `beside` bytes are kept free for others.
     pub(super) fn new(
         layout: &Arc<FrameLayout>,
-        scene: &Arc<GpuScene>,
+        (scene, casters): (&Arc<GpuScene>, Option<&Arc<Casters>>),
         settings: &Settings,
         encoding: Option<Encoding>,
         capacity: Capacity,
         beside: u64,
     ) -> Result<Self, RenderError> {
+        let settings = &settings.with_shadowed_samples();
+        let casters = match settings.shadows {
+            Shadows::None => None,
+            Shadows::Exact => Some(casters.ok_or(RenderError::NoCasters)?),
+        };
         let gpu = scene.memory().gpu().clone();
         let taken = scene.memory_bytes() + beside;
         let beside_regions = taken + FrameGeometry::bytes(scene) + FrameLook::bytes(scene);
+        let pixels = settings.drawn_pixels();
+        let of_others = |sizes: &ResourceSizes| {
+            let bytes =
+                |casters| ShadowEngine::bytes(layout, casters, settings, capacity, (pixels, sizes));
+            beside_regions + casters.map_or(0, |casters| bytes(casters))
+        };
         let plan = Plan::new(
             settings,
             &**scene,
             gpu.limits(),
-            encoding,
+            (
+                encoding,
+                casters.map_or(0, |casters| casters.shadow_words()),
+            ),
             capacity,
-            beside_regions,
+            &of_others,
         )?;
         let memory = Memory::new(
             gpu.clone(),
@@ -103,10 +121,19 @@ impl Frame {
             &[centre, offsets],
         )?;
         let passes = Passes::new(layout, scene, settings, &plan, encoding)?;
+        let shadows = |casters| {
+            let shading = (&**scene, Cells::Pixels, &resources);
+            ShadowEngine::new(
+                layout, &memory, casters, settings, capacity, shading, pixels,
+            )
+        };
+        let shadows = casters.map(shadows).transpose()?;
         let regions = plan.regions.len() as u64;
-        let marks = regions as u32 * (17 + Run::ALL.len() as u32 * (4 + 8 * plan.rounds)) + 8;
+        let marks = regions as u32 * (18 + Run::ALL.len() as u32 * (4 + 9 * plan.rounds)) + 8;
         Ok(Self {
             scene: scene.clone(),
+            casters: casters.cloned(),
+            shadows,
             moment: None,
             encoding,
             beside,
@@ -140,8 +167,12 @@ impl Frame {
     /// the device.
     ///
     /// # Errors
-    /// [`RenderError::OtherMotion`] if the moment is one of another motion.
+    /// [`RenderError::OtherMotion`] if the moment is one of another motion, [`RenderError::MovingShadows`] if the frame has exact
+    /// shadows.
     pub fn show(&mut self, moment: Arc<Moment>) -> Result<(), RenderError> {
+        if self.shadows.is_some() {
+            return Err(RenderError::MovingShadows);
+        }
         if !self.scene.has_moment(&moment) {
             return Err(RenderError::OtherMotion);
         }
@@ -156,6 +187,10 @@ impl Frame {
 
     pub(super) fn scene(&self) -> &Arc<GpuScene> {
         &self.scene
+    }
+
+    pub(super) fn casters(&self) -> Option<&Arc<Casters>> {
+        self.casters.as_ref()
     }
 
     pub(super) fn encoding(&self) -> Option<Encoding> {
@@ -220,9 +255,15 @@ impl Frame {
             self.geometry.record_upload(&recorder, &self.scene);
             self.look.record_upload(&recorder, &self.scene);
             self.resources.record_upload(&recorder);
+            if let Some(shadows) = &self.shadows {
+                shadows.record_upload(&recorder);
+            }
             self.uploaded = true;
         }
         if regions.start == 0 {
+            if let Some(shadows) = &self.shadows {
+                shadows.record_begin(&recorder);
+            }
             if let Some(moment) = &self.moment {
                 self.geometry.write_moment(moment);
             }
@@ -239,6 +280,7 @@ impl Frame {
             targets: &self.targets,
             geometry: &self.geometry,
             resources: &self.resources,
+            shadows: self.shadows.as_ref(),
             counters: &self.counters,
             scene: &self.scene,
             moment: self.moment.as_deref(),

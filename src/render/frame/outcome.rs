@@ -20,6 +20,9 @@ impl Frame {
         let slots = Run::slots(self.plan.regions.len());
         let words: &[u32] = self.counters.read(slots * Counter::COUNT)?;
         shortfall.add_subgroups(words.rchunks_exact(Counter::COUNT).next().unwrap_or(&[]));
+        if let Some(shadows) = &self.shadows {
+            shadows.add_shortfall(&mut shortfall)?;
+        }
         Ok(shortfall)
     }
 

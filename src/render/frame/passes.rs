@@ -65,19 +65,19 @@ impl Passes {
         let antialiased = settings.method == Method::Superpixel;
         let compares = !matches!(settings.detection, Detection::Exact | Detection::Every);
         let by_part = record_rate(settings, scene) == RecordRate::Part;
+        let words = plan.sizes.shadow_words;
         let display_codes = antialiased && (compares || by_part);
         let pixels = || -> Result<_, RenderError> {
             let source = ShadeSource::Pixels { display_codes };
             Ok(PixelShading {
                 spans: Spans::new(layout, scene)?,
-                shade: Shade::new(layout, scene, source, &output)?,
+                shade: Shade::new(layout, scene, (source, words), &output)?,
             })
         };
         const SUPERPIXELS: ShadeSource = ShadeSource::Records {
             cells: Cells::Pixels,
-            shadows: false,
         };
-        let shading = || Shade::new(layout, scene, SUPERPIXELS, &output);
+        let shading = || Shade::new(layout, scene, (SUPERPIXELS, words), &output);
         let shades_records = scene.has_blend() || antialiased || multisampled;
         let (pixels, shading) = rayon::join(
             || (!multisampled).then(pixels).transpose(),

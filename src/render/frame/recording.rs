@@ -3,16 +3,18 @@
 use super::passes::{Multisampling, Passes, PixelShading};
 use super::target::Target;
 use super::uniform::to_clip;
-use crate::camera::Camera;
+use crate::camera::{Camera, Pinhole};
 use crate::passes::{
-    Content, FrameGeometry, GpuScene, RasterTargets, Resources, Shade, StrokeSizes,
+    Content, FrameGeometry, GpuScene, RasterTargets, Receiving, Resources, Shade, StrokeSizes,
 };
 use crate::render::Settings;
 use crate::render::color::display_code;
 use crate::render::engine::{Growing, RecordShading, Work, record_shading};
 use crate::render::plan::{Plan, Region};
+use crate::render::shadows::{ShadowEngine, Shadowed, Sight};
 use crate::scene::Moment;
 use crate::vulkan::{Buffer, Recorder};
+use glam::DVec2;
 use std::ops::Range;
 
 /// Descriptor set with one sample at the pixel's centre.
@@ -56,6 +58,7 @@ pub(super) struct Recording<'a> {
     pub targets: &'a RasterTargets,
     pub geometry: &'a FrameGeometry,
     pub resources: &'a Resources,
+    pub shadows: Option<&'a ShadowEngine>,
     pub counters: &'a Buffer,
     pub scene: &'a GpuScene,
     pub moment: Option<&'a Moment>,
@@ -67,10 +70,15 @@ pub(super) struct Recording<'a> {
 pub(in crate::render) struct SceneShading<'a> {
     pub scene: &'a GpuScene,
     pub shade: Option<&'a Shade>,
+    /// What tells which lights reach what.
+    pub shadows: Option<(&'a ShadowEngine, Shadowed<'a>)>,
 }
 
 impl RecordShading for SceneShading<'_> {
-    fn record(&self, recorder: &Recorder<'_>, resources: &Resources) {
+    fn record(&self, recorder: &mut Recorder<'_>, resources: &Resources) {
+        if let Some((shadows, shadowed)) = self.shadows {
+            shadows.record(recorder, shadowed, Receiving::Records);
+        }
         if let Some(shade) = self.shade {
             shade.record(recorder, self.scene, &resources.arguments);
         }
@@ -95,8 +103,24 @@ impl Recording<'_> {
             let last = Run::slots(count) as u64 - 1;
             self.resources
                 .record_keep_counters(recorder, self.counters, last);
+            if let Some(shadows) = self.shadows {
+                shadows.record_end(recorder);
+            }
             self.target.record_end(recorder);
         }
+    }
+
+    /// What is seen of the scene in a region.
+    fn sight(&self, region: &Region) -> Option<Sight> {
+        let place = |pixels: [u32; 2]| DVec2::from_array(pixels.map(f64::from));
+        let low = place(region.corner());
+        Some(Sight {
+            pinhole: Pinhole::from_camera(self.camera, self.settings.size).ok()?,
+            whole: [DVec2::ZERO, place(self.settings.size)],
+            part: [low, low + place(region.outer())],
+            places: self.settings.drawn_pixels(),
+            origin: self.scene.origin(),
+        })
     }
 
     fn record_region(&self, recorder: &mut Recorder<'_>, index: usize, region: &Region) {
@@ -120,10 +144,19 @@ impl Recording<'_> {
             tiles,
             rounds: self.plan.rounds,
         };
-        let shading = SceneShading {
+        let sight = self.sight(region);
+        let shadowed = |set| Shadowed {
+            resources,
+            set,
+            pixels,
+            sight: sight.as_ref(),
+        };
+        let shading_of = |set| SceneShading {
             scene,
             shade: passes.shade.as_deref(),
+            shadows: self.shadows.map(|shadows| (shadows, shadowed(set))),
         };
+        let shading = shading_of(main);
 
         resources.record_begin(recorder, main, &whole);
         if let (0, Some(pose), Some(moment)) = (index, &passes.pose, self.moment) {
@@ -158,6 +191,9 @@ impl Recording<'_> {
             recorder.mark("background");
             spans.record(recorder, &resources.bins, [width, height]);
             recorder.mark("spans");
+            if let Some(shadows) = self.shadows {
+                shadows.record(recorder, shadowed(main), Receiving::Pixels(pixels));
+            }
             shade.record(recorder, scene, &resources.arguments);
             recorder.mark("shade");
         }
@@ -181,6 +217,7 @@ impl Recording<'_> {
         if let Some(engine) = &passes.superpixels {
             let owned = self.uniform(region, offsets.count(), true);
             resources.record_begin(recorder, offsets, &owned);
+            let shading = shading_of(offsets);
             engine.record(recorder, resources, &shading, &work);
             resources.record_keep_counters(recorder, self.counters, Run::Superpixels.slot(index));
             let growing = Growing {

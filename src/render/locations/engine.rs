@@ -1,57 +1,35 @@
 //! The passes and memory that sample locations: the engine of superpixels with the caller's cells in the place of pixels.
 
-use super::partition::Window;
 use super::plan::LocationPlan;
-use crate::camera::Pinhole;
 use crate::passes::{
-    Cells, Content, Counter, FrameGeometry, FrameLayout, FrameLook, FrameUniform, GpuScene,
-    ListedLocation, Offsets, RasterTargets, Resources, Shade, ShadeSource, Stroke, StrokeSizes,
-    VisibilitySample,
+    Cells, Content, Counter, FrameGeometry, FrameLayout, FrameLook, ListLength, ListedLocation,
+    Offsets, RasterTargets, Resources, SampleOptions, Shade, ShadeSource, Stroke, StrokeSizes,
 };
-use crate::render::footprint::Footprints;
 use crate::render::frame::recording::SceneShading;
 use crate::render::list::{ListEngine, ListKind};
 use crate::render::plan::Capacity;
+use crate::render::plane::Window;
 use crate::render::renderer::PreparedScene;
+use crate::render::shadows::{ShadowEngine, Shadowed, Sight};
 use crate::render::statistics::Shortfall;
 use crate::render::{PassTime, RenderError, Settings, Statistics};
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings, VulkanError};
 use ash::vk;
-use glam::{DMat4, DVec2};
 use std::sync::Arc;
 
-/// What is sampled, and what is asked of it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Sampling {
-    pub cells: Cells,
-    /// Whether the host says which lights reach the records before these are shaded.
-    pub shadows: bool,
-}
-
-impl Sampling {
-    /// Whether the host is given the records, all of which then are one round's.
-    pub fn hands_over_records(self) -> bool {
-        self.shadows || !self.shades()
-    }
-
-    /// Whether records are shaded.
-    fn shades(self) -> bool {
-        self.cells != Cells::Occluders
-    }
-
-    /// What the engine is made for; `apart` says whether a subgroup samples one cell at a time.
-    pub fn kind(self, apart: bool) -> ListKind {
-        let Capacity {
-            layers, unlisted, ..
-        } = Capacity::default();
-        ListKind {
-            cells: self.cells,
-            attributes: self.cells == Cells::Points,
-            lent: false,
-            apart,
-            unlisted,
-            layers,
-        }
+/// What the engine of lists is made for, where places have so many words of shadows; `apart` says whether a subgroup samples one cell at a time.
+pub(super) fn kind(cells: Cells, shadow_words: u32, apart: bool) -> ListKind {
+    let Capacity {
+        layers, unlisted, ..
+    } = Capacity::default();
+    ListKind {
+        cells,
+        attributes: cells == Cells::Points,
+        shadow_words,
+        lent: false,
+        apart,
+        unlisted,
+        layers,
     }
 }
 
@@ -62,11 +40,8 @@ pub(super) struct LocationEngine {
     rounds: u32,
     stroke: Option<Stroke>,
     engine: ListEngine,
-    /// Nothing where records are all that is asked for.
-    shade: Option<Shade>,
-    /// Where the host is given the records, and how many there may be.
-    records: Option<Buffer>,
-    handed: u32,
+    shade: Shade,
+    shadows: Option<ShadowEngine>,
     geometry: FrameGeometry,
     resources: Resources,
     targets: RasterTargets,
@@ -78,17 +53,9 @@ pub(super) struct LocationEngine {
 
 /// What the locations of a run saw, in their order.
 pub(super) struct LocationValues<'a> {
-    /// Where the host is given them.
-    pub records: &'a [VisibilitySample],
-    /// Where records are shaded.
     pub colors: &'a [[f32; 4]],
     /// What `shaders/points.comp` wrote; nothing for superpixels.
     pub attributes: &'a [[[u32; 4]; 2]],
-}
-
-/// From the space of a scene's geometry to clip space around a window's middle.
-fn to_clip(scene: &GpuScene, pinhole: &Pinhole, window: &Window) -> DMat4 {
-    pinhole.pixel_matrix(scene.origin(), DVec2::from_array(window.middle))
 }
 
 impl LocationEngine {
@@ -97,14 +64,14 @@ impl LocationEngine {
         layout: &Arc<FrameLayout>,
         prepared: &PreparedScene,
         settings: &Settings,
-        sampling: Sampling,
         plan: &LocationPlan,
         apart: bool,
     ) -> Result<Self, RenderError> {
         let LocationPlan {
+            cells,
+            places,
             sizes,
             rounds,
-            handed,
             ..
         } = plan;
         let scene = &*prepared.gpu_scene;
@@ -114,7 +81,7 @@ impl LocationEngine {
             gpu.clone(),
             settings.max_memory.map(|limit| limit.saturating_sub(taken)),
         );
-        let kind = sampling.kind(apart);
+        let kind = kind(*cells, sizes.shadow_words, apart);
         let (offsets, count) = kind.offsets(layout, settings)?;
         let offsets = Offsets {
             all: &offsets,
@@ -141,15 +108,7 @@ impl LocationEngine {
             &[offsets],
         )?;
         let output = settings.color_constants(scene);
-        let source = ShadeSource::Records {
-            cells: sampling.cells,
-            shadows: sampling.shadows,
-        };
-        let read_back = |name, bytes| {
-            let usage = vk::BufferUsageFlags::TRANSFER_DST;
-            memory.buffer(name, bytes, usage, MemoryUse::Readback)
-        };
-        let records = || read_back("records for the host", 16 * u64::from(*handed));
+        let source = ShadeSource::Records { cells: *cells };
         let listed = resources.listed()?;
         // SAFETY: the list goes with the resources, and has room for as many locations.
         let engine = unsafe {
@@ -162,23 +121,38 @@ impl LocationEngine {
                 &output,
             )
         }?;
-        let shade = || Shade::new(layout, scene, source, &output);
+        let shadows = |casters| {
+            let shading = (scene, *cells, &resources);
+            let capacity = Capacity {
+                apart,
+                ..Capacity::default()
+            };
+            ShadowEngine::new(
+                layout, &memory, casters, settings, capacity, shading, *places,
+            )
+        };
+        let casters = prepared.casters.as_ref().filter(|_| kind.shadow_words > 0);
+        let shadows = casters.map(shadows).transpose()?;
         Ok(Self {
             settings: settings.clone(),
             stroke: scene
                 .has_strokes()
                 .then(|| Stroke::new(layout))
                 .transpose()?,
-            shade: engine.shades().then(shade).transpose()?,
+            shade: Shade::new(layout, scene, (source, kind.shadow_words), &output)?,
+            shadows,
             engine,
-            records: sampling.hands_over_records().then(records).transpose()?,
             geometry,
             resources,
             targets,
-            counters: read_back("counter read-back", Counter::BYTES)?,
+            counters: memory.buffer(
+                "counter read-back",
+                Counter::BYTES,
+                vk::BufferUsageFlags::TRANSFER_DST,
+                MemoryUse::Readback,
+            )?,
             rounds: *rounds,
-            handed: *handed,
-            timings: Timings::new(&gpu, 16 + 8 * rounds)?,
+            timings: Timings::new(&gpu, 16 + 9 * rounds)?,
             memory,
             uploaded: false,
         })
@@ -189,12 +163,7 @@ impl LocationEngine {
         self.resources.listed_mut(count)
     }
 
-    /// Writes a word for each record: a bit for each light that it lies in the shadow of.
-    pub fn write_shadows(&mut self, words: &[u32]) -> Result<(), VulkanError> {
-        self.resources.write_shadows(words)
-    }
-
-    /// Records a run of so many locations, which have been written: all of it or, where the host is given the records, up to these.
+    /// Records a run of so many locations, which have been written, in a window of what is seen.
     ///
     /// # Safety
     /// - `commands` is being recorded, outside of a render pass, for the device and queue family of the renderer.
@@ -203,15 +172,17 @@ impl LocationEngine {
     pub unsafe fn record(
         &mut self,
         scene: &PreparedScene,
-        pinhole: &Pinhole,
+        sight: &Sight,
         window: &Window,
         count: usize,
         commands: vk::CommandBuffer,
     ) {
-        let uniform = self.uniform(&scene.gpu_scene, pinhole, window);
-        let to_clip = to_clip(&scene.gpu_scene, pinhole, window);
-        self.geometry.place(&scene.gpu_scene, &to_clip, None);
         let scene = &*scene.gpu_scene;
+        let SampleOptions { cells, samples, .. } = *self.engine.options();
+        let (settings, sizes) = (&self.settings, self.resources.sizes());
+        let uniform = window.uniform(scene, &sight.pinhole, settings, (cells, samples), sizes);
+        let to_clip = window.to_clip(scene, &sight.pinhole);
+        self.geometry.place(scene, &to_clip, None);
         let gpu = self.memory.gpu().clone();
         // SAFETY: passed on to the caller.
         let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
@@ -221,6 +192,9 @@ impl LocationEngine {
             self.geometry.record_upload(recorder, scene);
             resources.record_upload(recorder);
             self.targets.record_unused(recorder);
+            if let Some(shadows) = &self.shadows {
+                shadows.record_upload(recorder);
+            }
             self.uploaded = true;
         }
         recorder.begin();
@@ -238,55 +212,32 @@ impl LocationEngine {
             stroke.record(recorder, scene, &self.geometry, &to_clip, sizes);
             recorder.mark("stroke");
         }
+        if let Some(shadows) = &self.shadows {
+            shadows.record_begin(recorder);
+        }
         let region = window.region(count);
         let engine = &self.engine;
-        engine.record_candidates(recorder, (resources, set), &region);
-        let shade = self.shade.as_ref();
-        let shading = SceneShading { scene, shade };
+        engine.record_candidates(recorder, (resources, set), &region, ListLength::Known);
+        let shadowed = Shadowed {
+            resources,
+            set,
+            pixels: 0,
+            sight: Some(sight),
+        };
+        let shading = SceneShading {
+            scene,
+            shade: Some(&self.shade),
+            shadows: self.shadows.as_ref().map(|shadows| (shadows, shadowed)),
+        };
         for _ in 0..self.rounds {
             engine.record_round(recorder, resources);
-            match &self.records {
-                Some(records) => resources.record_keep_records(recorder, records, self.handed),
-                None => engine.record_values(recorder, resources, &shading),
-            }
+            engine.record_values(recorder, resources, &shading);
+        }
+        if let Some(shadows) = &self.shadows {
+            shadows.record_end(recorder);
         }
         resources.record_keep_counters(recorder, &self.counters, 0);
         recorder.barrier();
-    }
-
-    /// Records what is left of a run once the host has written the shadows of its records.
-    ///
-    /// # Safety
-    /// As [`Self::record`], whose commands are done.
-    pub unsafe fn record_shading(&mut self, scene: &PreparedScene, commands: vk::CommandBuffer) {
-        let gpu = self.memory.gpu().clone();
-        // SAFETY: passed on to the caller.
-        let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
-        let resources = &self.resources;
-        recorder.go_on();
-        if let Some(set) = resources.set(0) {
-            let (scene, shade) = (&*scene.gpu_scene, self.shade.as_ref());
-            let shading = SceneShading { scene, shade };
-            resources.record_bind(&recorder, set);
-            self.engine
-                .record_values(&mut recorder, resources, &shading);
-        }
-        resources.record_keep_counters(&recorder, &self.counters, 0);
-        recorder.barrier();
-    }
-
-    /// The records of the last run, where the host is given them.
-    pub fn records(&self) -> Result<&[VisibilitySample], VulkanError> {
-        match &self.records {
-            Some(records) => records.read(self.recorded()? as usize),
-            None => Ok(&[]),
-        }
-    }
-
-    /// Records of the last round.
-    fn recorded(&self) -> Result<u32, VulkanError> {
-        let counted = self.counted()?.get(Counter::Records as usize);
-        Ok(counted.copied().unwrap_or(0))
     }
 
     /// What the last run's `locations` locations saw.
@@ -295,21 +246,12 @@ impl LocationEngine {
             color, attributes, ..
         } = &self.resources;
         Ok(LocationValues {
-            records: self.records()?,
-            colors: match self.engine.shades() {
-                true => color.buffer.read(locations)?,
-                false => &[],
-            },
+            colors: color.buffer.read(locations)?,
             attributes: match self.resources.sizes().attributes {
                 true => attributes.read(locations)?,
                 false => &[],
             },
         })
-    }
-
-    /// Device memory of the engine alone, in bytes.
-    pub fn memory_bytes(&self) -> u64 {
-        self.memory.used()
     }
 
     fn counted(&self) -> Result<&[u32], VulkanError> {
@@ -322,8 +264,8 @@ impl LocationEngine {
         let room = self.resources.sizes().survivor_capacity;
         shortfall.add(self.counted()?, (window.tile_count(), room), true);
         shortfall.add_subgroups(self.counted()?);
-        if self.records.is_some() {
-            shortfall.crowded += u64::from(self.recorded()?.saturating_sub(self.handed));
+        if let Some(shadows) = &self.shadows {
+            shadows.add_shortfall(&mut shortfall)?;
         }
         Ok(shortfall)
     }
@@ -357,43 +299,5 @@ impl LocationEngine {
             total.add_time(PassTime { pass, ms });
         }
         Ok(())
-    }
-
-    fn uniform(&self, scene: &GpuScene, pinhole: &Pinhole, window: &Window) -> FrameUniform {
-        let middle = window.middle;
-        let eye = (pinhole.eye() - scene.origin()).as_vec3();
-        // Parallel rays need not be at right angles to the plane.
-        let direction = pinhole
-            .parallel_direction()
-            .map_or(pinhole.direction(), |to_centre| -to_centre)
-            .as_vec3();
-        let parallel = if pinhole.is_parallel() { 1.0 } else { 0.0 };
-        let points = self.engine.options().cells.are_points();
-        let samples = self.engine.options().samples;
-        let footprints = Footprints::new(&self.settings, if points { 1 } else { samples });
-        FrameUniform {
-            transform: to_clip(scene, pinhole, window).as_mat4().to_cols_array(),
-            eye: [eye.x, eye.y, eye.z, 1.0],
-            view_direction: [direction.x, direction.y, direction.z, parallel],
-            irradiance: scene.environment().irradiance,
-            environment: scene.environment().axes,
-            background: self.settings.background_rgba(),
-            origin: [0, 1].map(|axis| (window.low[axis] as f64 + 0.5 - middle[axis]) as f32),
-            size: window.size(),
-            tiles: window.tiles,
-            triangle_count: scene.index_count(),
-            first_mask: scene.first_mask(),
-            first_blend: scene.first_blend(),
-            sample_count: samples,
-            bin_count: scene.bin_count(),
-            light_count: scene.light_features().count,
-            material_vectors: scene.material_vectors(),
-            exposure: self.settings.exposure.exp2(),
-            footprint: footprints.centre,
-            place_footprint: footprints.place,
-            sample_footprint: footprints.sample,
-            side: 1,
-            ..FrameUniform::with_room(self.resources.sizes())
-        }
     }
 }

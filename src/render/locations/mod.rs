@@ -9,23 +9,19 @@ mod error;
 mod image;
 mod partition;
 mod plan;
-mod shadows;
 mod thin;
 mod triangles;
 
 pub use error::LocationError;
-pub(super) use shadows::Casters;
 pub(super) use triangles::{HostTriangles, Triangles};
 
-use super::{
-    Coverage, Headless, PreparedScene, RenderError, Settings, Shading, Shadows, Statistics,
-};
+use super::shadows::Sight;
+use super::{Headless, PreparedScene, RenderError, Settings, Statistics};
 use crate::camera::{Pinhole, SampleLocation};
 use crate::passes::Cells;
-use engine::{LocationEngine, LocationValues, Sampling};
+use engine::{LocationEngine, LocationValues};
 use partition::Partition;
 use plan::LocationPlan;
-use shadows::Receivers;
 use std::ops::Range;
 
 /// What a sampling location sees.
@@ -53,10 +49,6 @@ pub struct PointSample {
 struct Task<'a> {
     scene: &'a PreparedScene,
     pinhole: &'a Pinhole,
-    /// Whether lights may be hidden from records.
-    shadows: bool,
-    /// What a location has in the place of its Jacobian, by its index.
-    rest: Option<&'a (dyn Fn(usize) -> [u32; 4] + Sync)>,
 }
 
 /// What a run of locations saw.
@@ -64,8 +56,6 @@ struct Run<'a> {
     /// Its locations, as places in the order of the partition.
     places: Range<usize>,
     seen: LocationValues<'a>,
-    /// For each record, where lights may be hidden from it, a bit for each that is.
-    shadows: &'a [u32],
 }
 
 /// What a set of locations sees, in the order of the locations, and what it cost.
@@ -91,17 +81,13 @@ impl Headless {
         settings: &Settings,
     ) -> Result<Sampled<PointSample>, RenderError> {
         let partition = Partition::new(locations, Cells::Points)?;
-        let task = Task {
-            scene,
-            pinhole,
-            shadows: settings.shadows == Shadows::Exact,
-            rest: None,
-        };
+        let task = Task { scene, pinhole };
         let mut values: Vec<PointSample> = Vec::with_capacity(locations.len());
         let statistics = self.run_locations(&partition, task, settings, |run| {
             partition.put(&run.places, &mut values, |i| {
                 let [[depth, id, blend_id, code], normal] = run.seen.attributes[i];
                 let [x, y, z, _] = normal.map(f32::from_bits);
+                let [.., shadows] = normal;
                 PointSample {
                     color: run.seen.colors[i],
                     depth: f32::from_bits(depth),
@@ -109,13 +95,9 @@ impl Headless {
                     blend_id,
                     normal: [x, y, z],
                     code,
-                    ..PointSample::default()
+                    shadows,
                 }
             });
-            // Layers before a surface have none.
-            for (record, hidden) in run.seen.records.iter().zip(run.shadows) {
-                values[partition.index(run.places.start + record.location())].shadows |= hidden;
-            }
         })?;
         Ok(Sampled { values, statistics })
     }
@@ -135,20 +117,9 @@ impl Headless {
         locations: &[SampleLocation],
         settings: &Settings,
     ) -> Result<Sampled<[f32; 4]>, RenderError> {
-        let exact = settings.shadows == Shadows::Exact;
-        let by_sample = exact.then(|| Settings {
-            shading: Shading::Sample,
-            coverage: Coverage::Samples,
-            ..settings.clone()
-        });
-        let settings = by_sample.as_ref().unwrap_or(settings);
+        let settings = &settings.with_shadowed_samples();
         let partition = Partition::new(locations, Cells::Superpixels)?;
-        let task = Task {
-            scene,
-            pinhole,
-            shadows: exact,
-            rest: None,
-        };
+        let task = Task { scene, pinhole };
         let mut values: Vec<[f32; 4]> = Vec::with_capacity(locations.len());
         let statistics = self.run_locations(&partition, task, settings, |run| {
             partition.put(&run.places, &mut values, |i| run.seen.colors[i]);
@@ -164,42 +135,34 @@ impl Headless {
         settings: &Settings,
         mut take: impl FnMut(&Run<'_>),
     ) -> Result<Statistics, RenderError> {
-        let Task {
-            scene,
-            pinhole,
-            shadows,
-            rest,
-        } = task;
+        let Task { scene, pinhole } = task;
         self.check(&scene.gpu_scene)?;
-        let cells = partition.cells;
-        let sampling = Sampling { cells, shadows };
         let layout = self.renderer.layout.clone();
-        let taken = scene.memory_bytes();
-        let plan = LocationPlan::new(
-            &layout,
-            &scene.gpu_scene,
-            settings,
-            (partition, sampling),
-            taken,
-            self.may_stop(),
-        )?;
-        let make =
-            |apart: bool| LocationEngine::new(&layout, scene, settings, sampling, &plan, apart);
+        let plan = LocationPlan::new(&layout, scene, settings, partition, self.may_stop())?;
+        let make = |apart: bool| LocationEngine::new(&layout, scene, settings, &plan, apart);
         let (mut engine, mut apart) = (make(false)?, false);
         let mut statistics = Statistics::default();
+        let ([low, high], beyond) = partition.reach();
         let mut waiting: Vec<_> = plan.runs.iter().rev().cloned().collect();
         while let Some(run) = waiting.pop() {
             let window = partition.window(&run);
-            partition.list((&run, &window), rest, engine.listed_mut(run.len())?);
+            partition.list((&run, &window), engine.listed_mut(run.len())?);
+            let sight = Sight {
+                pinhole: *pinhole,
+                whole: [low - beyond, high + beyond],
+                part: window.rectangle(beyond),
+                places: partition.places(),
+                origin: scene.gpu_scene.origin(),
+            };
             // SAFETY: the last submission was waited for; scene and engine outlive this one, which is waited for.
             self.submit(|commands| unsafe {
-                engine.record(scene, pinhole, &window, run.len(), commands);
+                engine.record(scene, &sight, &window, run.len(), commands);
             })?;
             match engine.check(&window) {
                 Ok(()) => {}
                 // One cell at a time gets through longer lists.
                 Err(RenderError::Unfinished { .. })
-                    if !apart && engine.shortfall(&window)?.stalled > 0 =>
+                    if !apart && engine.shortfall(&window)?.walks_too_far() =>
                 {
                     apart = true;
                     engine = make(apart)?;
@@ -219,26 +182,10 @@ impl Headless {
                 }
                 Err(error) => return Err(error),
             }
-            let mut hidden = Vec::new();
-            if shadows {
-                let receivers = Receivers {
-                    scene,
-                    pinhole,
-                    partition,
-                    run: &run,
-                    records: engine.records()?,
-                    held_bytes: engine.memory_bytes(),
-                };
-                hidden = self.shadows(&receivers, settings, &mut statistics)?;
-                engine.write_shadows(&hidden)?;
-                // SAFETY: as above.
-                self.submit(|commands| unsafe { engine.record_shading(scene, commands) })?;
-            }
             engine.add_statistics(scene, &window, &mut statistics)?;
             take(&Run {
                 seen: engine.values(run.len())?,
                 places: run,
-                shadows: &hidden,
             });
         }
         Ok(statistics)

@@ -4,15 +4,16 @@
 
 use super::LocationError;
 use crate::camera::SampleLocation;
-use crate::passes::{Cells, ListRegion, ListedLocation};
+use crate::passes::{Cells, ListedLocation};
+use crate::render::plane::{TILE, Window};
+use crate::render::shadows::Rectangle;
+use glam::DVec2;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Tiles of a region: 2,048 x 2,048 pixels.
 const REGION_TILES: [i64; 2] = [256, 512];
-/// Pixels of a tile.
-const TILE: [i64; 2] = [8, 4];
 /// Up to this many pixels locations share what positions are relative to, so that they see the same however they are cut
 /// into runs, and what an image of their plane sees; beyond it 32-bit positions are finer from the middle of each window.
 const COMPACT: f64 = 8192.0;
@@ -35,37 +36,6 @@ pub(super) struct Partition<'a> {
     chunks: Option<Vec<Bounds>>,
     /// The parts of the order, each of one region.
     regions: Vec<Range<usize>>,
-}
-
-/// The part of the plane that a run's locations lie in.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Window {
-    /// Its upper left pixel.
-    pub low: [i64; 2],
-    /// Its size in tiles.
-    pub tiles: [u32; 2],
-    /// The place on the plane that clip-space positions are relative to, in pixels.
-    pub middle: [f64; 2],
-}
-
-impl Window {
-    /// Tiles that it has.
-    pub fn tile_count(&self) -> u32 {
-        self.tiles[0] * self.tiles[1]
-    }
-
-    /// Its size in pixels.
-    pub fn size(&self) -> [u32; 2] {
-        [0, 1].map(|axis| self.tiles[axis] * TILE[axis] as u32)
-    }
-
-    /// It, as what a list of so many locations is of.
-    pub fn region(&self, count: usize) -> ListRegion {
-        ListRegion {
-            tiles: self.tiles,
-            count: count as u32,
-        }
-    }
 }
 
 impl<'a> Partition<'a> {
@@ -119,6 +89,12 @@ impl<'a> Partition<'a> {
         })
     }
 
+    /// Places of the plane that lights tell apart: superpixels have several.
+    pub fn places(&self) -> u64 {
+        let in_cell = if self.cells.are_points() { 1 } else { 8 };
+        self.locations.len() as u64 * in_cell
+    }
+
     /// Runs of at most `longest` locations, each in one region.
     pub fn runs(&self, longest: usize) -> Vec<Range<usize>> {
         let longest = longest.max(1);
@@ -164,28 +140,31 @@ impl<'a> Partition<'a> {
         }
     }
 
-    /// Writes a run's locations as the device takes them, in pixels of its window. `rest` makes the second vector of each, by
-    /// its index in the caller's list; without it this is the Jacobian.
-    pub fn list(
-        &self,
-        (run, window): (&Range<usize>, &Window),
-        rest: Option<&(dyn Fn(usize) -> [u32; 4] + Sync)>,
-        to: &mut [ListedLocation],
-    ) {
+    /// Writes a run's locations as the device takes them, in pixels of its window.
+    pub fn list(&self, (run, window): (&Range<usize>, &Window), to: &mut [ListedLocation]) {
         to.par_iter_mut().enumerate().for_each(|(i, listed)| {
-            let index = self.index(run.start + i);
-            let SampleLocation { uv, jacobian, .. } = &self.locations[index];
+            let SampleLocation { uv, jacobian, .. } = self.location(run.start + i);
             let floor = uv.map(f64::floor);
-            let own = || {
-                let [[a, b], [c, d]] = jacobian.map(|column| column.map(bits));
-                [a, b, c, d]
-            };
+            let [[a, b], [c, d]] = jacobian.map(|column| column.map(|v| v as f32));
             *listed = ListedLocation {
                 pixel: [0, 1].map(|axis| (floor[axis] as i64 - window.low[axis]) as i32),
-                within: [0, 1].map(|axis| bits(uv[axis] - floor[axis])),
-                rest: rest.map_or_else(own, |rest| rest(index)),
+                within: [0, 1].map(|axis| (uv[axis] - floor[axis]) as f32),
+                jacobian: [[a, b], [c, d]],
             };
         });
+    }
+
+    /// The rectangle of the plane that all locations lie in, and how far samples lie from these at the most, in pixels.
+    pub fn reach(&self) -> (Rectangle, f64) {
+        type Reach = (Rectangle, f64);
+        let around = |location: &SampleLocation| {
+            let at = DVec2::from_array(location.uv);
+            let [x, y] = half_extent(location, self.cells);
+            ([at; 2], x.max(y))
+        };
+        let both = |([a, b], e): Reach, ([c, d], f): Reach| ([a.min(c), b.max(d)], e.max(f));
+        let nothing = || ([DVec2::INFINITY, DVec2::NEG_INFINITY], 0.0);
+        self.locations.par_iter().map(around).reduce(nothing, both)
     }
 
     /// The window around a run.
@@ -300,10 +279,6 @@ fn by_tile(locations: &[SampleLocation], bounds: &Bounds) -> (Vec<u32>, Vec<Boun
         .map(|keys| keys.iter().map(tile).fold(Bounds::NOTHING, Bounds::with))
         .collect();
     (keys.into_iter().map(|key| key as u32).collect(), chunks)
-}
-
-fn bits(v: f64) -> u32 {
-    (v as f32).to_bits()
 }
 
 /// A rectangle around tiles, in pixels of the plane.
@@ -443,17 +418,17 @@ mod tests {
         let mut seen = Vec::new();
         for (run, window) in runs.iter().zip(&windows) {
             let mut listed = vec![ListedLocation::default(); run.len()];
-            partition.list((run, window), None, &mut listed);
+            partition.list((run, window), &mut listed);
             partition.put(run, &mut seen, |i| 1 + listed[i].pixel[0]);
             for (place, listed) in run.clone().zip(&listed) {
                 let uv = partition.location(place).uv;
                 let [x, y] = [0, 1].map(|axis| {
                     window.low[axis] as f64
                         + f64::from(listed.pixel[axis])
-                        + f64::from(f32::from_bits(listed.within[axis]))
+                        + f64::from(listed.within[axis])
                 });
                 assert!((x - uv[0]).abs() < 1e-7 && (y - uv[1]).abs() < 1e-7);
-                assert_eq!(listed.rest.map(f32::from_bits), [2.0, 0.0, 0.0, 1.0]);
+                assert_eq!(listed.jacobian, [[2.0, 0.0], [0.0, 1.0]]);
             }
         }
         assert_eq!(seen, [1, 2, 3, 4, 5, 6, 7, 10, 8]);

@@ -9,7 +9,7 @@ use super::{FLOOR, SIZE, ask, exact, floor, light, lit, location, pinhole, sun};
 use crate::meshes::Random;
 use crate::stage::{Stage, on_gpu, textured};
 
-/// A MASK quadrilateral casts the shadow of what passes its alpha test; BLEND ones cast none, and single-sided ones do
+/// A MASK quadrilateral casts the shadow of what passes its alpha test; BLEND ones dim, and single-sided ones cast shadows
 /// from behind.
 #[test]
 fn what_casts_shadows_is_what_stands_in_the_way() {
@@ -80,15 +80,17 @@ fn what_casts_shadows_is_what_stands_in_the_way() {
                 at.iter()
                     .any(|v| (4.0 * v - (4.0 * v).round()).abs() < 1e-3)
             };
-            if [back, masked].iter().any(doubtful) || !(3..=4).contains(&seen.id) {
+            if [back, masked, of_square(1.5)].iter().any(doubtful) || !(3..=4).contains(&seen.id) {
                 continue;
             }
             let texel = masked.map(|v| (4.0 * v).floor() as i64);
-            let expected = is_in(back) || is_in(masked) && (texel[0] + texel[1]) % 2 == 0;
+            let blended = is_in(of_square(1.5));
+            let expected =
+                blended || is_in(back) || is_in(masked) && (texel[0] + texel[1]) % 2 == 0;
             assert_eq!(seen.shadows, u32::from(expected), "{p}");
             shadowed[0] += u32::from(expected && is_in(back));
             shadowed[1] += u32::from(expected && is_in(masked));
-            shadowed[2] += u32::from(is_in(of_square(1.5)));
+            shadowed[2] += u32::from(blended);
         }
         assert!(shadowed.iter().all(|count| *count > 800), "{shadowed:?}");
     });
@@ -104,7 +106,7 @@ fn what_can_not_be_shadowed_is_refused() {
         let asked = gpu.sample_points(&prepared, &pinhole(SIZE), &locations, &exact());
         assert!(matches!(asked, Err(RenderError::NoCasters)), "{asked:?}");
         let frame = gpu.prepare(&prepared, &exact()).map(|_| ());
-        assert!(matches!(frame, Err(RenderError::FrameShadows)), "{frame:?}");
+        assert!(matches!(frame, Err(RenderError::NoCasters)), "{frame:?}");
         pose.lights = vec![sun(); 33];
         let many = gpu.prepare_shadows(&mut prepared, &scene, &pose, None);
         assert!(

@@ -3,17 +3,19 @@
 mod casters;
 mod edges;
 mod facing;
+mod parts;
+mod rays;
 mod shading;
 mod superpixels;
 
 use glam::{DVec2, DVec3};
 use gpc::camera::{Pinhole, SampleLocation};
-use gpc::render::{Headless, PointSample, PreparedScene, Settings, Shadows};
+use gpc::render::{Headless, PointSample, PreparedScene, Rendered, Settings, Shadows};
 use gpc::scene::{AlphaMode, Light, LightKind, Material};
 
 use super::{location, pinhole};
 use crate::meshes::Random;
-use crate::stage::{Stage, flat, once};
+use crate::stage::{Stage, camera, flat, once};
 
 const SIZE: [u32; 2] = [1280, 720];
 /// Height of the floor, which is the first two triangles of a stage.
@@ -78,6 +80,11 @@ fn upload(gpu: &mut Headless, stage: &Stage, lights: &[Light]) -> PreparedScene 
     gpu.prepare_shadows(&mut prepared, &scene, &pose, None)
         .unwrap();
     prepared
+}
+
+fn render(gpu: &mut Headless, prepared: &PreparedScene, settings: &Settings) -> Rendered {
+    let mut frame = gpu.prepare(prepared, settings).unwrap();
+    gpu.render(&mut frame, &camera()).unwrap()
 }
 
 fn exact() -> Settings {

@@ -1,8 +1,10 @@
 //! How bright points are that lights do not reach.
 
-use gpc::scene::{AlphaMode, Light, LightKind};
+use glam::DVec2;
+use gpc::render::{Headless, PointSample};
+use gpc::scene::{AlphaMode, Light, LightKind, Material};
 
-use super::{OVER, SIZE, ask, cast, floor, lamp, lit, pinhole, places, sun, upload};
+use super::{OVER, SIZE, ask, cast, floor, lamp, lit, pinhole, places, sun, upload, within};
 use crate::stage::{on_gpu, once};
 
 /// Each light has shadows of its own, and a point is as bright as the lights make it that it does not lie in the shadow of.
@@ -40,5 +42,78 @@ fn shading_leaves_out_the_lights_that_are_hidden() {
             }
         }
         assert!(found.iter().all(|count| *count > 500), "{found:?}");
+    });
+}
+
+/// BLEND triangles take as much of the light as their opacities say, one after the other, and none where they lie behind.
+#[test]
+fn blend_lets_pass_what_its_opacity_leaves() {
+    on_gpu(|gpu| {
+        let blend = |opacity: f32| Material {
+            base_color: [1.0, 1.0, 1.0, opacity],
+            ..lit(AlphaMode::Blend)
+        };
+        let mut stage = floor(vec![lit(AlphaMode::Opaque), blend(0.25), blend(0.6)]);
+        // Both in the way of the first light; the second one lies behind the floor.
+        let above = |height: f32| OVER.map(|[x, y, z]| [x + 0.2 * height, y + height, z]);
+        stage.add(1, OVER);
+        stage.add(2, above(0.3));
+        stage.add(2, above(-4.0));
+        let lights = [sun(), lamp(LightKind::Point)];
+        let shades = [OVER, above(0.3)];
+        let cast_by = |light: usize| {
+            shades.map(|corners| corners.map(|corner| cast(&lights[light], corner, &pinhole(SIZE))))
+        };
+        let locations = places(cast_by(0)[0]);
+        let seen = ask(gpu, &stage, &lights, &locations);
+        // What each light gives by itself, where nothing is in its way.
+        let dark = |light: &Light| Light {
+            color: [0.0; 3],
+            ..*light
+        };
+        let open = |gpu: &mut Headless, shining: [Light; 2]| {
+            let prepared = upload(gpu, &stage, &shining);
+            let settings = once(SIZE);
+            let seen = gpu.sample_points(&prepared, &pinhole(SIZE), &locations, &settings);
+            seen.unwrap().values
+        };
+        let none = open(gpu, [dark(&lights[0]), dark(&lights[1])]);
+        let first = open(gpu, [lights[0], dark(&lights[1])]);
+        let second = open(gpu, [dark(&lights[0]), lights[1]]);
+        let mut found = [0; 4];
+        for (i, location) in locations.iter().enumerate() {
+            let seen = &seen[i];
+            if !(1..=2).contains(&seen.id) || seen.blend_id != 0 {
+                continue;
+            }
+            let place = DVec2::from_array(location.uv);
+            let in_shades =
+                [0, 1].map(|light| cast_by(light).map(|corners| within(place, corners)));
+            if in_shades
+                .iter()
+                .flatten()
+                .any(|(_, distance)| *distance < 0.01)
+            {
+                continue;
+            }
+            let share = |light: usize| {
+                let [a, b] = in_shades[light].map(|(inside, _)| inside);
+                f64::from(if a { 0.75_f32 } else { 1.0 } * if b { 0.4 } else { 1.0 })
+            };
+            let green = |of: &[PointSample]| f64::from(of[i].color[1]);
+            let ambient = green(&none);
+            let expected = ambient
+                + (green(&first) - ambient) * share(0)
+                + (green(&second) - ambient) * share(1);
+            let got = f64::from(seen.color[1]);
+            assert!(
+                (got - expected).abs() < 1e-4 * expected.max(1.0),
+                "{got} {expected} at {place}"
+            );
+            let bits = [0, 1].map(|light| u32::from(share(light) < 1.0) << light);
+            assert_eq!(seen.shadows, bits[0] | bits[1]);
+            found[usize::from(in_shades[0][0].0) + 2 * usize::from(in_shades[0][1].0)] += 1;
+        }
+        assert!(found.iter().all(|count| *count > 300), "{found:?}");
     });
 }

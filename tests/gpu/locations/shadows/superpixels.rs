@@ -6,9 +6,9 @@ use gpc::render::{Detection, Settings, Shading, Shadows};
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Light};
 
-use super::{OVER, SIZE, cast, floor, lit, location, pinhole, sun, upload, within};
+use super::{OVER, SIZE, cast, floor, lit, location, pinhole, render, sun, upload, within};
 use crate::scenes::ball_over_checker;
-use crate::stage::{camera, everywhere, on_gpu};
+use crate::stage::{everywhere, on_gpu};
 
 /// The pixels that the border of a shadow crosses are superpixels, although they show one triangle, and as dark as the
 /// part of their samples in shadow.
@@ -28,16 +28,12 @@ fn borders_of_shadows_are_antialiased() {
             ..everywhere(SIZE, Pattern::Sobol, 64)
         };
         let prepared = upload(gpu, &stage, &[sun()]);
-        let image = gpu
-            .render_with_shadows(&prepared, &camera(), &settings)
-            .unwrap();
+        let image = render(gpu, &prepared, &settings);
         let once = Settings {
             method: gpc::render::Method::None,
             ..settings
         };
-        let single = gpu
-            .render_with_shadows(&prepared, &camera(), &once)
-            .unwrap();
+        let single = render(gpu, &prepared, &once);
         let offsets = Pattern::Sobol.offsets(64).unwrap();
         let value = |x: u32, y: u32| f64::from(single.colors[(y * SIZE[0] + x) as usize][1]);
         let shadow = |x: f64, y: f64| within(DVec2::new(x, y), corners).0;

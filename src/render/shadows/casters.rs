@@ -1,19 +1,20 @@
-//! What casts shadows: the opaque and MASK triangles of a pose, from both sides.
+//! What casts shadows: the triangles of a pose, from both sides.
 
-use crate::render::PreparedScene;
-use crate::scene::{AlphaMode, Draw, DrawClass, Image, Light, Material, Pose, Scene, TextureUse};
+use crate::passes::{Content, GpuScene};
+use crate::scene::{AlphaMode, DrawClass, Image, Light, Material, Pose, Scene, TextureUse};
 use glam::DVec3;
+use std::sync::Arc;
 
 /// Casters on the device, and the lights.
 pub(in crate::render) struct Casters {
-    pub(super) scene: PreparedScene,
+    pub(super) scene: Arc<GpuScene>,
     pub(super) lights: Vec<Light>,
     /// The box around all triangles; nothing where there are none.
     pub(super) bounds: Option<(DVec3, DVec3)>,
 }
 
-/// The casters of a pose, as a scene of their own whose triangles have the same IDs: no BLEND triangles, nothing culled,
-/// and of the materials what alpha tests need.
+/// The casters of a pose, as a scene of their own whose triangles have the same IDs: nothing culled, and of the materials
+/// what alpha tests and opacities need.
 pub(super) fn caster_scene(scene: &Scene, pose: &Pose) -> (Scene, Pose) {
     let material = |material: &Material| {
         let opaque = Material {
@@ -22,12 +23,12 @@ pub(super) fn caster_scene(scene: &Scene, pose: &Pose) -> (Scene, Pose) {
             ..Material::default()
         };
         match material.alpha_mode {
-            AlphaMode::Mask { .. } => Material {
+            AlphaMode::Mask { .. } | AlphaMode::Blend => Material {
                 base_color: material.base_color,
                 base_color_texture: material.base_color_texture,
                 ..opaque
             },
-            AlphaMode::Opaque | AlphaMode::Blend => opaque,
+            AlphaMode::Opaque => opaque,
         }
     };
     let materials: Vec<Material> = pose.materials(scene).iter().map(material).collect();
@@ -46,10 +47,9 @@ pub(super) fn caster_scene(scene: &Scene, pose: &Pose) -> (Scene, Pose) {
     };
     let images = scene.images.iter().enumerate().map(image).collect();
     let mut geometry = pose.geometry.flat().into_owned();
-    let draws: Vec<Draw> = geometry.draws.iter().filter_map(caster).collect();
-    let count = draws.iter().map(|draw| draw.triangle_count as usize).sum();
-    geometry.triangles.truncate(count);
-    geometry.draws = draws;
+    for draw in &mut geometry.draws {
+        draw.class = seen_from_both_sides(draw.class);
+    }
     // A size in pixels is none that a light could see.
     geometry.strokes.clear();
     geometry.edges.clear();
@@ -67,22 +67,33 @@ pub(super) fn caster_scene(scene: &Scene, pose: &Pose) -> (Scene, Pose) {
     (casting, pose)
 }
 
-/// A draw seen from both sides; BLEND, which comes last, casts no shadow.
-fn caster(draw: &Draw) -> Option<Draw> {
-    let class = match draw.class {
+fn seen_from_both_sides(class: DrawClass) -> DrawClass {
+    match class {
         DrawClass::Opaque | DrawClass::OpaqueDoubleSided => DrawClass::OpaqueDoubleSided,
         DrawClass::Mask | DrawClass::MaskDoubleSided => DrawClass::MaskDoubleSided,
-        DrawClass::Blend | DrawClass::BlendDoubleSided => return None,
-    };
-    Some(Draw { class, ..*draw })
+        DrawClass::Blend | DrawClass::BlendDoubleSided => DrawClass::BlendDoubleSided,
+    }
 }
 
 impl Casters {
-    pub(super) fn new(scene: PreparedScene, pose: Pose) -> Self {
+    pub(super) fn new(scene: Arc<GpuScene>, pose: &Pose) -> Self {
         Self {
             scene,
             bounds: pose.geometry.bounds(),
-            lights: pose.lights,
+            lights: pose.lights.clone(),
+        }
+    }
+
+    /// What casts, on the device.
+    pub(in crate::render) fn scene(&self) -> &GpuScene {
+        &self.scene
+    }
+
+    /// Words of each place that say which lights reach it: see `shaders/include/shadows.glsl`.
+    pub(in crate::render) fn shadow_words(&self) -> u32 {
+        match self.scene.has_blend() {
+            true => 1 + self.lights.len() as u32,
+            false => 1,
         }
     }
 

@@ -1,0 +1,114 @@
+//! receivers: where the surfaces that are about to be shaded appear on the plane of a light.
+
+use super::own_layout::{OwnSet, PipelineLayout, SetLayout, whole};
+use super::{Argument, Cells, FrameLayout, GpuScene, Resources, SampleSet, spirv};
+use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+use std::sync::Arc;
+
+/// The plane of a light as the pass is told of it; `shaders/receivers.comp` says what the fields are.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[allow(missing_docs)]
+pub struct LightPlane {
+    pub to_plane: [f32; 16],
+    pub light: [f32; 4],
+    pub cone: [f32; 4],
+    pub low: [i32; 2],
+    pub size: [u32; 2],
+    pub range: f32,
+    pub step: u32,
+    pub face: u32,
+}
+
+impl LightPlane {
+    /// The face of what is no plane of a cube.
+    pub const SINGLE: u32 = 6;
+    /// In the step that begins the words.
+    pub const BEGINS: u32 = 32;
+}
+
+/// What is about to be shaded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Receiving {
+    /// The centres of a region's pixels, so many.
+    Pixels(u32),
+    /// The visibility samples of a round.
+    Records,
+}
+
+/// Lists the receivers of light.
+pub struct Receivers {
+    of_pixels: Arc<Pipeline>,
+    of_records: Arc<Pipeline>,
+    layout: PipelineLayout,
+    set: OwnSet,
+    _set_layout: SetLayout,
+}
+
+impl Receivers {
+    /// Makes the pipelines for cells of a scene, which write the receivers' places to `locations`, two vectors each, and begin
+    /// the words of the resources.
+    ///
+    /// # Errors
+    /// If the driver refuses one.
+    pub fn new(
+        layout: &FrameLayout,
+        scene: &GpuScene,
+        cells: Cells,
+        resources: &Resources,
+        locations: &Buffer,
+    ) -> Result<Self, VulkanError> {
+        use super::Content;
+        let gpu = &layout.gpu;
+        let kinds = [ash::vk::DescriptorType::STORAGE_BUFFER; 2];
+        let set_layout = SetLayout::new(gpu, &kinds)?;
+        let sets = [layout.frame_set, set_layout.raw];
+        let own_layout = PipelineLayout::new(gpu, &sets, size_of::<LightPlane>() as u32)?;
+        let pipeline = |pixels: bool| {
+            let constants = cells.constants(scene.constants(Constants::new()));
+            let constants = constants
+                .flag(0, pixels)
+                .with(25, resources.sizes().shadow_words);
+            // Layouts that are made alike are one and the same to pipelines.
+            layout.cached(spirv::RECEIVERS, &constants, 0, || {
+                compute_pipeline(gpu, own_layout.raw, spirv::RECEIVERS, &constants, None)
+            })
+        };
+        let (of_pixels, of_records) = (pipeline(true)?, pipeline(false)?);
+        let set = set_layout.allocate()?;
+        // SAFETY: the set is new, and both buffers go with the frame that this is of.
+        unsafe {
+            let buffers = [whole(locations), whole(&resources.shadow_words.buffer)];
+            set.write_buffers(0, &buffers);
+        }
+        Ok(Self {
+            of_pixels,
+            of_records,
+            layout: own_layout,
+            set,
+            _set_layout: set_layout,
+        })
+    }
+
+    /// Records it for a plane; afterwards the frame's set is no longer bound as other passes bind it.
+    pub fn record(
+        &self,
+        recorder: &Recorder<'_>,
+        (resources, set): (&Resources, &SampleSet),
+        receiving: Receiving,
+        plane: &LightPlane,
+    ) {
+        let sets = [set.descriptor(), self.set.raw];
+        self.layout.bind(recorder, &sets, plane);
+        match receiving {
+            Receiving::Pixels(count) => {
+                recorder.dispatch(&self.of_pixels, u64::from(count.div_ceil(64)));
+            }
+            Receiving::Records => recorder.dispatch_indirect(
+                &self.of_records,
+                &resources.arguments,
+                Argument::Sort as u32,
+            ),
+        }
+    }
+}

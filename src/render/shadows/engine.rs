@@ -1,0 +1,255 @@
+//! The passes and memory that tell what lies in shadow.
+
+use super::casters::Casters;
+use super::light::{LightView, Sight, views};
+use crate::passes::{
+    Argument, Cells, Content, FrameGeometry, FrameLayout, FrameLook, GpuScene, ListLength, Offsets,
+    RasterTargets, Receivers, Receiving, ResourceSizes, Resources, SampleSet, Shade, ShadeSource,
+    Shadow,
+};
+use crate::render::frame::recording::SceneShading;
+use crate::render::list::{ListEngine, ListKind};
+use crate::render::plan::Capacity;
+use crate::render::statistics::Shortfall;
+use crate::render::{RenderError, Settings};
+use crate::vulkan::{BufferView, Memory, MemoryUse, Recorder, VulkanError};
+use ash::vk;
+use std::sync::Arc;
+
+/// Pipelines and memory to find what keeps lights from what a frame or a run of locations shades.
+pub(in crate::render) struct ShadowEngine {
+    casters: Arc<Casters>,
+    settings: Settings,
+    rounds: u32,
+    receivers: Receivers,
+    engine: ListEngine,
+    /// Of casters that may let light pass.
+    shade: Option<Shade>,
+    shadow: Shadow,
+    geometry: FrameGeometry,
+    resources: Resources,
+    targets: RasterTargets,
+    _locations: BufferView,
+}
+
+/// What is about to be shaded, by whom, and from where it is seen.
+#[derive(Clone, Copy)]
+pub(in crate::render) struct Shadowed<'a> {
+    pub resources: &'a Resources,
+    pub set: &'a SampleSet,
+    /// Pixels of the region of an image; 0 for a list of locations.
+    pub pixels: u32,
+    /// Nothing where that is impossible.
+    pub sight: Option<&'a Sight>,
+}
+
+/// The kind of list that casters are sampled by.
+fn kind(capacity: Capacity) -> ListKind {
+    ListKind {
+        cells: Cells::Occluders,
+        attributes: false,
+        shadow_words: 0,
+        lent: true,
+        apart: capacity.apart,
+        unlisted: true,
+        layers: capacity.layers,
+    }
+}
+
+fn sizes(
+    layout: &FrameLayout,
+    casters: &Casters,
+    settings: &Settings,
+    capacity: Capacity,
+    (places, shading): (u64, &ResourceSizes),
+) -> ResourceSizes {
+    let most = shading.receivers();
+    let side = LightView::side(places);
+    let scene = &*casters.scene;
+    kind(capacity).sizes(layout, scene, settings, (most, [side; 2]), capacity.lists)
+}
+
+impl ShadowEngine {
+    /// About how many bytes it takes for an image or list of so many places, where the memory of those who shade is of these
+    /// sizes.
+    pub fn bytes(
+        layout: &FrameLayout,
+        casters: &Casters,
+        settings: &Settings,
+        capacity: Capacity,
+        (places, shading): (u64, &ResourceSizes),
+    ) -> u64 {
+        let sizes = sizes(layout, casters, settings, capacity, (places, shading));
+        let list = 32 * u64::from(shading.receivers());
+        list + sizes.bytes() + FrameGeometry::bytes(&casters.scene)
+    }
+
+    /// Makes the pipelines and memory for cells of a scene that are shaded with these resources, in an image or list of so many
+    /// places.
+    ///
+    /// # Errors
+    /// If the driver refuses something, or memory runs out.
+    pub fn new(
+        layout: &Arc<FrameLayout>,
+        memory: &Memory,
+        casters: &Arc<Casters>,
+        settings: &Settings,
+        capacity: Capacity,
+        (scene, cells, shading): (&GpuScene, Cells, &Resources),
+        places: u64,
+    ) -> Result<Self, RenderError> {
+        let occluding = &*casters.scene;
+        let sizes = sizes(
+            layout,
+            casters,
+            settings,
+            capacity,
+            (places, shading.sizes()),
+        );
+        sizes.check("the largest list of shadows", layout.gpu.limits())?;
+        let kind = kind(capacity);
+        let (offsets, count) = kind.offsets(layout, settings)?;
+        let offsets = Offsets {
+            all: &offsets,
+            count,
+        };
+        let once = vk::SampleCountFlags::TYPE_1;
+        let targets = RasterTargets::new(memory, 1, 1, once, false)?;
+        let geometry = FrameGeometry::new(memory, occluding, false)?;
+        let look = FrameLook::default();
+        let mut texels = geometry.texels(occluding);
+        texels.push(look.texels(occluding));
+        let locations = memory.texel_buffer(
+            "receivers of light",
+            2 * u64::from(shading.sizes().receivers()),
+            vk::Format::R32G32B32A32_UINT,
+            vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | vk::BufferUsageFlags::STORAGE_BUFFER,
+            MemoryUse::Device,
+        )?;
+        texels.push((42, locations.view));
+        let resources = Resources::new(
+            layout,
+            memory,
+            occluding,
+            (&texels, look.lights(occluding)),
+            &targets.views(),
+            sizes,
+            &[offsets],
+        )?;
+        let output = settings.color_constants(occluding);
+        // SAFETY: the list goes with this, and has room for as many locations.
+        let engine = unsafe {
+            let shown = (&resources, locations.view);
+            ListEngine::new(layout, occluding, settings, &kind, shown, &output)
+        }?;
+        let opacities = || {
+            let source = ShadeSource::Records {
+                cells: Cells::Occluders,
+            };
+            Shade::new(layout, occluding, (source, 0), &output)
+        };
+        Ok(Self {
+            shade: occluding.has_blend().then(opacities).transpose()?,
+            rounds: kind.rounds(&sizes, settings, capacity),
+            receivers: Receivers::new(layout, scene, cells, shading, &locations.buffer)?,
+            shadow: Shadow::new(layout, memory, shading)?,
+            casters: casters.clone(),
+            settings: settings.clone(),
+            engine,
+            geometry,
+            resources,
+            targets,
+            _locations: locations,
+        })
+    }
+
+    /// Records copies to the device, once.
+    pub fn record_upload(&self, recorder: &Recorder<'_>) {
+        self.geometry.record_upload(recorder, &self.casters.scene);
+        self.resources.record_upload(recorder);
+        self.targets.record_unused(recorder);
+    }
+
+    /// Records what begins a frame or run.
+    pub fn record_begin(&self, recorder: &Recorder<'_>) {
+        self.shadow.record_begin(recorder);
+    }
+
+    /// Records what ends a frame or run.
+    pub fn record_end(&self, recorder: &Recorder<'_>) {
+        self.shadow.record_end(recorder);
+    }
+
+    /// Records which lights reach what is shaded next, whose set is bound, and is bound again after it.
+    pub fn record(&self, recorder: &mut Recorder<'_>, shaded: Shadowed<'_>, receiving: Receiving) {
+        recorder.untimed(|recorder| self.record_views(recorder, shaded, receiving));
+        recorder.mark("shadows");
+    }
+
+    fn record_views(
+        &self,
+        recorder: &mut Recorder<'_>,
+        Shadowed {
+            resources: shading,
+            set: shading_set,
+            pixels,
+            sight,
+        }: Shadowed<'_>,
+        receiving: Receiving,
+    ) {
+        let (scene, resources) = (&*self.casters.scene, &self.resources);
+        let Some(set) = resources.set(0) else {
+            return;
+        };
+        let (most, first_place, length) = match receiving {
+            Receiving::Pixels(count) => (count, 0, ListLength::Known),
+            Receiving::Records => {
+                let length = ListLength::Counted(&shading.arguments, Argument::Sort);
+                (shading.sizes().record_capacity, pixels, length)
+            }
+        };
+        let kind = (Cells::Occluders, self.engine.options().samples);
+        let views = sight.map(|sight| views(&self.casters, sight));
+        let views = views.unwrap_or_default();
+        if views.is_empty() {
+            recorder.clear(&shading.shadow_words.buffer);
+            recorder.barrier();
+            return;
+        }
+        let opacities = SceneShading {
+            scene,
+            shade: self.shade.as_ref(),
+            shadows: None,
+        };
+        for view in views {
+            let (pinhole, window) = (&view.pinhole, &view.window);
+            let uniform = window.uniform(scene, pinhole, &self.settings, kind, resources.sizes());
+            self.receivers
+                .record(recorder, (shading, shading_set), receiving, &view.plane);
+            resources.record_begin(recorder, set, &uniform);
+            let region = window.region(most as usize);
+            self.engine
+                .record_candidates(recorder, (resources, set), &region, length);
+            for _ in 0..self.rounds {
+                self.engine.record_round(recorder, resources);
+                self.engine.record_values(recorder, resources, &opacities);
+                let occluders = (resources, set);
+                self.shadow
+                    .record(recorder, occluders, first_place, view.bit);
+            }
+            self.shadow.record_left(recorder, set);
+        }
+        shading.record_bind(recorder, shading_set);
+    }
+
+    /// Adds what the last recording could not finish.
+    ///
+    /// # Errors
+    /// If it can't be read.
+    pub fn add_shortfall(&self, shortfall: &mut Shortfall) -> Result<(), VulkanError> {
+        let (left, other_subgroups) = self.shadow.left()?;
+        shortfall.unshadowed += u64::from(left);
+        shortfall.other_subgroups |= other_subgroups;
+        Ok(())
+    }
+}

@@ -1,0 +1,362 @@
+//! The pinholes of a light, and their planes around what is seen.
+//!
+//! ```text
+//!   directional: parallel rays, w = 0      spot: one perspective plane       point, wide spot: six planes, a cube
+//!
+//!     │ │ │ │ │                                    C                              ┌─────┐
+//!   ──┼─┼─┼─┼─┼── plane                           ╱│╲                             │  C  │
+//!     ▼ ▼ ▼ ▼ ▼                                  ╱─┼─╲ plane                      └─────┘
+//! ```
+
+use super::casters::Casters;
+use crate::camera::{Pinhole, Rig};
+use crate::passes::LightPlane;
+use crate::render::plane::{TILE, Window};
+use crate::scene::{Light, LightKind};
+use glam::{DMat3, DVec2, DVec3};
+
+/// Largest half angle of a cone on one plane, in radians: 75 degrees. A pixel on its rim is 15 times as large as on its
+/// axis.
+const WIDEST: f64 = 75.0 * std::f64::consts::PI / 180.0;
+/// Distance of the near plane of local lights, in diagonals of the scene; nothing nearer casts a shadow.
+const NEAR: f64 = 1e-6;
+/// Fewest and most pixels along a side of a light's plane, which is one region of the engine.
+const SIDES: [f64; 2] = [64.0, 2_000.0];
+/// What is added to each side of what is seen on a distant light's plane, in sides of that: covers the rounding of positions to
+/// 32 bits.
+const RIM: f64 = 1.0 / 256.0;
+
+/// A rectangle of a plane: its upper left and lower right corner, in pixels.
+pub(in crate::render) type Rectangle = [DVec2; 2];
+
+/// What is seen of a scene through a pinhole's plane. The planes of lights follow from the whole of it, so that all parts of an
+/// image, or runs of a list, see the same shadows to the bit.
+pub(in crate::render) struct Sight {
+    pub pinhole: Pinhole,
+    pub whole: Rectangle,
+    /// What is shaded at once.
+    pub part: Rectangle,
+    /// Pixels of the whole image, or locations of the whole list.
+    pub places: u64,
+    /// What positions on the device are relative to.
+    pub origin: DVec3,
+}
+
+/// A light's pinhole, the window of its plane that is sampled, and what receivers are told of it.
+pub(super) struct LightView {
+    pub pinhole: Pinhole,
+    pub window: Window,
+    pub plane: LightPlane,
+    /// The light's bit in the words of receivers.
+    pub bit: u32,
+}
+
+impl LightView {
+    /// Pixels along a side of a plane for so many pixels or locations. With some more on the plane than there are, tiles have short
+    /// lists.
+    pub fn side(places: u64) -> u32 {
+        let [fewest, most] = SIDES;
+        let side = (2.0 * places as f64).sqrt().clamp(fewest, most);
+        // Whole tiles.
+        (side as u32).next_multiple_of(8)
+    }
+}
+
+/// The pinholes of all lights that together see all that is seen. A scene without extent has none.
+pub(super) fn views(casters: &Casters, sight: &Sight) -> Vec<LightView> {
+    let Some(bounds) = casters.bounds else {
+        return Vec::new();
+    };
+    let side = LightView::side(sight.places);
+    let mut views = Vec::new();
+    for (bit, light) in (0..).zip(&casters.lights) {
+        let pinholes = pinholes(light, bounds, sight, side).unwrap_or_default();
+        let single = pinholes.len() == 1;
+        for (face, pinhole) in (0..).zip(pinholes) {
+            let begins = if views.is_empty() {
+                LightPlane::BEGINS
+            } else {
+                0
+            };
+            let parallel = pinhole.is_parallel();
+            let window = match parallel {
+                true => window_around(&pinhole, side, &sight.corners_within(sight.part, bounds)),
+                false => whole_window(side),
+            };
+            let middle = window.middle;
+            let to_plane = pinhole.pixel_matrix(sight.origin, DVec2::from_array(middle));
+            let place = if parallel {
+                -light.direction
+            } else {
+                light.position - sight.origin
+            };
+            let cosine = match light.kind {
+                LightKind::Spot { outer_angle, .. } => f64::from(outer_angle).cos(),
+                LightKind::Directional | LightKind::Point => -2.0,
+            };
+            views.push(LightView {
+                plane: LightPlane {
+                    to_plane: to_plane.as_mat4().to_cols_array(),
+                    light: place
+                        .extend(if parallel { 0.0 } else { 1.0 })
+                        .as_vec4()
+                        .to_array(),
+                    cone: light.direction.extend(cosine).as_vec4().to_array(),
+                    low: [0, 1].map(|axis| window.low[axis] as i32 - middle[axis] as i32),
+                    size: window.size(),
+                    range: light.range.unwrap_or(f32::INFINITY),
+                    step: bit | begins,
+                    face: if single { LightPlane::SINGLE } else { face },
+                },
+                pinhole,
+                window,
+                bit,
+            });
+        }
+    }
+    views
+}
+
+/// All of a plane.
+fn whole_window(side: u32) -> Window {
+    Window {
+        low: [0; 2],
+        tiles: [side / 8, side / 4],
+        middle: [0.5 * f64::from(side); 2],
+    }
+}
+
+/// The tiles of a plane around places of the world.
+fn window_around(pinhole: &Pinhole, side: u32, places: &[DVec3]) -> Window {
+    let on_plane = places.iter().filter_map(|place| pinhole.project(*place));
+    let nothing = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    let (low, high) = on_plane.fold(nothing, |(low, high), at| (low.min(at), high.max(at)));
+    // No part is smaller than what rounding may move what is seen by.
+    let rim = RIM * f64::from(side);
+    let whole = whole_window(side);
+    let tile = |at: DVec2, axis: usize| (at[axis] / TILE[axis] as f64).floor() as i64;
+    let last = whole.tiles.map(|tiles| i64::from(tiles) - 1);
+    let first = [0, 1].map(|axis| tile(low - rim, axis).clamp(0, last[axis]));
+    let end = [0, 1].map(|axis| tile(high + rim, axis).clamp(first[axis], last[axis]) + 1);
+    Window {
+        low: [0, 1].map(|axis| first[axis] * TILE[axis]),
+        tiles: [0, 1].map(|axis| (end[axis] - first[axis]) as u32),
+        ..whole
+    }
+}
+
+/// The pinholes of a light; nothing if these can't be, since the scene has no extent that 64 bits tell apart.
+fn pinholes(
+    light: &Light,
+    bounds: (DVec3, DVec3),
+    sight: &Sight,
+    side: u32,
+) -> Option<Vec<Pinhole>> {
+    match light.kind {
+        LightKind::Directional => Some(vec![distant(light.direction, bounds, sight, side)?]),
+        LightKind::Point | LightKind::Spot { .. } => local(light, bounds, side),
+    }
+}
+
+/// The pinhole of parallel light, with a plane of `side` pixels around what is seen and all of the scene behind it.
+fn distant(along: DVec3, (low, high): (DVec3, DVec3), sight: &Sight, side: u32) -> Option<Pinhole> {
+    let a = along.any_orthonormal_vector();
+    let b = along.cross(a);
+    let diagonal = (high - low).length();
+    // Relative to the scene, wherever it lies in the world.
+    let on_plane = |place: DVec3| DVec2::new((place - low).dot(a), (place - low).dot(b));
+    let places = sight.corners_within(sight.whole, (low, high));
+    let places = places.into_iter().map(on_plane);
+    let nothing = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    let (least, most) = places.fold(nothing, |(least, most), at| (least.min(at), most.max(at)));
+    let middle = 0.5 * (least + most);
+    let extent = (most - least).max_element().max(1e-6 * diagonal) * (1.0 + 2.0 * RIM);
+    let first = middle - 0.5 * extent;
+    // The box's nearest and farthest corners.
+    let size = high - low;
+    let nearest = (size * along).min(DVec3::ZERO).element_sum();
+    let farthest = (size * along).max(DVec3::ZERO).element_sum();
+    let margin = 1e-3 * diagonal;
+    let pixel = extent / f64::from(side);
+    let origin = low + a * first.x + b * first.y + along * (nearest - margin);
+    let depth = farthest - nearest + 2.0 * margin;
+    let to_light = (-along).extend(0.0);
+    Pinhole::new(to_light, origin, a * pixel, b * pixel, 0.0, Some(depth)).ok()
+}
+
+/// The pinholes of a local light: one for a cone that a plane of `side` pixels holds, otherwise a cube.
+fn local(light: &Light, (low, high): (DVec3, DVec3), side: u32) -> Option<Vec<Pinhole>> {
+    let (eye, axis) = (light.position, light.direction);
+    let near = NEAR * (high - low).length();
+    match light.kind {
+        LightKind::Spot { outer_angle, .. } if f64::from(outer_angle) <= WIDEST => {
+            let half = f64::from(outer_angle).tan();
+            let a = axis.any_orthonormal_vector();
+            let b = axis.cross(a);
+            let origin = eye + axis - (a + b) * half;
+            let pixel = 2.0 * half / f64::from(side);
+            let pinhole = Pinhole::new(eye.extend(1.0), origin, a * pixel, b * pixel, near, None);
+            Some(vec![pinhole.ok()?])
+        }
+        _ => Some(
+            Rig::cube(eye, DMat3::IDENTITY, side, near)
+                .ok()?
+                .pinholes()
+                .to_vec(),
+        ),
+    }
+}
+
+impl Sight {
+    /// Corners of the part of a box that is seen through a rectangle; those of the box where that is nothing.
+    fn corners_within(&self, seen: Rectangle, (low, high): (DVec3, DVec3)) -> Vec<DVec3> {
+        let [first, last] = seen;
+        let around = [
+            first,
+            DVec2::new(last.x, first.y),
+            last,
+            DVec2::new(first.x, last.y),
+        ];
+        let rays = around.map(|at| self.pinhole.ray(at));
+        let tips = rays.map(|ray| ray.start + ray.direction);
+        let middle = tips.iter().sum::<DVec3>() * 0.25;
+        // The sides of the pyramid or prism that the rays are the edges of, by a point and what points inwards.
+        let side = |i: usize| {
+            let normal = rays[i].direction.cross(tips[(i + 1) % 4] - tips[i]);
+            let inwards = normal * (middle - rays[i].start).dot(normal).signum();
+            (rays[i].start, inwards)
+        };
+        let sides = [0, 1, 2, 3].map(side);
+        let corner = |bits: usize| {
+            let pick = |axis: usize| {
+                if bits >> axis & 1 == 0 {
+                    low[axis]
+                } else {
+                    high[axis]
+                }
+            };
+            DVec3::new(pick(0), pick(1), pick(2))
+        };
+        let faces = [
+            [0, 1, 3, 2],
+            [4, 5, 7, 6],
+            [0, 1, 5, 4],
+            [2, 3, 7, 6],
+            [0, 2, 6, 4],
+            [1, 3, 7, 5],
+        ];
+        let mut corners = Vec::new();
+        for face in faces {
+            let whole: Vec<DVec3> = face.map(corner).to_vec();
+            corners.extend(
+                sides
+                    .iter()
+                    .fold(whole, |polygon, side| clip(&polygon, *side)),
+            );
+        }
+        let eye = self.pinhole.eye();
+        if !self.pinhole.is_parallel() && eye.cmpge(low).all() && eye.cmple(high).all() {
+            corners.push(eye);
+        }
+        if corners.is_empty() {
+            corners.extend((0..8).map(corner));
+        }
+        corners
+    }
+}
+
+/// The part of a convex polygon before a plane.
+fn clip(polygon: &[DVec3], (point, inwards): (DVec3, DVec3)) -> Vec<DVec3> {
+    let before = |place: DVec3| (place - point).dot(inwards);
+    let mut kept = Vec::with_capacity(polygon.len() + 1);
+    for (i, from) in polygon.iter().enumerate() {
+        let to = polygon[(i + 1) % polygon.len()];
+        let (a, b) = (before(*from), before(to));
+        if a >= 0.0 {
+            kept.push(*from);
+        }
+        if (a >= 0.0) != (b >= 0.0) {
+            kept.push(*from + (to - *from) * (a / (a - b)));
+        }
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sight(eye: DVec3, target: DVec3) -> Sight {
+        let size = [100, 50];
+        let pinhole = Pinhole::from_field_of_view(eye, target, DVec3::Y, 40.0, 0.01, size);
+        Sight {
+            pinhole: pinhole.unwrap(),
+            whole: [DVec2::ZERO, DVec2::new(100.0, 50.0)],
+            part: [DVec2::ZERO, DVec2::new(100.0, 50.0)],
+            places: 5000,
+            origin: DVec3::ZERO,
+        }
+    }
+
+    #[test]
+    fn a_distant_lights_plane_holds_all_that_is_seen() {
+        let bounds = (DVec3::new(-3.0, -1.0, -20.0), DVec3::new(4.0, 2.0, 1.0));
+        let mut state = 7_u64;
+        let mut random = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            (state >> 40) as f64 / f64::from(1 << 24)
+        };
+        let (mut held, mut in_part) = (0, 0);
+        for view in 0..50 {
+            let mut place =
+                || bounds.0 + (bounds.1 - bounds.0) * DVec3::new(random(), random(), random());
+            // Every other one looks from outside.
+            let (eye, target) = (place() * if view % 2 == 0 { 1.0 } else { 5.0 }, place());
+            let seen = sight(eye, target);
+            let along = (place() - target).normalize();
+            let pinhole = distant(along, bounds, &seen, 128).unwrap();
+            let part = [DVec2::new(10.0, 20.0), DVec2::new(30.0, 50.0)];
+            let window = window_around(&pinhole, 128, &seen.corners_within(part, bounds));
+            let [low, size] = [window.low.map(|v| v as f64), window.size().map(f64::from)];
+            let (low, size) = (DVec2::from_array(low), DVec2::from_array(size));
+            for _ in 0..200 {
+                let place =
+                    bounds.0 + (bounds.1 - bounds.0) * DVec3::new(random(), random(), random());
+                let is_seen = seen.pinhole.project(place).is_some_and(|at| {
+                    at.cmpge(DVec2::ZERO).all() && at.cmple(DVec2::new(100.0, 50.0)).all()
+                });
+                if is_seen {
+                    let at = pinhole.project(place).unwrap();
+                    assert!(
+                        at.min_element() > 0.0 && at.max_element() < 128.0,
+                        "{at} of {place}"
+                    );
+                    let seen_at = seen.pinhole.project(place).unwrap();
+                    if seen_at.cmpge(part[0]).all() && seen_at.cmple(part[1]).all() {
+                        assert!((at - low).min_element() > 0.0, "{at} {low}");
+                        assert!((low + size - at).min_element() > 0.0, "{at} {low} {size}");
+                        in_part += 1;
+                    }
+                    held += 1;
+                }
+            }
+        }
+        assert!(held > 500 && in_part > 50, "{held} {in_part}");
+    }
+
+    #[test]
+    fn a_plane_is_no_larger_than_what_is_seen() {
+        // A window of 2 x 1 at the distance 10 of a plane at right angles to the view, that light falls on head-on.
+        let bounds = (
+            DVec3::new(-100.0, -100.0, -10.0),
+            DVec3::new(100.0, 100.0, -10.0),
+        );
+        let seen = sight(DVec3::ZERO, DVec3::NEG_Z);
+        let pinhole = distant(DVec3::NEG_Z, bounds, &seen, 128).unwrap();
+        let width = 2.0 * 2.0 * 10.0 * 20.0_f64.to_radians().tan();
+        let found = pinhole.steps()[0].length() * 128.0;
+        assert!((found / width - 1.0).abs() < 0.01, "{found} {width}");
+    }
+}

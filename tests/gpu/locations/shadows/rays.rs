@@ -1,0 +1,98 @@
+//! Shadows against rays, among triangles anywhere.
+
+use glam::{DVec2, DVec3};
+use gpc::reference::shadow::{Receiver, Shining, is_in_shadow};
+use gpc::scene::{AlphaMode, Light, LightKind};
+
+use super::{SIZE, ask, light, lit, location, pinhole, spot};
+use crate::meshes::Random;
+use crate::stage::{Stage, on_gpu};
+
+/// What a light is to rays.
+fn shining(light: &Light, corners: &[[DVec3; 3]]) -> Shining {
+    let cosine = match light.kind {
+        LightKind::Directional => {
+            let (low, high) = corners
+                .iter()
+                .flatten()
+                .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), at| {
+                    (low.min(*at), high.max(*at))
+                });
+            return Shining::Distant {
+                to_light: -light.direction,
+                depth: ((high - low) * light.direction.abs()).element_sum(),
+            };
+        }
+        LightKind::Point => -2.0,
+        LightKind::Spot { outer_angle, .. } => f64::from(outer_angle).cos(),
+    };
+    Shining::Local {
+        position: light.position,
+        cone: (light.direction, cosine),
+        range: light.range.map_or(f64::INFINITY, f64::from),
+    }
+}
+
+#[test]
+fn places_lie_in_the_shadow_of_what_rays_meet() {
+    on_gpu(|gpu| {
+        let mut random = Random::new(41);
+        let mut fraction = || random.below(1 << 20) as f64 / f64::from(1 << 20);
+        let mut stage = Stage::new(vec![lit(AlphaMode::Opaque)]);
+        let mut corners: Vec<[DVec3; 3]> = Vec::new();
+        for _ in 0..200 {
+            let mut within =
+                |side: f64| DVec3::new(fraction() - 0.5, fraction() - 0.5, fraction() - 0.5) * side;
+            let middle = within(2.0) * DVec3::new(2.0, 1.0, 1.0) - DVec3::Z * 3.5;
+            let triangle = [(); 3].map(|()| (middle + within(1.2)).as_vec3());
+            stage.add(0, triangle.map(|corner| corner.to_array()));
+            corners.push(triangle.map(|corner| corner.as_dvec3()));
+        }
+        let down = DVec3::new(0.3, -1.0, -0.2);
+        let above = DVec3::new(0.4, 2.5, -3.0);
+        let among = DVec3::new(0.1, 0.2, -3.4);
+        let lights = [
+            light(LightKind::Directional, DVec3::ZERO, down),
+            light(LightKind::Point, among, DVec3::NEG_Y),
+            light(spot(30.0), above, DVec3::NEG_Y),
+            Light {
+                range: Some(2.8),
+                ..light(spot(85.0), above, down)
+            },
+        ];
+        let pinhole = pinhole(SIZE);
+        let size = SIZE.map(f64::from);
+        let locations: Vec<_> = (0..60_000)
+            .map(|_| location([fraction() * size[0], fraction() * size[1]], 0))
+            .collect();
+        let seen = ask(gpu, &stage, &lights, &locations);
+        let mut found = [[0; 2]; 4];
+        for (location, seen) in locations.iter().zip(&seen) {
+            let Some(triangle) = (seen.id as usize).checked_sub(1) else {
+                continue;
+            };
+            let ray = pinhole.ray(DVec2::from_array(location.uv));
+            let [a, b, c] = corners[triangle];
+            let normal = (b - a).cross(c - a);
+            let distance = normal.dot(a - ray.start) / normal.dot(ray.direction);
+            let receiver = Receiver {
+                triangle,
+                position: ray.start + ray.direction * distance,
+                eye: ray.start,
+            };
+            for (bit, light) in lights.iter().enumerate() {
+                let shining = shining(light, &corners);
+                let Some(expected) = is_in_shadow(&corners, &receiver, &shining, 1e-4) else {
+                    continue;
+                };
+                let hidden = seen.shadows >> bit & 1;
+                assert_eq!(hidden, u32::from(expected), "{light:?} at {receiver:?}");
+                found[bit][hidden as usize] += 1;
+            }
+        }
+        assert!(
+            found.iter().flatten().all(|count| *count > 400),
+            "{found:?}"
+        );
+    });
+}
