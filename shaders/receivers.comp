@@ -2,7 +2,7 @@
 // Sources: PIXELS (what the centres of a region's pixels see) or the visibility samples of a round. Only opaque and MASK
 // triangles receive shadows. What the light does not reach, or another plane of a light with several is asked for, is left out:
 // it gets a pixel off the plane. A surface whose triangle turns the light the side that is not seen lies in the shadow of itself.
-// Reads: ids or records, the geometry. Writes: a location each, and a word of `include/shadows.glsl`. Twin: `gpc::reference::receivers`.
+// Reads: ids or records, the geometry. Writes: a location each, and a word of `include/shadows.glsl`. Twin, with what hides them: `gpc::reference::shadow`.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"

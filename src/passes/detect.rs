@@ -19,37 +19,44 @@ pub enum DetectMode {
     Every,
 }
 
+/// What a [`Detect`] is made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DetectOptions {
+    /// What makes a superpixel.
+    pub mode: DetectMode,
+    /// Whether the nearest BLEND triangles are compared too.
+    pub blend_ids: bool,
+    /// Whether pixels that [`Thin`](super::Thin) marked are superpixels too.
+    pub thin: bool,
+    /// Whether alpha is compared too.
+    pub transparent: bool,
+    /// Whether the IDs of a multisampled raster are read, for [`DetectMode::Blended`].
+    pub multisampled: bool,
+    /// Words of each place that say which lights reach it; these are compared as triangles are.
+    pub shadow_words: u32,
+    /// Pixels around the region's own that become superpixels too, for [`Grow`](super::Grow).
+    pub beyond: u32,
+}
+
 /// Writes the mask of superpixels.
 pub struct Detect {
     pipeline: Arc<Pipeline>,
 }
 
 impl Detect {
-    /// Makes the pipeline; `blend_ids` compares the nearest BLEND triangles too, `thin` adds what
-    /// [`Thin`](super::Thin) marked, `transparent` compares alpha too, `multisampled` reads the IDs of a multisampled raster (for
-    /// [`DetectMode::Blended`]), places have so many words of shadows, pixels `beyond` the region's own become superpixels
-    /// too, for [`Grow`](super::Grow).
+    /// Makes the pipeline.
     ///
     /// # Errors
     /// If the driver refuses it.
-    pub fn new(
-        layout: &FrameLayout,
-        mode: DetectMode,
-        blend_ids: bool,
-        thin: bool,
-        transparent: bool,
-        multisampled: bool,
-        shadow_words: u32,
-        beyond: u32,
-    ) -> Result<Self, VulkanError> {
+    pub fn new(layout: &FrameLayout, options: &DetectOptions) -> Result<Self, VulkanError> {
         let constants = Constants::new()
-            .with(0, mode as u32)
-            .flag(1, blend_ids)
-            .flag(2, thin)
-            .flag(3, transparent)
-            .with(4, beyond)
-            .with(25, shadow_words);
-        let code = if multisampled {
+            .with(0, options.mode as u32)
+            .flag(1, options.blend_ids)
+            .flag(2, options.thin)
+            .flag(3, options.transparent)
+            .with(4, options.beyond)
+            .with(25, options.shadow_words);
+        let code = if options.multisampled {
             spirv::DETECT_MULTISAMPLED
         } else {
             spirv::DETECT

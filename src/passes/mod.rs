@@ -90,7 +90,7 @@ pub(crate) use coordinates::Coordinates;
 pub(crate) use counters::STRETCH;
 pub use counters::{Argument, Counter};
 pub use cull::Cull;
-pub use detect::{Detect, DetectMode};
+pub use detect::{Detect, DetectMode, DetectOptions};
 pub use distribute::{Distribute, ListLength, ListRegion};
 pub(crate) use draws::{Draws, HostDraw};
 pub use encode::{Encode, Encoding};

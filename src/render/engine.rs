@@ -3,8 +3,9 @@
 use super::plan::Plan;
 use super::{Coverage, Detection, RenderError, Settings, Shading};
 use crate::passes::{
-    Bin, Cells, Content, Cull, Detect, DetectMode, FrameLayout, FrameUniform, Grow, RecordRate,
-    Resolve, Resources, Sample, SampleOptions, SampleSet, Schedule, Setup, Sort, Then, Thin,
+    Bin, Cells, Content, Cull, Detect, DetectMode, DetectOptions, FrameLayout, FrameUniform, Grow,
+    RecordRate, Resolve, Resources, Sample, SampleOptions, SampleSet, Schedule, Setup, Sort, Then,
+    Thin,
 };
 use crate::sampling::Pattern;
 use crate::vulkan::{Buffer, Constants, Recorder};
@@ -100,20 +101,19 @@ impl Engine {
                 .then(|| Thin::new(layout, scene, blend_ids, kind.farther_is_larger))
         };
         let detect = || {
-            Detect::new(
-                layout,
-                kind.mode,
+            let options = DetectOptions {
+                mode: kind.mode,
                 blend_ids,
-                kind.thin,
-                settings.background.is_none(),
-                kind.multisampled,
-                if kind.mode == DetectMode::Blended {
-                    0
-                } else {
-                    plan.sizes.shadow_words
+                thin: kind.thin,
+                transparent: settings.background.is_none(),
+                multisampled: kind.multisampled,
+                shadow_words: match kind.mode {
+                    DetectMode::Blended => 0,
+                    _ => plan.sizes.shadow_words,
                 },
-                kind.growths,
-            )
+                beyond: kind.growths,
+            };
+            Detect::new(layout, &options)
         };
         let (sample, others) = std::thread::scope(|scope| {
             let sample = scope.spawn(|| Sample::new(layout, scene, &options));

@@ -47,7 +47,7 @@ impl Window {
     }
 
     /// From the space of a scene's geometry to clip space around its middle.
-    pub fn to_clip(&self, scene: &GpuScene, pinhole: &Pinhole) -> DMat4 {
+    pub fn to_clip(self, scene: &GpuScene, pinhole: &Pinhole) -> DMat4 {
         pinhole.pixel_matrix(scene.origin(), DVec2::from_array(self.middle))
     }
 

@@ -44,13 +44,6 @@ pub struct PointSample {
     pub shadows: u32,
 }
 
-/// What is asked of the engine.
-#[derive(Clone, Copy)]
-struct Task<'a> {
-    scene: &'a PreparedScene,
-    pinhole: &'a Pinhole,
-}
-
 /// What a run of locations saw.
 struct Run<'a> {
     /// Its locations, as places in the order of the partition.
@@ -81,9 +74,8 @@ impl Headless {
         settings: &Settings,
     ) -> Result<Sampled<PointSample>, RenderError> {
         let partition = Partition::new(locations, Cells::Points)?;
-        let task = Task { scene, pinhole };
         let mut values: Vec<PointSample> = Vec::with_capacity(locations.len());
-        let statistics = self.run_locations(&partition, task, settings, |run| {
+        let statistics = self.run_locations(&partition, (scene, pinhole), settings, |run| {
             partition.put(&run.places, &mut values, |i| {
                 let [[depth, id, blend_id, code], normal] = run.seen.attributes[i];
                 let [x, y, z, _] = normal.map(f32::from_bits);
@@ -119,9 +111,8 @@ impl Headless {
     ) -> Result<Sampled<[f32; 4]>, RenderError> {
         let settings = &settings.with_shadowed_samples();
         let partition = Partition::new(locations, Cells::Superpixels)?;
-        let task = Task { scene, pinhole };
         let mut values: Vec<[f32; 4]> = Vec::with_capacity(locations.len());
-        let statistics = self.run_locations(&partition, task, settings, |run| {
+        let statistics = self.run_locations(&partition, (scene, pinhole), settings, |run| {
             partition.put(&run.places, &mut values, |i| run.seen.colors[i]);
         })?;
         Ok(Sampled { values, statistics })
@@ -131,11 +122,10 @@ impl Headless {
     fn run_locations(
         &mut self,
         partition: &Partition<'_>,
-        task: Task<'_>,
+        (scene, pinhole): (&PreparedScene, &Pinhole),
         settings: &Settings,
         mut take: impl FnMut(&Run<'_>),
     ) -> Result<Statistics, RenderError> {
-        let Task { scene, pinhole } = task;
         self.check(&scene.gpu_scene)?;
         let layout = self.renderer.layout.clone();
         let plan = LocationPlan::new(&layout, scene, settings, partition, self.may_stop())?;

@@ -1,4 +1,4 @@
-//! The triangles of a scene as the host needs them, to look for thin ones and to know where locations see them.
+//! The triangles of a scene as the host needs them, to look for thin ones.
 
 use crate::scene::{DrawClass, Geometry, VertexStreams};
 use glam::DVec3;

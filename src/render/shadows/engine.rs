@@ -7,7 +7,7 @@ use crate::passes::{
     RasterTargets, Receivers, Receiving, ResourceSizes, Resources, SampleSet, Shade, ShadeSource,
     Shadow,
 };
-use crate::render::frame::recording::SceneShading;
+use crate::render::engine::RecordShading;
 use crate::render::list::{ListEngine, ListKind};
 use crate::render::plan::Capacity;
 use crate::render::statistics::Shortfall;
@@ -41,6 +41,21 @@ pub(in crate::render) struct Shadowed<'a> {
     pub pixels: u32,
     /// Nothing where that is impossible.
     pub sight: Option<&'a Sight>,
+}
+
+/// Shades casters for their opacities.
+struct Opacities<'a> {
+    scene: &'a GpuScene,
+    /// Nothing where all are opaque.
+    shade: Option<&'a Shade>,
+}
+
+impl RecordShading for Opacities<'_> {
+    fn record(&self, recorder: &mut Recorder<'_>, resources: &Resources) {
+        if let Some(shade) = self.shade {
+            shade.record(recorder, self.scene, &resources.arguments);
+        }
+    }
 }
 
 /// The kind of list that casters are sampled by.
@@ -216,10 +231,9 @@ impl ShadowEngine {
             recorder.barrier();
             return;
         }
-        let opacities = SceneShading {
+        let opacities = Opacities {
             scene,
             shade: self.shade.as_ref(),
-            shadows: None,
         };
         for view in views {
             let (pinhole, window) = (&view.pinhole, &view.window);
