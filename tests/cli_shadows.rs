@@ -88,6 +88,31 @@ fn a_triangle_casts_its_shadow() {
 }
 
 #[test]
+fn a_region_has_the_shadows_of_the_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene(folder.path());
+    let render = |name: &str, options: &[&str]| {
+        let shadows = ["--shadows", "exact"];
+        let command = [
+            &["render", &scene, "-o", name],
+            &VIEW[..],
+            &shadows,
+            options,
+        ]
+        .concat();
+        gpc(folder.path(), &command).ok();
+        let bytes = std::fs::read(folder.path().join(name)).unwrap();
+        decode_linear(&bytes, name).unwrap().1
+    };
+    let whole = render("whole.exr", &[]);
+    let part = render("part.exr", &["--region", "30,25,40x20"]);
+    for (row, colors) in part.chunks_exact(40).enumerate() {
+        let first = (25 + row) * SIZE[0] + 30;
+        assert_eq!(colors, &whole[first..first + 40], "row {row}");
+    }
+}
+
+#[test]
 fn other_commands_cast_shadows_and_what_can_not_says_so() {
     let folder = tempfile::tempdir().unwrap();
     let scene = scene(folder.path());
