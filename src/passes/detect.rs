@@ -1,6 +1,6 @@
 //! detect: which pixels are superpixels.
 
-use super::{FrameLayout, spirv};
+use super::{FrameLayout, shadow_words, spirv};
 use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
@@ -54,8 +54,8 @@ impl Detect {
             .flag(1, options.blend_ids)
             .flag(2, options.thin)
             .flag(3, options.transparent)
-            .with(4, options.beyond)
-            .with(25, options.shadow_words);
+            .with(4, options.beyond);
+        let constants = shadow_words::constants(constants, options.shadow_words);
         let code = if options.multisampled {
             spirv::DETECT_MULTISAMPLED
         } else {

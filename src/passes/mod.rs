@@ -12,13 +12,15 @@
 //! Every pass records into a caller's command buffer and reads what the pass before left on the device. They share the
 //! geometry (`geometry/`) and what else the scene has (`scene/`), the memory that they hand to each other (`resources/`),
 //! the layout of descriptors (`layout.rs`) and the twins of what shaders include (`frame.rs`, `counters.rs`, `locations.rs`,
-//! `draws.rs`, `triangle_word.rs`, `alpha_flags.rs`).
+//! `draws.rs`, `triangle_word.rs`, `alpha_flags.rs`, `shadow_words.rs`).
 
 mod adopt;
 pub(crate) mod alpha_flags;
 mod alpha_map;
 mod arguments;
 mod attributes;
+#[cfg(feature = "gltf")]
+mod beside_frame;
 mod bin;
 mod box_filter;
 mod centres;
@@ -62,6 +64,7 @@ mod setup;
 mod shade;
 #[cfg(feature = "gltf")]
 mod shadow;
+mod shadow_words;
 mod sort;
 mod spans;
 #[cfg(feature = "gltf")]

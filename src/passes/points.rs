@@ -1,6 +1,6 @@
 //! points: colour and attributes of locations that are sampled once.
 
-use super::{Argument, Cells, Content, FrameLayout, spirv};
+use super::{Argument, Cells, Content, FrameLayout, shadow_words, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
@@ -19,10 +19,10 @@ impl Points {
         layout: &FrameLayout,
         scene: &dyn Content,
         output: &Constants,
-        (attributes, shadow_words): (bool, u32),
+        (attributes, words): (bool, u32),
     ) -> Result<Self, VulkanError> {
         let constants = Cells::Points.constants(scene.constants(output.clone()));
-        let constants = constants.flag(2, attributes).with(25, shadow_words);
+        let constants = shadow_words::constants(constants, words).flag(2, attributes);
         Ok(Self {
             pipeline: layout.compute(spirv::POINTS, &constants, None)?,
         })

@@ -1,8 +1,11 @@
 //! receivers: where the surfaces that are about to be shaded appear on the plane of a light.
 
-use super::own_layout::{OwnSet, PipelineLayout, SetLayout, whole};
-use super::{Argument, Cells, FrameLayout, GpuScene, Resources, SampleSet, spirv};
-use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+use super::beside_frame::BesideFrame;
+use super::own_layout::whole;
+use super::{
+    Argument, Cells, Content, FrameLayout, GpuScene, Resources, SampleSet, shadow_words, spirv,
+};
+use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
 /// The plane of a light as the pass is told of it; `shaders/receivers.comp` says what the fields are.
@@ -40,9 +43,7 @@ pub enum Receiving {
 pub struct Receivers {
     of_pixels: Arc<Pipeline>,
     of_records: Arc<Pipeline>,
-    layout: PipelineLayout,
-    set: OwnSet,
-    _set_layout: SetLayout,
+    beside: BesideFrame<LightPlane>,
 }
 
 impl Receivers {
@@ -58,35 +59,19 @@ impl Receivers {
         resources: &Resources,
         locations: &Buffer,
     ) -> Result<Self, VulkanError> {
-        use super::Content;
-        let gpu = &layout.gpu;
-        let kinds = [ash::vk::DescriptorType::STORAGE_BUFFER; 2];
-        let set_layout = SetLayout::new(gpu, &kinds)?;
-        let sets = [layout.frame_set, set_layout.raw];
-        let own_layout = PipelineLayout::new(gpu, &sets, size_of::<LightPlane>() as u32)?;
+        let shown = [whole(locations), whole(&resources.shadow_words.buffer)];
+        // SAFETY: both buffers go with the frame that this is of.
+        let beside = unsafe { BesideFrame::new(layout, &shown) }?;
+        let words = resources.sizes().shadow_words;
         let pipeline = |pixels: bool| {
             let constants = cells.constants(scene.constants(Constants::new()));
-            let constants = constants
-                .flag(0, pixels)
-                .with(25, resources.sizes().shadow_words);
-            // Layouts that are made alike are one and the same to pipelines.
-            layout.cached(spirv::RECEIVERS, &constants, 0, || {
-                compute_pipeline(gpu, own_layout.raw, spirv::RECEIVERS, &constants, None)
-            })
+            let constants = shadow_words::constants(constants, words).flag(0, pixels);
+            beside.pipeline(layout, spirv::RECEIVERS, &constants)
         };
-        let (of_pixels, of_records) = (pipeline(true)?, pipeline(false)?);
-        let set = set_layout.allocate()?;
-        // SAFETY: the set is new, and both buffers go with the frame that this is of.
-        unsafe {
-            let buffers = [whole(locations), whole(&resources.shadow_words.buffer)];
-            set.write_buffers(0, &buffers);
-        }
         Ok(Self {
-            of_pixels,
-            of_records,
-            layout: own_layout,
-            set,
-            _set_layout: set_layout,
+            of_pixels: pipeline(true)?,
+            of_records: pipeline(false)?,
+            beside,
         })
     }
 
@@ -98,8 +83,7 @@ impl Receivers {
         receiving: Receiving,
         plane: &LightPlane,
     ) {
-        let sets = [set.descriptor(), self.set.raw];
-        self.layout.bind(recorder, &sets, plane);
+        self.beside.bind(recorder, set, plane);
         match receiving {
             Receiving::Pixels(count) => {
                 recorder.dispatch(&self.of_pixels, u64::from(count.div_ceil(64)));

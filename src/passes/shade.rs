@@ -1,7 +1,7 @@
 //! shade: the radiance of what is seen, one dispatch a material bin.
 
 use super::scene::ShadeFeatures;
-use super::{Argument, Cells, Content, FrameLayout, GpuScene, spirv};
+use super::{Argument, Cells, Content, FrameLayout, GpuScene, shadow_words, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::collections::HashMap;
@@ -32,15 +32,15 @@ pub struct Shade {
 }
 
 impl Shade {
-    /// Makes a pipeline for each set of features in the scene; places have so many words of shadows, `output` are the colour constants of
-    /// `shaders/include/color.glsl`.
+    /// Makes a pipeline for each set of features in the scene; places have so many words of shadows, and `output` are the colour
+    /// constants of `shaders/include/color.glsl`.
     ///
     /// # Errors
     /// If the driver refuses one.
     pub fn new(
         layout: &Arc<FrameLayout>,
         scene: &GpuScene,
-        (source, shadow_words): (ShadeSource, u32),
+        (source, words): (ShadeSource, u32),
         output: &Constants,
     ) -> Result<Self, VulkanError> {
         let lights = scene.light_features();
@@ -62,8 +62,8 @@ impl Shade {
             .flag(10, lights.count > 0)
             .flag(11, lights.local)
             .flag(12, !pixels && scene.has_blend())
-            .with(25, shadow_words)
             .flag(17, scene.has_environment());
+        let common = shadow_words::constants(common, words);
         let mut known: HashMap<ShadeFeatures, usize> = HashMap::new();
         let mut pipelines = Vec::new();
         let mut bins = Vec::new();

@@ -1,11 +1,10 @@
 //! shadow: which receivers of light another triangle was found before.
 
 use super::arguments::{After, Arguments};
-use super::own_layout::{OwnSet, PipelineLayout, SetLayout, whole};
-use super::{Argument, Cells, FrameLayout, Resources, SampleSet, spirv};
-use crate::vulkan::{
-    Buffer, Constants, Memory, MemoryUse, Pipeline, Recorder, VulkanError, compute_pipeline,
-};
+use super::beside_frame::BesideFrame;
+use super::own_layout::whole;
+use super::{Argument, Cells, FrameLayout, Resources, SampleSet, shadow_words, spirv};
+use crate::vulkan::{Buffer, Constants, Memory, MemoryUse, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -25,9 +24,7 @@ const LEFT_WORDS: usize = 2;
 pub struct Shadow {
     arguments: Arguments,
     pipeline: Arc<Pipeline>,
-    layout: PipelineLayout,
-    set: OwnSet,
-    _set_layout: SetLayout,
+    beside: BesideFrame<Push>,
     left: Buffer,
     kept: Buffer,
 }
@@ -42,30 +39,21 @@ impl Shadow {
         memory: &Memory,
         receivers: &Resources,
     ) -> Result<Self, VulkanError> {
-        let gpu = &layout.gpu;
-        let kinds = [vk::DescriptorType::STORAGE_BUFFER; 2];
-        let set_layout = SetLayout::new(gpu, &kinds)?;
-        let sets = [layout.frame_set, set_layout.raw];
-        let own_layout = PipelineLayout::new(gpu, &sets, size_of::<Push>() as u32)?;
-        let words = receivers.sizes().shadow_words;
-        let constants = Cells::Occluders.constants(Constants::new()).with(25, words);
-        let pipeline = layout.cached(spirv::SHADOW, &constants, 0, || {
-            compute_pipeline(gpu, own_layout.raw, spirv::SHADOW, &constants, None)
-        })?;
         let words = |name, usage, place| memory.buffer(name, 4 * LEFT_WORDS as u64, usage, place);
         let transfer = vk::BufferUsageFlags::TRANSFER_DST;
         let storage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_SRC;
         let left = words("shadows left", storage | transfer, MemoryUse::Device)?;
         let kept = words("shadows left, read back", transfer, MemoryUse::Readback)?;
-        let set = set_layout.allocate()?;
-        // SAFETY: the set is new, and both buffers go with the frame that this is of.
-        unsafe { set.write_buffers(0, &[whole(&receivers.shadow_words.buffer), whole(&left)]) };
+        let shown = [whole(&receivers.shadow_words.buffer), whole(&left)];
+        // SAFETY: both buffers go with the frame that this is of.
+        let beside = unsafe { BesideFrame::new(layout, &shown) }?;
+        let constants = Cells::Occluders.constants(Constants::new());
+        let constants = shadow_words::constants(constants, receivers.sizes().shadow_words);
+        let pipeline = beside.pipeline(layout, spirv::SHADOW, &constants)?;
         Ok(Self {
             arguments: Arguments::new(layout, After::Sample)?,
             pipeline,
-            layout: own_layout,
-            set,
-            _set_layout: set_layout,
+            beside,
             left,
             kept,
         })
@@ -121,7 +109,6 @@ impl Shadow {
             light,
             ends,
         };
-        let sets = [set.descriptor(), self.set.raw];
-        self.layout.bind(recorder, &sets, &push);
+        self.beside.bind(recorder, set, &push);
     }
 }

@@ -25,6 +25,8 @@ mod settings;
 #[cfg(feature = "gltf")]
 mod shadows;
 pub(crate) mod statistics;
+#[cfg(feature = "gltf")]
+mod uniform;
 
 pub use error::RenderError;
 #[cfg(feature = "gltf")]

@@ -2,8 +2,9 @@
 
 use super::Settings;
 use super::footprint::Footprints;
+use super::uniform::{Looking, uniform};
 use crate::camera::Pinhole;
-use crate::passes::{Cells, Content, FrameUniform, GpuScene, ListRegion, ResourceSizes};
+use crate::passes::{Cells, FrameUniform, GpuScene, ListRegion, ResourceSizes};
 use glam::{DMat4, DVec2};
 
 /// Pixels of a tile.
@@ -60,38 +61,23 @@ impl Window {
         (cells, samples): (Cells, u32),
         sizes: &ResourceSizes,
     ) -> FrameUniform {
-        let eye = (pinhole.eye() - scene.origin()).as_vec3();
         // Parallel rays need not be at right angles to the plane.
-        let direction = pinhole
-            .parallel_direction()
-            .map_or(pinhole.direction(), |to_centre| -to_centre)
-            .as_vec3();
-        let parallel = if pinhole.is_parallel() { 1.0 } else { 0.0 };
+        let looking = Looking {
+            eye: pinhole.eye(),
+            direction: pinhole
+                .parallel_direction()
+                .map_or(pinhole.direction(), |to_centre| -to_centre),
+            is_parallel: pinhole.is_parallel(),
+        };
         let footprints = Footprints::new(settings, if cells.are_points() { 1 } else { samples });
         let to_clip = self.to_clip(scene, pinhole);
         FrameUniform {
             transform: to_clip.as_mat4().to_cols_array(),
-            eye: [eye.x, eye.y, eye.z, 1.0],
-            view_direction: [direction.x, direction.y, direction.z, parallel],
-            irradiance: scene.environment().irradiance,
-            environment: scene.environment().axes,
-            background: settings.background_rgba(),
             origin: [0, 1].map(|axis| (self.low[axis] as f64 + 0.5 - self.middle[axis]) as f32),
             size: self.size(),
             tiles: self.tiles,
-            triangle_count: scene.index_count(),
-            first_mask: scene.first_mask(),
-            first_blend: scene.first_blend(),
-            sample_count: samples,
-            bin_count: scene.bin_count(),
-            light_count: scene.light_features().count,
-            material_vectors: scene.material_vectors(),
-            exposure: settings.exposure.exp2(),
-            footprint: footprints.centre,
-            place_footprint: footprints.place,
-            sample_footprint: footprints.sample,
             side: 1,
-            ..FrameUniform::with_room(sizes)
+            ..uniform(scene, settings, &looking, (samples, &footprints), sizes)
         }
     }
 }

@@ -11,7 +11,7 @@ use crate::render::Settings;
 use crate::render::color::display_code;
 use crate::render::engine::{Growing, RecordShading, Work, record_shading};
 use crate::render::plan::{Plan, Region};
-use crate::render::shadows::{ShadowEngine, Shadowed, Sight};
+use crate::render::shadows::{LightView, ShadowEngine, Shadowed, Sight};
 use crate::scene::Moment;
 use crate::vulkan::{Buffer, Recorder};
 use glam::DVec2;
@@ -110,17 +110,18 @@ impl Recording<'_> {
         }
     }
 
-    /// What is seen of the scene in a region.
-    fn sight(&self, region: &Region) -> Option<Sight> {
+    /// How lights see what is seen of the scene in a region: not at all without shadows, or where the camera is impossible.
+    fn light_views(&self, region: &Region) -> Option<Vec<LightView>> {
         let place = |pixels: [u32; 2]| DVec2::from_array(pixels.map(f64::from));
         let low = place(region.corner());
-        Some(Sight {
+        let shadows = self.shadows?;
+        Some(shadows.views(&Sight {
             pinhole: Pinhole::from_camera(self.camera, self.settings.size).ok()?,
             whole: [DVec2::ZERO, place(self.settings.size)],
             part: [low, low + place(region.outer())],
             places: self.settings.drawn_pixels(),
             origin: self.scene.origin(),
-        })
+        }))
     }
 
     fn record_region(&self, recorder: &mut Recorder<'_>, index: usize, region: &Region) {
@@ -144,12 +145,12 @@ impl Recording<'_> {
             tiles,
             rounds: self.plan.rounds,
         };
-        let sight = self.sight(region);
+        let views = self.light_views(region).unwrap_or_default();
         let shadowed = |set| Shadowed {
             resources,
             set,
             pixels,
-            sight: sight.as_ref(),
+            views: &views,
         };
         let shading_of = |set| SceneShading {
             scene,

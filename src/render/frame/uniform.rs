@@ -2,10 +2,11 @@
 
 use super::recording::Recording;
 use crate::camera::{Camera, Projection};
-use crate::passes::{Content, FrameUniform, GpuScene};
+use crate::passes::{FrameUniform, GpuScene};
 use crate::render::Settings;
 use crate::render::footprint::Footprints;
 use crate::render::plan::Region;
+use crate::render::uniform::{Looking, uniform};
 use glam::DMat4;
 
 impl Recording<'_> {
@@ -31,19 +32,16 @@ impl Recording<'_> {
         } else {
             ([0, 0], [width, height])
         };
-        let eye = (camera.eye - scene.origin()).as_vec3();
-        let direction = camera.direction().as_vec3();
-        let parallel = if camera.is_orthographic() { 1.0 } else { 0.0 };
+        let looking = Looking {
+            eye: camera.eye,
+            direction: camera.direction(),
+            is_parallel: camera.is_orthographic(),
+        };
         let footprints = Footprints::new(self.settings, samples);
         FrameUniform {
             transform: to_clip(scene, camera, self.settings)
                 .as_mat4()
                 .to_cols_array(),
-            eye: [eye.x, eye.y, eye.z, 1.0],
-            view_direction: [direction.x, direction.y, direction.z, parallel],
-            irradiance: scene.environment().irradiance,
-            environment: scene.environment().axes,
-            background: self.settings.background_rgba(),
             raster_scale: to_device.map(|scale| scale as f32),
             raster_offset: [0, 1].map(|axis| (-left_top[axis] * to_device[axis] - 1.0) as f32),
             origin: left_top.map(|position| (position + 0.5) as f32),
@@ -52,22 +50,17 @@ impl Recording<'_> {
             interior_low,
             interior_high,
             gap: gap(camera, image_height),
-            triangle_count: scene.index_count(),
-            first_mask: scene.first_mask(),
-            first_blend: scene.first_blend(),
-            sample_count: samples,
-            bin_count: scene.bin_count(),
-            light_count: scene.light_features().count,
-            material_vectors: scene.material_vectors(),
             contrast: u32::from(self.settings.contrast),
             alike: u32::from(self.settings.contrast),
-            exposure: self.settings.exposure.exp2(),
-            footprint: footprints.centre,
-            place_footprint: footprints.place,
-            sample_footprint: footprints.sample,
             side,
             reach: 0.5,
-            ..FrameUniform::with_room(&self.plan.sizes)
+            ..uniform(
+                scene,
+                self.settings,
+                &looking,
+                (samples, &footprints),
+                &self.plan.sizes,
+            )
         }
     }
 }

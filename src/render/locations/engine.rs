@@ -218,11 +218,13 @@ impl LocationEngine {
         let region = window.region(count);
         let engine = &self.engine;
         engine.record_candidates(recorder, (resources, set), &region, ListLength::Known);
+        let views = self.shadows.as_ref().map(|shadows| shadows.views(sight));
+        let views = views.unwrap_or_default();
         let shadowed = Shadowed {
             resources,
             set,
             pixels: 0,
-            sight: Some(sight),
+            views: &views,
         };
         let shading = SceneShading {
             scene,

@@ -39,8 +39,8 @@ pub(in crate::render) struct Shadowed<'a> {
     pub set: &'a SampleSet,
     /// Pixels of the region of an image; 0 for a list of locations.
     pub pixels: u32,
-    /// Nothing where that is impossible.
-    pub sight: Option<&'a Sight>,
+    /// How lights see it.
+    pub views: &'a [LightView],
 }
 
 /// Shades casters for their opacities.
@@ -185,6 +185,11 @@ impl ShadowEngine {
         self.targets.record_unused(recorder);
     }
 
+    /// How lights see what is seen.
+    pub fn views(&self, sight: &Sight) -> Vec<LightView> {
+        views(&self.casters, sight)
+    }
+
     /// Records what begins a frame or run.
     pub fn record_begin(&self, recorder: &Recorder<'_>) {
         self.shadow.record_begin(recorder);
@@ -208,7 +213,7 @@ impl ShadowEngine {
             resources: shading,
             set: shading_set,
             pixels,
-            sight,
+            views,
         }: Shadowed<'_>,
         receiving: Receiving,
     ) {
@@ -224,8 +229,6 @@ impl ShadowEngine {
             }
         };
         let kind = (Cells::Occluders, self.engine.options().samples);
-        let views = sight.map(|sight| views(&self.casters, sight));
-        let views = views.unwrap_or_default();
         if views.is_empty() {
             recorder.clear(&shading.shadow_words.buffer);
             recorder.barrier();

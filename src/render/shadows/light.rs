@@ -43,12 +43,12 @@ pub(in crate::render) struct Sight {
 }
 
 /// A light's pinhole, the window of its plane that is sampled, and what receivers are told of it.
-pub(super) struct LightView {
-    pub pinhole: Pinhole,
-    pub window: Window,
-    pub plane: LightPlane,
+pub(in crate::render) struct LightView {
+    pub(super) pinhole: Pinhole,
+    pub(super) window: Window,
+    pub(super) plane: LightPlane,
     /// The light's bit in the words of receivers.
-    pub bit: u32,
+    pub(super) bit: u32,
 }
 
 impl LightView {
@@ -117,6 +117,12 @@ pub(super) fn views(casters: &Casters, sight: &Sight) -> Vec<LightView> {
     views
 }
 
+/// The rectangle around places of a plane.
+fn around(places: impl Iterator<Item = DVec2>) -> Rectangle {
+    let nothing = [DVec2::INFINITY, DVec2::NEG_INFINITY];
+    places.fold(nothing, |[low, high], at| [low.min(at), high.max(at)])
+}
+
 /// All of a plane.
 fn whole_window(side: u32) -> Window {
     Window {
@@ -128,9 +134,7 @@ fn whole_window(side: u32) -> Window {
 
 /// The tiles of a plane around places of the world.
 fn window_around(pinhole: &Pinhole, side: u32, places: &[DVec3]) -> Window {
-    let on_plane = places.iter().filter_map(|place| pinhole.project(*place));
-    let nothing = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    let (low, high) = on_plane.fold(nothing, |(low, high), at| (low.min(at), high.max(at)));
+    let [low, high] = around(places.iter().filter_map(|place| pinhole.project(*place)));
     // No part is smaller than what rounding may move what is seen by.
     let rim = RIM * f64::from(side);
     let whole = whole_window(side);
@@ -166,9 +170,7 @@ fn distant(along: DVec3, (low, high): (DVec3, DVec3), sight: &Sight, side: u32) 
     // Relative to the scene, wherever it lies in the world.
     let on_plane = |place: DVec3| DVec2::new((place - low).dot(a), (place - low).dot(b));
     let places = sight.corners_within(sight.whole, (low, high));
-    let places = places.into_iter().map(on_plane);
-    let nothing = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    let (least, most) = places.fold(nothing, |(least, most), at| (least.min(at), most.max(at)));
+    let [least, most] = around(places.into_iter().map(on_plane));
     let middle = 0.5 * (least + most);
     let extent = (most - least).max_element().max(1e-6 * diagonal) * (1.0 + 2.0 * RIM);
     let first = middle - 0.5 * extent;
@@ -285,6 +287,7 @@ fn clip(polygon: &[DVec3], (point, inwards): (DVec3, DVec3)) -> Vec<DVec3> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::Random;
 
     fn sight(eye: DVec3, target: DVec3) -> Sight {
         let size = [100, 50];
@@ -301,13 +304,8 @@ mod tests {
     #[test]
     fn a_distant_lights_plane_holds_all_that_is_seen() {
         let bounds = (DVec3::new(-3.0, -1.0, -20.0), DVec3::new(4.0, 2.0, 1.0));
-        let mut state = 7_u64;
-        let mut random = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1);
-            (state >> 40) as f64 / f64::from(1 << 24)
-        };
+        let mut numbers = Random::new(7);
+        let mut random = || (numbers.bits() >> 40) as f64 / f64::from(1 << 24);
         let (mut held, mut in_part) = (0, 0);
         for view in 0..50 {
             let mut place =

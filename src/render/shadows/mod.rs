@@ -20,7 +20,7 @@ mod light;
 
 pub(super) use casters::Casters;
 pub(super) use engine::{ShadowEngine, Shadowed};
-pub(super) use light::{Rectangle, Sight};
+pub(super) use light::{LightView, Rectangle, Sight};
 
 use super::{Headless, PreparedScene, RenderError, Renderer};
 use crate::scene::{Pose, Scene};
