@@ -3,8 +3,8 @@
 // Writes: records, headers. No colour is known here.
 //
 // A subgroup takes LANES cells of a tile. First an invocation holds a cell and the tile's candidates pass by:
-// a conservative test against the cell's square keeps a short list, and the nearest triangle that covers the whole
-// square hides what lies behind it. Then, cell by cell, an invocation holds ROWS samples, with their depth and ID in
+// conservative tests, of its bounding box by `setup` and of its edges against the cell's square here, keep a short list,
+// and the nearest triangle that covers the whole square hides what lies behind it. Then, cell by cell, an invocation holds ROWS samples, with their depth and ID in
 // registers, and the short list passes by, block by block of samples. A list that outgrows its room is replaced by all
 // candidates of the tile. Ties in depth go to the smaller ID, so that the order of candidates does not matter.
 //
@@ -111,6 +111,7 @@ void main() {
 #ifndef LAYERED
     if (BY_PART && !LOCATIONS) my_variation = variation_around(uvec2(tile_at) * uvec2(8u, 4u) + uvec2(my_bit & 7u, my_bit >> 3));
 #endif
+    uint cell_bit = subgroupShuffle(my_bit, 0u);
     vec2 cell_at = vec2(subgroupShuffle(my_at.x, 0u), subgroupShuffle(my_at.y, 0u));
     vec2 cell_half = vec2(subgroupShuffle(my_half.x, 0u), subgroupShuffle(my_half.y, 0u));
     float my_hidden = 0.0;          // nothing farther than this shows in the cell
@@ -122,7 +123,7 @@ void main() {
         if (APART) {
             // The cell is the only one: an invocation tests a candidate.
             RectangleTest test = test_rectangle(k, cell_at, cell_half, HAS_MASK);
-            bool exists = lane < chunk_count;
+            bool exists = lane < chunk_count && may_touch(k, cell_bit);
             my_hidden = max(my_hidden, lanes_max(exists ? test.hides : 0.0));
             bool keeps = exists && test.touches && test.near >= my_hidden;
             uvec4 keeping = subgroupBallot(keeps);
@@ -132,8 +133,9 @@ void main() {
             uint j = 0u;
             do {
                 [[unroll]] for (uint u = 0u; u < 4u; u++) {
-                    RectangleTest test = test_rectangle(shuffle_candidate(k, j + u), my_at, my_half, HAS_MASK);
-                    bool exists = j + u < chunk_count;
+                    Candidate t = shuffle_candidate(k, j + u);
+                    RectangleTest test = test_rectangle(t, my_at, my_half, HAS_MASK);
+                    bool exists = j + u < chunk_count && may_touch(t, my_bit);
                     my_hidden = max(my_hidden, exists ? test.hides : 0.0);
                     if (test.touches && test.near >= my_hidden && exists) {
                         kept[lane * KEPT + min(my_count, KEPT - 1u)] = chunk * LANES + j + u;
@@ -160,6 +162,7 @@ void main() {
             uint cell_id = pixel.x | pixel.y << 16;
             cell.at = in_tile - vec2(3.5, 1.5);
             cell.half_side = vec2(0.5 + ROUNDING);
+            cell.bit = bit;
             cell.pixel = mat2(1.0);
             if (LOCATIONS) {
                 cell.at = vec2(subgroupShuffle(my_at.x, cell.member), subgroupShuffle(my_at.y, cell.member));

@@ -16,6 +16,7 @@ struct Cell {
     bool complete;          // the short list has all
     uint entries;           // of the short list, or of the tile
     float hidden;           // nothing farther than this shows
+    uint bit;               // of its tile
     vec2 at, half_side;     // its middle from the tile's centre, and half its sides
     mat2 pixel;             // its axes: how far a sample's offsets of 1 take it
     uint location;          // its index or, of POINTS, where in their order those in the block begin
@@ -101,6 +102,11 @@ void begin_cell(Cell cell) {
 // Forgets what places beyond the last sample saw.
 void end_cell(Cell cell) {
     [[unroll]] for (int g = 0; g < ROWS; g++) id[g] = sample_of(g) < cell.samples ? id[g] : 0u;
+}
+
+// Whether a candidate may touch the cell of a bit of its tile.
+bool may_touch(Candidate k, uint bit) {
+    return LOCATIONS || (k.pixels >> bit & 1u) != 0u;
 }
 
 // Entry `i` of a cell's candidates.
@@ -200,7 +206,7 @@ void show_candidates(Cell cell) {
         uint entry = batch * LANES + gl_SubgroupInvocationID;
         Candidate k = entry_of(cell, entry);
         RectangleTest test = test_rectangle(k, middle, half_side, HAS_MASK);
-        bool exists = entry < cell.entries;
+        bool exists = entry < cell.entries && may_touch(k, cell.bit);
         if (!EXACT_AREAS) hidden = max(hidden, lanes_max(exists ? test.hides : 0.0));
         bool blend = k.id > frame.first_blend;
         bool masked = HAS_MASK && k.id > frame.first_mask && !blend;

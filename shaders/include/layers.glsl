@@ -143,7 +143,7 @@ bool find_layers(Cell cell) {
         uint entry = batch * LANES + gl_SubgroupInvocationID;
         Candidate k = entry_of(cell, entry);
         RectangleTest test = test_rectangle(k, middle, half_side, HAS_MASK);
-        bool touches = left != 0u && entry < cell.entries && test.touches && k.id > frame.first_blend && test.near >= behind;
+        bool touches = left != 0u && entry < cell.entries && may_touch(k, cell.bit) && test.touches && k.id > frame.first_blend && test.near >= behind;
         uint pending = subgroupBallot(touches).x;
         trips += 2u + uint(bitCount(pending));
         do {

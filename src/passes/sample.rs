@@ -294,10 +294,12 @@ impl Sample {
 }
 
 impl SampleOptions {
-    /// Whether a run measures areas: where it takes all samples of a cell at once.
+    /// Whether a run measures areas: where it takes all samples of a cell at once. What masks leave sees more triangles
+    /// than areas are held of.
     fn measures(&self, list: TileList, run: Run) -> bool {
         let at_once = match run {
-            Run::Whole | Run::Rest => self.samples <= Sample::PROBES,
+            Run::Whole => self.samples <= Sample::PROBES,
+            Run::Rest => self.samples <= Sample::PROBES && !self.by_masks(),
             Run::Probe => true,
         };
         self.exact_areas && self.records != RecordRate::Sample && at_once && list.is_opaque()
