@@ -1,18 +1,21 @@
 // receivers: where the surfaces that are about to be shaded appear on the plane of a light, as a list of sample locations.
-// Sources: PIXELS (what the centres of a region's pixels see) or the visibility samples of a round. Only opaque and MASK
-// triangles receive shadows. What the light does not reach, or another plane of a light with several is asked for, is left out:
-// it gets a pixel off the plane. A surface whose triangle turns the light the side that is not seen lies in the shadow of itself.
+// Sources: PIXELS (what the centres of a region's pixels see) or the visibility samples of a round, BLEND layers among them.
+// What the light does not reach, or another plane of a light with several is asked for, is left out: it gets a pixel off the
+// plane. A surface whose triangle turns the light the side that is not seen lies in the shadow of itself, but of
+// DIFFUSE_TRANSMISSION, which light from behind shines through.
 // Reads: ids or records, the geometry. Writes: a location each, and a word of `include/shadows.glsl`. Twin, with what hides them: `gpc::reference::shadow`.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/workgroup.glsl"
 #include "include/barycentric.glsl"
+#include "include/material.glsl"
 #include "include/record_position.glsl"
 #include "include/shadows.glsl"
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool PIXELS = false;
+layout(constant_id = 37) const bool DIFFUSE_TRANSMISSION = false;   // of some materials
 layout(std430, set = 1, binding = 0) writeonly buffer LocationsOut { uvec4 locations_out[]; };   // as OCCLUDERS have them
 layout(std430, set = 1, binding = 1) buffer ShadowWords { uint words[]; };
 layout(push_constant) uniform Push {
@@ -52,7 +55,7 @@ void main() {
         id = record.y;
         p = record_position(record);
     }
-    bool receives = i < count && id != 0u && id <= frame.first_blend;
+    bool receives = i < count && id != 0u;
 
     Triangle k = triangle_at(max(id, 1u) - 1u);
     vec3 position = position_of(k, barycentric(k.v0, k.v1, k.v2, p).at);
@@ -65,7 +68,8 @@ void main() {
     vec3 to_light = local ? push.light.xyz - position : push.light.xyz;
     float distance_ = length(to_light);
     bool reached = receives && (!local || (distance_ <= push.range && dot(-to_light, push.cone.xyz) >= push.cone.w * distance_));
-    bool turned = reached && dot(normal, to_light) < 0.0;
+    bool backlit = DIFFUSE_TRANSMISSION && material_vector(k.word & 0xffffu, MATERIAL_DIFFUSE_TRANSMISSION).w > 0.0;
+    bool turned = reached && !backlit && dot(normal, to_light) < 0.0;
     if (i < count) {
         uint place = (PIXELS ? i : place_of_record(i)) * SHADOW_WORDS, light = push.step_ & 31u;
         uint word = push.step_ >= 32u ? 0u : words[place];

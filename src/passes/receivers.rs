@@ -65,7 +65,9 @@ impl Receivers {
         let words = resources.sizes().shadow_words;
         let pipeline = |pixels: bool| {
             let constants = cells.constants(scene.constants(Constants::new()));
-            let constants = shadow_words::constants(constants, words).flag(0, pixels);
+            let constants = shadow_words::constants(constants, words)
+                .flag(0, pixels)
+                .flag(37, scene.is_backlit());
             beside.pipeline(layout, spirv::RECEIVERS, &constants)
         };
         Ok(Self {

@@ -32,6 +32,8 @@ pub struct Receiver {
     pub position: DVec3,
     /// From where it is seen.
     pub eye: DVec3,
+    /// Whether light from behind shines through its triangle.
+    pub is_backlit: bool,
 }
 
 /// What lies nearer than this part of the distance, or of the scene's depth, is the receiver itself.
@@ -50,6 +52,7 @@ pub fn is_in_shadow(
         triangle,
         position,
         eye,
+        is_backlit,
     } = *receiver;
     let (to_light, length, least) = match *light {
         Shining::Distant { to_light, depth } => (to_light, f64::INFINITY, BIAS * depth),
@@ -78,7 +81,7 @@ pub fn is_in_shadow(
     if lit.abs() < doubt || seen.abs() < doubt {
         return None;
     }
-    if (lit > 0.0) != (seen > 0.0) {
+    if !is_backlit && (lit > 0.0) != (seen > 0.0) {
         return Some(true);
     }
     let mut hidden = false;

@@ -46,6 +46,11 @@ impl ShadeFeatures {
         }
     }
 
+    /// Whether light from behind shines through.
+    pub(super) fn is_backlit(&self) -> bool {
+        self.lobes[5]
+    }
+
     /// Constants of `shaders/shade.comp` and what it includes.
     pub(in crate::passes) fn constants(&self, common: &Constants) -> Constants {
         // Slots count from 16, so that 0 is none.

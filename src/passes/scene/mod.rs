@@ -237,6 +237,12 @@ impl GpuScene {
         self.light_features
     }
 
+    /// Whether light from behind shines through some of its surfaces.
+    #[must_use]
+    pub fn is_backlit(&self) -> bool {
+        self.bins.iter().any(|bin| bin.features.is_backlit())
+    }
+
     /// World position that device positions are relative to.
     #[must_use]
     pub fn origin(&self) -> DVec3 {

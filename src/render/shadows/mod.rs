@@ -6,7 +6,8 @@
 //! A place is in shadow where a triangle other than its own, opaque or passing its alpha test, lies nearer to the light
 //! by more than 2^-17 of its distance (of the scene's depth for a distant light); and where its own triangle turns the
 //! side that is seen from the light, whatever its interpolated normals say, so that the border of light on a smooth ball
-//! of few triangles follows its edges. BLEND triangles keep as much of the light as their opacities say; they receive no shadows.
+//! of few triangles follows its edges; but not where light from behind shines through it (`KHR_materials_diffuse_transmission`).
+//! BLEND triangles keep as much of the light as their opacities say, and each layer of them receives shadows as other surfaces do.
 //!
 //! ```text
 //! shaded next: pixels or records ─▶ receivers ─▶ a list on the light's plane ─▶ distribute ─▶ … ─▶ sample ─▶ shadow ─▶ a word for each

@@ -1,11 +1,12 @@
 //! How bright points are that lights do not reach.
 
 use glam::DVec2;
+use gpc::camera::SampleLocation;
 use gpc::render::{Headless, PointSample};
 use gpc::scene::{AlphaMode, Light, LightKind, Material};
 
 use super::{OVER, SIZE, ask, cast, floor, lamp, lit, pinhole, places, sun, upload, within};
-use crate::stage::{on_gpu, once};
+use crate::stage::{Stage, on_gpu, once};
 
 /// Each light has shadows of its own, and a point is as bright as the lights make it that it does not lie in the shadow of.
 #[test]
@@ -115,5 +116,49 @@ fn blend_lets_pass_what_its_opacity_leaves() {
             found[usize::from(in_shades[0][0].0) + 2 * usize::from(in_shades[0][1].0)] += 1;
         }
         assert!(found.iter().all(|count| *count > 300), "{found:?}");
+    });
+}
+
+/// Layers lie in the shadows that an opaque surface in their place would lie in, whatever their opacity; so does what lies behind them.
+#[test]
+fn blend_receives_shadows() {
+    on_gpu(|gpu| {
+        let lights = [sun(), lamp(LightKind::Point)];
+        let shades = lights.map(|light| OVER.map(|corner| cast(&light, corner, &pinhole(SIZE))));
+        let is_clear = |place: &SampleLocation| {
+            let distances = shades.map(|shade| within(DVec2::from_array(place.uv), shade).1);
+            distances.into_iter().all(|distance| distance > 0.01)
+        };
+        let locations: Vec<_> = places(shades[0]).into_iter().filter(is_clear).collect();
+        let seen = |gpu: &mut Headless, material: Material| {
+            let mut stage = Stage::new(vec![lit(AlphaMode::Opaque), material]);
+            stage.add(0, OVER);
+            stage.triangles.append(&mut floor(Vec::new()).triangles);
+            let on_floor = stage.triangles.iter_mut().skip(1);
+            on_floor.for_each(|triangle| triangle.material = 1);
+            ask(gpu, &stage, &lights, &locations)
+        };
+        let opaque = seen(gpu, lit(AlphaMode::Opaque));
+        for opacity in [1.0, 0.4] {
+            let layer = Material {
+                base_color: [0.7, 0.7, 0.7, opacity],
+                ..lit(AlphaMode::Blend)
+            };
+            let mut found = [0; 4];
+            for (expected, layer) in opaque.iter().zip(seen(gpu, layer)) {
+                if !(2..=3).contains(&expected.id) {
+                    continue;
+                }
+                assert_eq!([layer.id, layer.blend_id], [0, expected.id]);
+                for (got, expected) in layer.color.into_iter().zip(expected.color) {
+                    assert!(
+                        (got - opacity * expected).abs() < 1e-5,
+                        "{layer:?} {expected}"
+                    );
+                }
+                found[expected.shadows as usize] += 1;
+            }
+            assert!(found.iter().all(|count| *count > 300), "{found:?}");
+        }
     });
 }
