@@ -150,6 +150,10 @@ const NEIGHBOURS: u32 = 3;
 /// Largest region in virtual pixels; larger images are rendered in parts, each of which is a submission of its own where
 /// the renderer has a device to itself.
 const REGION_PIXELS: u64 = 4 << 20;
+/// A region that is not made smaller for the sake of how long it takes.
+const SMALL_REGION_PIXELS: u64 = 1 << 12;
+/// Samples that one sample stands for where each is asked for lights: once more for each, on up to six planes.
+const SHADOWED: u64 = 8;
 /// Most visibility samples and candidates of a round.
 pub(super) const MOST_RECORDS: u64 = 6 << 20;
 pub(super) const MOST_CANDIDATES: u64 = 2 << 20;
@@ -190,7 +194,14 @@ impl Plan {
     ) -> Result<Self, RenderError> {
         let side = settings.side();
         let [width, height] = settings.size;
-        let most = REGION_PIXELS;
+        let samples_a_pixel = match settings.method {
+            Method::Superpixel | Method::Msaa => u64::from(settings.samples),
+            Method::None | Method::Ssaa => 1,
+        };
+        let lights = if shadow_words > 0 { SHADOWED } else { 1 };
+        let most = REGION_PIXELS
+            .min(limits.max_submitted_samples / (samples_a_pixel * lights))
+            .max(SMALL_REGION_PIXELS);
         let longest = limits.max_image_side.min(65_535) / side - 11;
         let mut region = [width.min(longest), height.min(longest)];
         let allowed = settings.max_memory;

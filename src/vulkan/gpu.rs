@@ -46,6 +46,9 @@ pub struct Limits {
     pub max_storage_bytes: u64,
     /// Nanoseconds a timestamp step, 0 if the queue has no timestamps.
     pub timestamp_period: f32,
+    /// Most samples, counted as if every pixel were a superpixel, of what is submitted at once where the renderer has the
+    /// device to itself: systems take a GPU away from what keeps it for seconds. Nothing takes a CPU away.
+    pub max_submitted_samples: u64,
     /// Sample counts of multisampled 8-bit colour and float depth.
     pub sample_counts: vk::SampleCountFlags,
 }
@@ -231,6 +234,10 @@ fn limits(instance: &ash::Instance, device: vk::PhysicalDevice, queue_family: u3
             basic.limits.timestamp_period
         } else {
             0.0
+        },
+        max_submitted_samples: match basic.device_type {
+            vk::PhysicalDeviceType::CPU => u64::MAX,
+            _ => 1 << 27,
         },
         sample_counts: basic.limits.framebuffer_color_sample_counts
             & basic.limits.framebuffer_depth_sample_counts

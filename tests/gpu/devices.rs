@@ -96,6 +96,27 @@ fn larger_subgroups_make_the_same_image() {
     }
 }
 
+/// On a device that may be taken away, an image is submitted in parts, the smaller the more samples a pixel has, and is the same.
+#[test]
+fn long_work_is_submitted_in_parts() {
+    let stage = layered();
+    let of = |samples: u32| everywhere([320, 192], Pattern::Sobol, samples);
+    for (samples, regions) in [(16, 1), (64, 2), (256, 16)] {
+        let mut whole = None;
+        on_gpu(|gpu| whole = Some(stage.render(gpu, &of(samples))));
+        let whole = whole.unwrap();
+        assert_eq!(whole.statistics.regions, 1);
+        within(
+            |limits| limits.max_submitted_samples = 1 << 21,
+            |gpu| {
+                let found = stage.render(gpu, &of(samples));
+                assert_eq!(found.statistics.regions, regions);
+                assert!(found.colors == whole.colors);
+            },
+        );
+    }
+}
+
 /// Kernels that find subgroups smaller than they were made for say so: no image is made of what they did.
 #[test]
 fn other_subgroups_are_an_error() {
