@@ -124,7 +124,7 @@ pub use setup::Setup;
 #[cfg(feature = "gltf")]
 pub use shade::{Shade, ShadeSource};
 #[cfg(feature = "gltf")]
-pub use shadow::Shadow;
+pub use shadow::{Found, Shadow};
 pub use sort::Sort;
 pub use spans::Spans;
 #[cfg(feature = "gltf")]

@@ -28,6 +28,18 @@ impl LightPlane {
     pub const SINGLE: u32 = 6;
     /// In the step that begins the words.
     pub const BEGINS: u32 = 32;
+    /// Other places of a pixel that are looked at.
+    pub const PROBES: u32 = 3;
+
+    /// The same for the probe of a number below [`PROBES`](Self::PROBES).
+    #[must_use]
+    pub fn of_probe(self, probe: u32) -> Self {
+        let light = self.step & (Self::BEGINS - 1);
+        Self {
+            step: light | (1 + probe) << 6,
+            ..self
+        }
+    }
 }
 
 /// What is about to be shaded.

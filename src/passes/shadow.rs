@@ -15,6 +15,22 @@ struct Push {
     first_place: u32,
     light: u32,
     ends: u32,
+    width: u32,
+}
+
+/// What is done with what was found between a light and receivers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Found {
+    /// It is written down for places from one on.
+    Written {
+        /// The first place.
+        first_place: u32,
+    },
+    /// Pixels of a region of some width are marked where their centres' words say otherwise.
+    Marked {
+        /// In pixels.
+        width: u32,
+    },
 }
 
 /// Words of what is left undone.
@@ -44,8 +60,9 @@ impl Shadow {
         let storage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_SRC;
         let left = words("shadows left", storage | transfer, MemoryUse::Device)?;
         let kept = words("shadows left, read back", transfer, MemoryUse::Readback)?;
-        let shown = [whole(&receivers.shadow_words.buffer), whole(&left)];
-        // SAFETY: both buffers go with the frame that this is of.
+        let words = whole(&receivers.shadow_words.buffer);
+        let shown = [words, whole(&left), whole(&receivers.marks)];
+        // SAFETY: the buffers go with the frame that this is of.
         let beside = unsafe { BesideFrame::new(layout, &shown) }?;
         let constants = Cells::Occluders.constants(Constants::new());
         let constants = shadow_words::constants(constants, receivers.sizes().shadow_words);
@@ -65,17 +82,26 @@ impl Shadow {
         recorder.barrier();
     }
 
-    /// Records it for the occluders of a round, whose set is bound, and which were found between a light and receivers that are
-    /// places from one on.
+    /// Records it for the occluders of a round, whose set is bound, and which were found between a light and receivers.
     pub fn record(
         &self,
         recorder: &Recorder<'_>,
         (occluders, set): (&Resources, &SampleSet),
-        first_place: u32,
+        found: Found,
         light: u32,
     ) {
         self.arguments.record(recorder);
-        self.bind(recorder, set, [first_place, light, 0]);
+        let (first_place, width) = match found {
+            Found::Written { first_place } => (first_place, 0),
+            Found::Marked { width } => (0, width),
+        };
+        let push = Push {
+            first_place,
+            light,
+            ends: 0,
+            width,
+        };
+        self.beside.bind(recorder, set, &push);
         let sort = Argument::Sort as u32;
         recorder.dispatch_indirect(&self.pipeline, &occluders.arguments, sort);
         occluders.record_bind(recorder, set);
@@ -83,7 +109,13 @@ impl Shadow {
 
     /// Records what follows the last round.
     pub fn record_left(&self, recorder: &Recorder<'_>, set: &SampleSet) {
-        self.bind(recorder, set, [0, 0, 1]);
+        let push = Push {
+            first_place: 0,
+            light: 0,
+            ends: 1,
+            width: 0,
+        };
+        self.beside.bind(recorder, set, &push);
         recorder.dispatch(&self.pipeline, 1);
     }
 
@@ -101,14 +133,5 @@ impl Shadow {
         let words: &[u32] = self.kept.read(LEFT_WORDS)?;
         let word = |index: usize| words.get(index).copied().unwrap_or(0);
         Ok((word(0), word(1) != 0))
-    }
-
-    fn bind(&self, recorder: &Recorder<'_>, set: &SampleSet, [first_place, light, ends]: [u32; 3]) {
-        let push = Push {
-            first_place,
-            light,
-            ends,
-        };
-        self.beside.bind(recorder, set, &push);
     }
 }

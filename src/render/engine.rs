@@ -15,6 +15,10 @@ use std::sync::Arc;
 pub(crate) trait RecordShading {
     /// Records the shading of a round, sorted by key. Set 0 is bound before, and bound again after it.
     fn record(&self, recorder: &mut Recorder<'_>, resources: &Resources);
+
+    /// Records marks of pixels that show what their centres do not, beside those of [`Thin`]. Set 0 is bound before, and bound again
+    /// after it.
+    fn record_marks(&self, _recorder: &mut Recorder<'_>) {}
 }
 
 /// Detects cells and samples them: it knows triangles and shading keys, no materials. A frame has one for BLEND pixels and
@@ -175,6 +179,7 @@ impl Engine {
                 work.triangles,
             );
             recorder.mark("thin");
+            shading.record_marks(recorder);
         }
         self.detect.record(recorder, work.tiles);
         recorder.mark("detect");

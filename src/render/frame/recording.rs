@@ -83,6 +83,12 @@ impl RecordShading for SceneShading<'_> {
             shade.record(recorder, self.scene, &resources.arguments);
         }
     }
+
+    fn record_marks(&self, recorder: &mut Recorder<'_>) {
+        if let Some((shadows, shadowed)) = self.shadows {
+            shadows.record_probes(recorder, shadowed);
+        }
+    }
 }
 
 impl Recording<'_> {
@@ -149,7 +155,7 @@ impl Recording<'_> {
         let shadowed = |set| Shadowed {
             resources,
             set,
-            pixels,
+            size: whole.size,
             views: &views,
         };
         let shading_of = |set| SceneShading {

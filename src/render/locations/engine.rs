@@ -223,7 +223,7 @@ impl LocationEngine {
         let shadowed = Shadowed {
             resources,
             set,
-            pixels: 0,
+            size: [0; 2],
             views: &views,
         };
         let shading = SceneShading {

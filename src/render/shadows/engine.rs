@@ -3,9 +3,9 @@
 use super::casters::Casters;
 use super::light::{LightView, Sight, views};
 use crate::passes::{
-    Argument, Cells, Content, FrameGeometry, FrameLayout, FrameLook, GpuScene, ListLength, Offsets,
-    RasterTargets, Receivers, Receiving, ResourceSizes, Resources, SampleSet, Shade, ShadeSource,
-    Shadow,
+    Argument, Cells, Content, Found, FrameGeometry, FrameLayout, FrameLook, GpuScene, LightPlane,
+    ListLength, Offsets, RasterTargets, Receivers, Receiving, ResourceSizes, Resources, SampleSet,
+    Shade, ShadeSource, Shadow,
 };
 use crate::render::engine::RecordShading;
 use crate::render::list::{ListEngine, ListKind};
@@ -37,8 +37,8 @@ pub(in crate::render) struct ShadowEngine {
 pub(in crate::render) struct Shadowed<'a> {
     pub resources: &'a Resources,
     pub set: &'a SampleSet,
-    /// Pixels of the region of an image; 0 for a list of locations.
-    pub pixels: u32,
+    /// Of the region of an image, in pixels; 0 for a list of locations.
+    pub size: [u32; 2],
     /// How lights see it.
     pub views: &'a [LightView],
 }
@@ -48,6 +48,12 @@ struct Opacities<'a> {
     scene: &'a GpuScene,
     /// Nothing where all are opaque.
     shade: Option<&'a Shade>,
+}
+
+impl Shadowed<'_> {
+    fn pixels(&self) -> u32 {
+        self.size[0] * self.size[1]
+    }
 }
 
 impl RecordShading for Opacities<'_> {
@@ -202,61 +208,83 @@ impl ShadowEngine {
 
     /// Records which lights reach what is shaded next, whose set is bound, and is bound again after it.
     pub fn record(&self, recorder: &mut Recorder<'_>, shaded: Shadowed<'_>, receiving: Receiving) {
-        recorder.untimed(|recorder| self.record_views(recorder, shaded, receiving));
+        recorder.untimed(|recorder| {
+            if shaded.views.is_empty() {
+                recorder.clear(&shaded.resources.shadow_words.buffer);
+                recorder.barrier();
+                return;
+            }
+            let first_place = match receiving {
+                Receiving::Pixels(_) => 0,
+                Receiving::Records => shaded.pixels(),
+            };
+            let found = Found::Written { first_place };
+            for view in shaded.views {
+                self.record_view(recorder, shaded, receiving, (view, &view.plane), found);
+            }
+            shaded.resources.record_bind(recorder, shaded.set);
+        });
         recorder.mark("shadows");
     }
 
-    fn record_views(
+    /// Records marks of the pixels of a region that lights reach elsewhere than their centres say, which are known. The region's
+    /// set is bound, and bound again after it.
+    pub fn record_probes(&self, recorder: &mut Recorder<'_>, shaded: Shadowed<'_>) {
+        recorder.untimed(|recorder| {
+            let receiving = Receiving::Pixels(shaded.pixels());
+            let found = Found::Marked {
+                width: shaded.size[0],
+            };
+            for view in shaded.views {
+                for probe in 0..LightPlane::PROBES {
+                    let plane = view.plane.of_probe(probe);
+                    self.record_view(recorder, shaded, receiving, (view, &plane), found);
+                }
+            }
+            shaded.resources.record_bind(recorder, shaded.set);
+        });
+        recorder.mark("shadows");
+    }
+
+    fn record_view(
         &self,
         recorder: &mut Recorder<'_>,
-        Shadowed {
-            resources: shading,
-            set: shading_set,
-            pixels,
-            views,
-        }: Shadowed<'_>,
+        shaded: Shadowed<'_>,
         receiving: Receiving,
+        (view, plane): (&LightView, &LightPlane),
+        found: Found,
     ) {
-        let (scene, resources) = (&*self.casters.scene, &self.resources);
+        let (scene, resources, shading) = (&*self.casters.scene, &self.resources, shaded.resources);
         let Some(set) = resources.set(0) else {
             return;
         };
-        let (most, first_place, length) = match receiving {
-            Receiving::Pixels(count) => (count, 0, ListLength::Known),
+        let (most, length) = match receiving {
+            Receiving::Pixels(count) => (count, ListLength::Known),
             Receiving::Records => {
                 let length = ListLength::Counted(&shading.arguments, Argument::Sort);
-                (shading.sizes().record_capacity, pixels, length)
+                (shading.sizes().record_capacity, length)
             }
         };
         let kind = (Cells::Occluders, self.engine.options().samples);
-        if views.is_empty() {
-            recorder.clear(&shading.shadow_words.buffer);
-            recorder.barrier();
-            return;
-        }
         let opacities = Opacities {
             scene,
             shade: self.shade.as_ref(),
         };
-        for view in views {
-            let (pinhole, window) = (&view.pinhole, &view.window);
-            let uniform = window.uniform(scene, pinhole, &self.settings, kind, resources.sizes());
-            self.receivers
-                .record(recorder, (shading, shading_set), receiving, &view.plane);
-            resources.record_begin(recorder, set, &uniform);
-            let region = window.region(most as usize);
-            self.engine
-                .record_candidates(recorder, (resources, set), &region, length);
-            for _ in 0..self.rounds {
-                self.engine.record_round(recorder, resources);
-                self.engine.record_values(recorder, resources, &opacities);
-                let occluders = (resources, set);
-                self.shadow
-                    .record(recorder, occluders, first_place, view.bit);
-            }
-            self.shadow.record_left(recorder, set);
+        let (pinhole, window) = (&view.pinhole, &view.window);
+        let uniform = window.uniform(scene, pinhole, &self.settings, kind, resources.sizes());
+        self.receivers
+            .record(recorder, (shading, shaded.set), receiving, plane);
+        resources.record_begin(recorder, set, &uniform);
+        let region = window.region(most as usize);
+        self.engine
+            .record_candidates(recorder, (resources, set), &region, length);
+        for _ in 0..self.rounds {
+            self.engine.record_round(recorder, resources);
+            self.engine.record_values(recorder, resources, &opacities);
+            self.shadow
+                .record(recorder, (resources, set), found, view.bit);
         }
-        shading.record_bind(recorder, shading_set);
+        self.shadow.record_left(recorder, set);
     }
 
     /// Adds what the last recording could not finish.

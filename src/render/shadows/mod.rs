@@ -9,6 +9,9 @@
 //! of few triangles follows its edges; but not where light from behind shines through it (`KHR_materials_diffuse_transmission`).
 //! BLEND triangles keep as much of the light as their opacities say, and each layer of them receives shadows as other surfaces do.
 //!
+//! Before superpixels are detected, three more places of each pixel are asked. Where a light reaches them otherwise than the
+//! centre, the pixel is one: so shadows that are narrower than a pixel are found.
+//!
 //! ```text
 //! shaded next: pixels or records ─▶ receivers ─▶ a list on the light's plane ─▶ distribute ─▶ … ─▶ sample ─▶ shadow ─▶ a word for each
 //!                                   └──────────────────────── for each plane of each light ────────────────────────┘      ▼

@@ -7,6 +7,7 @@ mod parts;
 mod rays;
 mod shading;
 mod superpixels;
+mod wires;
 
 use glam::{DVec2, DVec3};
 use gpc::camera::{Pinhole, SampleLocation};
