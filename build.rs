@@ -202,13 +202,19 @@ fn main() {
     spirv(&group("tests/gpu/host/shaders", HOST), &out);
     let folder = spirv(&group("shaders", VARIANTS), &out);
     let mut code = String::new();
+    // By variables, so that what was built stays right where the sources' folder moves.
+    let (variable, beside) = if folder.starts_with(&out) {
+        ("OUT_DIR", &out)
+    } else {
+        ("CARGO_MANIFEST_DIR", &root)
+    };
+    let folder = folder.strip_prefix(beside).expect("a folder of ours");
     for (name, source, _) in VARIANTS {
-        let path = folder.join(format!("{name}.spv"));
+        let path = Path::new("/").join(folder).join(format!("{name}.spv"));
         writeln!(
             code,
-            "/// `shaders/{source}`\npub static {}: &[u8] = include_bytes!({:?});",
+            "/// `shaders/{source}`\npub static {}: &[u8] = include_bytes!(concat!(env!({variable:?}), {path:?}));",
             name.to_uppercase(),
-            path
         )
         .expect("writing to a string");
     }

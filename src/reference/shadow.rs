@@ -36,6 +36,14 @@ pub struct Receiver {
     pub is_backlit: bool,
 }
 
+/// Where a pixel is asked, from its centre, besides there: it is a superpixel where a light reaches one of these places of the
+/// same triangle and not the centre, or the centre alone.
+pub const PROBES: [[f64; 2]; 3] = [
+    [0.34375, 0.34375],
+    [-0.296_875, 0.40625],
+    [0.46875, -0.296_875],
+];
+
 /// What lies nearer than this part of the distance, or of the scene's depth, is the receiver itself.
 const BIAS: f64 = 1.0 / 131_072.0;
 

@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 use gpc::camera::SampleLocation;
+use gpc::reference::shadow::PROBES;
 use gpc::render::{Detection, Settings, Shading, Shadows};
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Light};
@@ -10,7 +11,7 @@ use super::{OVER, SIZE, cast, floor, lit, location, pinhole, render, sun, upload
 use crate::scenes::ball_over_checker;
 use crate::stage::{everywhere, on_gpu};
 
-/// The pixels that the border of a shadow crosses are superpixels, although they show one triangle, and as dark as the
+/// The pixels that the border of a shadow crosses between their centre and a neighbour's, or a probe, are superpixels, although they show one triangle, and as dark as the
 /// part of their samples in shadow.
 #[test]
 fn borders_of_shadows_are_antialiased() {
@@ -50,6 +51,8 @@ fn borders_of_shadows_are_antialiased() {
                     (-1..=1).all(|dx| single.attributes[at(dx)].id == single.attributes[index].id)
                 });
                 let differs = (-1..=1).any(|dy| (-1..=1).any(|dx| around(dx, dy) != around(0, 0)));
+                let probes = PROBES.map(|[dx, dy]| shadow(column + dx, row + dy));
+                let differs = differs || probes.iter().any(|probe| *probe != around(0, 0));
                 if !one || single.attributes[index].id > 2 {
                     continue;
                 }
