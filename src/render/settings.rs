@@ -144,7 +144,7 @@ pub struct Settings {
     /// Differences above this, in 8-bit sRGB code values of any channel, are a contrast; see
     /// [`Self::default_contrast`].
     pub contrast: u8,
-    /// Whether triangles too thin for a pixel's centre to see make superpixels too.
+    /// Whether triangles, and shadows, too thin for a pixel's centre to see make superpixels too.
     pub thin: bool,
     /// Linear light behind the scene; `None` leaves it transparent.
     pub background: Option<[f32; 3]>,
