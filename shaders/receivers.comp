@@ -3,7 +3,7 @@
 // What the light does not reach, or another plane of a light with several is asked for, is left out: it gets a pixel off the
 // plane. A surface whose triangle turns the light the side that is not seen lies in the shadow of itself, but of
 // DIFFUSE_TRANSMISSION, which light from behind shines through.
-// A probe is another place in a pixel, where its triangle covers that too: `shadow` tells whether the centre speaks for it. It begins no word.
+// A probe is another place in a pixel that its triangle covers too; `shadow` compares it with the centre. It begins no word.
 // Reads: ids or records, the geometry. Writes: a location each, and a word of `include/shadows.glsl`. Twin, with what hides them: `gpc::reference::shadow`.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -30,8 +30,8 @@ layout(push_constant) uniform Push {
     uint face;          // which of the six planes of a cube this is, as `face_of` numbers them; SINGLE is no cube's
 } push;
 const uint SINGLE = 6u;
-// Places of probes in their pixels: with the centre, of all directions that a line a fifth of a pixel wide may have, the least of it
-// lies farther than two pixels from a place that it covers (1 % on average, 14 % at the worst; 22 and 78 % by centres alone).
+// Places of probes in their pixels. Growth finds what lies within two pixels of a place that a shadow covers: of a line a fifth of a
+// pixel wide, all but 1 % on average over its directions, and all but 14 % in the worst. Centres alone miss 22 % and 78 %.
 const vec2 PROBES[3] = vec2[](vec2(0.34375, 0.34375), vec2(-0.296875, 0.40625), vec2(0.46875, -0.296875));
 // What lies nearer to the light than this is the receiver itself: part of its distance or, of distant light, of the scene's depth.
 const float BIAS = 1.0 / 131072.0;

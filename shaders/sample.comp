@@ -4,7 +4,8 @@
 //
 // A subgroup takes LANES cells of a tile. First an invocation holds a cell and the tile's candidates pass by:
 // conservative tests, of its bounding box by `setup` and of its edges against the cell's square here, keep a short list,
-// and the nearest triangle that covers the whole square hides what lies behind it. Then, cell by cell, an invocation holds ROWS samples, with their depth and ID in
+// and the nearest triangle that covers the whole square hides what lies behind it. Then, cell by cell, an invocation holds
+// ROWS samples, with their depth and ID in
 // registers, and the short list passes by, block by block of samples. A list that outgrows its room is replaced by all
 // candidates of the tile. Ties in depth go to the smaller ID, so that the order of candidates does not matter.
 //

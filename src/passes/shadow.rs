@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 /// What is pushed.
 #[repr(C)]
-#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+#[derive(Clone, Copy, Default, bytemuck::Pod, bytemuck::Zeroable)]
 struct Push {
     first_place: u32,
     light: u32,
@@ -98,8 +98,8 @@ impl Shadow {
         let push = Push {
             first_place,
             light,
-            ends: 0,
             width,
+            ..Push::default()
         };
         self.beside.bind(recorder, set, &push);
         let sort = Argument::Sort as u32;
@@ -110,10 +110,8 @@ impl Shadow {
     /// Records what follows the last round.
     pub fn record_left(&self, recorder: &Recorder<'_>, set: &SampleSet) {
         let push = Push {
-            first_place: 0,
-            light: 0,
             ends: 1,
-            width: 0,
+            ..Push::default()
         };
         self.beside.bind(recorder, set, &push);
         recorder.dispatch(&self.pipeline, 1);

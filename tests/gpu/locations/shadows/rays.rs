@@ -102,6 +102,10 @@ fn places_lie_in_the_shadow_of_what_rays_meet() {
                 found[bit][usize::from(is_leaf(triangle))][hidden as usize] += 1;
             }
         }
+        for of_light in &found {
+            let both = |hidden: usize| of_light[0][hidden] + of_light[1][hidden];
+            assert!(both(0) > 400 && both(1) > 400, "{found:?}");
+        }
         assert!(
             found
                 .as_flattened()

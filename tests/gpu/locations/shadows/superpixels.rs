@@ -11,8 +11,8 @@ use super::{OVER, SIZE, cast, floor, lit, location, pinhole, render, sun, upload
 use crate::scenes::ball_over_checker;
 use crate::stage::{everywhere, on_gpu};
 
-/// The pixels that the border of a shadow crosses between their centre and a neighbour's, or a probe, are superpixels, although they show one triangle, and as dark as the
-/// part of their samples in shadow.
+/// The pixels that the border of a shadow crosses between their centre and a neighbour's, or a probe, are superpixels, although
+/// they show one triangle, and as dark as the part of their samples in shadow.
 #[test]
 fn borders_of_shadows_are_antialiased() {
     const SIZE: [u32; 2] = [128, 96];

@@ -3,13 +3,12 @@
 use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
+use gpc::camera::Pinhole;
 use gpc::render::{Settings, Shadows};
-use gpc::scene::{AlphaMode, Light, Material};
+use gpc::scene::{AlphaMode, Light, LightKind, Material};
 
 use super::{FLOOR, floor, light, lit, render, upload};
 use crate::stage::{camera, on_gpu};
-use gpc::camera::Pinhole;
-use gpc::scene::LightKind;
 
 const SIZE: [u32; 2] = [640, 360];
 /// Of a wire's shadow, in pixels.
