@@ -514,6 +514,8 @@ fn a_large_mesh_that_is_drawn_often_is_held_once() {
     assert_eq!(geometry.instances.len(), COPIES + 1);
     let flat = geometry.flat();
     assert!(flat.instances.is_empty());
+    // Motions name vertices by their indices.
+    assert!(flat.positions.starts_with(&geometry.positions));
     assert_eq!(flat.triangles.len() as u64, geometry.index_count());
     let drawn: u32 = flat.draws.iter().map(|draw| draw.triangle_count).sum();
     assert_eq!(drawn as usize, flat.triangles.len());

@@ -47,7 +47,7 @@ impl Stage {
                 let camera = view.camera;
                 Ok((loaded, pose, warnings, camera))
             })?;
-        let scene = render::upload(&mut headless, &loaded.scene, &pose, &settings)?;
+        let scene = render::upload(&mut headless, &loaded.scene, (&pose, None), &settings)?;
         Ok(Self {
             headless,
             scene,

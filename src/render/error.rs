@@ -64,9 +64,9 @@ pub enum RenderError {
     #[cfg(feature = "gltf")]
     #[error(transparent)]
     Pinhole(#[from] crate::camera::PinholeError),
-    /// What casts shadows is of the pose that the scene was prepared with.
+    /// What casts shadows is of one pose.
     #[error(
-        "a frame with exact shadows can't show another moment; prepare the scene and its shadows anew for each pose"
+        "the scene's shadows are of one pose, and can't follow it to another moment; make them ready by prepare_shadows_in_motion"
     )]
     MovingShadows,
     /// The scene was not made ready for shadows.

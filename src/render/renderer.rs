@@ -138,7 +138,7 @@ impl Renderer {
         self.prepare_moving(scene, (pose, Some(motion)), max_memory)
     }
 
-    fn prepare_moving(
+    pub(super) fn prepare_moving(
         &self,
         scene: &Scene,
         (pose, motion): (&Pose, Option<&Motion>),

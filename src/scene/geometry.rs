@@ -5,6 +5,7 @@ use super::stroke::{Edge, Stroke};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 use std::borrow::Cow;
+use std::ops::RangeInclusive;
 
 /// How a draw's triangles are rasterized; the order of the variants is the order of [`Geometry::draws`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -459,8 +460,9 @@ impl Geometry {
         DVec3::from_array(self.positions[v as usize].map(f64::from))
     }
 
-    /// The same triangles in world space and without instances: each has the same ID. IDs that stand for nothing become
-    /// triangles without area, as are points and lines before a camera gives them a size.
+    /// The same triangles in world space and without instances: each has the same ID. Vertices keep their indices, those of
+    /// meshes that stand elsewhere follow. IDs that stand for nothing become triangles without area, as are points and lines
+    /// before a camera gives them a size.
     #[must_use]
     pub fn flat(&self) -> Cow<'_, Self> {
         if self.instances.is_empty() {
@@ -468,6 +470,8 @@ impl Geometry {
         }
         let mut flat = Self {
             origin: self.origin,
+            positions: self.positions.clone(),
+            streams: self.streams.clone(),
             ..Self::default()
         };
         for instance in &self.instances {
@@ -483,13 +487,43 @@ impl Geometry {
         let (Some(&low), Some(&high)) = (vertices.clone().min(), vertices.max()) else {
             return;
         };
-        let used = low as usize..=high as usize;
+        let stays = instance.transform == DAffine3::IDENTITY;
+        let first = if stays {
+            low
+        } else {
+            self.place(low as usize..=high as usize, instance, flat)
+        };
+
+        // What stands for nothing belongs to the draw before it.
+        let gap = instance.first_index as usize - flat.triangles.len();
+        flat.triangles.extend(std::iter::repeat_n([first; 3], gap));
+        if let Some(draw) = flat.draws.last_mut() {
+            draw.triangle_count += gap as u32;
+        }
+        let mirrored = instance.mirrored();
+        flat.triangles.extend(triangles.iter().map(|&[a, b, c]| {
+            let corners = if mirrored { [a, c, b] } else { [a, b, c] };
+            corners.map(|v| v - low + first)
+        }));
+        let own = instance.triangles();
+        for draw in self.draws_of(instance) {
+            let start = draw.triangles().start.max(own.start);
+            let end = draw.triangles().end.min(own.end);
+            flat.draws.push(Draw {
+                first_triangle: instance.first_index + (start - own.start) as u32,
+                triangle_count: (end - start) as u32,
+                ..*draw
+            });
+        }
+    }
+
+    /// Adds some vertices of an instance in world space, and returns the index of the first one there.
+    fn place(&self, used: RangeInclusive<usize>, instance: &Instance, flat: &mut Self) -> u32 {
         let first = flat.positions.len() as u32;
         let place = instance.transform;
         // The inverse transpose up to a positive factor; exists also where the inverse does not.
         let m = place.matrix3;
-        let mirrored = instance.mirrored();
-        let sign = if mirrored { -1.0 } else { 1.0 };
+        let sign = if instance.mirrored() { -1.0 } else { 1.0 };
         let turn = |[x, y, z]: [f32; 3]| {
             let n = DVec3::from_array([x, y, z].map(f64::from));
             let cofactors = m.y_axis.cross(m.z_axis) * n.x
@@ -527,26 +561,6 @@ impl Geometry {
         if let Some(colors) = self.streams.colors.get(used) {
             streams.colors.extend(colors);
         }
-
-        // What stands for nothing belongs to the draw before it.
-        let gap = instance.first_index as usize - flat.triangles.len();
-        flat.triangles.extend(std::iter::repeat_n([first; 3], gap));
-        if let Some(draw) = flat.draws.last_mut() {
-            draw.triangle_count += gap as u32;
-        }
-        flat.triangles.extend(triangles.iter().map(|&[a, b, c]| {
-            let corners = if mirrored { [a, c, b] } else { [a, b, c] };
-            corners.map(|v| v - low + first)
-        }));
-        let own = instance.triangles();
-        for draw in self.draws_of(instance) {
-            let start = draw.triangles().start.max(own.start);
-            let end = draw.triangles().end.min(own.end);
-            flat.draws.push(Draw {
-                first_triangle: instance.first_index + (start - own.start) as u32,
-                triangle_count: (end - start) as u32,
-                ..*draw
-            });
-        }
+        first
     }
 }

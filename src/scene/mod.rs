@@ -61,8 +61,8 @@ pub use material::{
     AlphaMode, Filter, Image, Material, Sampler, Texture, TextureRole, TextureTransform,
     TextureUse, Wrap,
 };
-pub(crate) use pose::MotionPart;
 pub use pose::{Moment, Motion, Pose, PoseRequest};
+pub(crate) use pose::{MotionPart, MovingBounds};
 pub use stroke::{Edge, Stroke, StrokePart};
 pub use view::{SceneCamera, SceneProjection};
 

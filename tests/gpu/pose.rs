@@ -20,6 +20,10 @@ const TIMES: [f64; 3] = [0.25, 0.6, 1.0];
 /// A tube that two joints bend and a target thickens, a flat pyramid that a target squeezes, and one that its parent turns
 /// and stretches; behind them one that stays.
 fn film() -> Loaded {
+    film_builder().load().unwrap()
+}
+
+fn film_builder() -> Builder {
     let mut builder = Builder::new();
     let [length, around] = TUBE;
     let mut tube = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
@@ -127,7 +131,7 @@ fn film() -> Loaded {
         "animations",
         json!({"channels": channels, "samplers": samplers}),
     );
-    builder.load().unwrap()
+    builder
 }
 
 /// Two textured panels beneath a spot light: colours, texture coordinates, coats and the light change, nothing moves.
@@ -424,9 +428,129 @@ fn what_does_not_belong_together_is_refused() {
     });
 }
 
-/// What casts shadows is of one pose.
+/// A film beneath a lamp, which the animation moves too, and sunlight through a pane that it makes opaque; behind all a wall.
+fn lit_film() -> Builder {
+    let mut builder = film_builder();
+    let corners = [
+        [-3., -3., -2.],
+        [3., -3., -2.],
+        [3., 3., -2.],
+        [-3., 3., -2.],
+    ];
+    let wall = builder.floats(&corners);
+    let pane = builder.floats(&corners.map(|[x, y, _]| [0.2 * x, 0.2 * y, 1.5]));
+    let indices = builder.indices(&[0, 1, 2, 0, 2, 3]);
+    builder.node_with(
+        json!({"attributes": {"POSITION": wall}, "indices": indices}),
+        json!({}),
+    );
+    let glass = builder.push("materials", json!({"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1., 1., 1., 0.2]}}));
+    let primitive =
+        json!({"attributes": {"POSITION": pane}, "indices": indices, "material": glass});
+    builder.node_with(primitive, json!({"translation": [0.8, 0.9, 0.]}));
+    builder.json["extensions"] = json!({"KHR_lights_punctual": {"lights": [
+        {"type": "spot", "intensity": 60.0, "spot": {"outerConeAngle": 1.0}},
+        {"type": "directional", "intensity": 2.0},
+    ]}});
+    let light = |light: u32| json!({"KHR_lights_punctual": {"light": light}});
+    let lamp = builder.push(
+        "nodes",
+        json!({"translation": [0.5, 0.5, 4.], "extensions": light(0)}),
+    );
+    builder.push(
+        "nodes",
+        json!({"rotation": [-0.2, 0.2, 0., 0.96], "extensions": light(1)}),
+    );
+    builder.pointers(&[
+        (
+            &format!("/nodes/{lamp}/translation"),
+            vec![0.5, 0.5, 4., -1.5, 1., 3.],
+        ),
+        (
+            &format!("/materials/{glass}/pbrMetallicRoughness/baseColorFactor"),
+            vec![1., 1., 1., 0.2, 1., 1., 1., 1.],
+        ),
+    ]);
+    join_animations(&mut builder);
+    builder
+}
+
+/// Makes one animation of all.
+fn join_animations(builder: &mut Builder) {
+    let animations = builder.json["animations"].take();
+    let (mut channels, mut samplers) = (Vec::new(), Vec::new());
+    for animation in animations.as_array().unwrap() {
+        for channel in animation["channels"].as_array().unwrap() {
+            let mut channel = channel.clone();
+            channel["sampler"] =
+                json!(channel["sampler"].as_u64().unwrap() as usize + samplers.len());
+            channels.push(channel);
+        }
+        samplers.extend(animation["samplers"].as_array().unwrap().iter().cloned());
+    }
+    builder.json["animations"] = json!([{"channels": channels, "samplers": samplers}]);
+}
+
+/// Casters, lights and opacities are those of the moment.
 #[test]
-fn a_frame_with_shadows_shows_no_other_moment() {
+fn shadows_follow_the_moment() {
+    on_gpu(|gpu| {
+        let scene = lit_film().load().unwrap().scene;
+        let settings = Settings {
+            shadows: Shadows::Exact,
+            method: Method::Superpixel,
+            samples: 16,
+            ..Settings::new(SIZE[0], SIZE[1])
+        };
+        let (pose, motion) = scene.pose_in_motion(&at(0.0)).unwrap();
+        let camera = camera(&pose);
+        let mut prepared = gpu
+            .upload_in_motion(&scene, (&pose, &motion), None)
+            .unwrap();
+        gpu.prepare_shadows_in_motion(&mut prepared, &scene, (&pose, &motion), None)
+            .unwrap();
+        let mut frame = gpu.prepare(&prepared, &settings).unwrap();
+        for time in TIMES {
+            frame
+                .show(Arc::new(motion.at(&scene, time).unwrap().unwrap()))
+                .unwrap();
+            let found = gpu.render(&mut frame, &camera).unwrap().colors;
+            let posed = |shadows, gpu: &mut Headless| {
+                let pose = scene.pose(&at(time)).unwrap();
+                let mut prepared = gpu.upload(&scene, &pose, None).unwrap();
+                gpu.prepare_shadows(&mut prepared, &scene, &pose, None)
+                    .unwrap();
+                let mut frame = gpu
+                    .prepare(
+                        &prepared,
+                        &Settings {
+                            shadows,
+                            ..settings.clone()
+                        },
+                    )
+                    .unwrap();
+                gpu.render(&mut frame, &camera).unwrap().colors
+            };
+            let apart = |a: &[[f32; 4]], b: &[[f32; 4]]| {
+                let pairs = a.as_flattened().iter().zip(b.as_flattened());
+                let squares: f64 = pairs.map(|(a, b)| f64::from(a - b).powi(2)).sum();
+                (squares / (4 * a.len()) as f64).sqrt()
+            };
+            let expected = posed(Shadows::Exact, gpu);
+            let (error, shade) = (
+                apart(&found, &expected),
+                apart(&posed(Shadows::None, gpu), &expected),
+            );
+            println!("{time}: {error} {shade}");
+            assert!(shade > 0.015, "{shade}: hardly a shadow at {time}");
+            assert!(error < 1e-4, "{error} at {time}");
+        }
+    });
+}
+
+/// Shadows that were made ready for one pose can't follow.
+#[test]
+fn shadows_of_one_pose_show_no_other_moment() {
     on_gpu(|gpu| {
         let scene = film().scene;
         let (pose, motion) = scene.pose_in_motion(&at(0.0)).unwrap();
@@ -444,6 +568,13 @@ fn a_frame_with_shadows_shows_no_other_moment() {
         let refused = frame.show(Arc::new(moment));
         assert!(
             matches!(refused, Err(RenderError::MovingShadows)),
+            "{refused:?}"
+        );
+        let other = crate::blend::panes().build();
+        let refused =
+            gpu.prepare_shadows_in_motion(&mut prepared, &other.0, (&other.1, &motion), None);
+        assert!(
+            matches!(refused, Err(RenderError::OtherMotion)),
             "{refused:?}"
         );
     });

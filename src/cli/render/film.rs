@@ -7,7 +7,6 @@ use super::startup::Clock;
 use super::view::{self, View};
 use crate::cli::exit::Usage;
 use glam::DVec3;
-use gpc::render::Shadows;
 use gpc::scene::{Environment, Loaded, Motion, Pose, SceneCamera};
 
 /// A scene in motion. Its first pose is put on the device once, and moved there; where that can't be, a moment is posed
@@ -41,9 +40,7 @@ impl<'a> Film<'a> {
         first: f64,
         steps: &[Step],
     ) -> anyhow::Result<Self> {
-        // A frame with shadows shows no other moment.
-        let moves = steps.iter().any(|step| step.time != first)
-            && image.appearance.shadows.shadows() == Shadows::None;
+        let moves = steps.iter().any(|step| step.time != first);
         let (pose, motion) = if moves {
             let (pose, motion) = image.pose_in_motion(&loaded, first)?;
             (pose, Some(motion))

@@ -50,19 +50,28 @@ pub fn open_beside<T>(
     })
 }
 
-/// Puts a pose on the device, ready for the shadows that the settings ask for.
+/// Puts a pose on the device, to be moved where a motion says so, and ready for the shadows that the settings ask for.
 pub fn upload(
     headless: &mut Headless,
     scene: &Scene,
-    pose: &Pose,
+    (pose, motion): (&Pose, Option<&Motion>),
     settings: &Settings,
 ) -> Result<PreparedScene, RenderError> {
-    let mut prepared = headless.upload(scene, pose, settings.max_memory)?;
+    let memory = settings.max_memory;
+    let mut prepared = match motion {
+        Some(motion) => headless.upload_in_motion(scene, (pose, motion), memory)?,
+        None => headless.upload(scene, pose, memory)?,
+    };
     if settings.shadows == Shadows::Exact {
         if pose.lights.is_empty() {
             log::warn!("--shadows: the scene has no lights of its own, and so no shadows");
         }
-        headless.prepare_shadows(&mut prepared, scene, pose, settings.max_memory)?;
+        match motion {
+            Some(motion) => {
+                headless.prepare_shadows_in_motion(&mut prepared, scene, (pose, motion), memory)?
+            }
+            None => headless.prepare_shadows(&mut prepared, scene, pose, memory)?,
+        }
     }
     Ok(prepared)
 }
@@ -93,14 +102,7 @@ impl Session {
     ) -> Result<(), RenderError> {
         // The memory of the pose before is free for this one.
         self.shown = None;
-        let scene = match motion {
-            Some(motion) => {
-                let memory = self.settings.max_memory;
-                self.headless
-                    .upload_in_motion(scene, (pose, motion), memory)?
-            }
-            None => upload(&mut self.headless, scene, pose, &self.settings)?,
-        };
+        let scene = upload(&mut self.headless, scene, (pose, motion), &self.settings)?;
         clock.lap("upload");
         let frame = self.headless.prepare(&scene, &self.settings)?;
         clock.lap("pipelines");

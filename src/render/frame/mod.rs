@@ -167,14 +167,17 @@ impl Frame {
     /// the device.
     ///
     /// # Errors
-    /// [`RenderError::OtherMotion`] if the moment is one of another motion, [`RenderError::MovingShadows`] if the frame has exact
-    /// shadows.
+    /// [`RenderError::OtherMotion`] if the moment is one of another motion, [`RenderError::MovingShadows`] if the frame has
+    /// shadows that were made ready for one pose.
     pub fn show(&mut self, moment: Arc<Moment>) -> Result<(), RenderError> {
-        if self.shadows.is_some() {
-            return Err(RenderError::MovingShadows);
-        }
         if !self.scene.has_moment(&moment) {
             return Err(RenderError::OtherMotion);
+        }
+        if let (Some(casters), Some(shadows)) = (&self.casters, &mut self.shadows) {
+            if !casters.scene().has_moment(&moment) {
+                return Err(RenderError::MovingShadows);
+            }
+            shadows.show(&moment);
         }
         self.look.show(&self.scene, &moment);
         self.moment = Some(moment);
@@ -261,7 +264,7 @@ impl Frame {
             self.uploaded = true;
         }
         if regions.start == 0 {
-            if let Some(shadows) = &self.shadows {
+            if let Some(shadows) = &mut self.shadows {
                 shadows.record_begin(&recorder);
             }
             if let Some(moment) = &self.moment {

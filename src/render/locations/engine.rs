@@ -212,7 +212,7 @@ impl LocationEngine {
             stroke.record(recorder, scene, &self.geometry, &to_clip, sizes);
             recorder.mark("stroke");
         }
-        if let Some(shadows) = &self.shadows {
+        if let Some(shadows) = &mut self.shadows {
             shadows.record_begin(recorder);
         }
         let region = window.region(count);

@@ -1,37 +1,33 @@
 //! What casts shadows: the triangles of a pose, from both sides.
 
 use crate::passes::{Content, GpuScene};
-use crate::scene::{AlphaMode, DrawClass, Image, Light, Material, Pose, Scene, TextureUse};
+use crate::scene::{
+    AlphaMode, DrawClass, Image, Light, Material, Moment, Motion, MovingBounds, Pose, Scene,
+    TextureUse,
+};
 use glam::DVec3;
 use std::sync::Arc;
 
 /// Casters on the device, and the lights.
 pub(in crate::render) struct Casters {
     pub(super) scene: Arc<GpuScene>,
-    pub(super) lights: Vec<Light>,
+    /// Those of the first pose.
+    pub(super) lit: Lit,
+    moving: Option<MovingBounds>,
+}
+
+/// What lights fall on at a moment.
+#[derive(Clone)]
+pub(super) struct Lit {
+    pub lights: Vec<Light>,
     /// The box around all triangles; nothing where there are none.
-    pub(super) bounds: Option<(DVec3, DVec3)>,
+    pub bounds: Option<(DVec3, DVec3)>,
 }
 
 /// The casters of a pose, as a scene of their own whose triangles have the same IDs: nothing culled, and of the materials
 /// what alpha tests and opacities need.
 pub(super) fn caster_scene(scene: &Scene, pose: &Pose) -> (Scene, Pose) {
-    let material = |material: &Material| {
-        let opaque = Material {
-            alpha_mode: material.alpha_mode,
-            unlit: true,
-            ..Material::default()
-        };
-        match material.alpha_mode {
-            AlphaMode::Mask { .. } | AlphaMode::Blend => Material {
-                base_color: material.base_color,
-                base_color_texture: material.base_color_texture,
-                ..opaque
-            },
-            AlphaMode::Opaque => opaque,
-        }
-    };
-    let materials: Vec<Material> = pose.materials(scene).iter().map(material).collect();
+    let materials: Vec<Material> = pose.materials(scene).iter().map(casting).collect();
     let used = |index: u32| {
         let images = materials.iter().filter_map(|m| m.base_color_texture);
         let texture = |used: TextureUse| scene.textures.get(used.texture as usize);
@@ -67,6 +63,34 @@ pub(super) fn caster_scene(scene: &Scene, pose: &Pose) -> (Scene, Pose) {
     (casting, pose)
 }
 
+/// Of a material what its shadow needs.
+fn casting(material: &Material) -> Material {
+    let opaque = Material {
+        alpha_mode: material.alpha_mode,
+        unlit: true,
+        ..Material::default()
+    };
+    match material.alpha_mode {
+        AlphaMode::Mask { .. } | AlphaMode::Blend => Material {
+            base_color: material.base_color,
+            base_color_texture: material.base_color_texture,
+            ..opaque
+        },
+        AlphaMode::Opaque => opaque,
+    }
+}
+
+/// A moment, with what shadows need of materials.
+pub(super) fn caster_moment(moment: &Moment) -> Moment {
+    let changed = moment.materials.iter();
+    Moment {
+        materials: changed
+            .map(|(index, material)| (*index, casting(material)))
+            .collect(),
+        ..moment.clone()
+    }
+}
+
 fn seen_from_both_sides(class: DrawClass) -> DrawClass {
     match class {
         DrawClass::Opaque | DrawClass::OpaqueDoubleSided => DrawClass::OpaqueDoubleSided,
@@ -76,11 +100,25 @@ fn seen_from_both_sides(class: DrawClass) -> DrawClass {
 }
 
 impl Casters {
-    pub(super) fn new(scene: Arc<GpuScene>, pose: &Pose) -> Self {
+    pub(super) fn new(scene: Arc<GpuScene>, pose: &Pose, motion: Option<&Motion>) -> Self {
         Self {
             scene,
-            bounds: pose.geometry.bounds(),
-            lights: pose.lights.clone(),
+            lit: Lit {
+                lights: pose.lights.clone(),
+                bounds: pose.geometry.bounds(),
+            },
+            moving: motion.map(|motion| MovingBounds::new(&pose.geometry, motion)),
+        }
+    }
+
+    /// What lights fall on at a moment.
+    pub(super) fn at(&self, moment: &Moment) -> Lit {
+        Lit {
+            lights: moment.lights.clone(),
+            bounds: match &self.moving {
+                Some(moving) => moving.at(moment),
+                None => self.lit.bounds,
+            },
         }
     }
 
@@ -92,7 +130,7 @@ impl Casters {
     /// Words of each place that say which lights reach it: see `shaders/include/shadows.glsl`.
     pub(in crate::render) fn shadow_words(&self) -> u32 {
         match self.scene.has_blend() {
-            true => 1 + self.lights.len() as u32,
+            true => 1 + self.lit.lights.len() as u32,
             false => 1,
         }
     }

@@ -1,17 +1,18 @@
 //! The passes and memory that tell what lies in shadow.
 
-use super::casters::Casters;
+use super::casters::{Casters, Lit, caster_moment};
 use super::light::{LightView, Sight, views};
 use crate::passes::{
     Argument, Cells, Content, Found, FrameGeometry, FrameLayout, FrameLook, GpuScene, LightPlane,
-    ListLength, Offsets, RasterTargets, Receivers, Receiving, ResourceSizes, Resources, SampleSet,
-    Shade, ShadeSource, Shadow,
+    ListLength, Offsets, Pose, RasterTargets, Receivers, Receiving, ResourceSizes, Resources,
+    SampleSet, Shade, ShadeSource, Shadow,
 };
 use crate::render::engine::RecordShading;
 use crate::render::list::{ListEngine, ListKind};
 use crate::render::plan::Capacity;
 use crate::render::statistics::Shortfall;
 use crate::render::{RenderError, Settings};
+use crate::scene::Moment;
 use crate::vulkan::{BufferView, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
@@ -19,6 +20,9 @@ use std::sync::Arc;
 /// Pipelines and memory to find what keeps lights from what a frame or a run of locations shades.
 pub(in crate::render) struct ShadowEngine {
     casters: Arc<Casters>,
+    lit: Lit,
+    /// What is shown in the stead of the first pose.
+    moment: Option<Moment>,
     settings: Settings,
     rounds: u32,
     receivers: Receivers,
@@ -26,7 +30,9 @@ pub(in crate::render) struct ShadowEngine {
     /// Of casters that may let light pass.
     shade: Option<Shade>,
     shadow: Shadow,
+    pose: Option<Pose>,
     geometry: FrameGeometry,
+    look: FrameLook,
     resources: Resources,
     targets: RasterTargets,
     _locations: BufferView,
@@ -102,7 +108,8 @@ impl ShadowEngine {
     ) -> u64 {
         let sizes = sizes(layout, casters, settings, capacity, (places, shading));
         let list = 32 * u64::from(shading.receivers());
-        list + sizes.bytes() + FrameGeometry::bytes(&casters.scene)
+        let scene = &*casters.scene;
+        list + sizes.bytes() + FrameGeometry::bytes(scene) + FrameLook::bytes(scene)
     }
 
     /// Makes the pipelines and memory for cells of a scene that are shaded with these resources, in an image or list of so many
@@ -136,8 +143,8 @@ impl ShadowEngine {
         };
         let once = vk::SampleCountFlags::TYPE_1;
         let targets = RasterTargets::new(memory, 1, 1, once, false)?;
-        let geometry = FrameGeometry::new(memory, occluding, false)?;
-        let look = FrameLook::default();
+        let geometry = FrameGeometry::new(memory, occluding, true)?;
+        let look = FrameLook::new(memory, occluding)?;
         let mut texels = geometry.texels(occluding);
         texels.push(look.texels(occluding));
         let locations = memory.texel_buffer(
@@ -174,10 +181,14 @@ impl ShadowEngine {
             rounds: kind.rounds(&sizes, settings, capacity),
             receivers: Receivers::new(layout, scene, cells, shading, &locations.buffer)?,
             shadow: Shadow::new(layout, memory, shading)?,
+            pose: occluding.moves().then(|| Pose::new(layout)).transpose()?,
+            lit: casters.lit.clone(),
+            moment: None,
             casters: casters.clone(),
             settings: settings.clone(),
             engine,
             geometry,
+            look,
             resources,
             targets,
             _locations: locations,
@@ -187,18 +198,35 @@ impl ShadowEngine {
     /// Records copies to the device, once.
     pub fn record_upload(&self, recorder: &Recorder<'_>) {
         self.geometry.record_upload(recorder, &self.casters.scene);
+        self.look.record_upload(recorder, &self.casters.scene);
         self.resources.record_upload(recorder);
         self.targets.record_unused(recorder);
     }
 
     /// How lights see what is seen.
     pub fn views(&self, sight: &Sight) -> Vec<LightView> {
-        views(&self.casters, sight)
+        views(&self.lit, sight)
     }
 
-    /// Records what begins a frame or run.
-    pub fn record_begin(&self, recorder: &Recorder<'_>) {
+    /// Shows another moment of the motion that the casters were made with, from the next recording on.
+    pub fn show(&mut self, moment: &Moment) {
+        let moment = caster_moment(moment);
+        self.look.show(&self.casters.scene, &moment);
+        self.lit = self.casters.at(&moment);
+        self.moment = Some(moment);
+    }
+
+    /// Records what begins a frame or run, while the device is done with the one before.
+    pub fn record_begin(&mut self, recorder: &Recorder<'_>) {
         self.shadow.record_begin(recorder);
+        self.look.record(recorder);
+        if let (Some(moment), Some(pose), Some(set)) =
+            (&self.moment, &self.pose, self.resources.set(0))
+        {
+            self.geometry.write_moment(moment);
+            self.resources.record_bind(recorder, set);
+            pose.record(recorder, &self.casters.scene, &self.geometry, moment);
+        }
     }
 
     /// Records what ends a frame or run.

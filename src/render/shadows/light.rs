@@ -8,7 +8,7 @@
 //!     ▼ ▼ ▼ ▼ ▼                                  ╱─┼─╲ plane                      └─────┘
 //! ```
 
-use super::casters::Casters;
+use super::casters::Lit;
 use crate::camera::{Pinhole, Rig};
 use crate::passes::LightPlane;
 use crate::render::plane::{TILE, Window};
@@ -63,13 +63,13 @@ impl LightView {
 }
 
 /// The pinholes of all lights that together see all that is seen. A scene without extent has none.
-pub(super) fn views(casters: &Casters, sight: &Sight) -> Vec<LightView> {
-    let Some(bounds) = casters.bounds else {
+pub(super) fn views(lit: &Lit, sight: &Sight) -> Vec<LightView> {
+    let Some(bounds) = lit.bounds else {
         return Vec::new();
     };
     let side = LightView::side(sight.places);
     let mut views = Vec::new();
-    for (bit, light) in (0..).zip(&casters.lights) {
+    for (bit, light) in (0..).zip(&lit.lights) {
         let pinholes = pinholes(light, bounds, sight, side).unwrap_or_default();
         let single = pinholes.len() == 1;
         for (face, pinhole) in (0..).zip(pinholes) {

@@ -27,7 +27,7 @@ pub(super) use engine::{ShadowEngine, Shadowed};
 pub(super) use light::{LightView, Rectangle, Sight};
 
 use super::{Headless, PreparedScene, RenderError, Renderer};
-use crate::scene::{Pose, Scene};
+use crate::scene::{Motion, Pose, Scene};
 use casters::caster_scene;
 use std::sync::Arc;
 
@@ -48,6 +48,33 @@ impl Renderer {
         pose: &Pose,
         max_memory: Option<u64>,
     ) -> Result<(), RenderError> {
+        self.prepare_casters(prepared, scene, (pose, None), max_memory)
+    }
+
+    /// As [`Self::prepare_shadows`], for a scene that moves: its frames show the shadows of other moments of the motion, too.
+    ///
+    /// # Errors
+    /// As [`Self::prepare_shadows`]; [`RenderError::OtherMotion`] for a pose and motion that were not made together.
+    pub fn prepare_shadows_in_motion(
+        &self,
+        prepared: &mut PreparedScene,
+        scene: &Scene,
+        (pose, motion): (&Pose, &Motion),
+        max_memory: Option<u64>,
+    ) -> Result<(), RenderError> {
+        if motion.vertex_count != pose.geometry.positions.len() {
+            return Err(RenderError::OtherMotion);
+        }
+        self.prepare_casters(prepared, scene, (pose, Some(motion)), max_memory)
+    }
+
+    fn prepare_casters(
+        &self,
+        prepared: &mut PreparedScene,
+        scene: &Scene,
+        (pose, motion): (&Pose, Option<&Motion>),
+        max_memory: Option<u64>,
+    ) -> Result<(), RenderError> {
         let found = pose.lights.len();
         if found > MOST_LIGHTS {
             return Err(RenderError::ShadowLights { found });
@@ -55,8 +82,8 @@ impl Renderer {
         prepared.casters = None;
         let left = max_memory.map(|most| most.saturating_sub(prepared.memory_bytes()));
         let (scene, pose) = caster_scene(scene, pose);
-        let made = self.prepare_scene(&scene, &pose, left)?;
-        prepared.casters = Some(Arc::new(Casters::new(made.gpu_scene, &pose)));
+        let made = self.prepare_moving(&scene, (&pose, motion), left)?;
+        prepared.casters = Some(Arc::new(Casters::new(made.gpu_scene, &pose, motion)));
         prepared.caster_uploads = made.uploads;
         Ok(())
     }
@@ -77,6 +104,22 @@ impl Headless {
     ) -> Result<(), RenderError> {
         self.renderer
             .prepare_shadows(prepared, scene, pose, max_memory)?;
+        self.put(prepared)
+    }
+
+    /// As [`Headless::prepare_shadows`], for a scene that moves, as [`Renderer::prepare_shadows_in_motion`] does.
+    ///
+    /// # Errors
+    /// As [`Renderer::prepare_shadows_in_motion`].
+    pub fn prepare_shadows_in_motion(
+        &mut self,
+        prepared: &mut PreparedScene,
+        scene: &Scene,
+        pose: (&Pose, &Motion),
+        max_memory: Option<u64>,
+    ) -> Result<(), RenderError> {
+        self.renderer
+            .prepare_shadows_in_motion(prepared, scene, pose, max_memory)?;
         self.put(prepared)
     }
 }

@@ -25,6 +25,7 @@ use super::{
 use assemble::MovingPlacement;
 use looks::Looks;
 use motion::Moving;
+pub(crate) use motion::MovingBounds;
 pub use motion::{Moment, Motion, MotionPart};
 use placement::Placement;
 

@@ -1,6 +1,10 @@
 //! What moves and changes in a scene, and its matrices, weights, materials and lights at a moment: all that a device needs to
 //! show it.
 
+mod bounds;
+
+pub(crate) use bounds::MovingBounds;
+
 use std::{collections::BTreeMap, mem::discriminant, sync::Arc};
 
 use glam::{DAffine3, DVec3};
