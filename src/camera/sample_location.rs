@@ -10,3 +10,15 @@ pub struct SampleLocation {
     /// Index of the output cell: row * columns + column.
     pub output: u32,
 }
+
+impl SampleLocation {
+    /// Another place of its cell, by how far that is from the location, in columns and rows of the output.
+    pub(crate) fn at(&self, [columns, rows]: [f64; 2]) -> Self {
+        let [column, row] = self.jacobian;
+        let moved = |axis: usize| self.uv[axis] + column[axis] * columns + row[axis] * rows;
+        Self {
+            uv: [moved(0), moved(1)],
+            ..*self
+        }
+    }
+}

@@ -28,17 +28,21 @@ impl LightPlane {
     pub const SINGLE: u32 = 6;
     /// In the step that begins the words.
     pub const BEGINS: u32 = 32;
-    /// Other places of a pixel that are looked at.
-    pub const PROBES: u32 = 3;
+    /// Other places of a pixel that are looked at, from its centre. `shaders/receivers.comp` says why these.
+    pub const PROBES: [[f64; 2]; 3] = [
+        [0.34375, 0.34375],
+        [-0.296875, 0.40625],
+        [0.46875, -0.296875],
+    ];
 
-    /// The same for the probe of a number below [`PROBES`](Self::PROBES).
-    #[must_use]
-    pub fn of_probe(self, probe: u32) -> Self {
+    /// The same for each probe.
+    pub fn of_probes(self) -> impl Iterator<Item = Self> {
         let light = self.step & (Self::BEGINS - 1);
-        Self {
-            step: light | (1 + probe) << 6,
+        let numbers = 1..=Self::PROBES.len() as u32;
+        numbers.map(move |number| Self {
+            step: light | number << 6,
             ..self
-        }
+        })
     }
 }
 
@@ -108,5 +112,17 @@ impl Receivers {
                 Argument::Sort as u32,
             ),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn probes_are_the_shaders() {
+        let places = LightPlane::PROBES.map(|[x, y]| format!("vec2({x}, {y})"));
+        let shader = include_str!("../../shaders/receivers.comp");
+        assert!(shader.contains(&format!("vec2[]({});", places.join(", "))));
     }
 }

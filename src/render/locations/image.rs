@@ -2,6 +2,7 @@
 
 use super::{LocationError, thin};
 use crate::camera::{Pinhole, SampleLocation};
+use crate::passes::LightPlane;
 use crate::reference::detect;
 use crate::render::color::display_code;
 use crate::render::{
@@ -94,6 +95,15 @@ impl Headless {
             };
             if settings.thin && !every {
                 cells.mark_thin(scene, rig, size[0], &mut marked);
+                if settings.shadows == Shadows::Exact {
+                    statistics.append(self.mark_shadows(
+                        scene,
+                        rig,
+                        &settings,
+                        &cells,
+                        &mut marked,
+                    )?);
+                }
             }
             statistics.append(self.sample_marked(scene, rig, &marked, &settings, &mut cells)?);
             for _ in 0..settings.growths() {
@@ -111,6 +121,34 @@ impl Headless {
             },
             statistics,
         })
+    }
+
+    /// Marks the cells that lights reach elsewhere than at their locations: what is narrower than a cell casts shadows there.
+    fn mark_shadows(
+        &mut self,
+        scene: &PreparedScene,
+        rig: &[(Pinhole, Vec<SampleLocation>)],
+        settings: &Settings,
+        cells: &Cells,
+        marked: &mut [bool],
+    ) -> Result<Statistics, RenderError> {
+        let mut statistics = Statistics::default();
+        for (pinhole, locations) in rig.iter().filter(|(_, locations)| !locations.is_empty()) {
+            for probe in LightPlane::PROBES {
+                let probes: Vec<SampleLocation> = locations
+                    .iter()
+                    .map(|location| location.at(probe))
+                    .collect();
+                let seen = self.sample_points(scene, pinhole, &probes, settings)?;
+                statistics.append(seen.statistics);
+                for (location, seen) in locations.iter().zip(&seen.values) {
+                    let cell = location.output as usize;
+                    marked[cell] |=
+                        cells.attributes[cell].id == seen.id && cells.shadows[cell] != seen.shadows;
+                }
+            }
+        }
+        Ok(statistics)
     }
 
     /// Samples the locations of marked cells as superpixels.
@@ -225,21 +263,21 @@ impl Cells {
     /// found to show.
     fn beside(&self, resolved: &[bool], settings: &Settings) -> Vec<bool> {
         let [width, height] = settings.size.map(|side| side as usize);
-        let shown = |cell: usize| settings.output_code(self.colors[cell]).to_le_bytes();
-        let grows = |cell: usize| {
-            let own = self.codes[cell].to_le_bytes();
+        let mut grows = vec![false; width * height];
+        for cell in (0..resolved.len()).filter(|cell| resolved[*cell]) {
+            let shown = settings.output_code(self.colors[cell]).to_le_bytes();
             let (x, y) = (cell % width, cell / width);
-            let rows = y.saturating_sub(1)..(y + 2).min(height);
-            let mut around = rows.flat_map(|row| {
-                (x.saturating_sub(1)..(x + 2).min(width)).map(move |column| row * width + column)
-            });
-            self.attributes[cell].superpixel == 0
-                && around.any(|cell| {
-                    let mut channels = own.into_iter().zip(shown(cell));
-                    resolved[cell] && channels.any(|(a, b)| a.abs_diff(b) > settings.contrast)
-                })
-        };
-        (0..width * height).map(grows).collect()
+            for row in y.saturating_sub(1)..(y + 2).min(height) {
+                for column in x.saturating_sub(1)..(x + 2).min(width) {
+                    let near = row * width + column;
+                    let own = self.codes[near].to_le_bytes();
+                    let mut channels = own.into_iter().zip(shown);
+                    grows[near] |= self.attributes[near].superpixel == 0
+                        && channels.any(|(a, b)| a.abs_diff(b) > settings.contrast);
+                }
+            }
+        }
+        grows
     }
 
     /// Marks the cells that a thin triangle crosses unseen.

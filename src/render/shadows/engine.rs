@@ -264,8 +264,7 @@ impl ShadowEngine {
                 width: shaded.size[0],
             };
             for view in shaded.views {
-                for probe in 0..LightPlane::PROBES {
-                    let plane = view.plane.of_probe(probe);
+                for plane in view.plane.of_probes() {
                     self.record_view(recorder, shaded, receiving, (view, &plane), found);
                 }
             }
