@@ -14,6 +14,7 @@ pub mod bench;
 pub mod camera;
 #[cfg(feature = "capi")]
 mod capi;
+pub mod color;
 #[cfg(feature = "cli")]
 pub mod compare;
 pub mod host;

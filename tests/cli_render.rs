@@ -6,9 +6,9 @@ mod cli_support;
 mod scene_support;
 
 use cli_support::{asset, files, gpc};
+use gpc::color::srgb;
 use gpc::compare::compare;
 use gpc::output::read;
-use gpc::reference::srgb;
 use serde_json::Value;
 use std::path::Path;
 

@@ -7,8 +7,8 @@ use cli_support::{files, gpc};
 use glam::DVec2;
 use gpc::camera::LocationMap;
 use gpc::camera::zoom::{Shape, Transition, ZoomMap, ZoomRegion};
+use gpc::color::srgb;
 use gpc::output::{self, Format, Picture};
-use gpc::reference::srgb;
 use std::path::Path;
 
 const SIZE: [u32; 2] = [320, 240];

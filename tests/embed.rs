@@ -5,7 +5,7 @@
 mod example;
 
 use gpc::camera::Camera;
-use gpc::reference::srgb;
+use gpc::color::srgb;
 use gpc::render::{Headless, HeadlessOptions, Settings, Shadows};
 use gpc::scene::{PoseRequest, Scene};
 use std::path::Path;

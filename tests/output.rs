@@ -1,10 +1,10 @@
 //! Image files: what is written is what a reader finds.
 
 use exr::prelude::{FlatSamples, ReadChannels, ReadLayers, read as read_exr};
+use gpc::color::srgb;
 use gpc::output::{
     Aov, AovKind, Format, OutputError, Picture, decode, encode, encode_aov, read, write_atomically,
 };
-use gpc::reference::srgb;
 use gpc::render::PixelAttributes;
 use std::io::Cursor;
 

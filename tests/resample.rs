@@ -1,8 +1,8 @@
 //! Resampling of photographs: exact where it must be, without aliasing where it shrinks.
 
 use glam::{DMat2, DVec2};
+use gpc::color::srgb;
 use gpc::output::DecodedImage;
-use gpc::reference::srgb;
 use gpc::resample::Photograph;
 
 const SIZE: u32 = 64;

@@ -1,4 +1,4 @@
-// Colour transforms; the twins are src/reference/tonemap.rs and src/reference/srgb.rs.
+// Colour transforms; the twins are src/color/tonemap.rs and src/color/srgb.rs.
 
 // Khronos PBR Neutral tone mapping, in the form of its specification (2024): linear in, linear out.
 vec3 tonemap_neutral(vec3 c) {

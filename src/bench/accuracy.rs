@@ -159,7 +159,7 @@ fn rmse(a: &[[f32; 4]], b: &[[f32; 4]]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reference::srgb;
+    use crate::color::srgb;
 
     fn grey(codes: [f64; 4]) -> Vec<[f32; 4]> {
         codes

@@ -1,6 +1,6 @@
 //! A scene without its light, and one without its paint: whose fault an error is shows in which of them errs.
 
-use crate::reference::srgb;
+use crate::color::srgb;
 use crate::scene::{AlphaMode, Image, Material, Scene, Texture};
 
 /// What is left of a scene.

@@ -1,7 +1,7 @@
 //! Values of options, from text.
 
 use glam::DVec3;
-use gpc::reference::srgb;
+use gpc::color::srgb;
 use gpc::render::{PixelRect, Settings};
 use std::ops::RangeInclusive;
 

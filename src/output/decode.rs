@@ -1,7 +1,7 @@
 //! Reads images back, to compare them.
 
 use super::{OutputError, Picture, exr};
-use crate::reference::srgb;
+use crate::color::srgb;
 use image::{ImageFormat, ImageReader};
 use rayon::prelude::*;
 use std::fs::File;

@@ -1,7 +1,7 @@
 //! From linear light to the bytes of a file.
 
 use super::{Aov, Format, OutputError, Picture, check_count, exr};
-use crate::reference::srgb;
+use crate::color::srgb;
 use crate::sampling::MAX_SAMPLES;
 use image::codecs::jpeg::JpegEncoder;
 use image::codecs::png::PngEncoder;

@@ -2,7 +2,7 @@
 
 use super::encode::straight_codes;
 use super::{OutputError, Picture};
-use crate::reference::srgb;
+use crate::color::srgb;
 use rayon::prelude::*;
 use std::io::{self, Write};
 

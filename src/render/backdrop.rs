@@ -2,7 +2,7 @@
 
 use super::{Rendered, Settings};
 use crate::camera::{Camera, Pinhole, PinholeError};
-use crate::reference::tonemap;
+use crate::color::tonemap;
 use crate::scene::Environment;
 use glam::DVec2;
 use rayon::prelude::*;

@@ -1,8 +1,8 @@
 //! Colours and their transforms as the shaders take them.
 
 use super::{Reference, Settings};
+use crate::color::{srgb, tonemap};
 use crate::passes::Content;
-use crate::reference::{srgb, tonemap};
 use crate::vulkan::Constants;
 
 impl Settings {

@@ -12,8 +12,8 @@ mod zoomed;
 pub use wall::light_on_wall;
 pub use zoomed::{Zoomed, ZoomedError};
 
+use crate::color::srgb;
 use crate::output::{DecodedImage, Picture};
-use crate::reference::srgb;
 use footprint::Footprint;
 use glam::{DMat2, DVec2};
 use rayon::prelude::*;

@@ -14,9 +14,9 @@ use glam::DVec2;
 use gpc::camera::Pinhole;
 use gpc::camera::set::SamplingSet;
 use gpc::camera::zoom::ZoomMap;
+use gpc::color::srgb;
 use gpc::compare;
 use gpc::output::{self, Aov, AovKind, DecodedImage, Format, Picture};
-use gpc::reference::srgb;
 use gpc::render::{
     Headless, HeadlessOptions, Method, PixelRect, PreparedScene, RenderError, Rendered, Settings,
     Shadows, Statistics,

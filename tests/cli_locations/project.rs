@@ -5,8 +5,8 @@ use crate::places;
 use glam::{DMat3, DVec2};
 use gpc::camera::LocationMap;
 use gpc::camera::projector::{Correspondence, Homography, Projector, blend_weights};
+use gpc::color::srgb;
 use gpc::output::{self, DecodedImage};
-use gpc::reference::srgb;
 use gpc::resample::Photograph;
 use std::fmt::Write;
 

@@ -1,6 +1,6 @@
 //! A texture as it is: its texels in linear light, seen through the filter of magnification and the modes of its wrapping.
 
-use gpc::reference::srgb;
+use gpc::color::srgb;
 use gpc::scene::{Filter, Image, Sampler, Wrap};
 
 /// Texels of each side.

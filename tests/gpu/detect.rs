@@ -1,7 +1,7 @@
 //! Detection on the device against the CPU's, pixel by pixel.
 
+use gpc::color::srgb::{decode_u8, encode};
 use gpc::reference::detect::{Frame, Mode, superpixels};
-use gpc::reference::srgb::{decode_u8, encode};
 use gpc::render::{Detection, Footprint, Headless, Method, Reference, Rendered, Settings, Shading};
 use gpc::scene::{AlphaMode, Filter, Image, Sampler};
 

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use gpc::reference::srgb;
+use gpc::color::srgb;
 use gpc::render::Headless;
 use gpc::sampling::Pattern;
 use gpc::scene::{

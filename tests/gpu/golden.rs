@@ -1,6 +1,6 @@
 //! Two images as they were, and a test of the comparison itself.
 
-use gpc::reference::srgb::encode_u8;
+use gpc::color::srgb::encode_u8;
 use gpc::render::{Method, Rendered, Settings};
 use image::RgbaImage;
 

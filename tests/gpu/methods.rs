@@ -1,6 +1,6 @@
 //! The methods against each other: with the same samples they show the same image.
 
-use gpc::reference::srgb::encode;
+use gpc::color::srgb::encode;
 use gpc::render::{Detection, Method, Rendered, Settings, Shading};
 use gpc::sampling::Pattern;
 

@@ -2,7 +2,7 @@
 
 use crate::meshes::Random;
 use crate::stage::{Stage, on_gpu, once, seen_at, textured};
-use gpc::reference::srgb::encode;
+use gpc::color::srgb::encode;
 use gpc::reference::variation::{Neighbourhood, Parts, parts};
 use gpc::render::{Coverage, Detection, Method, Rendered, Settings, Shading};
 use gpc::scene::{AlphaMode, Filter, Image, Sampler};

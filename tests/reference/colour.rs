@@ -1,7 +1,7 @@
 //! Tone mapping and the sRGB transfer function.
 
-use gpc::reference::srgb::{decode, decode_u8, encode, encode_u8};
-use gpc::reference::tonemap::neutral;
+use gpc::color::srgb::{decode, decode_u8, encode, encode_u8};
+use gpc::color::tonemap::neutral;
 
 #[test]
 fn srgb_is_the_standard_s() {

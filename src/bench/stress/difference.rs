@@ -1,7 +1,7 @@
 //! How many pixels of two images differ.
 
 use super::Finding;
-use crate::reference::srgb;
+use crate::color::srgb;
 use crate::render::Rendered;
 
 /// Pixels that differ in any bit.

@@ -3,7 +3,7 @@
 //! They are made on the host: devices that fill them by blits round each in their own way, and CPU drivers compile shaders
 //! for these blits at every start.
 
-use crate::reference::srgb;
+use crate::color::srgb;
 use crate::scene::Image;
 use rayon::prelude::*;
 use std::borrow::Cow;

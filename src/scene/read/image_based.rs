@@ -7,7 +7,7 @@ use gltf::json::{self, Index};
 use serde::Deserialize;
 
 use super::{Context, image::Images, model};
-use crate::reference::srgb;
+use crate::color::srgb;
 use crate::scene::{environment::Environment, error::Fault, material::Image};
 
 const NAME: &str = "EXT_lights_image_based";
