@@ -288,6 +288,9 @@ impl Headless {
                 Err(RenderError::Unfinished { cells }) => {
                     let shortfall = frame.shortfall()?;
                     log::debug!("{cells} cells or tiles are left: {shortfall:?}");
+                    if frame.expect_anything() {
+                        continue;
+                    }
                     self.prepare_again(frame, frame.capacity().more(shortfall))?;
                 }
                 Ok(image) => {
@@ -295,6 +298,7 @@ impl Headless {
                     if image.statistics.unlisted_tiles > 0 && frame.lists_can_grow() {
                         self.prepare_again(frame, frame.capacity().with_doubled_lists())?;
                     }
+                    frame.expect_alike()?;
                     return Ok(image);
                 }
                 failed => return failed,

@@ -1,5 +1,7 @@
 //! What must not change an image: runs, the order of triangles and vertices, memory.
 
+use glam::DMat3;
+use gpc::camera::Camera;
 use gpc::render::{Detection, Headless, Rendered, Settings, Shading};
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Material};
@@ -82,6 +84,35 @@ fn runs_give_the_same_bytes() {
                 assert_eq!(first.attributes, other.attributes);
             }
         }
+    });
+}
+
+/// A frame expects others to take about as many rounds as the one before, and is made again where they take more.
+#[test]
+fn earlier_frames_do_not_matter() {
+    on_gpu(|gpu| {
+        let size = [256, 160];
+        let settings = Settings {
+            shading: Shading::Sample,
+            ..Settings::new(size[0], size[1])
+        };
+        let (scene, pose) = soup(3, size, 4000, 0).build();
+        let prepared = gpu.upload(&scene, &pose, None).unwrap();
+        let expected = {
+            let mut frame = gpu.prepare(&prepared, &settings).unwrap();
+            gpu.render(&mut frame, &camera()).unwrap()
+        };
+        let mut frame = gpu.prepare(&prepared, &settings).unwrap();
+        let away = Camera {
+            axes: DMat3::from_rotation_y(std::f64::consts::PI) * camera().axes,
+            ..camera()
+        };
+        let nothing = gpu.render(&mut frame, &away).unwrap();
+        assert_eq!(nothing.statistics.superpixels, 0);
+        let found = gpu.render(&mut frame, &camera()).unwrap();
+        // One each is recorded for superpixels and for growth, where frames showed nothing.
+        assert!(found.statistics.rounds > 2, "{}", found.statistics.rounds);
+        assert_same(&expected, &found, "after a frame of less");
     });
 }
 

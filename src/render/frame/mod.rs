@@ -22,7 +22,7 @@ use crate::scene::Moment;
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;
 use passes::{Passes, raster_samples};
-use recording::{Recording, Run};
+use recording::{Recording, Rounds, Run};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -38,6 +38,7 @@ pub struct Frame {
     beside: u64,
     settings: Settings,
     plan: Plan,
+    rounds: Rounds,
     passes: Passes,
     targets: RasterTargets,
     geometry: FrameGeometry,
@@ -150,6 +151,7 @@ impl Frame {
             )?,
             timings: Timings::new(&gpu, marks)?,
             settings: settings.clone(),
+            rounds: Rounds::planned(&plan),
             plan,
             memory,
             uploaded: false,
@@ -208,6 +210,22 @@ impl Frame {
     /// What it was planned for.
     pub(super) fn capacity(&self) -> Capacity {
         self.plan.capacity
+    }
+
+    /// Records about as many rounds from now on as the last recording took, whose commands are done: those that find nothing to do
+    /// cost some tenths of a millisecond each on CPU devices. A frame that takes more is left unfinished.
+    ///
+    /// # Errors
+    /// If what was counted can't be read.
+    pub(super) fn expect_alike(&mut self) -> Result<(), RenderError> {
+        self.rounds = self.rounds_taken()?.for_frames_like(&self.plan);
+        Ok(())
+    }
+
+    /// Records as many rounds as planned from now on, and says whether there were fewer.
+    pub(super) fn expect_anything(&mut self) -> bool {
+        let planned = Rounds::planned(&self.plan);
+        std::mem::replace(&mut self.rounds, planned) != planned
     }
 
     /// Whether [`Capacity::with_doubled_lists`] makes any difference.
@@ -279,6 +297,7 @@ impl Frame {
         let recording = Recording {
             settings: &self.settings,
             plan: &self.plan,
+            rounds: self.rounds,
             passes: &self.passes,
             targets: &self.targets,
             geometry: &self.geometry,

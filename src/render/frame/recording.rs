@@ -50,10 +50,42 @@ impl Run {
     }
 }
 
+/// Rounds that are recorded for each run over a region.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Rounds {
+    pub blended: u32,
+    pub superpixels: u32,
+    /// For each growth of these.
+    pub grown: u32,
+}
+
+impl Rounds {
+    /// As many as a plan has.
+    pub fn planned(plan: &Plan) -> Self {
+        Self {
+            blended: plan.rounds,
+            superpixels: plan.rounds,
+            grown: plan.growth_rounds(),
+        }
+    }
+
+    /// For frames like one that took so many: half as many again, but no more than planned.
+    pub fn for_frames_like(self, plan: &Plan) -> Self {
+        let planned = Self::planned(plan);
+        let rounds = |taken: u32, planned: u32| (taken + taken.div_ceil(2)).clamp(1, planned);
+        Self {
+            blended: rounds(self.blended, planned.blended),
+            superpixels: rounds(self.superpixels, planned.superpixels),
+            grown: rounds(self.grown, planned.grown),
+        }
+    }
+}
+
 /// One recording of a frame: the frame's parts, borrowed apart from its timings, and what it shows where.
 pub(super) struct Recording<'a> {
     pub settings: &'a Settings,
     pub plan: &'a Plan,
+    pub rounds: Rounds,
     pub passes: &'a Passes,
     pub targets: &'a RasterTargets,
     pub geometry: &'a FrameGeometry,
@@ -146,10 +178,10 @@ impl Recording<'_> {
         let side = self.settings.side();
         let filtered = pixels / (side * side);
         let tiles = whole.tiles[0] * whole.tiles[1];
-        let work = Work {
+        let work = |rounds: u32| Work {
             triangles: scene.index_count(),
             tiles,
-            rounds: self.plan.rounds,
+            rounds,
         };
         let views = self.light_views(region).unwrap_or_default();
         let shadowed = |set| Shadowed {
@@ -218,23 +250,25 @@ impl Recording<'_> {
         }
         if let Some(engine) = &passes.blended {
             resources.record_begin(recorder, main, &whole);
-            engine.record(recorder, resources, &shading, &work);
+            engine.record(recorder, resources, &shading, &work(self.rounds.blended));
             resources.record_keep_counters(recorder, self.counters, Run::Blended.slot(index));
         }
         if let Some(engine) = &passes.superpixels {
             let owned = self.uniform(region, offsets.count(), true);
             resources.record_begin(recorder, offsets, &owned);
             let shading = shading_of(offsets);
-            engine.record(recorder, resources, &shading, &work);
+            engine.record(
+                recorder,
+                resources,
+                &shading,
+                &work(self.rounds.superpixels),
+            );
             resources.record_keep_counters(recorder, self.counters, Run::Superpixels.slot(index));
             let growing = Growing {
                 resources,
                 set: offsets,
                 uniform: owned,
-                work: Work {
-                    rounds: self.plan.growth_rounds(),
-                    ..work
-                },
+                work: work(self.rounds.grown),
                 counters: self.counters,
                 first_slot: Run::Grown.slot(index),
             };
