@@ -36,7 +36,8 @@ pub(super) fn kind(cells: Cells, shadow_words: u32, apart: bool) -> ListKind {
 /// Pipelines and memory to sample runs of locations of one scene.
 pub(super) struct LocationEngine {
     settings: Settings,
-    /// Rounds of lists and records recorded for a run.
+    /// Rounds of lists and records that a run may take, and that are recorded: about as many as the run before took.
+    planned_rounds: u32,
     rounds: u32,
     stroke: Option<Stroke>,
     engine: ListEngine,
@@ -151,6 +152,7 @@ impl LocationEngine {
                 vk::BufferUsageFlags::TRANSFER_DST,
                 MemoryUse::Readback,
             )?,
+            planned_rounds: *rounds,
             rounds: *rounds,
             timings: Timings::new(&gpu, 16 + 9 * rounds)?,
             memory,
@@ -258,6 +260,23 @@ impl LocationEngine {
 
     fn counted(&self) -> Result<&[u32], VulkanError> {
         self.counters.read(Counter::COUNT)
+    }
+
+    /// Records about as many rounds from now on as the last run took, whose commands are done. A run that takes more is left
+    /// unfinished.
+    pub fn expect_alike(&mut self) -> Result<(), VulkanError> {
+        let taken = self
+            .counted()?
+            .get(Counter::Rounds as usize)
+            .copied()
+            .unwrap_or(0);
+        self.rounds = (taken + taken.div_ceil(2)).clamp(1, self.planned_rounds);
+        Ok(())
+    }
+
+    /// Records as many rounds as planned from now on, and says whether there were fewer.
+    pub fn expect_anything(&mut self) -> bool {
+        std::mem::replace(&mut self.rounds, self.planned_rounds) != self.planned_rounds
     }
 
     /// What the last run could not finish.
