@@ -167,6 +167,11 @@ pub(super) const MOST_PAIRS: u64 = 8 << 20;
 const TILE_PAIRS: u64 = 160;
 const TILE_CANDIDATES: u64 = 10;
 
+/// Rounds to record for what is like something that took so many: half as many again, but no more than planned.
+pub(super) fn rounds_like(taken: u32, planned: u32) -> u32 {
+    (taken + taken.div_ceil(2)).max(1).min(planned)
+}
+
 /// Visibility samples that superpixels have room for, on average.
 pub(super) fn records_of_superpixel(settings: &Settings, scene: &dyn Content) -> u64 {
     let samples = u64::from(settings.samples);

@@ -10,7 +10,7 @@ use crate::passes::{
 use crate::render::Settings;
 use crate::render::color::display_code;
 use crate::render::engine::{Growing, RecordShading, Work, record_shading};
-use crate::render::plan::{Plan, Region};
+use crate::render::plan::{Plan, Region, rounds_like};
 use crate::render::shadows::{LightView, ShadowEngine, Shadowed, Sight};
 use crate::scene::Moment;
 use crate::vulkan::{Buffer, Recorder};
@@ -69,14 +69,13 @@ impl Rounds {
         }
     }
 
-    /// For frames like one that took so many: half as many again, but no more than planned.
+    /// For frames like one that took so many.
     pub fn for_frames_like(self, plan: &Plan) -> Self {
         let planned = Self::planned(plan);
-        let rounds = |taken: u32, planned: u32| (taken + taken.div_ceil(2)).clamp(1, planned);
         Self {
-            blended: rounds(self.blended, planned.blended),
-            superpixels: rounds(self.superpixels, planned.superpixels),
-            grown: rounds(self.grown, planned.grown),
+            blended: rounds_like(self.blended, planned.blended),
+            superpixels: rounds_like(self.superpixels, planned.superpixels),
+            grown: rounds_like(self.grown, planned.grown),
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::passes::{
 };
 use crate::render::frame::recording::SceneShading;
 use crate::render::list::{ListEngine, ListKind};
-use crate::render::plan::Capacity;
+use crate::render::plan::{Capacity, rounds_like};
 use crate::render::plane::Window;
 use crate::render::renderer::PreparedScene;
 use crate::render::shadows::{ShadowEngine, Shadowed, Sight};
@@ -270,7 +270,7 @@ impl LocationEngine {
             .get(Counter::Rounds as usize)
             .copied()
             .unwrap_or(0);
-        self.rounds = (taken + taken.div_ceil(2)).clamp(1, self.planned_rounds);
+        self.rounds = rounds_like(taken, self.planned_rounds);
         Ok(())
     }
 
