@@ -297,8 +297,9 @@ impl Headless {
                     // Tiles without a list made the image all the same, but slowly.
                     if image.statistics.unlisted_tiles > 0 && frame.lists_can_grow() {
                         self.prepare_again(frame, frame.capacity().with_doubled_lists())?;
+                    } else {
+                        frame.expect_alike()?;
                     }
-                    frame.expect_alike()?;
                     return Ok(image);
                 }
                 failed => return failed,

@@ -132,7 +132,7 @@ impl Renderer {
         (pose, motion): (&Pose, &Motion),
         max_memory: Option<u64>,
     ) -> Result<PreparedScene, RenderError> {
-        if motion.vertex_count != pose.geometry.positions.len() {
+        if !motion.is_of(pose) {
             return Err(RenderError::OtherMotion);
         }
         self.prepare_moving(scene, (pose, Some(motion)), max_memory)

@@ -82,7 +82,7 @@ pub struct Motion {
     /// What its moments and it have in common with no other.
     pub(crate) identity: Arc<()>,
     /// Of the geometry.
-    pub(crate) vertex_count: usize,
+    vertex_count: usize,
     request: PoseRequest,
     origin: DVec3,
     /// Those of the first pose.
@@ -231,6 +231,11 @@ impl Motion {
                 self.displacements.extend(vectors);
             }
         }
+    }
+
+    /// Whether a pose may be the one that it was made with.
+    pub(crate) fn is_of(&self, pose: &Pose) -> bool {
+        self.vertex_count == pose.geometry.positions.len()
     }
 
     /// Most vectors of a [`Moment`].
