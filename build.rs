@@ -68,6 +68,7 @@ const VARIANTS: &[Variant] = &[
     ("tally", "tally.comp", &[]),
     ("schedule", "schedule.comp", &[]),
     ("enlist", "enlist.comp", &[]),
+    ("crossings", "crossings.comp", &[]),
     ("distribute", "distribute.comp", &[]),
     ("groups", "groups.comp", &[]),
     ("arguments", "arguments.comp", &[]),

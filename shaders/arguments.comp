@@ -2,13 +2,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
+#include "include/pairs.glsl"
 layout(local_size_x = 1) in;
 layout(push_constant) uniform Push {
     uint after;
     uint subgroups_first;   // as in schedule.comp
     uint subgroups;
 } push;
-const uint DETECT = 0u, CULL = 1u, SAMPLE = 2u, RECORDS = 3u, SPANS = 4u, THIN = 5u, GROUPS = 6u, PROBE = 7u;
+const uint DETECT = 0u, CULL = 1u, SAMPLE = 2u, RECORDS = 3u, SPANS = 4u, THIN = 5u, GROUPS = 6u, PROBE = 7u, PAIRS = 8u;
 
 void main() {
     if (push.after == DETECT) {
@@ -30,6 +31,9 @@ void main() {
         arguments[ARGUMENT_MASKED_LEFT] = groups(counters[COUNTER_MASKED_LEFT] * push.subgroups);
     } else if (push.after == THIN) {
         arguments[ARGUMENT_THIN] = groups((counters[COUNTER_THIN] + 63u) / 64u);
+    } else if (push.after == PAIRS) {
+        uint in_workgroup = 64u / INVOCATIONS_OF_PAIR;
+        arguments[ARGUMENT_THIN] = groups((min(counters[COUNTER_PAIRS], frame.pair_capacity) + in_workgroup - 1u) / in_workgroup);
     } else {
         // An invocation a record, or 8 a span. Bins one after the other; the dispatch of each begins at its first record.
         uint first = 0u;

@@ -1,14 +1,17 @@
 // cull: keeps the triangles that can touch a superpixel; counts the others by reason. It errs towards keeping:
 // `setup` has the last word on what has area and faces the camera.
 // Reads: the geometry, masks. Writes: survivors (small from the front, large ones from the back), counters.
+// THIN_ALONE keeps those that may be thin in some cell, for `crossings`.
 // The host discards a frame whose survivors outnumber their room. Small triangles go to one invocation each in `bin`, large ones to a workgroup each.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/workgroup.glsl"
+#include "include/thin.glsl"
 #include "include/tiles.glsl"
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
+layout(constant_id = 0) const bool THIN_ALONE = false;
 
 const int SMALL_TILES = 16;
 const uint PER_INVOCATION = 8u;
@@ -33,7 +36,9 @@ void main() {
         bool is_degenerate = exists && !is_outside && (k.v0 == k.v1 || k.v1 == k.v2 || k.v2 == k.v0);
         bool is_backfacing = exists && !is_outside && !is_degenerate && (k.word >> 31) == 0u
             && surely_backfacing(k.v0, k.v1, k.v2, frame.origin);
-        bool candidate = exists && !is_outside && !is_degenerate && !is_backfacing;
+        bool wide = THIN_ALONE && exists && !f.unprojected
+            && height_of(k.v0.xy / k.v0.w, k.v1.xy / k.v1.w, k.v2.xy / k.v2.w) >= THIN * uintBitsToFloat(counters[COUNTER_WIDEST]);
+        bool candidate = exists && !is_outside && !is_degenerate && !is_backfacing && !wide;
 
         ivec2 low = f.low / ivec2(8, 4), high = f.high / ivec2(8, 4);
         int count = (high.x - low.x + 1) * (high.y - low.y + 1);

@@ -18,12 +18,12 @@
 #include "include/counters.glsl"
 #include "include/finite.glsl"
 #include "include/place_in_tile.glsl"
+#include "include/tile_locations.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint STEP = 0u;
 layout(constant_id = 1) const bool POINTS = false;      // locations are sampled once each, and several share a cell
 const uint NUMBER = 0u, LAY_OUT = 1u, ARRANGE = 2u, ENCLOSE = 3u;
 
-// For each tile: locations of each pixel, later their first place; the tile's first place, locations, first group
 layout(std430, set = 0, binding = 0) buffer Loads { uint loads[]; };
 layout(std430, set = 0, binding = 1) buffer Ranks { uint ranks[]; };           // of a location in its pixel; ~0: left out
 layout(std430, set = 0, binding = 2) writeonly buffer OrderOut { uint order_out[]; };
@@ -43,8 +43,6 @@ layout(push_constant) uniform Push {
     uint samples;           // of a cell that is one location
 } push;
 
-const uint LOAD = 35u;      // words of a tile in `loads`
-const uint FIRST = 32u, COUNT = 33u, FIRST_GROUP = 34u;
 // Half of a cell's sides beyond its samples, in pixels: covers the rounding of edge functions; and a factor, for that of samples.
 const float SLACK = 1.0 / 64.0, ROUNDING = 1.0 + 1.0 / 1048576.0;
 // The farthest that a sample may lie from its location's pixel, in pixels.
@@ -56,11 +54,15 @@ vec2 half_extent(uint location) {
     return 0.5 * (j.xy + j.zw);
 }
 
+// How wide a location's cell is, in pixels: the larger of its Jacobian's singular values.
+float width_of(uint location) {
+    vec4 j = uintBitsToFloat(texelFetch(locations, int(2u * location + 1u)));
+    float both = dot(j, j), area = j.x * j.w - j.y * j.z;
+    return sqrt(0.5 * (both + sqrt(max(both * both - 4.0 * area * area, 0.0)))) * ROUNDING;
+}
+
 // The pixel's number in its tile, row by row.
 uint bit_of(ivec2 pixel) { return uint(pixel.x & 7) | uint(pixel.y & 3) << 3; }
-
-// That of the pixel at a place of a Morton curve through a tile.
-uint bit_at(uint place) { return (place & 1u) | (place >> 1 & 2u) | (place >> 2 & 4u) | (place & 2u) << 2 | (place & 8u) << 1; }
 
 uint tile_of(ivec2 pixel) { return uint(pixel.y >> 2) * push.tiles.x + uint(pixel.x >> 3); }
 
@@ -82,7 +84,11 @@ void number(uint i) {
     }
     vec2 reach = abs(within - 0.5) + extent;
     float farthest = subgroupMax(valid ? max(reach.x, reach.y) * ROUNDING : 0.5);
-    if (subgroupElect()) atomicMax(counters[COUNTER_REACH], floatBitsToUint(farthest));
+    float widest = subgroupMax(valid ? width_of(i) : 0.0);
+    if (subgroupElect()) {
+        atomicMax(counters[COUNTER_REACH], floatBitsToUint(farthest));
+        atomicMax(counters[COUNTER_WIDEST], floatBitsToUint(widest));
+    }
 }
 
 void lay_out(uint tile) {

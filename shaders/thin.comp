@@ -12,6 +12,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/workgroup.glsl"
+#include "include/thin.glsl"
 #include "include/tiles.glsl"
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
@@ -21,14 +22,7 @@ layout(constant_id = 2) const bool FARTHER_IS_LARGER = false;   // in raster's d
 
 layout(set = 0, binding = 40) uniform texture2D raster_depth;
 
-const float THIN = 1.5;             // height over the longest side, in pixels: a wider one is seen by some centre
 const uint PER_INVOCATION = 8u;
-
-float height_of(vec2 a, vec2 b, vec2 c) {
-    vec2 ab = b - a, bc = c - b, ca = a - c;
-    float longest = sqrt(max(dot(ab, ab), max(dot(bc, bc), dot(ca, ca))));
-    return abs(ab.x * ca.y - ab.y * ca.x) / max(longest, 1e-20);
-}
 
 void select_thin() {
     uint first = workgroup_number() * 64u * PER_INVOCATION + gl_LocalInvocationID.x, step_ = 0u;
@@ -48,15 +42,6 @@ void select_thin() {
         uint slot = base + subgroupBallotExclusiveBitCount(together);
         if (thin && slot < frame.survivor_capacity) survivors[slot] = t;
     } while (++step_ < PER_INVOCATION);
-}
-
-// What the edge from p to q spans between two verticals: y from .x to .y, depth from .z to .w; nothing where it lies beside.
-vec4 span_of(vec3 p, vec3 q, float left, float right) {
-    vec3 l = p.x < q.x ? p : q, r = p.x < q.x ? q : p;
-    float from = max(left, l.x), to = min(right, r.x), length_ = max(r.x - l.x, 1e-20);
-    vec2 a = mix(l.yz, r.yz, clamp((from - l.x) / length_, 0.0, 1.0)), b = mix(l.yz, r.yz, clamp((to - l.x) / length_, 0.0, 1.0));
-    vec2 low = min(a, b), high = max(a, b);
-    return from <= to ? vec4(low.x, high.x, low.y, high.y) : vec2(3.4e38, -3.4e38).xyxy;
 }
 
 // `depths`: the farthest and the nearest of the triangle there.
@@ -94,12 +79,11 @@ void walk() {
     int end = int(clamp(floor(max(p0.x, max(p1.x, p2.x)) + 0.5), 0.0, float(last.x)));
     do {
         float left = float(x) - 0.5, right = float(x) + 0.5;
-        vec4 a = span_of(p0, p1, left, right), b = span_of(p1, p2, left, right), c = span_of(p2, p0, left, right);
-        vec2 low = min(a.xz, min(b.xz, c.xz)), high = max(a.yw, max(b.yw, c.yw));
-        int y = int(clamp(floor(low.x + 0.5), 0.0, float(last.y) + 1.0));
-        int bottom = int(clamp(floor(high.x + 0.5), -1.0, float(last.y)));
+        vec4 span = both_of(both_of(span_of(p0, p1, left, right), span_of(p1, p2, left, right)), span_of(p2, p0, left, right));
+        int y = int(clamp(floor(span.x + 0.5), 0.0, float(last.y) + 1.0));
+        int bottom = int(clamp(floor(span.y + 0.5), -1.0, float(last.y)));
         do {
-            if (y <= bottom && x <= end) mark(swap ? ivec2(y, x) : ivec2(x, y), t, vec2(low.y, high.y));
+            if (y <= bottom && x <= end) mark(swap ? ivec2(y, x) : ivec2(x, y), t, span.zw);
         } while (++y <= bottom);
     } while (++x <= end);
 }

@@ -3,6 +3,8 @@
 #ifndef PAIRS_GLSL
 #define PAIRS_GLSL
 
+const uint INVOCATIONS_OF_PAIR = 8u;    // in `crossings`
+
 uint pair_tile_bits() {
     return uint(findMSB(frame.tiles.x * frame.tiles.y) + 1);
 }

@@ -17,6 +17,7 @@ pub(super) enum After {
     Thin,
     Groups,
     Probe,
+    Pairs,
 }
 
 /// One kernel for all that counts: drivers take longer to compile one than to run it.

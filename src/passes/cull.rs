@@ -5,6 +5,15 @@ use super::{Argument, Content, FrameLayout, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
+/// Which triangles are kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kept {
+    /// All that may touch a cell.
+    Touching,
+    /// Of these, those that may be thin in some cell.
+    Thin,
+}
+
 /// Compacts triangles; runs over none where nothing was detected.
 pub struct Cull {
     arguments: Arguments,
@@ -16,8 +25,10 @@ impl Cull {
     ///
     /// # Errors
     /// If the driver refuses one.
-    pub fn new(layout: &FrameLayout, scene: &dyn Content) -> Result<Self, VulkanError> {
-        let constants = scene.constants(Constants::new());
+    pub fn new(layout: &FrameLayout, scene: &dyn Content, kept: Kept) -> Result<Self, VulkanError> {
+        let constants = scene
+            .constants(Constants::new())
+            .flag(0, kept == Kept::Thin);
         Ok(Self {
             arguments: Arguments::new(layout, After::Detect)?,
             pipeline: layout.compute(spirv::CULL, &constants, None)?,

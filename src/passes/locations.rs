@@ -142,7 +142,7 @@ pub struct LocationBuffers {
 }
 
 impl LocationBuffers {
-    /// Words of a tile in `loads`.
+    /// Words of a tile in `loads`, see `shaders/include/tile_locations.glsl`.
     const LOAD: u64 = 35;
 
     pub(super) fn new(
@@ -197,6 +197,12 @@ impl Resources {
     pub fn listed(&self) -> Result<vk::BufferView, VulkanError> {
         let listed = self.locations.locations.as_ref().ok_or(UNMAPPED)?;
         Ok(listed.view)
+    }
+
+    /// What `distribute` knows of each tile, as `shaders/include/tile_locations.glsl` describes it.
+    #[cfg(feature = "gltf")]
+    pub(super) fn tile_locations(&self) -> &Buffer {
+        &self.locations.loads
     }
 
     /// All that `distribute` reads and writes.

@@ -6,12 +6,12 @@
 //!                                                                   └───────────────────────────────────── grow ◀──────────────────────────────────────┘
 //! ```
 //! `prefilter` runs once for a scene with an environment, before its first frame. Of lists of sample locations, `distribute` takes
-//! the place of what finds superpixels, from `raster` to `detect`; `groups` follows `enlist`, and `points` may stand for `resolve`.
+//! the place of what finds superpixels, from `raster` to `detect`, and `crossings` that of `thin`; `groups` follows `enlist`, and `points` may stand for `resolve`.
 //! Before `shade`, `receivers` makes such a list for each light that may be hidden, and `shadow` follows its `sample`.
 //!
 //! Every pass records into a caller's command buffer and reads what the pass before left on the device. They share the
 //! geometry (`geometry/`) and what else the scene has (`scene/`), the memory that they hand to each other (`resources/`),
-//! the layout of descriptors (`layout.rs`) and the twins of what shaders include (`frame.rs`, `counters.rs`, `locations.rs`,
+//! the layout of descriptors (`layout.rs`), an output's cells (`output.rs`) and the twins of what shaders include (`frame.rs`, `counters.rs`, `locations.rs`,
 //! `draws.rs`, `triangle_word.rs`, `alpha_flags.rs`, `shadow_words.rs`).
 
 mod adopt;
@@ -27,6 +27,8 @@ mod centres;
 mod content;
 mod coordinates;
 mod counters;
+#[cfg(feature = "gltf")]
+mod crossings;
 mod cull;
 mod detect;
 mod distribute;
@@ -41,6 +43,8 @@ mod layout;
 mod lent_kernel;
 mod locations;
 mod multisample;
+#[cfg(feature = "gltf")]
+mod output;
 mod own_layout;
 mod patch;
 mod pipelines;
@@ -92,7 +96,9 @@ pub use content::Content;
 pub(crate) use coordinates::Coordinates;
 pub(crate) use counters::STRETCH;
 pub use counters::{Argument, Counter};
-pub use cull::Cull;
+#[cfg(feature = "gltf")]
+pub use crossings::{Crossings, MarkedOutput, SeenLocation};
+pub use cull::{Cull, Kept};
 pub use detect::{Detect, DetectMode, DetectOptions};
 pub use distribute::{Distribute, ListLength, ListRegion};
 pub(crate) use draws::{Draws, HostDraw};
@@ -105,6 +111,8 @@ pub use grow::Grow;
 pub use layout::FrameLayout;
 pub use locations::{CellSizes, Cells, ListedLocation, LocationBuffers, LocationSizes};
 pub use multisample::Multisample;
+#[cfg(feature = "gltf")]
+pub use output::{Output, Shown};
 pub(crate) use own_layout::{OwnSet, SetLayout};
 pub(crate) use patch::{Patch, Patched};
 pub use points::Points;

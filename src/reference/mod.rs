@@ -7,6 +7,8 @@
 
 pub mod area;
 pub mod coverage;
+#[cfg(feature = "gltf")]
+pub mod crossings;
 pub mod detect;
 pub mod distribute;
 pub mod edge;

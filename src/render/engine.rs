@@ -4,8 +4,8 @@ use super::plan::Plan;
 use super::{Coverage, Detection, RenderError, Settings, Shading};
 use crate::passes::{
     Bin, Cells, Content, Cull, Detect, DetectMode, DetectOptions, FrameLayout, FrameUniform, Grow,
-    RecordRate, Resolve, Resources, Sample, SampleOptions, SampleSet, Schedule, Setup, Sort, Then,
-    Thin,
+    Kept, RecordRate, Resolve, Resources, Sample, SampleOptions, SampleSet, Schedule, Setup, Sort,
+    Then, Thin,
 };
 use crate::sampling::Pattern;
 use crate::vulkan::{Buffer, Constants, Recorder};
@@ -125,7 +125,7 @@ impl Engine {
                 Ok::<_, RenderError>((
                     thin().transpose()?,
                     detect()?,
-                    Cull::new(layout, scene)?,
+                    Cull::new(layout, scene, Kept::Touching)?,
                     Bin::new(layout, scene)?,
                     Setup::new(layout, scene)?,
                     Sort::new(layout, scene, scene.bin_count() == 1)?,

@@ -18,9 +18,6 @@ pub enum RenderError {
     /// Multisampling samples pixels.
     #[error("msaa samples the pixels of an image, not any locations; ask another method")]
     LocationMethod,
-    /// A plane of values that detection compares is not as large as the image.
-    #[error(transparent)]
-    Plane(#[from] crate::reference::detect::PlaneError),
     /// A region of an image has no pixels or leaves the image.
     #[error(
         "a region of {} x {} pixels from column {}, row {}: it must have pixels and lie in the image of {} x {}",

@@ -4,9 +4,9 @@ use super::engine::{RecordShading, can_settle, record_rate, record_shading, with
 use super::plan::{Capacity, MOST_CANDIDATES, MOST_PAIRS, MOST_RECORDS, records_of_superpixel};
 use super::{Coverage, RenderError, Settings};
 use crate::passes::{
-    Bin, CellSizes, Cells, Content, Cull, Distribute, FrameLayout, Groups, ListLength, ListRegion,
-    LocationSizes, Points, RecordRate, Resolve, ResourceSizes, Resources, Sample, SampleOptions,
-    SampleSet, Schedule, Setup, Sort, Then,
+    Bin, CellSizes, Cells, Content, Cull, Distribute, FrameLayout, Groups, Kept, ListLength,
+    ListRegion, LocationSizes, Points, RecordRate, Resolve, ResourceSizes, Resources, Sample,
+    SampleOptions, SampleSet, Schedule, Setup, Sort, Then,
 };
 use crate::vulkan::{Constants, Recorder};
 use ash::vk;
@@ -209,7 +209,7 @@ impl ListEngine {
             distribute: unsafe {
                 Distribute::new(layout, kind.cells, sizes, resources, locations)
             }?,
-            cull: Cull::new(layout, scene)?,
+            cull: Cull::new(layout, scene, Kept::Touching)?,
             bin: Bin::new(layout, scene)?,
             schedule: Schedule::new(layout, &sample, kind.layers)?,
             groups: Groups::new(layout, &sample)?,

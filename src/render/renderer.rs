@@ -1,7 +1,6 @@
 //! The face of the renderer: what it needs of a device, and how scenes and frames are prepared.
 
 use super::frame::Frame;
-use super::locations::HostTriangles;
 use super::plan::Capacity;
 use super::shadows::Casters;
 use super::{RenderError, Settings};
@@ -26,7 +25,6 @@ pub struct PreparedScene {
     pub(super) gpu_scene: Arc<GpuScene>,
     pub(super) uploads: SceneUploads,
     /// For what the host looks for in images of locations.
-    pub(super) triangles: HostTriangles,
     /// What casts shadows, where the scene was made ready for them.
     pub(super) casters: Option<Arc<Casters>>,
     pub(super) caster_uploads: SceneUploads,
@@ -150,7 +148,6 @@ impl Renderer {
         Ok(PreparedScene {
             gpu_scene: Arc::new(gpu_scene),
             uploads,
-            triangles: HostTriangles::new(&pose.geometry),
             casters: None,
             caster_uploads: SceneUploads::default(),
         })

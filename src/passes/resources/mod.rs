@@ -19,7 +19,7 @@ use std::sync::Arc;
 /// Buffers that passes hand to each other.
 pub struct Resources {
     sizes: ResourceSizes,
-    display: BufferView,
+    pub(super) display: BufferView,
     pub(crate) color: BufferView,
     /// A word for each [`Counter`].
     pub counters: Buffer,

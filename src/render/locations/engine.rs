@@ -1,9 +1,10 @@
 //! The passes and memory that sample locations: the engine of superpixels with the caller's cells in the place of pixels.
 
 use super::plan::LocationPlan;
+use super::run::RunMemory;
 use crate::passes::{
-    Cells, Content, Counter, FrameGeometry, FrameLayout, FrameLook, ListLength, ListedLocation,
-    Offsets, RasterTargets, Resources, SampleOptions, Shade, ShadeSource, Stroke, StrokeSizes,
+    Cells, Counter, FrameLayout, ListLength, ListedLocation, Offsets, Resources, SampleOptions,
+    SampleSet, Shade, ShadeSource,
 };
 use crate::render::frame::recording::SceneShading;
 use crate::render::list::{ListEngine, ListKind};
@@ -12,8 +13,8 @@ use crate::render::plane::Window;
 use crate::render::renderer::PreparedScene;
 use crate::render::shadows::{ShadowEngine, Shadowed, Sight};
 use crate::render::statistics::Shortfall;
-use crate::render::{PassTime, RenderError, Settings, Statistics};
-use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings, VulkanError};
+use crate::render::{RenderError, Settings, Statistics};
+use crate::vulkan::{Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -35,21 +36,13 @@ pub(super) fn kind(cells: Cells, shadow_words: u32, apart: bool) -> ListKind {
 
 /// Pipelines and memory to sample runs of locations of one scene.
 pub(super) struct LocationEngine {
-    settings: Settings,
     /// Rounds of lists and records that a run may take, and that are recorded: about as many as the run before took.
     planned_rounds: u32,
     rounds: u32,
-    stroke: Option<Stroke>,
     engine: ListEngine,
     shade: Shade,
     shadows: Option<ShadowEngine>,
-    geometry: FrameGeometry,
-    resources: Resources,
-    targets: RasterTargets,
-    counters: Buffer,
-    timings: Timings,
-    memory: Memory,
-    uploaded: bool,
+    run: RunMemory,
 }
 
 /// What the locations of a run saw, in their order.
@@ -76,93 +69,53 @@ impl LocationEngine {
             ..
         } = plan;
         let scene = &*prepared.gpu_scene;
-        let gpu = scene.memory().gpu().clone();
-        let taken = prepared.memory_bytes();
-        let memory = Memory::new(
-            gpu.clone(),
-            settings.max_memory.map(|limit| limit.saturating_sub(taken)),
-        );
         let kind = kind(*cells, sizes.shadow_words, apart);
         let (offsets, count) = kind.offsets(layout, settings)?;
         let offsets = Offsets {
             all: &offsets,
             count,
         };
-        let targets = RasterTargets::new(
-            &memory,
-            1,
-            1,
-            vk::SampleCountFlags::TYPE_1,
-            scene.has_blend(),
-        )?;
-        let geometry = FrameGeometry::new(&memory, scene, false)?;
-        let look = FrameLook::default();
-        let mut texels = geometry.texels(scene);
-        texels.push(look.texels(scene));
-        let resources = Resources::new(
-            layout,
-            &memory,
-            scene,
-            (&texels, look.lights(scene)),
-            &targets.views(),
-            *sizes,
-            &[offsets],
-        )?;
+        let marks = 16 + 9 * rounds;
+        let run = RunMemory::new(layout, prepared, settings, *sizes, offsets, marks)?;
+        let resources = &run.resources;
         let output = settings.color_constants(scene);
         let source = ShadeSource::Records { cells: *cells };
         let listed = resources.listed()?;
         // SAFETY: the list goes with the resources, and has room for as many locations.
         let engine = unsafe {
-            ListEngine::new(
-                layout,
-                scene,
-                settings,
-                &kind,
-                (&resources, listed),
-                &output,
-            )
+            ListEngine::new(layout, scene, settings, &kind, (resources, listed), &output)
         }?;
         let shadows = |casters| {
-            let shading = (scene, *cells, &resources);
+            let shading = (scene, *cells, resources);
             let capacity = Capacity {
                 apart,
                 ..Capacity::default()
             };
             ShadowEngine::new(
-                layout, &memory, casters, settings, capacity, shading, *places,
+                layout,
+                &run.memory,
+                casters,
+                settings,
+                capacity,
+                shading,
+                *places,
             )
         };
         let casters = prepared.casters.as_ref().filter(|_| kind.shadow_words > 0);
         let shadows = casters.map(shadows).transpose()?;
         Ok(Self {
-            settings: settings.clone(),
-            stroke: scene
-                .has_strokes()
-                .then(|| Stroke::new(layout))
-                .transpose()?,
             shade: Shade::new(layout, scene, (source, kind.shadow_words), &output)?,
             shadows,
             engine,
-            geometry,
-            resources,
-            targets,
-            counters: memory.buffer(
-                "counter read-back",
-                Counter::BYTES,
-                vk::BufferUsageFlags::TRANSFER_DST,
-                MemoryUse::Readback,
-            )?,
             planned_rounds: *rounds,
             rounds: *rounds,
-            timings: Timings::new(&gpu, 16 + 9 * rounds)?,
-            memory,
-            uploaded: false,
+            run,
         })
     }
 
     /// The list of a run of so many locations, to be written while the device is idle.
     pub fn listed_mut(&mut self, count: usize) -> Result<&mut [ListedLocation], VulkanError> {
-        self.resources.listed_mut(count)
+        self.run.listed_mut(count)
     }
 
     /// Records a run of so many locations, which have been written, in a window of what is seen.
@@ -179,93 +132,71 @@ impl LocationEngine {
         count: usize,
         commands: vk::CommandBuffer,
     ) {
-        let scene = &*scene.gpu_scene;
-        let SampleOptions { cells, samples, .. } = *self.engine.options();
-        let (settings, sizes) = (&self.settings, self.resources.sizes());
-        let uniform = window.uniform(scene, &sight.pinhole, settings, (cells, samples), sizes);
-        let to_clip = window.to_clip(scene, &sight.pinhole);
-        self.geometry.place(scene, &to_clip, None);
-        let gpu = self.memory.gpu().clone();
-        // SAFETY: passed on to the caller.
-        let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
-        let recorder = &mut recorder;
-        let resources = &self.resources;
-        if !self.uploaded {
-            self.geometry.record_upload(recorder, scene);
-            resources.record_upload(recorder);
-            self.targets.record_unused(recorder);
-            if let Some(shadows) = &self.shadows {
-                shadows.record_upload(recorder);
-            }
-            self.uploaded = true;
-        }
-        recorder.begin();
-        let Some(set) = resources.set(0) else {
-            return;
-        };
-        resources.record_begin(recorder, set, &uniform);
-        if let Some(stroke) = &self.stroke {
-            let sizes = StrokeSizes {
-                line_width: self.settings.line_width,
-                point_size: self.settings.point_size,
-                edge_width: self.settings.edge_width,
-                side: 1,
+        let Self {
+            rounds,
+            engine,
+            shade,
+            shadows,
+            run,
+            ..
+        } = self;
+        let looking = (&sight.pinhole, window);
+        let SampleOptions { cells, samples, .. } = *engine.options();
+        let record =
+            |recorder: &mut Recorder<'_>, (resources, set): (&Resources, &SampleSet), is_first| {
+                if let Some(shadows) = shadows.as_mut() {
+                    if is_first {
+                        shadows.record_upload(recorder);
+                        recorder.barrier();
+                    }
+                    shadows.record_begin(recorder);
+                }
+                let region = window.region(count);
+                engine.record_candidates(recorder, (resources, set), &region, ListLength::Known);
+                let views = shadows.as_ref().map(|shadows| shadows.views(sight));
+                let views = views.unwrap_or_default();
+                let shadowed = Shadowed {
+                    resources,
+                    set,
+                    size: [0; 2],
+                    views: &views,
+                };
+                let shading = SceneShading {
+                    scene: &scene.gpu_scene,
+                    shade: Some(shade),
+                    shadows: shadows.as_ref().map(|shadows| (shadows, shadowed)),
+                };
+                for _ in 0..*rounds {
+                    engine.record_round(recorder, resources);
+                    engine.record_values(recorder, resources, &shading);
+                }
+                if let Some(shadows) = shadows {
+                    shadows.record_end(recorder);
+                }
             };
-            stroke.record(recorder, scene, &self.geometry, &to_clip, sizes);
-            recorder.mark("stroke");
-        }
-        if let Some(shadows) = &mut self.shadows {
-            shadows.record_begin(recorder);
-        }
-        let region = window.region(count);
-        let engine = &self.engine;
-        engine.record_candidates(recorder, (resources, set), &region, ListLength::Known);
-        let views = self.shadows.as_ref().map(|shadows| shadows.views(sight));
-        let views = views.unwrap_or_default();
-        let shadowed = Shadowed {
-            resources,
-            set,
-            size: [0; 2],
-            views: &views,
-        };
-        let shading = SceneShading {
-            scene,
-            shade: Some(&self.shade),
-            shadows: self.shadows.as_ref().map(|shadows| (shadows, shadowed)),
-        };
-        for _ in 0..self.rounds {
-            engine.record_round(recorder, resources);
-            engine.record_values(recorder, resources, &shading);
-        }
-        if let Some(shadows) = &self.shadows {
-            shadows.record_end(recorder);
-        }
-        resources.record_keep_counters(recorder, &self.counters, 0);
-        recorder.barrier();
+        // SAFETY: passed on to the caller.
+        unsafe { run.record(scene, looking, (cells, samples), commands, record) };
     }
 
     /// What the last run's `locations` locations saw.
     pub fn values(&self, locations: usize) -> Result<LocationValues<'_>, VulkanError> {
         let Resources {
             color, attributes, ..
-        } = &self.resources;
+        } = &self.run.resources;
         Ok(LocationValues {
             colors: color.buffer.read(locations)?,
-            attributes: match self.resources.sizes().attributes {
+            attributes: match self.run.resources.sizes().attributes {
                 true => attributes.read(locations)?,
                 false => &[],
             },
         })
     }
 
-    fn counted(&self) -> Result<&[u32], VulkanError> {
-        self.counters.read(Counter::COUNT)
-    }
-
     /// Records about as many rounds from now on as the last run took, whose commands are done. A run that takes more is left
     /// unfinished.
     pub fn expect_alike(&mut self) -> Result<(), VulkanError> {
         let taken = self
+            .run
             .counted()?
             .get(Counter::Rounds as usize)
             .copied()
@@ -281,10 +212,7 @@ impl LocationEngine {
 
     /// What the last run could not finish.
     pub fn shortfall(&self, window: &Window) -> Result<Shortfall, VulkanError> {
-        let mut shortfall = Shortfall::default();
-        let room = self.resources.sizes().survivor_capacity;
-        shortfall.add(self.counted()?, (window.tile_count(), room), true);
-        shortfall.add_subgroups(self.counted()?);
+        let mut shortfall = self.run.shortfall(window)?;
         if let Some(shadows) = &self.shadows {
             shadows.add_shortfall(&mut shortfall)?;
         }
@@ -296,7 +224,8 @@ impl LocationEngine {
     /// # Errors
     /// [`RenderError::Unfinished`], or [`RenderError::Vulkan`] if what was counted can't be read.
     pub fn check(&self, window: &Window) -> Result<(), RenderError> {
-        self.shortfall(window)?.check(self.resources.sizes().lanes)
+        self.shortfall(window)?
+            .check(self.run.resources.sizes().lanes)
     }
 
     /// Adds the figures of the last run.
@@ -309,16 +238,9 @@ impl LocationEngine {
         window: &Window,
         total: &mut Statistics,
     ) -> Result<(), VulkanError> {
-        total.add(self.counted()?);
+        total.add(self.run.counted()?);
         total.tiles += u64::from(window.tile_count());
         total.regions += 1;
-        total.triangles.total = scene.triangle_count();
-        total.memory_bytes = total
-            .memory_bytes
-            .max(self.memory.used() + scene.memory_bytes());
-        for (pass, ms) in self.timings.read()? {
-            total.add_time(PassTime { pass, ms });
-        }
-        Ok(())
+        self.run.add_statistics(scene, total)
     }
 }

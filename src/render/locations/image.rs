@@ -1,25 +1,23 @@
 //! An image whose pixels look where locations say: sampled once, then as superpixels where that aliases.
 
-use super::{LocationError, thin};
+use super::LocationError;
 use crate::camera::{Pinhole, SampleLocation};
 use crate::passes::LightPlane;
-use crate::reference::detect;
 use crate::render::color::display_code;
 use crate::render::{
     Coverage, Detection, Headless, Method, PixelAttributes, PreparedScene, RenderError, Rendered,
     Settings, Shading, Shadows, Statistics,
 };
 use crate::sampling::Pattern;
-use std::time::Instant;
 
 /// One value for each output cell, as detection compares them.
-struct Cells {
+pub(super) struct Cells {
     colors: Vec<[f32; 4]>,
-    attributes: Vec<PixelAttributes>,
-    blend_ids: Vec<u32>,
-    codes: Vec<u32>,
+    pub attributes: Vec<PixelAttributes>,
+    pub blend_ids: Vec<u32>,
+    pub codes: Vec<u32>,
     /// What lights each lies in the shadow of.
-    shadows: Vec<u32>,
+    pub shadows: Vec<u32>,
 }
 
 impl Headless {
@@ -91,19 +89,12 @@ impl Headless {
             let mut marked = if every {
                 vec![true; count as usize]
             } else {
-                cells.aliasing(&settings)?
+                let (aliasing, found) = self.find_aliasing(scene, rig, &settings, &cells)?;
+                statistics.append(found);
+                aliasing
             };
-            if settings.thin && !every {
-                cells.mark_thin(scene, rig, size[0], &mut marked);
-                if settings.shadows == Shadows::Exact {
-                    statistics.append(self.mark_shadows(
-                        scene,
-                        rig,
-                        &settings,
-                        &cells,
-                        &mut marked,
-                    )?);
-                }
+            if settings.thin && !every && settings.shadows == Shadows::Exact {
+                statistics.append(self.mark_shadows(scene, rig, &settings, &cells, &mut marked)?);
             }
             statistics.append(self.sample_marked(scene, rig, &marked, &settings, &mut cells)?);
             for _ in 0..settings.growths() {
@@ -229,36 +220,6 @@ impl Cells {
         }
     }
 
-    /// Whether each cell aliases: beside another triangle, or the border of a shadow.
-    fn aliasing(&self, settings: &Settings) -> Result<Vec<bool>, RenderError> {
-        let [width, height] = settings.size;
-        let mode = match settings.detection {
-            Detection::Contrast => detect::Mode::Contrast(settings.contrast),
-            Detection::Edges => detect::Mode::Edges(settings.contrast),
-            Detection::Exact | Detection::Every => detect::Mode::Exact,
-        };
-        let ids: Vec<u32> = self.attributes.iter().map(|seen| seen.id).collect();
-        let frame = detect::Frame::new(width, height, &ids, &self.blend_ids, &self.codes)?;
-        let mut mask = detect::superpixels(&frame, mode);
-        if settings.shadows == Shadows::Exact {
-            let no_layers = vec![0; self.shadows.len()];
-            let frame = detect::Frame::new(width, height, &self.shadows, &no_layers, &self.codes)?;
-            let borders = detect::superpixels(&frame, mode);
-            for (word, borders) in mask.iter_mut().zip(borders) {
-                *word |= borders;
-            }
-        }
-        let tiles = width.div_ceil(detect::TILE_WIDTH);
-        let marked = |pixel: u32| {
-            let (x, y) = (pixel % width, pixel / width);
-            let (column, row) = (x / detect::TILE_WIDTH, y / detect::TILE_HEIGHT);
-            let bit = y % detect::TILE_HEIGHT * detect::TILE_WIDTH + x % detect::TILE_WIDTH;
-            mask.get((row * tiles + column) as usize)
-                .is_some_and(|word| word >> bit & 1 != 0)
-        };
-        Ok((0..width * height).map(marked).collect())
-    }
-
     /// Whether each cell grows beside others: it is no superpixel, and contrasts with what one of those `resolved` last was
     /// found to show.
     fn beside(&self, resolved: &[bool], settings: &Settings) -> Vec<bool> {
@@ -278,32 +239,5 @@ impl Cells {
             }
         }
         grows
-    }
-
-    /// Marks the cells that a thin triangle crosses unseen.
-    fn mark_thin(
-        &self,
-        scene: &PreparedScene,
-        rig: &[(Pinhole, Vec<SampleLocation>)],
-        width: u32,
-        marked: &mut [bool],
-    ) {
-        let start = Instant::now();
-        let output = thin::Output {
-            width,
-            attributes: &self.attributes,
-            blend_ids: &self.blend_ids,
-        };
-        for (pinhole, locations) in rig.iter().filter(|(_, locations)| !locations.is_empty()) {
-            for cell in thin::crossed(scene.triangles.get(), pinhole, locations, &output) {
-                if let Some(mark) = marked.get_mut(cell as usize) {
-                    *mark = true;
-                }
-            }
-        }
-        log::debug!(
-            "thin triangles: {:.1} ms",
-            start.elapsed().as_secs_f64() * 1e3
-        );
     }
 }

@@ -4,16 +4,16 @@
 //! ([`Headless::sample_superpixels`]); [`Headless::render_locations`] makes an image of both. They run on the engine that
 //! antialiases images; no picture is resampled.
 
+mod crossings;
+mod detection;
 mod engine;
 mod error;
 mod image;
 mod partition;
 mod plan;
-mod thin;
-mod triangles;
+mod run;
 
 pub use error::LocationError;
-pub(super) use triangles::{HostTriangles, Triangles};
 
 use super::shadows::Sight;
 use super::{Headless, PreparedScene, RenderError, Settings, Statistics};

@@ -1,13 +1,15 @@
 //! Triangles narrower than a cell, which no location sees.
 
-use gpc::camera::{Pinhole, SampleLocation};
+use glam::DVec3;
+use gpc::camera::{Camera, Pinhole, Projection, SampleLocation};
+use gpc::reference::crossings::{Mark, View};
 use gpc::render::{Detection, Headless, PreparedScene, Rendered, Settings};
 use gpc::scene::AlphaMode;
 
 use super::{pinhole, planar};
 use crate::detect::wires;
 use crate::meshes::Random;
-use crate::stage::{Stage, flat, on_gpu, seen_at};
+use crate::stage::{Stage, camera, flat, on_gpu, seen_at};
 
 const SIZE: [u32; 2] = [96, 64];
 
@@ -172,5 +174,169 @@ fn dense_meshes_make_no_superpixels() {
             assert!(rendered.attributes.iter().all(|seen| seen.id != 0));
             assert_eq!(rendered.statistics.superpixels, 0, "{stretch:?}");
         }
+    });
+}
+
+/// A wall, and slivers before it, on it, behind it and past the eye.
+fn slivers(random: &mut Random) -> Stage {
+    let mut material = flat([1.0; 4], AlphaMode::Opaque);
+    material.double_sided = true;
+    let mut stage = Stage::new(vec![material]);
+    let corner = |x: f64, y: f64| seen_at([x, y], 5.0, SIZE[1]);
+    for [left, right] in [[-60.0, -20.3], [-20.3, 9.7], [9.7, 31.0]] {
+        let wall = [(left, -50.0), (left, 21.2), (right, 21.2), (right, -50.0)];
+        stage.add_quad(0, wall.map(|(x, y)| corner(x, y)));
+    }
+    for sliver in 0..160 {
+        let distance = [2.0, 4.9, 4.999, 5.0, 8.0][sliver % 5];
+        let at = [random.range(-55.0, 55.0), random.range(-38.0, 38.0)];
+        let turn = random.range(0.0, 6.3);
+        let (length, width) = (random.range(0.5, 40.0), random.range(0.05, 2.5));
+        let along = [turn.cos(), turn.sin()];
+        let place = |far: f64, aside: f64, depth: f64| {
+            let x = at[0] + far * along[0] - aside * along[1];
+            seen_at(
+                [x, at[1] + far * along[1] + aside * along[0]],
+                depth,
+                SIZE[1],
+            )
+        };
+        let mut corners = [
+            place(-length, 0.0, distance),
+            place(length, 0.0, distance * random.range(0.999, 1.001)),
+            place(random.range(-length, length), width, distance),
+        ];
+        if sliver % 8 == 7 {
+            // Behind the eye, which looks along -z.
+            corners[0] = [0.3 * corners[0][0], 0.3 * corners[0][1], 1.0];
+        }
+        stage.add(0, corners);
+    }
+    stage
+}
+
+/// Which cells an output of locations makes superpixels of, against the twin: what is thin, apart and painted, in cells of
+/// any shape, for lines of sight that meet and that do not.
+#[test]
+fn cells_are_marked_as_the_twin_has_it() {
+    on_gpu(|gpu| {
+        let mut random = Random::new(29);
+        let stage = slivers(&mut random);
+        let scene = stage.upload(gpu);
+        let level = Camera {
+            projection: Projection::Orthographic {
+                half_height: 2.7,
+                near: 0.5,
+                far: 50.0,
+            },
+            ..camera()
+        };
+        let pinholes = [pinhole(SIZE), Pinhole::from_camera(&level, SIZE).unwrap()];
+        for pinhole in pinholes {
+            let locations: Vec<SampleLocation> = planar(SIZE)
+                .into_iter()
+                .map(|location| {
+                    let reach = [0.3, 0.7, 1.2][location.output as usize % 3];
+                    let mut number = || random.range(-reach, reach);
+                    SampleLocation {
+                        jacobian: [[number() + 0.9, number()], [number(), number() + 0.9]],
+                        ..location
+                    }
+                })
+                .collect();
+            let settings = Settings {
+                contrast: 255,
+                ..settings(Detection::Contrast, true)
+            };
+            let rig = [(pinhole, locations)];
+            let rendered = gpu.render_locations(&scene, &rig, SIZE, &settings).unwrap();
+            let [(_, locations)] = &rig;
+            let view = View::new(&pinhole, DVec3::ZERO);
+            let ids: Vec<u32> = rendered.attributes.iter().map(|seen| seen.id).collect();
+            let (mut marked, mut doubtful) = (0, 0);
+            for (location, seen) in locations.iter().zip(&rendered.attributes) {
+                let (mut sure, mut unsure) = (false, false);
+                for (id, triangle) in (1..).zip(&stage.triangles) {
+                    let corners = triangle
+                        .corners
+                        .map(|corner| DVec3::from_array(corner.map(f64::from)));
+                    let Some(crossing) = view.crossing(corners, location) else {
+                        continue;
+                    };
+                    let marks = |by: f64| {
+                        let mark = crossing.mark(view.behind(f64::from(seen.depth)) + by);
+                        let amid = || seen.id != id && amid(&ids, location.output, id);
+                        mark == Mark::Apart || mark == Mark::Painted && amid()
+                    };
+                    let same = marks(-1e-5) == marks(1e-5) && crossing.clearance > 0.01;
+                    sure |= same && marks(0.0);
+                    unsure |= !same;
+                }
+                marked += u32::from(sure);
+                doubtful += u32::from(unsure && !sure);
+                let found = seen.superpixel == 1;
+                assert!(
+                    found == sure || unsure && !sure,
+                    "{location:?} shows {} at {}: {found}",
+                    seen.id,
+                    seen.depth
+                );
+            }
+            assert!(marked > 300 && doubtful < 300, "{marked} {doubtful}");
+        }
+    });
+}
+
+/// Whether a cell lies amid a triangle other than `id`: it and both its neighbours to the sides, or above and below, show the same
+/// one. Beyond the border everything is as it is there.
+fn amid(ids: &[u32], cell: u32, id: u32) -> bool {
+    let [width, height] = SIZE;
+    let [x, y] = [cell % width, cell / width];
+    let shown = |x: u32, y: u32| ids[(y.min(height - 1) * width + x.min(width - 1)) as usize];
+    let here = shown(x, y);
+    let beside = shown(x.saturating_sub(1), y) == here && shown(x + 1, y) == here;
+    let above = shown(x, y.saturating_sub(1)) == here && shown(x, y + 1) == here;
+    here != 0 && here != id && (beside || above)
+}
+
+/// An output of more cells than are looked at together, which shows the same again and again: it is cut in the midst of one.
+#[test]
+fn bands_of_an_output_find_what_the_whole_does() {
+    on_gpu(|gpu| {
+        let [width, height] = SIZE;
+        let scene = slivers(&mut Random::new(29)).upload(gpu);
+        let times = 187;
+        let copy = |copy: u32| {
+            planar(SIZE)
+                .into_iter()
+                .map(move |location| SampleLocation {
+                    output: location.output + copy * width * height,
+                    ..location
+                })
+        };
+        let rig = [(pinhole(SIZE), (0..times).flat_map(copy).collect())];
+        let size = [width, times * height];
+        let settings = Settings {
+            size,
+            samples: 4,
+            ..settings(Detection::Exact, true)
+        };
+        let rendered = gpu.render_locations(&scene, &rig, size, &settings).unwrap();
+        let row = |row: u32| {
+            let first = (row * width) as usize;
+            rendered.attributes[first..first + width as usize].iter()
+        };
+        let mut marked = 0;
+        for y in 2 * height..(times - 1) * height {
+            // Those at the ends have others for neighbours than the image's.
+            if !(3..height - 3).contains(&(y % height)) {
+                continue;
+            }
+            let first = row(height + y % height);
+            let differ = row(y).zip(first).filter(|(a, b)| a != b).count();
+            assert_eq!(differ, 0, "row {y}");
+            marked += row(y).filter(|seen| seen.superpixel == 1).count();
+        }
+        assert!(marked > 200_000, "{marked}");
     });
 }

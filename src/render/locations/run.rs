@@ -1,0 +1,173 @@
+//! What runs over locations need, whatever they look for: the geometry as a window sees it, memory, counters and times.
+
+use crate::camera::Pinhole;
+use crate::passes::{
+    Cells, Content, Counter, FrameGeometry, FrameLayout, FrameLook, ListedLocation, Offsets,
+    RasterTargets, ResourceSizes, Resources, SampleSet, Stroke, StrokeSizes,
+};
+use crate::render::plane::Window;
+use crate::render::statistics::Shortfall;
+use crate::render::{PassTime, PreparedScene, RenderError, Settings, Statistics};
+use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings, VulkanError};
+use ash::vk;
+use std::sync::Arc;
+
+/// The memory of runs over locations of one scene.
+pub(super) struct RunMemory {
+    pub resources: Resources,
+    pub memory: Memory,
+    settings: Settings,
+    stroke: Option<Stroke>,
+    geometry: FrameGeometry,
+    targets: RasterTargets,
+    counters: Buffer,
+    timings: Timings,
+    uploaded: bool,
+}
+
+impl RunMemory {
+    /// Makes it, with offsets of a cell's samples, and room for so many marks of time.
+    pub fn new(
+        layout: &Arc<FrameLayout>,
+        prepared: &PreparedScene,
+        settings: &Settings,
+        sizes: ResourceSizes,
+        offsets: Offsets<'_>,
+        marks: u32,
+    ) -> Result<Self, RenderError> {
+        let scene = &*prepared.gpu_scene;
+        let gpu = scene.memory().gpu().clone();
+        let taken = prepared.memory_bytes();
+        let memory = Memory::new(
+            gpu.clone(),
+            settings.max_memory.map(|limit| limit.saturating_sub(taken)),
+        );
+        let targets = RasterTargets::new(
+            &memory,
+            1,
+            1,
+            vk::SampleCountFlags::TYPE_1,
+            scene.has_blend(),
+        )?;
+        let geometry = FrameGeometry::new(&memory, scene, false)?;
+        let look = FrameLook::default();
+        let mut texels = geometry.texels(scene);
+        texels.push(look.texels(scene));
+        let resources = Resources::new(
+            layout,
+            &memory,
+            scene,
+            (&texels, look.lights(scene)),
+            &targets.views(),
+            sizes,
+            &[offsets],
+        )?;
+        Ok(Self {
+            resources,
+            settings: settings.clone(),
+            stroke: scene
+                .has_strokes()
+                .then(|| Stroke::new(layout))
+                .transpose()?,
+            geometry,
+            targets,
+            counters: memory.buffer(
+                "counter read-back",
+                Counter::BYTES,
+                vk::BufferUsageFlags::TRANSFER_DST,
+                MemoryUse::Readback,
+            )?,
+            timings: Timings::new(&gpu, marks)?,
+            memory,
+            uploaded: false,
+        })
+    }
+
+    /// Records a run over such cells, each with so many samples, in a window of what a pinhole sees: what all runs begin and end
+    /// with, and between these what `record` does, which is told whether this is the first run.
+    ///
+    /// # Safety
+    /// - `commands` is being recorded, outside of a render pass, for the device and queue family of the renderer.
+    /// - `scene` is the one that this was made for and its upload was recorded before.
+    /// - The commands of the last recording are done: its memory is used again.
+    pub unsafe fn record(
+        &mut self,
+        scene: &PreparedScene,
+        (pinhole, window): (&Pinhole, &Window),
+        cells: (Cells, u32),
+        commands: vk::CommandBuffer,
+        record: impl FnOnce(&mut Recorder<'_>, (&Resources, &SampleSet), bool),
+    ) {
+        let scene = &*scene.gpu_scene;
+        let (settings, resources) = (&self.settings, &self.resources);
+        let Some(set) = resources.set(0) else {
+            return;
+        };
+        let sizes = resources.sizes();
+        let uniform = window.uniform(scene, pinhole, settings, cells, sizes);
+        let to_clip = window.to_clip(scene, pinhole);
+        self.geometry.place(scene, &to_clip, None);
+        let gpu = self.memory.gpu().clone();
+        // SAFETY: passed on to the caller.
+        let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
+        let recorder = &mut recorder;
+        let is_first = !self.uploaded;
+        if is_first {
+            self.geometry.record_upload(recorder, scene);
+            resources.record_upload(recorder);
+            self.targets.record_unused(recorder);
+            self.uploaded = true;
+        }
+        recorder.begin();
+        resources.record_begin(recorder, set, &uniform);
+        if let Some(stroke) = &self.stroke {
+            let sizes = StrokeSizes {
+                line_width: settings.line_width,
+                point_size: settings.point_size,
+                edge_width: settings.edge_width,
+                side: 1,
+            };
+            stroke.record(recorder, scene, &self.geometry, &to_clip, sizes);
+            recorder.mark("stroke");
+        }
+        record(recorder, (resources, set), is_first);
+        resources.record_keep_counters(recorder, &self.counters, 0);
+        recorder.barrier();
+    }
+
+    /// The list of a run of so many locations, to be written while the device is idle.
+    pub fn listed_mut(&mut self, count: usize) -> Result<&mut [ListedLocation], VulkanError> {
+        self.resources.listed_mut(count)
+    }
+
+    /// What the last run counted.
+    pub fn counted(&self) -> Result<&[u32], VulkanError> {
+        self.counters.read(Counter::COUNT)
+    }
+
+    /// What the last run could not finish.
+    pub fn shortfall(&self, window: &Window) -> Result<Shortfall, VulkanError> {
+        let mut shortfall = Shortfall::default();
+        let room = self.resources.sizes().survivor_capacity;
+        shortfall.add(self.counted()?, (window.tile_count(), room), true);
+        shortfall.add_subgroups(self.counted()?);
+        Ok(shortfall)
+    }
+
+    /// Adds the times of the last run's passes, and how much memory there is.
+    pub fn add_statistics(
+        &self,
+        scene: &PreparedScene,
+        total: &mut Statistics,
+    ) -> Result<(), VulkanError> {
+        let scene = &scene.gpu_scene;
+        total.triangles.total = scene.triangle_count();
+        total.memory_bytes = total
+            .memory_bytes
+            .max(self.memory.used() + scene.memory_bytes());
+        for (pass, ms) in self.timings.read()? {
+            total.add_time(PassTime { pass, ms });
+        }
+        Ok(())
+    }
+}
