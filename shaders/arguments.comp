@@ -31,6 +31,7 @@ void main() {
         arguments[ARGUMENT_MASKED_LEFT] = groups(counters[COUNTER_MASKED_LEFT] * push.subgroups);
     } else if (push.after == THIN) {
         arguments[ARGUMENT_THIN] = groups((counters[COUNTER_THIN] + 63u) / 64u);
+        arguments[ARGUMENT_THIN_LONG] = groups(counters[COUNTER_THIN_LONG]);
     } else if (push.after == PAIRS) {
         uint in_workgroup = 64u / INVOCATIONS_OF_PAIR;
         arguments[ARGUMENT_THIN] = groups((min(counters[COUNTER_PAIRS], frame.pair_capacity) + in_workgroup - 1u) / in_workgroup);

@@ -7,6 +7,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/workgroup.glsl"
+#include "include/append.glsl"
 #include "include/thin.glsl"
 #include "include/tiles.glsl"
 #include "include/triangle.glsl"
@@ -15,13 +16,6 @@ layout(constant_id = 0) const bool THIN_ALONE = false;
 
 const int SMALL_TILES = 16;
 const uint PER_INVOCATION = 8u;
-
-uint append(uint counter, bool wanted) {
-    uvec4 ballot = subgroupBallot(wanted);
-    uint base = 0u;
-    if (subgroupElect()) base = atomicAdd(counters[counter], subgroupBallotBitCount(ballot));
-    return subgroupBroadcastFirst(base) + subgroupBallotExclusiveBitCount(ballot);
-}
 
 void main() {
     uint outside = 0u, backfacing = 0u, degenerate = 0u, untouching = 0u;

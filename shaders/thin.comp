@@ -1,7 +1,8 @@
 // thin: pixels that a thin triangle crosses unseen become superpixels, although no pixel centre saw it: a rope or wire
 // narrower than a pixel, the tip of a leaf. Runs twice: SELECT lists thin triangles, then each is walked along its
 // longer side, pixel by pixel.
-// Reads: the geometry, raster's depth, ids, blend_ids. Writes: marks, survivors (a scratch list here).
+// Reads: the geometry, raster's depth, ids, blend_ids. Writes: marks, survivors (a scratch list here: short ones from the front,
+// long ones from the back).
 //
 // A pixel is marked where the triangle, all of it that lies in the pixel's column (in its row, if it is higher than wide),
 // is nearer than the surface at the pixel's centre by more than a pixel's width. On a dense mesh each small triangle lies
@@ -12,6 +13,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/workgroup.glsl"
+#include "include/append.glsl"
 #include "include/thin.glsl"
 #include "include/tiles.glsl"
 #include "include/triangle.glsl"
@@ -23,6 +25,8 @@ layout(constant_id = 2) const bool FARTHER_IS_LARGER = false;   // in raster's d
 layout(set = 0, binding = 40) uniform texture2D raster_depth;
 
 const uint PER_INVOCATION = 8u;
+const float LONG = 64.0;            // pixels: a longer one is walked by a workgroup, not an invocation
+layout(push_constant) uniform Push { uint long_; } push;    // 1: of WALK, the long ones
 
 void select_thin() {
     uint first = workgroup_number() * 64u * PER_INVOCATION + gl_LocalInvocationID.x, step_ = 0u;
@@ -31,16 +35,16 @@ void select_thin() {
         bool exists = t < frame.triangle_count;
         Triangle k = triangle_at(min(t, frame.triangle_count - 1u));
         Footprint f = footprint_of(k.v0, k.v1, k.v2);
-        float height = height_of(k.v0.xy / k.v0.w, k.v1.xy / k.v1.w, k.v2.xy / k.v2.w);
+        vec2 q0 = k.v0.xy / k.v0.w, q1 = k.v1.xy / k.v1.w, q2 = k.v2.xy / k.v2.w;
+        float height = height_of(q0, q1, q2);
         bool hidden = (k.word >> 31) == 0u && surely_backfacing(k.v0, k.v1, k.v2, frame.origin);
         bool thin = exists && !f.outside && !f.unprojected && height < THIN && height > 0.0 && !hidden;
-        uvec4 together = subgroupBallot(thin);
-        uint base = 0u;
-        if (subgroupElect() && subgroupBallotBitCount(together) != 0u)
-            base = atomicAdd(counters[COUNTER_THIN], subgroupBallotBitCount(together));
-        base = subgroupBroadcastFirst(base);
-        uint slot = base + subgroupBallotExclusiveBitCount(together);
-        if (thin && slot < frame.survivor_capacity) survivors[slot] = t;
+        vec2 extent = max(q0, max(q1, q2)) - min(q0, min(q1, q2));
+        bool long_ = max(extent.x, extent.y) > LONG;
+        uint slot = append(COUNTER_THIN, thin && !long_);
+        if (thin && !long_ && slot < frame.survivor_capacity) survivors[slot] = t;
+        slot = append(COUNTER_THIN_LONG, thin && long_);
+        if (thin && long_ && slot < frame.survivor_capacity) survivors[frame.survivor_capacity - 1u - slot] = t;
     } while (++step_ < PER_INVOCATION);
 }
 
@@ -64,9 +68,10 @@ vec3 projected(vec4 vertex) {
 }
 
 void walk() {
-    uint i = invocation_number();
-    if (i >= min(counters[COUNTER_THIN], frame.survivor_capacity)) return;
-    uint t = survivors[i];
+    bool long_ = push.long_ != 0u;
+    uint i = long_ ? workgroup_number() : invocation_number();
+    if (i >= min(counters[long_ ? COUNTER_THIN_LONG : COUNTER_THIN], frame.survivor_capacity)) return;
+    uint t = survivors[long_ ? frame.survivor_capacity - 1u - i : i];
     Triangle k = triangle_at(t);
     vec3 p0 = projected(k.v0), p1 = projected(k.v1), p2 = projected(k.v2);
 
@@ -76,6 +81,8 @@ void walk() {
     if (swap) { p0 = p0.yxz; p1 = p1.yxz; p2 = p2.yxz; }
     ivec2 last = swap ? ivec2(frame.size.yx) - 1 : ivec2(frame.size) - 1;
     int x = int(clamp(floor(min(p0.x, min(p1.x, p2.x)) + 0.5), 0.0, float(last.x)));
+    x += long_ ? int(gl_LocalInvocationID.x) : 0;
+    int step_ = long_ ? 64 : 1;
     int end = int(clamp(floor(max(p0.x, max(p1.x, p2.x)) + 0.5), 0.0, float(last.x)));
     do {
         float left = float(x) - 0.5, right = float(x) + 0.5;
@@ -85,7 +92,8 @@ void walk() {
         do {
             if (y <= bottom && x <= end) mark(swap ? ivec2(y, x) : ivec2(x, y), t, span.zw);
         } while (++y <= bottom);
-    } while (++x <= end);
+        x += step_;
+    } while (x <= end);
 }
 
 void main() {

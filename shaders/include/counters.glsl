@@ -32,7 +32,8 @@
 #define COUNTER_GROUPS 30
 #define COUNTER_REACH 31
 #define COUNTER_WIDEST 32
-#define COUNTER_SUBGROUPS 33
+#define COUNTER_THIN_LONG 33
+#define COUNTER_SUBGROUPS 34
 #define COUNTER_COUNT 36
 
 #define ARGUMENT_CULL 0
@@ -50,7 +51,8 @@
 #define ARGUMENT_MASKED_LEFT 12
 #define ARGUMENT_TALLY 13
 #define ARGUMENT_ENLIST 14
-#define ARGUMENT_SHADE 15
+#define ARGUMENT_THIN_LONG 15
+#define ARGUMENT_SHADE 16
 
 // Tiles of a stretch, see load.glsl.
 #define STRETCH 256

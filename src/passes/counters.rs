@@ -44,6 +44,8 @@ pub enum Counter {
     Reach,
     /// How wide cells of a list are at the most, in pixels: a float.
     Widest,
+    /// Thin triangles that are long, too.
+    ThinLong,
     /// Whether a kernel was run in other subgroups than it was made for. It stays: those before it alone are cleared.
     Subgroups,
 }
@@ -77,6 +79,7 @@ pub enum Argument {
     MaskedLeft,
     Tally,
     Enlist,
+    ThinLong,
     /// The first material bin's; the others follow.
     Shade,
 }
@@ -148,6 +151,7 @@ mod tests {
             C::Groups,
             C::Reach,
             C::Widest,
+            C::ThinLong,
             C::Subgroups,
         ] {
             let name = format!("COUNTER_{}", shouted(&format!("{counter:?}")));
@@ -172,6 +176,7 @@ mod tests {
             A::MaskedLeft,
             A::Tally,
             A::Enlist,
+            A::ThinLong,
             A::Shade,
         ] {
             let name = format!("ARGUMENT_{}", shouted(&format!("{argument:?}")));

@@ -3,10 +3,12 @@
 use super::arguments::{After, Arguments};
 use super::{Argument, Content, FrameLayout, spirv};
 use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use ash::vk;
 use std::sync::Arc;
 
 /// Marks pixels for `detect`.
 pub struct Thin {
+    layout: vk::PipelineLayout,
     select: Arc<Pipeline>,
     arguments: Arguments,
     walk: Arc<Pipeline>,
@@ -32,6 +34,7 @@ impl Thin {
             layout.compute(spirv::THIN, &scene.constants(constants), None)
         };
         Ok(Self {
+            layout: layout.pipeline,
             select: thin(true)?,
             arguments: Arguments::new(layout, After::Thin)?,
             walk: thin(false)?,
@@ -50,6 +53,10 @@ impl Thin {
         recorder.barrier();
         recorder.dispatch(&self.select, u64::from(indices.div_ceil(512)));
         self.arguments.record(recorder);
-        recorder.dispatch_indirect(&self.walk, arguments, Argument::Thin as u32);
+        for (long, argument) in [(0, Argument::Thin), (1, Argument::ThinLong)] {
+            recorder.push(self.layout, &[long]);
+            recorder.dispatch_indirect_unordered(&self.walk, arguments, argument as u32);
+        }
+        recorder.barrier();
     }
 }

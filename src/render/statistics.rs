@@ -161,7 +161,8 @@ impl Shortfall {
             self.unlisted += u64::from(get(Counter::UnlistedTotal));
         }
         let survivors = get(Counter::Survivors).saturating_add(get(Counter::Large));
-        let listed = survivors.max(get(Counter::Thin));
+        let thin = get(Counter::Thin).saturating_add(get(Counter::ThinLong));
+        let listed = survivors.max(thin);
         self.dropped += u64::from(listed.saturating_sub(room));
         self.rooms = self.rooms.max(listed.div_ceil(room.max(1)));
     }
