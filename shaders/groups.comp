@@ -12,7 +12,9 @@ void main() {
     uint i = invocation_number();
     uint count = counters[COUNTER_GROUPS];
     uint tile = texelFetch(location_groups, int(min(i, max(count, 1u) - 1u))).x, flags = tiles[tile].w;
-    bool placed = i < count && in_round(tile);
+    // Where POINTS see nothing is the background.
+    bool needless = POINTS && !OCCLUDERS && tiles[tile].x == 0u;
+    bool placed = i < count && in_round(tile) && !needless;
     uint needs = (flags & TILE_LISTED) == 0u ? 3u : (flags & TILE_HAS_BLEND) != 0u ? 2u : (flags & TILE_HAS_MASK) != 0u ? 1u : 0u;
     for (uint list = 0u; list < 4u; list++) {
         bool mine = placed && needs == list;

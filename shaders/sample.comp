@@ -20,8 +20,8 @@
 //           (BY_PART: and part of it; PER_SAMPLE: one a sample, at its location);
 //   LAYERED: index of the record of the surface behind it, or ~0 for background; a leaf has ID 0, its weight in the
 //           stead of a place, and the index of its samples' nearest surface (include/layers.glsl).
-// Records link to those before them. Where cells are LOCATIONS, the first word of a record is its location; POINTS make a record
-// a sample, of location 0.
+// Records link to those before them. Where cells are LOCATIONS, the first word of a record is its location. POINTS make a record of
+// each location that sees something; LAYERED, of the others too.
 // OCCLUDERS know their triangle and depth: another one that is nearer is recorded, or else background.
 // Header of a cell's block: first record, number of records (LAYERED: leaves).
 //
@@ -192,7 +192,9 @@ void main() {
             records_made = record_layers(cell, cell_id);
 #else
             end_cell(cell);
-            if (PER_SAMPLE) {
+            if (POINTS && !OCCLUDERS) {
+                records_made = record_points(cell);
+            } else if (PER_SAMPLE) {
                 records_made = record_samples(cell, cell_id);
             } else {
                 bool settled;

@@ -172,6 +172,21 @@ float weigh(Surfaces s, uint samples, out bool settled) {
         : cell_weight / float(samples) * s.samples;
 }
 
+// A record a point that sees something; returns the first one and their number.
+uvec2 record_points(Cell cell) {
+    uint made = 0u;
+    [[unroll]] for (int g = 0; g < ROWS; g++) made += subgroupBallotBitCount(subgroupBallot(id[g] != 0u));
+    bool fits;
+    uint base = allocate_records(made, fits), slot = base;
+    [[unroll]] for (int g = 0; g < ROWS; g++) {
+        uvec4 seeing = subgroupBallot(id[g] != 0u);
+        if (fits && id[g] != 0u)
+            records_out[slot + subgroupBallotExclusiveBitCount(seeing)] = uvec4(location_of(cell, g) | POINT_VALUE, id[g], 0u, ~0u);
+        slot += subgroupBallotBitCount(seeing);
+    }
+    return uvec2(base, fits ? made : 0u);
+}
+
 // A record a sample; returns the first one and their number.
 uvec2 record_samples(Cell cell, uint cell_id) {
     bool fits;

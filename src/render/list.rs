@@ -258,7 +258,8 @@ impl ListEngine {
         recorder.mark("sample");
     }
 
-    /// Records what makes colours of a round's records, where they are shaded.
+    /// Records what makes colours of a round's records, where they are shaded. Locations that are sampled once and see nothing have
+    /// none: their colours and attributes stay as they are.
     pub fn record_values(
         &self,
         recorder: &mut Recorder<'_>,

@@ -87,30 +87,52 @@ impl Resources {
         background: [f32; 4],
         code: u32,
     ) {
-        /// Pixels written inline; the rest is copied from what is there, twice as much each time.
-        const SEED: u64 = 4096;
-        let device = recorder.device();
-        let (color, display) = (self.color.buffer.raw, self.display.buffer.raw);
-        let total = u64::from(pixels);
-        // SAFETY: the recorder's contract; the seed has the 65,536 bytes that an inline update can have, sizes are
-        // multiples of 4, and each copy reads what the copies before it wrote and writes past it.
+        // SAFETY: the recorder's contract; the buffer was made for copies.
         unsafe {
-            device.cmd_fill_buffer(recorder.raw(), display, 0, vk::WHOLE_SIZE, code);
-            if background == [0.0; 4] {
-                device.cmd_fill_buffer(recorder.raw(), color, 0, vk::WHOLE_SIZE, 0);
-            } else {
-                let mut filled = SEED.min(total);
-                let seed = vec![background; filled as usize];
-                device.cmd_update_buffer(recorder.raw(), color, 0, bytemuck::cast_slice(&seed));
-                while filled < total {
-                    recorder.barrier();
-                    let size = filled.min(total - filled) * 16;
-                    let part = [vk::BufferCopy::default().dst_offset(filled * 16).size(size)];
-                    device.cmd_copy_buffer(recorder.raw(), color, color, &part);
-                    filled = (2 * filled).min(total);
-                }
-            }
+            recorder.device().cmd_fill_buffer(
+                recorder.raw(),
+                self.display.buffer.raw,
+                0,
+                vk::WHOLE_SIZE,
+                code,
+            );
         }
+        fill(recorder, &self.color.buffer, background, pixels);
         recorder.barrier();
+    }
+
+    /// Fills the attributes of the first `locations` locations with those of the background, of which this is the display code.
+    #[cfg(feature = "gltf")]
+    pub(crate) fn record_unseen(&self, recorder: &Recorder<'_>, locations: u32, code: u32) {
+        let unseen = [[0, 0, 0, code], [0; 4]];
+        fill(recorder, &self.attributes, unseen, locations);
+        recorder.barrier();
+    }
+}
+
+/// Fills the first `count` places of a buffer, which has them and was made for copies.
+fn fill<T: bytemuck::NoUninit>(recorder: &Recorder<'_>, buffer: &Buffer, value: T, count: u32) {
+    /// Bytes written inline, as many as can be; the rest is copied from what is there, twice as much each time.
+    const SEED: u64 = 65_536;
+    let device = recorder.device();
+    let total = u64::from(count) * size_of::<T>() as u64;
+    let mut filled = SEED.min(total);
+    // SAFETY: the recorder's contract; sizes are multiples of 4, and each copy reads what the copies before it wrote and writes
+    // past it.
+    unsafe {
+        if bytemuck::bytes_of(&value).iter().all(|byte| *byte == 0) {
+            device.cmd_fill_buffer(recorder.raw(), buffer.raw, 0, vk::WHOLE_SIZE, 0);
+            return;
+        }
+        let seed = vec![value; filled as usize / size_of::<T>()];
+        let seed = bytemuck::cast_slice(&seed);
+        device.cmd_update_buffer(recorder.raw(), buffer.raw, 0, seed);
+        while filled < total {
+            recorder.barrier();
+            let size = filled.min(total - filled);
+            let part = [vk::BufferCopy::default().dst_offset(filled).size(size)];
+            device.cmd_copy_buffer(recorder.raw(), buffer.raw, buffer.raw, &part);
+            filled = (2 * filled).min(total);
+        }
     }
 }

@@ -39,6 +39,7 @@ pub(super) struct LocationEngine {
     /// Rounds of lists and records that a run may take, and that are recorded: about as many as the run before took.
     planned_rounds: u32,
     rounds: u32,
+    settings: Settings,
     engine: ListEngine,
     shade: Shade,
     shadows: Option<ShadowEngine>,
@@ -104,6 +105,7 @@ impl LocationEngine {
         let casters = prepared.casters.as_ref().filter(|_| kind.shadow_words > 0);
         let shadows = casters.map(shadows).transpose()?;
         Ok(Self {
+            settings: settings.clone(),
             shade: Shade::new(layout, scene, (source, kind.shadow_words), &output)?,
             shadows,
             engine,
@@ -134,6 +136,7 @@ impl LocationEngine {
     ) {
         let Self {
             rounds,
+            settings,
             engine,
             shade,
             shadows,
@@ -141,6 +144,7 @@ impl LocationEngine {
             ..
         } = self;
         let looking = (&sight.pinhole, window);
+        let background = settings.background_rgba();
         let SampleOptions { cells, samples, .. } = *engine.options();
         let record =
             |recorder: &mut Recorder<'_>, (resources, set): (&Resources, &SampleSet), is_first| {
@@ -151,7 +155,13 @@ impl LocationEngine {
                     }
                     shadows.record_begin(recorder);
                 }
-                let region = window.region(count);
+                if cells == Cells::Points {
+                let code = settings.output_code(background);
+                resources.record_background(recorder, count as u32, background, code);
+                resources.record_unseen(recorder, count as u32, code);
+                recorder.mark("background");
+            }
+            let region = window.region(count);
                 engine.record_candidates(recorder, (resources, set), &region, ListLength::Known);
                 let views = shadows.as_ref().map(|shadows| shadows.views(sight));
                 let views = views.unwrap_or_default();
