@@ -21,7 +21,7 @@
 #include <vulkan/vulkan_core.h>
 
 // The version of Vulkan that instance and device are created for: 1.3, as in VkApplicationInfo.apiVersion. No extension is
-// needed.
+// needed; GpcDevice.conditional_rendering names one that saves time.
 #define GPC_VULKAN_API_VERSION ((1 << 22) | (3 << 12))
 
 // What a function answers.
@@ -173,6 +173,9 @@ typedef struct GpcDevice {
     VkPhysicalDevice physical_device;
     // The device, created with the features that gpc_require_features sets.
     VkDevice device;
+    // VK_TRUE if the device was created with VK_EXT_conditional_rendering and its feature conditionalRendering, which is not
+    // needed: without it, rounds of a frame that have nothing to do take some time.
+    VkBool32 conditional_rendering;
 } GpcDevice;
 
 // What a draw's alpha is tested by: a surface is there where the map's alpha is at least the cutoff. Filters and address
@@ -342,6 +345,10 @@ typedef struct GpcOptions {
     const float (*locations)[2];
     // Bound on the device memory of a frame in bytes, 0 for none.
     uint64_t max_memory;
+    // Bound on the time that a recording takes: the most rounds of superpixels that are detected, and of each growth of these. What
+    // rounds leave keeps the colours that were drawn, and is counted as left over. 0 for as many as an image may need; those that
+    // it does not need take next to no time on devices with GpcDevice.conditional_rendering, and little on others.
+    uint32_t max_rounds;
 } GpcOptions;
 
 // A run of triangles that are shaded alike.

@@ -18,6 +18,7 @@ pub struct Device {
     instance: ash::Instance,
     physical: vk::PhysicalDevice,
     family: u32,
+    conditional_rendering: bool,
     /// Shared with the library. `None` only while dropping: its blocks go before the device.
     allocator: Option<SharedAllocator>,
     /// Last, since it keeps the loader's library open.
@@ -40,16 +41,27 @@ impl Device {
                 .find_map(|device| Some((device, Requirements::queue_family(&instance, device)?)))
                 .ok_or("no suitable device")?;
             let mut features13 = Requirements::features13();
+            // Rounds of superpixels that are not needed are skipped where the device can skip them.
+            let conditional_rendering =
+                Requirements::has_conditional_rendering(&instance, physical);
+            let mut conditional = vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default()
+                .conditional_rendering(true);
+            let extensions = [ash::ext::conditional_rendering::NAME.as_ptr()];
             // The host's own: gl_PrimitiveID in a fragment shader.
             let features = vk::PhysicalDeviceFeatures::default().geometry_shader(true);
             let priorities = [1.0];
             let queues = [vk::DeviceQueueCreateInfo::default()
                 .queue_family_index(family)
                 .queue_priorities(&priorities)];
-            let info = vk::DeviceCreateInfo::default()
+            let mut info = vk::DeviceCreateInfo::default()
                 .queue_create_infos(&queues)
                 .enabled_features(&features)
                 .push_next(&mut features13);
+            if conditional_rendering {
+                info = info
+                    .enabled_extension_names(&extensions)
+                    .push_next(&mut conditional);
+            }
             let raw = instance.create_device(physical, &info, None)?;
             let info = vk::CommandPoolCreateInfo::default()
                 .queue_family_index(family)
@@ -70,6 +82,7 @@ impl Device {
                 instance,
                 physical,
                 family,
+                conditional_rendering,
                 _entry: entry,
             })
         }
@@ -83,6 +96,7 @@ impl Device {
             device: self.raw.clone(),
             queue_family: self.family,
             allocator: self.allocator.clone(),
+            conditional_rendering: self.conditional_rendering,
         }
     }
 

@@ -13,6 +13,7 @@ layout(push_constant) uniform Push {
     uint parts;             // records of a triangle in a block
     uint subgroups_first;   // that `sample` gives an entry, where it may PROBE it
     uint subgroups;         // and where it takes all samples
+    uint longest_list;      // most triangles that `sample` tries in a cell; where there are more, it leaves the cell
 } push;
 
 struct Load {
@@ -77,7 +78,8 @@ Load load_of(uint index, uvec4 tile) {
         : per_sample ? samples : min(cells * blocks * min(push.parts * candidates_, most_records), samples);
     uint entries = LOCATIONS ? 0u : (cells + LANES - 1u) / LANES;
     Load load;
-    load.needs = uvec4(busy && listed ? tile.x : 0u, records_, cells * blocks, listed ? 0u : cells);
+    bool tried = !listed && frame.triangle_count <= push.longest_list;
+    load.needs = uvec4(busy && listed ? tile.x : 0u, records_, cells * blocks, tried ? cells : 0u);
     load.entries = entries * uvec4(equal(uvec4(list), uvec4(0u, 1u, 2u, 3u)));
     return load;
 }

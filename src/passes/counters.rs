@@ -42,6 +42,8 @@ pub enum Counter {
     Groups,
     /// How far samples lie from the centre of the pixel that holds their location, at the most: a float.
     Reach,
+    /// Not zero where there is work for another round.
+    Waiting,
     /// Whether a kernel was run in other subgroups than it was made for. It stays: those before it alone are cleared.
     Subgroups,
 }
@@ -145,6 +147,7 @@ mod tests {
             C::Cells,
             C::Groups,
             C::Reach,
+            C::Waiting,
             C::Subgroups,
         ] {
             let name = format!("COUNTER_{}", shouted(&format!("{counter:?}")));

@@ -51,6 +51,8 @@ pub struct Rounds {
     pub layers: u32,
     /// Triangles of the scene.
     pub triangles: u32,
+    /// Most triangles that are tried in a cell.
+    pub longest_list: u32,
     /// Whether some of them are BLEND.
     pub blends: bool,
     /// Candidates that a round has room for.
@@ -130,6 +132,7 @@ impl Rounds {
         let cells = u64::from(tile.cells);
         match (unlisted, cells) {
             (_, 0) => [0; 4],
+            (true, _) if self.triangles > self.longest_list => [0, records, headers, 0],
             (true, _) => [0, records, headers, cells],
             (false, _) => [candidates, records, headers, 0],
         }

@@ -22,7 +22,7 @@ use crate::scene::Moment;
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;
 use passes::{Passes, raster_samples};
-use recording::{Recording, Rounds, Run};
+use recording::{Recording, Run};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -38,7 +38,6 @@ pub struct Frame {
     beside: u64,
     settings: Settings,
     plan: Plan,
-    rounds: Rounds,
     passes: Passes,
     targets: RasterTargets,
     geometry: FrameGeometry,
@@ -130,7 +129,7 @@ impl Frame {
         };
         let shadows = casters.map(shadows).transpose()?;
         let regions = plan.regions.len() as u64;
-        let marks = regions as u32 * (18 + Run::ALL.len() as u32 * (4 + 9 * plan.rounds)) + 8;
+        let marks = regions as u32 * (18 + Run::ALL.len() as u32 * 14) + 8;
         Ok(Self {
             scene: scene.clone(),
             casters: casters.cloned(),
@@ -151,7 +150,6 @@ impl Frame {
             )?,
             timings: Timings::new(&gpu, marks)?,
             settings: settings.clone(),
-            rounds: Rounds::planned(&plan),
             plan,
             memory,
             uploaded: false,
@@ -210,22 +208,6 @@ impl Frame {
     /// What it was planned for.
     pub(super) fn capacity(&self) -> Capacity {
         self.plan.capacity
-    }
-
-    /// Records about as many rounds from now on as the last recording took, whose commands are done: those that find nothing to do
-    /// cost some tenths of a millisecond each on CPU devices. A frame that takes more is left unfinished.
-    ///
-    /// # Errors
-    /// If what was counted can't be read.
-    pub(super) fn expect_alike(&mut self) -> Result<(), RenderError> {
-        self.rounds = self.rounds_taken()?.for_frames_like(&self.plan);
-        Ok(())
-    }
-
-    /// Records as many rounds as planned from now on, and says whether there were fewer.
-    pub(super) fn expect_anything(&mut self) -> bool {
-        let planned = Rounds::planned(&self.plan);
-        std::mem::replace(&mut self.rounds, planned) != planned
     }
 
     /// Whether [`Capacity::with_doubled_lists`] makes any difference.
@@ -297,7 +279,6 @@ impl Frame {
         let recording = Recording {
             settings: &self.settings,
             plan: &self.plan,
-            rounds: self.rounds,
             passes: &self.passes,
             targets: &self.targets,
             geometry: &self.geometry,

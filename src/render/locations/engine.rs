@@ -7,7 +7,7 @@ use crate::passes::{
 };
 use crate::render::frame::recording::SceneShading;
 use crate::render::list::{ListEngine, ListKind};
-use crate::render::plan::{Capacity, rounds_like};
+use crate::render::plan::Capacity;
 use crate::render::plane::Window;
 use crate::render::renderer::PreparedScene;
 use crate::render::shadows::{ShadowEngine, Shadowed, Sight};
@@ -36,8 +36,6 @@ pub(super) fn kind(cells: Cells, shadow_words: u32, apart: bool) -> ListKind {
 /// Pipelines and memory to sample runs of locations of one scene.
 pub(super) struct LocationEngine {
     settings: Settings,
-    /// Rounds of lists and records that a run may take, and that are recorded: about as many as the run before took.
-    planned_rounds: u32,
     rounds: u32,
     stroke: Option<Stroke>,
     engine: ListEngine,
@@ -72,7 +70,6 @@ impl LocationEngine {
             cells,
             places,
             sizes,
-            rounds,
             ..
         } = plan;
         let scene = &*prepared.gpu_scene;
@@ -142,6 +139,7 @@ impl LocationEngine {
                 .transpose()?,
             shade: Shade::new(layout, scene, (source, kind.shadow_words), &output)?,
             shadows,
+            rounds: engine.most_rounds(sizes, scene.index_count()),
             engine,
             geometry,
             resources,
@@ -152,9 +150,7 @@ impl LocationEngine {
                 vk::BufferUsageFlags::TRANSFER_DST,
                 MemoryUse::Readback,
             )?,
-            planned_rounds: *rounds,
-            rounds: *rounds,
-            timings: Timings::new(&gpu, 16 + 9 * rounds)?,
+            timings: Timings::new(&gpu, 32)?,
             memory,
             uploaded: false,
         })
@@ -233,10 +229,10 @@ impl LocationEngine {
             shade: Some(&self.shade),
             shadows: self.shadows.as_ref().map(|shadows| (shadows, shadowed)),
         };
-        for _ in 0..self.rounds {
+        resources.record_rounds(recorder, self.rounds, |recorder| {
             engine.record_round(recorder, resources);
             engine.record_values(recorder, resources, &shading);
-        }
+        });
         if let Some(shadows) = &self.shadows {
             shadows.record_end(recorder);
         }
@@ -260,23 +256,6 @@ impl LocationEngine {
 
     fn counted(&self) -> Result<&[u32], VulkanError> {
         self.counters.read(Counter::COUNT)
-    }
-
-    /// Records about as many rounds from now on as the last run took, whose commands are done. A run that takes more is left
-    /// unfinished.
-    pub fn expect_alike(&mut self) -> Result<(), VulkanError> {
-        let taken = self
-            .counted()?
-            .get(Counter::Rounds as usize)
-            .copied()
-            .unwrap_or(0);
-        self.rounds = rounds_like(taken, self.planned_rounds);
-        Ok(())
-    }
-
-    /// Records as many rounds as planned from now on, and says whether there were fewer.
-    pub fn expect_anything(&mut self) -> bool {
-        std::mem::replace(&mut self.rounds, self.planned_rounds) != self.planned_rounds
     }
 
     /// What the last run could not finish.
