@@ -27,6 +27,8 @@ struct Device {
     uint32_t family{};
     VkCommandPool pool{};
     bool conditional_rendering{};
+    PFN_vkCmdBeginConditionalRenderingEXT begin_conditional{};
+    PFN_vkCmdEndConditionalRenderingEXT end_conditional{};
 
     Device() {
         VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
@@ -75,6 +77,12 @@ struct Device {
             device_info.ppEnabledExtensionNames = &extension;
         }
         check(vkCreateDevice(physical, &device_info, nullptr, &raw), "vkCreateDevice");
+        if (conditional_rendering) {
+            begin_conditional = reinterpret_cast<PFN_vkCmdBeginConditionalRenderingEXT>(
+                vkGetDeviceProcAddr(raw, "vkCmdBeginConditionalRenderingEXT"));
+            end_conditional = reinterpret_cast<PFN_vkCmdEndConditionalRenderingEXT>(
+                vkGetDeviceProcAddr(raw, "vkCmdEndConditionalRenderingEXT"));
+        }
         vkGetDeviceQueue(raw, family, 0, &queue);
         VkCommandPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
         pool_info.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;

@@ -18,7 +18,8 @@ pub struct Device {
     instance: ash::Instance,
     physical: vk::PhysicalDevice,
     family: u32,
-    conditional_rendering: bool,
+    /// Functions to skip commands by, where the device has them.
+    pub conditional_rendering: Option<ash::ext::conditional_rendering::Device>,
     /// Shared with the library. `None` only while dropping: its blocks go before the device.
     allocator: Option<SharedAllocator>,
     /// Last, since it keeps the loader's library open.
@@ -74,6 +75,7 @@ impl Device {
                 buffer_device_address: false,
                 allocation_sizes: gpu_allocator::AllocationSizes::default(),
             })?;
+            let functions = || ash::ext::conditional_rendering::Device::new(&instance, &raw);
             Ok(Self {
                 queue: raw.get_device_queue(family, 0),
                 pool: raw.create_command_pool(&info, None)?,
@@ -82,7 +84,7 @@ impl Device {
                 instance,
                 physical,
                 family,
-                conditional_rendering,
+                conditional_rendering: conditional_rendering.then(functions),
                 _entry: entry,
             })
         }
@@ -96,7 +98,7 @@ impl Device {
             device: self.raw.clone(),
             queue_family: self.family,
             allocator: self.allocator.clone(),
-            conditional_rendering: self.conditional_rendering,
+            conditional_rendering: self.conditional_rendering.is_some(),
         }
     }
 

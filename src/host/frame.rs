@@ -218,7 +218,7 @@ impl Frame {
     /// If the scenery does not fit what the frame was prepared for. Nothing is recorded then.
     ///
     /// # Safety
-    /// - `commands` is being recorded, outside of a render pass, for the device of the antialiaser and a queue family with
+    /// - `commands` is being recorded, outside of a render pass and of conditional rendering, for the device of the antialiaser and a queue family with
     ///   graphics and compute. What was bound and pushed before has to be bound and pushed again.
     /// - The commands of this frame's last recording are done: its memory is used again.
     /// - Images are in the states named. Those of IDs and depth and, without [`Options::shade_all`], of colours hold what the

@@ -263,7 +263,7 @@ impl List {
     /// If draws or locations are more than there is room for, or a draw is impossible. Nothing is recorded then.
     ///
     /// # Safety
-    /// - `commands` is being recorded, outside of a render pass, for the device of the antialiaser and a queue family with
+    /// - `commands` is being recorded, outside of a render pass and of conditional rendering, for the device of the antialiaser and a queue family with
     ///   compute. What was bound and pushed before has to be bound and pushed again.
     /// - The commands of this list's last recording are done: its memory is used again.
     /// - In the first recording, alpha maps are in `SHADER_READ_ONLY_OPTIMAL`, and were written before on the same queue or

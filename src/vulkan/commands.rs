@@ -61,6 +61,11 @@ impl<'a> Recorder<'a> {
         self.condition = outer;
     }
 
+    /// The word that [`Self::unless_zero`] has dispatches depend on now, if any: the first of a buffer.
+    pub(crate) fn condition(&self) -> Option<vk::Buffer> {
+        (self.condition != vk::Buffer::null()).then_some(self.condition)
+    }
+
     /// Has the commands that follow depend on a word, or on none.
     fn depend_on(&self, word: vk::Buffer) {
         let begun = self.begun.replace(word);

@@ -144,6 +144,12 @@ impl Gpu {
         &self.device
     }
 
+    /// The device's functions to skip commands by a word in its memory, where it [has](Limits::conditional_rendering) them.
+    #[must_use]
+    pub fn conditional_rendering(&self) -> Option<&ash::ext::conditional_rendering::Device> {
+        self.conditional_rendering.as_ref()
+    }
+
     /// The family of the queue that commands are submitted to.
     #[must_use]
     pub fn queue_family(&self) -> u32 {

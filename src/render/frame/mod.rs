@@ -224,7 +224,7 @@ impl Frame {
     /// Records a frame. It submits nothing, waits for nothing and allocates nothing.
     ///
     /// # Safety
-    /// - `commands` is being recorded, outside of a render pass, for the device and queue family of the renderer.
+    /// - `commands` is being recorded, outside of a render pass and of conditional rendering, for the device and queue family of the renderer.
     /// - The upload of the frame's scene was recorded before, and is executed before these commands.
     /// - The commands of this frame's last recording are done: its memory is used again.
     /// - The frame, which keeps its scene alive, outlives the execution of the commands; so do the target's handles.

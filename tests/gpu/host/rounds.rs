@@ -120,3 +120,39 @@ fn bounded_rounds_leave_pixels_as_they_were_drawn_without_conditional_rendering(
         keeps_what_bounded_rounds_leave,
     );
 }
+
+/// Hosts that skip their shading and those that don't get the same; the dispatches of the latter find nothing in rounds that have
+/// nothing to do.
+fn dispatches_nothing_in_vain(gpu: &mut Headless) {
+    let world = World::new();
+    let mut machine = Machine::new(gpu, &world);
+    let lent = world.lent(&PLACED);
+    let [skipping, calling] = [true, false].map(|skips| {
+        machine.skips = skips;
+        let options = Options::new(SIZE[0], SIZE[1]);
+        let seen = machine.see_lent(&PLACED, &lent, Base::Nothing, options);
+        let called = seen.dispatched.iter().filter(|groups| **groups > 0).count() as u64;
+        // Once for the centres.
+        assert_eq!(called, 1 + seen.outcome.statistics.rounds);
+        assert!(
+            seen.dispatched.len() as u64 > 2 * called,
+            "{:?}",
+            seen.dispatched
+        );
+        bits(&seen.colors)
+    });
+    assert!(skipping == calling);
+}
+
+#[test]
+fn idle_rounds_shade_nothing() {
+    on_gpu(dispatches_nothing_in_vain);
+}
+
+#[test]
+fn idle_rounds_shade_nothing_without_conditional_rendering() {
+    within(
+        |limits| limits.conditional_rendering = false,
+        dispatches_nothing_in_vain,
+    );
+}
