@@ -75,7 +75,7 @@ impl Device {
                 buffer_device_address: false,
                 allocation_sizes: gpu_allocator::AllocationSizes::default(),
             })?;
-            let functions = || ash::ext::conditional_rendering::Device::new(&instance, &raw);
+            let functions = ash::ext::conditional_rendering::Device::new(&instance, &raw);
             Ok(Self {
                 queue: raw.get_device_queue(family, 0),
                 pool: raw.create_command_pool(&info, None)?,
@@ -84,7 +84,7 @@ impl Device {
                 instance,
                 physical,
                 family,
-                conditional_rendering: conditional_rendering.then(functions),
+                conditional_rendering: conditional_rendering.then_some(functions),
                 _entry: entry,
             })
         }

@@ -72,10 +72,8 @@ Load load_of(uint index, uvec4 tile) {
     // where a frame found too few.
     uint lists_of_block = push.parts > 8u ? push.layers * push.parts / 4u : push.layers * 2u;
     uint lists = per_sample || POINTS ? samples : min(cells * blocks * lists_of_block, samples);
-    // Records of a block that it is admitted with where a cell has several: these are small, and see few triangles.
-    uint most_records = blocks == 1u ? push.block : push.layers * 4u;
     uint records_ = layered ? lists * (2u + min(candidates_, push.layers))
-        : per_sample ? samples : min(cells * blocks * min(push.parts * candidates_, most_records), samples);
+        : per_sample ? samples : min(cells * blocks * min(push.parts * candidates_, push.block), samples);
     uint entries = LOCATIONS ? 0u : (cells + LANES - 1u) / LANES;
     Load load;
     bool tried = !listed && frame.triangle_count <= push.longest_list;

@@ -34,8 +34,7 @@ const MOST_TRIALS: u64 = 1 << 31;
 
 impl Schedule {
     /// Makes the pipelines for what `sample` writes. Tiles are admitted with `layers` BLEND layers a list and twice as
-    /// many lists a block, or more where these are shaded by part; without layers, with four times as many records a
-    /// block where a cell has several.
+    /// many lists a block, or more where these are shaded by part.
     ///
     /// # Errors
     /// If the driver refuses one.
@@ -116,18 +115,10 @@ impl Schedule {
 
     /// Records that blocks of so many headers and samples are admitted with, at the most.
     fn most_records(&self, headers: u64, samples: u64) -> u64 {
-        let Push {
-            block,
-            layers,
-            parts,
-            ..
-        } = self.pushed;
-        let [block, layers, parts] = [block, layers, parts].map(u64::from);
-        let one_block = u64::from(self.options.samples) <= block;
-        let of_opaque = match self.pushed.per_sample {
-            0 => samples.min(headers * if one_block { block } else { 4 * layers }),
-            _ => samples,
-        };
+        if !self.options.has_blend {
+            return samples;
+        }
+        let [layers, parts] = [self.pushed.layers, self.pushed.parts].map(u64::from);
         let lists_of_block = if parts > 8 {
             layers * parts / 4
         } else {
@@ -137,11 +128,7 @@ impl Schedule {
             0 => samples.min(headers * lists_of_block),
             _ => samples,
         };
-        if self.options.has_blend {
-            of_opaque.max(lists * (2 + layers))
-        } else {
-            of_opaque
-        }
+        samples.max(lists * (2 + layers))
     }
 
     /// Records what is done once for all rounds, after `bin`.

@@ -126,8 +126,7 @@ impl Rounds {
         } else if self.per_sample {
             all_samples
         } else {
-            let most = if blocks == 1 { block } else { 4 * layers };
-            all_samples.min(headers * most.min(parts * candidates))
+            all_samples.min(headers * block.min(parts * candidates))
         };
         let cells = u64::from(tile.cells);
         match (unlisted, cells) {

@@ -68,7 +68,7 @@ impl Region {
 pub(crate) struct Plan {
     pub regions: Vec<Region>,
     pub sizes: ResourceSizes,
-    /// BLEND layers of a list, half the lists of a block, and a quarter of the records of one of several blocks, that
+    /// BLEND layers of a list, and half the lists of a block, that
     /// tiles are admitted with.
     pub layers: u32,
     /// What it was planned for.
