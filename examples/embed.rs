@@ -47,6 +47,7 @@ struct App {
     physical_device: vk::PhysicalDevice,
     device: ash::Device,
     queue_family: u32,
+    conditional_rendering: bool,
     queue: vk::Queue,
     pool: vk::CommandPool,
     /// Shared with the renderer. `None` only while dropping: its blocks go before the device.
@@ -84,13 +85,24 @@ impl App {
             };
 
             let mut features = Requirements::features13();
+            // Rounds of superpixels that are not needed are skipped where the device can skip them.
+            let conditional_rendering =
+                Requirements::has_conditional_rendering(&instance, physical_device);
+            let mut conditional = vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default()
+                .conditional_rendering(true);
+            let extensions = [ash::ext::conditional_rendering::NAME.as_ptr()];
             let priorities = [1.0];
             let queues = [vk::DeviceQueueCreateInfo::default()
                 .queue_family_index(queue_family)
                 .queue_priorities(&priorities)];
-            let info = vk::DeviceCreateInfo::default()
+            let mut info = vk::DeviceCreateInfo::default()
                 .queue_create_infos(&queues)
                 .push_next(&mut features);
+            if conditional_rendering {
+                info = info
+                    .enabled_extension_names(&extensions)
+                    .push_next(&mut conditional);
+            }
             let device = instance.create_device(physical_device, &info, None)?;
             let info = vk::CommandPoolCreateInfo::default().queue_family_index(queue_family);
             let allocator = Allocator::new(&AllocatorCreateDesc {
@@ -109,6 +121,7 @@ impl App {
                 physical_device,
                 device,
                 queue_family,
+                conditional_rendering,
                 _entry: entry,
             })
         }
@@ -122,6 +135,7 @@ impl App {
             device: self.device.clone(),
             queue_family: self.queue_family,
             allocator: self.allocator.clone(),
+            conditional_rendering: self.conditional_rendering,
         };
         // SAFETY: the handles belong together, the features are enabled, and `self` outlives the renderer.
         let renderer = unsafe { Renderer::new(host) }?;

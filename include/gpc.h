@@ -21,7 +21,7 @@
 #include <vulkan/vulkan_core.h>
 
 // The version of Vulkan that instance and device are created for: 1.3, as in VkApplicationInfo.apiVersion. No extension is
-// needed.
+// needed; GpcDevice.conditional_rendering names one that saves time.
 #define GPC_VULKAN_API_VERSION ((1 << 22) | (3 << 12))
 
 // What a function answers.
@@ -173,6 +173,9 @@ typedef struct GpcDevice {
     VkPhysicalDevice physical_device;
     // The device, created with the features that gpc_require_features sets.
     VkDevice device;
+    // VK_TRUE if the device was created with VK_EXT_conditional_rendering and its feature conditionalRendering, which is not
+    // needed: without it, rounds of a frame that have nothing to do take some time.
+    VkBool32 conditional_rendering;
 } GpcDevice;
 
 // What a draw's alpha is tested by: a surface is there where the map's alpha is at least the cutoff. Filters and address
@@ -342,6 +345,10 @@ typedef struct GpcOptions {
     const float (*locations)[2];
     // Bound on the device memory of a frame in bytes, 0 for none.
     uint64_t max_memory;
+    // Bound on the time that a recording takes: the most rounds of superpixels that are detected, and of each growth of these. What
+    // rounds leave keeps the colours that were drawn, and is counted as left over. 0 for as many as an image may need; those that
+    // it does not need take next to no time on devices with GpcDevice.conditional_rendering, and little on others.
+    uint32_t max_rounds;
 } GpcOptions;
 
 // A run of triangles that are shaded alike.
@@ -398,13 +405,17 @@ typedef struct GpcVisibilitySamples {
     uint64_t dispatch_offset;
     // Bytes from the dispatch of a key to that of the next one.
     uint64_t dispatch_stride;
+    // A buffer whose first word is zero where the round has nothing to do, so that its dispatches are of no workgroups. Recorded
+    // after vkCmdBeginConditionalRenderingEXT with it, at offset 0, and ended before the callback returns, they take no time
+    // there, as the library's own. VK_NULL_HANDLE without GpcDevice.conditional_rendering, and where what is shaded is no round.
+    VkBuffer condition;
     // How many keys there are.
     uint32_t keys;
 } GpcVisibilitySamples;
 
 // Records the shading of a round's samples into a command buffer: for each key a pipeline, the samples' set, and the
-// key's indirect dispatch. It is called a fixed number of times during gpc_frame_record or gpc_list_record, on its thread, outside of a render
-// pass. Dispatches need no barrier between them: what the library wrote is visible to them, and it waits for what they
+// key's indirect dispatch. It is called a fixed number of times during gpc_frame_record or gpc_list_record, in rounds that have
+// nothing to do as well, on its thread, outside of a render pass and of conditional rendering. Dispatches need no barrier between them: what the library wrote is visible to them, and it waits for what they
 // write. It may bind and push what it likes, must not throw or jump out, and must not use the frame or list. `samples` lives until
 // it returns.
 typedef void (*GpcShade)(void *user, VkCommandBuffer commands, const struct GpcVisibilitySamples *samples);
@@ -544,7 +555,7 @@ GpcResult gpc_frame_grow(const struct GpcFrame *frame,
                          struct GpcFrame **grown);
 
 // Records the antialiasing of what the application has drawn. It submits nothing, waits for nothing, allocates nothing on
-// the device and updates no descriptor. `commands` is being recorded, outside of a render pass, for a queue of the family
+// the device and updates no descriptor. `commands` is being recorded, outside of a render pass and of conditional rendering, for a queue of the family
 // lent; what was bound and pushed before has to be bound and pushed again. `user` is handed to `shade`, whose shaders write
 // no memory of the library but by gpc_store.
 //
@@ -599,7 +610,7 @@ GpcResult gpc_list_grow(const struct GpcList *list,
 
 // Records the sampling of the first `location_count` locations, which see `draw_count` draws; these are read during the call
 // alone, and `draws` may be NULL where there are none. It submits nothing, waits for nothing, allocates nothing on the device
-// and updates no descriptor. `commands` is being recorded, outside of a render pass, for a queue of the family lent; what was
+// and updates no descriptor. `commands` is being recorded, outside of a render pass and of conditional rendering, for a queue of the family lent; what was
 // bound and pushed before has to be bound and pushed again, and what is recorded is visible to all commands after it. `user`
 // is handed to `shade`, whose shaders write no memory of the library but by gpc_store.
 //

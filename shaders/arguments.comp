@@ -14,6 +14,7 @@ const uint DETECT = 0u, CULL = 1u, SAMPLE = 2u, RECORDS = 3u, SPANS = 4u, THIN =
 void main() {
     if (push.after == DETECT) {
         bool any_tile = counters[COUNTER_TILES] != 0u;
+        counters[COUNTER_WAITING] = counters[COUNTER_TILES];
         arguments[ARGUMENT_CULL] = any_tile ? groups((frame.triangle_count + 511u) / 512u) : uvec4(0u);
         arguments[ARGUMENT_TALLY] = any_tile ? groups((frame.tiles.x * frame.tiles.y + STRETCH - 1u) / STRETCH) : uvec4(0u);
     } else if (push.after == CULL) {

@@ -66,6 +66,7 @@ void main() {
         bool idle = taken.needs.z == 0u;
         counters[COUNTER_ROUND_FIRST] = start;
         counters[COUNTER_NEXT_TILE] = next;
+        counters[COUNTER_WAITING] = tile_count() - next;
         counters[COUNTER_RECORDS] = 0u;
         [[unroll]] for (uint list = 0u; list < 4u; list++) counters[COUNTER_PLAIN_TILES + list] = taken.entries[list];
         counters[COUNTER_PLAIN_LEFT] = 0u;

@@ -26,6 +26,9 @@ struct Device {
     VkQueue queue{};
     uint32_t family{};
     VkCommandPool pool{};
+    bool conditional_rendering{};
+    PFN_vkCmdBeginConditionalRenderingEXT begin_conditional{};
+    PFN_vkCmdEndConditionalRenderingEXT end_conditional{};
 
     Device() {
         VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
@@ -47,6 +50,16 @@ struct Device {
 
         VkPhysicalDeviceVulkan13Features features13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
         check(gpc_require_features(&features13));
+        // Rounds of superpixels that are not needed are skipped where the device can skip them.
+        VkPhysicalDeviceConditionalRenderingFeaturesEXT conditional{
+            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_CONDITIONAL_RENDERING_FEATURES_EXT};
+        const char *extension = VK_EXT_CONDITIONAL_RENDERING_EXTENSION_NAME;
+        if (has_extension(extension)) {
+            VkPhysicalDeviceFeatures2 features2{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &conditional};
+            vkGetPhysicalDeviceFeatures2(physical, &features2);
+            conditional_rendering = conditional.conditionalRendering;
+        }
+        conditional.inheritedConditionalRendering = VK_FALSE;
         VkPhysicalDeviceFeatures features{};
         features.geometryShader = VK_TRUE; // The renderer's own: gl_PrimitiveID in a fragment shader.
         const float priority = 1;
@@ -58,7 +71,18 @@ struct Device {
         device_info.queueCreateInfoCount = 1;
         device_info.pQueueCreateInfos = &queue_info;
         device_info.pEnabledFeatures = &features;
+        if (conditional_rendering) {
+            features13.pNext = &conditional;
+            device_info.enabledExtensionCount = 1;
+            device_info.ppEnabledExtensionNames = &extension;
+        }
         check(vkCreateDevice(physical, &device_info, nullptr, &raw), "vkCreateDevice");
+        if (conditional_rendering) {
+            begin_conditional = reinterpret_cast<PFN_vkCmdBeginConditionalRenderingEXT>(
+                vkGetDeviceProcAddr(raw, "vkCmdBeginConditionalRenderingEXT"));
+            end_conditional = reinterpret_cast<PFN_vkCmdEndConditionalRenderingEXT>(
+                vkGetDeviceProcAddr(raw, "vkCmdEndConditionalRenderingEXT"));
+        }
         vkGetDeviceQueue(raw, family, 0, &queue);
         VkCommandPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
         pool_info.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
@@ -74,6 +98,18 @@ struct Device {
         vkDestroyInstance(instance, nullptr);
     }
 
+    bool has_extension(const char *name) const {
+        uint32_t count = 0;
+        check(vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr), "vkEnumerateDeviceExtensionProperties");
+        std::vector<VkExtensionProperties> found(count);
+        check(vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, found.data()),
+              "vkEnumerateDeviceExtensionProperties");
+        for (const VkExtensionProperties &extension : found) {
+            if (std::strcmp(extension.extensionName, name) == 0) return true;
+        }
+        return false;
+    }
+
     // What the library is lent.
     GpcDevice lent() const {
         GpcDevice device{};
@@ -83,6 +119,7 @@ struct Device {
         device.instance = instance;
         device.physical_device = physical;
         device.device = raw;
+        device.conditional_rendering = conditional_rendering;
         return device;
     }
 

@@ -392,6 +392,11 @@ class Renderer {
 
     // gpc: shading of samples by the renderer's materials.
     void record_samples(const GpcVisibilitySamples &found) const noexcept {
+        if (found.condition) {
+            VkConditionalRenderingBeginInfoEXT info{VK_STRUCTURE_TYPE_CONDITIONAL_RENDERING_BEGIN_INFO_EXT};
+            info.buffer = found.condition;
+            device.begin_conditional(commands, &info); // Rounds that have nothing to do are skipped.
+        }
         const VkDescriptorSet sets[] = {found.descriptor_set, set};
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.samples_layout, 0, 2, sets, 0, nullptr);
         push(pipelines.samples_layout, 0, 0);
@@ -399,6 +404,7 @@ class Renderer {
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.samples[key]);
             vkCmdDispatchIndirect(commands, found.dispatches, found.dispatch_offset + key * found.dispatch_stride);
         }
+        if (found.condition) device.end_conditional(commands);
     }
 
     void push(VkPipelineLayout layout, uint32_t object, uint32_t first_triangle) const noexcept {

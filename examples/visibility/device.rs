@@ -18,6 +18,8 @@ pub struct Device {
     instance: ash::Instance,
     physical: vk::PhysicalDevice,
     family: u32,
+    /// Functions to skip commands by, where the device has them.
+    pub conditional_rendering: Option<ash::ext::conditional_rendering::Device>,
     /// Shared with the library. `None` only while dropping: its blocks go before the device.
     allocator: Option<SharedAllocator>,
     /// Last, since it keeps the loader's library open.
@@ -40,16 +42,27 @@ impl Device {
                 .find_map(|device| Some((device, Requirements::queue_family(&instance, device)?)))
                 .ok_or("no suitable device")?;
             let mut features13 = Requirements::features13();
+            // Rounds of superpixels that are not needed are skipped where the device can skip them.
+            let conditional_rendering =
+                Requirements::has_conditional_rendering(&instance, physical);
+            let mut conditional = vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default()
+                .conditional_rendering(true);
+            let extensions = [ash::ext::conditional_rendering::NAME.as_ptr()];
             // The host's own: gl_PrimitiveID in a fragment shader.
             let features = vk::PhysicalDeviceFeatures::default().geometry_shader(true);
             let priorities = [1.0];
             let queues = [vk::DeviceQueueCreateInfo::default()
                 .queue_family_index(family)
                 .queue_priorities(&priorities)];
-            let info = vk::DeviceCreateInfo::default()
+            let mut info = vk::DeviceCreateInfo::default()
                 .queue_create_infos(&queues)
                 .enabled_features(&features)
                 .push_next(&mut features13);
+            if conditional_rendering {
+                info = info
+                    .enabled_extension_names(&extensions)
+                    .push_next(&mut conditional);
+            }
             let raw = instance.create_device(physical, &info, None)?;
             let info = vk::CommandPoolCreateInfo::default()
                 .queue_family_index(family)
@@ -62,6 +75,7 @@ impl Device {
                 buffer_device_address: false,
                 allocation_sizes: gpu_allocator::AllocationSizes::default(),
             })?;
+            let functions = ash::ext::conditional_rendering::Device::new(&instance, &raw);
             Ok(Self {
                 queue: raw.get_device_queue(family, 0),
                 pool: raw.create_command_pool(&info, None)?,
@@ -70,6 +84,7 @@ impl Device {
                 instance,
                 physical,
                 family,
+                conditional_rendering: conditional_rendering.then_some(functions),
                 _entry: entry,
             })
         }
@@ -83,6 +98,7 @@ impl Device {
             device: self.raw.clone(),
             queue_family: self.family,
             allocator: self.allocator.clone(),
+            conditional_rendering: self.conditional_rendering.is_some(),
         }
     }
 

@@ -274,14 +274,26 @@ impl ShadeSamples for Materials<'_> {
         let raw = &device.raw;
         let sets = [samples.descriptor_set(), self.set];
         let compute = vk::PipelineBindPoint::COMPUTE;
-        // SAFETY: the command buffer is being recorded; sets and pipelines are of one layout and outlive it.
+        // Rounds that have nothing to do are skipped.
+        let skipping = device
+            .conditional_rendering
+            .as_ref()
+            .zip(samples.condition());
+        // SAFETY: the command buffer is being recorded; sets and pipelines are of one layout and outlive it. What is begun is ended.
         unsafe {
+            if let Some((functions, word)) = skipping {
+                let info = vk::ConditionalRenderingBeginInfoEXT::default().buffer(word);
+                (functions.fp().cmd_begin_conditional_rendering_ext)(commands, &info);
+            }
             raw.cmd_bind_descriptor_sets(commands, compute, *samples_layout, 0, &sets, &[]);
             for (key, pipeline) in (0..).zip(pipelines) {
                 if let Some((arguments, offset)) = samples.dispatch(key) {
                     raw.cmd_bind_pipeline(commands, compute, *pipeline);
                     raw.cmd_dispatch_indirect(commands, arguments, offset);
                 }
+            }
+            if let Some((functions, _)) = skipping {
+                (functions.fp().cmd_end_conditional_rendering_ext)(commands);
             }
         }
     }

@@ -13,6 +13,7 @@ layout(push_constant) uniform Push {
     uint parts;             // records of a triangle in a block
     uint subgroups_first;   // that `sample` gives an entry, where it may PROBE it
     uint subgroups;         // and where it takes all samples
+    uint longest_list;      // most triangles that `sample` tries in a cell; where there are more, it leaves the cell
 } push;
 
 struct Load {
@@ -71,13 +72,12 @@ Load load_of(uint index, uvec4 tile) {
     // where a frame found too few.
     uint lists_of_block = push.parts > 8u ? push.layers * push.parts / 4u : push.layers * 2u;
     uint lists = per_sample || POINTS ? samples : min(cells * blocks * lists_of_block, samples);
-    // Records of a block that it is admitted with where a cell has several: these are small, and see few triangles.
-    uint most_records = blocks == 1u ? push.block : push.layers * 4u;
     uint records_ = layered ? lists * (2u + min(candidates_, push.layers))
-        : per_sample ? samples : min(cells * blocks * min(push.parts * candidates_, most_records), samples);
+        : per_sample ? samples : min(cells * blocks * min(push.parts * candidates_, push.block), samples);
     uint entries = LOCATIONS ? 0u : (cells + LANES - 1u) / LANES;
     Load load;
-    load.needs = uvec4(busy && listed ? tile.x : 0u, records_, cells * blocks, listed ? 0u : cells);
+    bool tried = !listed && frame.triangle_count <= push.longest_list;
+    load.needs = uvec4(busy && listed ? tile.x : 0u, records_, cells * blocks, tried ? cells : 0u);
     load.entries = entries * uvec4(equal(uvec4(list), uvec4(0u, 1u, 2u, 3u)));
     return load;
 }

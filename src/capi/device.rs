@@ -1,7 +1,7 @@
 //! A lent device, and what its frames share.
 
 use super::error::{Error, GpcResult, answer};
-use super::input::{Struct, hand_over, place, read, take_back};
+use super::input::{Struct, flag, hand_over, place, read, take_back};
 use crate::host::Antialiaser;
 use crate::vulkan::{Host, Requirements};
 use ash::vk;
@@ -14,7 +14,7 @@ pub type GetInstanceProcAddr =
     Option<unsafe extern "system" fn(vk::Instance, *const c_char) -> vk::PFN_vkVoidFunction>;
 
 /// The version of Vulkan that instance and device are created for: 1.3, as in VkApplicationInfo.apiVersion. No extension is
-/// needed.
+/// needed; GpcDevice.conditional_rendering names one that saves time.
 pub const GPC_VULKAN_API_VERSION: u32 = (1 << 22) | (3 << 12);
 const _: () = assert!(GPC_VULKAN_API_VERSION == Requirements::API_VERSION);
 
@@ -34,6 +34,9 @@ pub struct GpcDevice {
     pub physical_device: vk::PhysicalDevice,
     /// The device, created with the features that gpc_require_features sets.
     pub device: vk::Device,
+    /// VK_TRUE if the device was created with VK_EXT_conditional_rendering and its feature conditionalRendering, which is not
+    /// needed: without it, rounds of a frame that have nothing to do take some time.
+    pub conditional_rendering: vk::Bool32,
 }
 
 // SAFETY: `repr(C)`, its size first; integers, raw handles and a nullable function may have any bytes.
@@ -162,6 +165,10 @@ const OF_INSTANCE: [&CStr; 3] = [
     c"vkGetDeviceProcAddr",
 ];
 const OF_DEVICE: [&CStr; 2] = [c"vkCmdPipelineBarrier2", c"vkCmdBeginRendering"];
+const OF_CONDITIONAL_RENDERING: [&CStr; 2] = [
+    c"vkCmdBeginConditionalRenderingEXT",
+    c"vkCmdEndConditionalRenderingEXT",
+];
 
 /// # Safety
 /// The function and the instance are null or alive and belong together.
@@ -202,6 +209,17 @@ unsafe fn load_host(lent: &GpcDevice) -> Result<Host, Error> {
         let found = unsafe { instance.get_device_proc_addr(lent.device, name.as_ptr()) };
         found.ok_or(Error::Function(name.to_str().unwrap_or_default()))?;
     }
+    let conditional_rendering = flag(
+        "GpcDevice.conditional_rendering",
+        lent.conditional_rendering,
+    )?;
+    if conditional_rendering {
+        for name in OF_CONDITIONAL_RENDERING {
+            // SAFETY: passed on to the caller; the name ends with a zero.
+            let found = unsafe { instance.get_device_proc_addr(lent.device, name.as_ptr()) };
+            found.ok_or(Error::Function(name.to_str().unwrap_or_default()))?;
+        }
+    }
     // SAFETY: passed on to the caller.
     let device = unsafe { ash::Device::load(instance.fp_v1_0(), lent.device) };
     Ok(Host {
@@ -210,5 +228,6 @@ unsafe fn load_host(lent: &GpcDevice) -> Result<Host, Error> {
         device,
         queue_family: lent.queue_family,
         allocator: None,
+        conditional_rendering,
     })
 }

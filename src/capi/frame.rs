@@ -46,13 +46,17 @@ pub struct GpcVisibilitySamples {
     pub dispatch_offset: u64,
     /// Bytes from the dispatch of a key to that of the next one.
     pub dispatch_stride: u64,
+    /// A buffer whose first word is zero where the round has nothing to do, so that its dispatches are of no workgroups. Recorded
+    /// after vkCmdBeginConditionalRenderingEXT with it, at offset 0, and ended before the callback returns, they take no time
+    /// there, as the library's own. VK_NULL_HANDLE without GpcDevice.conditional_rendering, and where what is shaded is no round.
+    pub condition: vk::Buffer,
     /// How many keys there are.
     pub keys: u32,
 }
 
 /// Records the shading of a round's samples into a command buffer: for each key a pipeline, the samples' set, and the
-/// key's indirect dispatch. It is called a fixed number of times during gpc_frame_record or gpc_list_record, on its thread, outside of a render
-/// pass. Dispatches need no barrier between them: what the library wrote is visible to them, and it waits for what they
+/// key's indirect dispatch. It is called a fixed number of times during gpc_frame_record or gpc_list_record, in rounds that have
+/// nothing to do as well, on its thread, outside of a render pass and of conditional rendering. Dispatches need no barrier between them: what the library wrote is visible to them, and it waits for what they
 /// write. It may bind and push what it likes, must not throw or jump out, and must not use the frame or list. `samples` lives until
 /// it returns.
 pub type GpcShade = Option<
@@ -141,7 +145,7 @@ pub unsafe extern "C" fn gpc_frame_grow(
 }
 
 /// Records the antialiasing of what the application has drawn. It submits nothing, waits for nothing, allocates nothing on
-/// the device and updates no descriptor. `commands` is being recorded, outside of a render pass, for a queue of the family
+/// the device and updates no descriptor. `commands` is being recorded, outside of a render pass and of conditional rendering, for a queue of the family
 /// lent; what was bound and pushed before has to be bound and pushed again. `user` is handed to `shade`, whose shaders write
 /// no memory of the library but by gpc_store.
 ///
@@ -247,6 +251,7 @@ impl ShadeSamples for Callback {
             dispatches,
             dispatch_offset,
             dispatch_stride: VisibilitySamples::DISPATCH_STRIDE,
+            condition: samples.condition().unwrap_or_default(),
             keys: samples.keys(),
         };
         // SAFETY: the application's function, called as documented.

@@ -145,7 +145,7 @@ pub unsafe extern "C" fn gpc_list_grow(
 
 /// Records the sampling of the first `location_count` locations, which see `draw_count` draws; these are read during the call
 /// alone, and `draws` may be NULL where there are none. It submits nothing, waits for nothing, allocates nothing on the device
-/// and updates no descriptor. `commands` is being recorded, outside of a render pass, for a queue of the family lent; what was
+/// and updates no descriptor. `commands` is being recorded, outside of a render pass and of conditional rendering, for a queue of the family lent; what was
 /// bound and pushed before has to be bound and pushed again, and what is recorded is visible to all commands after it. `user`
 /// is handed to `shade`, whose shaders write no memory of the library but by gpc_store.
 ///

@@ -92,6 +92,10 @@ pub struct GpcOptions {
     pub locations: *const [f32; 2],
     /// Bound on the device memory of a frame in bytes, 0 for none.
     pub max_memory: u64,
+    /// Bound on the time that a recording takes: the most rounds of superpixels that are detected, and of each growth of these. What
+    /// rounds leave keeps the colours that were drawn, and is counted as left over. 0 for as many as an image may need; those that
+    /// it does not need take next to no time on devices with GpcDevice.conditional_rendering, and little on others.
+    pub max_rounds: u32,
 }
 
 // SAFETY: `repr(C)`, its size first; numbers and raw pointers may have any bytes.
@@ -132,6 +136,7 @@ pub unsafe extern "C" fn gpc_options_init(
                 location_count: 0,
                 locations: std::ptr::null(),
                 max_memory: 0,
+                max_rounds: 0,
             });
         }
         Ok(())
@@ -172,6 +177,7 @@ impl GpcOptions {
             sharp: flag("GpcOptions.sharp", self.sharp)?,
             shade_all: flag("GpcOptions.shade_all", self.shade_all)?,
             max_memory: (self.max_memory != 0).then_some(self.max_memory),
+            max_rounds: (self.max_rounds != 0).then_some(self.max_rounds),
         })
     }
 

@@ -7,7 +7,8 @@ use super::shading::ShadeSamples;
 use super::uniform::{check_size, uniform};
 use super::{Draw, Geometry, HostError, Images, LentImage, Options, Shared};
 use crate::passes::{
-    Counter, FrameUniform, IdViews, Offsets, OwnSet, Patch, Patched, RasterTargets, Resources,
+    Content, Counter, FrameUniform, IdViews, Offsets, OwnSet, Patch, Patched, RasterTargets,
+    Resources,
 };
 use crate::render::engine::{Engine, EngineKind, Growing, Work, with_probes};
 use crate::render::footprint::Footprints;
@@ -46,6 +47,7 @@ pub struct Frame {
     plan: Plan,
     resources: Resources,
     engine: Engine,
+    rounds: u32,
     base: Base,
     patch: Patch,
     visibility_set: OwnSet,
@@ -144,9 +146,8 @@ impl Frame {
             )
         };
         let growths = engine.growths() as u32;
-        let shadings = plan.rounds
-            + growths * plan.growth_rounds()
-            + Base::shadings(options, width * height, plan.sizes.record_capacity);
+        let rounds = options.rounds(engine.most_rounds(&plan.sizes, content.index_count()));
+        let bands = Base::shadings(options, width * height, plan.sizes.record_capacity);
         let patched = match (options.shade_all, growths) {
             (true, _) => Patched::All,
             (false, 0) => Patched::Superpixels,
@@ -161,7 +162,7 @@ impl Frame {
                 vk::BufferUsageFlags::TRANSFER_DST,
                 MemoryUse::Readback,
             )?,
-            timings: Timings::new(gpu, 32 + 8 * (growths + shadings))?,
+            timings: Timings::new(gpu, 32 + 14 * (1 + growths) + 8 * bands)?,
             lending,
             images: *images,
             options: options.clone(),
@@ -169,6 +170,7 @@ impl Frame {
             plan,
             resources,
             engine,
+            rounds,
             visibility_set,
             memory,
             shared: shared.clone(),
@@ -187,8 +189,8 @@ impl Frame {
         self.memory.used()
     }
 
-    /// A frame like this one, for the same buffers and images, with more of what the last recording lacked: rounds, and
-    /// memory for lists. Where it lacked nothing, it is made with as much.
+    /// A frame like this one, for the same buffers and images, with more of what the last recording lacked: memory for lists.
+    /// Where it lacked nothing, it is made with as much; [`Options::max_rounds`] stays what it is.
     ///
     /// # Errors
     /// If memory runs out, or what was counted can't be read.
@@ -216,7 +218,7 @@ impl Frame {
     /// If the scenery does not fit what the frame was prepared for. Nothing is recorded then.
     ///
     /// # Safety
-    /// - `commands` is being recorded, outside of a render pass, for the device of the antialiaser and a queue family with
+    /// - `commands` is being recorded, outside of a render pass and of conditional rendering, for the device of the antialiaser and a queue family with
     ///   graphics and compute. What was bound and pushed before has to be bound and pushed again.
     /// - The commands of this frame's last recording are done: its memory is used again.
     /// - Images are in the states named. Those of IDs and depth and, without [`Options::shade_all`], of colours hold what the
@@ -277,7 +279,7 @@ impl Frame {
         let work = Work {
             triangles: placed.triangles,
             tiles: uniform.tiles[0] * uniform.tiles[1],
-            rounds: self.plan.rounds,
+            rounds: self.rounds,
         };
         self.engine.record(recorder, resources, &shading, &work);
         resources.record_keep_counters(recorder, &self.counters, 0);
@@ -285,10 +287,7 @@ impl Frame {
             resources,
             set,
             uniform,
-            work: Work {
-                rounds: self.plan.growth_rounds(),
-                ..work
-            },
+            work,
             counters: &self.counters,
             first_slot: 1,
         };

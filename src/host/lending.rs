@@ -133,6 +133,7 @@ impl Lending {
                 set: visibility_set.raw,
                 arguments: resources.arguments.handle(),
                 keys: self.geometry.keys,
+                condition: None,
             },
             set,
         }

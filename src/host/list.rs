@@ -6,7 +6,7 @@ use super::shading::ShadeSamples;
 use super::uniform::{check_size, uniform};
 use super::{Draw, Geometry, HostError, Options, Shared};
 use crate::passes::{
-    Cells, Counter, FrameUniform, ListLength, ListRegion, Offsets, OwnSet, RasterTargets,
+    Cells, Content, Counter, FrameUniform, ListLength, ListRegion, Offsets, OwnSet, RasterTargets,
     ResourceSizes, Resources, VisibilityUniform,
 };
 use crate::render::footprint::Footprints;
@@ -204,7 +204,7 @@ impl List {
                 lending.visibility_set(shared, &resources, Some(list.info()))?,
             )
         };
-        let rounds = kind.rounds(&sizes, &settings, capacity);
+        let rounds = options.rounds(engine.most_rounds(&sizes, content.index_count()));
         Ok(Self {
             counters: memory.buffer(
                 "counter read-back",
@@ -212,7 +212,7 @@ impl List {
                 vk::BufferUsageFlags::TRANSFER_DST,
                 MemoryUse::Readback,
             )?,
-            timings: Timings::new(gpu, 16 + 8 * rounds)?,
+            timings: Timings::new(gpu, 32)?,
             lending,
             list: *list,
             options: options.clone(),
@@ -241,8 +241,8 @@ impl List {
         self.memory.used()
     }
 
-    /// A list like this one, with more of what the last recording lacked: rounds, and memory for lists of triangles. Where it
-    /// lacked nothing, it is made with as much.
+    /// A list like this one, with more of what the last recording lacked: memory for lists of triangles. Where it lacked nothing, it
+    /// is made with as much; [`Options::max_rounds`] stays what it is.
     ///
     /// # Errors
     /// If memory runs out, or what was counted can't be read.
@@ -263,7 +263,7 @@ impl List {
     /// If draws or locations are more than there is room for, or a draw is impossible. Nothing is recorded then.
     ///
     /// # Safety
-    /// - `commands` is being recorded, outside of a render pass, for the device of the antialiaser and a queue family with
+    /// - `commands` is being recorded, outside of a render pass and of conditional rendering, for the device of the antialiaser and a queue family with
     ///   compute. What was bound and pushed before has to be bound and pushed again.
     /// - The commands of this list's last recording are done: its memory is used again.
     /// - In the first recording, alpha maps are in `SHADER_READ_ONLY_OPTIMAL`, and were written before on the same queue or
@@ -322,10 +322,10 @@ impl List {
         self.engine
             .record_candidates(recorder, (resources, set), &region, ListLength::Known);
         let shading = lending.shading(shading, &self.visibility_set, (resources, set));
-        for _ in 0..self.rounds {
+        resources.record_rounds(recorder, self.rounds, |recorder| {
             self.engine.record_round(recorder, resources);
             self.engine.record_values(recorder, resources, &shading);
-        }
+        });
         resources.record_keep_counters(recorder, &self.counters, 0);
         let bytes = LocationList::COLOR_BYTES * u64::from(count);
         // SAFETY: the buffer has room for the colours of as many locations as there can be, as the host says.

@@ -35,6 +35,11 @@ pub struct Options {
     pub shade_all: bool,
     /// Bound on the device memory of a frame in bytes.
     pub max_memory: Option<u64>,
+    /// Bound on the time that a recording takes: the most rounds of superpixels that are detected, and of each growth of these.
+    /// What rounds leave keeps the colours that were drawn, and is counted as left over. With `None` there are as many as an image
+    /// may need; those that it does not need take next to no time on devices with
+    /// [`Host::conditional_rendering`](crate::vulkan::Host::conditional_rendering), and little on others.
+    pub max_rounds: Option<u32>,
 }
 
 impl Options {
@@ -54,7 +59,13 @@ impl Options {
             sharp: true,
             shade_all: false,
             max_memory: None,
+            max_rounds: None,
         }
+    }
+
+    /// Rounds that are recorded, of the most that may be needed.
+    pub(super) fn rounds(&self, most: u32) -> u32 {
+        self.max_rounds.map_or(most, |bound| bound.min(most))
     }
 
     pub(super) fn settings(&self) -> Settings {

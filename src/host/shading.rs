@@ -45,6 +45,7 @@ pub struct VisibilitySamples {
     pub(super) set: vk::DescriptorSet,
     pub(super) arguments: vk::Buffer,
     pub(super) keys: u32,
+    pub(super) condition: Option<vk::Buffer>,
 }
 
 impl VisibilitySamples {
@@ -70,14 +71,23 @@ impl VisibilitySamples {
         let index = u64::from(Argument::Shade as u32) + u64::from(key);
         (key < self.keys).then_some((self.arguments, index * Self::DISPATCH_STRIDE))
     }
+
+    /// A buffer whose first word of 32 bits is zero where the round has nothing to do, so that its dispatches are of no
+    /// workgroups. Recorded after `vkCmdBeginConditionalRenderingEXT` with it, at offset 0, and ended before the callback returns,
+    /// they take no time there, as the engine's own. `None` on devices without
+    /// [`Host::conditional_rendering`](crate::vulkan::Host::conditional_rendering), and where what is shaded is no round.
+    #[must_use]
+    pub fn condition(&self) -> Option<vk::Buffer> {
+        self.condition
+    }
 }
 
 /// A host's materials.
 pub trait ShadeSamples {
     /// Records the shading of a round's samples: for each key a pipeline, the samples' set, and the key's indirect
-    /// dispatch. It is called a fixed number of times for a frame, outside of a render pass. Dispatches need no barrier
-    /// between them; what the engine wrote is visible to them, and the engine waits for what they write. They may bind and
-    /// push what they like.
+    /// dispatch. It is called a fixed number of times for a frame, in rounds that have nothing to do as well, outside of a render
+    /// pass and of conditional rendering. Dispatches need no barrier between them; what the engine wrote is visible to them, and
+    /// the engine waits for what they write. They may bind and push what they like.
     fn record(&self, commands: vk::CommandBuffer, samples: &VisibilitySamples);
 }
 
@@ -97,7 +107,11 @@ pub(super) struct HostShading<'a> {
 
 impl RecordShading for HostShading<'_> {
     fn record(&self, recorder: &mut Recorder<'_>, resources: &Resources) {
-        self.shading.record(recorder.raw(), &self.samples);
+        let samples = VisibilitySamples {
+            condition: recorder.condition(),
+            ..self.samples
+        };
+        self.shading.record(recorder.raw(), &samples);
         recorder.barrier();
         resources.record_bind(recorder, self.set);
     }

@@ -46,6 +46,8 @@ pub enum Counter {
     Widest,
     /// Thin triangles that are long, too.
     ThinLong,
+    /// Not zero where there is work for another round.
+    Waiting,
     /// Whether a kernel was run in other subgroups than it was made for. It stays: those before it alone are cleared.
     Subgroups,
 }
@@ -152,6 +154,7 @@ mod tests {
             C::Reach,
             C::Widest,
             C::ThinLong,
+            C::Waiting,
             C::Subgroups,
         ] {
             let name = format!("COUNTER_{}", shouted(&format!("{counter:?}")));

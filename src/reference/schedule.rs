@@ -51,6 +51,8 @@ pub struct Rounds {
     pub layers: u32,
     /// Triangles of the scene.
     pub triangles: u32,
+    /// Most triangles that are tried in a cell.
+    pub longest_list: u32,
     /// Whether some of them are BLEND.
     pub blends: bool,
     /// Candidates that a round has room for.
@@ -124,12 +126,12 @@ impl Rounds {
         } else if self.per_sample {
             all_samples
         } else {
-            let most = if blocks == 1 { block } else { 4 * layers };
-            all_samples.min(headers * most.min(parts * candidates))
+            all_samples.min(headers * block.min(parts * candidates))
         };
         let cells = u64::from(tile.cells);
         match (unlisted, cells) {
             (_, 0) => [0; 4],
+            (true, _) if self.triangles > self.longest_list => [0, records, headers, 0],
             (true, _) => [0, records, headers, cells],
             (false, _) => [candidates, records, headers, 0],
         }

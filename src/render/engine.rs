@@ -4,8 +4,8 @@ use super::plan::Plan;
 use super::{Coverage, Detection, RenderError, Settings, Shading};
 use crate::passes::{
     Bin, Cells, Content, Cull, Detect, DetectMode, DetectOptions, FrameLayout, FrameUniform, Grow,
-    Kept, RecordRate, Resolve, Resources, Sample, SampleOptions, SampleSet, Schedule, Setup, Sort,
-    Then, Thin,
+    Kept, RecordRate, Resolve, ResourceSizes, Resources, Sample, SampleOptions, SampleSet,
+    Schedule, Setup, Sort, Then, Thin,
 };
 use crate::sampling::Pattern;
 use crate::vulkan::{Buffer, Constants, Recorder};
@@ -190,6 +190,12 @@ impl Engine {
         self.record_rounds(recorder, resources, shading, work);
     }
 
+    /// Rounds that sample all superpixels of a region, and as many those that each growth adds, whatever these see of a scene of at
+    /// most so many triangles.
+    pub fn most_rounds(&self, sizes: &ResourceSizes, triangles: u32) -> u32 {
+        self.schedule.most_rounds(sizes, triangles)
+    }
+
     /// How often superpixels grow.
     pub fn growths(&self) -> usize {
         self.growths.len()
@@ -237,7 +243,7 @@ impl Engine {
         self.bin.record(recorder, arguments);
         recorder.mark("bin");
         self.schedule.record_tally(recorder, arguments);
-        for _ in 0..work.rounds {
+        resources.record_rounds(recorder, work.rounds, |recorder| {
             self.schedule.record(recorder, arguments);
             recorder.mark("schedule");
             self.setup.record(recorder, arguments);
@@ -247,7 +253,7 @@ impl Engine {
             record_shading(recorder, resources, &self.sort, shading);
             self.resolve.record(recorder, arguments);
             recorder.mark("resolve");
-        }
+        });
     }
 }
 
@@ -257,7 +263,7 @@ pub(crate) struct Work {
     pub triangles: u32,
     /// Tiles of the region.
     pub tiles: u32,
-    /// Rounds of lists and records.
+    /// Rounds that are recorded, for what is detected and for each growth of it.
     pub rounds: u32,
 }
 
@@ -267,7 +273,6 @@ pub(crate) struct Growing<'a> {
     pub set: &'a SampleSet,
     /// That of the region's sampling.
     pub uniform: FrameUniform,
-    /// With the rounds of a growth.
     pub work: Work,
     /// Where what each growth counts is kept, from a slot on.
     pub counters: &'a Buffer,

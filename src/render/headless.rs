@@ -276,8 +276,8 @@ impl Headless {
             .prepare_with(scene, settings, None, Capacity::least(), beside)
     }
 
-    /// Renders a frame and waits for it. Where its records outgrow its memory it is prepared again with more
-    /// rounds, so that the image does not depend on how much there was.
+    /// Renders a frame and waits for it. Where what it lists outgrows its memory it is prepared again with more, so that the image
+    /// does not depend on how much there was.
     ///
     /// # Errors
     /// [`RenderError::OtherDevice`] for a frame of another device; if the device is lost, or records do not fit however
@@ -288,17 +288,12 @@ impl Headless {
                 Err(RenderError::Unfinished { cells }) => {
                     let shortfall = frame.shortfall()?;
                     log::debug!("{cells} cells or tiles are left: {shortfall:?}");
-                    if frame.expect_anything() {
-                        continue;
-                    }
                     self.prepare_again(frame, frame.capacity().more(shortfall))?;
                 }
                 Ok(image) => {
                     // Tiles without a list made the image all the same, but slowly.
                     if image.statistics.unlisted_tiles > 0 && frame.lists_can_grow() {
                         self.prepare_again(frame, frame.capacity().with_doubled_lists())?;
-                    } else {
-                        frame.expect_alike()?;
                     }
                     return Ok(image);
                 }

@@ -1,7 +1,7 @@
 //! The sampling engine for lists of sample locations: from a list to what its locations see, in rounds.
 
 use super::engine::{RecordShading, can_settle, record_rate, record_shading, with_probes};
-use super::plan::{Capacity, MOST_CANDIDATES, MOST_PAIRS, MOST_RECORDS, records_of_superpixel};
+use super::plan::{MOST_CANDIDATES, MOST_PAIRS, MOST_RECORDS, records_of_superpixel};
 use super::{Coverage, RenderError, Settings};
 use crate::passes::{
     Bin, CellSizes, Cells, Content, Cull, Distribute, FrameLayout, Groups, Kept, ListLength,
@@ -121,19 +121,6 @@ impl ListKind {
             encoded: 0,
         }
     }
-
-    /// Rounds that all samples may take: tiles reserve room for as many records.
-    pub fn rounds(&self, sizes: &ResourceSizes, settings: &Settings, capacity: Capacity) -> u32 {
-        let samples = if self.cells.are_points() {
-            1
-        } else {
-            settings.samples
-        };
-        let locations = sizes.locations.map_or(0, |sizes| sizes.locations);
-        let reserved = u64::from(locations) * u64::from(samples);
-        let usual = capacity.rounds_for(samples);
-        usual.max(reserved.div_ceil(u64::from(sizes.record_capacity.max(1))) as u32)
-    }
 }
 
 /// The passes that sample the cells of a list: they know triangles and shading keys, no materials.
@@ -244,6 +231,11 @@ impl ListEngine {
             recorder.barrier();
         }
         self.schedule.record_tally(recorder, arguments);
+    }
+
+    /// Rounds that sample a list, whatever it sees of a scene of at most so many triangles.
+    pub fn most_rounds(&self, sizes: &ResourceSizes, triangles: u32) -> u32 {
+        self.schedule.most_rounds(sizes, triangles)
     }
 
     /// Records the sampling of a round.

@@ -1,9 +1,8 @@
 //! How an image is worked through in parts: each region fits the device's limits and the memory allowed.
 
-use super::engine::record_rate;
 use super::statistics::Shortfall;
 use super::{Method, RenderError, Settings, Shading};
-use crate::passes::{Content, Encoding, RecordRate, ResourceSizes};
+use crate::passes::{Content, Encoding, ResourceSizes};
 use crate::vulkan::Limits;
 
 /// A part of the image, in output pixels. Where a part of the image is wanted alone, it is what is wanted of one of the
@@ -69,9 +68,7 @@ impl Region {
 pub(crate) struct Plan {
     pub regions: Vec<Region>,
     pub sizes: ResourceSizes,
-    /// Rounds of lists and records recorded for each region.
-    pub rounds: u32,
-    /// BLEND layers of a list, half the lists of a block, and a quarter of the records of one of several blocks, that
+    /// BLEND layers of a list, and half the lists of a block, that
     /// tiles are admitted with.
     pub layers: u32,
     /// What it was planned for.
@@ -83,7 +80,6 @@ pub(crate) struct Plan {
 /// What a frame was found to need more of than first planned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Capacity {
-    pub rounds: u32,
     pub layers: u32,
     /// Factor on the room for candidates.
     pub lists: u32,
@@ -118,24 +114,17 @@ impl Capacity {
         let short = shortfall.stalled + shortfall.unlisted + shortfall.dropped > 0;
         let longer = crowded || of_lights || short;
         Self {
-            rounds: self.rounds * factor(crowded || of_lights || shortfall.waiting > 0),
             layers: self.layers * factor(crowded),
             lists: self.lists * factor(longer).max(shortfall.rooms.next_power_of_two()),
             apart: self.apart || of_lights || shortfall.stalled > 0,
             unlisted: self.unlisted || shortfall.unlisted > 0,
         }
     }
-
-    /// Rounds to record for cells of that many samples, which reserve more room for records than they need.
-    pub fn rounds_for(self, samples: u32) -> u32 {
-        self.rounds * samples.div_ceil(192)
-    }
 }
 
 impl Default for Capacity {
     fn default() -> Self {
         Self {
-            rounds: 3,
             layers: 4,
             lists: 1,
             apart: false,
@@ -157,8 +146,8 @@ const SHADOWED: u64 = 8;
 /// Most visibility samples and candidates of a round.
 pub(super) const MOST_RECORDS: u64 = 6 << 20;
 pub(super) const MOST_CANDIDATES: u64 = 2 << 20;
-/// Visibility samples of a round, for each 64 samples of a superpixel, above which there is room for a third of them and
-/// twice as many rounds: rounds that find nothing to do cost little.
+/// Visibility samples of a round, for each 64 samples of a superpixel, above which there is room for a third of them. That makes
+/// more rounds, which cost little.
 const LARGE_RECORDS: u64 = 1 << 20;
 /// Most pairs of a triangle and a tile, of all rounds, that a frame is first planned with.
 pub(super) const MOST_PAIRS: u64 = 8 << 20;
@@ -166,11 +155,6 @@ pub(super) const MOST_PAIRS: u64 = 8 << 20;
 /// proportion to the image. Rounds of fewer candidates are more rounds, which cost little.
 const TILE_PAIRS: u64 = 160;
 const TILE_CANDIDATES: u64 = 10;
-
-/// Rounds to record for what is like something that took so many: half as many again, but no more than planned.
-pub(super) fn rounds_like(taken: u32, planned: u32) -> u32 {
-    (taken + taken.div_ceil(2)).max(1).min(planned)
-}
 
 /// Visibility samples that superpixels have room for, on average.
 pub(super) fn records_of_superpixel(settings: &Settings, scene: &dyn Content) -> u64 {
@@ -268,7 +252,6 @@ impl Plan {
         {
             self.sizes.record_capacity /= 2;
             self.sizes.list_capacity = (self.sizes.list_capacity / 2).max(1 << 12);
-            self.rounds *= 2;
             needed = all(self);
         }
         needed
@@ -324,10 +307,10 @@ impl Plan {
             Method::None | Method::Ssaa => 0,
         };
         let large = LARGE_RECORDS * samples.div_ceil(64);
-        let (records, rounds) = if detects && records > large {
-            ((records / 3).max(large), 2)
+        let records = if detects && records > large {
+            (records / 3).max(large)
         } else {
-            (records, 1)
+            records
         };
         let samples_cells = detects || scene.has_blend();
         let at_most = |room: u64, most: u64| {
@@ -344,7 +327,6 @@ impl Plan {
         let room = |wanted: u64, most: u64| wanted.min(most).max(1 << 14);
         let pairs = room(triangles * 4 + tiles * 16, most_pairs);
         let candidates = room(triangles * 3 + tiles * 8, most_candidates);
-        let several = detects && record_rate(settings, scene) != RecordRate::Triangle;
         let filtered = if side > 1 {
             pixels / u64::from(side * side)
         } else {
@@ -370,19 +352,10 @@ impl Plan {
         Ok(Self {
             regions,
             sizes,
-            // Tiles whose triangles are shaded in parts reserve room for all of these, and use a third of it; where every sample is
-            // shaded, superpixels have as many records.
-            rounds: (rounds * capacity.rounds_for(settings.samples) * if several { 2 } else { 1 })
-                .max(pairs.div_ceil(candidates) as u32),
             layers: capacity.layers,
             capacity,
             lists_can_grow: u64::from(sizes.pair_capacity) < most_listed,
         })
-    }
-
-    /// Rounds recorded for the superpixels that grow beside others, some six times fewer than these.
-    pub fn growth_rounds(&self) -> u32 {
-        self.rounds.div_ceil(3)
     }
 
     fn bytes(&self, scene: &dyn Content, settings: &Settings) -> u64 {

@@ -169,8 +169,8 @@ impl Renderer {
         self.prepare_with(scene, settings, encoding, Capacity::default(), 0)
     }
 
-    /// Makes a frame like another one that ended as [`RenderError::Unfinished`], with more of what it lacked: rounds, memory for
-    /// candidates and layers, or subgroups.
+    /// Makes a frame like another one that ended as [`RenderError::Unfinished`], with more of what it lacked: memory for candidates and
+    /// layers, or subgroups.
     ///
     /// # Errors
     /// As for [`Self::prepare`].

@@ -58,7 +58,7 @@ pub struct Statistics {
     pub regions: u64,
     /// Passes that the scene or the image did not need.
     pub skipped_passes: Vec<&'static str>,
-    /// GPU time by pass, in order.
+    /// GPU time by pass, in order. Of rounds, the passes of the first one are timed each, and all others together as `rounds`.
     pub passes: Vec<PassTime>,
     /// Device memory of scene and frame in bytes.
     pub memory_bytes: u64,

@@ -18,6 +18,7 @@ pub struct Device {
     pub handle: ash::Device,
     pub physical: vk::PhysicalDevice,
     pub queue_family: u32,
+    conditional_rendering: bool,
     /// Used by one thread at a time.
     queue: Mutex<vk::Queue>,
     pub surface: vk::SurfaceKHR,
@@ -113,14 +114,25 @@ impl Device {
             let (physical, queue_family) = choose(&instance, &surfaces, surface, name)?;
 
             let mut features = Requirements::features13();
+            // Rounds of superpixels that are not needed are skipped where the device can skip them.
+            let conditional_rendering =
+                Requirements::has_conditional_rendering(&instance, physical);
+            let mut conditional = vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default()
+                .conditional_rendering(true);
             let queues = [vk::DeviceQueueCreateInfo::default()
                 .queue_family_index(queue_family)
                 .queue_priorities(&[1.0])];
-            let extensions = [ash::khr::swapchain::NAME.as_ptr()];
-            let info = vk::DeviceCreateInfo::default()
+            let mut extensions = vec![ash::khr::swapchain::NAME.as_ptr()];
+            if conditional_rendering {
+                extensions.push(ash::ext::conditional_rendering::NAME.as_ptr());
+            }
+            let mut info = vk::DeviceCreateInfo::default()
                 .queue_create_infos(&queues)
                 .enabled_extension_names(&extensions)
                 .push_next(&mut features);
+            if conditional_rendering {
+                info = info.push_next(&mut conditional);
+            }
             let device = instance
                 .create_device(physical, &info, None)
                 .map_err(VulkanError::of("vkCreateDevice"))?;
@@ -139,6 +151,7 @@ impl Device {
                 handle: device,
                 physical,
                 queue_family,
+                conditional_rendering,
                 surface,
                 surfaces,
                 allocator: Some(Arc::new(Mutex::new(allocator))),
@@ -159,6 +172,7 @@ impl Device {
             device: self.handle.clone(),
             queue_family: self.queue_family,
             allocator: self.allocator.clone(),
+            conditional_rendering: self.conditional_rendering,
         }
     }
 

@@ -12,8 +12,9 @@ pub(super) enum Commands {
 }
 
 impl Commands {
-    /// Makes what such commands wrote before visible to those after.
-    pub fn barrier(self) -> vk::MemoryBarrier2<'static> {
+    /// Makes what such commands wrote before visible to those after, and to what decides whether these are skipped, where the
+    /// device can skip commands.
+    pub fn barrier(self, can_skip: bool) -> vk::MemoryBarrier2<'static> {
         use vk::{AccessFlags2 as A, PipelineStageFlags2 as S};
         let (stages, writes, reads) = match self {
             Self::Dispatches => (
@@ -22,6 +23,14 @@ impl Commands {
                 A::SHADER_READ | A::UNIFORM_READ | A::INDIRECT_COMMAND_READ | A::TRANSFER_READ,
             ),
             Self::Any => (S::ALL_COMMANDS, A::MEMORY_WRITE, A::MEMORY_READ),
+        };
+        let (stages, reads) = if can_skip {
+            (
+                stages | S::CONDITIONAL_RENDERING_EXT,
+                reads | A::CONDITIONAL_RENDERING_READ_EXT,
+            )
+        } else {
+            (stages, reads)
         };
         vk::MemoryBarrier2::default()
             .src_stage_mask(stages)

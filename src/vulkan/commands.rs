@@ -18,6 +18,9 @@ pub struct Recorder<'a> {
     /// A barrier that is asked for is recorded before the next command. A mark goes before it: some drivers take the time of
     /// a timestamp no earlier than at the barrier that follows it.
     barriers: Cell<Barriers>,
+    /// The word that dispatches depend on now, and that which the command buffer was last told of.
+    condition: vk::Buffer,
+    begun: Cell<vk::Buffer>,
     timings: Option<&'a mut Timings>,
 }
 
@@ -35,13 +38,61 @@ impl<'a> Recorder<'a> {
             gpu,
             raw,
             barriers: Cell::new(Barriers::new()),
+            condition: vk::Buffer::null(),
+            begun: Cell::new(vk::Buffer::null()),
             timings,
         }
     }
 
-    /// The command buffer, to record commands of any kind until the next [`Self::barrier`].
+    /// The command buffer, to record commands of any kind until the next [`Self::barrier`]. None of them is skipped.
     pub(crate) fn raw(&self) -> vk::CommandBuffer {
+        self.depend_on(vk::Buffer::null());
         self.before(Commands::Any)
+    }
+
+    /// Records dispatches that the device skips where the first word of a buffer is zero. What they are recorded with does not
+    /// write that word. Within them, others may depend on another word instead. Copies, and commands recorded with
+    /// [`Self::raw`], are not skipped.
+    ///
+    /// The device [can skip commands](super::Limits::conditional_rendering), and the buffer was made for it.
+    pub(crate) fn unless_zero(&mut self, word: &Buffer, record: impl FnOnce(&mut Self)) {
+        let outer = std::mem::replace(&mut self.condition, word.raw);
+        record(self);
+        self.condition = outer;
+    }
+
+    /// The word that [`Self::unless_zero`] has dispatches depend on now, if any: the first of a buffer.
+    pub(crate) fn condition(&self) -> Option<vk::Buffer> {
+        (self.condition != vk::Buffer::null()).then_some(self.condition)
+    }
+
+    /// Has the commands that follow depend on a word, or on none.
+    fn depend_on(&self, word: vk::Buffer) {
+        let begun = self.begun.replace(word);
+        let Some(functions) = &self.gpu.conditional_rendering else {
+            return;
+        };
+        if begun == word {
+            return;
+        }
+        // SAFETY: `new`'s contract; what was begun is ended before anything else is begun, and both happen outside of render
+        // passes, which are recorded with `raw`.
+        unsafe {
+            if begun != vk::Buffer::null() {
+                (functions.fp().cmd_end_conditional_rendering_ext)(self.raw);
+            }
+            if word != vk::Buffer::null() {
+                let info = vk::ConditionalRenderingBeginInfoEXT::default().buffer(word);
+                (functions.fp().cmd_begin_conditional_rendering_ext)(self.raw, &info);
+            }
+        }
+    }
+
+    /// The command buffer, to record a dispatch.
+    fn dispatching(&self) -> vk::CommandBuffer {
+        let raw = self.before(Commands::Dispatches);
+        self.depend_on(self.condition);
+        raw
     }
 
     /// The command buffer, to record what is bound and pushed: that waits for nothing.
@@ -53,7 +104,8 @@ impl<'a> Recorder<'a> {
     fn before(&self, next: Commands) -> vk::CommandBuffer {
         let mut barriers = self.barriers.get();
         if let Some(commands) = barriers.before(next) {
-            let barriers = [commands.barrier()];
+            let can_skip = self.gpu.conditional_rendering.is_some();
+            let barriers = [commands.barrier(can_skip)];
             let info = vk::DependencyInfo::default().memory_barriers(&barriers);
             // SAFETY: `new`'s contract; synchronization2 is enabled.
             unsafe { self.gpu.device.cmd_pipeline_barrier2(self.raw, &info) };
@@ -110,7 +162,7 @@ impl<'a> Recorder<'a> {
     pub fn dispatch_unordered(&self, pipeline: &Pipeline, groups: u64) {
         self.bind(pipeline);
         let rows = groups.div_ceil(32768) as u32;
-        let raw = self.before(Commands::Dispatches);
+        let raw = self.dispatching();
         // SAFETY: `new`'s contract; 32,768 is below every device's limit of 65,535.
         unsafe {
             self.gpu
@@ -128,7 +180,7 @@ impl<'a> Recorder<'a> {
     /// The same without a barrier after it, for dispatches that write different places.
     pub fn dispatch_indirect_unordered(&self, pipeline: &Pipeline, arguments: &Buffer, index: u32) {
         self.bind(pipeline);
-        let raw = self.before(Commands::Dispatches);
+        let raw = self.dispatching();
         // SAFETY: `new`'s contract; the buffer is larger than the index and was created for indirect use.
         unsafe {
             self.gpu
@@ -221,7 +273,6 @@ impl<'a> Recorder<'a> {
     }
 
     /// Records without marks: what takes time is booked by the next mark after it.
-    #[cfg(feature = "gltf")]
     pub(crate) fn untimed(&mut self, record: impl FnOnce(&mut Self)) {
         let timings = self.timings.take();
         record(self);

@@ -21,6 +21,10 @@ pub struct Host {
     pub queue_family: u32,
     /// The host's allocator to share, or `None` for one of our own.
     pub allocator: Option<SharedAllocator>,
+    /// Whether the device was created with `VK_EXT_conditional_rendering` and its feature `conditionalRendering`, for which
+    /// [`Requirements::has_conditional_rendering`] says whether it can be. Without it, rounds of a frame that have nothing to do
+    /// take some time.
+    pub conditional_rendering: bool,
 }
 
 /// Properties of the device that decide how work is laid out.
@@ -51,11 +55,15 @@ pub struct Limits {
     pub max_submitted_samples: u64,
     /// Sample counts of multisampled 8-bit colour and float depth.
     pub sample_counts: vk::SampleCountFlags,
+    /// Whether commands can be skipped by a word in the device's memory.
+    pub conditional_rendering: bool,
 }
 
 /// A device in use.
 pub struct Gpu {
     pub(crate) device: ash::Device,
+    /// Functions that skip commands, where the device has them.
+    pub(super) conditional_rendering: Option<ash::ext::conditional_rendering::Device>,
     pub(crate) queue_family: u32,
     /// `None` only while dropping.
     allocator: Option<SharedAllocator>,
@@ -72,10 +80,12 @@ impl Gpu {
     ///
     /// # Safety
     /// - All handles are alive, belong together and outlive the returned value and all made with it.
-    /// - The device was created with the features of [`Requirements::features13`].
+    /// - The device was created with the features of [`Requirements::features13`], and as [`Host::conditional_rendering`] says.
     pub unsafe fn new(host: Host) -> Result<Arc<Self>, VulkanError> {
+        let mut limits = limits(&host.instance, host.physical_device, host.queue_family);
+        limits.conditional_rendering &= host.conditional_rendering;
         // SAFETY: passed on to the caller.
-        unsafe { Self::owning(host, None, |_| ()) }
+        unsafe { Self::owning(host, None, limits) }
     }
 
     /// # Safety
@@ -83,7 +93,7 @@ impl Gpu {
     pub(super) unsafe fn owning(
         host: Host,
         owner: Option<Arc<Instance>>,
-        lower: impl FnOnce(&mut Limits),
+        limits: Limits,
     ) -> Result<Arc<Self>, VulkanError> {
         let Host {
             instance,
@@ -91,9 +101,8 @@ impl Gpu {
             device,
             queue_family,
             allocator,
+            conditional_rendering: _,
         } = host;
-        let mut limits = limits(&instance, physical_device, queue_family);
-        lower(&mut limits);
         let missing: Vec<Missing> = Requirements::missing(&instance, physical_device);
         if !missing.is_empty() {
             return Err(VulkanError::Missing {
@@ -118,7 +127,9 @@ impl Gpu {
                 })?,
             )),
         };
+        let functions = || ash::ext::conditional_rendering::Device::new(&instance, &device);
         Ok(Arc::new(Self {
+            conditional_rendering: limits.conditional_rendering.then(functions),
             device,
             queue_family,
             allocator: Some(allocator),
@@ -131,6 +142,12 @@ impl Gpu {
     #[must_use]
     pub fn device(&self) -> &ash::Device {
         &self.device
+    }
+
+    /// The device's functions to skip commands by a word in its memory, where it [has](Limits::conditional_rendering) them.
+    #[must_use]
+    pub fn conditional_rendering(&self) -> Option<&ash::ext::conditional_rendering::Device> {
+        self.conditional_rendering.as_ref()
     }
 
     /// The family of the queue that commands are submitted to.
@@ -184,7 +201,12 @@ fn lanes_and_size(usual: u32, [least, most]: [u32; 2], can_require: bool) -> (u3
     }
 }
 
-fn limits(instance: &ash::Instance, device: vk::PhysicalDevice, queue_family: u32) -> Limits {
+/// Those of a physical device.
+pub(super) fn limits(
+    instance: &ash::Instance,
+    device: vk::PhysicalDevice,
+    queue_family: u32,
+) -> Limits {
     let mut driver = vk::PhysicalDeviceDriverProperties::default();
     let mut subgroup = vk::PhysicalDeviceSubgroupProperties::default();
     let mut control = vk::PhysicalDeviceSubgroupSizeControlProperties::default();
@@ -242,6 +264,7 @@ fn limits(instance: &ash::Instance, device: vk::PhysicalDevice, queue_family: u3
         sample_counts: basic.limits.framebuffer_color_sample_counts
             & basic.limits.framebuffer_depth_sample_counts
             & basic.limits.sampled_image_color_sample_counts,
+        conditional_rendering: Requirements::has_conditional_rendering(instance, device),
     }
 }
 

@@ -1,6 +1,6 @@
 //! An instance and device of our own, for callers without one.
 
-use super::gpu::{Gpu, Host, Limits};
+use super::gpu::{Gpu, Host, Limits, limits};
 use super::{Missing, Requirements, VulkanError};
 use ash::vk;
 use std::ffi::{CStr, c_void};
@@ -302,10 +302,20 @@ impl Instance {
         let queues = [vk::DeviceQueueCreateInfo::default()
             .queue_family_index(queue_family)
             .queue_priorities(&priorities)];
+        let mut limits = limits(&self.raw, physical_device, queue_family);
+        lower(&mut limits);
         let mut features = Requirements::features13();
-        let info = vk::DeviceCreateInfo::default()
+        let mut conditional = vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default()
+            .conditional_rendering(true);
+        let extensions = [ash::ext::conditional_rendering::NAME.as_ptr()];
+        let mut info = vk::DeviceCreateInfo::default()
             .queue_create_infos(&queues)
             .push_next(&mut features);
+        if limits.conditional_rendering {
+            info = info
+                .enabled_extension_names(&extensions)
+                .push_next(&mut conditional);
+        }
         // SAFETY: the physical device has everything asked for, as checked above.
         let device = unsafe { self.raw.create_device(physical_device, &info, None) }
             .map_err(VulkanError::of("vkCreateDevice"))?;
@@ -315,9 +325,10 @@ impl Instance {
             device,
             queue_family,
             allocator: None,
+            conditional_rendering: limits.conditional_rendering,
         };
         // SAFETY: the handles are alive, belong together, and the Gpu keeps the instance and owns the device.
-        unsafe { Gpu::owning(host, Some(self.clone()), lower) }
+        unsafe { Gpu::owning(host, Some(self.clone()), limits) }
     }
 }
 

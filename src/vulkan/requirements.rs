@@ -115,6 +115,29 @@ impl Requirements {
             .shader_demote_to_helper_invocation(true)
     }
 
+    /// Whether the physical device has `VK_EXT_conditional_rendering` and its feature `conditionalRendering`. It is not needed. A
+    /// device with both enabled skips the rounds of a frame that have nothing to do; see [`Host::conditional_rendering`].
+    ///
+    /// [`Host::conditional_rendering`]: super::Host::conditional_rendering
+    #[must_use]
+    pub fn has_conditional_rendering(instance: &ash::Instance, device: vk::PhysicalDevice) -> bool {
+        // SAFETY: `device` belongs to `instance`.
+        let extensions = unsafe { instance.enumerate_device_extension_properties(device) };
+        let name = ash::ext::conditional_rendering::NAME;
+        if !extensions
+            .unwrap_or_default()
+            .iter()
+            .any(|extension| extension.extension_name_as_c_str() == Ok(name))
+        {
+            return false;
+        }
+        let mut conditional = vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default();
+        let mut features = vk::PhysicalDeviceFeatures2::default().push_next(&mut conditional);
+        // SAFETY: as above; the device knows the chained structure, which lives until after the call.
+        unsafe { instance.get_physical_device_features2(device, &mut features) };
+        conditional.conditional_rendering == vk::TRUE
+    }
+
     /// Everything that the physical device lacks; empty if it will do.
     #[must_use]
     pub fn missing(instance: &ash::Instance, device: vk::PhysicalDevice) -> Vec<Missing> {

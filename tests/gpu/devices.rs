@@ -11,7 +11,7 @@ use crate::scenes::ball_over_checker;
 use crate::stage::{Stage, camera, everywhere, flat, on_gpu};
 
 /// Runs a test on a device of lower limits; fails if the validation layer has anything to say about it.
-fn within(lower: impl FnOnce(&mut Limits), test: impl FnOnce(&mut Headless)) {
+pub fn within(lower: impl FnOnce(&mut Limits), test: impl FnOnce(&mut Headless)) {
     let options = HeadlessOptions {
         validation: true,
         ..HeadlessOptions::default()

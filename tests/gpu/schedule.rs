@@ -119,6 +119,7 @@ struct Passes<'a> {
     gpu: &'a Headless,
     bare: Bare,
     schedule: Schedule,
+    sizes: ResourceSizes,
     uniform: FrameUniform,
     twin: Rounds,
 }
@@ -145,10 +146,10 @@ impl<'a> Passes<'a> {
             records: case.records_are,
             exact_areas: false,
             can_settle: false,
-            apart: false,
+            apart: true,
             unlisted: false,
             has_mask: false,
-            has_blend: false,
+            has_blend: case.blends,
             always_blends: false,
         };
         let sample = Sample::new(&bare.layout, &Unread, &options).unwrap();
@@ -172,6 +173,7 @@ impl<'a> Passes<'a> {
             parts: sample.parts(),
             layers: LAYERS,
             triangles: case.triangles,
+            longest_list: 350_000,
             blends: case.blends,
             candidates: case.candidates,
             records: case.records,
@@ -180,9 +182,20 @@ impl<'a> Passes<'a> {
             gpu,
             bare,
             schedule,
+            sizes,
             uniform,
             twin,
         }
+    }
+
+    /// Rounds that are recorded for tiles with so many candidates together.
+    fn recorded(&self, candidates: u32) -> usize {
+        let sizes = ResourceSizes {
+            pair_capacity: candidates,
+            ..self.sizes
+        };
+        self.schedule
+            .most_rounds(&sizes, self.uniform.triangle_count) as usize
     }
 
     /// What the device takes into each of `count` rounds.
@@ -266,6 +279,14 @@ fn assert_rounds_are_the_twins(passes: &Passes<'_>, case: &Case, seed: u64) -> u
     // Rounds that find nothing follow.
     const IDLE: usize = 2;
     let expected = passes.twin.of(&twins);
+    let listed = twins.iter().map(|tile| tile.candidates).sum();
+    let recorded = passes.recorded(listed);
+    assert!(
+        expected.len() <= recorded,
+        "{}: {} of {recorded}",
+        case.name,
+        expected.len()
+    );
     let found = passes.run(&content, expected.len() + IDLE);
     let lanes = passes.gpu.gpu().limits().lanes;
     let mut tiles: Vec<[u32; 4]> = content.iter().map(|tile| tile.1).collect();
@@ -354,9 +375,19 @@ fn rounds_are_the_twins() {
             Case {
                 name: "many triangles to try",
                 size: [60, 40],
-                triangles: 20_000_000,
+                triangles: 350_000,
                 records: 1_000_000,
-                rarity: 10,
+                sparseness: 1,
+                rarity: 2,
+                ..USUAL
+            },
+            Case {
+                name: "more triangles than are tried",
+                size: [60, 40],
+                triangles: 350_001,
+                records: 4_000_000,
+                candidates: 1 << 17,
+                rarity: 2,
                 ..USUAL
             },
             Case {
@@ -371,10 +402,10 @@ fn rounds_are_the_twins() {
             let passes = Passes::new(gpu, &case);
             [1, 2].map(|seed| assert_rounds_are_the_twins(&passes, &case, seed))[0]
         });
-        // One tile and all in one round take one; the others several.
-        assert_eq!([counts[1], counts[2]], [1, 1]);
+        // One tile, all in one round and tiles that are left take one; the others several.
+        assert_eq!([counts[1], counts[2], counts[6]], [1, 1, 1]);
         assert!(
-            [0, 3, 4, 5, 6].iter().all(|&case| counts[case] > 3),
+            [0, 3, 4, 5, 7].iter().all(|&case| counts[case] > 3),
             "{counts:?}"
         );
     });
@@ -403,5 +434,49 @@ fn rounds_end_with_stretches() {
             assert_eq!(next as usize, round.tiles.end);
         }
         assert_eq!(expected.len(), 14);
+    });
+}
+
+/// Tiles of which each needs as much as one may ask for: no more than twice the rounds are recorded that these take.
+#[test]
+fn as_many_rounds_are_recorded_as_tiles_may_take() {
+    on_gpu(|gpu| {
+        const MUCH: u32 = 8_000_000;
+        for (name, triangles, records, records_are, tile) in [
+            ("records", 1000, 200_000, RecordRate::Part, [2, 0, 0, 0]),
+            ("samples", 1000, 200_000, RecordRate::Sample, [0; 4]),
+            (
+                "candidates",
+                1000,
+                MUCH,
+                RecordRate::Triangle,
+                [60, 0, 0, 0],
+            ),
+            (
+                "trials",
+                350_000,
+                MUCH,
+                RecordRate::Triangle,
+                [0, 0, 0, OVERFLOW],
+            ),
+        ] {
+            let case = Case {
+                name,
+                size: [60, 40],
+                triangles,
+                records_are,
+                records,
+                ..USUAL
+            };
+            let passes = Passes::new(gpu, &case);
+            let content = vec![(u32::MAX, tile); 60 * 40];
+            let taken = passes.twin.of(&twins_of(&content)).len();
+            let recorded = passes.recorded(60 * 40 * tile[0]);
+            assert!(taken > 5, "{name}: {taken}");
+            assert!(
+                (taken..=2 * taken).contains(&recorded),
+                "{name}: {taken} of {recorded}"
+            );
+        }
     });
 }

@@ -41,6 +41,8 @@ pub struct Resources {
     pub(crate) bins: Buffer,
     /// Four words for each [`Argument`].
     pub arguments: Buffer,
+    /// A word that says whether there is another round, where the device can skip those that there are not.
+    another_round: Option<Buffer>,
     filtered: BufferView,
     pub(crate) attributes: Buffer,
     pub(crate) encoded: Buffer,
@@ -140,6 +142,16 @@ impl Resources {
                 STORAGE | vk::BufferUsageFlags::INDIRECT_BUFFER,
                 MemoryUse::Device,
             )?,
+            another_round: layout
+                .gpu
+                .limits()
+                .conditional_rendering
+                .then(|| {
+                    let usage = vk::BufferUsageFlags::CONDITIONAL_RENDERING_EXT
+                        | vk::BufferUsageFlags::TRANSFER_DST;
+                    memory.buffer("another round", 4, usage, MemoryUse::Device)
+                })
+                .transpose()?,
             filtered: texels("filtered colour", u64::from(sizes.filtered), float4)?,
             attributes: storage_in(
                 "attributes",

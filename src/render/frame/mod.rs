@@ -22,7 +22,7 @@ use crate::scene::Moment;
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;
 use passes::{Passes, raster_samples};
-use recording::{Recording, Rounds, Run};
+use recording::{Recording, Run};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -38,7 +38,6 @@ pub struct Frame {
     beside: u64,
     settings: Settings,
     plan: Plan,
-    rounds: Rounds,
     passes: Passes,
     targets: RasterTargets,
     geometry: FrameGeometry,
@@ -130,7 +129,7 @@ impl Frame {
         };
         let shadows = casters.map(shadows).transpose()?;
         let regions = plan.regions.len() as u64;
-        let marks = regions as u32 * (18 + Run::ALL.len() as u32 * (4 + 9 * plan.rounds)) + 8;
+        let marks = regions as u32 * (18 + Run::ALL.len() as u32 * 14) + 8;
         Ok(Self {
             scene: scene.clone(),
             casters: casters.cloned(),
@@ -151,7 +150,6 @@ impl Frame {
             )?,
             timings: Timings::new(&gpu, marks)?,
             settings: settings.clone(),
-            rounds: Rounds::planned(&plan),
             plan,
             memory,
             uploaded: false,
@@ -212,22 +210,6 @@ impl Frame {
         self.plan.capacity
     }
 
-    /// Records about as many rounds from now on as the last recording took, whose commands are done: those that find nothing to do
-    /// cost some tenths of a millisecond each on CPU devices. A frame that takes more is left unfinished.
-    ///
-    /// # Errors
-    /// If what was counted can't be read.
-    pub(super) fn expect_alike(&mut self) -> Result<(), RenderError> {
-        self.rounds = self.rounds_taken()?.for_frames_like(&self.plan);
-        Ok(())
-    }
-
-    /// Records as many rounds as planned from now on, and says whether there were fewer.
-    pub(super) fn expect_anything(&mut self) -> bool {
-        let planned = Rounds::planned(&self.plan);
-        std::mem::replace(&mut self.rounds, planned) != planned
-    }
-
     /// Whether [`Capacity::with_doubled_lists`] makes any difference.
     pub(super) fn lists_can_grow(&self) -> bool {
         self.plan.lists_can_grow && self.settings.max_memory.is_none()
@@ -242,7 +224,7 @@ impl Frame {
     /// Records a frame. It submits nothing, waits for nothing and allocates nothing.
     ///
     /// # Safety
-    /// - `commands` is being recorded, outside of a render pass, for the device and queue family of the renderer.
+    /// - `commands` is being recorded, outside of a render pass and of conditional rendering, for the device and queue family of the renderer.
     /// - The upload of the frame's scene was recorded before, and is executed before these commands.
     /// - The commands of this frame's last recording are done: its memory is used again.
     /// - The frame, which keeps its scene alive, outlives the execution of the commands; so do the target's handles.
@@ -297,7 +279,6 @@ impl Frame {
         let recording = Recording {
             settings: &self.settings,
             plan: &self.plan,
-            rounds: self.rounds,
             passes: &self.passes,
             targets: &self.targets,
             geometry: &self.geometry,

@@ -1,7 +1,7 @@
 //! What the device counted over a frame, once its commands are done.
 
 use super::Frame;
-use super::recording::{Rounds, Run};
+use super::recording::Run;
 use crate::passes::Counter;
 use crate::render::statistics::Shortfall;
 use crate::render::{PassTime, RenderError, Statistics};
@@ -54,29 +54,10 @@ impl Frame {
             .map(|((tiles, run), counters)| (tiles, run, counters)))
     }
 
-    /// Rounds that each run took in the last frame, of the region that took the most.
-    pub(super) fn rounds_taken(&self) -> Result<Rounds, RenderError> {
-        let mut taken = Rounds {
-            blended: 0,
-            superpixels: 0,
-            grown: 0,
-        };
-        for (_, run, counters) in self.counted()?.filter(|(_, run, _)| self.records(*run)) {
-            let most = match run {
-                Run::Blended => &mut taken.blended,
-                Run::Superpixels => &mut taken.superpixels,
-                Run::Grown | Run::GrownAgain => &mut taken.grown,
-            };
-            let rounds = counters.get(Counter::Rounds as usize).copied();
-            *most = rounds.unwrap_or(0).max(*most);
-        }
-        Ok(taken)
-    }
-
     /// Figures of the last frame. Call it when its commands are done.
     ///
     /// # Errors
-    /// [`RenderError::Unfinished`] if records did not fit in memory in all rounds, [`RenderError::Vulkan`] if
+    /// [`RenderError::Unfinished`] if records did not fit in memory, [`RenderError::Vulkan`] if
     /// what was counted or timed can't be read.
     pub fn statistics(&self) -> Result<Statistics, RenderError> {
         let mut statistics = Statistics {

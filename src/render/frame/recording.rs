@@ -9,8 +9,8 @@ use crate::passes::{
 };
 use crate::render::Settings;
 use crate::render::color::display_code;
-use crate::render::engine::{Growing, RecordShading, Work, record_shading};
-use crate::render::plan::{Plan, Region, rounds_like};
+use crate::render::engine::{Engine, Growing, RecordShading, Work, record_shading};
+use crate::render::plan::{Plan, Region};
 use crate::render::shadows::{LightView, ShadowEngine, Shadowed, Sight};
 use crate::scene::Moment;
 use crate::vulkan::{Buffer, Recorder};
@@ -50,41 +50,10 @@ impl Run {
     }
 }
 
-/// Rounds that are recorded for each run over a region.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Rounds {
-    pub blended: u32,
-    pub superpixels: u32,
-    /// For each growth of these.
-    pub grown: u32,
-}
-
-impl Rounds {
-    /// As many as a plan has.
-    pub fn planned(plan: &Plan) -> Self {
-        Self {
-            blended: plan.rounds,
-            superpixels: plan.rounds,
-            grown: plan.growth_rounds(),
-        }
-    }
-
-    /// For frames like one that took so many.
-    pub fn for_frames_like(self, plan: &Plan) -> Self {
-        let planned = Self::planned(plan);
-        Self {
-            blended: rounds_like(self.blended, planned.blended),
-            superpixels: rounds_like(self.superpixels, planned.superpixels),
-            grown: rounds_like(self.grown, planned.grown),
-        }
-    }
-}
-
 /// One recording of a frame: the frame's parts, borrowed apart from its timings, and what it shows where.
 pub(super) struct Recording<'a> {
     pub settings: &'a Settings,
     pub plan: &'a Plan,
-    pub rounds: Rounds,
     pub passes: &'a Passes,
     pub targets: &'a RasterTargets,
     pub geometry: &'a FrameGeometry,
@@ -177,10 +146,11 @@ impl Recording<'_> {
         let side = self.settings.side();
         let filtered = pixels / (side * side);
         let tiles = whole.tiles[0] * whole.tiles[1];
-        let work = |rounds: u32| Work {
-            triangles: scene.index_count(),
+        let triangles = scene.index_count();
+        let work = |engine: &Engine| Work {
+            triangles,
             tiles,
-            rounds,
+            rounds: engine.most_rounds(&self.plan.sizes, triangles),
         };
         let views = self.light_views(region).unwrap_or_default();
         let shadowed = |set| Shadowed {
@@ -249,25 +219,21 @@ impl Recording<'_> {
         }
         if let Some(engine) = &passes.blended {
             resources.record_begin(recorder, main, &whole);
-            engine.record(recorder, resources, &shading, &work(self.rounds.blended));
+            engine.record(recorder, resources, &shading, &work(engine));
             resources.record_keep_counters(recorder, self.counters, Run::Blended.slot(index));
         }
         if let Some(engine) = &passes.superpixels {
             let owned = self.uniform(region, offsets.count(), true);
             resources.record_begin(recorder, offsets, &owned);
             let shading = shading_of(offsets);
-            engine.record(
-                recorder,
-                resources,
-                &shading,
-                &work(self.rounds.superpixels),
-            );
+            let work = work(engine);
+            engine.record(recorder, resources, &shading, &work);
             resources.record_keep_counters(recorder, self.counters, Run::Superpixels.slot(index));
             let growing = Growing {
                 resources,
                 set: offsets,
                 uniform: owned,
-                work: work(self.rounds.grown),
+                work,
                 counters: self.counters,
                 first_slot: Run::Grown.slot(index),
             };

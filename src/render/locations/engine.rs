@@ -3,12 +3,12 @@
 use super::plan::LocationPlan;
 use super::run::RunMemory;
 use crate::passes::{
-    Cells, Counter, FrameLayout, ListLength, ListedLocation, Offsets, Resources, SampleOptions,
+    Cells, Content, FrameLayout, ListLength, ListedLocation, Offsets, Resources, SampleOptions,
     SampleSet, Shade, ShadeSource,
 };
 use crate::render::frame::recording::SceneShading;
 use crate::render::list::{ListEngine, ListKind};
-use crate::render::plan::{Capacity, rounds_like};
+use crate::render::plan::Capacity;
 use crate::render::plane::Window;
 use crate::render::renderer::PreparedScene;
 use crate::render::shadows::{ShadowEngine, Shadowed, Sight};
@@ -36,8 +36,6 @@ pub(super) fn kind(cells: Cells, shadow_words: u32, apart: bool) -> ListKind {
 
 /// Pipelines and memory to sample runs of locations of one scene.
 pub(super) struct LocationEngine {
-    /// Rounds of lists and records that a run may take, and that are recorded: about as many as the run before took.
-    planned_rounds: u32,
     rounds: u32,
     settings: Settings,
     engine: ListEngine,
@@ -66,7 +64,6 @@ impl LocationEngine {
             cells,
             places,
             sizes,
-            rounds,
             ..
         } = plan;
         let scene = &*prepared.gpu_scene;
@@ -76,8 +73,7 @@ impl LocationEngine {
             all: &offsets,
             count,
         };
-        let marks = 16 + 9 * rounds;
-        let run = RunMemory::new(layout, prepared, settings, *sizes, offsets, marks)?;
+        let run = RunMemory::new(layout, prepared, settings, *sizes, offsets, 32)?;
         let resources = &run.resources;
         let output = settings.color_constants(scene);
         let source = ShadeSource::Records { cells: *cells };
@@ -108,9 +104,8 @@ impl LocationEngine {
             settings: settings.clone(),
             shade: Shade::new(layout, scene, (source, kind.shadow_words), &output)?,
             shadows,
+            rounds: engine.most_rounds(sizes, scene.index_count()),
             engine,
-            planned_rounds: *rounds,
-            rounds: *rounds,
             run,
         })
     }
@@ -156,12 +151,12 @@ impl LocationEngine {
                     shadows.record_begin(recorder);
                 }
                 if cells == Cells::Points {
-                let code = settings.output_code(background);
-                resources.record_background(recorder, count as u32, background, code);
-                resources.record_unseen(recorder, count as u32, code);
-                recorder.mark("background");
-            }
-            let region = window.region(count);
+                    let code = settings.output_code(background);
+                    resources.record_background(recorder, count as u32, background, code);
+                    resources.record_unseen(recorder, count as u32, code);
+                    recorder.mark("background");
+                }
+                let region = window.region(count);
                 engine.record_candidates(recorder, (resources, set), &region, ListLength::Known);
                 let views = shadows.as_ref().map(|shadows| shadows.views(sight));
                 let views = views.unwrap_or_default();
@@ -176,10 +171,10 @@ impl LocationEngine {
                     shade: Some(shade),
                     shadows: shadows.as_ref().map(|shadows| (shadows, shadowed)),
                 };
-                for _ in 0..*rounds {
+                resources.record_rounds(recorder, *rounds, |recorder| {
                     engine.record_round(recorder, resources);
                     engine.record_values(recorder, resources, &shading);
-                }
+                });
                 if let Some(shadows) = shadows {
                     shadows.record_end(recorder);
                 }
@@ -200,24 +195,6 @@ impl LocationEngine {
                 false => &[],
             },
         })
-    }
-
-    /// Records about as many rounds from now on as the last run took, whose commands are done. A run that takes more is left
-    /// unfinished.
-    pub fn expect_alike(&mut self) -> Result<(), VulkanError> {
-        let taken = self
-            .run
-            .counted()?
-            .get(Counter::Rounds as usize)
-            .copied()
-            .unwrap_or(0);
-        self.rounds = rounds_like(taken, self.planned_rounds);
-        Ok(())
-    }
-
-    /// Records as many rounds as planned from now on, and says whether there were fewer.
-    pub fn expect_anything(&mut self) -> bool {
-        std::mem::replace(&mut self.rounds, self.planned_rounds) != self.planned_rounds
     }
 
     /// What the last run could not finish.

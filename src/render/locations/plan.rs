@@ -23,8 +23,6 @@ pub(super) struct LocationPlan {
     pub places: u64,
     pub runs: Vec<Range<usize>>,
     pub sizes: ResourceSizes,
-    /// Rounds of lists and records that a run may take.
-    pub rounds: u32,
 }
 
 impl LocationPlan {
@@ -77,7 +75,6 @@ impl LocationPlan {
                     places,
                     runs,
                     sizes,
-                    rounds: kind.rounds(&sizes, settings, capacity),
                 });
             }
             if longest <= FEWEST_LOCATIONS {

@@ -178,7 +178,7 @@ impl ShadowEngine {
         };
         Ok(Self {
             shade: occluding.has_blend().then(opacities).transpose()?,
-            rounds: kind.rounds(&sizes, settings, capacity),
+            rounds: engine.most_rounds(&sizes, occluding.index_count()),
             receivers: Receivers::new(layout, scene, cells, shading, &locations.buffer)?,
             shadow: Shadow::new(layout, memory, shading)?,
             pose: occluding.moves().then(|| Pose::new(layout)).transpose()?,
@@ -305,12 +305,12 @@ impl ShadowEngine {
         let region = window.region(most as usize);
         self.engine
             .record_candidates(recorder, (resources, set), &region, length);
-        for _ in 0..self.rounds {
+        resources.record_rounds(recorder, self.rounds, |recorder| {
             self.engine.record_round(recorder, resources);
             self.engine.record_values(recorder, resources, &opacities);
             self.shadow
                 .record(recorder, (resources, set), found, view.bit);
-        }
+        });
         self.shadow.record_left(recorder, set);
     }
 

@@ -10,6 +10,7 @@ use gpc::host::{
 };
 use gpc::render::Headless;
 use gpc::vulkan::{Buffer, Gpu, Image, Memory, MemoryUse, Recorder};
+use std::cell::Cell;
 use std::sync::Arc;
 
 /// What images hold around the picture: more than any colour, and no triangle's ID.
@@ -22,10 +23,19 @@ pub struct Seen {
     /// Corners of all triangles in clip space, as the library has them.
     pub corners: Vec<[f32; 4]>,
     pub outcome: Outcome,
+    /// Workgroups that shading was dispatched with, call by call.
+    pub dispatched: Vec<u32>,
 }
 
-/// Shades, and keeps the corners of triangles.
+/// Most calls of a host's shading that are kept.
+const CALLS: u64 = 1024;
+
+/// Shades, and keeps the corners of triangles, and how much it is called for.
 struct Shading<'a> {
+    dispatched: &'a Buffer,
+    calls: Cell<u64>,
+    /// Functions to skip what is not needed, if the host does so.
+    skips: Option<&'a ash::ext::conditional_rendering::Device>,
     device: &'a ash::Device,
     layout: vk::PipelineLayout,
     set: vk::DescriptorSet,
@@ -38,8 +48,20 @@ impl ShadeSamples for Shading<'_> {
     fn record(&self, commands: vk::CommandBuffer, found: &VisibilitySamples) {
         let sets = [found.descriptor_set(), self.set];
         let (compute, device) = (vk::PipelineBindPoint::COMPUTE, self.device);
-        // SAFETY: the commands are being recorded; all handles outlive their execution.
+        let (arguments, offset) = found.dispatch(0).unwrap();
+        let call = self.calls.replace(self.calls.get() + 1);
+        let kept = [vk::BufferCopy::default()
+            .src_offset(offset)
+            .dst_offset(4 * call.min(CALLS - 1))
+            .size(4)];
+        let skipping = self.skips.zip(found.condition());
+        // SAFETY: the commands are being recorded; all handles outlive their execution. What is begun is ended.
         unsafe {
+            device.cmd_copy_buffer(commands, arguments, self.dispatched.handle(), &kept);
+            if let Some((functions, word)) = skipping {
+                let info = vk::ConditionalRenderingBeginInfoEXT::default().buffer(word);
+                (functions.fp().cmd_begin_conditional_rendering_ext)(commands, &info);
+            }
             device.cmd_bind_descriptor_sets(commands, compute, self.layout, 0, &sets, &[]);
             device.cmd_bind_pipeline(commands, compute, self.corners);
             device.cmd_push_constants(
@@ -51,8 +73,10 @@ impl ShadeSamples for Shading<'_> {
             );
             device.cmd_dispatch(commands, (3 * self.triangles).div_ceil(64), 1, 1);
             device.cmd_bind_pipeline(commands, compute, self.samples);
-            let (arguments, offset) = found.dispatch(0).unwrap();
             device.cmd_dispatch_indirect(commands, arguments, offset);
+            if let Some((functions, _)) = skipping {
+                (functions.fp().cmd_end_conditional_rendering_ext)(commands);
+            }
         }
     }
 }
@@ -95,6 +119,8 @@ pub struct Machine<'a> {
     set_layout: vk::DescriptorSetLayout,
     layout: vk::PipelineLayout,
     pipelines: [vk::Pipeline; 2],
+    /// Whether its shading is skipped in rounds that have nothing to do, where the device can skip it.
+    pub skips: bool,
 }
 
 /// Buffers and maps on the device, and how they are lent.
@@ -250,6 +276,7 @@ impl<'a> Machine<'a> {
                 layout,
                 pipelines,
                 gpu,
+                skips: true,
             }
         }
     }
@@ -313,7 +340,8 @@ impl<'a> Machine<'a> {
                 .prepare(&lending.geometry, &images, &options)
         }
         .unwrap();
-        let shading = self.shading(&lending, &corners, lent.triangle_count);
+        let dispatched = self.read_back(4 * CALLS);
+        let shading = self.shading(&lending, (&corners, &dispatched), lent.triangle_count);
         let scenery = Scenery {
             draws: &lent.draws,
             projection: self.world.projection,
@@ -334,6 +362,7 @@ impl<'a> Machine<'a> {
                 .unwrap()
                 .to_vec(),
             outcome,
+            dispatched: (dispatched.read(shading.calls.get() as usize).unwrap()).to_vec(),
         }
     }
 
@@ -365,7 +394,8 @@ impl<'a> Machine<'a> {
             unsafe { self.antialiaser.prepare_list(geometry, &list, &options) }.unwrap()
         };
         let mut list = prepared(&lending.geometry);
-        let shading = self.shading(&lending, &corners, lent.triangle_count);
+        let dispatched = self.read_back(4 * CALLS);
+        let shading = self.shading(&lending, (&corners, &dispatched), lent.triangle_count);
         submit(&self.gpu, |commands| {
             // SAFETY: the commands are waited for; all handles outlive them.
             unsafe {
@@ -378,8 +408,16 @@ impl<'a> Machine<'a> {
         (seen, list.outcome().unwrap())
     }
 
-    fn shading(&self, lending: &Lending<'_>, corners: &Buffer, triangles: u32) -> Shading<'_> {
+    fn shading<'s>(
+        &'s self,
+        lending: &Lending<'_>,
+        (corners, dispatched): (&Buffer, &'s Buffer),
+        triangles: u32,
+    ) -> Shading<'s> {
         Shading {
+            dispatched,
+            calls: Cell::new(0),
+            skips: self.gpu.conditional_rendering().filter(|_| self.skips),
             device: self.gpu.device(),
             layout: self.layout,
             set: self.set([&lending.of_draws, &lending.paints, corners]),

@@ -6,4 +6,5 @@ mod lent;
 mod list;
 mod machine;
 mod mask;
+mod rounds;
 mod world;
