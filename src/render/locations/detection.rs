@@ -67,8 +67,9 @@ impl Headless {
                     let taken = band.locations(locations, width);
                     if !taken.is_empty() {
                         let pinhole = (pinhole, &*taken);
-                        let found =
+                        let mut found =
                             self.find_crossings(scene, pinhole, settings, (&engine, &band), cells)?;
+                        found.memory_bytes += engine.memory.used();
                         statistics.append(found);
                     }
                 }
