@@ -45,6 +45,19 @@ Surface surface_after(uint seen) {
 // Parts that an invocation holds.
 const uint PARTS_HELD = PART_ROWS > PART_LANES ? PART_ROWS / PART_LANES : 1u;
 
+// A step of summing rows over invocations: each keeps half of its rows and gives the others away, or shares its only one.
+void sum_rows(inout vec3 sums[ROWS], uint stage) {
+    uint step = PART_LANES >> (stage + 1u), rows = PART_ROWS >> (stage + 1u);
+    bool upper = (gl_SubgroupInvocationID & step) != 0u;
+    [[unroll]] for (uint r = 0u; r < ROWS; r++) {
+        if (step != 0u && r < max(rows, 1u)) {
+            uint other = min(r + rows, ROWS - 1u);
+            vec3 keep = rows > 0u && upper ? sums[other] : sums[r], give = rows > 0u && !upper ? sums[other] : sums[r];
+            sums[r] = keep + vec3(subgroupShuffleXor(give.x, step), subgroupShuffleXor(give.y, step), subgroupShuffleXor(give.z, step));
+        }
+    }
+}
+
 // What each part sees of a triangle: the sum of the locations of its samples, and their number. Rows are summed over the
 // invocations of a part and shared out among them at once, each step halving the rows that an invocation holds, until it
 // holds PARTS_HELD of them, or shares one with others of which the first holds it.
@@ -53,15 +66,12 @@ void parts_of(uint wanted, out vec3 sums[ROWS]) {
     [[unroll]] for (int r = 0; r < ROWS; r++) sums[r] = vec3(0.0);
     [[unroll]] for (int g = 0; g < ROWS; g++)
         sums[uint(g) / ROWS_A_PART] += id[g] == wanted ? vec3(offset[g], 1.0) : vec3(0.0);
-    [[unroll]] for (uint stage = 0u; stage < 5u; stage++) {
-        uint step = PART_LANES >> (stage + 1u), rows = PART_ROWS >> (stage + 1u);
-        bool upper = (lane & step) != 0u;
-        [[unroll]] for (uint r = 0u; r < ROWS; r++) {
-            if (step == 0u || r >= max(rows, 1u)) continue;
-            vec3 keep = rows > 0u && upper ? sums[r + rows] : sums[r], give = rows > 0u && !upper ? sums[r + rows] : sums[r];
-            sums[r] = keep + vec3(subgroupShuffleXor(give.x, step), subgroupShuffleXor(give.y, step), subgroupShuffleXor(give.z, step));
-        }
-    }
+    // Mesa 25 does not unroll a loop around another one, and would index the rows in memory.
+    sum_rows(sums, 0u);
+    sum_rows(sums, 1u);
+    sum_rows(sums, 2u);
+    sum_rows(sums, 3u);
+    sum_rows(sums, 4u);
     const uint SHARING = PART_LANES > PART_ROWS ? PART_LANES / PART_ROWS : 1u;
     if (lane % SHARING != 0u) sums[0] = vec3(0.0);
 }
@@ -71,16 +81,18 @@ void merge_neighbours(inout vec3 parts[ROWS], uint length) {
     if (length < LANES) {
         bool keeps = (gl_SubgroupInvocationID & length) == 0u;
         [[unroll]] for (uint r = 0u; r < ROWS; r++) {
-            if (r >= PARTS_HELD) continue;
-            vec3 other = vec3(subgroupShuffleXor(parts[r].x, length), subgroupShuffleXor(parts[r].y, length), subgroupShuffleXor(parts[r].z, length));
-            parts[r] = keeps ? parts[r] + other : vec3(0.0);
+            if (r < PARTS_HELD) {
+                vec3 other = vec3(subgroupShuffleXor(parts[r].x, length), subgroupShuffleXor(parts[r].y, length), subgroupShuffleXor(parts[r].z, length));
+                parts[r] = keeps ? parts[r] + other : vec3(0.0);
+            }
         }
     } else {
         [[unroll]] for (uint r = 0u; r < ROWS; r++) {
             uint other = r + length / LANES;
-            if ((r & length / LANES) != 0u || other >= PARTS_HELD) continue;
-            parts[r] += parts[other];
-            parts[other] = vec3(0.0);
+            if ((r & length / LANES) == 0u && other < PARTS_HELD) {
+                parts[r] += parts[min(other, ROWS - 1u)];
+                parts[min(other, ROWS - 1u)] = vec3(0.0);
+            }
         }
     }
 }
@@ -249,8 +261,7 @@ uvec2 record_surfaces(Cell cell, uint cell_id, out bool settled) {
             merge_parts(parts, merged);
             bool wide = part_is_wide(frame.sample_count, merged);
             [[unroll]] for (uint h = 0u; h < ROWS; h++) {
-                if (h >= PARTS_HELD) continue;
-                vec3 part = parts[h];
+                vec3 part = h < PARTS_HELD ? parts[h] : vec3(0.0);
                 uint present = subgroupBallot(part.z != 0.0).x;
                 if (fits && part.z != 0.0)
                     records_out[slot + uint(bitCount(present & ((1u << lane) - 1u)))] =
