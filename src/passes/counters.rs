@@ -1,4 +1,4 @@
-//! The indices of counters and of indirect dispatches, as `shaders/include/counters.glsl` numbers them.
+//! The indices of counters and of indirect dispatches, as `shaders/include/interface.glsl` numbers them.
 
 /// Indices into the buffer of counters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -94,7 +94,7 @@ mod tests {
     use super::*;
 
     fn shader_constant(name: &str) -> Option<usize> {
-        include_str!("../../shaders/include/counters.glsl")
+        include_str!("../../shaders/include/interface.glsl")
             .lines()
             .find_map(|line| {
                 let mut words = line.split_whitespace();
