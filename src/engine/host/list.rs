@@ -10,6 +10,7 @@ use crate::engine::sampler::list::{ListEngine, ListKind};
 use crate::engine::sampler::plan::Capacity;
 use crate::engine::sampler::statistics::Shortfall;
 use crate::engine::sampler::{Settings, Statistics};
+use crate::passes::spirv::frame_set;
 use crate::passes::{
     Cells, Content, Counter, FrameUniform, ListLength, ListRegion, Offsets, OwnSet, RasterTargets,
     ResourceSizes, Resources, VisibilityUniform,
@@ -182,7 +183,7 @@ impl List {
         let locations =
             unsafe { TexelView::new(gpu, list.locations, uint4, list.offset, list.bytes()) }?;
         let mut shown = content.texels().to_vec();
-        shown.push((42, locations.raw));
+        shown.push((frame_set::LOCATIONS, locations.raw));
         let resources = Resources::new(
             layout,
             &memory,

@@ -3,12 +3,12 @@
 use super::plan::Plan;
 use super::{Coverage, Detection, RenderError, Settings, Shading};
 use crate::passes::{
-    Bin, Cells, Content, Cull, Detect, DetectMode, DetectOptions, FrameLayout, FrameUniform, Grow,
-    Kept, RecordRate, Resolve, ResourceSizes, Resources, Sample, SampleOptions, SampleSet,
-    Schedule, Setup, Sort, Then, Thin,
+    Bin, Cells, ColorConstants, Content, Cull, Detect, DetectMode, DetectOptions, FrameLayout,
+    FrameUniform, Grow, Kept, RecordRate, Resolve, ResourceSizes, Resources, Sample, SampleOptions,
+    SampleSet, Schedule, Setup, Sort, Then, Thin,
 };
 use crate::sampling::Pattern;
-use crate::vulkan::{Buffer, Constants, Recorder};
+use crate::vulkan::{Buffer, Recorder};
 use std::sync::Arc;
 
 /// Shades visibility samples: writes the radiance of each to its place in the buffer of shaded records.
@@ -84,7 +84,7 @@ impl Engine {
         scene: &dyn Content,
         settings: &Settings,
         plan: &Plan,
-        output: &Constants,
+        output: &ColorConstants,
         kind: &EngineKind,
     ) -> Result<Self, RenderError> {
         let options = SampleOptions {

@@ -4,11 +4,11 @@ use super::engine::{RecordShading, can_settle, record_rate, record_shading, with
 use super::plan::{MOST_CANDIDATES, MOST_PAIRS, MOST_RECORDS, records_of_superpixel};
 use super::{Coverage, RenderError, Settings};
 use crate::passes::{
-    Bin, CellSizes, Cells, Content, Cull, Distribute, FrameLayout, Groups, Kept, ListLength,
-    ListRegion, LocationSizes, Points, RecordRate, Resolve, ResourceSizes, Resources, Sample,
-    SampleOptions, SampleSet, Schedule, Setup, Sort, Then,
+    Bin, CellSizes, Cells, ColorConstants, Content, Cull, Distribute, FrameLayout, Groups, Kept,
+    ListLength, ListRegion, LocationSizes, Points, RecordRate, Resolve, ResourceSizes, Resources,
+    Sample, SampleOptions, SampleSet, Schedule, Setup, Sort, Then,
 };
-use crate::vulkan::{Constants, Recorder};
+use crate::vulkan::Recorder;
 use ash::vk;
 use std::sync::Arc;
 
@@ -162,7 +162,7 @@ impl ListEngine {
         settings: &Settings,
         kind: &ListKind,
         (resources, locations): (&Resources, vk::BufferView),
-        output: &Constants,
+        output: &ColorConstants,
     ) -> Result<Self, RenderError> {
         let sizes = kind.cell_sizes(layout, settings);
         let options = kind.sample_options(layout, scene, settings);

@@ -6,6 +6,7 @@ use crate::engine::sampler::engine::RecordShading;
 use crate::engine::sampler::list::{ListEngine, ListKind};
 use crate::engine::sampler::plan::Capacity;
 use crate::engine::sampler::statistics::Shortfall;
+use crate::passes::spirv::frame_set;
 use crate::passes::{
     Argument, Cells, Content, FrameLayout, ListLength, Offsets, RasterTargets, ResourceSizes,
     Resources, SampleSet,
@@ -157,7 +158,7 @@ impl ShadowEngine {
             vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | vk::BufferUsageFlags::STORAGE_BUFFER,
             MemoryUse::Device,
         )?;
-        texels.push((42, locations.view));
+        texels.push((frame_set::LOCATIONS, locations.view));
         let resources = Resources::new(
             layout,
             memory,
