@@ -349,21 +349,25 @@ impl Timings {
         self.names.push(name);
     }
 
-    /// Milliseconds by name, in order of first appearance. Call it when the frame is done.
+    /// Milliseconds by name, in order of first appearance. It waits for nothing.
     ///
     /// # Errors
-    /// [`VulkanError::Call`] if results can't be had.
+    /// [`VulkanError::NotDone`] if the commands are not done, [`VulkanError::Call`] if results can't be had.
     pub fn read(&self) -> Result<Vec<(&'static str, f64)>, VulkanError> {
         let mut stamps = vec![0_u64; self.names.len()];
         if !stamps.is_empty() {
-            let flags = vk::QueryResultFlags::TYPE_64 | vk::QueryResultFlags::WAIT;
-            // SAFETY: the queries were written by a finished frame.
+            let flags = vk::QueryResultFlags::TYPE_64;
+            // SAFETY: the pool is the device's, with at least as many queries; without waiting, their results may be asked for at
+            // any time after they were reset once, as they were where the names were recorded.
             unsafe {
                 self.gpu
                     .device
                     .get_query_pool_results(self.pool, 0, &mut stamps, flags)
             }
-            .map_err(VulkanError::of("vkGetQueryPoolResults"))?;
+            .map_err(|result| match result {
+                vk::Result::NOT_READY => VulkanError::NotDone,
+                result => VulkanError::of("vkGetQueryPoolResults")(result),
+            })?;
         }
         let period = f64::from(self.gpu.limits().timestamp_period) * 1e-6;
         let mut times: Vec<(&'static str, f64)> = Vec::new();

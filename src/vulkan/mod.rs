@@ -2,6 +2,7 @@
 
 mod barriers;
 mod commands;
+mod completion;
 mod error;
 mod gpu;
 mod instance;
@@ -11,6 +12,7 @@ mod requirements;
 
 pub(crate) use commands::PUSH_STAGES;
 pub use commands::{Recorder, Timings};
+pub(crate) use completion::Completion;
 pub use error::VulkanError;
 pub use gpu::{Gpu, Host, Limits, SharedAllocator};
 pub use instance::{DeviceInfo, Instance, InstanceOptions};
