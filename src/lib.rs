@@ -20,7 +20,7 @@ pub mod compare;
 pub mod host;
 #[cfg(feature = "cli")]
 pub mod output;
-pub mod passes;
+mod passes;
 #[cfg(feature = "gltf")]
 mod random;
 pub mod reference;
@@ -30,6 +30,9 @@ pub mod resample;
 pub mod sampling;
 #[cfg(feature = "gltf")]
 pub mod scene;
+#[cfg(feature = "gltf")]
+#[doc(hidden)]
+pub mod testing;
 pub mod vulkan;
 
 /// Compiles the library's example in the README.

@@ -109,7 +109,7 @@ pub use geometry::FrameGeometry;
 pub use groups::Groups;
 pub use grow::Grow;
 pub use layout::FrameLayout;
-pub use locations::{CellSizes, Cells, ListedLocation, LocationBuffers, LocationSizes};
+pub use locations::{CellSizes, Cells, ListedLocation, LocationSizes};
 pub use multisample::Multisample;
 #[cfg(feature = "gltf")]
 pub use output::{Output, Shown};

@@ -28,6 +28,8 @@ pub(crate) mod statistics;
 #[cfg(feature = "gltf")]
 mod uniform;
 
+#[cfg(feature = "gltf")]
+pub use crate::passes::Encoding;
 pub use error::RenderError;
 #[cfg(feature = "gltf")]
 pub use frame::{Frame, Target};

@@ -26,8 +26,11 @@ pub struct Recorder<'a> {
 
 impl<'a> Recorder<'a> {
     /// # Safety
-    /// - `raw` was allocated from `gpu`'s device, for its queue family, and is in the recording state.
-    /// - What is recorded is submitted only while everything it refers to is alive.
+    /// - `raw` was allocated from `gpu`'s device, for its queue family, and is in the recording state, outside of a render pass.
+    /// - All that is recorded with it is of that device, made for such commands, and bound before it is used; passes are recorded
+    ///   with resources of the sizes that they were made for.
+    /// - What is recorded is submitted only while everything it refers to is alive; and until it is done, the CPU neither reads
+    ///   what it writes nor writes what it reads.
     #[must_use]
     pub unsafe fn new(
         gpu: &'a Gpu,

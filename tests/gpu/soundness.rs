@@ -4,7 +4,8 @@ use crate::stage::{Stage, camera, flat, on_gpu, once, textured};
 use crate::submit::{discard, submit};
 use gpc::render::{Frame, Headless, HeadlessOptions, RenderError, Renderer, Settings, Target};
 use gpc::scene::{AlphaMode, DrawClass, Geometry, GeometryError, Image, Sampler};
-use gpc::vulkan::{Memory, MemoryUse, VulkanError};
+use gpc::testing::{MemoryUse, memory};
+use gpc::vulkan::VulkanError;
 
 const SIZE: [u32; 2] = [40, 30];
 
@@ -66,7 +67,8 @@ fn discarded_recordings_change_nothing() {
         let (scene, pose) = stage().build();
         let prepared = renderer.prepare_scene(&scene, &pose, None).unwrap();
         let mut frame = renderer.prepare(&prepared, &settings, None).unwrap();
-        let memory = Memory::new(device.clone(), None);
+        // SAFETY: what is made with it is read when the commands are done.
+        let memory = unsafe { memory(&device, None) };
         let usage = ash::vk::BufferUsageFlags::TRANSFER_DST;
         let pixels = (SIZE[0] * SIZE[1]) as usize;
         let colors = memory
@@ -172,7 +174,8 @@ fn geometry_that_contradicts_itself_is_refused() {
 #[test]
 fn memory_is_counted_while_it_is_held() {
     on_gpu(|gpu| {
-        let memory = Memory::new(gpu.gpu().clone(), Some(1 << 20));
+        // SAFETY: no commands use what is made with it.
+        let memory = unsafe { memory(gpu.gpu(), Some(1 << 20)) };
         let usage = ash::vk::BufferUsageFlags::TRANSFER_DST;
         let make = || memory.buffer("half", 1 << 19, usage, MemoryUse::Readback);
         let first = make().unwrap();

@@ -10,8 +10,9 @@ use gpc::host::{
     ShadeSamples, VisibilitySamples,
 };
 use gpc::render::{Headless, RenderError};
+use gpc::testing::{Buffer, Image, Memory, MemoryUse, Recorder, memory};
+use gpc::vulkan::Gpu;
 use gpc::vulkan::VulkanError;
-use gpc::vulkan::{Buffer, Gpu, Image, Memory, MemoryUse, Recorder};
 use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 
@@ -311,7 +312,8 @@ impl<'a> Machine<'a> {
             };
             let pipelines = [pipeline(spirv!("samples")), pipeline(spirv!("corners"))];
             Self {
-                memory: Memory::new(gpu.clone(), None),
+                // Tests wait for the commands that use what is made with it.
+                memory: memory(&gpu, None),
                 antialiaser,
                 world,
                 descriptors,
