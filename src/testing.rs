@@ -5,12 +5,12 @@
 //! alone, and recorded with a [`Recorder`] alone: making one of these three is unsafe here, with the duties of all that
 //! follows, so that safe code outside of the crate can't reach anything unsound.
 
-pub use crate::passes::prefilter;
 pub use crate::passes::{
     Argument, CellSizes, Cells, Content, Counter, Distribute, FrameLayout, FrameUniform,
     ListLength, ListRegion, ListedLocation, LocationSizes, Offsets, RasterTargets, RecordRate,
     ResourceSizes, Resources, Sample, SampleOptions, Schedule,
 };
+pub use crate::render::passes::prefilter;
 pub use crate::vulkan::commands::Recorder;
 pub use crate::vulkan::memory::{Buffer, Image, Memory, MemoryUse};
 pub use crate::vulkan::pipeline::Constants;
