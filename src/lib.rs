@@ -27,7 +27,7 @@ pub use engine::{color, host, sampling, vulkan};
 #[cfg(feature = "gltf")]
 pub use render::{camera, scene};
 #[cfg(feature = "cli")]
-pub use tools::{bench, compare, output, resample};
+pub use tools::{bench, compare, names, output, resample};
 
 /// Compiles the library's example in the README.
 #[cfg(all(doctest, feature = "gltf"))]

@@ -27,7 +27,7 @@ fn a_long_pass_is_long_and_its_neighbours_are_not() {
         LIGHTS
     ];
     on_gpu(|gpu| {
-        let prepared = gpu.upload(&scene, &pose, None).unwrap();
+        let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
         let mut frame = gpu.prepare(&prepared, &once([192, 128])).unwrap();
         // Drivers may compile shaders during the first.
         gpu.render(&mut frame, &camera()).unwrap();

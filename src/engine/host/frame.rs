@@ -349,9 +349,9 @@ impl Frame {
             raster_scale: [width, height].map(|side| 2.0 / side as f32),
             interior_high: [width, height],
             gap: gap(projection, height),
-            contrast: u32::from(self.settings.contrast),
+            contrast: u32::from(self.settings.threshold()),
             // Materials that are filtered over their pixel vary within it by more than centres tell.
-            alike: u32::from(self.settings.contrast).div_ceil(4),
+            alike: u32::from(self.settings.threshold()).div_ceil(4),
             seen_corner: self.images.ids.map_or([0, 0], |_| self.images.corner),
             color_corner: self.images.corner,
             ..uniform(geometry, &self.settings, sizes, &footprints, placed)

@@ -171,16 +171,12 @@ impl Frame {
     /// the device.
     ///
     /// # Errors
-    /// [`RenderError::OtherMotion`] if the moment is one of another motion, [`RenderError::MovingShadows`] if the frame has
-    /// shadows that were made ready for one pose.
+    /// [`RenderError::OtherMotion`] if the moment is one of another motion.
     pub fn show(&mut self, moment: Arc<Moment>) -> Result<(), RenderError> {
         if !self.scene.has_moment(&moment) {
             return Err(RenderError::OtherMotion);
         }
-        if let (Some(casters), Some(shadows)) = (&self.casters, &mut self.shadows) {
-            if !casters.scene().has_moment(&moment) {
-                return Err(RenderError::MovingShadows);
-            }
+        if let Some(shadows) = &mut self.shadows {
             shadows.show(&moment);
         }
         self.look.show(&self.scene, &moment);

@@ -51,8 +51,8 @@ impl Recording<'_> {
             interior_low,
             interior_high,
             gap: gap(camera, image_height),
-            contrast: u32::from(self.settings.contrast),
-            alike: u32::from(self.settings.contrast),
+            contrast: u32::from(self.settings.threshold()),
+            alike: u32::from(self.settings.threshold()),
             side,
             reach: 0.5,
             ..uniform(

@@ -232,7 +232,7 @@ impl DetectionEngine {
         Ok(Self {
             width: settings.size[0],
             uniform: FrameUniform {
-                contrast: u32::from(settings.contrast),
+                contrast: u32::from(settings.threshold()),
                 ..FrameUniform::with_room(&sizes)
             },
             detect: Detect::new(layout, &options)?,
