@@ -9,15 +9,16 @@ mod uniform;
 
 pub use target::Target;
 
-use super::plan::{Capacity, Plan};
 use super::shadows::{Casters, ShadowEngine};
 use super::{RenderError, Settings, Shadows};
 use crate::camera::Camera;
+use crate::engine::sampler::engine::with_probes;
+use crate::engine::sampler::plan::{Capacity, Plan};
 use crate::passes::{
-    Cells, Content, Counter, Encoding, FrameGeometry, FrameLayout, FrameLook, GpuScene, Offsets,
-    RasterTargets, ResourceSizes, Resources,
+    Cells, Content, Counter, Encoding, FrameLayout, Offsets, RasterTargets, ResourceSizes,
+    Resources,
 };
-use crate::render::engine::with_probes;
+use crate::render::passes::{FrameGeometry, FrameLook, GpuScene};
 use crate::scene::Moment;
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;

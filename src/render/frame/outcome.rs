@@ -2,8 +2,8 @@
 
 use super::Frame;
 use super::recording::Run;
+use crate::engine::sampler::statistics::Shortfall;
 use crate::passes::Counter;
-use crate::render::statistics::Shortfall;
 use crate::render::{PassTime, RenderError, Statistics};
 
 impl Frame {
