@@ -8,7 +8,7 @@
 use super::{Location, offset};
 
 /// The scrambling that [`Pattern::Sobol`](super::Pattern::Sobol) uses, found by the search in
-/// `tests/coverage_chart.rs`.
+/// `tests/cpu/coverage_chart.rs`.
 pub(super) const SEED: u32 = 551;
 
 /// The first `count` points of the Sobol sequence's first two dimensions under the Owen scrambling that `seed` selects:
