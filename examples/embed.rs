@@ -157,7 +157,7 @@ impl App {
         let request = SceneRequest::new(scene, &pose)
             .shadowed(settings.shadows)
             .within(settings.max_memory);
-        let mut prepared = renderer.prepare_scene(request)?;
+        let prepared = renderer.prepare_scene(request)?;
         let mut frame = renderer.prepare(&prepared, &settings, Some(Encoding::Rgba8))?;
         let target = OwnImage::new(self)?;
 

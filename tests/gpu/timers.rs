@@ -1,6 +1,7 @@
 //! The time of each pass is booked to that pass.
 
 use glam::DVec3;
+use gpc::render::SceneRequest;
 use gpc::scene::{AlphaMode, Light, LightKind, Material};
 
 use crate::stage::{Stage, camera, flat, on_gpu, once};

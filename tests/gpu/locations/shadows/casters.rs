@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use gpc::camera::SampleLocation;
-use gpc::render::{RenderError, SceneRequest};
+use gpc::render::{RenderError, SceneRequest, Shadows};
 use gpc::scene::{AlphaMode, Filter, Image, LightKind, Material, Sampler};
 
 use super::{FLOOR, SIZE, ask, exact, floor, light, lit, location, pinhole, sun};
