@@ -4,7 +4,7 @@ use super::base::Base;
 use super::draw::PlacedDraws;
 use super::lending::Lending;
 use super::shading::ShadeSamples;
-use super::uniform::{check_size, uniform};
+use super::uniform::{check_size, plane_block, scene_block};
 use super::{Draw, Geometry, HostError, Images, LentImage, Options, Shared};
 use crate::passes::{
     Content, Counter, FrameUniform, IdViews, Offsets, OwnSet, Patch, Patched, RasterTargets,
@@ -14,6 +14,7 @@ use crate::render::engine::{Engine, EngineKind, Growing, Work, with_probes};
 use crate::render::footprint::Footprints;
 use crate::render::plan::{Capacity, Plan};
 use crate::render::statistics::Shortfall;
+use crate::render::uniform::{PlaneBlock, frame_uniform};
 use crate::render::{Settings, Statistics};
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;
@@ -339,20 +340,23 @@ impl Frame {
     }
 
     fn uniform(&self, placed: &PlacedDraws, projection: &[[f32; 4]; 4]) -> FrameUniform {
-        let [width, height] = self.settings.size;
-        let footprints = Footprints::new(&self.settings, self.settings.samples);
-        let (geometry, sizes) = (&self.lending.geometry, &self.plan.sizes);
-        FrameUniform {
-            raster_scale: [width, height].map(|side| 2.0 / side as f32),
-            interior_high: [width, height],
-            gap: gap(projection, height),
-            contrast: u32::from(self.settings.contrast),
+        let (settings, geometry) = (&self.settings, &self.lending.geometry);
+        let plane = PlaneBlock {
+            gap: gap(projection, settings.size[1]),
             // Materials that are filtered over their pixel vary within it by more than centres tell.
-            alike: u32::from(self.settings.contrast).div_ceil(4),
+            alike: u32::from(settings.contrast).div_ceil(4),
             seen_corner: self.images.ids.map_or([0, 0], |_| self.images.corner),
             color_corner: self.images.corner,
-            ..uniform(geometry, &self.settings, sizes, &footprints, placed)
-        }
+            ..plane_block(geometry, settings.size)
+        };
+        let footprints = Footprints::new(settings, settings.samples);
+        frame_uniform(
+            &scene_block(geometry, placed),
+            &plane,
+            settings,
+            (settings.samples, &footprints),
+            &self.plan.sizes,
+        )
     }
 }
 

@@ -3,16 +3,17 @@
 use super::draw::PlacedDraws;
 use super::lending::Lending;
 use super::shading::ShadeSamples;
-use super::uniform::{check_size, uniform};
+use super::uniform::{check_size, plane_block, scene_block};
 use super::{Draw, Geometry, HostError, Options, Shared};
 use crate::passes::{
     Cells, Content, Counter, FrameUniform, ListLength, ListRegion, Offsets, OwnSet, RasterTargets,
-    ResourceSizes, Resources, VisibilityUniform,
+    Resources, VisibilityUniform,
 };
 use crate::render::footprint::Footprints;
 use crate::render::list::{ListEngine, ListKind};
 use crate::render::plan::Capacity;
 use crate::render::statistics::Shortfall;
+use crate::render::uniform::{PlaneBlock, frame_uniform};
 use crate::render::{Settings, Statistics};
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, TexelView, Timings};
 use ash::vk;
@@ -377,19 +378,21 @@ impl List {
     }
 
     fn uniform(&self, placed: &PlacedDraws) -> FrameUniform {
-        let sizes: &ResourceSizes = self.resources.sizes();
-        FrameUniform {
+        let (settings, geometry) = (&self.settings, &self.lending.geometry);
+        let sizes = self.resources.sizes();
+        let plane = PlaneBlock {
             // Locations may lie anywhere in the tiles at the border.
             size: sizes.region,
-            sample_count: self.engine.options().samples,
-            ..uniform(
-                &self.lending.geometry,
-                &self.settings,
-                sizes,
-                &self.footprints(),
-                placed,
-            )
-        }
+            ..plane_block(geometry, settings.size)
+        };
+        let samples = self.engine.options().samples;
+        frame_uniform(
+            &scene_block(geometry, placed),
+            &plane,
+            settings,
+            (samples, &self.footprints()),
+            sizes,
+        )
     }
 }
 

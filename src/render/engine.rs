@@ -216,11 +216,9 @@ impl Engine {
             counters,
             ..
         } = growing;
+        let mut uniform = growing.uniform;
         // Centres whose colours are alike miss what superpixels beside them show.
-        let uniform = FrameUniform {
-            alike: 0,
-            ..growing.uniform
-        };
+        uniform.alike = 0;
         for (slot, grow) in (growing.first_slot..).zip(&self.growths) {
             resources.record_begin(recorder, set, &uniform);
             grow.record(recorder, work.tiles);

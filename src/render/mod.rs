@@ -25,8 +25,9 @@ mod settings;
 #[cfg(feature = "gltf")]
 mod shadows;
 pub(crate) mod statistics;
+pub(crate) mod uniform;
 #[cfg(feature = "gltf")]
-mod uniform;
+mod viewpoint;
 
 pub use error::RenderError;
 #[cfg(feature = "gltf")]
