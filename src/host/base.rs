@@ -6,7 +6,7 @@ use crate::passes::{
     Centres, Content, FrameUniform, HostDraw, OwnSet, Raster, RasterPush, RasterRun, RasterTargets,
     Resources, SampleSet, Sort,
 };
-use crate::render::engine::{RecordShading, record_shading};
+use crate::render::sampler::{RecordShading, record_shading};
 use crate::vulkan::{Constants, Pipeline, Recorder};
 use ash::vk;
 

@@ -7,16 +7,15 @@ use super::shading::ShadeSamples;
 use super::uniform::{check_size, plane_block, scene_block};
 use super::{Draw, Geometry, HostError, Images, LentImage, Options, Shared};
 use crate::passes::{
-    Content, Counter, FrameUniform, IdViews, Offsets, OwnSet, Patch, Patched, RasterTargets,
-    Resources,
+    FrameUniform, IdViews, ListLength, Offsets, OwnSet, Patch, Patched, RasterTargets, Resources,
 };
-use crate::render::engine::{Engine, EngineKind, Growing, Work, with_probes};
 use crate::render::footprint::Footprints;
 use crate::render::plan::{Capacity, Plan};
+use crate::render::sampler::{PixelCells, Sampler, SamplerContext, SamplerRun, with_probes};
 use crate::render::statistics::Shortfall;
 use crate::render::uniform::{PlaneBlock, frame_uniform};
 use crate::render::{Settings, Statistics};
-use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings};
+use crate::vulkan::{Memory, Recorder, Timings};
 use ash::vk;
 use std::sync::Arc;
 
@@ -47,12 +46,10 @@ pub struct Frame {
     settings: Settings,
     plan: Plan,
     resources: Resources,
-    engine: Engine,
-    rounds: u32,
+    sampler: Sampler,
     base: Base,
     patch: Patch,
     visibility_set: OwnSet,
-    counters: Buffer,
     timings: Timings,
     memory: Memory,
     /// Last: layouts go after what was made with them.
@@ -127,18 +124,24 @@ impl Frame {
             }],
         )?;
         let output = settings.color_constants(content);
-        let engine = Engine::new(
+        let cells = PixelCells {
+            farther_is_larger: own.is_none() && !geometry.clip.reversed_depth,
+            blend_ids: false,
+            ..PixelCells::superpixels(&settings)
+        };
+        let mut sampler = cells.sampler(&SamplerContext {
             layout,
-            content,
-            &settings,
-            &plan,
-            &output,
-            &EngineKind {
-                farther_is_larger: own.is_none() && !geometry.clip.reversed_depth,
-                blend_ids: false,
-                ..EngineKind::superpixels(&settings)
-            },
-        )?;
+            memory: &memory,
+            scene: content,
+            settings: &settings,
+            output: &output,
+            sizes: &plan.sizes,
+            capacity,
+            runs: 1,
+        })?;
+        if let Some(most) = options.max_rounds {
+            sampler.limit_rounds(most);
+        }
         // SAFETY: of the host's handles, as the caller says; the rest goes with the frame.
         let (base, visibility_set) = unsafe {
             (
@@ -146,8 +149,7 @@ impl Frame {
                 lending.visibility_set(shared, &resources, None)?,
             )
         };
-        let growths = engine.growths() as u32;
-        let rounds = options.rounds(engine.most_rounds(&plan.sizes, content.index_count()));
+        let growths = sampler.growths() as u32;
         let bands = Base::shadings(options, width * height, plan.sizes.record_capacity);
         let patched = match (options.shade_all, growths) {
             (true, _) => Patched::All,
@@ -157,12 +159,6 @@ impl Frame {
         Ok(Self {
             base,
             patch: Patch::new(layout, images.color.format, images.color.encoded, patched)?,
-            counters: memory.buffer(
-                "counter read-back",
-                Counter::BYTES * u64::from(1 + growths),
-                vk::BufferUsageFlags::TRANSFER_DST,
-                MemoryUse::Readback,
-            )?,
             timings: Timings::new(gpu, 32 + 14 * (1 + growths) + 8 * bands)?,
             lending,
             images: *images,
@@ -170,8 +166,7 @@ impl Frame {
             settings,
             plan,
             resources,
-            engine,
-            rounds,
+            sampler,
             visibility_set,
             memory,
             shared: shared.clone(),
@@ -199,7 +194,7 @@ impl Frame {
     /// # Safety
     /// As [`super::Antialiaser::prepare`]; and the commands of the last recording are done.
     pub unsafe fn grow(&self) -> Result<Self, HostError> {
-        let capacity = self.plan.capacity.more(self.shortfall()?);
+        let capacity = self.sampler.capacity().more(self.shortfall()?);
         // SAFETY: passed on to the caller.
         unsafe {
             Self::with_capacity(
@@ -277,22 +272,14 @@ impl Frame {
             // What the centres counted is not of superpixels.
             resources.record_begin(recorder, set, &uniform);
         }
-        let work = Work {
-            triangles: placed.triangles,
-            tiles: uniform.tiles[0] * uniform.tiles[1],
-            rounds: self.rounds,
-        };
-        self.engine.record(recorder, resources, &shading, &work);
-        resources.record_keep_counters(recorder, &self.counters, 0);
-        let growing = Growing {
+        let run = SamplerRun {
             resources,
             set,
-            uniform,
-            work,
-            counters: &self.counters,
-            first_slot: 1,
+            uniform: &uniform,
+            list: (0, ListLength::Known),
+            index: 0,
         };
-        self.engine.record_growths(recorder, &shading, &growing);
+        self.sampler.record(recorder, &run, &shading);
         recorder.barrier();
         self.images.record_draw(recorder);
         let view = self.images.color.lent.view;
@@ -303,22 +290,8 @@ impl Frame {
         Ok(())
     }
 
-    /// What the last recording counted: the superpixels that were detected, and each growth of them.
-    fn counted(&self) -> Result<impl Iterator<Item = &[u32]>, HostError> {
-        let runs = 1 + self.engine.growths();
-        let words: &[u32] = self.counters.read(runs * Counter::COUNT)?;
-        Ok(words.chunks_exact(Counter::COUNT))
-    }
-
     fn shortfall(&self) -> Result<Shortfall, HostError> {
-        let mut shortfall = Shortfall::default();
-        let tiles = self.plan.sizes.tiles();
-        let room = self.plan.sizes.survivor_capacity;
-        for counters in self.counted()? {
-            shortfall.add(counters, (tiles, room), self.plan.capacity.unlisted);
-            shortfall.add_subgroups(counters);
-        }
-        Ok(shortfall)
+        Ok(self.sampler.shortfall([self.plan.sizes.tiles()])?)
     }
 
     /// What the last recording did. Call it when its commands are done, at any time later: it waits for nothing.
@@ -328,10 +301,9 @@ impl Frame {
     pub fn outcome(&self) -> Result<Outcome, HostError> {
         let shortfall = self.shortfall()?;
         let statistics = self.lending.statistics(
-            self.counted()?,
+            (&self.sampler, &self.plan.sizes),
             (&self.timings, &self.memory),
-            self.plan.sizes.tiles(),
-            (&shortfall, self.plan.sizes.lanes),
+            &shortfall,
         )?;
         Ok(Outcome {
             statistics,

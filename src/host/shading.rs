@@ -1,7 +1,7 @@
 //! Shading of visibility samples by a host's own pipelines.
 
 use crate::passes::{Argument, Resources, SampleSet};
-use crate::render::engine::RecordShading;
+use crate::render::sampler::RecordShading;
 use crate::vulkan::Recorder;
 use ash::vk;
 

@@ -5,7 +5,6 @@
 #[cfg(feature = "gltf")]
 mod backdrop;
 mod color;
-pub(crate) mod engine;
 mod error;
 pub(crate) mod footprint;
 #[cfg(feature = "gltf")]
@@ -13,7 +12,6 @@ mod frame;
 #[cfg(feature = "gltf")]
 mod headless;
 pub(crate) mod image_state;
-pub(crate) mod list;
 #[cfg(feature = "gltf")]
 mod locations;
 pub(crate) mod plan;
@@ -21,6 +19,7 @@ pub(crate) mod plan;
 mod plane;
 #[cfg(feature = "gltf")]
 mod renderer;
+pub(crate) mod sampler;
 mod settings;
 #[cfg(feature = "gltf")]
 mod shadows;

@@ -14,15 +14,15 @@ use super::shadows::{Casters, ShadowEngine};
 use super::{RenderError, Settings, Shadows};
 use crate::camera::Camera;
 use crate::passes::{
-    Cells, Content, Counter, Encoding, FrameGeometry, FrameLayout, FrameLook, GpuScene, Offsets,
+    Cells, Content, Encoding, FrameGeometry, FrameLayout, FrameLook, GpuScene, Offsets,
     RasterTargets, ResourceSizes, Resources,
 };
-use crate::render::engine::with_probes;
+use crate::render::sampler::{CounterLog, with_probes};
 use crate::scene::Moment;
-use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings};
+use crate::vulkan::{Memory, Recorder, Timings};
 use ash::vk;
 use passes::{Passes, raster_samples};
-use recording::{Recording, Run};
+use recording::Recording;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -43,7 +43,8 @@ pub struct Frame {
     geometry: FrameGeometry,
     look: FrameLook,
     resources: Resources,
-    counters: Buffer,
+    /// What the whole frame counted.
+    counters: CounterLog,
     timings: Timings,
     memory: Memory,
     uploaded: bool,
@@ -120,7 +121,7 @@ impl Frame {
             plan.sizes,
             &[centre, offsets],
         )?;
-        let passes = Passes::new(layout, scene, settings, &plan, encoding)?;
+        let passes = Passes::new(layout, &memory, scene, settings, &plan, encoding)?;
         let shadows = |casters| {
             let shading = (&**scene, Cells::Pixels, &resources);
             ShadowEngine::new(
@@ -129,7 +130,8 @@ impl Frame {
         };
         let shadows = casters.map(shadows).transpose()?;
         let regions = plan.regions.len() as u64;
-        let marks = regions as u32 * (18 + Run::ALL.len() as u32 * 14) + 8;
+        let runs = 2 + settings.growths();
+        let marks = regions as u32 * (18 + runs * 14) + 8;
         Ok(Self {
             scene: scene.clone(),
             casters: casters.cloned(),
@@ -142,12 +144,7 @@ impl Frame {
             geometry,
             look,
             resources,
-            counters: memory.buffer(
-                "counter read-back",
-                Run::slots(plan.regions.len()) as u64 * Counter::BYTES,
-                vk::BufferUsageFlags::TRANSFER_DST,
-                MemoryUse::Readback,
-            )?,
+            counters: CounterLog::new(&memory, 1)?,
             timings: Timings::new(&gpu, marks)?,
             settings: settings.clone(),
             plan,

@@ -7,10 +7,9 @@ use super::partition::Partition;
 use super::plan::LocationPlan;
 use crate::camera::{Pinhole, SampleLocation};
 use crate::passes::{
-    Cells as CellKind, Content, Detect, DetectOptions, FrameLayout, FrameLook, MarkedOutput,
-    Offsets, Output, ResourceSizes, Resources, SeenLocation, Shown,
+    Cells as CellKind, Content, Detect, DetectMode, DetectOptions, FrameLayout, FrameLook,
+    MarkedOutput, Offsets, Output, ResourceSizes, Resources, SeenLocation, Shown,
 };
-use crate::render::engine::EngineKind;
 use crate::render::footprint::Footprints;
 use crate::render::uniform::{PlaneBlock, SceneBlock, frame_uniform};
 use crate::render::{
@@ -222,7 +221,7 @@ impl DetectionEngine {
             &[no_offsets],
         )?;
         let options = DetectOptions {
-            mode: EngineKind::superpixels(settings).mode,
+            mode: DetectMode::of(settings),
             blend_ids: scene.has_blend(),
             thin: settings.thin,
             transparent: true,
