@@ -88,7 +88,7 @@ assets:
 
 header:
 	@tools/setup.sh build
-	GPC_HEADER=write $(CARGO) test --release --test capi header
+	GPC_HEADER=write $(CARGO) test --release --test hosts header
 
 # A crate type of this build alone: `cargo build` makes neither library.
 install:

@@ -220,6 +220,24 @@ fn main() {
         .expect("writing to a string");
     }
     fs::write(out.join("spirv.rs"), code).expect("OUT_DIR is writable");
+    shared_files(&root);
+}
+
+/// Sets the cfg `shared_files` where the tests' files in `../shared` are there, or where `CI` is set, so that their absence
+/// fails there. Elsewhere the tests that need them are ignored. Files that appear later are noticed by the next run of this
+/// script: a missing file that cargo watches would have everything built anew each time.
+fn shared_files(root: &Path) {
+    println!("cargo:rustc-check-cfg=cfg(shared_files)");
+    let index = root.join("../shared/scenes/index.json");
+    if index.is_file() {
+        println!("cargo:rerun-if-changed={}", index.display());
+    } else {
+        println!("cargo:rerun-if-env-changed=CI");
+        if std::env::var_os("CI").is_none() {
+            return;
+        }
+    }
+    println!("cargo:rustc-cfg=shared_files");
 }
 
 impl Group {

@@ -1,7 +1,7 @@
 //! Answers of functions, and messages.
 
+use crate::engine::sampler::RenderError;
 use crate::host::HostError;
-use crate::render::RenderError;
 use crate::vulkan::{Missing, VulkanError};
 use std::any::Any;
 use std::cell::RefCell;

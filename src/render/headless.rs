@@ -1,10 +1,10 @@
 //! A renderer with a device of its own, for images without a window.
 
-use super::plan::Capacity;
 use super::renderer::{PreparedScene, Renderer};
 use super::{Frame, RenderError, Settings, Statistics, Target};
 use crate::camera::Camera;
-use crate::passes::GpuScene;
+use crate::engine::sampler::plan::Capacity;
+use crate::render::passes::GpuScene;
 use crate::scene::{Motion, Pose, Scene};
 use crate::vulkan::{
     Buffer, Gpu, Instance, InstanceOptions, Limits, Memory, MemoryUse, VulkanError,

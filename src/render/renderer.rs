@@ -1,10 +1,11 @@
 //! The face of the renderer: what it needs of a device, and how scenes and frames are prepared.
 
 use super::frame::Frame;
-use super::plan::Capacity;
 use super::shadows::Casters;
 use super::{RenderError, Settings};
-use crate::passes::{Encoding, FrameLayout, GpuScene, SceneUploads};
+use crate::engine::sampler::plan::Capacity;
+use crate::passes::{Encoding, FrameLayout};
+use crate::render::passes::{GpuScene, SceneUploads};
 use crate::scene::{Motion, Pose, Scene};
 use crate::vulkan::{Gpu, Host, Memory, Recorder, VulkanError};
 use ash::vk;

@@ -1,8 +1,9 @@
 //! From where a scene is seen, as passes are told of it.
 
-use super::uniform::SceneBlock;
 use crate::camera::{Camera, Pinhole};
-use crate::passes::{Content, GpuScene};
+use crate::engine::sampler::uniform::SceneBlock;
+use crate::passes::Content;
+use crate::render::passes::GpuScene;
 use glam::DVec3;
 
 /// From where a scene is seen, and in which direction.

@@ -1,9 +1,9 @@
 //! What surfaces reflect of an environment: `prefilter` against its twin, and where the average has a closed form.
 
 use glam::DVec3;
-use gpc::passes::prefilter::{Prefilter, levels, lobe};
 use gpc::reference::prefilter::{Cube, average};
 use gpc::render::Headless;
+use gpc::render::passes::prefilter::{Prefilter, levels, lobe};
 use gpc::vulkan::{Memory, MemoryUse, Recorder};
 use half::f16;
 

@@ -9,15 +9,15 @@ mod uniform;
 
 pub use target::Target;
 
-use super::plan::{Capacity, Plan};
 use super::shadows::{Casters, ShadowEngine};
 use super::{RenderError, Settings, Shadows};
 use crate::camera::Camera;
+use crate::engine::sampler::plan::{Capacity, Plan};
+use crate::engine::sampler::{CounterLog, with_probes};
 use crate::passes::{
-    Cells, Content, Encoding, FrameGeometry, FrameLayout, FrameLook, GpuScene, Offsets,
-    RasterTargets, ResourceSizes, Resources,
+    Cells, Content, Encoding, FrameLayout, Offsets, RasterTargets, ResourceSizes, Resources,
 };
-use crate::render::sampler::{CounterLog, with_probes};
+use crate::render::passes::{FrameGeometry, FrameLook, GpuScene};
 use crate::scene::Moment;
 use crate::vulkan::{Memory, Recorder, Timings};
 use ash::vk;

@@ -1,7 +1,7 @@
 //! What the device counted over a frame, once its commands are done.
 
 use super::Frame;
-use crate::render::statistics::Shortfall;
+use crate::engine::sampler::statistics::Shortfall;
 use crate::render::{PassTime, RenderError, Statistics};
 
 impl Frame {

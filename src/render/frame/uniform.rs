@@ -2,11 +2,12 @@
 
 use super::recording::Recording;
 use crate::camera::{Camera, Projection};
-use crate::passes::{FrameUniform, GpuScene};
+use crate::engine::sampler::footprint::Footprints;
+use crate::engine::sampler::plan::Region;
+use crate::engine::sampler::uniform::{PlaneBlock, SceneBlock, frame_uniform};
+use crate::passes::FrameUniform;
 use crate::render::Settings;
-use crate::render::footprint::Footprints;
-use crate::render::plan::Region;
-use crate::render::uniform::{PlaneBlock, SceneBlock, frame_uniform};
+use crate::render::passes::GpuScene;
 use glam::DMat4;
 
 impl Recording<'_> {

@@ -6,12 +6,13 @@ use super::image::Cells;
 use super::partition::Partition;
 use super::plan::LocationPlan;
 use crate::camera::{Pinhole, SampleLocation};
+use crate::engine::sampler::footprint::Footprints;
+use crate::engine::sampler::uniform::{PlaneBlock, SceneBlock, frame_uniform};
 use crate::passes::{
-    Cells as CellKind, Content, Detect, DetectMode, DetectOptions, FrameLayout, FrameLook,
-    MarkedOutput, Offsets, Output, ResourceSizes, Resources, SeenLocation, Shown,
+    Cells as CellKind, Content, Detect, DetectMode, DetectOptions, FrameLayout, Offsets,
+    ResourceSizes, Resources,
 };
-use crate::render::footprint::Footprints;
-use crate::render::uniform::{PlaneBlock, SceneBlock, frame_uniform};
+use crate::render::passes::{FrameLook, MarkedOutput, Output, SeenLocation, Shown};
 use crate::render::{
     Headless, PassTime, PreparedScene, RenderError, Settings, Shadows, Statistics,
 };

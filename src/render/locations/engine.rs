@@ -2,14 +2,15 @@
 
 use super::plan::LocationPlan;
 use super::run::RunMemory;
-use crate::passes::{Cells, FrameLayout, ListedLocation, Offsets, Resources, Shade, ShadeSource};
+use crate::engine::sampler::plan::Capacity;
+use crate::engine::sampler::statistics::Shortfall;
+use crate::engine::sampler::{ListCells, Sampler, SamplerContext, SamplerRun};
+use crate::passes::{Cells, FrameLayout, ListedLocation, Offsets, Resources};
 use crate::render::frame::recording::SceneShading;
-use crate::render::plan::Capacity;
+use crate::render::passes::{Shade, ShadeSource};
 use crate::render::plane::Window;
 use crate::render::renderer::PreparedScene;
-use crate::render::sampler::{ListCells, Sampler, SamplerContext, SamplerRun};
 use crate::render::shadows::{ShadowEngine, Shadowed, Sight};
-use crate::render::statistics::Shortfall;
 use crate::render::{RenderError, Settings, Statistics};
 use crate::vulkan::{Recorder, VulkanError};
 use ash::vk;

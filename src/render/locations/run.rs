@@ -1,12 +1,13 @@
 //! What runs over locations need, whatever they look for: the geometry as a window sees it, memory, counters and times.
 
 use crate::camera::Pinhole;
+use crate::engine::sampler::SamplerRun;
 use crate::passes::{
-    Cells, Content, FrameGeometry, FrameLayout, FrameLook, ListLength, ListedLocation, Offsets,
-    RasterTargets, ResourceSizes, Resources, Stroke, StrokeSizes,
+    Cells, Content, FrameLayout, ListLength, ListedLocation, Offsets, RasterTargets, ResourceSizes,
+    Resources,
 };
+use crate::render::passes::{FrameGeometry, FrameLook, Stroke, StrokeSizes};
 use crate::render::plane::Window;
-use crate::render::sampler::SamplerRun;
 use crate::render::{PassTime, PreparedScene, RenderError, Settings, Statistics};
 use crate::vulkan::{Memory, Recorder, Timings, VulkanError};
 use ash::vk;

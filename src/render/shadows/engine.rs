@@ -2,14 +2,17 @@
 
 use super::casters::{Casters, Lit, caster_moment};
 use super::light::{LightView, Sight, views};
+use crate::engine::sampler::plan::Capacity;
+use crate::engine::sampler::statistics::Shortfall;
+use crate::engine::sampler::{ListCells, RecordShading, Sampler, SamplerContext, SamplerRun};
 use crate::passes::{
-    Argument, Cells, Content, Found, FrameGeometry, FrameLayout, FrameLook, GpuScene, LightPlane,
-    ListLength, Offsets, Pose, RasterTargets, Receivers, Receiving, ResourceSizes, Resources,
-    SampleSet, Shade, ShadeSource, Shadow,
+    Argument, Cells, Content, FrameLayout, ListLength, Offsets, RasterTargets, ResourceSizes,
+    Resources, SampleSet,
 };
-use crate::render::plan::Capacity;
-use crate::render::sampler::{ListCells, RecordShading, Sampler, SamplerContext, SamplerRun};
-use crate::render::statistics::Shortfall;
+use crate::render::passes::{
+    Found, FrameGeometry, FrameLook, GpuScene, LightPlane, Pose, Receivers, Receiving, Shade,
+    ShadeSource, Shadow,
+};
 use crate::render::{RenderError, Settings};
 use crate::scene::Moment;
 use crate::vulkan::{BufferView, Memory, MemoryUse, Recorder, VulkanError};
