@@ -14,7 +14,7 @@ use crate::engine::sampler::{PassTime, RenderError, Statistics};
 use crate::passes::{
     OwnSet, ResourceSizes, Resources, SampleSet, VisibilityUniform, VisibleGeometry,
 };
-use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings};
+use crate::vulkan::{Buffer, Completion, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;
 use std::sync::Arc;
 
@@ -25,6 +25,8 @@ pub(super) struct Lending {
     alpha: AlphaReading,
     adoption: Adoption,
     visibility: Buffer,
+    completion: Completion,
+    /// Whether a recording with the upload was executed.
     is_uploaded: bool,
     /// Triangles of the last recording.
     triangles: u32,
@@ -56,6 +58,7 @@ impl Lending {
             alpha,
             adoption,
             visibility,
+            completion: Completion::new(&shared.gpu)?,
             is_uploaded: false,
             triangles: 0,
         })
@@ -82,7 +85,7 @@ impl Lending {
         Ok(unsafe { resources.visibility_set(&shared.visibility, &self.visibility, &visible) }?)
     }
 
-    /// Begins a recording; `upload` records what is copied to the device before the first one alone.
+    /// Begins a recording; `upload` records what is copied to the device, in each until one was executed.
     pub fn record_begin(
         &mut self,
         recorder: &mut Recorder<'_>,
@@ -90,14 +93,24 @@ impl Lending {
         upload: impl FnOnce(&Recorder<'_>),
     ) {
         self.triangles = triangles;
+        self.is_uploaded |= self.completion.begin(recorder);
         if !self.is_uploaded {
             upload(recorder);
         }
         recorder.begin();
         if !self.is_uploaded {
             self.alpha.record(recorder, &self.content);
-            self.is_uploaded = true;
         }
+    }
+
+    /// Ends a recording.
+    pub fn record_end(&self, recorder: &Recorder<'_>) {
+        self.completion.end(recorder);
+    }
+
+    /// Refuses to read what the last recording wrote before its commands are done.
+    pub fn check_done(&self) -> Result<(), HostError> {
+        Ok(self.completion.check()?)
     }
 
     /// Records positions in clip space and triangles.
@@ -145,7 +158,7 @@ impl Lending {
     /// Figures of the last recording, of a sampler in memory of these sizes.
     ///
     /// # Errors
-    /// If what was counted or timed can't be read, or the driver ran kernels in subgroups that they were not made for.
+    /// If the commands are not done, what was timed can't be read, or the driver ran kernels in subgroups that they were not made for.
     pub fn statistics(
         &self,
         (sampler, sizes): (&Sampler, &ResourceSizes),
