@@ -8,29 +8,26 @@
 // The engine has what scenes of files need, too.
 #![cfg_attr(not(feature = "gltf"), allow(dead_code))]
 
-#[cfg(feature = "cli")]
-pub mod bench;
-#[cfg(feature = "gltf")]
-pub mod camera;
 #[cfg(feature = "capi")]
 mod capi;
-pub mod color;
-#[cfg(feature = "cli")]
-pub mod compare;
-pub mod host;
-#[cfg(feature = "cli")]
-pub mod output;
-pub mod passes;
+mod engine;
 #[cfg(feature = "gltf")]
 mod random;
 pub mod reference;
-pub mod render;
-#[cfg(feature = "cli")]
-pub mod resample;
-pub mod sampling;
 #[cfg(feature = "gltf")]
-pub mod scene;
-pub mod vulkan;
+pub mod render;
+#[cfg(feature = "gltf")]
+#[doc(hidden)]
+pub mod testing;
+#[cfg(feature = "cli")]
+mod tools;
+
+pub(crate) use engine::passes;
+pub use engine::{color, host, sampling, vulkan};
+#[cfg(feature = "gltf")]
+pub use render::{camera, scene};
+#[cfg(feature = "cli")]
+pub use tools::{bench, compare, output, resample};
 
 /// Compiles the library's example in the README.
 #[cfg(all(doctest, feature = "gltf"))]

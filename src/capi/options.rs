@@ -2,8 +2,8 @@
 
 use super::error::{Error, GpcResult, answer};
 use super::input::{Struct, check, choice, flag};
+use crate::engine::sampler::{Detection, Shading};
 use crate::host::Options;
-use crate::render::{Detection, Shading};
 use crate::sampling::Pattern;
 use ash::vk;
 

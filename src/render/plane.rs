@@ -1,10 +1,11 @@
 //! A rectangle of tiles of a pinhole's plane, as passes see it.
 
 use super::Settings;
-use super::footprint::Footprints;
 use super::uniform::{Looking, uniform};
 use crate::camera::Pinhole;
-use crate::passes::{Cells, FrameUniform, GpuScene, ListRegion, ResourceSizes};
+use crate::engine::sampler::footprint::Footprints;
+use crate::passes::{Cells, FrameUniform, ListRegion, ResourceSizes};
+use crate::render::passes::GpuScene;
 use glam::{DMat4, DVec2};
 
 /// Pixels of a tile.

@@ -1,8 +1,9 @@
 //! What the uniform blocks of images and of lists of locations have in common.
 
 use super::Settings;
-use super::footprint::Footprints;
-use crate::passes::{Content, FrameUniform, GpuScene, ResourceSizes};
+use crate::engine::sampler::footprint::Footprints;
+use crate::passes::{Content, FrameUniform, ResourceSizes};
+use crate::render::passes::GpuScene;
 use glam::DVec3;
 
 /// Who looks, and where to.

@@ -1,11 +1,12 @@
 //! The passes that a frame's settings ask for.
 
+use crate::engine::sampler::engine::{Engine, EngineKind, record_rate};
+use crate::engine::sampler::plan::Plan;
 use crate::passes::{
-    Attributes, BoxFilter, Cells, Content, DetectMode, Encode, Encoding, FrameLayout, GpuScene,
-    Multisample, Pose, Raster, RecordRate, Resolve, Shade, ShadeSource, Sort, Spans, Stroke, Then,
+    Attributes, BoxFilter, Cells, Content, DetectMode, Encode, Encoding, FrameLayout, Multisample,
+    Raster, RecordRate, Resolve, Sort, Spans, Then,
 };
-use crate::render::engine::{Engine, EngineKind, record_rate};
-use crate::render::plan::Plan;
+use crate::render::passes::{GpuScene, Pose, Shade, ShadeSource, Stroke};
 use crate::render::{Detection, Method, RenderError, Settings};
 use ash::vk;
 use std::sync::Arc;

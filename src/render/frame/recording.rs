@@ -4,13 +4,12 @@ use super::passes::{Multisampling, Passes, PixelShading};
 use super::target::Target;
 use super::uniform::to_clip;
 use crate::camera::{Camera, Pinhole};
-use crate::passes::{
-    Content, FrameGeometry, GpuScene, RasterTargets, Receiving, Resources, Shade, StrokeSizes,
-};
+use crate::engine::sampler::color::display_code;
+use crate::engine::sampler::engine::{Engine, Growing, RecordShading, Work, record_shading};
+use crate::engine::sampler::plan::{Plan, Region};
+use crate::passes::{Content, RasterTargets, Resources};
 use crate::render::Settings;
-use crate::render::color::display_code;
-use crate::render::engine::{Engine, Growing, RecordShading, Work, record_shading};
-use crate::render::plan::{Plan, Region};
+use crate::render::passes::{FrameGeometry, GpuScene, Receiving, Shade, StrokeSizes};
 use crate::render::shadows::{LightView, ShadowEngine, Shadowed, Sight};
 use crate::scene::Moment;
 use crate::vulkan::{Buffer, Recorder};

@@ -2,10 +2,11 @@
 
 use super::recording::Recording;
 use crate::camera::{Camera, Projection};
-use crate::passes::{FrameUniform, GpuScene};
+use crate::engine::sampler::footprint::Footprints;
+use crate::engine::sampler::plan::Region;
+use crate::passes::FrameUniform;
 use crate::render::Settings;
-use crate::render::footprint::Footprints;
-use crate::render::plan::Region;
+use crate::render::passes::GpuScene;
 use crate::render::uniform::{Looking, uniform};
 use glam::DMat4;
 

@@ -3,12 +3,13 @@
 use super::plan::LocationPlan;
 use super::run::RunMemory;
 use crate::camera::Pinhole;
+use crate::engine::sampler::statistics::Shortfall;
 use crate::passes::{
-    Bin, CellSizes, Cells, Counter, Crossings, Cull, Distribute, FrameLayout, Kept, ListLength,
-    ListedLocation, MarkedOutput, Offsets, Resources, SampleSet, SeenLocation,
+    Bin, CellSizes, Cells, Counter, Cull, Distribute, FrameLayout, Kept, ListLength,
+    ListedLocation, Offsets, Resources, SampleSet,
 };
+use crate::render::passes::{Crossings, MarkedOutput, SeenLocation};
 use crate::render::plane::Window;
-use crate::render::statistics::Shortfall;
 use crate::render::{PreparedScene, RenderError, Settings, Statistics};
 use crate::vulkan::{Buffer, MemoryUse, Recorder, VulkanError};
 use ash::vk;

@@ -6,11 +6,12 @@ use super::image::Cells;
 use super::partition::Partition;
 use super::plan::LocationPlan;
 use crate::camera::{Pinhole, SampleLocation};
+use crate::engine::sampler::engine::EngineKind;
 use crate::passes::{
-    Cells as CellKind, Content, Detect, DetectOptions, FrameLayout, FrameLook, FrameUniform,
-    MarkedOutput, Offsets, Output, ResourceSizes, Resources, SeenLocation, Shown,
+    Cells as CellKind, Content, Detect, DetectOptions, FrameLayout, FrameUniform, Offsets,
+    ResourceSizes, Resources,
 };
-use crate::render::engine::EngineKind;
+use crate::render::passes::{FrameLook, MarkedOutput, Output, SeenLocation, Shown};
 use crate::render::{
     Headless, PassTime, PreparedScene, RenderError, Settings, Shadows, Statistics,
 };

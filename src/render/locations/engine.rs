@@ -2,17 +2,18 @@
 
 use super::plan::LocationPlan;
 use super::run::RunMemory;
+use crate::engine::sampler::list::{ListEngine, ListKind};
+use crate::engine::sampler::plan::Capacity;
+use crate::engine::sampler::statistics::Shortfall;
 use crate::passes::{
     Cells, Content, FrameLayout, ListLength, ListedLocation, Offsets, Resources, SampleOptions,
-    SampleSet, Shade, ShadeSource,
+    SampleSet,
 };
 use crate::render::frame::recording::SceneShading;
-use crate::render::list::{ListEngine, ListKind};
-use crate::render::plan::Capacity;
+use crate::render::passes::{Shade, ShadeSource};
 use crate::render::plane::Window;
 use crate::render::renderer::PreparedScene;
 use crate::render::shadows::{ShadowEngine, Shadowed, Sight};
-use crate::render::statistics::Shortfall;
 use crate::render::{RenderError, Settings, Statistics};
 use crate::vulkan::{Recorder, VulkanError};
 use ash::vk;

@@ -2,8 +2,8 @@
 
 use super::LocationError;
 use crate::camera::{Pinhole, SampleLocation};
-use crate::passes::LightPlane;
-use crate::render::color::display_code;
+use crate::engine::sampler::color::display_code;
+use crate::render::passes::LightPlane;
 use crate::render::{
     Coverage, Detection, Headless, Method, PixelAttributes, PreparedScene, RenderError, Rendered,
     Settings, Shading, Shadows, Statistics,

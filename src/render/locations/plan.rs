@@ -2,8 +2,9 @@
 
 use super::engine::kind;
 use super::partition::Partition;
-use crate::passes::{Cells, FrameGeometry, FrameLayout, ResourceSizes};
-use crate::render::plan::Capacity;
+use crate::engine::sampler::plan::Capacity;
+use crate::passes::{Cells, FrameLayout, ResourceSizes};
+use crate::render::passes::FrameGeometry;
 use crate::render::plane::Window;
 use crate::render::shadows::{Casters, ShadowEngine};
 use crate::render::{PreparedScene, RenderError, Settings, Shadows};

@@ -1,12 +1,13 @@
 //! What runs over locations need, whatever they look for: the geometry as a window sees it, memory, counters and times.
 
 use crate::camera::Pinhole;
+use crate::engine::sampler::statistics::Shortfall;
 use crate::passes::{
-    Cells, Content, Counter, FrameGeometry, FrameLayout, FrameLook, ListedLocation, Offsets,
-    RasterTargets, ResourceSizes, Resources, SampleSet, Stroke, StrokeSizes,
+    Cells, Content, Counter, FrameLayout, ListedLocation, Offsets, RasterTargets, ResourceSizes,
+    Resources, SampleSet,
 };
+use crate::render::passes::{FrameGeometry, FrameLook, Stroke, StrokeSizes};
 use crate::render::plane::Window;
-use crate::render::statistics::Shortfall;
 use crate::render::{PassTime, PreparedScene, RenderError, Settings, Statistics};
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings, VulkanError};
 use ash::vk;

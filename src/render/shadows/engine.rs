@@ -2,15 +2,18 @@
 
 use super::casters::{Casters, Lit, caster_moment};
 use super::light::{LightView, Sight, views};
+use crate::engine::sampler::engine::RecordShading;
+use crate::engine::sampler::list::{ListEngine, ListKind};
+use crate::engine::sampler::plan::Capacity;
+use crate::engine::sampler::statistics::Shortfall;
 use crate::passes::{
-    Argument, Cells, Content, Found, FrameGeometry, FrameLayout, FrameLook, GpuScene, LightPlane,
-    ListLength, Offsets, Pose, RasterTargets, Receivers, Receiving, ResourceSizes, Resources,
-    SampleSet, Shade, ShadeSource, Shadow,
+    Argument, Cells, Content, FrameLayout, ListLength, Offsets, RasterTargets, ResourceSizes,
+    Resources, SampleSet,
 };
-use crate::render::engine::RecordShading;
-use crate::render::list::{ListEngine, ListKind};
-use crate::render::plan::Capacity;
-use crate::render::statistics::Shortfall;
+use crate::render::passes::{
+    Found, FrameGeometry, FrameLook, GpuScene, LightPlane, Pose, Receivers, Receiving, Shade,
+    ShadeSource, Shadow,
+};
 use crate::render::{RenderError, Settings};
 use crate::scene::Moment;
 use crate::vulkan::{BufferView, Memory, MemoryUse, Recorder, VulkanError};

@@ -1,0 +1,63 @@
+//! arguments: what passes counted, as the sizes of the dispatches that follow.
+
+use super::{FrameLayout, spirv};
+use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
+use ash::vk;
+use std::sync::Arc;
+
+/// What has counted, as `shaders/arguments.comp` numbers it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u32)]
+pub(crate) enum After {
+    Detect,
+    Cull,
+    Sample,
+    Records,
+    Spans,
+    Thin,
+    Groups,
+    Probe,
+    Pairs,
+}
+
+/// One kernel for all that counts: drivers take longer to compile one than to run it.
+pub(crate) struct Arguments {
+    layout: vk::PipelineLayout,
+    pipeline: Arc<Pipeline>,
+    /// What has counted, and the subgroups that [`Sample`](super::Sample) gives an entry of a list, in a first run and where it
+    /// takes all samples.
+    pushed: [u32; 3],
+}
+
+impl Arguments {
+    /// Makes the pipeline.
+    ///
+    /// # Errors
+    /// If the driver refuses it.
+    pub fn new(layout: &FrameLayout, after: After) -> Result<Self, VulkanError> {
+        Self::of_samples(layout, after, [1, 1])
+    }
+
+    /// The same where entries of lists were counted, each of which takes so many subgroups: in a first run, and for all
+    /// samples.
+    ///
+    /// # Errors
+    /// As for [`Self::new`].
+    pub fn of_samples(
+        layout: &FrameLayout,
+        after: After,
+        [first, all]: [u32; 2],
+    ) -> Result<Self, VulkanError> {
+        Ok(Self {
+            layout: layout.pipeline,
+            pipeline: layout.compute(spirv::ARGUMENTS, &Constants::new(), None)?,
+            pushed: [after as u32, first, all],
+        })
+    }
+
+    /// Records it.
+    pub fn record(&self, recorder: &Recorder<'_>) {
+        recorder.push(self.layout, &self.pushed);
+        recorder.dispatch(&self.pipeline, 1);
+    }
+}

@@ -1,0 +1,23 @@
+//! The passes that shade and pose scenes of files, named like their shaders in `shaders/`, and what they read of a scene.
+
+mod beside_frame;
+mod crossings;
+mod geometry;
+mod output;
+mod pose;
+pub mod prefilter;
+mod receivers;
+mod scene;
+mod shade;
+mod shadow;
+mod stroke;
+
+pub use crossings::{Crossings, MarkedOutput, SeenLocation};
+pub use geometry::FrameGeometry;
+pub use output::{Output, Shown};
+pub use pose::Pose;
+pub use receivers::{LightPlane, Receivers, Receiving};
+pub use scene::{FrameLook, GpuScene, SceneUploads};
+pub use shade::{Shade, ShadeSource};
+pub use shadow::{Found, Shadow};
+pub use stroke::{Stroke, StrokeSizes};
