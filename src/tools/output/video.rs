@@ -5,6 +5,7 @@ use super::{OutputError, Picture};
 use crate::color::srgb;
 use rayon::prelude::*;
 use std::io::{self, Write};
+use y4m::{Colorspace, Ratio, VendorExtensionString};
 
 /// How frames are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,31 +19,60 @@ pub enum VideoFormat {
 
 /// Writes frames of one size.
 pub struct VideoWriter<W: Write> {
-    out: W,
-    format: VideoFormat,
+    stream: Stream<W>,
     size: [u32; 2],
 }
 
-impl<W: Write> VideoWriter<W> {
-    /// Begins a film of `size` = width and height in pixels and of `rate` frames a second, which raw frames don't tell.
-    /// Rates that are no whole number are written in millionths, but those of NTSC, such as 23.976 and 29.97, as
-    /// 24000:1001 and 30000:1001.
-    ///
-    /// # Errors
-    /// What `out` says.
-    pub fn new(mut out: W, format: VideoFormat, size: [u32; 2], rate: f64) -> io::Result<Self> {
-        if format == VideoFormat::Y4m {
-            let [width, height] = size;
-            let (number, of) = ratio(rate);
-            writeln!(
-                out,
-                "YUV4MPEG2 W{width} H{height} F{number}:{of} Ip A1:1 C444 XCOLORRANGE=LIMITED"
-            )?;
-        }
-        Ok(Self { out, format, size })
+/// Where frames go, by their format.
+enum Stream<W: Write> {
+    Y4m(y4m::Encoder<Unbuffered<W>>),
+    Raw(Unbuffered<W>),
+}
+
+/// A writer that passes on at once what it is given.
+struct Unbuffered<W>(W);
+
+impl<W: Write> Write for Unbuffered<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.0.write(bytes)?;
+        self.0.flush()?;
+        Ok(written)
     }
 
-    /// Writes a frame, and sees to it that it is passed on at once.
+    fn flush(&mut self) -> io::Result<()> {
+        self.0.flush()
+    }
+}
+
+impl<W: Write> VideoWriter<W> {
+    /// Begins a film of `size` = width and height in pixels, and of `rate` frames a second. Raw frames do not tell their rate.
+    /// Other rates than whole numbers are written in millionths, but those of NTSC, such as 23.976 and 29.97, as 24000:1001
+    /// and 30000:1001.
+    ///
+    /// # Errors
+    /// [`OutputError::Stream`] if `out` fails.
+    pub fn new(
+        out: W,
+        format: VideoFormat,
+        size: [u32; 2],
+        rate: f64,
+    ) -> Result<Self, OutputError> {
+        let out = Unbuffered(out);
+        let stream = match format {
+            VideoFormat::Y4m => {
+                let [width, height] = size.map(|side| side as usize);
+                let range = VendorExtensionString::new(b"COLORRANGE=LIMITED".to_vec());
+                let header = y4m::encode(width, height, ratio(rate))
+                    .with_colorspace(Colorspace::C444)
+                    .append_vendor_extension(range.map_err(refused)?);
+                Stream::Y4m(header.write_header(out).map_err(refused)?)
+            }
+            VideoFormat::Raw => Stream::Raw(out),
+        };
+        Ok(Self { stream, size })
+    }
+
+    /// Writes a frame, and passes it on at once.
     ///
     /// # Errors
     /// [`OutputError::FrameSize`] if the picture has another size, [`OutputError::Stream`] if `out` fails.
@@ -53,30 +83,34 @@ impl<W: Write> VideoWriter<W> {
                 expected: self.size,
             });
         }
-        let bytes = match self.format {
-            VideoFormat::Y4m => y4m_frame(picture),
-            VideoFormat::Raw => {
-                let codes = straight_codes(picture, u8::MAX.into()).into_flattened();
-                codes.into_iter().map(|code| code as u8).collect()
+        match &mut self.stream {
+            Stream::Y4m(encoder) => {
+                let planes = planes(picture);
+                let frame = y4m::Frame::new(planes.each_ref().map(Vec::as_slice), None);
+                encoder.write_frame(&frame).map_err(refused)
             }
-        };
-        self.out
-            .write_all(&bytes)
-            .and_then(|()| self.out.flush())
-            .map_err(OutputError::Stream)
+            Stream::Raw(out) => {
+                let codes = straight_codes(picture, u8::MAX.into()).into_flattened();
+                let bytes: Vec<_> = codes.into_iter().map(|code| code as u8).collect();
+                out.write_all(&bytes).map_err(OutputError::Stream)
+            }
+        }
     }
 }
 
-/// `FRAME` and the three planes.
-fn y4m_frame(picture: &Picture<'_>) -> Vec<u8> {
+fn refused(error: y4m::Error) -> OutputError {
+    OutputError::Stream(match error {
+        y4m::Error::IoError(error) => error,
+        other => io::Error::other(other),
+    })
+}
+
+/// The planes Y', Cb and Cr of a picture over black.
+fn planes(picture: &Picture<'_>) -> [Vec<u8>; 3] {
     // Premultiplied colour is colour over black.
     let code = |[r, g, b, _]: &[f32; 4]| bt709([*r, *g, *b].map(|v| srgb::encode(f64::from(v))));
     let codes: Vec<_> = picture.pixels().par_iter().map(code).collect();
-    let mut bytes = b"FRAME\n".to_vec();
-    for plane in 0..3 {
-        bytes.extend(codes.iter().map(|code| code[plane]));
-    }
-    bytes
+    [0, 1, 2].map(|plane| codes.iter().map(|code| code[plane]).collect())
 }
 
 /// Y', Cb and Cr in 8 bits of limited range, by ITU-R BT.709-6, of gamma-encoded R', G' and B' of 0 to 1. They are rounded
@@ -93,18 +127,18 @@ fn bt709([r, g, b]: [f64; 3]) -> [u8; 3] {
 }
 
 /// Frames a second as a fraction.
-fn ratio(rate: f64) -> (u64, u64) {
-    const MILLION: u64 = 1_000_000;
+fn ratio(rate: f64) -> Ratio {
+    const MILLION: usize = 1_000_000;
     let whole = (rate * 1.001).round();
     if rate.fract() != 0.0 && (rate - whole / 1.001).abs() < 5e-4 {
-        return (whole as u64 * 1000, 1001);
+        return Ratio::new(whole as usize * 1000, 1001);
     }
-    let number = (rate * MILLION as f64).round() as u64;
+    let number = (rate * MILLION as f64).round() as usize;
     let divisor = greatest_common_divisor(number, MILLION).max(1);
-    (number / divisor, MILLION / divisor)
+    Ratio::new(number / divisor, MILLION / divisor)
 }
 
-fn greatest_common_divisor(a: u64, b: u64) -> u64 {
+fn greatest_common_divisor(a: usize, b: usize) -> usize {
     if b == 0 {
         a
     } else {
@@ -165,7 +199,8 @@ mod tests {
             (0.1, (1, 10)),
             (29.9, (299, 10)),
         ] {
-            assert_eq!(ratio(rate), expected, "{rate}");
+            let found = ratio(rate);
+            assert_eq!((found.num, found.den), expected, "{rate}");
         }
     }
 
