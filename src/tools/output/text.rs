@@ -5,14 +5,14 @@ use image::ImageFormat;
 use png::text_metadata::{EncodableTextChunk, TEXtChunk};
 use std::io::Cursor;
 
-/// Bytes of a PNG's signature and header chunk, which any other chunk follows.
+/// Bytes of a PNG's signature and header chunk; all other chunks follow them.
 const HEADER: usize = 8 + 25;
 
-/// Inserts a text into an encoded PNG, right after its header. Keyword and text must be Latin-1, the keyword 1 to 79
+/// Inserts a text into an encoded PNG, right after its header. Keyword and text are Latin-1, the keyword 1 to 79
 /// characters long.
 ///
 /// # Errors
-/// [`OutputError::Encode`] if the bytes are no PNG, or a PNG can't hold the keyword or the text.
+/// [`OutputError::Encode`] if the bytes are no PNG, or if a PNG can't hold the keyword or the text.
 pub fn add_text(png: &[u8], keyword: &str, text: &str) -> Result<Vec<u8>, OutputError> {
     let is_png = image::guess_format(png).is_ok_and(|format| format == ImageFormat::Png);
     let Some((header, rest)) = png.split_at_checked(HEADER).filter(|_| is_png) else {
@@ -27,7 +27,7 @@ pub fn add_text(png: &[u8], keyword: &str, text: &str) -> Result<Vec<u8>, Output
     Ok(noted)
 }
 
-/// The text of the first tEXt chunk with a keyword; `None` where there is none, or the bytes are no PNG.
+/// Text of the first tEXt chunk with this keyword; `None` if there is none, or if the bytes are no PNG.
 #[must_use]
 pub fn find_text(png: &[u8], keyword: &str) -> Option<String> {
     let mut reader = png::Decoder::new(Cursor::new(png)).read_info().ok()?;

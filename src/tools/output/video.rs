@@ -1,4 +1,4 @@
-//! Frames one after the other, for the standard input of an encoder.
+//! Films: frames of one size, written one after the other for an encoder to read from its standard input.
 
 use super::encode::straight_codes;
 use super::{OutputError, Picture};
@@ -7,29 +7,30 @@ use rayon::prelude::*;
 use std::io::{self, Write};
 use y4m::{Colorspace, Ratio, VendorExtensionString};
 
-/// How frames are written.
+/// Format of a film's frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum VideoFormat {
-    /// YUV4MPEG2: a line that says size and rate, and Y', Cb and Cr planes of 8 bits, 4:4:4. The codes are those of
-    /// BT.709 in limited range (Y' from 16 to 235, Cb and Cr from 16 to 240), made of sRGB-encoded colours over black.
+    /// YUV4MPEG2: a header line with size and rate, then per frame the planes Y', Cb and Cr, 8 bits each, 4:4:4. Codes
+    /// are those of BT.709 in limited range (Y' from 16 to 235, Cb and Cr from 16 to 240), of sRGB-encoded colours over
+    /// black.
     Y4m,
-    /// RGBA of 8 bits a channel, sRGB-encoded, with straight alpha, and nothing else.
+    /// RGBA frames without any header: 8 bits a channel, sRGB-encoded, straight alpha.
     Raw,
 }
 
-/// Writes frames of one size.
+/// Writer of a film's frames.
 pub struct VideoWriter<W: Write> {
     stream: Stream<W>,
     size: [u32; 2],
 }
 
-/// Where frames go, by their format.
+/// Encoder or plain writer, by the film's format.
 enum Stream<W: Write> {
     Y4m(y4m::Encoder<Unbuffered<W>>),
     Raw(Unbuffered<W>),
 }
 
-/// A writer that passes on at once what it is given.
+/// Writer that flushes after each write, so that a frame does not wait for the next one.
 struct Unbuffered<W>(W);
 
 impl<W: Write> Write for Unbuffered<W> {
@@ -45,9 +46,9 @@ impl<W: Write> Write for Unbuffered<W> {
 }
 
 impl<W: Write> VideoWriter<W> {
-    /// Begins a film of `size` = width and height in pixels, and of `rate` frames a second. Raw frames do not tell their rate.
-    /// Other rates than whole numbers are written in millionths, but those of NTSC, such as 23.976 and 29.97, as 24000:1001
-    /// and 30000:1001.
+    /// Begins a film of `size` = [width, height] in pixels and `rate` frames a second. The rate of a YUV4MPEG2 film is
+    /// a fraction: n:1 for whole numbers, n:1001 for those of NTSC, such as 23.976 and 29.97, otherwise millionths in
+    /// lowest terms. Raw films do not hold their rate.
     ///
     /// # Errors
     /// [`OutputError::Stream`] if `out` fails.
@@ -72,7 +73,7 @@ impl<W: Write> VideoWriter<W> {
         Ok(Self { stream, size })
     }
 
-    /// Writes a frame, and passes it on at once.
+    /// Writes a frame and flushes it.
     ///
     /// # Errors
     /// [`OutputError::FrameSize`] if the picture has another size, [`OutputError::Stream`] if `out` fails.
@@ -105,7 +106,7 @@ fn refused(error: y4m::Error) -> OutputError {
     })
 }
 
-/// The planes Y', Cb and Cr of a picture over black.
+/// Planes Y', Cb and Cr of a picture over black.
 fn planes(picture: &Picture<'_>) -> [Vec<u8>; 3] {
     // Premultiplied colour is colour over black.
     let code = |[r, g, b, _]: &[f32; 4]| bt709([*r, *g, *b].map(|v| srgb::encode(f64::from(v))));
@@ -113,8 +114,7 @@ fn planes(picture: &Picture<'_>) -> [Vec<u8>; 3] {
     [0, 1, 2].map(|plane| codes.iter().map(|code| code[plane]).collect())
 }
 
-/// Y', Cb and Cr in 8 bits of limited range, by ITU-R BT.709-6, of gamma-encoded R', G' and B' of 0 to 1. They are rounded
-/// once, from colours that have not been rounded.
+/// Codes Y', Cb and Cr of a gamma-encoded colour R', G', B' of 0 to 1: 8 bits, limited range, by ITU-R BT.709-6.
 fn bt709([r, g, b]: [f64; 3]) -> [u8; 3] {
     let luma = 0.2126 * r + 0.7152 * g + 0.0722 * b;
     let chroma = |difference: f64, range: f64| 128.0 + 224.0 * difference / range;
@@ -126,7 +126,7 @@ fn bt709([r, g, b]: [f64; 3]) -> [u8; 3] {
     .map(|code| code.round() as u8)
 }
 
-/// Frames a second as a fraction.
+/// Frame rate as a fraction of whole numbers.
 fn ratio(rate: f64) -> Ratio {
     const MILLION: usize = 1_000_000;
     let whole = (rate * 1.001).round();
@@ -150,7 +150,7 @@ fn greatest_common_divisor(a: usize, b: usize) -> usize {
 mod tests {
     use super::*;
 
-    /// The bars of a test picture, whose codes ITU-R BT.709 and everyone's measuring devices agree on.
+    /// Codes of a test picture's colour bars, which ITU-R BT.709 and measuring devices agree on.
     #[test]
     fn colour_bars_have_their_codes() {
         let bars = [
@@ -168,7 +168,7 @@ mod tests {
         }
     }
 
-    /// Decoding by the inverse matrix finds each colour within what half a code of each channel makes of it.
+    /// Decoding by the inverse matrix finds each colour again, up to half a code of each channel.
     #[test]
     fn codes_are_the_nearest() {
         let steps = || (0..=20).map(|step| f64::from(step) / 20.0);
