@@ -22,7 +22,7 @@ pub mod testing;
 #[cfg(feature = "cli")]
 mod tools;
 
-pub(crate) use engine::passes;
+use engine::passes;
 pub use engine::{color, host, sampling, vulkan};
 #[cfg(feature = "gltf")]
 pub use render::{camera, scene};

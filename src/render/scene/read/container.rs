@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 
+use super::foreign;
 use crate::scene::SceneError;
 
 /// The two halves of a glTF file.
@@ -50,9 +51,10 @@ pub fn open<'a>(bytes: &'a [u8], file: &str) -> Result<Container<'a>, SceneError
     match json.iter().find(|byte| !byte.is_ascii_whitespace()) {
         Some(b'{') => {}
         Some(_) => {
-            return Err(refuse(
-                "is neither a GLB nor a glTF JSON document, nor OBJ, STL or PLY".to_owned(),
-            ));
+            let hint = foreign::hint(bytes);
+            return Err(refuse(hint.unwrap_or_else(|| {
+                "is neither a GLB nor a glTF JSON document, nor OBJ, STL or PLY".to_owned()
+            })));
         }
         None => return Err(refuse("the JSON document is empty".to_owned())),
     }

@@ -15,6 +15,7 @@ mod container;
 mod described;
 #[cfg(feature = "draco")]
 mod draco;
+mod foreign;
 mod image;
 mod image_based;
 mod instance;

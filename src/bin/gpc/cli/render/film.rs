@@ -64,6 +64,11 @@ impl<'a> Film<'a> {
         self.pose.environment(&self.loaded.scene)
     }
 
+    /// The cameras of what is shown.
+    pub fn cameras(&self) -> &[SceneCamera] {
+        &self.cameras
+    }
+
     /// The views of what is shown.
     pub fn views(&self, aspect: f64) -> Result<Vec<View>, Usage> {
         view::choose_among(&self.image.camera, &self.cameras, self.bounds, aspect)

@@ -9,6 +9,7 @@ mod sequence;
 mod session;
 mod startup;
 mod template;
+mod unseen;
 mod view;
 
 #[cfg(feature = "view")]
@@ -90,6 +91,12 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
         for view in film.views(aspect)? {
             let camera = view.turned(step.turn);
             let mut shot = session.shoot(&camera, args.repeat)?;
+            // A part of an image may well be empty.
+            if args.region.is_none() {
+                let colors = &shot.rendered.colors;
+                let warning = unseen::warning(colors, &view, &film.pose, film.cameras(), aspect);
+                warnings.add(warning.as_slice());
+            }
             if let (Background::Environment, Some(environment)) =
                 (image.background, film.environment())
             {

@@ -100,7 +100,7 @@ fn orbit(args: &CameraArgs, (low, high): (DVec3, DVec3), aspect: f64) -> Result<
         .frame(low, high, aspect)
         .map_err(|error| Usage(error.to_string()))?;
     Ok(View {
-        label: "orbit".to_owned(),
+        label: View::ORBIT.to_owned(),
         camera,
         target: 0.5 * (low + high),
     })
@@ -161,6 +161,9 @@ fn widen(camera: &mut Camera, asked: Option<f64>, label: &str) -> Result<(), Usa
 }
 
 impl View {
+    /// The label of a view of the whole scene.
+    pub const ORBIT: &str = "orbit";
+
     /// The camera turned about the vertical axis through its target, counter-clockwise seen from above.
     pub fn turned(&self, degrees: f64) -> Camera {
         self.camera.turned(self.target, degrees)
