@@ -1,8 +1,8 @@
-//! How a picture is antialiased: what keys and panel change.
+//! Antialiasing of a picture, which keys and panel change.
 
 use gpc::render::{Detection, Footprint, Method, PixelRect, Settings, Shading};
 
-/// Most samples a pixel that are shown unless others are asked for.
+/// Most samples a pixel of a picture at rest, unless others are asked for.
 pub const DEFAULT_SAMPLES: u32 = 1024;
 
 /// The least threshold while something moves.
@@ -20,7 +20,7 @@ pub struct Look {
 }
 
 impl Look {
-    /// With these settings at rest, and a threshold where one is asked for.
+    /// Makes a look with these settings at rest, and a threshold of contrast if one is asked for.
     pub fn new(settings: Settings, contrast: Option<u8>) -> Self {
         Self { settings, contrast }
     }
