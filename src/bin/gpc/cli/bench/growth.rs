@@ -1,4 +1,4 @@
-//! What methods cost when one quantity of the scene or the image grows.
+//! Costs of methods while one quantity of the scene or the image grows.
 
 use super::results::{Curve, Point, Time};
 use super::subject::{Bench, settings};

@@ -152,7 +152,7 @@ impl ImageArgs {
         Ok(loaded)
     }
 
-    /// How to render for a format.
+    /// Settings for images of a format.
     pub fn settings(&self, format: Format) -> Settings {
         let [width, height] = self.size;
         let tonemaps = self.tonemap != Some(Tonemap::None);
