@@ -94,10 +94,14 @@ mod random;
 pub mod reference;
 #[cfg(feature = "gltf")]
 pub mod render;
+#[cfg(feature = "gltf")]
+#[doc(hidden)]
+pub mod testing;
 #[cfg(feature = "cli")]
 mod tools;
 
-pub use engine::{color, host, passes, sampling, vulkan};
+use engine::passes;
+pub use engine::{color, host, sampling, vulkan};
 #[cfg(feature = "gltf")]
 pub use render::{camera, scene};
 #[cfg(feature = "cli")]

@@ -139,21 +139,27 @@ impl Headless {
     /// # Errors
     /// [`VulkanError`] if there is no suitable device, listing what is missing.
     pub fn new(options: &HeadlessOptions) -> Result<Self, VulkanError> {
-        Self::within(options, |_| ())
+        // SAFETY: limits stay as they are.
+        unsafe { Self::within(options, |_| ()) }
     }
 
-    /// As [`Headless::new`], in a device whose limits `lower` has lowered: so one device stands for others.
+    /// As [`Headless::new`], in a device whose limits `lower` has lowered: so one device stands for others in tests.
     ///
     /// # Errors
     /// As [`Headless::new`].
-    pub fn within(
+    ///
+    /// # Safety
+    /// `lower` gives the device nothing that it has not.
+    #[doc(hidden)]
+    pub unsafe fn within(
         options: &HeadlessOptions,
         lower: impl FnOnce(&mut Limits),
     ) -> Result<Self, VulkanError> {
         let instance = Instance::new(InstanceOptions {
             validation: options.validation,
         })?;
-        let gpu = instance.create_gpu_within(options.device.as_deref(), lower)?;
+        // SAFETY: passed on to the caller.
+        let gpu = unsafe { instance.create_gpu_within(options.device.as_deref(), lower) }?;
         let renderer = Renderer::in_gpu(gpu.clone())?;
         // SAFETY: the queue family is the one the device was created with; handles made before a failure are
         // destroyed by `Drop`.

@@ -50,7 +50,8 @@ impl PreparedScene {
         self.gpu_scene.triangle_count()
     }
 
-    /// Records the copies of the scene, and of what casts shadows, to the device. Once, before the first frame that shows it.
+    /// Records the copies of the scene, and of what casts shadows, to the device, to be executed before the first frame that
+    /// shows it. Where the commands were discarded, it records the same again; after [`Self::discard_uploads`], nothing.
     ///
     /// # Safety
     /// - `commands` is being recorded for the device and queue family of the renderer that prepared the scene.
@@ -58,9 +59,7 @@ impl PreparedScene {
     pub unsafe fn record_upload(&self, commands: vk::CommandBuffer) {
         // SAFETY: passed on to the caller.
         let recorder = unsafe { Recorder::new(self.gpu_scene.memory().gpu(), commands, None) };
-        if !self.gpu_scene.is_uploaded() {
-            self.uploads.record(&recorder, &self.gpu_scene);
-        }
+        self.uploads.record(&recorder, &self.gpu_scene);
         if let Some(casters) = &self.casters {
             self.caster_uploads.record(&recorder, casters.scene());
         }
@@ -69,8 +68,9 @@ impl PreparedScene {
     /// Frees the memory that the upload needed.
     ///
     /// # Safety
-    /// The commands of [`Self::record_upload`] are done.
+    /// The commands of [`Self::record_upload`] were executed and are done.
     pub unsafe fn discard_uploads(&mut self) {
+        self.gpu_scene.set_uploaded();
         self.uploads = SceneUploads::default();
         self.caster_uploads = SceneUploads::default();
     }

@@ -16,7 +16,8 @@ pub fn within(lower: impl FnOnce(&mut Limits), test: impl FnOnce(&mut Headless))
         validation: true,
         ..HeadlessOptions::default()
     };
-    let mut gpu = Headless::within(&options, lower).unwrap();
+    // SAFETY: tests lower limits alone.
+    let mut gpu = unsafe { Headless::within(&options, lower) }.unwrap();
     test(&mut gpu);
     assert_eq!(gpu.validation_messages(), Vec::<String>::new());
 }

@@ -193,10 +193,10 @@ impl Frame {
     /// Where it lacked nothing, it is made with as much; [`Options::max_rounds`] stays what it is.
     ///
     /// # Errors
-    /// If memory runs out, or what was counted can't be read.
+    /// If memory runs out; as [`Self::outcome`] where the last recording is not done.
     ///
     /// # Safety
-    /// As [`super::Antialiaser::prepare`]; and the commands of the last recording are done.
+    /// As [`super::Antialiaser::prepare`].
     pub unsafe fn grow(&self) -> Result<Self, HostError> {
         let capacity = self.plan.capacity.more(self.shortfall()?);
         // SAFETY: passed on to the caller.
@@ -220,10 +220,10 @@ impl Frame {
     /// # Safety
     /// - `commands` is being recorded, outside of a render pass and of conditional rendering, for the device of the antialiaser and a queue family with
     ///   graphics and compute. What was bound and pushed before has to be bound and pushed again.
-    /// - The commands of this frame's last recording are done: its memory is used again.
+    /// - The commands of this frame's last recording are done, or will never be executed: its memory is used again.
     /// - Images are in the states named. Those of IDs and depth and, without [`Options::shade_all`], of colours hold what the
     ///   host has drawn of the same draws and positions.
-    /// - In the frame's first recording, alpha maps are in `SHADER_READ_ONLY_OPTIMAL`, and were written before on the same queue
+    /// - In the frame's recordings, up to the first one that is executed, alpha maps are in `SHADER_READ_ONLY_OPTIMAL`, and were written before on the same queue
     ///   or made visible to it.
     /// - Writes to the lent buffers by the device were recorded into the same queue before, or made visible to it.
     /// - The frame, the buffers, the images and what `shading` records outlive the execution of the commands.
@@ -299,11 +299,13 @@ impl Frame {
         self.patch.record(recorder, set.descriptor(), view, part);
         recorder.mark("patch");
         self.images.record_end(recorder);
+        self.lending.record_end(recorder);
         Ok(())
     }
 
     /// What the last recording counted: the superpixels that were detected, and each growth of them.
     fn counted(&self) -> Result<impl Iterator<Item = &[u32]>, HostError> {
+        self.lending.check_done()?;
         let runs = 1 + self.engine.growths();
         let words: &[u32] = self.counters.read(runs * Counter::COUNT)?;
         Ok(words.chunks_exact(Counter::COUNT))
@@ -320,10 +322,11 @@ impl Frame {
         Ok(shortfall)
     }
 
-    /// What the last recording did. Call it when its commands are done, at any time later: it waits for nothing.
+    /// What the last recording did, once its commands are done, until the next one. It waits for nothing.
     ///
     /// # Errors
-    /// If what was counted or timed can't be read, or the driver ran kernels in subgroups that they were not made for.
+    /// [`VulkanError::NotDone`](crate::vulkan::VulkanError::NotDone) if the last recording was not submitted or still runs, and
+    /// [`VulkanError::NotRecorded`](crate::vulkan::VulkanError::NotRecorded) if there was none; if what was counted or timed can't be read, or the driver ran kernels in subgroups that they were not made for.
     pub fn outcome(&self) -> Result<Outcome, HostError> {
         let shortfall = self.shortfall()?;
         let statistics = self.lending.statistics(

@@ -11,7 +11,7 @@ use crate::engine::sampler::Settings;
 use crate::engine::sampler::statistics::Shortfall;
 use crate::engine::sampler::{PassTime, RenderError, Statistics};
 use crate::passes::{OwnSet, Resources, SampleSet, VisibilityUniform, VisibleGeometry};
-use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings};
+use crate::vulkan::{Buffer, Completion, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;
 use std::sync::Arc;
 
@@ -22,6 +22,8 @@ pub(super) struct Lending {
     alpha: AlphaReading,
     adoption: Adoption,
     visibility: Buffer,
+    completion: Completion,
+    /// Whether a recording with the upload was executed.
     is_uploaded: bool,
     /// Triangles of the last recording.
     triangles: u32,
@@ -53,6 +55,7 @@ impl Lending {
             alpha,
             adoption,
             visibility,
+            completion: Completion::new(&shared.gpu)?,
             is_uploaded: false,
             triangles: 0,
         })
@@ -79,7 +82,7 @@ impl Lending {
         Ok(unsafe { resources.visibility_set(&shared.visibility, &self.visibility, &visible) }?)
     }
 
-    /// Begins a recording; `upload` records what is copied to the device before the first one alone.
+    /// Begins a recording; `upload` records what is copied to the device, in each until one was executed.
     pub fn record_begin(
         &mut self,
         recorder: &mut Recorder<'_>,
@@ -87,14 +90,24 @@ impl Lending {
         upload: impl FnOnce(&Recorder<'_>),
     ) {
         self.triangles = triangles;
+        self.is_uploaded |= self.completion.begin(recorder);
         if !self.is_uploaded {
             upload(recorder);
         }
         recorder.begin();
         if !self.is_uploaded {
             self.alpha.record(recorder, &self.content);
-            self.is_uploaded = true;
         }
+    }
+
+    /// Ends a recording.
+    pub fn record_end(&self, recorder: &Recorder<'_>) {
+        self.completion.end(recorder);
+    }
+
+    /// Refuses to read what the last recording wrote before its commands are done.
+    pub fn check_done(&self) -> Result<(), HostError> {
+        Ok(self.completion.check()?)
     }
 
     /// Records positions in clip space and triangles.
@@ -142,7 +155,7 @@ impl Lending {
     /// Figures of the last recording, which was over so many tiles.
     ///
     /// # Errors
-    /// If what was timed can't be read, or the driver ran kernels in subgroups that they were not made for.
+    /// If the commands are not done, what was timed can't be read, or the driver ran kernels in subgroups that they were not made for.
     pub fn statistics<'a>(
         &self,
         counted: impl Iterator<Item = &'a [u32]>,

@@ -245,10 +245,10 @@ impl List {
     /// is made with as much; [`Options::max_rounds`] stays what it is.
     ///
     /// # Errors
-    /// If memory runs out, or what was counted can't be read.
+    /// If memory runs out; as [`Self::outcome`] where the last recording is not done.
     ///
     /// # Safety
-    /// As [`super::Antialiaser::prepare_list`]; and the commands of the last recording are done.
+    /// As [`super::Antialiaser::prepare_list`].
     pub unsafe fn grow(&self) -> Result<Self, HostError> {
         let capacity = self.capacity.more(self.shortfall()?);
         let (shared, geometry) = (&self.shared, &self.lending.geometry);
@@ -265,8 +265,8 @@ impl List {
     /// # Safety
     /// - `commands` is being recorded, outside of a render pass and of conditional rendering, for the device of the antialiaser and a queue family with
     ///   compute. What was bound and pushed before has to be bound and pushed again.
-    /// - The commands of this list's last recording are done: its memory is used again.
-    /// - In the first recording, alpha maps are in `SHADER_READ_ONLY_OPTIMAL`, and were written before on the same queue or
+    /// - The commands of this list's last recording are done, or will never be executed: its memory is used again.
+    /// - In recordings up to the first one that is executed, alpha maps are in `SHADER_READ_ONLY_OPTIMAL`, and were written before on the same queue or
     ///   made visible to it.
     /// - Writes to the lent buffers by the device were recorded into the same queue before, or made visible to it; those to
     ///   the buffer of colours are done. What this records is visible to all commands after it on the queue.
@@ -332,14 +332,15 @@ impl List {
         unsafe {
             resources.record_keep_colors(recorder, self.list.colors, self.list.colors_offset, bytes)
         };
-        recorder.barrier();
+        lending.record_end(recorder);
         Ok(())
     }
 
-    /// What the last recording did. Call it when its commands are done, at any time later: it waits for nothing.
+    /// What the last recording did, once its commands are done, until the next one. It waits for nothing.
     ///
     /// # Errors
-    /// If what was counted or timed can't be read, or the driver ran kernels in subgroups that they were not made for.
+    /// [`VulkanError::NotDone`](crate::vulkan::VulkanError::NotDone) if the last recording was not submitted or still runs, and
+    /// [`VulkanError::NotRecorded`](crate::vulkan::VulkanError::NotRecorded) if there was none; if what was counted or timed can't be read, or the driver ran kernels in subgroups that they were not made for.
     pub fn outcome(&self) -> Result<ListOutcome, HostError> {
         let counters = self.counted()?;
         let shortfall = self.shortfall()?;
@@ -359,6 +360,7 @@ impl List {
     }
 
     fn counted(&self) -> Result<&[u32], HostError> {
+        self.lending.check_done()?;
         Ok(self.counters.read(Counter::COUNT)?)
     }
 

@@ -18,7 +18,7 @@ pub enum Method {
     Msaa,
 }
 
-/// What makes a pixel a superpixel: see [`crate::passes::DetectMode`].
+/// What makes a pixel a superpixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Detection {
     /// A contrasting colour beside it, of another triangle or of the same one; also that which a superpixel beside it

@@ -20,7 +20,7 @@ use crate::passes::{
 };
 use crate::render::passes::{FrameGeometry, FrameLook, GpuScene};
 use crate::scene::Moment;
-use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings};
+use crate::vulkan::{Buffer, Completion, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;
 use passes::{Passes, raster_samples};
 use recording::{Recording, Run};
@@ -47,6 +47,8 @@ pub struct Frame {
     counters: Buffer,
     timings: Timings,
     memory: Memory,
+    completion: Completion,
+    /// Whether a recording with the uploads was executed.
     uploaded: bool,
 }
 
@@ -152,6 +154,7 @@ impl Frame {
             timings: Timings::new(&gpu, marks)?,
             settings: settings.clone(),
             plan,
+            completion: Completion::new(&gpu)?,
             memory,
             uploaded: false,
         })
@@ -227,7 +230,7 @@ impl Frame {
     /// # Safety
     /// - `commands` is being recorded, outside of a render pass and of conditional rendering, for the device and queue family of the renderer.
     /// - The upload of the frame's scene was recorded before, and is executed before these commands.
-    /// - The commands of this frame's last recording are done: its memory is used again.
+    /// - The commands of this frame's last recording are done, or will never be executed: its memory is used again.
     /// - The frame, which keeps its scene alive, outlives the execution of the commands; so do the target's handles.
     /// - The target's handles are of the settings' output size, and as [`Target`] says.
     pub unsafe fn record(&mut self, camera: &Camera, commands: vk::CommandBuffer, target: &Target) {
@@ -255,16 +258,17 @@ impl Frame {
         let gpu = self.memory.gpu().clone();
         // SAFETY: passed on to the caller.
         let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
-        if !self.uploaded {
-            self.geometry.record_upload(&recorder, &self.scene);
-            self.look.record_upload(&recorder, &self.scene);
-            self.resources.record_upload(&recorder);
-            if let Some(shadows) = &self.shadows {
-                shadows.record_upload(&recorder);
-            }
-            self.uploaded = true;
-        }
+        let is_last = regions.end == self.plan.regions.len();
         if regions.start == 0 {
+            self.uploaded |= self.completion.begin(&recorder);
+            if !self.uploaded {
+                self.geometry.record_upload(&recorder, &self.scene);
+                self.look.record_upload(&recorder, &self.scene);
+                self.resources.record_upload(&recorder);
+                if let Some(shadows) = &self.shadows {
+                    shadows.record_upload(&recorder);
+                }
+            }
             if let Some(shadows) = &mut self.shadows {
                 shadows.record_begin(&recorder);
             }
@@ -292,5 +296,8 @@ impl Frame {
             target,
         };
         recording.record(&mut recorder, regions);
+        if is_last {
+            self.completion.end(&recorder);
+        }
     }
 }

@@ -9,6 +9,7 @@ use crate::render::{PassTime, RenderError, Statistics};
 impl Frame {
     /// What the last frame could not finish.
     pub(in crate::render) fn shortfall(&self) -> Result<Shortfall, RenderError> {
+        self.completion.check()?;
         let unlisted = self.plan.capacity.unlisted;
         let mut shortfall = Shortfall::default();
         let room = self.plan.sizes.survivor_capacity;
@@ -54,11 +55,11 @@ impl Frame {
             .map(|((tiles, run), counters)| (tiles, run, counters)))
     }
 
-    /// Figures of the last frame. Call it when its commands are done.
+    /// Figures of the last recording, once its commands are done, until the next one. It waits for nothing.
     ///
     /// # Errors
-    /// [`RenderError::Unfinished`] if records did not fit in memory, [`RenderError::Vulkan`] if
-    /// what was counted or timed can't be read.
+    /// [`RenderError::Unfinished`] if records did not fit in memory, [`RenderError::Vulkan`] if the last recording is not done
+    /// or what was counted or timed can't be read.
     pub fn statistics(&self) -> Result<Statistics, RenderError> {
         let mut statistics = Statistics {
             regions: self.plan.regions.len() as u64,

@@ -11,7 +11,7 @@ use gpc::render::{Detection, Shading};
 const SAMPLES: u32 = 16;
 
 /// The pixels of the picture, as locations.
-fn pixels() -> Vec<Location> {
+pub fn pixels() -> Vec<Location> {
     let rows = 0..SIZE[1] as i32;
     let pixels = rows.flat_map(|row| (0..SIZE[0] as i32).map(move |column| [column, row]));
     let location = |pixel| Location {
