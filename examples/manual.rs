@@ -6,11 +6,11 @@
 //!
 //! FOLDER then has `man1/` and `completions/`.
 
+#[path = "common/arguments.rs"]
+mod arguments;
 #[path = "../src/bin/gpc/cli/mod.rs"]
 #[allow(dead_code, unused_imports, reason = "only the options are wanted")]
 mod cli;
-#[path = "common/arguments.rs"]
-mod arguments;
 #[cfg(feature = "view")]
 #[path = "../src/bin/gpc/view/mod.rs"]
 #[allow(dead_code, unused_imports, reason = "only the options are wanted")]

@@ -393,7 +393,11 @@ fn an_image_of_nothing_says_which_camera_sees_something() {
     let away = ["--eye", "0,0,1000", "--target", "0,0,2000"];
     gpc(folder.path(), &[&render[..], &away].concat())
         .ok()
-        .says(&["nothing of the scene is in view", "--camera 'reader'", "--azimuth 35"]);
+        .says(&[
+            "nothing of the scene is in view",
+            "--camera 'reader'",
+            "--azimuth 35",
+        ]);
     let run = gpc(folder.path(), &render).ok();
     assert!(!run.stderr.contains("in view"), "{}", run.stderr);
 }
