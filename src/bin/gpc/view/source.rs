@@ -5,7 +5,7 @@ use super::navigate::Bounds;
 use super::photo::Photo;
 use super::progress::{Progress, Step};
 use glam::DVec3;
-use gpc::render::PreparedScene;
+use gpc::render::{PreparedScene, SceneRequest};
 use gpc::scene::{
     AnimationInfo, Edges, Environment, Geometry, Motion, Pose, PoseRequest, Scene, SceneCamera,
 };

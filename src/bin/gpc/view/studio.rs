@@ -18,8 +18,8 @@ use gpc::color::srgb;
 use gpc::compare;
 use gpc::output::{self, Aov, AovKind, DecodedImage, Format, Picture};
 use gpc::render::{
-    Headless, HeadlessOptions, Method, PixelRect, PreparedScene, RenderError, Rendered, Settings,
-    Shadows, Statistics,
+    Headless, HeadlessOptions, Method, PixelRect, PreparedScene, RenderError, Rendered,
+    SceneRequest, Settings, Shadows, Statistics,
 };
 use gpc::resample::Zoomed;
 use gpc::scene::{Pose, PoseRequest, Scene};

@@ -186,6 +186,21 @@ impl Results {
             stress: Vec::new(),
         }
     }
+
+    /// Where the figures of a CSV come from, as lines `# key: value` before it.
+    pub fn head(&self, [width, height]: [u32; 2]) -> String {
+        let Machine { cpu, threads, os } = &self.machine;
+        let lines = [
+            ("driver", self.driver.clone()),
+            ("machine", format!("{cpu}, {threads} threads, {os}")),
+            ("date", self.date.clone()),
+            ("size", format!("{width}x{height}")),
+            ("reference", self.reference_samples.to_string()),
+            ("repeat", self.repeat.to_string()),
+        ];
+        let lines = lines.map(|(key, value)| format!("# {key}: {value}\n"));
+        lines.concat()
+    }
 }
 
 impl VariantRow {
