@@ -98,14 +98,20 @@ pub unsafe extern "C" fn gpc_check_device(
         if physical_device == vk::PhysicalDevice::null() {
             return Err(Error::Null("physical_device"));
         }
-        let missing = Requirements::missing(&instance, physical_device);
+        // SAFETY: passed on to the caller.
+        let missing = unsafe { Requirements::missing(&instance, physical_device) };
         if !missing.is_empty() {
             return Err(Error::Missing(missing));
         }
         // SAFETY: passed on to the caller.
-        if let Some(answer) = unsafe { queue_family.as_mut() } {
-            *answer = Requirements::queue_family(&instance, physical_device)
-                .ok_or(Error::Missing(vec![crate::vulkan::Missing::Queue]))?;
+        let (answer, family) = unsafe {
+            (
+                queue_family.as_mut(),
+                Requirements::queue_family(&instance, physical_device),
+            )
+        };
+        if let Some(answer) = answer {
+            *answer = family.ok_or(Error::Missing(vec![crate::vulkan::Missing::Queue]))?;
         }
         Ok(())
     })

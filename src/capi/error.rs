@@ -33,6 +33,8 @@ pub enum GpcResult {
     Vulkan = 8,
     /// A defect of the library. What took part in the call is to be destroyed and not used otherwise.
     Panic = 9,
+    /// The commands of the last recording are not done, or there was none.
+    NotReady = 10,
 }
 
 /// Why a function did not do what was asked.
@@ -90,6 +92,7 @@ impl Error {
                     VulkanError::OutOfMemory { .. } => GpcResult::OutOfMemory,
                     VulkanError::DeviceLost => GpcResult::DeviceLost,
                     VulkanError::TooLarge { .. } => GpcResult::Value,
+                    VulkanError::NotRecorded | VulkanError::NotDone => GpcResult::NotReady,
                     _ => GpcResult::Vulkan,
                 },
                 HostError::Render(RenderError::Memory { .. }) => GpcResult::OutOfMemory,

@@ -4,7 +4,7 @@
 
 pub mod color;
 pub mod host;
-pub mod passes;
+pub(crate) mod passes;
 pub(crate) mod sampler;
 pub mod sampling;
 pub mod vulkan;

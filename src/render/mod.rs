@@ -7,13 +7,14 @@ pub mod camera;
 mod frame;
 mod headless;
 mod locations;
-pub mod passes;
+pub(crate) mod passes;
 mod plane;
 mod renderer;
 pub mod scene;
 mod shadows;
-mod uniform;
+mod viewpoint;
 
+pub use crate::engine::passes::Encoding;
 pub use crate::engine::sampler::{
     Coverage, Detection, Footprint, ImageState, Method, PassTime, PixelRect, Reference,
     RenderError, Settings, Shading, Shadows, Statistics, TriangleCounts,
@@ -21,4 +22,4 @@ pub use crate::engine::sampler::{
 pub use frame::{Frame, Target};
 pub use headless::{Headless, HeadlessOptions, PixelAttributes, Rendered};
 pub use locations::{LocationError, PointSample, Sampled};
-pub use renderer::{PreparedScene, Renderer};
+pub use renderer::{PreparedScene, Renderer, SceneRequest};

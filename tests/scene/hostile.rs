@@ -202,7 +202,8 @@ fn transforms_beyond_floating_point_leave_their_meshes_out() {
 fn what_is_not_gltf_is_named() {
     let message = |bytes: &[u8]| Scene::from_slice(bytes, "x", None).unwrap_err().to_string();
     assert_eq!(message(b""), "x: the file is empty");
-    assert!(message(b"\x89PNG").contains("neither a GLB nor a glTF JSON document"));
+    assert!(message(b"\x88PNG").contains("neither a GLB nor a glTF JSON document"));
+    assert!(message(b"\x89PNG").contains("gpc zoom"));
     assert!(message(b" \n").contains("the JSON document is empty"));
     assert!(message(b"version https://git-lfs.github.com/spec/v1\n").contains("git lfs pull"));
     assert!(message(br#"{"asset": {"version": "1.0"}}"#).contains("glTF 1.0 is not supported"));

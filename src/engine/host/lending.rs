@@ -7,11 +7,14 @@ use super::draw::PlacedDraws;
 use super::shading::{HostShading, ShadeSamples, VisibilitySamples};
 use super::uniform::scale;
 use super::{Geometry, HostError, Shared};
+use crate::engine::sampler::Sampler;
 use crate::engine::sampler::Settings;
 use crate::engine::sampler::statistics::Shortfall;
 use crate::engine::sampler::{PassTime, RenderError, Statistics};
-use crate::passes::{OwnSet, Resources, SampleSet, VisibilityUniform, VisibleGeometry};
-use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings};
+use crate::passes::{
+    OwnSet, ResourceSizes, Resources, SampleSet, VisibilityUniform, VisibleGeometry,
+};
+use crate::vulkan::{Buffer, Completion, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;
 use std::sync::Arc;
 
@@ -22,6 +25,8 @@ pub(super) struct Lending {
     alpha: AlphaReading,
     adoption: Adoption,
     visibility: Buffer,
+    completion: Completion,
+    /// Whether a recording with the upload was executed.
     is_uploaded: bool,
     /// Triangles of the last recording.
     triangles: u32,
@@ -53,6 +58,7 @@ impl Lending {
             alpha,
             adoption,
             visibility,
+            completion: Completion::new(&shared.gpu)?,
             is_uploaded: false,
             triangles: 0,
         })
@@ -79,7 +85,7 @@ impl Lending {
         Ok(unsafe { resources.visibility_set(&shared.visibility, &self.visibility, &visible) }?)
     }
 
-    /// Begins a recording; `upload` records what is copied to the device before the first one alone.
+    /// Begins a recording; `upload` records what is copied to the device, in each until one was executed.
     pub fn record_begin(
         &mut self,
         recorder: &mut Recorder<'_>,
@@ -87,14 +93,24 @@ impl Lending {
         upload: impl FnOnce(&Recorder<'_>),
     ) {
         self.triangles = triangles;
+        self.is_uploaded |= self.completion.begin(recorder);
         if !self.is_uploaded {
             upload(recorder);
         }
         recorder.begin();
         if !self.is_uploaded {
             self.alpha.record(recorder, &self.content);
-            self.is_uploaded = true;
         }
+    }
+
+    /// Ends a recording.
+    pub fn record_end(&self, recorder: &Recorder<'_>) {
+        self.completion.end(recorder);
+    }
+
+    /// Refuses to read what the last recording wrote before its commands are done.
+    pub fn check_done(&self) -> Result<(), HostError> {
+        Ok(self.completion.check()?)
     }
 
     /// Records positions in clip space and triangles.
@@ -139,32 +155,28 @@ impl Lending {
         }
     }
 
-    /// Figures of the last recording, which was over so many tiles.
+    /// Figures of the last recording, of a sampler in memory of these sizes.
     ///
     /// # Errors
-    /// If what was timed can't be read, or the driver ran kernels in subgroups that they were not made for.
-    pub fn statistics<'a>(
+    /// If the commands are not done, what was timed can't be read, or the driver ran kernels in subgroups that they were not made for.
+    pub fn statistics(
         &self,
-        counted: impl Iterator<Item = &'a [u32]>,
+        (sampler, sizes): (&Sampler, &ResourceSizes),
         (timings, memory): (&Timings, &Memory),
-        tiles: u32,
-        (shortfall, lanes): (&Shortfall, u32),
+        shortfall: &Shortfall,
     ) -> Result<Statistics, HostError> {
         let mut statistics = Statistics {
             regions: 1,
             memory_bytes: memory.used(),
-            tiles: u64::from(tiles),
             ..Statistics::default()
         };
         statistics.triangles.total = u64::from(self.triangles);
-        for counters in counted {
-            statistics.add(counters);
-        }
+        sampler.add_statistics([sizes.tiles()], &mut statistics)?;
         for (pass, ms) in timings.read()? {
             statistics.add_time(PassTime { pass, ms });
         }
         shortfall
-            .check_subgroups(lanes)
+            .check_subgroups(sizes.lanes)
             .map_err(RenderError::from)?;
         Ok(statistics)
     }

@@ -33,7 +33,7 @@ impl FrameLayout {
     ///
     /// # Errors
     /// [`VulkanError::Call`] if the driver refuses them.
-    pub fn new(gpu: &Arc<Gpu>) -> Result<Arc<Self>, VulkanError> {
+    pub(crate) fn new(gpu: &Arc<Gpu>) -> Result<Arc<Self>, VulkanError> {
         let stages = vk::ShaderStageFlags::VERTEX
             | vk::ShaderStageFlags::FRAGMENT
             | vk::ShaderStageFlags::COMPUTE;

@@ -82,7 +82,7 @@ pub use frame::FrameUniform;
 pub use groups::Groups;
 pub use grow::Grow;
 pub use layout::FrameLayout;
-pub use locations::{CellSizes, Cells, ListedLocation, LocationBuffers, LocationSizes};
+pub use locations::{CellSizes, Cells, ListedLocation, LocationSizes};
 pub use multisample::Multisample;
 pub(crate) use own_layout::{OwnSet, SetLayout};
 pub(crate) use patch::{Patch, Patched};

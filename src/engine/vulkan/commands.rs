@@ -26,8 +26,11 @@ pub struct Recorder<'a> {
 
 impl<'a> Recorder<'a> {
     /// # Safety
-    /// - `raw` was allocated from `gpu`'s device, for its queue family, and is in the recording state.
-    /// - What is recorded is submitted only while everything it refers to is alive.
+    /// - `raw` was allocated from `gpu`'s device, for its queue family, and is in the recording state, outside of a render pass.
+    /// - All that is recorded with it is of that device, made for such commands, and bound before it is used; passes are recorded
+    ///   with resources of the sizes that they were made for.
+    /// - What is recorded is submitted only while everything it refers to is alive; and until it is done, the CPU neither reads
+    ///   what it writes nor writes what it reads.
     #[must_use]
     pub unsafe fn new(
         gpu: &'a Gpu,
@@ -349,21 +352,25 @@ impl Timings {
         self.names.push(name);
     }
 
-    /// Milliseconds by name, in order of first appearance. Call it when the frame is done.
+    /// Milliseconds by name, in order of first appearance. It waits for nothing.
     ///
     /// # Errors
-    /// [`VulkanError::Call`] if results can't be had.
+    /// [`VulkanError::NotDone`] if the commands are not done, [`VulkanError::Call`] if results can't be had.
     pub fn read(&self) -> Result<Vec<(&'static str, f64)>, VulkanError> {
         let mut stamps = vec![0_u64; self.names.len()];
         if !stamps.is_empty() {
-            let flags = vk::QueryResultFlags::TYPE_64 | vk::QueryResultFlags::WAIT;
-            // SAFETY: the queries were written by a finished frame.
+            let flags = vk::QueryResultFlags::TYPE_64;
+            // SAFETY: the pool is the device's, with at least as many queries; without waiting, their results may be asked for at
+            // any time after they were reset once, as they were where the names were recorded.
             unsafe {
                 self.gpu
                     .device
                     .get_query_pool_results(self.pool, 0, &mut stamps, flags)
             }
-            .map_err(VulkanError::of("vkGetQueryPoolResults"))?;
+            .map_err(|result| match result {
+                vk::Result::NOT_READY => VulkanError::NotDone,
+                result => VulkanError::of("vkGetQueryPoolResults")(result),
+            })?;
         }
         let period = f64::from(self.gpu.limits().timestamp_period) * 1e-6;
         let mut times: Vec<(&'static str, f64)> = Vec::new();

@@ -58,6 +58,14 @@ pub enum VulkanError {
         /// Invocations of a subgroup that kernels were made for.
         lanes: u32,
     },
+    /// It was asked what a recording did before there was one.
+    #[error("nothing was recorded yet; record and submit it, and wait for its commands")]
+    NotRecorded,
+    /// It was asked what a recording did before the device had done it.
+    #[error(
+        "the commands of the last recording are not done: they were not submitted, or still run; wait for them, by a fence or a timeline semaphore"
+    )]
+    NotDone,
     /// The validation layer was asked for and is not installed.
     #[error(
         "the validation layer VK_LAYER_KHRONOS_validation is not installed (Debian: vulkan-validationlayers)"

@@ -82,7 +82,8 @@ impl Gpu {
     /// - All handles are alive, belong together and outlive the returned value and all made with it.
     /// - The device was created with the features of [`Requirements::features13`], and as [`Host::conditional_rendering`] says.
     pub unsafe fn new(host: Host) -> Result<Arc<Self>, VulkanError> {
-        let mut limits = limits(&host.instance, host.physical_device, host.queue_family);
+        // SAFETY: passed on to the caller.
+        let mut limits = unsafe { limits(&host.instance, host.physical_device, host.queue_family) };
         limits.conditional_rendering &= host.conditional_rendering;
         // SAFETY: passed on to the caller.
         unsafe { Self::owning(host, None, limits) }
@@ -103,7 +104,8 @@ impl Gpu {
             allocator,
             conditional_rendering: _,
         } = host;
-        let missing: Vec<Missing> = Requirements::missing(&instance, physical_device);
+        // SAFETY: passed on to the caller.
+        let missing: Vec<Missing> = unsafe { Requirements::missing(&instance, physical_device) };
         if !missing.is_empty() {
             return Err(VulkanError::Missing {
                 device: limits.device_name,
@@ -202,7 +204,10 @@ fn lanes_and_size(usual: u32, [least, most]: [u32; 2], can_require: bool) -> (u3
 }
 
 /// Those of a physical device.
-pub(super) fn limits(
+///
+/// # Safety
+/// The device belongs to the instance, which is alive.
+pub(super) unsafe fn limits(
     instance: &ash::Instance,
     device: vk::PhysicalDevice,
     queue_family: u32,
@@ -214,7 +219,7 @@ pub(super) fn limits(
         .push_next(&mut driver)
         .push_next(&mut subgroup)
         .push_next(&mut control);
-    // SAFETY: the device belongs to the instance.
+    // SAFETY: passed on to the caller.
     let families = unsafe {
         instance.get_physical_device_properties2(device, &mut properties);
         instance.get_physical_device_queue_family_properties(device)
@@ -264,7 +269,8 @@ pub(super) fn limits(
         sample_counts: basic.limits.framebuffer_color_sample_counts
             & basic.limits.framebuffer_depth_sample_counts
             & basic.limits.sampled_image_color_sample_counts,
-        conditional_rendering: Requirements::has_conditional_rendering(instance, device),
+        // SAFETY: passed on to the caller.
+        conditional_rendering: unsafe { Requirements::has_conditional_rendering(instance, device) },
     }
 }
 

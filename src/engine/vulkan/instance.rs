@@ -236,7 +236,8 @@ impl Instance {
                 .filter(|heap| heap.flags.contains(vk::MemoryHeapFlags::DEVICE_LOCAL))
                 .map(|heap| heap.size)
                 .sum(),
-            missing: Requirements::missing(&self.raw, device)
+            // SAFETY: the device belongs to this instance.
+            missing: unsafe { Requirements::missing(&self.raw, device) }
                 .iter()
                 .map(ToString::to_string)
                 .collect(),
@@ -249,14 +250,18 @@ impl Instance {
     /// # Errors
     /// [`VulkanError::NoDevice`] lists every device and what it lacks; [`VulkanError::Call`] if creation fails.
     pub fn create_gpu(self: &Arc<Self>, name: Option<&str>) -> Result<Arc<Gpu>, VulkanError> {
-        self.create_gpu_within(name, |_| ())
+        // SAFETY: limits stay as they are.
+        unsafe { self.create_gpu_within(name, |_| ()) }
     }
 
     /// As [`Instance::create_gpu`], with limits that `lower` has lowered: so one device stands for others.
     ///
     /// # Errors
     /// As [`Instance::create_gpu`].
-    pub fn create_gpu_within(
+    ///
+    /// # Safety
+    /// `lower` gives the device nothing that it has not.
+    pub(crate) unsafe fn create_gpu_within(
         self: &Arc<Self>,
         name: Option<&str>,
         lower: impl FnOnce(&mut Limits),
@@ -292,7 +297,8 @@ impl Instance {
             });
         };
         let queue_family =
-            Requirements::queue_family(&self.raw, physical_device).ok_or_else(|| {
+            // SAFETY: the device belongs to this instance.
+            unsafe { Requirements::queue_family(&self.raw, physical_device) }.ok_or_else(|| {
                 VulkanError::Missing {
                     device: found.join(", "),
                     missing: vec![Missing::Queue],
@@ -302,7 +308,8 @@ impl Instance {
         let queues = [vk::DeviceQueueCreateInfo::default()
             .queue_family_index(queue_family)
             .queue_priorities(&priorities)];
-        let mut limits = limits(&self.raw, physical_device, queue_family);
+        // SAFETY: the device belongs to this instance.
+        let mut limits = unsafe { limits(&self.raw, physical_device, queue_family) };
         lower(&mut limits);
         let mut features = Requirements::features13();
         let mut conditional = vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default()

@@ -19,6 +19,9 @@ pub enum MemoryUse {
 }
 
 /// Counts the bytes of what is made through it, until that is dropped, and refuses to pass a bound.
+///
+/// Sizes, formats and usage are trusted to be such as the device takes, and buffers and images to be dropped, read and written
+/// by the CPU while no commands use them alone. So none is made outside of the crate; see `crate::testing`.
 #[derive(Clone)]
 pub struct Memory {
     gpu: Arc<Gpu>,
@@ -52,7 +55,7 @@ impl Drop for Block {
 impl Memory {
     /// An account of at most `limit` bytes.
     #[must_use]
-    pub fn new(gpu: Arc<Gpu>, limit: Option<u64>) -> Self {
+    pub(crate) fn new(gpu: Arc<Gpu>, limit: Option<u64>) -> Self {
         Self {
             gpu,
             account: Arc::new(Account {

@@ -5,17 +5,17 @@ use ash::vk;
 use std::sync::Arc;
 
 /// A shader module.
-pub struct Shader {
+struct Shader {
     gpu: Arc<Gpu>,
-    pub(crate) raw: vk::ShaderModule,
+    raw: vk::ShaderModule,
 }
 
 impl Shader {
-    /// From SPIR-V bytes.
+    /// From SPIR-V bytes of the crate's own.
     ///
     /// # Errors
     /// [`VulkanError::Call`] if the bytes are no SPIR-V or the driver refuses them.
-    pub fn new(gpu: &Arc<Gpu>, spirv: &[u8]) -> Result<Self, VulkanError> {
+    fn new(gpu: &Arc<Gpu>, spirv: &[u8]) -> Result<Self, VulkanError> {
         let words = ash::util::read_spv(&mut std::io::Cursor::new(spirv)).map_err(|_| {
             VulkanError::Call {
                 call: "reading SPIR-V",
@@ -128,11 +128,11 @@ impl Drop for Pipeline {
     }
 }
 
-/// A compute pipeline; `subgroup` fixes the size of its subgroups where the kernel counts on it.
+/// A compute pipeline of a shader of the crate's own; `subgroup` fixes the size of its subgroups where the kernel counts on it.
 ///
 /// # Errors
 /// [`VulkanError::Call`] if the driver refuses it.
-pub fn compute_pipeline(
+pub(crate) fn compute_pipeline(
     gpu: &Arc<Gpu>,
     layout: vk::PipelineLayout,
     spirv: &[u8],

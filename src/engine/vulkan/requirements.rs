@@ -119,9 +119,15 @@ impl Requirements {
     /// device with both enabled skips the rounds of a frame that have nothing to do; see [`Host::conditional_rendering`].
     ///
     /// [`Host::conditional_rendering`]: super::Host::conditional_rendering
+    ///
+    /// # Safety
+    /// The device belongs to the instance, which is alive and was created for [`Self::API_VERSION`] or later.
     #[must_use]
-    pub fn has_conditional_rendering(instance: &ash::Instance, device: vk::PhysicalDevice) -> bool {
-        // SAFETY: `device` belongs to `instance`.
+    pub unsafe fn has_conditional_rendering(
+        instance: &ash::Instance,
+        device: vk::PhysicalDevice,
+    ) -> bool {
+        // SAFETY: passed on to the caller.
         let extensions = unsafe { instance.enumerate_device_extension_properties(device) };
         let name = ash::ext::conditional_rendering::NAME;
         if !extensions
@@ -139,12 +145,15 @@ impl Requirements {
     }
 
     /// Everything that the physical device lacks; empty if it will do.
+    ///
+    /// # Safety
+    /// The device belongs to the instance, which is alive and was created for [`Self::API_VERSION`] or later.
     #[must_use]
-    pub fn missing(instance: &ash::Instance, device: vk::PhysicalDevice) -> Vec<Missing> {
+    pub unsafe fn missing(instance: &ash::Instance, device: vk::PhysicalDevice) -> Vec<Missing> {
         let mut missing = Vec::new();
         let mut subgroup = vk::PhysicalDeviceSubgroupProperties::default();
         let mut size_control = vk::PhysicalDeviceSubgroupSizeControlProperties::default();
-        // SAFETY: `device` belongs to `instance`; a 1.0 query that any device answers.
+        // SAFETY: passed on to the caller; a 1.0 query that any device answers.
         let properties = unsafe { instance.get_physical_device_properties(device) };
         let version = properties.api_version;
         if version < Self::API_VERSION {
@@ -178,7 +187,8 @@ impl Requirements {
                 missing.push(Missing::Feature(name));
             }
         }
-        if Self::queue_family(instance, device).is_none() {
+        // SAFETY: passed on to the caller.
+        if unsafe { Self::queue_family(instance, device) }.is_none() {
             missing.push(Missing::Queue);
         }
         for (flag, name) in [
@@ -230,9 +240,15 @@ impl Requirements {
     }
 
     /// The first queue family with graphics and compute.
+    ///
+    /// # Safety
+    /// The device belongs to the instance, which is alive.
     #[must_use]
-    pub fn queue_family(instance: &ash::Instance, device: vk::PhysicalDevice) -> Option<u32> {
-        // SAFETY: `device` belongs to `instance`.
+    pub unsafe fn queue_family(
+        instance: &ash::Instance,
+        device: vk::PhysicalDevice,
+    ) -> Option<u32> {
+        // SAFETY: passed on to the caller.
         let families = unsafe { instance.get_physical_device_queue_family_properties(device) };
         let both = vk::QueueFlags::GRAPHICS | vk::QueueFlags::COMPUTE;
         families

@@ -33,6 +33,11 @@ struct Cli {
 }
 
 const AFTER_HELP: &str = "\
+Examples:
+  gpc render scene.glb -o image.png --background '#a8c0d8'     an image of 1280 x 720 pixels
+  gpc render scene.glb -o '{frame}.png' --turntable 36         36 images from all around
+  gpc compare expected.png image.png --max-rmse 0.001          fails if they differ by more
+
 Exit codes:
   0  done
   1  scene, render or file error
@@ -88,6 +93,12 @@ impl Command {
         };
         report.quiet
     }
+}
+
+/// The command's options, for manual pages and completions.
+#[allow(dead_code, reason = "the example `manual` uses it")]
+pub fn command() -> clap::Command {
+    <Cli as clap::CommandFactory>::command()
 }
 
 /// Runs the command that the process was started with.

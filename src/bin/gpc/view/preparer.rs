@@ -2,8 +2,7 @@
 //! thread waits for nothing.
 
 use super::engine::Engine;
-use gpc::passes::Encoding;
-use gpc::render::{Frame, PreparedScene, RenderError, Settings};
+use gpc::render::{Encoding, Frame, PreparedScene, RenderError, Settings};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Weak};
 use std::thread::JoinHandle;

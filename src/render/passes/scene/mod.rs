@@ -57,7 +57,7 @@ pub struct GpuScene {
     _samplers: Vec<DeviceSampler>,
     _pool: Option<DescriptorPool>,
     memory: Memory,
-    /// Whether the copies that fill it were recorded.
+    /// Whether the copies that fill it were executed.
     uploaded: AtomicBool,
 }
 
@@ -83,7 +83,6 @@ impl SceneUploads {
             scene.environment.record_upload(recorder, upload);
         }
         recorder.barrier();
-        scene.uploaded.store(true, Ordering::Relaxed);
     }
 }
 
@@ -160,6 +159,11 @@ impl GpuScene {
             environment: Some(environment_upload),
         };
         Ok((scene, uploads))
+    }
+
+    /// The copies that fill it were executed.
+    pub(crate) fn set_uploaded(&self) {
+        self.uploaded.store(true, Ordering::Relaxed);
     }
 
     pub(crate) fn is_uploaded(&self) -> bool {

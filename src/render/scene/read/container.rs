@@ -1,7 +1,8 @@
-//! From a file's bytes to its JSON document and binary chunk (glTF 2.0, section 4).
+//! JSON document and binary chunk in a file's bytes (glTF 2.0, section 4).
 
 use serde_json::Value;
 
+use super::foreign;
 use crate::scene::SceneError;
 
 /// The two halves of a glTF file.
@@ -50,9 +51,10 @@ pub fn open<'a>(bytes: &'a [u8], file: &str) -> Result<Container<'a>, SceneError
     match json.iter().find(|byte| !byte.is_ascii_whitespace()) {
         Some(b'{') => {}
         Some(_) => {
-            return Err(refuse(
-                "is neither a GLB nor a glTF JSON document, nor OBJ, STL or PLY".to_owned(),
-            ));
+            let hint = foreign::hint(bytes);
+            return Err(refuse(hint.unwrap_or_else(|| {
+                "is neither a GLB nor a glTF JSON document, nor OBJ, STL or PLY".to_owned()
+            })));
         }
         None => return Err(refuse("the JSON document is empty".to_owned())),
     }
@@ -112,5 +114,5 @@ fn split_glb<'a>(bytes: &'a [u8], file: &str) -> Result<(&'a [u8], Option<&'a [u
     Ok((json, binary))
 }
 
-/// What to do about glTF 1.0.
+/// Advice for files of glTF 1.0.
 pub const CONVERT_OLD: &str = "convert it with `gltf-pipeline -i OLD -o NEW.glb`";

@@ -9,11 +9,12 @@ mod sequence;
 mod session;
 mod startup;
 mod template;
+mod unseen;
 mod view;
 
 #[cfg(feature = "view")]
 pub use args::SamplingArgs;
-pub use args::{Antialiasing, CameraArgs, RenderArgs, Tonemap};
+pub use args::{CameraArgs, RenderArgs, Tonemap};
 pub use image::ImageArgs;
 #[cfg(feature = "view")]
 pub use image::{AppearanceArgs, DeviceArgs};
@@ -36,7 +37,7 @@ use startup::Clock;
 use std::process::ExitCode;
 use template::{Fields, Template};
 
-/// What `--json` prints for several images.
+/// Output of `--json` for several images.
 #[derive(Serialize)]
 struct Sequence {
     images: Vec<Report>,
@@ -79,7 +80,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     let mut video = args
         .format
         .map(|stream| {
-            let (format, size) = (stream.format(), settings.output_size());
+            let (format, size) = (stream, settings.output_size());
             VideoWriter::new(std::io::stdout(), format, size, args.sequence.fps())
         })
         .transpose()?;
@@ -90,6 +91,12 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
         for view in film.views(aspect)? {
             let camera = view.turned(step.turn);
             let mut shot = session.shoot(&camera, args.repeat)?;
+            // A part of an image may well be empty.
+            if args.region.is_none() {
+                let colors = &shot.rendered.colors;
+                let warning = unseen::warning(colors, &view, &film.pose, film.cameras(), aspect);
+                warnings.add(warning.as_slice());
+            }
             if let (Background::Environment, Some(environment)) =
                 (image.background, film.environment())
             {
@@ -134,7 +141,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// How to render, and in what format, or why that can't be.
+/// Settings and format of the images; an error if these contradict each other.
 fn settings(args: &RenderArgs) -> anyhow::Result<(Format, Settings)> {
     args.report.check(&args.output)?;
     let format = args.image.format(&args.output)?;

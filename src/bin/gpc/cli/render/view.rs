@@ -1,4 +1,4 @@
-//! Which cameras a pose is seen through.
+//! Cameras through which a pose is seen.
 
 use super::args::CameraArgs;
 use super::template::file_name_part;
@@ -10,7 +10,7 @@ use std::collections::HashMap;
 
 /// A camera to render with.
 pub struct View {
-    /// What stands for `{camera}`.
+    /// Text that replaces `{camera}` in the output's name.
     pub label: String,
     pub camera: Camera,
     /// A point on the camera's axis: where it looks, or else abreast of the scene's centre.
@@ -28,7 +28,7 @@ pub fn choose(args: &CameraArgs, pose: &Pose, aspect: f64) -> Result<Vec<View>, 
     choose_among(args, &pose.cameras, bounds(pose), aspect)
 }
 
-/// As [`choose`], among these cameras, for what lies within a box.
+/// Chooses as [`choose`] does, among these cameras, for contents within a box.
 pub fn choose_among(
     args: &CameraArgs,
     cameras: &[SceneCamera],
@@ -100,7 +100,7 @@ fn orbit(args: &CameraArgs, (low, high): (DVec3, DVec3), aspect: f64) -> Result<
         .frame(low, high, aspect)
         .map_err(|error| Usage(error.to_string()))?;
     Ok(View {
-        label: "orbit".to_owned(),
+        label: View::ORBIT.to_owned(),
         camera,
         target: 0.5 * (low + high),
     })
@@ -161,6 +161,9 @@ fn widen(camera: &mut Camera, asked: Option<f64>, label: &str) -> Result<(), Usa
 }
 
 impl View {
+    /// The label of a view of the whole scene.
+    pub const ORBIT: &str = "orbit";
+
     /// The camera turned about the vertical axis through its target, counter-clockwise seen from above.
     pub fn turned(&self, degrees: f64) -> Camera {
         self.camera.turned(self.target, degrees)
