@@ -1,6 +1,7 @@
 //! A device in use: its functions, limits and memory.
 
 use super::instance::Instance;
+use super::trace::Trace;
 use super::{Missing, Requirements, VulkanError};
 use ash::vk;
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
@@ -64,6 +65,9 @@ pub struct Gpu {
     pub(crate) device: ash::Device,
     /// Functions that skip commands, where the device has them.
     pub(super) conditional_rendering: Option<ash::ext::conditional_rendering::Device>,
+    /// Functions that label commands, in an instance of our own that has them.
+    pub(super) debug_labels: Option<ash::ext::debug_utils::Device>,
+    pub(super) trace: Trace,
     pub(crate) queue_family: u32,
     /// `None` only while dropping.
     allocator: Option<SharedAllocator>,
@@ -129,9 +133,14 @@ impl Gpu {
                 })?,
             )),
         };
+        let has_labels = owner.as_ref().is_some_and(|owner| owner.has_debug_utils());
+        let debug_labels =
+            has_labels.then(|| ash::ext::debug_utils::Device::new(&instance, &device));
         let functions = || ash::ext::conditional_rendering::Device::new(&instance, &device);
         Ok(Arc::new(Self {
             conditional_rendering: limits.conditional_rendering.then(functions),
+            debug_labels,
+            trace: Trace::default(),
             device,
             queue_family,
             allocator: Some(allocator),
