@@ -12,7 +12,7 @@ mod plane;
 mod renderer;
 pub mod scene;
 mod shadows;
-mod uniform;
+mod viewpoint;
 
 pub use crate::engine::passes::Encoding;
 pub use crate::engine::sampler::{

@@ -1,4 +1,4 @@
-//! What only the command needs: image files, comparisons of images, zooms of photographs, benchmarks.
+//! Tools of the command: image files, comparisons of images, resampling of photographs, benchmarks.
 
 pub mod bench;
 pub mod compare;

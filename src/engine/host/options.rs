@@ -63,11 +63,6 @@ impl Options {
         }
     }
 
-    /// Rounds that are recorded, of the most that may be needed.
-    pub(super) fn rounds(&self, most: u32) -> u32 {
-        self.max_rounds.map_or(most, |bound| bound.min(most))
-    }
-
     pub(super) fn settings(&self) -> Settings {
         Settings {
             size: self.size,

@@ -40,7 +40,7 @@ pub struct PanoramaArgs {
     pub report: ReportArgs,
 }
 
-/// What `--json` says of a panorama beside what is said of every image.
+/// Fields of `--json` for a panorama, besides those of every image.
 #[derive(Serialize)]
 struct Around {
     /// Pinholes that were sampled.

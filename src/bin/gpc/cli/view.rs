@@ -79,7 +79,7 @@ pub fn run(args: ViewArgs) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Where the first scene is seen from at first.
+/// Viewpoint from which the first scene is seen at first.
 fn start(args: &CameraArgs) -> Result<Start, Usage> {
     let default = Orbit::default();
     let fov = args.fov.unwrap_or(default.fov);
@@ -115,7 +115,7 @@ fn start(args: &CameraArgs) -> Result<Start, Usage> {
     }
 }
 
-/// How pictures are antialiased, and how large the window is.
+/// Antialiasing of the pictures, and size of the window.
 fn look(args: &ViewArgs, background: Background) -> anyhow::Result<Look> {
     let background = match background {
         Background::Transparent | Background::Environment => None,

@@ -146,7 +146,7 @@ impl Arguments {
         }
     }
 
-    /// What of the scene is seen, and where from.
+    /// Adds the options that select the visible part of the scene and the standpoint.
     fn view(&mut self, shot: &Shot<'_>) {
         let request = &shot.source.request;
         if let Some(scene) = request.scene {
@@ -206,6 +206,7 @@ fn quote(word: &str) -> String {
 mod tests {
     use super::super::navigate::Turntable;
     use super::*;
+    use gpc::render::{Detection, Shading};
 
     fn source(path: &str) -> Source {
         Source::new(path.into())

@@ -1,8 +1,8 @@
-//! How a picture is antialiased: what keys and panel change.
+//! Antialiasing of a picture, which keys and panel change.
 
 use gpc::render::{Detection, Footprint, Method, PixelRect, Settings, Shading};
 
-/// Most samples a pixel that are shown unless others are asked for.
+/// Most samples a pixel of a picture at rest, unless others are asked for.
 pub const DEFAULT_SAMPLES: u32 = 1024;
 
 /// The least threshold while something moves.

@@ -1,5 +1,5 @@
-//! Attributes of slivers, of triangles with vertices behind the eye and of those smaller than pixels stay within the
-//! range of their vertices.
+//! Stress check: interpolated attributes stay within the range of a triangle's vertices, for slivers, for triangles
+//! with vertices behind the eye, and for those smaller than pixels.
 
 use super::meshes::{Depths, delaunay, fan, ground, slivers};
 use super::stage::{Stage, camera, everywhere, flat};
@@ -10,7 +10,7 @@ use crate::scene::AlphaMode;
 
 /// Range of the vertices' colours.
 const RANGE: [f32; 2] = [0.25, 0.75];
-/// By how much a colour may leave it: rounding of 24 bits, over a sum of samples.
+/// Largest excess of a colour: rounding of 24 bits, over a sum of samples.
 const ROUNDING: f64 = 1e-5;
 
 pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Finding>, RenderError> {

@@ -4,6 +4,7 @@ mod casters;
 mod edges;
 mod facing;
 mod parts;
+mod probes;
 mod rays;
 mod shading;
 mod superpixels;

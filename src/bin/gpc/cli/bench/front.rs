@@ -52,8 +52,8 @@ pub fn time_to_error(scene: &SceneResults, samples: u32) -> Option<Option<f64>> 
     Some(reached(&points, error(goal)).map(|ms| ms / time(goal)))
 }
 
-/// When a front of times and falling errors reaches an error: at its first point, or along straight lines between points
-/// on logarithmic axes, but never beyond its last.
+/// Time at which a front of times and falling errors reaches an error: at its first point, or along straight lines
+/// between points on logarithmic axes, but never beyond its last.
 fn reached(front: &[[f64; 2]], goal: f64) -> Option<f64> {
     let after = front.iter().position(|[_, error]| *error <= goal)?;
     let [late, low] = *front.get(after)?;

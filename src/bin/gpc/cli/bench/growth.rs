@@ -1,10 +1,41 @@
-//! What methods cost when one quantity of the scene or the image grows.
+//! Costs of methods while one quantity of the scene or the image grows.
 
 use super::results::{Curve, Point, Time};
 use super::subject::{Bench, settings};
 use crate::cli::print;
 use gpc::bench::{self, Contender, Growth, Step};
 use gpc::render::{Method, RenderError, SceneRequest, Settings};
+use std::fmt::Write;
+
+const COLUMNS: &str = "quantity,value,width,height,triangles,superpixel_fraction,method,samples,gpu_ms_median,wall_ms_median";
+
+/// All times of all curves (RFC 4180, but with bare line feeds).
+pub fn csv(curves: &[Curve]) -> String {
+    let mut text = format!("{COLUMNS}\n");
+    for curve in curves {
+        for point in &curve.points {
+            let superpixels = point.superpixel_fraction.map(|share| share.to_string());
+            for time in &point.times {
+                // Writing to a string can't fail.
+                let _ = writeln!(
+                    text,
+                    "\"{}\",{},{},{},{},{},{},{},{},{}",
+                    curve.quantity.replace('"', "\"\""),
+                    point.value,
+                    point.size[0],
+                    point.size[1],
+                    point.triangles,
+                    superpixels.as_deref().unwrap_or_default(),
+                    time.method,
+                    time.samples,
+                    time.gpu_ms.median,
+                    time.wall_ms.median,
+                );
+            }
+        }
+    }
+    text
+}
 
 /// The methods that are compared, and their samples a pixel.
 const METHODS: [(Method, u32); 3] = [

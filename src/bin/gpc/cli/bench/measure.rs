@@ -1,4 +1,4 @@
-//! One scene, measured: what every method costs, and how far it is from the truth.
+//! Measurement of one scene: the cost of every method, and its distance from the truth.
 
 use super::gallery::{Gallery, Shown};
 use super::results::{Row, SceneResults};
@@ -117,7 +117,7 @@ impl Bench<'_> {
         counts.max_by_key(|samples| (*samples == Settings::DEFAULT_SAMPLES, *samples))
     }
 
-    /// What geometry alone is measured against, if that is wanted. One sample a pixel is the same image either way.
+    /// Yardstick of geometry alone, if it is wanted. One sample a pixel is the same image with either footprint.
     fn geometry_yardstick(
         &mut self,
         subject: &Subject,
@@ -134,7 +134,7 @@ impl Bench<'_> {
         Ok(Some(Yardstick::new(&reference, one_sample)?))
     }
 
-    /// How exact a method is by geometry alone.
+    /// Accuracy of a method by geometry alone.
     fn geometry(
         &mut self,
         subject: &Subject,
@@ -174,7 +174,7 @@ impl Bench<'_> {
     }
 }
 
-/// The same with textures read for a whole pixel, whatever the number of samples.
+/// Settings with textures read for a whole pixel, whatever the number of samples.
 fn for_whole_pixels(settings: Settings) -> Settings {
     Settings {
         footprint: Footprint::Pixel,
@@ -182,7 +182,7 @@ fn for_whole_pixels(settings: Settings) -> Settings {
     }
 }
 
-/// What is left out: a line for each method and reason.
+/// Notes of what is left out: a line for each method and reason.
 #[derive(Default)]
 struct Notes(Vec<(Method, String, Vec<u32>)>);
 

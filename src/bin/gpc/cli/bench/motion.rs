@@ -1,4 +1,4 @@
-//! How exact and how steady methods are in motion.
+//! Accuracy and steadiness of methods in motion.
 
 use super::results::{MotionRow, SceneMotion};
 use super::subject::{self, Bench, Subject, Wanted};
@@ -29,9 +29,9 @@ const CELLS: [(Method, u32); 6] = [
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MotionRatio {
     pub samples: u32,
-    /// Of the mean of each frame's RMSE.
+    /// Ratio of the mean of each frame's RMSE.
     pub rmse: Ratio,
-    /// Of the flicker.
+    /// Ratio of the flicker.
     pub flicker: Ratio,
 }
 
@@ -95,7 +95,7 @@ impl Bench<'_> {
         Ok(truths)
     }
 
-    /// All frames with the same settings.
+    /// Measures all frames with the same settings.
     fn sequence(
         &mut self,
         subject: &Subject,
@@ -180,7 +180,7 @@ pub fn print_summary(summary: &[MotionRatio]) -> anyhow::Result<()> {
 
 const COLUMNS: &str = "scene,textured,width,height,motion,method,samples,rmse,flicker";
 
-/// All rows of all scenes (RFC 4180, but with bare line feeds).
+/// Table of all rows of all scenes as CSV (RFC 4180, but with bare line feeds).
 pub fn csv(scenes: &[SceneMotion]) -> String {
     let mut text = format!("{COLUMNS}\n");
     for scene in scenes {

@@ -1,4 +1,4 @@
-//! What `results.json` holds.
+//! Contents of `results.json`.
 
 use super::BenchArgs;
 use super::machine::{self, Machine};
@@ -10,11 +10,11 @@ use gpc::render::Method;
 use gpc::vulkan::Limits;
 use serde::Serialize;
 
-/// Everything that one run measured.
+/// Results of one run.
 #[derive(Serialize)]
 pub struct Results {
     pub version: &'static str,
-    /// When the run began: `YYYY-MM-DD`, universal time.
+    /// Date on which the run began, universal time: `YYYY-MM-DD`.
     pub date: String,
     pub machine: Machine,
     pub device: String,
@@ -35,11 +35,11 @@ pub struct Results {
     pub variants: Vec<SceneVariants>,
     /// Time against the size of things.
     pub growth: Vec<Curve>,
-    /// What the stress suite found.
+    /// Findings of the stress suite.
     pub stress: Vec<Stress>,
 }
 
-/// How exact and steady methods are in motion on one scene.
+/// Accuracy and steadiness of methods in motion, of one scene.
 #[derive(Serialize)]
 pub struct SceneMotion {
     pub name: String,
@@ -47,11 +47,11 @@ pub struct SceneMotion {
     pub textured: bool,
     pub size: [u32; 2],
     pub rows: Vec<MotionRow>,
-    /// What was left out, and why.
+    /// Notes of what was left out, and why.
     pub notes: Vec<String>,
 }
 
-/// One method in one motion.
+/// Measurements of one method in one motion.
 #[derive(Serialize)]
 pub struct MotionRow {
     pub motion: Motion,
@@ -61,18 +61,18 @@ pub struct MotionRow {
     pub steadiness: Steadiness,
 }
 
-/// What the variants of the camera cost on one scene.
+/// Costs of the camera's variants, of one scene.
 #[derive(Serialize)]
 pub struct SceneVariants {
     pub name: String,
     pub triangles: u64,
     /// The raster pass first.
     pub rows: Vec<VariantRow>,
-    /// What was left out, and why.
+    /// Notes of what was left out, and why.
     pub notes: Vec<String>,
 }
 
-/// What a variant costs, in all, a sample and beside the raster pass.
+/// Cost of a variant: in all, per sample and relative to the raster pass.
 #[derive(Serialize)]
 pub struct VariantRow {
     #[serde(flatten)]
@@ -95,16 +95,16 @@ pub struct Stress {
     pub findings: Vec<Finding>,
 }
 
-/// What it costs that one quantity grows.
+/// Costs while one quantity grows.
 #[derive(Serialize)]
 pub struct Curve {
     pub quantity: String,
     pub points: Vec<Point>,
-    /// What was left out, and why.
+    /// Notes of what was left out, and why.
     pub notes: Vec<String>,
 }
 
-/// One scene of a curve.
+/// Measurements of one scene of a curve.
 #[derive(Serialize)]
 pub struct Point {
     /// The quantity that grows.
@@ -116,7 +116,7 @@ pub struct Point {
     pub times: Vec<Time>,
 }
 
-/// What a method took.
+/// Time of a method.
 #[derive(Serialize)]
 pub struct Time {
     pub method: Method,
@@ -127,7 +127,7 @@ pub struct Time {
     pub wall_ms: Spread,
 }
 
-/// What was measured of one scene.
+/// Measurements of one scene.
 #[derive(Serialize)]
 pub struct SceneResults {
     pub name: String,
@@ -137,12 +137,12 @@ pub struct SceneResults {
     pub textured: bool,
     /// Seconds that the truth took to render; `None` if it came from the cache.
     pub reference_seconds: Option<f64>,
-    /// What was left out, and why.
+    /// Notes of what was left out, and why.
     pub notes: Vec<String>,
     pub rows: Vec<Row>,
 }
 
-/// One method at one number of samples.
+/// Measurements of one method at one number of samples.
 #[derive(Serialize)]
 pub struct Row {
     pub method: Method,
@@ -157,11 +157,11 @@ pub struct Row {
     pub candidates: u64,
     /// Against the truth.
     pub accuracy: Accuracy,
-    /// With textures read for a whole pixel, against a reference that reads them so, where that was wanted.
+    /// Accuracy with textures read for a whole pixel, against a reference that also reads them so; only if wanted.
     pub geometry: Option<Accuracy>,
     /// The error that is left by cause, where superpixels were measured.
     pub left: Option<Split>,
-    /// What of it is the fault of edges, of texture and of light, for superpixels.
+    /// Split of the remaining error by edges, texture and light, for superpixels.
     pub left_within: Option<Within>,
 }
 
@@ -185,6 +185,21 @@ impl Results {
             growth: Vec::new(),
             stress: Vec::new(),
         }
+    }
+
+    /// Where the figures of a CSV come from, as lines `# key: value` before it.
+    pub fn head(&self, [width, height]: [u32; 2]) -> String {
+        let Machine { cpu, threads, os } = &self.machine;
+        let lines = [
+            ("driver", self.driver.clone()),
+            ("machine", format!("{cpu}, {threads} threads, {os}")),
+            ("date", self.date.clone()),
+            ("size", format!("{width}x{height}")),
+            ("reference", self.reference_samples.to_string()),
+            ("repeat", self.repeat.to_string()),
+        ];
+        let lines = lines.map(|(key, value)| format!("# {key}: {value}\n"));
+        lines.concat()
     }
 }
 

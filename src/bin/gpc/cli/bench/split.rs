@@ -1,4 +1,4 @@
-//! Where an image's error is, and whose fault it is.
+//! Split of an image's error by place and fault.
 
 use super::subject::{Bench, Subject, Wanted};
 use gpc::bench::{self, Cause, Fault, Half, Looks, Split, Stripped, Suspects, Within, Yardstick};
@@ -8,7 +8,7 @@ use gpc::render::{Method, PreparedScene, SceneRequest};
 /// Most samples a pixel of the truths of stripped scenes, which only have to tell which of two errors is the larger.
 const MOST_SAMPLES: u32 = 1024;
 
-/// What tells the errors of a scene's images apart.
+/// Images and scenes by which errors are split.
 pub(super) struct Splitter {
     looks: Looks,
     /// Paint alone and light alone, and their truths.
@@ -20,7 +20,7 @@ pub(super) struct Splitter {
 /// An image's error in pieces.
 pub(super) struct Pieces {
     pub split: Split,
-    /// Of superpixels alone.
+    /// Split of the error in superpixels and inside of one triangle, for superpixel antialiasing alone.
     pub within: Option<Within>,
     /// Pixel by pixel.
     pub causes: Vec<Cause>,
@@ -125,7 +125,7 @@ pub fn reason(cause: Option<Cause>, fault: Option<Fault>) -> &'static str {
     }
 }
 
-/// All that superpixels leave by what it is due to, in words and as shares of the squared error of one sample a pixel.
+/// Parts of the error that superpixels leave, in words and as shares of the squared error of one sample a pixel.
 pub fn shares(left: &Split, within: &Within) -> [(&'static str, f64); 7] {
     [
         (

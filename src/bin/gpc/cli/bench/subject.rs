@@ -13,10 +13,10 @@ use gpc::scene::{Geometry, Pose, PoseRequest, Scene};
 use std::path::Path;
 use std::time::Instant;
 
-/// sRGB values of the background: opaque, so that colours tell everything.
+/// Background colour in sRGB: opaque, so that colours alone tell images apart.
 const BACKGROUND: [f64; 3] = [0.87, 0.89, 0.91];
 
-/// What measures scene after scene.
+/// Device and options that scene after scene is measured with.
 pub struct Bench<'a> {
     pub headless: Headless,
     pub cache: Cache,
@@ -40,7 +40,7 @@ pub(super) struct Wanted<'a> {
     pub settings: &'a Settings,
     /// Samples a pixel.
     pub samples: u32,
-    /// What it is, for the bar of progress.
+    /// Name of the scene for the bar of progress.
     pub name: &'a str,
 }
 
@@ -156,10 +156,10 @@ impl Subject {
     }
 }
 
-/// What a method is rendered with.
+/// Settings of a method.
 pub fn settings(method: Method, samples: u32, [width, height]: [u32; 2]) -> Settings {
     Settings {
-        method: method,
+        method,
         samples,
         background: Some(BACKGROUND.map(|value| srgb::decode(value) as f32)),
         ..Settings::new(width, height)

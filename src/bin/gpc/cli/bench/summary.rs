@@ -7,12 +7,12 @@ use gpc::bench::Spread;
 use gpc::render::{Method, Settings};
 use serde::Serialize;
 
-/// What is said of the scenes with textures, or of those without.
+/// Summary of the scenes with textures, or of those without.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
     /// Whether a material of something drawn has a texture.
     pub textured: bool,
-    /// How many scenes there are.
+    /// Number of scenes.
     pub scenes: usize,
     /// A line for each number of samples that superpixels were measured with.
     pub at: Vec<AtSamples>,
@@ -20,7 +20,8 @@ pub struct Summary {
     pub reach: Vec<Reach>,
 }
 
-/// What superpixels cost and remove at one number of samples. Medians are over the scenes that have both rows.
+/// Cost of superpixels, and error that they remove, at one number of samples. Medians are over the scenes that have
+/// both rows.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AtSamples {
     pub samples: u32,
@@ -32,7 +33,7 @@ pub struct AtSamples {
     pub over_none: Option<f64>,
     /// RMSE with superpixels over that of supersampling, against the truth and as a display shows it.
     pub rmse_ratio: Option<Ratio>,
-    /// The same of FLIP.
+    /// Ratio of the FLIP errors.
     pub flip_ratio: Option<Ratio>,
     /// RMSE over that of supersampling, of geometry alone.
     pub geometry_ratio: Option<Ratio>,
@@ -44,13 +45,13 @@ pub struct AtSamples {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Ratio {
     pub median: f64,
-    /// Where it is largest.
+    /// Largest ratio.
     pub worst: f64,
     /// The scene where that is.
     pub worst_scene: String,
 }
 
-/// In which share of supersampling's time superpixels reach its error.
+/// Share of supersampling's time in which superpixels reach its error.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reach {
     /// Samples a pixel of supersampling.
@@ -152,7 +153,7 @@ impl Ratio {
         )
     }
 
-    /// Of named pairs of an error above and one below; those of none below are left out.
+    /// Ratios of named pairs of an error above and one below; pairs with 0 below are left out.
     pub fn of(pairs: impl IntoIterator<Item = (String, f64, f64)>) -> Option<Self> {
         let ratios: Vec<_> = pairs
             .into_iter()
@@ -195,8 +196,8 @@ fn flip_ratio(scene: &SceneResults, samples: u32) -> Option<f64> {
     ratio(superpixel.accuracy.flip, ssaa.accuracy.flip)
 }
 
-/// What most of the squared error is due to that superpixels leave at the default number of samples, or else at the most
-/// that were measured; and the share of it.
+/// Largest part of the squared error that superpixels leave, at the default number of samples or else at the most that
+/// were measured, and its share.
 pub fn most_of_what_is_left(scene: &SceneResults) -> Option<(&'static str, f64)> {
     let superpixels = |row: &&Row| row.method == Method::Superpixel;
     let row = scene

@@ -1,4 +1,4 @@
-//! What the variants of the camera cost.
+//! Costs of the camera's variants.
 
 use super::results::{SceneVariants, VariantRow};
 use super::subject::{self, Bench};
@@ -83,7 +83,7 @@ pub fn print(scene: &SceneVariants) -> anyhow::Result<()> {
 const COLUMNS: &str = "scene,triangles,variant,samples,runs,gpu_ms_median,gpu_ms_min,gpu_ms_spread,wall_ms_median,\
     wall_ms_min,wall_ms_spread,gpu_ns,wall_ns,gpu_ratio,wall_ratio";
 
-/// All rows of all scenes (RFC 4180, but with bare line feeds).
+/// Table of all rows of all scenes as CSV (RFC 4180, but with bare line feeds).
 pub fn csv(scenes: &[SceneVariants]) -> String {
     let mut text = format!("{COLUMNS}\n");
     for scene in scenes {

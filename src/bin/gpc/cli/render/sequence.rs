@@ -9,7 +9,7 @@ use gpc::output::VideoFormat;
 /// A moment or an angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
-    /// What stands for `{frame}`.
+    /// Number that replaces `{frame}` in the output's name.
     pub frame: u32,
     /// Seconds into the animation.
     pub time: f64,

@@ -69,7 +69,7 @@ pub fn upload(
 }
 
 impl Session {
-    /// In a device.
+    /// Opens a session on a device.
     pub fn new(headless: Headless, settings: Settings) -> Self {
         Self {
             headless,
@@ -139,7 +139,7 @@ impl Session {
         Ok(self.headless.render(frame, camera)?)
     }
 
-    /// What the validation layer has said, if it was asked.
+    /// Messages of the validation layer, if it runs.
     pub fn validation_messages(&self) -> Vec<String> {
         self.headless.validation_messages()
     }

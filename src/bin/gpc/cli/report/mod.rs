@@ -1,4 +1,4 @@
-//! What commands say of the images that they make.
+//! Reports of commands on the images that they make.
 
 mod effort;
 
@@ -11,10 +11,12 @@ use gpc::render::Headless;
 use serde::Serialize;
 use std::path::Path;
 
-/// How much is said.
+/// Amount of reporting.
 #[derive(Args, Clone, Copy)]
 pub struct ReportArgs {
-    /// Print one JSON object of figures: files, sizes, samples, superpixels, times and memory; several images are a list
+    /// Print figures as one JSON object
+    ///
+    /// They are files, sizes, samples, superpixels, times and memory; several images are a list.
     #[arg(long, help_heading = "Report")]
     pub json: bool,
     /// Say nothing but errors

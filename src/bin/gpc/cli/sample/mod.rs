@@ -57,16 +57,16 @@ pub struct SampleArgs {
     pub report: ReportArgs,
 }
 
-/// What `--json` says of samples beside what is said of every image.
+/// Fields of `--json` for samples, besides those of every image.
 #[derive(Serialize)]
 struct Seen {
     /// Sampling locations.
     locations: usize,
-    /// Those that see a triangle.
+    /// Number of samples that see a triangle.
     hits: usize,
 }
 
-/// What is written.
+/// Format of the output.
 #[derive(Clone, Copy)]
 enum Kind {
     Csv,
