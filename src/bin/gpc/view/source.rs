@@ -3,7 +3,7 @@
 use super::engine::Engine;
 use super::navigate::Bounds;
 use super::photo::Photo;
-use super::progress::{Progress, Step};
+use super::progress::{LoadStep, Progress};
 use glam::DVec3;
 use gpc::render::PreparedScene;
 use gpc::scene::{
@@ -86,7 +86,7 @@ impl Source {
         progress: &Progress,
     ) -> anyhow::Result<Opened> {
         let is_photo = gpc::output::is_image(&self.path);
-        progress.begin(Step::Read)?;
+        progress.begin(LoadStep::Read)?;
         if is_photo {
             return Ok(Opened::Photo(Photo::open(&self.path)?));
         }
@@ -100,19 +100,19 @@ impl Source {
         if let Some(edges) = &appearance.edges {
             loaded.scene.add_edges(edges);
         }
-        progress.begin(Step::Pose)?;
+        progress.begin(LoadStep::Pose)?;
         let animations = loaded.scene.info().animations;
         let renderer = &engine.renderer;
         let (pose, motion, prepared);
         if animations.is_empty() {
             pose = loaded.scene.pose(&self.request)?;
             motion = None;
-            progress.begin(Step::Prepare)?;
+            progress.begin(LoadStep::Prepare)?;
             prepared = renderer.prepare_scene(&loaded.scene, &pose, max_memory)?;
         } else {
             let (posed, moving) = loaded.scene.pose_in_motion(&self.request)?;
             let both = (&posed, &moving);
-            progress.begin(Step::Prepare)?;
+            progress.begin(LoadStep::Prepare)?;
             prepared = renderer.prepare_scene_in_motion(&loaded.scene, both, max_memory)?;
             (pose, motion) = (posed, Some(moving));
         }

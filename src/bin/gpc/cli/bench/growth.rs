@@ -4,7 +4,7 @@ use super::results::{Curve, Point, Time};
 use super::subject::{Bench, settings};
 use crate::cli::print;
 use crate::cli::render::Antialiasing;
-use gpc::bench::{self, Contender, Growth, Step};
+use gpc::bench::{self, Contender, Growth, GrowthStep};
 use gpc::render::{RenderError, Settings};
 
 /// The methods that are compared, and their samples a pixel.
@@ -73,7 +73,7 @@ impl Bench<'_> {
     /// Measures a scene, and takes methods that can go no further out of the list.
     fn point(
         &mut self,
-        step: &Step,
+        step: &GrowthStep,
         methods: &mut Vec<(Antialiasing, u32)>,
         notes: &mut Vec<String>,
     ) -> Result<Point, RenderError> {
