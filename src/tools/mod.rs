@@ -2,5 +2,6 @@
 
 pub mod bench;
 pub mod compare;
+pub mod names;
 pub mod output;
 pub mod resample;

@@ -7,7 +7,8 @@ use gpc::bench::{Growth, Looks, Variant, VariantContender, VariantError, Yardsti
 use gpc::camera::{Camera, Orbit, Projection};
 use gpc::output::Picture;
 use gpc::render::{
-    Footprint, Headless, HeadlessOptions, Method, PreparedScene, RenderError, Settings,
+    Footprint, Headless, HeadlessOptions, Method, PreparedScene, RenderError, SceneRequest,
+    Settings,
 };
 use gpc::scene::{PoseRequest, Scene};
 use serde_json::Value;
@@ -21,7 +22,7 @@ fn stage(name: &str) -> (Headless, PreparedScene, Camera) {
     let (low, high) = pose.geometry.bounds().unwrap();
     let camera = Orbit::default().frame(low, high, 1.0).unwrap();
     let mut headless = Headless::new(&HeadlessOptions::default()).unwrap();
-    let prepared = headless.upload(&scene, &pose, None).unwrap();
+    let prepared = headless.upload(SceneRequest::new(&scene, &pose)).unwrap();
     (headless, prepared, camera)
 }
 
@@ -170,7 +171,9 @@ fn what_grows_is_what_is_said_to() {
     let pixels = f64::from(size[0] * size[1]);
     for index in 0..Growth::Superpixels.steps() {
         let step = Growth::Superpixels.step(index, size).unwrap();
-        let prepared = headless.upload(&step.scene, &step.pose, None).unwrap();
+        let prepared = headless
+            .upload(SceneRequest::new(&step.scene, &step.pose))
+            .unwrap();
         let settings = Settings {
             samples: 4,
             background: Some([0.8; 3]),
@@ -337,6 +340,14 @@ fn measures_every_method_that_there_is_and_keeps_the_reference() {
     }
 }
 
+/// The lines of a CSV after its head, which says where the figures come from.
+fn body(csv: &str) -> impl Iterator<Item = &str> {
+    for key in ["driver", "machine", "date", "size", "reference", "repeat"] {
+        assert!(csv.contains(&format!("# {key}: ")), "no {key} in {csv}");
+    }
+    csv.lines().filter(|line| !line.starts_with('#'))
+}
+
 #[test]
 fn writes_a_report_that_needs_no_other_file() {
     let folder = tempfile::tempdir().unwrap();
@@ -372,7 +383,7 @@ fn writes_a_report_that_needs_no_other_file() {
         assert!(!text.contains(outside), "{outside}");
     }
     let csv = std::fs::read_to_string(out.join("results.csv")).unwrap();
-    let columns: Vec<_> = csv.lines().map(|line| line.split(',').count()).collect();
+    let columns: Vec<_> = body(&csv).map(|line| line.split(',').count()).collect();
     let rows = results["scenes"][0]["rows"].as_array().unwrap().len();
     assert_eq!(columns, vec![34; rows + 1]);
 }
@@ -457,7 +468,7 @@ fn variants_of_the_camera_are_timed_beside_the_raster_pass() {
         }
     }
     let csv = std::fs::read_to_string(out.join("variants.csv")).unwrap();
-    let columns: Vec<_> = csv.lines().map(|line| line.split(',').count()).collect();
+    let columns: Vec<_> = body(&csv).map(|line| line.split(',').count()).collect();
     assert_eq!(columns, vec![15; rows.len() + 1]);
     let page = std::fs::read_to_string(out.join("report.html")).unwrap();
     let printed = String::from_utf8(run.stdout).unwrap();
@@ -546,7 +557,7 @@ fn motion_is_measured_against_the_truth_of_each_frame() {
         [16, 64]
     );
     let csv = std::fs::read_to_string(out.join("motion.csv")).unwrap();
-    let columns: Vec<_> = csv.lines().map(|line| line.split(',').count()).collect();
+    let columns: Vec<_> = body(&csv).map(|line| line.split(',').count()).collect();
     assert_eq!(columns, vec![9; rows.len() + 1]);
     let page = std::fs::read_to_string(out.join("report.html")).unwrap();
     let printed = String::from_utf8(run.stdout).unwrap();

@@ -115,7 +115,7 @@ impl Suspects<'_> {
         };
         // No difference of 8-bit codes is above their greatest.
         let nowhere = Settings {
-            contrast: u8::MAX,
+            contrast: Some(u8::MAX),
             detection: Detection::Contrast,
             thin: false,
             ..settings.clone()

@@ -270,7 +270,9 @@ impl Viewer {
         // Numbers in between are passed over.
         while (1..=MAX_SAMPLES).contains(&change(samples)) {
             samples = change(samples);
-            let changed = Look::new(look.at(samples, None), look.contrast);
+            let changed = Look {
+                settings: look.at(samples, None),
+            };
             if changed.can_have(samples) {
                 *look = changed;
                 self.notes.say(format!("{samples} samples a pixel"));

@@ -1,9 +1,8 @@
 //! Panel, notes and list of keys, which lie over the picture.
 
-use super::command::detection_name;
 use super::keys::{self, Action};
 use super::lens::Lenses;
-use super::look::{Look, method_name};
+use super::look::Look;
 use super::notes::Note;
 use super::overlay::Overlay;
 use super::player::Player;
@@ -303,11 +302,7 @@ fn edit(ui: &mut egui::Ui, look: &mut Look) {
     ui.horizontal(|ui| {
         for method in [Method::Superpixel, Method::None, Method::Msaa, Method::Ssaa] {
             let is_chosen = look.settings.method == method;
-            if ui
-                .selectable_label(is_chosen, method_name(method))
-                .clicked()
-                && !is_chosen
-            {
+            if ui.selectable_label(is_chosen, method.to_string()).clicked() && !is_chosen {
                 look.set_method(method);
             }
         }
@@ -331,21 +326,21 @@ fn edit(ui: &mut egui::Ui, look: &mut Look) {
     }
     ui.horizontal(|ui| {
         ui.label("contrast");
-        let mut contrast = look.contrast_at(look.settings.samples);
+        let mut contrast = look.settings.threshold();
         if ui
             .add(egui::Slider::new(&mut contrast, 0..=MOST_CONTRAST))
             .changed()
         {
-            look.contrast = Some(contrast);
+            look.settings.contrast = Some(contrast);
         }
-        if look.contrast.is_some() && ui.button("default").clicked() {
-            look.contrast = None;
+        if look.settings.contrast.is_some() && ui.button("default").clicked() {
+            look.settings.contrast = None;
         }
     });
     ui.horizontal(|ui| {
         ui.label("detect");
         for detection in [Detection::Contrast, Detection::Edges, Detection::Exact] {
-            let name = detection_name(detection);
+            let name = gpc::names::name(&detection);
             ui.selectable_value(&mut look.settings.detection, detection, name);
         }
     });

@@ -273,7 +273,7 @@ mod tests {
             samples,
             ..Settings::new(100, height)
         };
-        Schedule::new(&Look::new(settings, None), now)
+        Schedule::new(&Look { settings }, now)
     }
 
     fn after(ms: u64, start: Instant) -> Instant {
@@ -437,7 +437,7 @@ mod tests {
             pattern: Pattern::Grid,
             ..Settings::new(100, 100)
         };
-        let schedule = Schedule::new(&Look::new(settings, None), start);
+        let schedule = Schedule::new(&Look { settings }, start);
         assert_eq!(schedule.drafts, [16, 4, 1]);
         assert_eq!(schedule.steps, [64, 256, 1024]);
     }

@@ -5,7 +5,7 @@ use super::navigate::Bounds;
 use super::photo::Photo;
 use super::progress::{LoadStep, Progress};
 use glam::DVec3;
-use gpc::render::PreparedScene;
+use gpc::render::{PreparedScene, SceneRequest};
 use gpc::scene::{
     AnimationInfo, Edges, Environment, Geometry, Motion, Pose, PoseRequest, Scene, SceneCamera,
 };
@@ -103,19 +103,17 @@ impl Source {
         progress.begin(LoadStep::Pose)?;
         let animations = loaded.scene.info().animations;
         let renderer = &engine.renderer;
-        let (pose, motion, prepared);
-        if animations.is_empty() {
-            pose = loaded.scene.pose(&self.request)?;
-            motion = None;
-            progress.begin(LoadStep::Prepare)?;
-            prepared = renderer.prepare_scene(&loaded.scene, &pose, max_memory)?;
+        let (pose, motion) = if animations.is_empty() {
+            (loaded.scene.pose(&self.request)?, None)
         } else {
-            let (posed, moving) = loaded.scene.pose_in_motion(&self.request)?;
-            let both = (&posed, &moving);
-            progress.begin(LoadStep::Prepare)?;
-            prepared = renderer.prepare_scene_in_motion(&loaded.scene, both, max_memory)?;
-            (pose, motion) = (posed, Some(moving));
-        }
+            let (pose, motion) = loaded.scene.pose_in_motion(&self.request)?;
+            (pose, Some(motion))
+        };
+        progress.begin(LoadStep::Prepare)?;
+        let request = SceneRequest::new(&loaded.scene, &pose)
+            .moving(motion.as_ref())
+            .within(max_memory);
+        let prepared = renderer.prepare_scene(request)?;
         let warnings = loaded.warnings.iter().chain(&pose.warnings);
         let warnings: Vec<_> = warnings.map(ToString::to_string).collect();
         Ok(Opened::Scene(Box::new(Stage {

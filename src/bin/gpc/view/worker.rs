@@ -18,8 +18,8 @@ use gpc::color::srgb;
 use gpc::compare;
 use gpc::output::{self, Aov, AovKind, DecodedImage, Format, Picture};
 use gpc::render::{
-    Headless, HeadlessOptions, Method, PixelRect, PreparedScene, RenderError, Rendered, Settings,
-    Shadows, Statistics,
+    Headless, HeadlessOptions, Method, PixelRect, PreparedScene, RenderError, Rendered,
+    SceneRequest, Settings, Shadows, Statistics,
 };
 use gpc::resample::Zoomed;
 use gpc::scene::{Pose, PoseRequest, Scene};
@@ -500,11 +500,10 @@ impl Maker {
                 time: task.time,
                 ..task.source.request.clone()
             })?;
-            let max_memory = task.settings.max_memory;
-            let mut prepared = headless.upload(&task.scene, &pose, max_memory)?;
-            if task.settings.shadows == Shadows::Exact {
-                headless.prepare_shadows(&mut prepared, &task.scene, &pose, max_memory)?;
-            }
+            let request = SceneRequest::new(&task.scene, &pose)
+                .shadowed(task.settings.shadows)
+                .within(task.settings.max_memory);
+            let prepared = headless.upload(request)?;
             self.shown = Some(OpenScene {
                 scene: task.scene.clone(),
                 time: task.time,

@@ -3,7 +3,7 @@
 use super::stage::{Stage, camera, flat, once, seen_at};
 use super::{Finding, Length};
 use crate::camera::Camera;
-use crate::render::{Headless, Method, RenderError, Settings};
+use crate::render::{Headless, Method, RenderError, SceneRequest, Settings};
 use crate::scene::AlphaMode;
 use glam::DVec2;
 
@@ -102,7 +102,7 @@ impl Wires {
         frames: u32,
     ) -> Result<[f64; 2], RenderError> {
         let (scene, pose) = self.stage.build();
-        let prepared = headless.upload(&scene, &pose, None)?;
+        let prepared = headless.upload(SceneRequest::new(&scene, &pose))?;
         let mut frame = headless.prepare(&prepared, settings)?;
         let [columns, rows] = self.size.map(|side| side as usize);
         let mut worst = 0.0_f64;

@@ -4,7 +4,7 @@ use super::difference::{in_codes, same};
 use super::stage::{NEAR, Stage, camera, everywhere, flat, seen_at};
 use super::{Finding, Length, Random, soup};
 use crate::camera::{Camera, Projection};
-use crate::render::{Headless, RenderError, Rendered, Settings};
+use crate::render::{Headless, RenderError, Rendered, SceneRequest, Settings};
 use crate::sampling::Pattern;
 use crate::scene::AlphaMode;
 use glam::DVec3;
@@ -45,7 +45,7 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
         let away = DVec3::new(far, -far, far);
         let (scene, mut pose) = stage.build();
         pose.geometry.origin = away;
-        let prepared = headless.upload(&scene, &pose, None)?;
+        let prepared = headless.upload(SceneRequest::new(&scene, &pose))?;
         let mut frame = headless.prepare(&prepared, &settings)?;
         let camera = Camera {
             eye: away,

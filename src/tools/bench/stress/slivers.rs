@@ -4,7 +4,7 @@
 use super::meshes::{Depths, delaunay, fan, ground, slivers};
 use super::stage::{Stage, camera, everywhere, flat};
 use super::{Finding, Length, Random};
-use crate::render::{Headless, Method, RenderError, Settings, Shading};
+use crate::render::{Headless, Method, RenderError, SceneRequest, Settings, Shading};
 use crate::sampling::Pattern;
 use crate::scene::AlphaMode;
 
@@ -46,7 +46,7 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
             .map(|_| [0; 3].map(|_| random.range(low, high) as f32))
             .map(|[r, g, b]| [r, g, b, 1.0])
             .collect();
-        let prepared = headless.upload(&scene, &pose, None)?;
+        let prepared = headless.upload(SceneRequest::new(&scene, &pose))?;
         for (name, settings) in &methods {
             let mut frame = headless.prepare(&prepared, settings)?;
             let image = headless.render(&mut frame, &camera())?;

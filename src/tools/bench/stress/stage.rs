@@ -7,7 +7,8 @@
 use super::{Mesh, Random};
 use crate::camera::{Camera, Projection};
 use crate::render::{
-    Coverage, Detection, Headless, Method, Reference, RenderError, Rendered, Settings, Shading,
+    Coverage, Detection, Headless, Method, Reference, RenderError, Rendered, SceneRequest,
+    Settings, Shading,
 };
 use crate::sampling::Pattern;
 use crate::scene::{
@@ -241,7 +242,8 @@ impl Stage {
         camera: &Camera,
     ) -> Result<Rendered, RenderError> {
         let (scene, pose) = self.build();
-        let prepared = headless.upload(&scene, &pose, settings.max_memory)?;
+        let prepared =
+            headless.upload(SceneRequest::new(&scene, &pose).within(settings.max_memory))?;
         let mut frame = headless.prepare(&prepared, settings)?;
         headless.render(&mut frame, camera)
     }

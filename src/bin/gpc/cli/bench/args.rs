@@ -1,9 +1,10 @@
 //! The options of `gpc bench`.
 
-use crate::cli::render::Antialiasing;
+use super::METHODS;
 use crate::cli::values;
 use clap::Args;
 use gpc::bench::{GRID_SAMPLES, MAX_REFERENCE_SAMPLES};
+use gpc::render::Method;
 use gpc::sampling::MAX_SAMPLES;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -13,10 +14,15 @@ use std::time::Duration;
 /// Every scene is rendered as by `gpc render`, before a light grey background, by every method at every number of
 /// samples that it can have: once to warm up and then R times, the methods taking turns. Each image is held against
 /// the truth: brute force at thousands of samples a pixel that read textures at a 64th of its side, which is kept on disk
-/// for the next run. With --geometry, the methods are also measured with textures read for a whole pixel, against a
-/// reference that does so too, so that they differ by geometry alone. With --motion, sequences show what flickers. With --variants, other sampling sets than the pixels of an image are timed too; with --growth, scenes made for it show what grows with what;
-/// with --stress, geometry that is hard on a rasterizer shows what holds. DIR then holds results.json, results.csv and
-/// report.html, motion.csv with --motion and variants.csv with --variants, written anew after each scene.
+/// for the next run.
+///
+/// With --geometry, the methods are also measured with textures read for a whole pixel, against a reference that does so
+/// too, so that they differ by geometry alone. With --motion, sequences show what flickers. With --variants, other sampling
+/// sets than the pixels of an image are timed too; with --growth, scenes made for it show what grows with what; with
+/// --stress, geometry that is hard on a rasterizer shows what holds.
+///
+/// DIR then holds results.json, results.csv and report.html, and motion.csv, variants.csv and growth.csv with these options,
+/// written anew after each scene. Lines at the head of a CSV begin with # and say where its figures come from.
 #[derive(Args)]
 pub struct BenchArgs {
     /// .glb or .gltf files
@@ -36,7 +42,7 @@ pub struct BenchArgs {
         value_delimiter = ',',
         default_value = "none,msaa,ssaa,superpixel"
     )]
-    methods: Vec<Antialiasing>,
+    methods: Vec<Method>,
     /// Samples a pixel; methods that can't have a number are left out there
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "4,16,64,256,1024",
         value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES)))]
@@ -80,16 +86,16 @@ pub struct BenchArgs {
 
 impl BenchArgs {
     /// The methods and numbers of samples asked for, each once, one sample a pixel first.
-    pub fn cells(&self) -> Vec<(Antialiasing, u32)> {
+    pub fn cells(&self) -> Vec<(Method, u32)> {
         let mut counts = self.samples.clone();
         counts.sort_unstable();
         counts.dedup();
         let mut cells = Vec::new();
-        for method in Antialiasing::ALL {
+        for method in METHODS {
             if !self.methods.contains(&method) {
                 continue;
             }
-            if method == Antialiasing::None {
+            if method == Method::None {
                 cells.push((method, 1));
             } else {
                 cells.extend(counts.iter().map(|count| (method, *count)));

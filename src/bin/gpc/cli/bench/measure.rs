@@ -4,10 +4,9 @@ use super::gallery::{Gallery, GalleryImage};
 use super::results::{Row, SceneResults};
 use super::split::Splitter;
 use super::subject::{self, Bench, Subject};
-use crate::cli::render::Antialiasing;
 use gpc::bench::{self, Accuracy, Contender, Yardstick};
 use gpc::output::{DecodedImage, Picture};
-use gpc::render::{Footprint, RenderError, Settings};
+use gpc::render::{Footprint, Method, RenderError, Settings};
 use std::path::Path;
 
 /// A method that takes part, with what is known of it before it is timed.
@@ -22,7 +21,7 @@ impl Bench<'_> {
         let name = subject::name(path);
         self.progress.begin(&name);
         let subject = self.upload(path, self.args.size)?;
-        let settings = self.settings(Antialiasing::None, 1);
+        let settings = self.settings(Method::None, 1);
         let wanted = subject.wanted(&settings, self.args.reference, "its truth");
         let (truth, reference_seconds) = self.reference(&wanted)?;
         let (_, one_sample) = self.warm_up(&subject, &settings)?;
@@ -81,11 +80,11 @@ impl Bench<'_> {
                 },
                 contender,
             });
-            if (method, Some(samples)) == (Antialiasing::Ssaa, shown) {
+            if (method, Some(samples)) == (Method::Ssaa, shown) {
                 ssaa = Some(DecodedImage::from(&picture));
             }
             if let Some(pieces) = pieces
-                && (method, Some(samples)) == (Antialiasing::Superpixel, shown)
+                && (method, Some(samples)) == (Method::Superpixel, shown)
             {
                 superpixels = Some(GalleryImage {
                     samples,
@@ -113,7 +112,7 @@ impl Bench<'_> {
         let cells = self.args.cells();
         let counts = cells
             .iter()
-            .filter(|(method, _)| *method == Antialiasing::Superpixel)
+            .filter(|(method, _)| *method == Method::Superpixel)
             .map(|(_, samples)| *samples);
         counts.max_by_key(|samples| (*samples == Settings::DEFAULT_SAMPLES, *samples))
     }
@@ -127,7 +126,7 @@ impl Bench<'_> {
         if !self.args.geometry {
             return Ok(None);
         }
-        let settings = for_whole_pixels(self.settings(Antialiasing::None, 1));
+        let settings = for_whole_pixels(self.settings(Method::None, 1));
         let name = "its reference for geometry alone";
         let (reference, _) =
             self.reference(&subject.wanted(&settings, self.args.reference, name))?;
@@ -140,7 +139,7 @@ impl Bench<'_> {
         &mut self,
         subject: &Subject,
         yardstick: &Yardstick,
-        method: Antialiasing,
+        method: Method,
         samples: u32,
     ) -> anyhow::Result<Accuracy> {
         let settings = for_whole_pixels(self.settings(method, samples));
@@ -185,10 +184,10 @@ fn for_whole_pixels(settings: Settings) -> Settings {
 
 /// Notes of what is left out: a line for each method and reason.
 #[derive(Default)]
-struct Notes(Vec<(Antialiasing, String, Vec<u32>)>);
+struct Notes(Vec<(Method, String, Vec<u32>)>);
 
 impl Notes {
-    fn leave_out(&mut self, method: Antialiasing, samples: u32, possible: String) {
+    fn leave_out(&mut self, method: Method, samples: u32, possible: String) {
         match self
             .0
             .iter_mut()
@@ -200,7 +199,7 @@ impl Notes {
     }
 
     fn lines(&self) -> Vec<String> {
-        let line = |(method, possible, counts): &(Antialiasing, String, Vec<u32>)| {
+        let line = |(method, possible, counts): &(Method, String, Vec<u32>)| {
             let counts: Vec<_> = counts.iter().map(ToString::to_string).collect();
             format!(
                 "{method} left out at {} samples: it can have {possible}",

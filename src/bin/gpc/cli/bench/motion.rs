@@ -4,11 +4,10 @@ use super::results::{MotionRow, SceneMotion};
 use super::subject::{self, Bench, Subject, Wanted};
 use super::summary::Ratio;
 use crate::cli::print;
-use crate::cli::render::Antialiasing;
 use gpc::bench::{Motion, Sequence};
 use gpc::camera::Camera;
 use gpc::output::{DecodedImage, Picture};
-use gpc::render::{RenderError, Settings};
+use gpc::render::{Method, RenderError, Settings};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::Path;
@@ -17,13 +16,13 @@ use std::path::Path;
 const TRUTH_SAMPLES: u32 = 1024;
 
 /// Methods and their samples a pixel.
-const CELLS: [(Antialiasing, u32); 6] = [
-    (Antialiasing::None, 1),
-    (Antialiasing::Msaa, 4),
-    (Antialiasing::Ssaa, 16),
-    (Antialiasing::Ssaa, 64),
-    (Antialiasing::Superpixel, 16),
-    (Antialiasing::Superpixel, 64),
+const CELLS: [(Method, u32); 6] = [
+    (Method::None, 1),
+    (Method::Msaa, 4),
+    (Method::Ssaa, 16),
+    (Method::Ssaa, 64),
+    (Method::Superpixel, 16),
+    (Method::Superpixel, 64),
 ];
 
 /// Superpixels in motion over supersampling at equal numbers of samples, over all scenes and both motions.
@@ -83,7 +82,7 @@ impl Bench<'_> {
         size: [u32; 2],
         motion: Motion,
     ) -> anyhow::Result<Vec<DecodedImage>> {
-        let settings = subject::settings(Antialiasing::None, 1, size);
+        let settings = subject::settings(Method::None, 1, size);
         let mut truths = Vec::new();
         for (index, camera) in cameras.iter().enumerate() {
             let name = format!("{motion}, truth {} of {}", index + 1, cameras.len());
@@ -119,14 +118,14 @@ impl Bench<'_> {
 pub fn summarize(scenes: &[SceneMotion]) -> Vec<MotionRatio> {
     let counts = CELLS
         .iter()
-        .filter(|(method, _)| *method == Antialiasing::Superpixel);
-    let at = |&(_, samples): &(Antialiasing, u32)| {
+        .filter(|(method, _)| *method == Method::Superpixel);
+    let at = |&(_, samples): &(Method, u32)| {
         let pairs = || {
             scenes.iter().flat_map(move |scene| {
                 Motion::ALL.into_iter().filter_map(move |motion| {
                     let find = |method| scene.row(motion, method, samples);
-                    let superpixel = find(Antialiasing::Superpixel)?.steadiness;
-                    let ssaa = find(Antialiasing::Ssaa)?.steadiness;
+                    let superpixel = find(Method::Superpixel)?.steadiness;
+                    let ssaa = find(Method::Ssaa)?.steadiness;
                     Some((format!("{}, {motion}", scene.name), superpixel, ssaa))
                 })
             })

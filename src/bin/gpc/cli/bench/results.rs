@@ -4,9 +4,9 @@ use super::BenchArgs;
 use super::machine::{self, Machine};
 use super::motion::MotionRatio;
 use super::summary::Summary;
-use crate::cli::render::Antialiasing;
 use gpc::bench::stress::Finding;
 use gpc::bench::{Accuracy, Cost, Motion, Split, Spread, Steadiness, VariantCost, Within};
+use gpc::render::Method;
 use gpc::vulkan::Limits;
 use serde::Serialize;
 
@@ -55,7 +55,7 @@ pub struct SceneMotion {
 #[derive(Serialize)]
 pub struct MotionRow {
     pub motion: Motion,
-    pub method: Antialiasing,
+    pub method: Method,
     pub samples: u32,
     #[serde(flatten)]
     pub steadiness: Steadiness,
@@ -119,7 +119,7 @@ pub struct Point {
 /// Time of a method.
 #[derive(Serialize)]
 pub struct Time {
-    pub method: Antialiasing,
+    pub method: Method,
     pub samples: u32,
     /// Milliseconds on the device.
     pub gpu_ms: Spread,
@@ -145,7 +145,7 @@ pub struct SceneResults {
 /// Measurements of one method at one number of samples.
 #[derive(Serialize)]
 pub struct Row {
-    pub method: Antialiasing,
+    pub method: Method,
     pub samples: u32,
     #[serde(flatten)]
     pub cost: Cost,
@@ -186,6 +186,21 @@ impl Results {
             stress: Vec::new(),
         }
     }
+
+    /// Where the figures of a CSV come from, as lines `# key: value` before it.
+    pub fn head(&self, [width, height]: [u32; 2]) -> String {
+        let Machine { cpu, threads, os } = &self.machine;
+        let lines = [
+            ("driver", self.driver.clone()),
+            ("machine", format!("{cpu}, {threads} threads, {os}")),
+            ("date", self.date.clone()),
+            ("size", format!("{width}x{height}")),
+            ("reference", self.reference_samples.to_string()),
+            ("repeat", self.repeat.to_string()),
+        ];
+        let lines = lines.map(|(key, value)| format!("# {key}: {value}\n"));
+        lines.concat()
+    }
 }
 
 impl VariantRow {
@@ -203,7 +218,7 @@ impl VariantRow {
 
 impl Point {
     /// The median of what a method took on the device, in milliseconds.
-    pub fn ms(&self, method: Antialiasing) -> Option<f64> {
+    pub fn ms(&self, method: Method) -> Option<f64> {
         let time = self.times.iter().find(|time| time.method == method)?;
         Some(time.gpu_ms.median)
     }
@@ -211,7 +226,7 @@ impl Point {
 
 impl SceneMotion {
     /// The row of a motion under a method at a number of samples.
-    pub fn row(&self, motion: Motion, method: Antialiasing, samples: u32) -> Option<&MotionRow> {
+    pub fn row(&self, motion: Motion, method: Method, samples: u32) -> Option<&MotionRow> {
         let wanted = |row: &&MotionRow| {
             row.motion == motion && row.method == method && row.samples == samples
         };
@@ -221,7 +236,7 @@ impl SceneMotion {
 
 impl SceneResults {
     /// The row of a method at a number of samples.
-    pub fn row(&self, method: Antialiasing, samples: u32) -> Option<&Row> {
+    pub fn row(&self, method: Method, samples: u32) -> Option<&Row> {
         let wanted = |row: &&Row| row.method == method && row.samples == samples;
         self.rows.iter().find(wanted)
     }

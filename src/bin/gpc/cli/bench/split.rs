@@ -1,10 +1,9 @@
 //! Split of an image's error by place and fault.
 
 use super::subject::{Bench, Subject, Wanted};
-use crate::cli::render::Antialiasing;
 use gpc::bench::{self, Cause, Fault, Half, Looks, Split, Stripped, Suspects, Within, Yardstick};
 use gpc::output::{DecodedImage, Picture};
-use gpc::render::PreparedScene;
+use gpc::render::{Method, PreparedScene, SceneRequest};
 
 /// Most samples a pixel of the truths of stripped scenes, which only have to tell which of two errors is the larger.
 const MOST_SAMPLES: u32 = 1024;
@@ -32,7 +31,7 @@ pub(super) struct Pieces {
 impl Splitter {
     /// Looks into the scene's pixels, and renders the truths of its paint and of its light alone.
     pub fn new(bench: &mut Bench<'_>, subject: &Subject, shown: u32) -> anyhow::Result<Self> {
-        let settings = bench.settings(Antialiasing::None, 1);
+        let settings = bench.settings(Method::None, 1);
         let progress = &bench.progress;
         let mut looks = 0;
         let found = Looks::new(
@@ -47,7 +46,9 @@ impl Splitter {
         )?;
         let mut half = |stripped: Stripped, name: &str| -> anyhow::Result<_> {
             let scene = stripped.of(&subject.scene);
-            let prepared = bench.headless.upload(&scene, &subject.pose, None)?;
+            let prepared = bench
+                .headless
+                .upload(SceneRequest::new(&scene, &subject.pose))?;
             let (truth, _) = bench.reference(&Wanted {
                 prepared: &prepared,
                 ..subject.wanted(&settings, bench.args.reference.min(MOST_SAMPLES), name)
@@ -72,12 +73,12 @@ impl Splitter {
         subject: &Subject,
         yardstick: &Yardstick,
         picture: &Picture<'_>,
-        method: Antialiasing,
+        method: Method,
         samples: u32,
     ) -> anyhow::Result<Pieces> {
-        let superpixels = method == Antialiasing::Superpixel;
+        let superpixels = method == Method::Superpixel;
         let samples = if superpixels { samples } else { self.shown };
-        let settings = bench.settings(Antialiasing::Superpixel, samples);
+        let settings = bench.settings(Method::Superpixel, samples);
         let camera = &subject.view.camera;
         let scene = &subject.prepared;
         let causes = self

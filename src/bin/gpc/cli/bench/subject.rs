@@ -3,12 +3,12 @@
 use super::BenchArgs;
 use super::progress::Progress;
 use crate::cli::input;
-use crate::cli::render::{Antialiasing, CameraArgs, NamedView, choose_views};
+use crate::cli::render::{CameraArgs, NamedView, choose_views};
 use gpc::bench::{self, Cache, Contender, Fingerprint};
 use gpc::camera::Camera;
 use gpc::color::srgb;
 use gpc::output::Picture;
-use gpc::render::{Headless, PreparedScene, RenderError, Rendered, Settings};
+use gpc::render::{Headless, Method, PreparedScene, RenderError, Rendered, SceneRequest, Settings};
 use gpc::scene::{Geometry, Pose, PoseRequest, Scene};
 use std::path::Path;
 use std::time::Instant;
@@ -55,14 +55,16 @@ impl Bench<'_> {
             anyhow::bail!("{}: there is no camera to see it with", path.display());
         };
         Ok(Subject {
-            prepared: self.headless.upload(&loaded.scene, &pose, None)?,
+            prepared: self
+                .headless
+                .upload(SceneRequest::new(&loaded.scene, &pose))?,
             scene: loaded.scene,
             pose,
             view,
         })
     }
 
-    pub(super) fn settings(&self, method: Antialiasing, samples: u32) -> Settings {
+    pub(super) fn settings(&self, method: Method, samples: u32) -> Settings {
         settings(method, samples, self.args.size)
     }
 
@@ -155,11 +157,10 @@ impl Subject {
 }
 
 /// Settings of a method.
-pub fn settings(method: Antialiasing, samples: u32, [width, height]: [u32; 2]) -> Settings {
+pub fn settings(method: Method, samples: u32, [width, height]: [u32; 2]) -> Settings {
     Settings {
-        method: method.method(),
+        method,
         samples,
-        contrast: Settings::default_contrast(samples),
         background: Some(BACKGROUND.map(|value| srgb::decode(value) as f32)),
         ..Settings::new(width, height)
     }

@@ -3,9 +3,8 @@
 use super::front::{TARGETS, time_to_error};
 use super::results::{Row, SceneResults};
 use super::split::shares;
-use crate::cli::render::Antialiasing;
 use gpc::bench::Spread;
-use gpc::render::Settings;
+use gpc::render::{Method, Settings};
 use serde::Serialize;
 
 /// Summary of the scenes with textures, or of those without.
@@ -86,7 +85,7 @@ pub fn summarize(scenes: &[SceneResults]) -> Vec<Summary> {
 /// Numbers of samples that superpixels were measured with.
 pub fn counts<'a>(scenes: impl IntoIterator<Item = &'a SceneResults>) -> Vec<u32> {
     let rows = scenes.into_iter().flat_map(|scene| &scene.rows);
-    let superpixels = rows.filter(|row: &&Row| row.method == Antialiasing::Superpixel);
+    let superpixels = rows.filter(|row: &&Row| row.method == Method::Superpixel);
     let mut counts: Vec<_> = superpixels.map(|row| row.samples).collect();
     counts.sort_unstable();
     counts.dedup();
@@ -111,7 +110,7 @@ fn at(scenes: &[&SceneResults], samples: u32) -> AtSamples {
         median(scenes.iter().filter_map(|s| ratio(s)))
     };
     let row = |scene: &SceneResults| {
-        let row = scene.row(Antialiasing::Superpixel, samples)?;
+        let row = scene.row(Method::Superpixel, samples)?;
         Some(row.accuracy.removed)
     };
     AtSamples {
@@ -171,36 +170,36 @@ impl Ratio {
 
 /// Time under supersampling over that with superpixels.
 pub fn speedup(scene: &SceneResults, samples: u32) -> Option<f64> {
-    let ssaa = scene.row(Antialiasing::Ssaa, samples)?;
-    let superpixel = scene.row(Antialiasing::Superpixel, samples)?;
+    let ssaa = scene.row(Method::Ssaa, samples)?;
+    let superpixel = scene.row(Method::Superpixel, samples)?;
     ratio(ssaa.cost.gpu_ms.median, superpixel.cost.gpu_ms.median)
 }
 
 /// Time with superpixels over that of one sample a pixel.
 pub fn over_none(scene: &SceneResults, samples: u32) -> Option<f64> {
-    let superpixel = scene.row(Antialiasing::Superpixel, samples)?;
-    let none = scene.row(Antialiasing::None, 1)?;
+    let superpixel = scene.row(Method::Superpixel, samples)?;
+    let none = scene.row(Method::None, 1)?;
     ratio(superpixel.cost.gpu_ms.median, none.cost.gpu_ms.median)
 }
 
 /// RMSE with superpixels over that of supersampling.
 pub fn rmse_ratio(scene: &SceneResults, samples: u32) -> Option<f64> {
-    let superpixel = scene.row(Antialiasing::Superpixel, samples)?;
-    let ssaa = scene.row(Antialiasing::Ssaa, samples)?;
+    let superpixel = scene.row(Method::Superpixel, samples)?;
+    let ssaa = scene.row(Method::Ssaa, samples)?;
     ratio(superpixel.accuracy.rmse, ssaa.accuracy.rmse)
 }
 
 /// FLIP with superpixels over that of supersampling.
 fn flip_ratio(scene: &SceneResults, samples: u32) -> Option<f64> {
-    let superpixel = scene.row(Antialiasing::Superpixel, samples)?;
-    let ssaa = scene.row(Antialiasing::Ssaa, samples)?;
+    let superpixel = scene.row(Method::Superpixel, samples)?;
+    let ssaa = scene.row(Method::Ssaa, samples)?;
     ratio(superpixel.accuracy.flip, ssaa.accuracy.flip)
 }
 
 /// Largest part of the squared error that superpixels leave, at the default number of samples or else at the most that
 /// were measured, and its share.
 pub fn most_of_what_is_left(scene: &SceneResults) -> Option<(&'static str, f64)> {
-    let superpixels = |row: &&Row| row.method == Antialiasing::Superpixel;
+    let superpixels = |row: &&Row| row.method == Method::Superpixel;
     let row = scene
         .rows
         .iter()
@@ -215,8 +214,8 @@ pub fn most_of_what_is_left(scene: &SceneResults) -> Option<(&'static str, f64)>
 
 /// RMSE over that of supersampling, of geometry alone.
 pub fn geometry_ratio(scene: &SceneResults, samples: u32) -> Option<f64> {
-    let superpixel = scene.row(Antialiasing::Superpixel, samples)?;
-    let ssaa = scene.row(Antialiasing::Ssaa, samples)?;
+    let superpixel = scene.row(Method::Superpixel, samples)?;
+    let ssaa = scene.row(Method::Ssaa, samples)?;
     ratio(superpixel.geometry?.rmse, ssaa.geometry?.rmse)
 }
 
@@ -234,8 +233,8 @@ mod tests {
     use super::*;
     use gpc::bench::{Accuracy, Cost};
 
-    fn scene(name: &str, textured: bool, rows: &[(Antialiasing, u32, f64, f64)]) -> SceneResults {
-        let row = |&(method, samples, ms, rmse): &(Antialiasing, u32, f64, f64)| Row {
+    fn scene(name: &str, textured: bool, rows: &[(Method, u32, f64, f64)]) -> SceneResults {
+        let row = |&(method, samples, ms, rmse): &(Method, u32, f64, f64)| Row {
             method,
             samples,
             cost: Cost {
@@ -267,7 +266,7 @@ mod tests {
 
     #[test]
     fn untextured_scenes_do_not_flatter() {
-        use Antialiasing::{Ssaa, Superpixel};
+        use Method::{Ssaa, Superpixel};
         let scenes = [
             scene(
                 "paint",

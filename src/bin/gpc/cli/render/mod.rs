@@ -14,7 +14,7 @@ mod view;
 
 #[cfg(feature = "view")]
 pub use args::SamplingArgs;
-pub use args::{Antialiasing, CameraArgs, RenderArgs, Tonemap};
+pub use args::{CameraArgs, RenderArgs, Tonemap};
 pub use image::ImageArgs;
 #[cfg(feature = "view")]
 pub use image::{AppearanceArgs, DeviceArgs};
@@ -80,7 +80,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     let mut video = args
         .format
         .map(|stream| {
-            let (format, size) = (stream.format(), settings.output_size());
+            let (format, size) = (stream, settings.output_size());
             VideoWriter::new(std::io::stdout(), format, size, args.sequence.fps())
         })
         .transpose()?;

@@ -14,7 +14,9 @@ use std::path::Path;
 /// Amount of reporting.
 #[derive(Args, Clone, Copy)]
 pub struct ReportArgs {
-    /// Print one JSON object of figures: files, sizes, samples, superpixels, times and memory; several images are a list
+    /// Print figures as one JSON object
+    ///
+    /// They are files, sizes, samples, superpixels, times and memory; several images are a list.
     #[arg(long, help_heading = "Report")]
     pub json: bool,
     /// Say nothing but errors
