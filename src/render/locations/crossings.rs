@@ -17,7 +17,7 @@ use ash::vk;
 use std::sync::Arc;
 
 /// Pipelines and memory to look for thin triangles in runs of locations of one scene.
-pub(super) struct CrossingEngine {
+pub(super) struct CrossingFinder {
     distribute: Distribute,
     cull: Cull,
     bin: Bin,
@@ -27,7 +27,7 @@ pub(super) struct CrossingEngine {
     run: RunMemory,
 }
 
-impl CrossingEngine {
+impl CrossingFinder {
     /// Makes the pipelines, and memory for the runs of a plan; cells are marked in `marks`.
     ///
     /// # Safety

@@ -6,12 +6,13 @@
 
 mod crossings;
 mod detection;
-mod engine;
+
 mod error;
 mod image;
 mod partition;
 mod plan;
 mod run;
+mod sampler;
 
 pub use error::LocationError;
 
@@ -19,9 +20,9 @@ use super::shadows::Sight;
 use super::{Headless, PreparedScene, RenderError, Settings, Statistics};
 use crate::camera::{Pinhole, SampleLocation};
 use crate::passes::Cells;
-use engine::{LocationEngine, LocationValues};
 use partition::Partition;
 use plan::LocationPlan;
+use sampler::{LocationSampler, LocationValues};
 use std::ops::Range;
 
 /// What a sampling location sees.
@@ -43,6 +44,9 @@ pub struct PointSample {
     /// another triangle keeps from the opaque or MASK triangle, or which shines on its other side; otherwise 0.
     pub shadows: u32,
 }
+
+/// Pinholes, and the locations on the plane of each.
+type PinholeLists<'a> = &'a [(Pinhole, Vec<SampleLocation>)];
 
 /// What a run of locations saw.
 struct Run<'a> {
@@ -129,7 +133,7 @@ impl Headless {
         self.check(&scene.gpu_scene)?;
         let layout = self.renderer.layout.clone();
         let plan = LocationPlan::new(&layout, scene, settings, partition, self.may_stop())?;
-        let make = |apart: bool| LocationEngine::new(&layout, scene, settings, &plan, apart);
+        let make = |apart: bool| LocationSampler::new(&layout, scene, settings, &plan, apart);
         let (mut engine, mut apart) = (make(false)?, false);
         let mut statistics = Statistics::default();
         let ([low, high], beyond) = partition.reach();
@@ -165,9 +169,7 @@ impl Headless {
                         "{cells} cells or tiles of {} locations did not fit",
                         run.len()
                     );
-                    let middle = run.start + run.len() / 2;
-                    waiting.push(middle..run.end);
-                    waiting.push(run.start..middle);
+                    waiting.extend(LocationPlan::halves(&run));
                     continue;
                 }
                 Err(error) => return Err(error),

@@ -1,7 +1,7 @@
 //! How many locations are sampled at once: what memory and the device's limits allow.
 
-use super::engine::list_cells;
 use super::partition::Partition;
+use super::sampler::list_cells;
 use crate::engine::sampler::plan::Capacity;
 use crate::passes::{Cells, FrameLayout, ResourceSizes};
 use crate::render::passes::FrameGeometry;
@@ -85,6 +85,14 @@ impl LocationPlan {
             }
             longest /= 2;
         }
+    }
+}
+
+impl LocationPlan {
+    /// The halves of a run, the first one last: half as many locations have half as many records and pairs.
+    pub fn halves(run: &Range<usize>) -> [Range<usize>; 2] {
+        let middle = run.start + run.len() / 2;
+        [middle..run.end, run.start..middle]
     }
 }
 

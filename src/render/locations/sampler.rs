@@ -27,7 +27,7 @@ pub(super) fn list_cells(cells: Cells, shadow_words: u32) -> ListCells {
 }
 
 /// Pipelines and memory to sample runs of locations of one scene.
-pub(super) struct LocationEngine {
+pub(super) struct LocationSampler {
     cells: Cells,
     settings: Settings,
     sampler: Sampler,
@@ -43,7 +43,7 @@ pub(super) struct LocationValues<'a> {
     pub attributes: &'a [[[u32; 4]; 2]],
 }
 
-impl LocationEngine {
+impl LocationSampler {
     /// Makes the pipelines, and memory for the runs of a plan.
     pub fn new(
         layout: &Arc<FrameLayout>,
