@@ -93,9 +93,18 @@ fn growths_of_locations_do_not_depend_on_memory() {
         // A band of all cells takes more than a quarter of either bound.
         for bound in [10 << 20, 8 << 20] {
             let parts = render(Some(bound)).unwrap();
-            assert_eq!(parts.attributes, whole.attributes);
-            assert_eq!(parts.colors, whole.colors);
+            assert!(parts.attributes == whole.attributes, "{bound} bytes");
             assert_eq!(parts.statistics.superpixels, whole.statistics.superpixels);
+            let pairs = parts
+                .colors
+                .iter()
+                .flatten()
+                .zip(whole.colors.iter().flatten());
+            let farthest = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+            assert!(
+                farthest < 1e-5,
+                "{bound} bytes: colours differ by {farthest}"
+            );
         }
     });
 }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 /// Which triangles are kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kept {
+pub enum CullFilter {
     /// All that may touch a cell.
     Touching,
     /// Of these, those that may be thin in some cell.
@@ -25,10 +25,14 @@ impl Cull {
     ///
     /// # Errors
     /// If the driver refuses one.
-    pub fn new(layout: &FrameLayout, scene: &dyn Content, kept: Kept) -> Result<Self, VulkanError> {
+    pub fn new(
+        layout: &FrameLayout,
+        scene: &dyn Content,
+        filter: CullFilter,
+    ) -> Result<Self, VulkanError> {
         let constants = scene
             .constants(Constants::new())
-            .flag(0, kept == Kept::Thin);
+            .flag(0, filter == CullFilter::Thin);
         Ok(Self {
             arguments: Arguments::new(layout, After::Detect)?,
             pipeline: layout.compute(spirv::CULL, &constants, None)?,

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 /// The pass that reads what [`Resolve`] wrote, beside the colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Then {
+pub enum ResolveTarget {
     /// None.
     Nothing,
     /// [`Detect`](super::Detect), which compares the resolved colours.
@@ -21,7 +21,7 @@ pub struct Resolve {
 }
 
 impl Resolve {
-    /// Makes a pipeline for each list of `sample`; `then` is what a pass after it needs, `output` are the colour constants of
+    /// Makes a pipeline for each list of `sample`; `target` is what a pass after it needs, `output` are the colour constants of
     /// `shaders/include/color.glsl`.
     ///
     /// # Errors
@@ -30,7 +30,7 @@ impl Resolve {
         layout: &FrameLayout,
         sample: &Sample,
         has_blend: bool,
-        then: Then,
+        target: ResolveTarget,
         output: &Constants,
     ) -> Result<Self, VulkanError> {
         let output = &sample.options().cells.constants(output.clone());
@@ -47,7 +47,7 @@ impl Resolve {
                         layered,
                         sample.options().probes()
                             && matches!(list, TileList::Plain | TileList::Masked),
-                        then,
+                        target,
                         output,
                     )?,
                 ))
@@ -63,11 +63,18 @@ impl Resolve {
     pub fn for_multisample(
         layout: &FrameLayout,
         samples: u32,
-        then: Then,
+        target: ResolveTarget,
         output: &Constants,
     ) -> Result<Self, VulkanError> {
-        let pipeline =
-            Self::pipeline(layout, TileList::Plain, samples, false, false, then, output)?;
+        let pipeline = Self::pipeline(
+            layout,
+            TileList::Plain,
+            samples,
+            false,
+            false,
+            target,
+            output,
+        )?;
         Ok(Self {
             kernels: vec![(TileList::Plain, pipeline)],
         })
@@ -79,7 +86,7 @@ impl Resolve {
         block: u32,
         layered: bool,
         probed: bool,
-        then: Then,
+        target: ResolveTarget,
         output: &Constants,
     ) -> Result<Arc<Pipeline>, VulkanError> {
         let lanes = layout.gpu.limits().lanes;
@@ -89,9 +96,9 @@ impl Resolve {
             .with(2, block)
             .flag(3, layered)
             .with(4, list as u32)
-            .flag(5, then == Then::Detect)
+            .flag(5, target == ResolveTarget::Detect)
             .flag(6, probed)
-            .flag(7, then == Then::Grow);
+            .flag(7, target == ResolveTarget::Grow);
         layout.compute(spirv::RESOLVE, &constants, layout.subgroup())
     }
 

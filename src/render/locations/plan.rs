@@ -6,7 +6,7 @@ use crate::engine::sampler::plan::Capacity;
 use crate::passes::{Cells, FrameLayout, ResourceSizes};
 use crate::render::passes::FrameGeometry;
 use crate::render::plane::Window;
-use crate::render::shadows::{Casters, ShadowEngine};
+use crate::render::shadows::{Casters, ShadowFinder};
 use crate::render::{PreparedScene, RenderError, Settings, Shadows};
 use std::ops::Range;
 
@@ -63,7 +63,7 @@ impl LocationPlan {
             let words = casters.map_or(0, Casters::shadow_words);
             let sizes = list_cells(cells, words).sizes(layout, scene, settings, room, 1);
             let of_shadows = casters.map_or(0, |casters| {
-                ShadowEngine::bytes(layout, casters, settings, capacity, (places, &sizes))
+                ShadowFinder::bytes(layout, casters, settings, capacity, (places, &sizes))
             });
             let held = sizes.bytes() + FrameGeometry::bytes(scene) + of_shadows;
             let needed = prepared.memory_bytes() + held;

@@ -55,7 +55,7 @@ impl Crossings {
         resources: &Resources,
         (seen, marks): (&Buffer, &Buffer),
     ) -> Result<Self, VulkanError> {
-        let shown = [whole(resources.tile_locations()), whole(seen), whole(marks)];
+        let shown = [whole(&resources.locations.loads), whole(seen), whole(marks)];
         // SAFETY: passed on to the caller; the first buffer goes with the resources.
         let beside = unsafe { BesideFrame::new(layout, &shown) }?;
         let constants = scene.constants(Constants::new()).flag(1, scene.has_blend());

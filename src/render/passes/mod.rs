@@ -21,5 +21,5 @@ pub use pose::Pose;
 pub use receivers::{LightPlane, Receivers, Receiving};
 pub use scene::{FrameLook, GpuScene, SceneUploads};
 pub use shade::{Shade, ShadeSource};
-pub use shadow::{Found, Shadow};
+pub use shadow::{Shadow, ShadowTarget};
 pub use stroke::{Stroke, StrokeSizes};
