@@ -23,7 +23,7 @@
 #![cfg_attr(feature = "gltf", doc = "```no_run")]
 #![cfg_attr(not(feature = "gltf"), doc = "```ignore")]
 //! use gpc::camera::Orbit;
-//! use gpc::render::{Headless, HeadlessOptions, Settings};
+//! use gpc::render::{Headless, HeadlessOptions, SceneRequest, Settings};
 //! use gpc::scene::{PoseRequest, Scene};
 //!
 //! let scene = Scene::load("scene.glb".as_ref())?.scene;
@@ -32,7 +32,7 @@
 //! let camera = Orbit::default().frame(low, high, 1280.0 / 720.0)?;
 //!
 //! let mut headless = Headless::new(&HeadlessOptions::default())?;
-//! let prepared = headless.upload(&scene, &pose, None)?;
+//! let prepared = headless.upload(SceneRequest::new(&scene, &pose))?;
 //! let mut frame = headless.prepare(&prepared, &Settings::new(1280, 720))?;
 //! let image = headless.render(&mut frame, &camera)?; // again and again, with other cameras
 //! println!("{} superpixels, {:.1} ms", image.statistics.superpixels, image.statistics.gpu_ms());
@@ -41,7 +41,7 @@
 //!
 //! `image.colors` has rows of linear, premultiplied RGBA. Any other set of locations is a `camera::Pinhole` and a list of
 //! `camera::SampleLocation`s, which `Headless::sample_points`, `sample_superpixels` and `render_locations` take. `camera` makes
-//! such lists: for zooms, panoramas, rigs and projectors. `Headless::prepare_shadows` readies a scene for shadows.
+//! such lists: for zooms, panoramas, rigs and projectors. `SceneRequest::shadows` readies a scene for shadows.
 //!
 //! ## 2. A file, in your command buffer
 //!
@@ -74,7 +74,7 @@
 //! | none | the engine: [`host`], which knows no files |
 //! | `gltf` | scenes, cameras, and rendering in your device or one of the library's |
 //! | `draco`, `basisu` | Draco meshes and KTX2 textures; files with them are refused otherwise |
-//! | `cli`, on by default | what the command needs: image files (`output`), comparisons and benchmarks |
+//! | `cli`, on by default | what the command needs: image files (`output`), comparisons (`compare`) and resampling (`resample`) |
 //! | `view` | the command's window |
 //! | `capi` | [`host`] in C: `include/gpc.h` |
 //! | `compile-shaders` | compiles the shaders instead of taking the SPIR-V that comes with the package |
@@ -105,7 +105,12 @@ pub use engine::{color, host, sampling, vulkan};
 #[cfg(feature = "gltf")]
 pub use render::{camera, scene};
 #[cfg(feature = "cli")]
-pub use tools::{bench, compare, output, resample};
+pub use tools::{compare, names, output, resample};
+
+/// What `gpc bench` and tests measure with: no part of the library's interface, and changes without notice.
+#[cfg(feature = "cli")]
+#[doc(hidden)]
+pub use tools::bench;
 
 /// Compiles the library's example in the README.
 #[cfg(all(doctest, feature = "gltf"))]

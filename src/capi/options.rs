@@ -51,6 +51,9 @@ pub enum GpcDetection {
     Every = 3,
 }
 
+/// The value of GpcOptions.contrast for the threshold that suits the samples: 6, and 1 from 128 samples on.
+pub const GPC_CONTRAST_OF_SAMPLES: u32 = u32::MAX;
+
 /// How a frame is antialiased; gpc_options_init gives defaults.
 #[derive(Clone, Copy)]
 #[repr(C)]
@@ -69,7 +72,7 @@ pub struct GpcOptions {
     pub shading: u32,
     /// What makes a superpixel: a GpcDetection.
     pub detection: u32,
-    /// Differences above this, in 8-bit sRGB code values of any channel, are a contrast: 0 to 255.
+    /// Differences above this, in 8-bit sRGB code values of any channel, are a contrast: 0 to 255, or GPC_CONTRAST_OF_SAMPLES.
     pub contrast: u32,
     /// VK_TRUE if triangles too thin for a pixel's centre to see make superpixels too; where IDs are lent, this needs depth,
     /// too.
@@ -126,7 +129,7 @@ pub unsafe extern "C" fn gpc_options_init(
                 pattern: GpcPattern::Sobol as u32,
                 shading: GpcShading::Part as u32,
                 detection: GpcDetection::Contrast as u32,
-                contrast: u32::from(defaults.contrast),
+                contrast: defaults.contrast.map_or(GPC_CONTRAST_OF_SAMPLES, u32::from),
                 thin: u32::from(defaults.thin),
                 high_dynamic_range: u32::from(defaults.high_dynamic_range),
                 sharp: u32::from(defaults.sharp),
@@ -166,11 +169,14 @@ impl GpcOptions {
             pattern: unsafe { self.sample_pattern() }?,
             shading: choice("GpcOptions.shading", self.shading, &shadings)?,
             detection: choice("GpcOptions.detection", self.detection, &detections)?,
-            contrast: u8::try_from(self.contrast).map_err(|_| Error::Value {
-                name: "GpcOptions.contrast",
-                found: self.contrast,
-                possible: "0 to 255".to_owned(),
-            })?,
+            contrast: match self.contrast {
+                GPC_CONTRAST_OF_SAMPLES => None,
+                asked => Some(u8::try_from(asked).map_err(|_| Error::Value {
+                    name: "GpcOptions.contrast",
+                    found: asked,
+                    possible: "0 to 255, or GPC_CONTRAST_OF_SAMPLES".to_owned(),
+                })?),
+            },
             thin: flag("GpcOptions.thin", self.thin)?,
             background: has_background.then_some(self.background),
             high_dynamic_range: flag("GpcOptions.high_dynamic_range", self.high_dynamic_range)?,

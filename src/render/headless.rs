@@ -1,11 +1,10 @@
 //! A renderer with a device of its own, for images without a window.
 
-use super::renderer::{PreparedScene, Renderer};
-use super::{Frame, RenderError, Settings, Statistics, Target};
+use super::renderer::{PreparedScene, Renderer, SceneRequest};
+use super::{Frame, RenderError, Settings, Shadows, Statistics, Target};
 use crate::camera::Camera;
 use crate::engine::sampler::plan::Capacity;
 use crate::render::passes::GpuScene;
-use crate::scene::{Motion, Pose, Scene};
 use crate::vulkan::{
     Buffer, Gpu, Instance, InstanceOptions, Limits, Memory, MemoryUse, VulkanError,
 };
@@ -225,40 +224,22 @@ impl Headless {
             .unwrap_or_default()
     }
 
-    /// Puts a posed scene on the device.
+    /// Puts a scene on the device, as [`Renderer::prepare_scene`] prepares it.
     ///
     /// # Errors
-    /// If memory runs out or the scene passes a limit of the device.
-    pub fn upload(
-        &mut self,
-        scene: &Scene,
-        pose: &Pose,
-        max_memory: Option<u64>,
-    ) -> Result<PreparedScene, RenderError> {
-        let mut prepared = self.renderer.prepare_scene(scene, pose, max_memory)?;
+    /// As [`Renderer::prepare_scene`]; [`RenderError::Stopped`] as [`Self::stop_when`] says.
+    pub fn upload(&mut self, request: SceneRequest<'_>) -> Result<PreparedScene, RenderError> {
+        let mut prepared = self.renderer.prepare_shown(request)?;
         self.put(&mut prepared)?;
+        // What the first upload needed is free for the second one.
+        if request.shadows != Shadows::None {
+            self.renderer.prepare_casters(&mut prepared, request)?;
+            self.put(&mut prepared)?;
+        }
         Ok(prepared)
     }
 
-    /// As [`Headless::upload`], for a scene that moves: its frames [show](Frame::show) other moments of the motion. Images
-    /// of locations are those of the first pose.
-    ///
-    /// # Errors
-    /// As [`Headless::upload`]; [`RenderError::OtherMotion`] for a pose and motion that were not made together.
-    pub fn upload_in_motion(
-        &mut self,
-        scene: &Scene,
-        pose: (&Pose, &Motion),
-        max_memory: Option<u64>,
-    ) -> Result<PreparedScene, RenderError> {
-        let mut prepared = self
-            .renderer
-            .prepare_scene_in_motion(scene, pose, max_memory)?;
-        self.put(&mut prepared)?;
-        Ok(prepared)
-    }
-
-    pub(super) fn put(&mut self, prepared: &mut PreparedScene) -> Result<(), RenderError> {
+    fn put(&mut self, prepared: &mut PreparedScene) -> Result<(), RenderError> {
         // SAFETY: the commands are submitted and waited for while the scene is alive.
         self.submit(|commands| unsafe { prepared.record_upload(commands) })?;
         // SAFETY: the commands were waited for.

@@ -12,7 +12,7 @@ mod plane;
 mod renderer;
 pub mod scene;
 mod shadows;
-mod uniform;
+mod viewpoint;
 
 pub use crate::engine::passes::Encoding;
 pub use crate::engine::sampler::{
@@ -22,4 +22,4 @@ pub use crate::engine::sampler::{
 pub use frame::{Frame, Target};
 pub use headless::{Headless, HeadlessOptions, PixelAttributes, Rendered};
 pub use locations::{LocationError, PointSample, Sampled};
-pub use renderer::{PreparedScene, Renderer};
+pub use renderer::{PreparedScene, Renderer, SceneRequest};

@@ -1,6 +1,7 @@
-//! What only the command needs: image files, comparisons of images, zooms of photographs, benchmarks.
+//! Tools of the command: image files, comparisons of images, resampling of photographs, benchmarks.
 
 pub mod bench;
 pub mod compare;
+pub mod names;
 pub mod output;
 pub mod resample;

@@ -51,7 +51,7 @@ fn y4m_frames_are_the_images() {
         "29.97",
     ];
     let run = render(folder.path(), &[&film, &background[..]].concat());
-    let header: &[u8] = b"YUV4MPEG2 W50 H27 F30000:1001 Ip A1:1 C444 XCOLORRANGE=LIMITED\nFRAME\n";
+    let header: &[u8] = b"YUV4MPEG2 W50 H27 F30000:1001 XCOLORRANGE=LIMITED C444\nFRAME\n";
     assert!(run.stdout.starts_with(header));
     let mut decoder = y4m::decode(&run.stdout[..]).unwrap();
     assert_eq!([decoder.get_width(), decoder.get_height()], SIZE);
@@ -82,7 +82,7 @@ fn y4m_frames_are_the_images() {
 fn a_still_image_is_a_film_of_one_frame() {
     let folder = tempfile::tempdir().unwrap();
     let run = render(folder.path(), &["-o", "-", "--format", "y4m"]);
-    let header = b"YUV4MPEG2 W50 H27 F24:1 Ip A1:1 C444 XCOLORRANGE=LIMITED\n".len();
+    let header = b"YUV4MPEG2 W50 H27 F24:1 XCOLORRANGE=LIMITED C444\n".len();
     assert_eq!(run.stdout.len(), header + 6 + 3 * SIZE[0] * SIZE[1]);
     assert!(files(folder.path()).is_empty());
 }

@@ -26,7 +26,7 @@ fn growths_are_the_twins() {
                 &Settings {
                     method: Method::Superpixel,
                     samples,
-                    contrast: CONTRAST,
+                    contrast: Some(CONTRAST),
                     ..once(size)
                 },
             );

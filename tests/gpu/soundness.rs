@@ -2,7 +2,9 @@
 
 use crate::stage::{Stage, camera, flat, on_gpu, once, textured};
 use crate::submit::{discard, submit};
-use gpc::render::{Frame, Headless, HeadlessOptions, RenderError, Renderer, Settings, Target};
+use gpc::render::{
+    Frame, Headless, HeadlessOptions, RenderError, Renderer, SceneRequest, Settings, Target,
+};
 use gpc::scene::{AlphaMode, DrawClass, Geometry, GeometryError, Image, Sampler};
 use gpc::testing::{MemoryUse, memory};
 use gpc::vulkan::VulkanError;
@@ -47,7 +49,9 @@ fn a_scene_is_uploaded_before_it_is_shown() {
     on_gpu(|gpu| {
         let (scene, pose) = stage().build();
         let renderer = Renderer::in_gpu(gpu.gpu().clone()).unwrap();
-        let prepared = renderer.prepare_scene(&scene, &pose, None).unwrap();
+        let prepared = renderer
+            .prepare_scene(SceneRequest::new(&scene, &pose))
+            .unwrap();
         let refused = gpu.prepare(&prepared, &once(SIZE)).err();
         assert!(matches!(refused, Some(RenderError::NotUploaded)));
     });
@@ -65,7 +69,9 @@ fn discarded_recordings_change_nothing() {
         let device = gpu.gpu().clone();
         let renderer = Renderer::in_gpu(device.clone()).unwrap();
         let (scene, pose) = stage().build();
-        let prepared = renderer.prepare_scene(&scene, &pose, None).unwrap();
+        let prepared = renderer
+            .prepare_scene(SceneRequest::new(&scene, &pose))
+            .unwrap();
         let mut frame = renderer.prepare(&prepared, &settings, None).unwrap();
         // SAFETY: what is made with it is read when the commands are done.
         let memory = unsafe { memory(&device, None) };
@@ -111,7 +117,7 @@ fn geometry_that_contradicts_itself_is_refused() {
         let mut refused = |spoil: &dyn Fn(&mut Geometry)| {
             let mut pose = pose.clone();
             spoil(&mut pose.geometry);
-            match gpu.upload(&scene, &pose, None) {
+            match gpu.upload(SceneRequest::new(&scene, &pose)) {
                 Err(RenderError::Geometry(error)) => error,
                 Err(other) => panic!("{other}"),
                 Ok(_) => panic!("it was taken"),

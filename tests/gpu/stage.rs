@@ -5,7 +5,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use glam::{DVec3, Vec3};
 use gpc::bench::stress::stage;
-use gpc::render::{Headless, HeadlessOptions, PreparedScene, Rendered, Settings};
+use gpc::render::{Headless, HeadlessOptions, PreparedScene, Rendered, SceneRequest, Settings};
 use gpc::scene::Material;
 
 pub use gpc::bench::stress::stage::{camera, code, everywhere, flat, once, seen_at, textured};
@@ -47,7 +47,7 @@ impl Stage {
     /// Puts it on the device.
     pub fn upload(&self, gpu: &mut Headless) -> PreparedScene {
         let (scene, pose) = self.build();
-        gpu.upload(&scene, &pose, None).unwrap()
+        gpu.upload(SceneRequest::new(&scene, &pose)).unwrap()
     }
 
     /// Renders it.

@@ -3,7 +3,7 @@
 use crate::example;
 use gpc::camera::Camera;
 use gpc::color::srgb;
-use gpc::render::{Headless, HeadlessOptions, Settings, Shadows};
+use gpc::render::{Headless, HeadlessOptions, SceneRequest, Settings, Shadows};
 use gpc::scene::{PoseRequest, Scene};
 use std::path::Path;
 use std::process::Command;
@@ -20,10 +20,8 @@ fn headless(width: u32, height: u32) -> Vec<[u8; 4]> {
     let scene = Scene::load(Path::new(SCENE)).unwrap().scene;
     let pose = scene.pose(&PoseRequest::default()).unwrap();
     let camera = Camera::from_scene(pose.cameras.first().unwrap());
-    let mut prepared = headless.upload(&scene, &pose, None).unwrap();
-    headless
-        .prepare_shadows(&mut prepared, &scene, &pose, None)
-        .unwrap();
+    let request = SceneRequest::new(&scene, &pose).shadowed(Shadows::Exact);
+    let prepared = headless.upload(request).unwrap();
     let settings = Settings {
         background: Some([0.2, 0.3, 0.5]),
         shadows: Shadows::Exact,

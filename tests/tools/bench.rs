@@ -7,7 +7,8 @@ use gpc::bench::{Growth, Looks, Variant, VariantContender, VariantError, Yardsti
 use gpc::camera::{Camera, Orbit, Projection};
 use gpc::output::Picture;
 use gpc::render::{
-    Footprint, Headless, HeadlessOptions, Method, PreparedScene, RenderError, Settings,
+    Footprint, Headless, HeadlessOptions, Method, PreparedScene, RenderError, SceneRequest,
+    Settings,
 };
 use gpc::scene::{PoseRequest, Scene};
 use serde_json::Value;
@@ -21,7 +22,7 @@ fn stage(name: &str) -> (Headless, PreparedScene, Camera) {
     let (low, high) = pose.geometry.bounds().unwrap();
     let camera = Orbit::default().frame(low, high, 1.0).unwrap();
     let mut headless = Headless::new(&HeadlessOptions::default()).unwrap();
-    let prepared = headless.upload(&scene, &pose, None).unwrap();
+    let prepared = headless.upload(SceneRequest::new(&scene, &pose)).unwrap();
     (headless, prepared, camera)
 }
 
@@ -170,7 +171,9 @@ fn what_grows_is_what_is_said_to() {
     let pixels = f64::from(size[0] * size[1]);
     for index in 0..Growth::Superpixels.steps() {
         let step = Growth::Superpixels.step(index, size).unwrap();
-        let prepared = headless.upload(&step.scene, &step.pose, None).unwrap();
+        let prepared = headless
+            .upload(SceneRequest::new(&step.scene, &step.pose))
+            .unwrap();
         let settings = Settings {
             samples: 4,
             background: Some([0.8; 3]),

@@ -6,7 +6,7 @@ use glam::DVec3;
 use gpc::bench::stress::stage::camera;
 use gpc::bench::stress::{Check, Finding, Length};
 use gpc::camera::Camera;
-use gpc::render::{Headless, HeadlessOptions, Settings};
+use gpc::render::{Headless, HeadlessOptions, SceneRequest, Settings};
 use gpc::scene::{PoseRequest, Scene};
 
 fn headless() -> Headless {
@@ -121,7 +121,7 @@ fn a_file_far_from_the_origin_is_the_same_picture() {
     let images = [0.0, 1e6].map(|offset| {
         let (scene, camera) = far_away(offset);
         let pose = scene.pose(&PoseRequest::default()).unwrap();
-        let prepared = headless.upload(&scene, &pose, None).unwrap();
+        let prepared = headless.upload(SceneRequest::new(&scene, &pose)).unwrap();
         let mut frame = headless.prepare(&prepared, &settings).unwrap();
         headless.render(&mut frame, &camera).unwrap()
     });

@@ -5,8 +5,8 @@ use gpc::bench::stress::stage::{Stage, camera, flat, seen_at, textured};
 use gpc::bench::{Half, Looks, Random, Stripped, Suspects, Within, Yardstick, brute_force};
 use gpc::output::{DecodedImage, Picture};
 use gpc::render::{
-    Coverage, Detection, Footprint, Headless, HeadlessOptions, Method, PreparedScene, Settings,
-    Shading,
+    Coverage, Detection, Footprint, Headless, HeadlessOptions, Method, PreparedScene, SceneRequest,
+    Settings, Shading,
 };
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Image, Material, Pose, Sampler, Scene};
@@ -73,7 +73,7 @@ fn reference(
 fn only_textures_read_for_samples_come_to_the_truth() {
     let (scene, pose) = noisy(textured(AlphaMode::Opaque));
     let mut headless = headless();
-    let scene = headless.upload(&scene, &pose, None).unwrap();
+    let scene = headless.upload(SceneRequest::new(&scene, &pose)).unwrap();
     let truth = reference(&mut headless, &scene, Footprint::Sample);
     let geometry = reference(&mut headless, &scene, Footprint::Pixel);
     let mut error = |footprint, samples| {
@@ -93,11 +93,13 @@ fn only_textures_read_for_samples_come_to_the_truth() {
 /// What is left of the error where no pixel is a superpixel, or where all are.
 fn left(scene: &Scene, pose: &Pose, superpixels: bool) -> Within {
     let mut headless = headless();
-    let whole = headless.upload(scene, pose, None).unwrap();
+    let whole = headless.upload(SceneRequest::new(scene, pose)).unwrap();
     let plain = settings(Method::None, 1, Footprint::Sample);
     let shown = |colors: &[[f32; 4]]| DecodedImage::from(&Picture::new(SIZE, colors).unwrap());
     let halves = Stripped::ALL.map(|stripped| {
-        let scene = headless.upload(&stripped.of(scene), pose, None).unwrap();
+        let scene = headless
+            .upload(SceneRequest::new(&stripped.of(scene), pose))
+            .unwrap();
         let truth = reference(&mut headless, &scene, Footprint::Sample);
         (scene, shown(&truth))
     });
@@ -175,7 +177,7 @@ fn paint_and_light_are_told_apart() {
 fn a_grid_of_shaded_samples_is_brute_force() {
     let (scene, pose) = noisy(textured(AlphaMode::Opaque));
     let mut headless = headless();
-    let scene = headless.upload(&scene, &pose, None).unwrap();
+    let scene = headless.upload(SceneRequest::new(&scene, &pose)).unwrap();
     for samples in [16, 64] {
         let brute_force = settings(Method::Ssaa, samples, Footprint::Sample);
         let superpixels = Settings {

@@ -2,7 +2,7 @@
 
 use super::draw::PlacedDraws;
 use super::{HostError, Images, Options, Shared};
-use crate::engine::sampler::engine::{RecordShading, record_shading};
+use crate::engine::sampler::{RecordShading, record_shading};
 use crate::passes::{
     Centres, Content, FrameUniform, HostDraw, OwnSet, Raster, RasterPush, RasterRun, RasterTargets,
     Resources, SampleSet, Sort,

@@ -4,18 +4,18 @@ use super::base::Base;
 use super::draw::PlacedDraws;
 use super::lending::Lending;
 use super::shading::ShadeSamples;
-use super::uniform::{check_size, uniform};
+use super::uniform::{check_size, plane_block, scene_block};
 use super::{Draw, Geometry, HostError, Images, LentImage, Options, Shared};
-use crate::engine::sampler::engine::{Engine, EngineKind, Growing, Work, with_probes};
 use crate::engine::sampler::footprint::Footprints;
 use crate::engine::sampler::plan::{Capacity, Plan};
 use crate::engine::sampler::statistics::Shortfall;
+use crate::engine::sampler::uniform::{PlaneBlock, frame_uniform};
+use crate::engine::sampler::{PixelCells, Sampler, SamplerContext, SamplerRun, with_probes};
 use crate::engine::sampler::{Settings, Statistics};
 use crate::passes::{
-    Content, Counter, FrameUniform, IdViews, Offsets, OwnSet, Patch, Patched, RasterTargets,
-    Resources,
+    FrameUniform, IdViews, ListLength, Offsets, OwnSet, Patch, Patched, RasterTargets, Resources,
 };
-use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings};
+use crate::vulkan::{Memory, Recorder, Timings};
 use ash::vk;
 use std::sync::Arc;
 
@@ -46,12 +46,10 @@ pub struct Frame {
     settings: Settings,
     plan: Plan,
     resources: Resources,
-    engine: Engine,
-    rounds: u32,
+    sampler: Sampler,
     base: Base,
     patch: Patch,
     visibility_set: OwnSet,
-    counters: Buffer,
     timings: Timings,
     memory: Memory,
     /// Last: layouts go after what was made with them.
@@ -126,18 +124,24 @@ impl Frame {
             }],
         )?;
         let output = settings.color_constants(content);
-        let engine = Engine::new(
+        let cells = PixelCells {
+            farther_is_larger: own.is_none() && !geometry.clip.reversed_depth,
+            blend_ids: false,
+            ..PixelCells::superpixels(&settings)
+        };
+        let mut sampler = cells.sampler(&SamplerContext {
             layout,
-            content,
-            &settings,
-            &plan,
-            &output,
-            &EngineKind {
-                farther_is_larger: own.is_none() && !geometry.clip.reversed_depth,
-                blend_ids: false,
-                ..EngineKind::superpixels(&settings)
-            },
-        )?;
+            memory: &memory,
+            scene: content,
+            settings: &settings,
+            output: &output,
+            sizes: &plan.sizes,
+            capacity,
+            runs: 1,
+        })?;
+        if let Some(most) = options.max_rounds {
+            sampler.limit_rounds(most);
+        }
         // SAFETY: of the host's handles, as the caller says; the rest goes with the frame.
         let (base, visibility_set) = unsafe {
             (
@@ -145,8 +149,7 @@ impl Frame {
                 lending.visibility_set(shared, &resources, None)?,
             )
         };
-        let growths = engine.growths() as u32;
-        let rounds = options.rounds(engine.most_rounds(&plan.sizes, content.index_count()));
+        let growths = sampler.growths() as u32;
         let bands = Base::shadings(options, width * height, plan.sizes.record_capacity);
         let patched = match (options.shade_all, growths) {
             (true, _) => Patched::All,
@@ -156,12 +159,6 @@ impl Frame {
         Ok(Self {
             base,
             patch: Patch::new(layout, images.color.format, images.color.encoded, patched)?,
-            counters: memory.buffer(
-                "counter read-back",
-                Counter::BYTES * u64::from(1 + growths),
-                vk::BufferUsageFlags::TRANSFER_DST,
-                MemoryUse::Readback,
-            )?,
             timings: Timings::new(gpu, 32 + 14 * (1 + growths) + 8 * bands)?,
             lending,
             images: *images,
@@ -169,8 +166,7 @@ impl Frame {
             settings,
             plan,
             resources,
-            engine,
-            rounds,
+            sampler,
             visibility_set,
             memory,
             shared: shared.clone(),
@@ -198,7 +194,7 @@ impl Frame {
     /// # Safety
     /// As [`super::Antialiaser::prepare`].
     pub unsafe fn grow(&self) -> Result<Self, HostError> {
-        let capacity = self.plan.capacity.more(self.shortfall()?);
+        let capacity = self.sampler.capacity().more(self.shortfall()?);
         // SAFETY: passed on to the caller.
         unsafe {
             Self::with_capacity(
@@ -276,22 +272,14 @@ impl Frame {
             // What the centres counted is not of superpixels.
             resources.record_begin(recorder, set, &uniform);
         }
-        let work = Work {
-            triangles: placed.triangles,
-            tiles: uniform.tiles[0] * uniform.tiles[1],
-            rounds: self.rounds,
-        };
-        self.engine.record(recorder, resources, &shading, &work);
-        resources.record_keep_counters(recorder, &self.counters, 0);
-        let growing = Growing {
+        let run = SamplerRun {
             resources,
             set,
-            uniform,
-            work,
-            counters: &self.counters,
-            first_slot: 1,
+            uniform: &uniform,
+            list: (0, ListLength::Known),
+            index: 0,
         };
-        self.engine.record_growths(recorder, &shading, &growing);
+        self.sampler.record(recorder, &run, &shading);
         recorder.barrier();
         self.images.record_draw(recorder);
         let view = self.images.color.lent.view;
@@ -303,23 +291,9 @@ impl Frame {
         Ok(())
     }
 
-    /// What the last recording counted: the superpixels that were detected, and each growth of them.
-    fn counted(&self) -> Result<impl Iterator<Item = &[u32]>, HostError> {
-        self.lending.check_done()?;
-        let runs = 1 + self.engine.growths();
-        let words: &[u32] = self.counters.read(runs * Counter::COUNT)?;
-        Ok(words.chunks_exact(Counter::COUNT))
-    }
-
     fn shortfall(&self) -> Result<Shortfall, HostError> {
-        let mut shortfall = Shortfall::default();
-        let tiles = self.plan.sizes.tiles();
-        let room = self.plan.sizes.survivor_capacity;
-        for counters in self.counted()? {
-            shortfall.add(counters, (tiles, room), self.plan.capacity.unlisted);
-            shortfall.add_subgroups(counters);
-        }
-        Ok(shortfall)
+        self.lending.check_done()?;
+        Ok(self.sampler.shortfall([self.plan.sizes.tiles()])?)
     }
 
     /// What the last recording did, once its commands are done, until the next one. It waits for nothing.
@@ -330,10 +304,9 @@ impl Frame {
     pub fn outcome(&self) -> Result<Outcome, HostError> {
         let shortfall = self.shortfall()?;
         let statistics = self.lending.statistics(
-            self.counted()?,
+            (&self.sampler, &self.plan.sizes),
             (&self.timings, &self.memory),
-            self.plan.sizes.tiles(),
-            (&shortfall, self.plan.sizes.lanes),
+            &shortfall,
         )?;
         Ok(Outcome {
             statistics,
@@ -342,20 +315,23 @@ impl Frame {
     }
 
     fn uniform(&self, placed: &PlacedDraws, projection: &[[f32; 4]; 4]) -> FrameUniform {
-        let [width, height] = self.settings.size;
-        let footprints = Footprints::new(&self.settings, self.settings.samples);
-        let (geometry, sizes) = (&self.lending.geometry, &self.plan.sizes);
-        FrameUniform {
-            raster_scale: [width, height].map(|side| 2.0 / side as f32),
-            interior_high: [width, height],
-            gap: gap(projection, height),
-            contrast: u32::from(self.settings.contrast),
+        let (settings, geometry) = (&self.settings, &self.lending.geometry);
+        let plane = PlaneBlock {
+            gap: gap(projection, settings.size[1]),
             // Materials that are filtered over their pixel vary within it by more than centres tell.
-            alike: u32::from(self.settings.contrast).div_ceil(4),
+            alike: u32::from(settings.threshold()).div_ceil(4),
             seen_corner: self.images.ids.map_or([0, 0], |_| self.images.corner),
             color_corner: self.images.corner,
-            ..uniform(geometry, &self.settings, sizes, &footprints, placed)
-        }
+            ..plane_block(geometry, settings.size)
+        };
+        let footprints = Footprints::new(settings, settings.samples);
+        frame_uniform(
+            &scene_block(geometry, placed),
+            &plane,
+            settings,
+            (settings.samples, &footprints),
+            &self.plan.sizes,
+        )
     }
 }
 

@@ -7,10 +7,13 @@ use super::draw::PlacedDraws;
 use super::shading::{HostShading, ShadeSamples, VisibilitySamples};
 use super::uniform::scale;
 use super::{Geometry, HostError, Shared};
+use crate::engine::sampler::Sampler;
 use crate::engine::sampler::Settings;
 use crate::engine::sampler::statistics::Shortfall;
 use crate::engine::sampler::{PassTime, RenderError, Statistics};
-use crate::passes::{OwnSet, Resources, SampleSet, VisibilityUniform, VisibleGeometry};
+use crate::passes::{
+    OwnSet, ResourceSizes, Resources, SampleSet, VisibilityUniform, VisibleGeometry,
+};
 use crate::vulkan::{Buffer, Completion, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;
 use std::sync::Arc;
@@ -152,32 +155,28 @@ impl Lending {
         }
     }
 
-    /// Figures of the last recording, which was over so many tiles.
+    /// Figures of the last recording, of a sampler in memory of these sizes.
     ///
     /// # Errors
     /// If the commands are not done, what was timed can't be read, or the driver ran kernels in subgroups that they were not made for.
-    pub fn statistics<'a>(
+    pub fn statistics(
         &self,
-        counted: impl Iterator<Item = &'a [u32]>,
+        (sampler, sizes): (&Sampler, &ResourceSizes),
         (timings, memory): (&Timings, &Memory),
-        tiles: u32,
-        (shortfall, lanes): (&Shortfall, u32),
+        shortfall: &Shortfall,
     ) -> Result<Statistics, HostError> {
         let mut statistics = Statistics {
             regions: 1,
             memory_bytes: memory.used(),
-            tiles: u64::from(tiles),
             ..Statistics::default()
         };
         statistics.triangles.total = u64::from(self.triangles);
-        for counters in counted {
-            statistics.add(counters);
-        }
+        sampler.add_statistics([sizes.tiles()], &mut statistics)?;
         for (pass, ms) in timings.read()? {
             statistics.add_time(PassTime { pass, ms });
         }
         shortfall
-            .check_subgroups(lanes)
+            .check_subgroups(sizes.lanes)
             .map_err(RenderError::from)?;
         Ok(statistics)
     }

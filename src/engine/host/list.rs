@@ -3,18 +3,18 @@
 use super::draw::PlacedDraws;
 use super::lending::Lending;
 use super::shading::ShadeSamples;
-use super::uniform::{check_size, uniform};
+use super::uniform::{check_size, plane_block, scene_block};
 use super::{Draw, Geometry, HostError, Options, Shared};
 use crate::engine::sampler::footprint::Footprints;
-use crate::engine::sampler::list::{ListEngine, ListKind};
 use crate::engine::sampler::plan::Capacity;
 use crate::engine::sampler::statistics::Shortfall;
+use crate::engine::sampler::uniform::{PlaneBlock, frame_uniform};
+use crate::engine::sampler::{ListCells, Sampler, SamplerContext, SamplerRun};
 use crate::engine::sampler::{Settings, Statistics};
 use crate::passes::{
-    Cells, Content, Counter, FrameUniform, ListLength, ListRegion, Offsets, OwnSet, RasterTargets,
-    ResourceSizes, Resources, VisibilityUniform,
+    Cells, FrameUniform, ListLength, Offsets, OwnSet, RasterTargets, Resources, VisibilityUniform,
 };
-use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, TexelView, Timings};
+use crate::vulkan::{Memory, Recorder, TexelView, Timings};
 use ash::vk;
 use std::sync::Arc;
 
@@ -64,13 +64,10 @@ pub struct List {
     list: LocationList,
     options: Options,
     settings: Settings,
-    capacity: Capacity,
-    rounds: u32,
     resources: Resources,
     targets: RasterTargets,
-    engine: ListEngine,
+    sampler: Sampler,
     visibility_set: OwnSet,
-    counters: Buffer,
     timings: Timings,
     memory: Memory,
     _locations: TexelView,
@@ -158,7 +155,7 @@ impl List {
         // SAFETY: passed on to the caller.
         let lending = unsafe { Lending::new(shared, &memory, geometry) }?;
         let content = &lending.content;
-        let kind = ListKind {
+        let cells = ListCells {
             cells: if settings.samples == 1 {
                 Cells::Points
             } else {
@@ -167,14 +164,11 @@ impl List {
             attributes: false,
             shadow_words: 0,
             lent: true,
-            apart: capacity.apart,
-            unlisted: capacity.unlisted,
-            layers: capacity.layers,
         };
         let room = (list.capacity, padded(settings.size));
-        let sizes = kind.sizes(layout, content, &settings, room, capacity.lists);
+        let sizes = cells.sizes(layout, content, &settings, room, capacity.lists);
         sizes.check("the largest list of a recording", limits)?;
-        let (offsets, count) = kind.offsets(layout, &settings)?;
+        let (offsets, count) = cells.offsets(layout, &settings)?;
         let single = vk::SampleCountFlags::TYPE_1;
         let targets = RasterTargets::new(&memory, 1, 1, single, false)?;
         let uint4 = vk::Format::R32G32B32A32_UINT;
@@ -196,32 +190,35 @@ impl List {
             }],
         )?;
         let output = settings.color_constants(content);
+        let context = SamplerContext {
+            layout,
+            memory: &memory,
+            scene: content,
+            settings: &settings,
+            output: &output,
+            sizes: &sizes,
+            capacity,
+            runs: 1,
+        };
         // SAFETY: of the list as the caller says; the rest goes with this.
-        let (engine, visibility_set) = unsafe {
-            let shown = (&resources, locations.raw);
+        let (mut sampler, visibility_set) = unsafe {
             (
-                ListEngine::new(layout, content, &settings, &kind, shown, &output)?,
+                cells.sampler(&context, (&resources, locations.raw))?,
                 lending.visibility_set(shared, &resources, Some(list.info()))?,
             )
         };
-        let rounds = options.rounds(engine.most_rounds(&sizes, content.index_count()));
+        if let Some(most) = options.max_rounds {
+            sampler.limit_rounds(most);
+        }
         Ok(Self {
-            counters: memory.buffer(
-                "counter read-back",
-                Counter::BYTES,
-                vk::BufferUsageFlags::TRANSFER_DST,
-                MemoryUse::Readback,
-            )?,
             timings: Timings::new(gpu, 32)?,
             lending,
             list: *list,
             options: options.clone(),
             settings,
-            capacity,
-            rounds,
             resources,
             targets,
-            engine,
+            sampler,
             visibility_set,
             memory,
             _locations: locations,
@@ -250,7 +247,7 @@ impl List {
     /// # Safety
     /// As [`super::Antialiaser::prepare_list`].
     pub unsafe fn grow(&self) -> Result<Self, HostError> {
-        let capacity = self.capacity.more(self.shortfall()?);
+        let capacity = self.sampler.capacity().more(self.shortfall()?);
         let (shared, geometry) = (&self.shared, &self.lending.geometry);
         // SAFETY: passed on to the caller.
         unsafe { Self::with_capacity(shared, geometry, &self.list, &self.options, capacity) }
@@ -315,18 +312,15 @@ impl List {
             resources.record_background(recorder, count, uniform.background, 0);
         }
         resources.record_begin(recorder, set, &uniform);
-        let region = ListRegion {
-            tiles: uniform.tiles,
-            count,
-        };
-        self.engine
-            .record_candidates(recorder, (resources, set), &region, ListLength::Known);
         let shading = lending.shading(shading, &self.visibility_set, (resources, set));
-        resources.record_rounds(recorder, self.rounds, |recorder| {
-            self.engine.record_round(recorder, resources);
-            self.engine.record_values(recorder, resources, &shading);
-        });
-        resources.record_keep_counters(recorder, &self.counters, 0);
+        let run = SamplerRun {
+            resources,
+            set,
+            uniform: &uniform,
+            list: (count, ListLength::Known),
+            index: 0,
+        };
+        self.sampler.record(recorder, &run, &shading);
         let bytes = LocationList::COLOR_BYTES * u64::from(count);
         // SAFETY: the buffer has room for the colours of as many locations as there can be, as the host says.
         unsafe {
@@ -342,36 +336,22 @@ impl List {
     /// [`VulkanError::NotDone`](crate::vulkan::VulkanError::NotDone) if the last recording was not submitted or still runs, and
     /// [`VulkanError::NotRecorded`](crate::vulkan::VulkanError::NotRecorded) if there was none; if what was counted or timed can't be read, or the driver ran kernels in subgroups that they were not made for.
     pub fn outcome(&self) -> Result<ListOutcome, HostError> {
-        let counters = self.counted()?;
         let shortfall = self.shortfall()?;
-        let sizes = self.resources.sizes();
         let statistics = self.lending.statistics(
-            std::iter::once(counters),
+            (&self.sampler, self.resources.sizes()),
             (&self.timings, &self.memory),
-            sizes.tiles(),
-            (&shortfall, sizes.lanes),
+            &shortfall,
         )?;
-        let left_out = counters.get(Counter::LeftOut as usize);
         Ok(ListOutcome {
             statistics,
             left_over: shortfall.left(),
-            left_out: left_out.copied().unwrap_or(0),
+            left_out: self.sampler.left_out()?,
         })
     }
 
-    fn counted(&self) -> Result<&[u32], HostError> {
-        self.lending.check_done()?;
-        Ok(self.counters.read(Counter::COUNT)?)
-    }
-
     fn shortfall(&self) -> Result<Shortfall, HostError> {
-        let counters = self.counted()?;
-        let mut shortfall = Shortfall::default();
-        let sizes = self.resources.sizes();
-        let room = (sizes.tiles(), sizes.survivor_capacity);
-        shortfall.add(counters, room, self.capacity.unlisted);
-        shortfall.add_subgroups(counters);
-        Ok(shortfall)
+        self.lending.check_done()?;
+        Ok(self.sampler.shortfall([self.resources.sizes().tiles()])?)
     }
 
     fn footprints(&self) -> Footprints {
@@ -379,19 +359,21 @@ impl List {
     }
 
     fn uniform(&self, placed: &PlacedDraws) -> FrameUniform {
-        let sizes: &ResourceSizes = self.resources.sizes();
-        FrameUniform {
+        let (settings, geometry) = (&self.settings, &self.lending.geometry);
+        let sizes = self.resources.sizes();
+        let plane = PlaneBlock {
             // Locations may lie anywhere in the tiles at the border.
             size: sizes.region,
-            sample_count: self.engine.options().samples,
-            ..uniform(
-                &self.lending.geometry,
-                &self.settings,
-                sizes,
-                &self.footprints(),
-                placed,
-            )
-        }
+            ..plane_block(geometry, settings.size)
+        };
+        let samples = self.sampler.samples();
+        frame_uniform(
+            &scene_block(geometry, placed),
+            &plane,
+            settings,
+            (samples, &self.footprints()),
+            sizes,
+        )
     }
 }
 

@@ -18,8 +18,8 @@ pub struct Options {
     pub shading: Shading,
     /// What makes a pixel a superpixel.
     pub detection: Detection,
-    /// Differences above this, in 8-bit sRGB code values of any channel, are a contrast.
-    pub contrast: u8,
+    /// Differences above this, in 8-bit sRGB code values of any channel, are a contrast; `None` is 6, and 1 from 128 samples on.
+    pub contrast: Option<u8>,
     /// Whether triangles too thin for a pixel's centre to see make superpixels too; where IDs are lent, this needs depth, too.
     pub thin: bool,
     /// Linear light that shows where no triangle is; `None` is transparent. A sky with more than one colour is drawn as
@@ -52,7 +52,7 @@ impl Options {
             pattern: Pattern::Sobol,
             shading: Shading::Part,
             detection: Detection::Contrast,
-            contrast: Settings::default_contrast(Settings::DEFAULT_SAMPLES),
+            contrast: None,
             thin: true,
             background: None,
             high_dynamic_range: false,
@@ -61,11 +61,6 @@ impl Options {
             max_memory: None,
             max_rounds: None,
         }
-    }
-
-    /// Rounds that are recorded, of the most that may be needed.
-    pub(super) fn rounds(&self, most: u32) -> u32 {
-        self.max_rounds.map_or(most, |bound| bound.min(most))
     }
 
     pub(super) fn settings(&self) -> Settings {

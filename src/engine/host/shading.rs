@@ -1,6 +1,6 @@
 //! Shading of visibility samples by a host's own pipelines.
 
-use crate::engine::sampler::engine::RecordShading;
+use crate::engine::sampler::RecordShading;
 use crate::passes::{Argument, Resources, SampleSet};
 use crate::vulkan::Recorder;
 use ash::vk;

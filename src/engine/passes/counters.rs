@@ -59,6 +59,11 @@ impl Counter {
     pub(crate) const BYTES: u64 = 4 * Self::COUNT as u64;
     /// Bytes of those that are cleared before each run.
     pub(crate) const CLEARED_BYTES: u64 = 4 * Self::Subgroups as u64;
+
+    /// Its value among all counters; 0 where these are fewer.
+    pub(crate) fn of(self, counters: &[u32]) -> u32 {
+        counters.get(self as usize).copied().unwrap_or(0)
+    }
 }
 
 /// Indices of indirect dispatches.

@@ -61,13 +61,8 @@ pub enum RenderError {
     #[cfg(feature = "gltf")]
     #[error(transparent)]
     Pinhole(#[from] crate::camera::PinholeError),
-    /// What casts shadows is of one pose.
-    #[error(
-        "the scene's shadows are of one pose, and can't follow it to another moment; make them ready by prepare_shadows_in_motion"
-    )]
-    MovingShadows,
-    /// The scene was not made ready for shadows.
-    #[error("the scene can't cast shadows yet; hand it to prepare_shadows of the renderer first")]
+    /// The scene was prepared without shadows.
+    #[error("the scene was prepared without shadows: ask for them in its SceneRequest")]
     NoCasters,
     /// A point has 32 bits for lights.
     #[error("{found} lights can't all cast shadows; 32 can")]
@@ -148,7 +143,6 @@ impl RenderError {
                 | Self::LocationMethod
                 | Self::LocationRegion
                 | Self::Region { .. }
-                | Self::MovingShadows
                 | Self::ShadowLights { .. }
                 | Self::Attributes
                 | Self::Footprint(_)

@@ -68,9 +68,6 @@ impl Region {
 pub(crate) struct Plan {
     pub regions: Vec<Region>,
     pub sizes: ResourceSizes,
-    /// BLEND layers of a list, and half the lists of a block, that
-    /// tiles are admitted with.
-    pub layers: u32,
     /// What it was planned for.
     pub capacity: Capacity,
     /// Whether the device has room for longer lists.
@@ -80,6 +77,7 @@ pub(crate) struct Plan {
 /// What a frame was found to need more of than first planned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Capacity {
+    /// BLEND layers of a list, and half the lists of a block, that tiles are admitted with.
     pub layers: u32,
     /// Factor on the room for candidates.
     pub lists: u32,
@@ -352,7 +350,6 @@ impl Plan {
         Ok(Self {
             regions,
             sizes,
-            layers: capacity.layers,
             capacity,
             lists_can_grow: u64::from(sizes.pair_capacity) < most_listed,
         })

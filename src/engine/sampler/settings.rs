@@ -77,7 +77,7 @@ pub enum Shadows {
     None,
     /// Every point that is shaded asks every light whether another triangle lies before it: a sampling set on the light's
     /// own image plane, without the aliasing of a map of depths. Superpixels then are shaded at every sample, whatever
-    /// [`Settings::shading`] says. The scene has to be made ready for it: see `Renderer::prepare_shadows`.
+    /// [`Settings::shading`] says. The scene has to be prepared for it: see `SceneRequest::shadows`.
     Exact,
 }
 
@@ -141,9 +141,9 @@ pub struct Settings {
     pub shading: Shading,
     /// What makes a superpixel.
     pub detection: Detection,
-    /// Differences above this, in 8-bit sRGB code values of any channel, are a contrast; see
-    /// [`Self::default_contrast`].
-    pub contrast: u8,
+    /// Differences above this, in 8-bit sRGB code values of any channel, are a contrast; `None` is
+    /// [that of the samples](Self::default_contrast).
+    pub contrast: Option<u8>,
     /// Whether triangles, and shadows, too thin for a pixel's centre to see make superpixels too.
     pub thin: bool,
     /// Linear light behind the scene; `None` leaves it transparent.
@@ -178,8 +178,8 @@ impl Settings {
     /// Largest width of lines and size of points.
     pub const LARGEST_STROKE: f32 = 1024.0;
 
-    /// Default contrast threshold in code values: the more samples, the more of the error is left in pixels that are
-    /// no superpixels.
+    /// The contrast threshold of so many samples unless another is given, in code values: the more samples, the more of the error
+    /// is left in pixels that are no superpixels.
     #[must_use]
     pub fn default_contrast(samples: u32) -> u8 {
         if samples < 128 { 6 } else { 1 }
@@ -197,7 +197,7 @@ impl Settings {
             coverage: Coverage::Area,
             shading: Shading::Part,
             detection: Detection::Contrast,
-            contrast: Self::default_contrast(Self::DEFAULT_SAMPLES),
+            contrast: None,
             thin: true,
             background: None,
             exposure: 0.0,
@@ -211,6 +211,13 @@ impl Settings {
             edge_width: 1.0,
             max_memory: None,
         }
+    }
+
+    /// Differences above this, in code values, are a contrast.
+    #[must_use]
+    pub fn threshold(&self) -> u8 {
+        self.contrast
+            .unwrap_or_else(|| Self::default_contrast(self.samples))
     }
 
     /// Width and height in pixels of what is rendered: the region, or the whole image.

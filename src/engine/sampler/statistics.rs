@@ -104,7 +104,7 @@ impl Statistics {
 
     /// Adds the counters of one region's superpixels.
     pub(crate) fn add(&mut self, counters: &[u32]) {
-        let get = |counter: Counter| counters.get(counter as usize).copied().map_or(0, u64::from);
+        let get = |counter: Counter| u64::from(counter.of(counters));
         self.superpixels += get(Counter::Superpixels);
         self.resampled += get(Counter::Resampled);
         self.candidates += get(Counter::CandidatesTotal);
@@ -114,9 +114,8 @@ impl Statistics {
     }
 
     /// Adds what the counters of one region's superpixels say of tiles and triangles.
-    pub(crate) fn add_scene(&mut self, counters: &[u32], tiles: u32) {
-        let get = |counter: Counter| counters.get(counter as usize).copied().map_or(0, u64::from);
-        self.tiles += u64::from(tiles);
+    pub(super) fn add_scene(&mut self, counters: &[u32]) {
+        let get = |counter: Counter| u64::from(counter.of(counters));
         self.busy_tiles += get(Counter::Tiles);
         self.triangles.drawn += get(Counter::Survivors) + get(Counter::Large);
         self.triangles.outside += get(Counter::Outside);
@@ -151,7 +150,7 @@ impl Shortfall {
     /// Adds a run of the sampling passes over so many tiles, with room for so many triangles, which sampled tiles without
     /// a list or left them.
     pub fn add(&mut self, counters: &[u32], (tiles, room): (u32, u32), samples_unlisted: bool) {
-        let get = |counter: Counter| counters.get(counter as usize).copied().unwrap_or(0);
+        let get = |counter: Counter| counter.of(counters);
         if get(Counter::Tiles) != 0 {
             self.waiting += u64::from(tiles.saturating_sub(get(Counter::NextTile)));
         }
@@ -165,6 +164,19 @@ impl Shortfall {
         let listed = survivors.max(thin);
         self.dropped += u64::from(listed.saturating_sub(room));
         self.rooms = self.rooms.max(listed.div_ceil(room.max(1)));
+    }
+
+    /// Adds what other runs could not finish.
+    #[cfg(feature = "gltf")]
+    pub fn append(&mut self, other: Self) {
+        self.waiting += other.waiting;
+        self.crowded += other.crowded;
+        self.stalled += other.stalled;
+        self.unlisted += other.unlisted;
+        self.dropped += other.dropped;
+        self.unshadowed += other.unshadowed;
+        self.rooms = self.rooms.max(other.rooms);
+        self.other_subgroups |= other.other_subgroups;
     }
 
     /// Adds what kernels found of the subgroups that they were run in, as counters say at any later time.

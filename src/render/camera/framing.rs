@@ -3,7 +3,7 @@
 use super::{Camera, CameraError};
 use glam::DVec3;
 
-/// Where to look at a scene from.
+/// Viewing direction around a scene, from which the whole scene is seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Orbit {
     /// Degrees around the vertical axis; 0 looks along -z, 90 along -x.
@@ -63,11 +63,11 @@ impl Orbit {
 /// A place to stand at and one to look at.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viewpoint {
-    /// Where the camera stands.
+    /// Place of the camera.
     pub eye: DVec3,
-    /// What it looks at.
+    /// Point that the camera looks at.
     pub target: DVec3,
-    /// What is up.
+    /// Upward direction.
     pub up: DVec3,
     /// Vertical field of view in degrees.
     pub fov: f64,

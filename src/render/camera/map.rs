@@ -2,8 +2,8 @@
 
 use glam::{DMat2, DVec2};
 
-/// Where each place of the output looks on an image plane. Places of the output are (x, y) in pixels, (0, 0) its upper
-/// left corner, so that the centre of the first pixel is (0.5, 0.5); locations are (u, v) in pixels of the plane.
+/// Map from places of the output to locations on an image plane. Places are (x, y) in pixels of the output, locations
+/// (u, v) in pixels of the plane. The upper left corner is (0, 0), so that the centre of the first pixel is (0.5, 0.5).
 pub trait LocationMap: Sync {
     /// The location that a place of the output looks at.
     fn location(&self, place: DVec2) -> DVec2;

@@ -26,7 +26,7 @@ pub use sample_location::SampleLocation;
 use crate::scene::{SceneCamera, SceneProjection};
 use glam::{DMat3, DMat4, DQuat, DVec2, DVec3, DVec4};
 
-/// How a camera projects.
+/// Projection of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
     /// Lines of sight meet at the eye.
@@ -56,27 +56,26 @@ pub struct Camera {
     pub eye: DVec3,
     /// Columns: right, up and backward, orthonormal.
     pub axes: DMat3,
-    /// Its projection.
+    /// Projection of the camera.
     pub projection: Projection,
-    /// How far the film is moved against the lens, to the right and down, in widths and heights of the image; what is
-    /// seen moves the other way. Zero centres the image on the view direction. A fraction of a pixel samples the same
-    /// picture at other places.
+    /// Shift of the film to the right and down, in widths and heights of the image; what is seen moves the other way.
+    /// Zero centres the image on the direction of view. A fraction of a pixel samples the same picture at other places.
     pub shift: DVec2,
 }
 
 /// A camera that can't be.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum CameraError {
-    /// Not finite, or eye and target coincide, or up lies along the view.
+    /// Eye, target and up that give no direction: not finite, eye and target coincide, or up lies along the view.
     #[error(
         "eye {eye}, target {target} and up {up} give no direction to look at: eye and target must differ, and up must not lie along the view"
     )]
     Direction {
-        /// Where the camera stands.
+        /// Place of the camera.
         eye: DVec3,
-        /// What it looks at.
+        /// Point that the camera looks at.
         target: DVec3,
-        /// What is up.
+        /// Upward direction.
         up: DVec3,
     },
     /// The field of view is out of range.

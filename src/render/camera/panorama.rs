@@ -17,41 +17,41 @@ use super::{Camera, Pinhole, Projection, Rig, RigError, SampleLocation};
 use glam::{DVec2, DVec3};
 use std::f64::consts::FRAC_PI_2;
 
-/// How directions are laid out.
+/// Layout of directions in a panorama.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PanoramaProjection {
-    /// Longitude along rows and latitude along columns, at the same number of pixels for a degree.
+    /// Longitude along rows and latitude along columns, at the same number of pixels a degree.
     Equirectangular,
-    /// Longitude along rows; along columns the height on a cylinder around the camera, with square pixels at the
+    /// Longitude along rows and, along columns, height on a cylinder around the camera; pixels are square at the
     /// horizon.
     Cylindrical,
-    /// The angle from the axis grows linearly with the distance from the middle (equidistant). The circle of the field
-    /// of view touches the nearer sides of the image; outside of it there is nothing.
+    /// Angle from the axis in proportion to the distance from the middle (equidistant). The circle of the field of view
+    /// touches the nearer sides of the image; outside of it the image is empty.
     Fisheye,
     /// Six squares in a cross, 4 wide and 3 high: left, front, right and back in the middle row, up and down above and
     /// below of front.
     Cubemap,
 }
 
-/// A layout of directions over an image.
+/// Panorama of an image size and a field of view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Panorama {
     projection: PanoramaProjection,
-    /// Degrees.
+    /// Field of view in degrees.
     fov: f64,
     size: [u32; 2],
 }
 
-/// A panorama that can't be.
+/// Panorama that can't exist.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum PanoramaError {
-    /// Not above 0, or more than all around.
+    /// Field of view that is not above 0, or more than all around.
     #[error("a panorama of {0} degrees; it must be above 0 and at most 360")]
     FieldOfView(f64),
-    /// A cubemap is always all around.
+    /// Field of view of a cubemap, which always is all around.
     #[error("a cubemap of {0} degrees; it shows all 360")]
     CubemapFieldOfView(f64),
-    /// Higher than from the zenith to the nadir.
+    /// Image that is higher than from the zenith to the nadir.
     #[error(
         "{width} x {height} pixels over {fov} degrees are {latitudes} degrees high; there are 180: make the image lower or the field of view smaller"
     )]
@@ -65,18 +65,18 @@ pub enum PanoramaError {
         /// Vertical field of view in degrees.
         latitudes: f64,
     },
-    /// The image is too small for its layout.
+    /// Image too small for its layout.
     #[error("a panorama of {} x {} pixels has no room for its layout", .0[0], .0[1])]
     Size([u32; 2]),
-    /// Parallel rays have no centre to look around from.
+    /// Orthographic camera: parallel rays have no centre to look around from.
     #[error("an orthographic camera can't look around; choose a perspective one, or --eye")]
     Orthographic,
-    /// Its rig can't be sampled.
+    /// Rig that can't be sampled.
     #[error(transparent)]
     Rig(#[from] RigError),
 }
 
-/// A face of a cubemap.
+/// Face of a cubemap.
 struct Face {
     forward: DVec3,
     right: DVec3,
@@ -86,7 +86,7 @@ struct Face {
 }
 
 impl Face {
-    /// The direction through a place of the face, 0 to 1 from its left and upper side.
+    /// Direction through a place of the face, 0 to 1 from its left and upper side.
     fn toward(&self, place: DVec2) -> DVec3 {
         let way = 2.0 * place - DVec2::ONE;
         (self.forward + way.x * self.right + way.y * self.down).normalize()
@@ -132,19 +132,19 @@ const FACES: [Face; 6] = [
     },
 ];
 
-/// Radians that a direction on the edge of the layout may be off by.
+/// Radians by which a direction on the edge of the layout may be off.
 const ROUNDING: f64 = 1e-12;
 
-/// The longest side of a rig's planes in pixels.
+/// Longest side of a rig's planes in pixels.
 const LARGEST_PLANE: f64 = 65_536.0;
 
 impl Panorama {
-    /// A layout over an image of `size` = width and height in pixels with a field of view of `fov` degrees along the
-    /// width (for a fisheye across its circle, for a cubemap 360). A cubemap takes the largest cross that fits.
+    /// Makes a panorama of `size` = [width, height] pixels, with a field of view of `fov` degrees along the width (for
+    /// a fisheye across its circle, for a cubemap 360). A cubemap takes the largest cross that fits.
     ///
     /// # Errors
-    /// If the field of view is not above 0 and at most 360, an equirectangular image is higher than 180 degrees, or the
-    /// image has no pixels.
+    /// [`PanoramaError`] if the field of view is not above 0 and at most 360, an equirectangular image is higher than
+    /// 180 degrees, or the image has no pixels.
     pub fn new(
         projection: PanoramaProjection,
         fov: f64,
@@ -192,8 +192,8 @@ impl Panorama {
         self.size
     }
 
-    /// The unit vector, in the camera's axes, that a place of the image in pixels looks along; `None` where the layout
-    /// shows nothing. Longitudes go on beyond the sides of the image.
+    /// Direction, as a unit vector in the camera's axes, in which a place of the image in pixels looks; `None` where
+    /// the image is empty. Longitudes go on beyond the sides of the image.
     #[must_use]
     pub fn look(&self, place: DVec2) -> Option<DVec3> {
         let size = DVec2::new(f64::from(self.size[0]), f64::from(self.size[1]));
@@ -227,11 +227,11 @@ impl Panorama {
         }
     }
 
-    /// What a renderer samples to make the panorama from where a camera stands, looking where it looks. Each pixel is
-    /// sampled exactly where it looks, on the one plane of a rig that its direction belongs to.
+    /// Makes the locations that a renderer samples for the panorama of a camera. Each pixel is sampled exactly in its
+    /// direction, on the one plane of a rig that the direction belongs to.
     ///
     /// # Errors
-    /// If the camera is orthographic or not finite.
+    /// [`PanoramaError`] if the camera is orthographic or not finite.
     pub fn locations(&self, camera: &Camera) -> Result<PanoramaLocations, PanoramaError> {
         let Projection::Perspective { near, .. } = camera.projection else {
             return Err(PanoramaError::Orthographic);
@@ -269,7 +269,7 @@ impl Panorama {
         })
     }
 
-    /// At the middle of the image; for a cubemap in the middle of a face.
+    /// Radians per pixel at the middle of the image; for a cubemap in the middle of a face.
     fn radians_per_pixel(&self) -> f64 {
         let [width, height] = self.size.map(f64::from);
         let fov = self.fov.to_radians();
@@ -281,15 +281,15 @@ impl Panorama {
     }
 }
 
-/// How the image is sampled: with a border of a pixel wherever the panorama goes on at another place of the image, so
-/// that a pixel there has all its neighbours and seams are antialiased like everything else.
+/// Arrangement of sampled cells. It has a border of a pixel wherever the panorama goes on at another place of the
+/// image: so every pixel has its neighbours, and seams are antialiased like everything else.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Layout {
-    /// As it is.
+    /// Cells as the image has its pixels.
     Plain,
-    /// With the last column before the first, and the first after the last.
+    /// Columns of the image, with the last one again before the first, and the first one again after the last.
     Around,
-    /// Faces of so many pixels in a row, each with a border.
+    /// Faces side by side, of `side` pixels each way, each with a border.
     Faces { side: u32 },
 }
 
@@ -316,7 +316,7 @@ impl Layout {
         }
     }
 
-    /// The sampled column and row of one of the image.
+    /// Sampled column and row of a pixel of the image.
     fn sampled(self, col: u32, row: u32) -> Option<(u32, u32)> {
         match self {
             Self::Plain => Some((col, row)),
@@ -330,7 +330,7 @@ impl Layout {
     }
 }
 
-/// The samples of a panorama.
+/// Locations of a panorama.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PanoramaLocations {
     panorama: Panorama,
@@ -340,20 +340,20 @@ pub struct PanoramaLocations {
 }
 
 impl PanoramaLocations {
-    /// Columns and rows that are sampled: more than the image has, and for a cubemap in another order, so that every
-    /// pixel has its neighbours beside it. [`PanoramaLocations::crop`] makes the image of them.
+    /// Columns and rows that are sampled. There are more than the image has, and for a cubemap in another order, so
+    /// that every pixel has its neighbours beside it. [`PanoramaLocations::crop`] makes the image.
     #[must_use]
     pub fn size(&self) -> [u32; 2] {
         self.size
     }
 
-    /// The pinholes and what is sampled on each.
+    /// Pinholes, and the locations that are sampled on each.
     #[must_use]
     pub fn rig(&self) -> &[(Pinhole, Vec<SampleLocation>)] {
         &self.rig
     }
 
-    /// The image of what was sampled, row by row; `empty` is what a pixel holds where the layout shows nothing.
+    /// Crops what was sampled to the image, row by row; `empty` fills pixels in which the image is empty.
     #[must_use]
     pub fn crop<T: Copy>(&self, sampled: &[T], empty: T) -> Vec<T> {
         let [width, height] = self.panorama.size;

@@ -17,7 +17,7 @@
 use super::{Camera, CameraError, Projection};
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, Vec4Swizzles};
 
-/// A centre of projection C, an image plane (O, a, b) and the range of depths that is seen.
+/// Pinhole: a centre of projection C, an image plane (O, a, b) and a range of depths.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pinhole {
     centre: DVec4,
@@ -26,34 +26,34 @@ pub struct Pinhole {
     b: DVec3,
     near: f64,
     far: Option<f64>,
-    /// World vectors relative to C (to O where rays are parallel) to (u w, v w, w) with w the distance from C, or to
-    /// (u, v, distance along a ray) where rays are parallel.
+    /// Inverse of the projection. It takes world vectors relative to C to (u w, v w, w), w being the distance from C.
+    /// If rays are parallel, it takes vectors relative to O to (u, v, distance along a ray).
     inverse: DMat3,
     /// Unit normal of the plane, away from C.
     normal: DVec3,
 }
 
-/// A half-line of sight.
+/// Half-line of sight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where it starts: C, or a point of the image plane where rays are parallel.
+    /// Start of the ray: C, or a point of the image plane if rays are parallel.
     pub start: DVec3,
-    /// Unit vector along it.
+    /// Unit vector along the ray.
     pub direction: DVec3,
 }
 
-/// A pinhole that can't be.
+/// Pinhole that can't exist.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum PinholeError {
-    /// A coordinate is NaN or infinite.
+    /// Coordinate that is NaN or infinite, by its name.
     #[error("{0} of the pinhole is not finite")]
     NotFinite(&'static str),
-    /// w of C is neither 1 nor 0, or C = (0, 0, 0, 0).
+    /// Centre of projection that is neither a point (w = 1) nor a direction (w = 0), or is zero.
     #[error(
         "the centre of projection is {0}; give a point (x, y, z, 1) or a direction (x, y, z, 0) other than zero"
     )]
     Centre(DVec4),
-    /// a and b are parallel or zero.
+    /// Image plane whose steps a and b are parallel or zero.
     #[error("a = {a} and b = {b} span no image plane; they must be independent")]
     Plane {
         /// Step to the next pixel of a row.
@@ -61,20 +61,20 @@ pub enum PinholeError {
         /// Step to the next row.
         b: DVec3,
     },
-    /// Every ray lies in the image plane.
+    /// Centre of projection in the image plane, so that every ray lies in the plane.
     #[error("the centre of projection {0} lies in the image plane; move it out")]
     CentreInPlane(DVec4),
-    /// Nothing lies between near and far.
+    /// Empty or impossible range of depths.
     #[error(
         "depths from {near} to {far}: far must be above near, near above 0 where rays meet, and far finite where they are parallel"
     )]
     Depths {
         /// Distance of the near plane.
         near: f64,
-        /// Distance of the far plane; infinite where there is none.
+        /// Distance of the far plane; infinite without one.
         far: f64,
     },
-    /// The image has no pixels.
+    /// Image without pixels.
     #[error("an image of {width} x {height} pixels; both must be at least 1")]
     Size {
         /// Width in pixels.
@@ -82,25 +82,25 @@ pub enum PinholeError {
         /// Height in pixels.
         height: u32,
     },
-    /// A matrix that is not that of a pinhole.
+    /// Matrix that is not a pinhole's, with the reason.
     #[error("the projection matrix is none of a pinhole: {0}")]
     Matrix(&'static str),
-    /// The camera to make it from can't be.
+    /// Camera that can't exist.
     #[error(transparent)]
     Camera(#[from] CameraError),
 }
 
-/// Sines below this are zero: a plane seen so flatly leaves no digit of (u, v) to trust.
+/// Sine below which a plane counts as parallel to its rays: it is seen so flatly that no digit of (u, v) is right.
 const FLAT: f64 = 1e-12;
 
 impl Pinhole {
-    /// A pinhole from its parts in world space: C, homogeneous with w = 1 or 0; O, the upper left corner of the image;
-    /// a and b, which span one pixel. `near` and `far` bound what is seen. They are distances along the plane's normal,
-    /// from C, or from the plane where rays are parallel.
+    /// Makes a pinhole of its parts in world space: C, homogeneous with w = 1 or 0; O, the upper left corner of the
+    /// image; a and b, the steps from pixel to pixel. Depths from `near` to `far` are seen; they are distances along
+    /// the plane's normal, from C, or from the plane if rays are parallel.
     ///
     /// # Errors
-    /// If a number is not finite, C is neither point nor direction or lies in the plane, a and b span no plane, or near
-    /// and far leave nothing between.
+    /// [`PinholeError`] if a number is not finite, C is neither point nor direction or lies in the plane, a and b span
+    /// no plane, or nothing lies between near and far.
     pub fn new(
         centre: DVec4,
         origin: DVec3,
@@ -161,10 +161,10 @@ impl Pinhole {
         })
     }
 
-    /// The pinhole of a camera and an image of `size` = width and height in pixels.
+    /// Makes the pinhole of a camera and an image of `size` = [width, height] in pixels.
     ///
     /// # Errors
-    /// If the size is 0, or a number of the camera is not finite or out of range.
+    /// [`PinholeError`] if the size is 0, or a number of the camera is not finite or out of range.
     pub fn from_camera(camera: &Camera, size: [u32; 2]) -> Result<Self, PinholeError> {
         let [width, height] = size;
         if width == 0 || height == 0 {
@@ -192,12 +192,13 @@ impl Pinhole {
         }
     }
 
-    /// A pinhole at `eye` that looks at `target`, with `up` as near to the image's upward direction as it can be.
-    /// `fov_degrees` is the vertical field of view of an image of `size` = width and height in pixels; what is nearer
-    /// than `near` is not seen.
+    /// Makes a pinhole at `eye` that looks at `target`; the image's upward direction is as near to `up` as possible.
+    /// `fov_degrees` is the vertical field of view of an image of `size` = [width, height] in pixels, `near` the
+    /// distance of the near plane.
     ///
     /// # Errors
-    /// If these give no direction, or the field of view is not within 0 to 180 degrees; otherwise as [`Pinhole::new`].
+    /// [`PinholeError`] if the vectors give no direction, or the field of view is not between 0 and 180 degrees;
+    /// otherwise as [`Pinhole::new`].
     pub fn from_field_of_view(
         eye: DVec3,
         target: DVec3,
@@ -210,11 +211,11 @@ impl Pinhole {
         Self::from_camera(&camera, size)
     }
 
-    /// The pinhole of a matrix from world space to clip space, for an image of `size` = width and height in pixels.
-    /// Clip space is that of [`Camera`]: y up, depth from 1 near to 0 far.
+    /// Makes the pinhole of a matrix from world space to clip space, for an image of `size` = [width, height] in
+    /// pixels. Clip space is that of [`Camera`]: y up, depth from 1 near to 0 far.
     ///
     /// # Errors
-    /// If the matrix is singular, or its near and far planes are not parallel to the image plane.
+    /// [`PinholeError`] if the matrix is singular, or its near and far planes are not parallel to the image plane.
     pub fn from_projection_matrix(matrix: DMat4, size: [u32; 2]) -> Result<Self, PinholeError> {
         let [width, height] = size;
         if width == 0 || height == 0 {
@@ -234,19 +235,19 @@ impl Pinhole {
         }
     }
 
-    /// C, homogeneous: w is 1, or 0 where rays are parallel.
+    /// Centre of projection C, homogeneous: w is 1, or 0 if rays are parallel.
     #[must_use]
     pub fn centre(&self) -> DVec4 {
         self.centre
     }
 
-    /// O, the upper left corner of the image in world space.
+    /// Upper left corner O of the image in world space.
     #[must_use]
     pub fn origin(&self) -> DVec3 {
         self.origin
     }
 
-    /// a and b: the steps on the plane, in world space, to the next pixel of a row and to the next row.
+    /// Steps a and b on the image plane, in world space: to the next pixel of a row, and to the next row.
     #[must_use]
     pub fn steps(&self) -> [DVec3; 2] {
         [self.a, self.b]
@@ -258,7 +259,7 @@ impl Pinhole {
         self.centre.w == 0.0
     }
 
-    /// The point that rays meet in; where they are parallel, O, from whose plane depths are measured.
+    /// Point in which rays meet. If they are parallel, it is O, from whose plane depths are measured.
     #[must_use]
     pub fn eye(&self) -> DVec3 {
         if self.is_parallel() {
@@ -268,13 +269,13 @@ impl Pinhole {
         }
     }
 
-    /// Unit normal of the image plane, away from C: depths are distances along it.
+    /// Unit normal of the image plane, away from C; depths are distances along it.
     #[must_use]
     pub fn direction(&self) -> DVec3 {
         self.normal
     }
 
-    /// Unit vector towards C where rays are parallel.
+    /// Unit vector towards C if rays are parallel, otherwise `None`.
     #[must_use]
     pub fn parallel_direction(&self) -> Option<DVec3> {
         self.is_parallel().then(|| self.centre.xyz().normalize())
@@ -292,7 +293,7 @@ impl Pinhole {
         self.far
     }
 
-    /// The ray through a location in pixels of the plane.
+    /// Ray through a location in pixels of the image plane.
     #[must_use]
     pub fn ray(&self, uv: DVec2) -> Ray {
         let point = self.origin + self.a * uv.x + self.b * uv.y;
@@ -305,7 +306,7 @@ impl Pinhole {
         Ray { start, direction }
     }
 
-    /// Where a point of the world appears, in pixels of the plane; `None` for points beside or behind C.
+    /// Location of a point of the world, in pixels of the image plane; `None` for points beside or behind C.
     #[must_use]
     pub fn project(&self, point: DVec3) -> Option<DVec2> {
         let p = self.inverse * (point - self.eye());
@@ -315,17 +316,17 @@ impl Pinhole {
         (p.z > 0.0).then(|| p.truncate() / p.z)
     }
 
-    /// Where the direction from C appears, in pixels of the plane; `None` for directions away from the plane, and
-    /// where rays are parallel.
+    /// Location of a direction from C, in pixels of the image plane; `None` for directions away from the plane, and if
+    /// rays are parallel.
     #[must_use]
     pub fn project_direction(&self, direction: DVec3) -> Option<DVec2> {
         let p = self.inverse * direction;
         (!self.is_parallel() && p.z > 0.0).then(|| p.truncate() / p.z)
     }
 
-    /// Positions relative to `origin` to (u w, v w, depth w, w), where (u, v) are pixels relative to the place `window`
-    /// of the plane, depth runs from 1 near to 0 far, and w is the distance from C (1 where rays are parallel). The
-    /// large parts of `origin` and C cancel before anything is rounded.
+    /// Matrix from positions relative to `origin` to (u w, v w, depth w, w). (u, v) are pixels relative to the location
+    /// `window`, depth runs from 1 near to 0 far, and w is the distance from C (1 if rays are parallel). The large
+    /// parts of `origin` and C cancel before anything is rounded.
     #[must_use]
     pub fn pixel_matrix(&self, origin: DVec3, window: DVec2) -> DMat4 {
         let from_eye = origin - self.eye();

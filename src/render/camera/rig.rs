@@ -22,38 +22,38 @@ pub struct Rig {
     pinholes: Vec<Pinhole>,
 }
 
-/// Pinholes that make no rig, or directions that it can't sample.
+/// Pinholes that make no rig, or directions that a rig can't sample.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum RigError {
-    /// There are none.
+    /// Rig without pinholes.
     #[error("a rig without pinholes; give at least one")]
     Empty,
-    /// Parallel rays have no centre to share.
+    /// Pinhole of parallel rays, by its index: it has no centre to share.
     #[error("pinhole {0} of the rig has parallel rays; all must meet in one centre")]
     Parallel(usize),
-    /// Its centre is another than the first one's.
+    /// Pinhole whose centre is not the first one's, by its index.
     #[error("pinhole {0} of the rig has another centre than the first; all must have the same")]
     Centre(usize),
-    /// A pinhole can't be.
+    /// Pinhole that can't exist.
     #[error(transparent)]
     Pinhole(#[from] PinholeError),
-    /// The locations make no sampling set.
+    /// Locations that make no sampling set.
     #[error(transparent)]
     Set(#[from] SetError),
 }
 
-/// Cosine of the largest angle from its axis, about 80 degrees, at which a pinhole is asked: a pixel there is 30 times
-/// as large as on the axis.
+/// Cosine of the largest angle from its axis, about 80 degrees, at which a pinhole is sampled: a pixel there is 30
+/// times as large as on the axis.
 const FLATTEST: f64 = 0.17;
 
-/// Differences for Jacobians are taken over this much of a pixel.
+/// Part of a pixel over which differences for Jacobians are taken.
 const STEP: f64 = 1.0 / 64.0;
 
 impl Rig {
-    /// A rig of pinholes, all with the same centre.
+    /// Makes a rig of pinholes with a common centre.
     ///
     /// # Errors
-    /// If there are none, one has parallel rays or a centre of its own.
+    /// [`RigError`] if there are none, or one has parallel rays or a centre of its own.
     pub fn new(pinholes: Vec<Pinhole>) -> Result<Self, RigError> {
         let Some(first) = pinholes.first() else {
             return Err(RigError::Empty);
@@ -69,11 +69,12 @@ impl Rig {
         Ok(Self { pinholes })
     }
 
-    /// Six pinholes around `eye`: right, left, up, down, back and front of `axes` (columns right, up and backward), each
-    /// with a plane of `side` x `side` pixels that sees 90 degrees. What is nearer than `near` is not seen.
+    /// Makes six pinholes around `eye`: right, left, up, down, back and front of `axes` (columns right, up and
+    /// backward). Each has a plane of `side` x `side` pixels that sees 90 degrees, and the near plane at the distance
+    /// `near`.
     ///
     /// # Errors
-    /// If a number is not finite or `near` is not above 0.
+    /// [`RigError`] if a number is not finite or `near` is not above 0.
     pub fn cube(eye: DVec3, axes: DMat3, side: u32, near: f64) -> Result<Self, RigError> {
         if side == 0 {
             let (width, height) = (side, side);
@@ -105,14 +106,14 @@ impl Rig {
         Self::new(pinholes?)
     }
 
-    /// The pinholes.
+    /// Pinholes of the rig.
     #[must_use]
     pub fn pinholes(&self) -> &[Pinhole] {
         &self.pinholes
     }
 
-    /// The pinhole that a direction belongs to, and its location there in pixels; `None` where the direction is more
-    /// than 80 degrees from the axes of all of them.
+    /// Index of the pinhole that a direction belongs to, and the direction's location there in pixels; `None` if the
+    /// direction is more than 80 degrees from the axes of all pinholes.
     #[must_use]
     pub fn locate(&self, direction: DVec3) -> Option<(usize, DVec2)> {
         let mut nearest = (0, f64::NEG_INFINITY);
@@ -130,13 +131,13 @@ impl Rig {
         Some((index, location))
     }
 
-    /// The samples of an output of `size` = columns and rows whose pixels look in the directions that `look` gives for
-    /// places of the output in pixels (`None` where a pixel shows nothing): a set for each pinhole, `None` where a
-    /// pinhole has no sample. Jacobians are differences of the direction on the pixel's own plane, so that seams between
-    /// pinholes leave no trace in them.
+    /// Makes the samples of an output of `size` = [columns, rows]: a set for each pinhole, `None` for a pinhole without
+    /// a sample. `look` gives the direction for a place of the output in pixels, or `None` where the output shows
+    /// nothing. Jacobians are differences of the direction on the pixel's own plane, so that seams between pinholes do
+    /// not show in them.
     ///
     /// # Errors
-    /// If the output has no cells or too many, or a location is not finite or far away.
+    /// [`RigError`] if the output has no cells or too many, or a location is not finite or too far away.
     pub fn sets(
         &self,
         size: [u32; 2],

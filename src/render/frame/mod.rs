@@ -12,18 +12,17 @@ pub use target::Target;
 use super::shadows::{Casters, ShadowEngine};
 use super::{RenderError, Settings, Shadows};
 use crate::camera::Camera;
-use crate::engine::sampler::engine::with_probes;
 use crate::engine::sampler::plan::{Capacity, Plan};
+use crate::engine::sampler::{CounterLog, with_probes};
 use crate::passes::{
-    Cells, Content, Counter, Encoding, FrameLayout, Offsets, RasterTargets, ResourceSizes,
-    Resources,
+    Cells, Content, Encoding, FrameLayout, Offsets, RasterTargets, ResourceSizes, Resources,
 };
 use crate::render::passes::{FrameGeometry, FrameLook, GpuScene};
 use crate::scene::Moment;
-use crate::vulkan::{Buffer, Completion, Memory, MemoryUse, Recorder, Timings};
+use crate::vulkan::{Completion, Memory, Recorder, Timings};
 use ash::vk;
 use passes::{Passes, raster_samples};
-use recording::{Recording, Run};
+use recording::Recording;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -44,7 +43,8 @@ pub struct Frame {
     geometry: FrameGeometry,
     look: FrameLook,
     resources: Resources,
-    counters: Buffer,
+    /// What the whole frame counted.
+    counters: CounterLog,
     timings: Timings,
     memory: Memory,
     completion: Completion,
@@ -123,7 +123,7 @@ impl Frame {
             plan.sizes,
             &[centre, offsets],
         )?;
-        let passes = Passes::new(layout, scene, settings, &plan, encoding)?;
+        let passes = Passes::new(layout, &memory, scene, settings, &plan, encoding)?;
         let shadows = |casters| {
             let shading = (&**scene, Cells::Pixels, &resources);
             ShadowEngine::new(
@@ -132,7 +132,8 @@ impl Frame {
         };
         let shadows = casters.map(shadows).transpose()?;
         let regions = plan.regions.len() as u64;
-        let marks = regions as u32 * (18 + Run::ALL.len() as u32 * 14) + 8;
+        let runs = 2 + settings.growths();
+        let marks = regions as u32 * (18 + runs * 14) + 8;
         Ok(Self {
             scene: scene.clone(),
             casters: casters.cloned(),
@@ -145,12 +146,7 @@ impl Frame {
             geometry,
             look,
             resources,
-            counters: memory.buffer(
-                "counter read-back",
-                Run::slots(plan.regions.len()) as u64 * Counter::BYTES,
-                vk::BufferUsageFlags::TRANSFER_DST,
-                MemoryUse::Readback,
-            )?,
+            counters: CounterLog::new(&memory, 1)?,
             timings: Timings::new(&gpu, marks)?,
             settings: settings.clone(),
             plan,
@@ -171,16 +167,12 @@ impl Frame {
     /// the device.
     ///
     /// # Errors
-    /// [`RenderError::OtherMotion`] if the moment is one of another motion, [`RenderError::MovingShadows`] if the frame has
-    /// shadows that were made ready for one pose.
+    /// [`RenderError::OtherMotion`] if the moment is one of another motion.
     pub fn show(&mut self, moment: Arc<Moment>) -> Result<(), RenderError> {
         if !self.scene.has_moment(&moment) {
             return Err(RenderError::OtherMotion);
         }
-        if let (Some(casters), Some(shadows)) = (&self.casters, &mut self.shadows) {
-            if !casters.scene().has_moment(&moment) {
-                return Err(RenderError::MovingShadows);
-            }
+        if let Some(shadows) = &mut self.shadows {
             shadows.show(&moment);
         }
         self.look.show(&self.scene, &moment);

@@ -6,9 +6,10 @@ use super::image::Cells;
 use super::partition::Partition;
 use super::plan::LocationPlan;
 use crate::camera::{Pinhole, SampleLocation};
-use crate::engine::sampler::engine::EngineKind;
+use crate::engine::sampler::footprint::Footprints;
+use crate::engine::sampler::uniform::{PlaneBlock, SceneBlock, frame_uniform};
 use crate::passes::{
-    Cells as CellKind, Content, Detect, DetectOptions, FrameLayout, FrameUniform, Offsets,
+    Cells as CellKind, Content, Detect, DetectMode, DetectOptions, FrameLayout, Offsets,
     ResourceSizes, Resources,
 };
 use crate::render::passes::{FrameLook, MarkedOutput, Output, SeenLocation, Shown};
@@ -36,7 +37,7 @@ struct Band {
 /// Pipelines and memory to look at bands of an output.
 struct DetectionEngine {
     width: u32,
-    uniform: FrameUniform,
+    settings: Settings,
     shown: Output,
     detect: Detect,
     resources: Resources,
@@ -221,7 +222,7 @@ impl DetectionEngine {
             &[no_offsets],
         )?;
         let options = DetectOptions {
-            mode: EngineKind::superpixels(settings).mode,
+            mode: DetectMode::of(settings),
             blend_ids: scene.has_blend(),
             thin: settings.thin,
             transparent: true,
@@ -231,10 +232,7 @@ impl DetectionEngine {
         };
         Ok(Self {
             width: settings.size[0],
-            uniform: FrameUniform {
-                contrast: u32::from(settings.contrast),
-                ..FrameUniform::with_room(&sizes)
-            },
+            settings: settings.clone(),
             detect: Detect::new(layout, &options)?,
             masks: memory.buffer(
                 "mask read-back",
@@ -308,13 +306,21 @@ impl DetectionEngine {
             return;
         };
         let tiles = band.tiles(self.width);
-        let uniform = FrameUniform {
+        let plane = PlaneBlock {
             size: [self.width, band.seen.end - band.seen.start],
-            tiles,
-            interior_low: [0, band.rows.start - band.seen.start],
-            interior_high: [self.width, band.rows.end - band.seen.start],
-            ..self.uniform
+            interior: [
+                [0, band.rows.start - band.seen.start],
+                [self.width, band.rows.end - band.seen.start],
+            ],
+            ..PlaneBlock::default()
         };
+        let uniform = frame_uniform(
+            &SceneBlock::default(),
+            &plane,
+            &self.settings,
+            (1, &Footprints::new(&self.settings, 1)),
+            resources.sizes(),
+        );
         // SAFETY: passed on to the caller.
         let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
         recorder.begin();

@@ -2,13 +2,10 @@
 
 use super::plan::LocationPlan;
 use super::run::RunMemory;
-use crate::engine::sampler::list::{ListEngine, ListKind};
 use crate::engine::sampler::plan::Capacity;
 use crate::engine::sampler::statistics::Shortfall;
-use crate::passes::{
-    Cells, Content, FrameLayout, ListLength, ListedLocation, Offsets, Resources, SampleOptions,
-    SampleSet,
-};
+use crate::engine::sampler::{ListCells, Sampler, SamplerContext, SamplerRun};
+use crate::passes::{Cells, FrameLayout, ListedLocation, Offsets, Resources};
 use crate::render::frame::recording::SceneShading;
 use crate::render::passes::{Shade, ShadeSource};
 use crate::render::plane::Window;
@@ -19,27 +16,21 @@ use crate::vulkan::{Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// What the engine of lists is made for, where places have so many words of shadows; `apart` says whether a subgroup samples one cell at a time.
-pub(super) fn kind(cells: Cells, shadow_words: u32, apart: bool) -> ListKind {
-    let Capacity {
-        layers, unlisted, ..
-    } = Capacity::default();
-    ListKind {
+/// The cells of a list, where places have so many words of shadows.
+pub(super) fn list_cells(cells: Cells, shadow_words: u32) -> ListCells {
+    ListCells {
         cells,
         attributes: cells == Cells::Points,
         shadow_words,
         lent: false,
-        apart,
-        unlisted,
-        layers,
     }
 }
 
 /// Pipelines and memory to sample runs of locations of one scene.
 pub(super) struct LocationEngine {
-    rounds: u32,
+    cells: Cells,
     settings: Settings,
-    engine: ListEngine,
+    sampler: Sampler,
     shade: Shade,
     shadows: Option<ShadowEngine>,
     run: RunMemory,
@@ -68,8 +59,12 @@ impl LocationEngine {
             ..
         } = plan;
         let scene = &*prepared.gpu_scene;
-        let kind = kind(*cells, sizes.shadow_words, apart);
-        let (offsets, count) = kind.offsets(layout, settings)?;
+        let capacity = Capacity {
+            apart,
+            ..Capacity::default()
+        };
+        let listed = list_cells(*cells, sizes.shadow_words);
+        let (offsets, count) = listed.offsets(layout, settings)?;
         let offsets = Offsets {
             all: &offsets,
             count,
@@ -78,17 +73,20 @@ impl LocationEngine {
         let resources = &run.resources;
         let output = settings.color_constants(scene);
         let source = ShadeSource::Records { cells: *cells };
-        let listed = resources.listed()?;
+        let context = SamplerContext {
+            layout,
+            memory: &run.memory,
+            scene,
+            settings,
+            output: &output,
+            sizes,
+            capacity,
+            runs: 1,
+        };
         // SAFETY: the list goes with the resources, and has room for as many locations.
-        let engine = unsafe {
-            ListEngine::new(layout, scene, settings, &kind, (resources, listed), &output)
-        }?;
+        let sampler = unsafe { listed.sampler(&context, (resources, resources.listed()?)) }?;
         let shadows = |casters| {
             let shading = (scene, *cells, resources);
-            let capacity = Capacity {
-                apart,
-                ..Capacity::default()
-            };
             ShadowEngine::new(
                 layout,
                 &run.memory,
@@ -99,14 +97,14 @@ impl LocationEngine {
                 *places,
             )
         };
-        let casters = prepared.casters.as_ref().filter(|_| kind.shadow_words > 0);
+        let casters = prepared.casters.as_ref().filter(|_| sizes.shadow_words > 0);
         let shadows = casters.map(shadows).transpose()?;
         Ok(Self {
             settings: settings.clone(),
-            shade: Shade::new(layout, scene, (source, kind.shadow_words), &output)?,
+            shade: Shade::new(layout, scene, (source, sizes.shadow_words), &output)?,
             shadows,
-            rounds: engine.most_rounds(sizes, scene.index_count()),
-            engine,
+            cells: *cells,
+            sampler,
             run,
         })
     }
@@ -131,57 +129,51 @@ impl LocationEngine {
         commands: vk::CommandBuffer,
     ) {
         let Self {
-            rounds,
+            cells,
             settings,
-            engine,
+            sampler,
             shade,
             shadows,
             run,
-            ..
         } = self;
         let looking = (&sight.pinhole, window);
         let background = settings.background_rgba();
-        let SampleOptions { cells, samples, .. } = *engine.options();
-        let record =
-            |recorder: &mut Recorder<'_>, (resources, set): (&Resources, &SampleSet), is_first| {
-                if let Some(shadows) = shadows.as_mut() {
-                    if is_first {
-                        shadows.record_upload(recorder);
-                        recorder.barrier();
-                    }
-                    shadows.record_begin(recorder);
+        let cells = (*cells, sampler.samples());
+        let record = |recorder: &mut Recorder<'_>, list: &SamplerRun<'_>, is_first| {
+            let SamplerRun { resources, set, .. } = *list;
+            if let Some(shadows) = shadows.as_mut() {
+                if is_first {
+                    shadows.record_upload(recorder);
+                    recorder.barrier();
                 }
-                if cells == Cells::Points {
-                    let code = settings.output_code(background);
-                    resources.record_background(recorder, count as u32, background, code);
-                    resources.record_unseen(recorder, count as u32, code);
-                    recorder.mark("background");
-                }
-                let region = window.region(count);
-                engine.record_candidates(recorder, (resources, set), &region, ListLength::Known);
-                let views = shadows.as_ref().map(|shadows| shadows.views(sight));
-                let views = views.unwrap_or_default();
-                let shadowed = Shadowed {
-                    resources,
-                    set,
-                    size: [0; 2],
-                    views: &views,
-                };
-                let shading = SceneShading {
-                    scene: &scene.gpu_scene,
-                    shade: Some(shade),
-                    shadows: shadows.as_ref().map(|shadows| (shadows, shadowed)),
-                };
-                resources.record_rounds(recorder, *rounds, |recorder| {
-                    engine.record_round(recorder, resources);
-                    engine.record_values(recorder, resources, &shading);
-                });
-                if let Some(shadows) = shadows {
-                    shadows.record_end(recorder);
-                }
+                shadows.record_begin(recorder);
+            }
+            if cells.0 == Cells::Points {
+                let code = settings.output_code(background);
+                resources.record_background(recorder, count as u32, background, code);
+                resources.record_unseen(recorder, count as u32, code);
+                recorder.mark("background");
+            }
+            let views = shadows.as_ref().map(|shadows| shadows.views(sight));
+            let views = views.unwrap_or_default();
+            let shadowed = Shadowed {
+                resources,
+                set,
+                size: [0; 2],
+                views: &views,
             };
+            let shading = SceneShading {
+                scene: &scene.gpu_scene,
+                shade: Some(shade),
+                shadows: shadows.as_ref().map(|shadows| (shadows, shadowed)),
+            };
+            sampler.record(recorder, list, &shading);
+            if let Some(shadows) = shadows {
+                shadows.record_end(recorder);
+            }
+        };
         // SAFETY: passed on to the caller.
-        unsafe { run.record(scene, looking, (cells, samples), commands, record) };
+        unsafe { run.record(scene, looking, (cells, count), commands, record) };
     }
 
     /// What the last run's `locations` locations saw.
@@ -200,7 +192,7 @@ impl LocationEngine {
 
     /// What the last run could not finish.
     pub fn shortfall(&self, window: &Window) -> Result<Shortfall, VulkanError> {
-        let mut shortfall = self.run.shortfall(window)?;
+        let mut shortfall = self.sampler.shortfall([window.tile_count()])?;
         if let Some(shadows) = &self.shadows {
             shadows.add_shortfall(&mut shortfall)?;
         }
@@ -226,8 +218,7 @@ impl LocationEngine {
         window: &Window,
         total: &mut Statistics,
     ) -> Result<(), VulkanError> {
-        total.add(self.run.counted()?);
-        total.tiles += u64::from(window.tile_count());
+        self.sampler.add_statistics([window.tile_count()], total)?;
         total.regions += 1;
         self.run.add_statistics(scene, total)
     }

@@ -234,7 +234,7 @@ impl Cells {
                     let own = self.codes[near].to_le_bytes();
                     let mut channels = own.into_iter().zip(shown);
                     grows[near] |= self.attributes[near].superpixel == 0
-                        && channels.any(|(a, b)| a.abs_diff(b) > settings.contrast);
+                        && channels.any(|(a, b)| a.abs_diff(b) > settings.threshold());
                 }
             }
         }

@@ -1,6 +1,6 @@
 //! How many locations are sampled at once: what memory and the device's limits allow.
 
-use super::engine::kind;
+use super::engine::list_cells;
 use super::partition::Partition;
 use crate::engine::sampler::plan::Capacity;
 use crate::passes::{Cells, FrameLayout, ResourceSizes};
@@ -61,8 +61,7 @@ impl LocationPlan {
             let most = runs.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
             let room = (most as u32, region(windows));
             let words = casters.map_or(0, Casters::shadow_words);
-            let kind = kind(cells, words, false);
-            let sizes = kind.sizes(layout, scene, settings, room, 1);
+            let sizes = list_cells(cells, words).sizes(layout, scene, settings, room, 1);
             let of_shadows = casters.map_or(0, |casters| {
                 ShadowEngine::bytes(layout, casters, settings, capacity, (places, &sizes))
             });

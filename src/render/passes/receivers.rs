@@ -115,15 +115,3 @@ impl Receivers {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn probes_are_the_shaders() {
-        let places = LightPlane::PROBES.map(|[x, y]| format!("vec2({x}, {y})"));
-        let shader = include_str!("../../../shaders/receivers.comp");
-        assert!(shader.contains(&format!("vec2[]({});", places.join(", "))));
-    }
-}

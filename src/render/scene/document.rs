@@ -24,34 +24,34 @@ use super::{
 pub struct Document {
     /// File name, for messages.
     pub file: String,
-    /// What the file is.
+    /// Format of the file, for messages.
     pub format: &'static str,
     /// Names, references and the hierarchy; without buffers and images.
     pub root: Root,
-    /// The scene that is drawn unless another is asked for.
+    /// Index of the scene that is drawn unless another is asked for.
     pub default_scene: Option<usize>,
     pub nodes: Vec<Node>,
-    /// All nodes, parents before children.
+    /// Indices of all nodes, parents before children.
     pub order: Vec<usize>,
-    /// Of every mesh; none where no node refers to it.
+    /// Primitives of every mesh; none if no node refers to the mesh.
     pub meshes: Vec<Vec<Primitive>>,
     pub skins: Vec<Skin>,
-    /// Of every animation.
+    /// Channels of every animation.
     pub animations: Vec<Vec<Channel>>,
-    /// `None` where a camera is unusable.
+    /// Projections of all cameras; `None` for an unusable camera.
     pub cameras: Vec<Option<SceneProjection>>,
-    /// At the origin and along -Z; `None` where a light is unusable.
+    /// Lights at the origin, along -Z; `None` for an unusable light.
     pub lights: Vec<Option<Light>>,
-    /// Of every scene, light from all around.
+    /// Environment of every scene: its light from all around.
     pub environments: Vec<Option<Arc<Environment>>>,
-    /// How many of the scene's materials, the first ones, are the file's.
+    /// Number of the file's own materials, which are the first ones of the scene's.
     pub file_materials: usize,
-    /// Materials that are unlit copies, and what they are copies of.
+    /// Indices of materials that are unlit copies, and of their originals.
     pub unlit_copies: Vec<(usize, usize)>,
 }
 
 impl Document {
-    /// Whether each node is drawn, which none below a hidden one is; `own` is what each says of itself.
+    /// Whether each node is drawn. `own` is what each node says of itself; nothing below a hidden node is drawn.
     pub fn drawn(&self, mut own: Vec<bool>) -> Vec<bool> {
         for &index in &self.order {
             let parent = self.nodes[index].parent;
@@ -60,7 +60,7 @@ impl Document {
         own
     }
 
-    /// Morph weights of a node where nothing animates them: its own, or else those of its mesh.
+    /// Morph weights of a node without animation: the node's own, or else its mesh's.
     pub fn weights(&self, node: usize) -> Vec<f64> {
         let node = self.root.nodes.get(node);
         let mesh = node.and_then(|node| self.root.get(node.mesh?));
@@ -82,14 +82,14 @@ pub fn variants(root: &Root) -> impl Iterator<Item = &str> {
     variants.iter().map(|variant| variant.name.as_str())
 }
 
-/// Where a node is relative to its parent.
+/// Transform of a node relative to its parent.
 #[derive(Clone, Copy, Debug)]
 pub enum Transform {
     Matrix(DAffine3),
     Parts(Parts),
 }
 
-/// Translation, rotation and scale, each of which can be animated.
+/// Translation, rotation and scale; each can be animated.
 #[derive(Clone, Copy, Debug)]
 pub struct Parts {
     pub translation: DVec3,
@@ -113,40 +113,40 @@ impl Parts {
     }
 }
 
-/// What a node's description lacks.
+/// Decoded properties of a node that `gltf`'s description does not hold.
 #[derive(Clone, Debug)]
 pub struct Node {
     pub parent: Option<usize>,
     pub transform: Transform,
-    /// `EXT_mesh_gpu_instancing`: transforms relative to the node.
+    /// Transforms of instances (`EXT_mesh_gpu_instancing`) relative to the node.
     pub instances: Option<Arc<[DAffine3]>>,
-    /// `KHR_node_visibility`, without that of its ancestors; does not concern cameras.
+    /// Visibility (`KHR_node_visibility`) of the node itself, without that of its ancestors. Cameras ignore it.
     pub visible: bool,
 }
 
-/// Triangles, points or lines of one material with only the vertices that they use.
+/// Triangles, points or lines of one material, with only the vertices that they use.
 #[derive(Clone, Debug, Default)]
 pub struct Primitive {
     /// Index into [`Scene::materials`](super::Scene::materials).
     pub material: usize,
-    /// In range of every vertex stream that is not empty.
+    /// Vertex indices of each triangle, in range of every vertex stream that is not empty.
     pub triangles: Vec<[u32; 3]>,
     pub positions: Vec<[f32; 3]>,
-    /// Not zero, not necessarily unit. Empty: flat, and triangle `i` has the vertices `3i`, `3i + 1`,
-    /// `3i + 2` for itself; or points or lines that face the camera.
+    /// Normals; not zero, not necessarily unit. An empty list means flat shading, triangle `i` having the vertices
+    /// `3i`, `3i + 1`, `3i + 2` to itself, or points and lines that face the camera.
     pub normals: Vec<[f32; 3]>,
-    /// Only where the material has a normal texture.
+    /// Tangents, if the material has a normal texture.
     pub tangents: Vec<[f32; 4]>,
-    /// Both UV sets. Only where the material has a texture.
+    /// Both UV sets, if the material has a texture.
     pub uvs: Vec<[f32; 4]>,
-    /// Only where the primitive has colours.
+    /// Vertex colours, if the primitive has any.
     pub colors: Vec<[f32; 4]>,
     pub targets: Vec<Target>,
-    /// One for each of `JOINTS_0`, `JOINTS_1`, ...
+    /// Joints and weights of each set `JOINTS_0`, `JOINTS_1`, ...
     pub influences: Vec<Influences>,
-    /// Of points and lines, the last vertices in their order.
+    /// Corners of points and lines, which are the last vertices, in their order.
     pub corners: Vec<Corner>,
-    /// Of edges of a mesh, whose corners are the last vertices.
+    /// Edges of a mesh; their corners are the last vertices.
     pub edges: Vec<Edge>,
 }
 
@@ -155,19 +155,19 @@ impl Primitive {
         self.normals.is_empty() && !self.is_strokes()
     }
 
-    /// How many points and segments of lines it draws.
+    /// Numbers of points and of lines' segments.
     pub fn stroke_counts(&self) -> [usize; 2] {
         let count = |part| self.corners.iter().filter(|c| c.part == part).count();
         [count(StrokePart::Disc(0)), count(StrokePart::Left) / 2]
     }
 
-    /// Whether it is of points or lines, edges among them.
+    /// Whether the primitive has points or lines, including edges of a mesh.
     pub fn is_strokes(&self) -> bool {
         !self.corners.is_empty() || !self.edges.is_empty()
     }
 }
 
-/// A morph target's displacements; a stream that it does not displace is empty.
+/// Displacements of a morph target; a stream that the target does not displace is empty.
 #[derive(Clone, Debug, Default)]
 pub struct Target {
     pub positions: Vec<[f32; 3]>,
@@ -182,25 +182,25 @@ pub struct Influences {
     pub weights: Vec<[f32; 4]>,
 }
 
-/// Empty where no node with a mesh refers to it.
+/// Skin; empty if no node with a mesh refers to it.
 #[derive(Clone, Debug, Default)]
 pub struct Skin {
-    /// Nodes.
+    /// Indices of the joints' nodes.
     pub joints: Vec<usize>,
-    /// One a joint.
+    /// Inverse bind matrix of each joint.
     pub inverse_bind: Vec<DAffine3>,
 }
 
-/// What a channel animates.
+/// Property that a channel animates.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Animated {
     /// A property of a node.
     Node(usize, Property),
-    /// One morph weight of a node, by its index.
+    /// Index of a node, and that of one of its morph weights.
     Weight(usize, usize),
     /// Whether a node and what is below it are drawn.
     Visibility(usize),
-    /// What a description has at a JSON pointer that starts from it, without the first slash.
+    /// Number in a description, by a JSON pointer that starts at the description, without the pointer's first slash.
     Description(Described, String),
 }
 
@@ -215,7 +215,7 @@ impl fmt::Display for Animated {
     }
 }
 
-/// A part of the file of whose description animations may change the numbers, by its index.
+/// Part of the file, by its index, in whose description animations can change numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Described {
     Material(usize),
@@ -234,17 +234,17 @@ pub fn duration(channels: &[Channel]) -> f64 {
 pub struct Channel {
     pub target: Animated,
     pub interpolation: Interpolation,
-    /// Seconds, ascending, at least one.
+    /// Times of the keyframes in seconds, ascending, at least one.
     pub times: Arc<[f32]>,
     /// `width` numbers a keyframe; three times as many with cubic splines: in-tangent, value,
     /// out-tangent.
     pub values: Arc<[f32]>,
-    /// Numbers a value.
+    /// Number of values of a keyframe's one part.
     pub width: usize,
 }
 
 impl Channel {
-    /// The value at keyframe `i`.
+    /// Value at keyframe `i`.
     pub fn keyframe(&self, i: usize) -> Vec<f64> {
         match self.interpolation {
             Interpolation::CubicSpline => self.part(i, 1, 3),
@@ -252,7 +252,7 @@ impl Channel {
         }
     }
 
-    /// The numbers of part `part` of keyframe `i`, of `parts` in all.
+    /// Numbers of part `part` of keyframe `i`, of `parts` parts in all.
     pub fn part(&self, i: usize, part: usize, parts: usize) -> Vec<f64> {
         let start = (i * parts + part) * self.width;
         let numbers = self.values.get(start..start + self.width);

@@ -12,22 +12,22 @@ use super::{
     surface::triangles,
 };
 
-/// Which edges are drawn, and how.
+/// Selection and colour of the edges that are drawn over meshes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Edges {
-    /// Their colour, linear light.
+    /// Colour of the lines, linear light.
     pub color: [f32; 3],
-    /// Edges whose faces turn by more than this are creases, in degrees.
+    /// Threshold of creases in degrees: an edge is a crease if its faces turn by more.
     pub crease: f64,
 }
 
 impl Edges {
-    /// The default threshold of creases in degrees.
+    /// Default threshold of creases in degrees.
     pub const DEFAULT_CREASE: f64 = 30.0;
 }
 
 impl Default for Edges {
-    /// Black.
+    /// Black edges with the default threshold.
     fn default() -> Self {
         Self {
             color: [0.0; 3],
@@ -68,10 +68,10 @@ pub fn add(scene: &mut Scene, edges: &Edges) {
     });
 }
 
-/// Primitives whose vertices are one where they are at one place.
+/// Primitives whose vertices are merged where they are at the same place.
 struct Surface<'p> {
     primitives: &'p [&'p Primitive],
-    /// Primitive and vertex.
+    /// Primitive and vertex of each merged vertex.
     vertices: Vec<(usize, usize)>,
     faces: Vec<Face>,
 }
@@ -81,7 +81,7 @@ struct Face {
     is_double_sided: bool,
 }
 
-/// A side of a face, in its direction.
+/// Side of a face, in its direction.
 #[derive(Clone, Copy)]
 struct Side {
     from: u32,
@@ -144,7 +144,7 @@ impl<'p> Surface<'p> {
         DVec3::from_array(self.primitives[primitive].positions[v].map(f64::from))
     }
 
-    /// The edges as lines of a material.
+    /// Makes lines of the edges, of the material with this index.
     fn edges(&self, crease: f64, material: usize) -> Primitive {
         let mut sides: Vec<Side> = (0..)
             .zip(&self.faces)
@@ -198,7 +198,7 @@ impl<'p> Surface<'p> {
         self.primitive(edges, &sources, material)
     }
 
-    /// Normals of a face and another one beyond its side; zero of one without area.
+    /// Normals of a face and of the one beyond its side; zero for a face without area.
     fn normals(&self, side: &Side, beyond: u32) -> [DVec3; 2] {
         let [from, to] = [side.from, side.to].map(|v| self.position(v));
         let along = to - from;
@@ -207,7 +207,7 @@ impl<'p> Surface<'p> {
         [normal, other].map(DVec3::normalize_or_zero)
     }
 
-    /// Edges with these vertices, which move as those of the surface do.
+    /// Makes a primitive of edges with these vertices, which move as the surface's vertices do.
     fn primitive(
         &self,
         edges: Vec<Edge>,
@@ -249,7 +249,7 @@ impl<'p> Surface<'p> {
     }
 }
 
-/// The vertices that edges refer to, and those of their corners; they then refer to that list.
+/// Keeps only the vertices that edges and their corners refer to; returns their indices and renumbers the edges.
 fn compact(edges: &mut [Edge], vertex_count: usize) -> Vec<u32> {
     let named = |edge: &Edge| {
         let ([from, to], [a, b]) = (edge.ends, edge.opposite);
@@ -267,9 +267,9 @@ fn compact(edges: &mut [Edge], vertex_count: usize) -> Vec<u32> {
     [used, of_corners].concat()
 }
 
-/// Whether faces of these normals lie in a plane, but for what positions are rounded by.
+/// Whether faces of these normals lie in a plane, up to the rounding of positions.
 fn is_flat([normal, other]: [DVec3; 2]) -> bool {
-    /// Largest sine of the angle between them.
+    /// Largest sine of the angle between normals that counts as rounding.
     const ROUNDED: f64 = 1e-4;
     normal.dot(other) > 0.0 && normal.cross(other).length() < ROUNDED
 }

@@ -1,110 +1,110 @@
-//! What can go wrong with a scene, and where in the file.
+//! Errors of scenes, and their places in the file.
 
 use std::{fmt, io, sync::Arc};
 
-/// Why a scene cannot be loaded or posed. Every message names the file and, where there is one,
-/// the place in it as a JSON pointer (RFC 6901).
+/// Scene that can't be loaded or posed. Every message names the file and, if there is one, the place in it as a JSON
+/// pointer (RFC 6901).
 #[derive(Clone, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SceneError {
-    /// The scene's file cannot be read at all.
+    /// File that can't be read at all.
     #[error("{file}: cannot be read: {source}")]
     Read {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// What the system said.
+        /// Error of the system.
         source: Arc<io::Error>,
     },
-    /// The bytes are not a complete glTF 2.0 file.
+    /// Bytes that are not a complete glTF 2.0 file.
     #[error("{file}: {reason}")]
     NotGltf {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// What it is instead, or what it lacks.
+        /// Other format that the bytes are in, or the part that is missing.
         reason: String,
     },
-    /// The file is written for a version of glTF other than 2.0.
+    /// File of a version of glTF other than 2.0.
     #[error("{file}: /asset: glTF {found} is not supported, only 2.0 is; {way_out}")]
     Version {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// The version found.
+        /// Version of the file.
         found: String,
-        /// What the user can do.
+        /// Advice to the user.
         way_out: &'static str,
     },
-    /// The file requires an extension that this crate does not implement.
+    /// File that requires an extension that is not supported.
     #[error("{file}: /extensionsRequired: {name} is not supported; {way_out}")]
     Extension {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// The extension.
+        /// Name of the extension.
         name: String,
-        /// What the user can do.
+        /// Advice to the user.
         way_out: String,
     },
-    /// Something that has to be drawn is broken.
+    /// Broken part of the file that has to be drawn.
     #[error("{file}: {place}: {reason}")]
     Malformed {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// JSON pointer to the fault.
+        /// JSON pointer to the broken part.
         place: String,
-        /// What was expected and what was found.
+        /// Expectation, and what was found instead.
         reason: String,
     },
-    /// The request names a scene that the file lacks.
+    /// Request for a scene that the file lacks.
     #[error("{file}: there is no scene {asked}, the file has {count} (counted from 0)")]
     NoSuchScene {
-        /// The file.
+        /// Name of the file.
         file: String,
         /// Index asked for.
         asked: usize,
         /// Number of scenes in the file.
         count: usize,
     },
-    /// The request names an animation that the file lacks.
+    /// Request for an animation that the file lacks.
     #[error("{file}: there is no animation \"{asked}\"; {known}")]
     NoSuchAnimation {
-        /// The file.
+        /// Name of the file.
         file: String,
         /// Name or index asked for.
         asked: String,
-        /// The animations that there are, in words.
+        /// Animations of the file, in words.
         known: String,
     },
-    /// The request names a variant of the materials that the file lacks.
+    /// Request for a variant of the materials that the file lacks.
     #[error("{file}: there is no variant \"{asked}\"; {known}")]
     NoSuchVariant {
-        /// The file.
+        /// Name of the file.
         file: String,
         /// Name asked for.
         asked: String,
-        /// The variants that there are, in words.
+        /// Variants of the file, in words.
         known: String,
     },
-    /// The scene is larger than can be posed, most likely through repetition of a small file's content.
+    /// Scene that is too large to be posed, most likely since a small file's content is repeated.
     #[error(
         "{file}: {count} {what} exceed the limit of {limit}; split the scene or draw fewer instances"
     )]
     TooLarge {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// What is counted.
+        /// Counted items, such as triangles.
         what: &'static str,
-        /// How many there are, at least.
+        /// Number of them, at least.
         count: u64,
-        /// How many there may be.
+        /// Largest possible number of them.
         limit: u64,
     },
 }
 
-/// A fault at a place in the file, which whoever meets it turns into an error or a warning.
+/// Fault at a place in the file; the code that meets it turns it into an error or a warning.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Fault {
-    /// JSON pointer.
+    /// JSON pointer to the place.
     pub place: String,
-    /// What was expected and what was found.
+    /// Expectation, and what was found instead.
     pub reason: String,
 }
 
@@ -116,7 +116,7 @@ impl Fault {
         }
     }
 
-    /// The fault, and what follows from it.
+    /// Adds the consequence to the fault's reason.
     #[must_use]
     pub fn but(self, consequence: &str) -> Self {
         Self::new(self.place, format!("{}; {consequence}", self.reason))
@@ -137,8 +137,8 @@ impl fmt::Display for Fault {
     }
 }
 
-/// Warnings about one file; only the first [`Warnings::KEPT`] are kept, the others counted, so that a
-/// file broken in every element does not bury its user.
+/// Warnings about one file. Only the first [`Warnings::KEPT`] are kept and the others counted, so that a file broken in
+/// every element does not bury its user.
 #[derive(Debug)]
 pub(super) struct Warnings {
     file: String,
@@ -157,12 +157,12 @@ impl Warnings {
         }
     }
 
-    /// None so far about the same file.
+    /// Empty list of warnings about the same file.
     pub fn of_the_same_file(&self) -> Self {
         Self::new(&self.file)
     }
 
-    /// Adds those of another list.
+    /// Adds the warnings of another list.
     pub fn append(&mut self, others: Self) {
         let room = Self::KEPT.saturating_sub(self.list.len());
         self.dropped += others.dropped + others.list.len().saturating_sub(room);

@@ -1,4 +1,4 @@
-//! Triangles of one scene at one moment, and where they are drawn.
+//! Triangles of one scene at one moment, and the places where they are drawn.
 
 use super::material::{AlphaMode, Material};
 use super::stroke::{Edge, Stroke};
@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
-/// How a draw's triangles are rasterized; the order of the variants is the order of [`Geometry::draws`].
+/// Class of a draw: the way that its triangles are rasterized. [`Geometry::draws`] are in the order of the variants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum DrawClass {
     /// Opaque, back faces culled.
@@ -25,7 +25,7 @@ pub enum DrawClass {
 }
 
 impl DrawClass {
-    /// How surfaces of a material are rasterized.
+    /// Class of the surfaces of a material.
     #[must_use]
     pub fn of(material: &Material) -> Self {
         match (material.alpha_mode, material.double_sided) {
@@ -39,214 +39,216 @@ impl DrawClass {
     }
 }
 
-/// A run of triangles with one material and one class.
+/// Run of triangles with one material and one class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Draw {
-    /// Index of its first triangle in [`Geometry::triangles`].
+    /// Index of the first triangle in [`Geometry::triangles`].
     pub first_triangle: u32,
     /// Number of triangles, at least 1.
     pub triangle_count: u32,
     /// Index into [`crate::scene::Scene::materials`].
     pub material: u32,
-    /// How the triangles are rasterized.
+    /// Class of the triangles.
     pub class: DrawClass,
 }
 
 impl Draw {
-    /// Indices of its triangles in [`Geometry::triangles`].
+    /// Indices of the triangles in [`Geometry::triangles`].
     fn triangles(&self) -> std::ops::Range<usize> {
         let first = self.first_triangle as usize;
         first..first + self.triangle_count as usize
     }
 }
 
-/// Vertex attributes beside the position. A stream that no primitive of the scene needs is empty;
-/// otherwise it has one entry a vertex, with glTF's defaults where a primitive lacks it.
+/// Vertex attributes other than the position. A stream that no primitive of the scene needs is empty; otherwise it has
+/// one entry a vertex, glTF's default where a primitive has none.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VertexStreams {
-    /// Unit normals in world space; never empty when there are vertices (flat normals are generated where absent).
+    /// Unit normals in world space; never empty if there are vertices (missing normals are generated flat).
     pub normals: Vec<[f32; 3]>,
-    /// Unit tangents in world space, `w` is the bitangent's sign. Only where a material [needs](Material::tangent_uv_set) them.
+    /// Unit tangents in world space, `w` being the bitangent's sign; only if a material
+    /// [needs](Material::tangent_uv_set) them.
     pub tangents: Vec<[f32; 4]>,
-    /// TEXCOORD_0 in `[0..2]`, TEXCOORD_1 in `[2..4]`, untransformed.
+    /// Texture coordinates, untransformed: TEXCOORD_0 in `[0..2]`, TEXCOORD_1 in `[2..4]`.
     pub uvs: Vec<[f32; 4]>,
-    /// COLOR_0, linear, straight alpha, default opaque white.
+    /// Vertex colours (COLOR_0), linear, straight alpha; opaque white by default.
     pub colors: Vec<[f32; 4]>,
-    /// How much longer a length is in world space than in the mesh's: the cube root of how volumes grow. Only where a material
+    /// Ratio of lengths in world space to those in the mesh: the cube root of the ratio of volumes. Only if a material
     /// [has](Material::has_volume) a thickness.
     pub scales: Vec<f32>,
 }
 
-/// Neighbouring triangles of a [`Geometry`] at one place.
+/// Neighbouring triangles of a [`Geometry`], drawn at one place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Instance {
-    /// Index of its first triangle in [`Geometry::triangles`].
+    /// Index of the first triangle in [`Geometry::triangles`].
     pub first_triangle: u32,
-    /// Number of its triangles, at least 1; they have one [`DrawClass`].
+    /// Number of triangles, at least 1; all have one [`DrawClass`].
     pub triangle_count: u32,
-    /// Its first triangle's ID less 1, a multiple of [`Instance::ALIGNMENT`]; the others follow. IDs between the last
-    /// triangle of an instance and the first of the next one stand for nothing.
+    /// ID of the first triangle less 1, a multiple of [`Instance::ALIGNMENT`]; those of the other triangles follow. IDs
+    /// between the last triangle of an instance and the first of the next one belong to no triangle.
     pub first_index: u32,
-    /// From the space of its vertices to the world relative to [`Geometry::origin`].
+    /// Transform from the space of the vertices to the world relative to [`Geometry::origin`].
     pub transform: DAffine3,
 }
 
-/// How much longer a transform makes lengths: the cube root of how volumes grow.
+/// Ratio by which a transform makes lengths longer: the cube root of the ratio of volumes.
 pub(super) fn length_scale(transform: &DAffine3) -> f64 {
     transform.matrix3.determinant().abs().cbrt()
 }
 
 impl Instance {
-    /// IDs of instances start at multiples of this, plus 1.
+    /// Distance of the IDs at which instances may start; these are its multiples plus 1.
     pub const ALIGNMENT: u32 = 64;
 
-    /// Whether it is mirrored, so that its triangles wind the other way.
+    /// Whether the transform mirrors, so that triangles wind the other way.
     #[must_use]
     pub fn mirrored(&self) -> bool {
         self.transform.matrix3.determinant() < 0.0
     }
 
-    /// How much longer lengths are in the world than among its vertices: the cube root of how volumes grow.
+    /// Ratio of lengths in the world to those among the vertices: the cube root of the ratio of volumes.
     #[must_use]
     pub fn scale(&self) -> f64 {
         length_scale(&self.transform)
     }
 
-    /// Indices of its triangles in [`Geometry::triangles`].
+    /// Indices of the triangles in [`Geometry::triangles`].
     pub(crate) fn triangles(&self) -> std::ops::Range<usize> {
         let first = self.first_triangle as usize;
         first..first + self.triangle_count as usize
     }
 }
 
-/// Every triangle of a scene, ready for upload.
+/// Triangles of a scene, ready for upload.
 ///
 /// Front faces wind counter-clockwise seen from outside. Without [`instances`](Self::instances) positions are in world
 /// space, and triangle `i` has the ID `i + 1`; 0 is background. With them, each instance draws some of the triangles at
 /// a place and with IDs of its own, so that a mesh that is drawn often is held once.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Geometry {
-    /// World position of the point that [`positions`](Self::positions) are relative to, so that a
-    /// scene far from its origin keeps its precision.
+    /// World position that [`positions`](Self::positions) are relative to, so that a scene far from its origin keeps
+    /// its precision.
     pub origin: DVec3,
     /// Positions relative to [`origin`](Self::origin), or in the space of their instances.
     pub positions: Vec<[f32; 3]>,
-    /// The other attributes, one entry a vertex in each stream that is not empty.
+    /// Other attributes, one entry a vertex in each stream that is not empty.
     pub streams: VertexStreams,
-    /// Vertex indices of each triangle; in range.
+    /// Vertex indices of each triangle, in range.
     pub triangles: Vec<[u32; 3]>,
     /// Runs that partition `triangles`, sorted by [`DrawClass`], then by order in the file.
     pub draws: Vec<Draw>,
-    /// Where triangles are drawn, in the order of their IDs and so of their classes. Empty: each once, where its
-    /// vertices are.
+    /// Places where triangles are drawn, in the order of their IDs and so of their classes. If the list is empty, each
+    /// triangle is drawn once, where its vertices are.
     pub instances: Vec<Instance>,
-    /// The vertices that are corners of points and lines; in range, in ascending order, and in world space.
+    /// Vertices that are corners of points and lines, in world space; in range and ascending.
     pub strokes: Vec<Stroke>,
-    /// Edges of meshes; in range, and in world space.
+    /// Edges of meshes, in world space and in range.
     pub edges: Vec<Edge>,
 }
 
-/// Why a [`Geometry`] can't be drawn.
+/// Fault of a [`Geometry`], which can't be drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GeometryError {
-    /// A triangle refers to a vertex that there is none of.
+    /// Triangle that refers to a missing vertex.
     #[error("triangle {triangle} has vertex {index}, and there are {vertices}")]
     Index {
-        /// The first such triangle.
+        /// Index of the first such triangle.
         triangle: usize,
-        /// The index.
+        /// Index of the missing vertex.
         index: u32,
-        /// How many vertices there are.
+        /// Number of vertices.
         vertices: usize,
     },
-    /// A vertex stream is neither empty nor as long as the positions.
+    /// Vertex stream that is neither empty nor as long as the positions.
     #[error("the stream of {stream} has {found} entries for {vertices} vertices")]
     Stream {
-        /// The stream.
+        /// Name of the stream.
         stream: &'static str,
-        /// Its length.
+        /// Length of the stream.
         found: usize,
-        /// How many vertices there are.
+        /// Number of vertices.
         vertices: usize,
     },
-    /// Draws do not partition the triangles in their order.
+    /// Draws that do not partition the triangles in their order.
     #[error("draw {draw} has triangles from {first} on, and {expected} comes next of {triangles}")]
     Draw {
-        /// The draw; their number if the triangles after the last are in none.
+        /// Index of the draw; the number of draws if triangles after the last one are in none.
         draw: usize,
-        /// Its first triangle.
+        /// First triangle of the draw.
         first: u32,
-        /// The triangle that comes next.
+        /// First triangle that the draw should have.
         expected: usize,
-        /// How many triangles there are.
+        /// Number of triangles.
         triangles: usize,
     },
-    /// A draw follows one of a later class.
+    /// Draw that follows one of a later class.
     #[error("draw {draw} is of class {class:?} and follows one of a later class")]
     Order {
-        /// The draw.
+        /// Index of the draw.
         draw: usize,
-        /// Its class.
+        /// Class of the draw.
         class: DrawClass,
     },
-    /// An instance can't be drawn.
+    /// Instance that can't be drawn.
     #[error("instance {index}: {fault}")]
     Instance {
-        /// The instance.
+        /// Index of the instance.
         index: usize,
-        /// What is wrong with it.
+        /// Fault of the instance.
         fault: InstanceFault,
     },
-    /// A point or line refers to a vertex that there is none of.
+    /// Point or line that refers to a missing vertex.
     #[error("stroke {stroke} has vertex {index}, and there are {vertices}")]
     Stroke {
-        /// The first such corner.
+        /// Index of the first such corner.
         stroke: usize,
-        /// The index.
+        /// Index of the missing vertex.
         index: u32,
-        /// How many vertices there are.
+        /// Number of vertices.
         vertices: usize,
     },
-    /// An edge of a mesh refers to a vertex that there is none of.
+    /// Edge of a mesh that refers to a missing vertex.
     #[error("edge {edge} has vertex {index}, and there are {vertices}")]
     Edge {
-        /// The first such edge.
+        /// Index of the first such edge.
         edge: usize,
-        /// The index.
+        /// Index of the missing vertex.
         index: u64,
-        /// How many vertices there are.
+        /// Number of vertices.
         vertices: usize,
     },
-    /// A draw has a material that there is none of.
+    /// Draw of a missing material.
     #[error("draw {draw} has material {material}, and there are {materials}")]
     Material {
-        /// The draw.
+        /// Index of the draw.
         draw: usize,
-        /// Its material.
+        /// Index of the material.
         material: u32,
-        /// How many materials there are.
+        /// Number of materials.
         materials: usize,
     },
 }
 
-/// What can be wrong with an [`Instance`].
+/// Fault of an [`Instance`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum InstanceFault {
-    /// It has no triangles, or more than there are.
+    /// Instance without triangles, or with more than there are.
     #[error("it has no triangles, or some that there are none of")]
     Triangles,
-    /// Its indices begin before those of the instance before it end, at no multiple of 64, or pass 32 bits.
+    /// First index that is below the end of the instance before it or no multiple of 64, or last index that needs more
+    /// than 32 bits.
     #[error(
         "its first index is no multiple of 64 after the instance before it, or its last passes 32 bits"
     )]
     Index,
-    /// Its transform is not finite.
+    /// Transform that is not finite.
     #[error("its transform is not finite")]
     Transform,
-    /// Its triangles are of several classes.
+    /// Triangles of several classes.
     #[error("its triangles are of several classes")]
     Classes,
-    /// It follows one of a later class.
+    /// Instance that follows one of a later class.
     #[error("it follows one of a later class")]
     Order,
 }
@@ -460,9 +462,9 @@ impl Geometry {
         DVec3::from_array(self.positions[v as usize].map(f64::from))
     }
 
-    /// The same triangles in world space and without instances: each has the same ID. Vertices keep their indices, those of
-    /// meshes that stand elsewhere follow. IDs that stand for nothing become triangles without area, as are points and lines
-    /// before a camera gives them a size.
+    /// Makes the same triangles with the same IDs in world space and without instances. Vertices keep their indices;
+    /// those of meshes at other places follow. IDs that belong to no triangle become triangles without area, as are
+    /// points and lines before a camera gives them a size.
     #[must_use]
     pub fn flat(&self) -> Cow<'_, Self> {
         if self.instances.is_empty() {

@@ -1,4 +1,4 @@
-//! A summary of a file, for people and for scripts.
+//! Summary of a file, for people and for scripts.
 
 use serde::Serialize;
 
@@ -13,21 +13,21 @@ use super::{
     view::SceneProjection,
 };
 
-/// What a file holds.
+/// Summary of a file's contents.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SceneInfo {
     /// `glTF`, `OBJ`, `STL` or `PLY`.
     pub format: &'static str,
-    /// glTF version that the file declares; empty for the other formats.
+    /// Version of glTF that the file declares; empty for other formats.
     pub version: String,
     /// Program that wrote the file.
     pub generator: Option<String>,
-    /// The scenes.
+    /// Scenes of the file.
     pub scenes: SceneNames,
     /// Cameras of the default scene, in the order in which [`Pose::cameras`](super::Pose::cameras)
     /// has them.
     pub cameras: Vec<CameraInfo>,
-    /// Animations.
+    /// Animations of the file.
     pub animations: Vec<AnimationInfo>,
     /// Number of nodes.
     pub nodes: usize,
@@ -37,13 +37,13 @@ pub struct SceneInfo {
     pub primitives: usize,
     /// Number of triangles that are drawn in the default scene, instances counted.
     pub triangles: u64,
-    /// Number of points, counted likewise.
+    /// Number of points that are drawn in the default scene, instances counted.
     pub points: u64,
-    /// Number of segments of lines, counted likewise.
+    /// Number of lines' segments that are drawn in the default scene, instances counted.
     pub lines: u64,
-    /// Materials by alpha mode.
+    /// Numbers of materials by alpha mode.
     pub materials: AlphaModes,
-    /// Variants of the materials, of which one can be asked for.
+    /// Names of the materials' variants, one of which can be asked for.
     pub variants: Vec<String>,
     /// Number of textures that materials use.
     pub textures: usize,
@@ -61,49 +61,49 @@ pub struct SceneInfo {
     pub extensions_required: Vec<String>,
 }
 
-/// The scenes of a file.
+/// Scenes of a file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct SceneNames {
-    /// Their names in order, where they have one.
+    /// Names of the scenes in order; `None` for a scene without one.
     pub names: Vec<Option<String>>,
-    /// Index of the scene that is drawn unless another is asked for; `None` where the file has no
-    /// scenes, and all its root nodes are drawn.
+    /// Index of the scene that is drawn unless another is asked for; `None` if the file has no scenes, so that all its
+    /// root nodes are drawn.
     pub default: Option<usize>,
 }
 
-/// A camera.
+/// Camera of a file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct CameraInfo {
-    /// Its or else its node's name.
+    /// Name of the camera, or else of its node.
     pub name: Option<String>,
-    /// `perspective` or `orthographic`.
+    /// Kind of projection: `perspective` or `orthographic`.
     pub kind: &'static str,
 }
 
-/// An animation.
+/// Animation of a file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AnimationInfo {
-    /// Its name.
+    /// Name of the animation.
     pub name: Option<String>,
-    /// Time of its last keyframe in seconds.
+    /// Time of the last keyframe in seconds.
     pub duration: f64,
-    /// What it changes: of nodes `transforms`, `weights` and `visibility`, and `materials`, `lights` and `cameras`; in
-    /// alphabetical order.
+    /// Kinds of properties that the animation changes, in alphabetical order: `transforms`, `weights` and `visibility`
+    /// of nodes, and `materials`, `lights` and `cameras`.
     pub changes: Vec<&'static str>,
 }
 
-/// Number of materials of each alpha mode.
+/// Numbers of materials of each alpha mode.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct AlphaModes {
-    /// Alpha ignored.
+    /// Number of materials that ignore alpha.
     pub opaque: usize,
-    /// Alpha tested.
+    /// Number of materials that test alpha.
     pub mask: usize,
-    /// Composited.
+    /// Number of materials that are composited.
     pub blend: usize,
 }
 
-/// An image.
+/// Image of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct ImageInfo {
     /// Width in texels.
@@ -201,7 +201,7 @@ pub(super) fn summarize(scene: &Scene) -> SceneInfo {
     }
 }
 
-/// What channels change, in words.
+/// Kinds of properties that channels change.
 fn changes(channels: &[Channel]) -> Vec<&'static str> {
     let words = channels.iter().map(|channel| match channel.target {
         Animated::Node(_, Property::MorphTargetWeights) | Animated::Weight(..) => "weights",

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-/// What a light is.
+/// Kind of a light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightKind {
     /// Parallel light; intensity in lux.
@@ -18,10 +18,10 @@ pub enum LightKind {
     },
 }
 
-/// One light of the scene.
+/// Light of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Light {
-    /// Its kind.
+    /// Kind of the light.
     pub kind: LightKind,
     /// World position; unused by directional lights.
     pub position: DVec3,

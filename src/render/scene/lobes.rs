@@ -1,4 +1,4 @@
-//! What material extensions add to the metallic-roughness base: lobes beside it, layers over it, light through it.
+//! Lobes that material extensions add to the metallic-roughness base, layers over it, and light through it.
 
 use super::material::TextureUse;
 
@@ -13,7 +13,7 @@ pub struct Specular {
     pub color: [f32; 3],
     /// Strength in alpha.
     pub texture: Option<TextureUse>,
-    /// sRGB colour.
+    /// Texture of the colour, sRGB.
     pub color_texture: Option<TextureUse>,
 }
 
@@ -41,7 +41,7 @@ pub struct Sheen {
     pub color: [f32; 3],
     /// Perceptual roughness of the sheen, 0 to 1.
     pub roughness: f32,
-    /// sRGB colour.
+    /// Texture of the colour, sRGB.
     pub color_texture: Option<TextureUse>,
     /// The roughness', in alpha.
     pub roughness_texture: Option<TextureUse>,
@@ -52,7 +52,7 @@ pub struct Sheen {
 pub struct Anisotropy {
     /// 0 isotropic to 1.
     pub strength: f32,
-    /// Of the direction, in radians from the tangent, counter-clockwise.
+    /// Angle of the direction from the tangent, in radians, counter-clockwise.
     pub rotation: f32,
     /// The direction in red and green, from -1 to 1, and the strength in blue.
     pub texture: Option<TextureUse>,
@@ -82,7 +82,7 @@ pub struct DiffuseTransmission {
     pub color: [f32; 3],
     /// The factor's, in alpha.
     pub texture: Option<TextureUse>,
-    /// sRGB colour.
+    /// Texture of the colour, sRGB.
     pub color_texture: Option<TextureUse>,
 }
 
@@ -101,19 +101,19 @@ pub struct Transmission {
     pub absorption: [f32; 3],
 }
 
-/// Another base in place of metalness: `KHR_materials_pbrSpecularGlossiness`. The base colour is the diffuse one, and
-/// the roughness is not used.
+/// Base by specular colour and glossiness instead of metalness and roughness (`KHR_materials_pbrSpecularGlossiness`).
+/// The base colour is the diffuse one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpecularGlossiness {
     /// Linear RGB reflected at normal incidence, 0 to 1.
     pub specular: [f32; 3],
     /// 1 less perceptual roughness, 0 to 1.
     pub glossiness: f32,
-    /// sRGB of the specular colour, and the glossiness in alpha.
+    /// Texture of the specular colour in sRGB, and of the glossiness in alpha.
     pub texture: Option<TextureUse>,
 }
 
-/// What a material has of these; what has no effect is absent.
+/// Lobes of a material; those without an effect are absent.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[allow(missing_docs)]
 pub struct Lobes {

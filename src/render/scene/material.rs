@@ -4,17 +4,17 @@ use super::lobes::Lobes;
 
 pub use gltf::json::texture::{MagFilter as Filter, WrappingMode as Wrap};
 
-/// glTF's alpha modes.
+/// Use of a material's alpha (glTF's alpha mode).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AlphaMode {
     /// Alpha is ignored.
     Opaque,
-    /// Covered where alpha is at least the cutoff.
+    /// Surface that exists only where alpha is at least the cutoff.
     Mask {
-        /// The cutoff, usually within 0 to 1.
+        /// Cutoff, usually within 0 to 1.
         cutoff: f32,
     },
-    /// Composited over what lies behind.
+    /// Surface that is composited over what lies behind.
     Blend,
 }
 
@@ -28,53 +28,54 @@ impl Default for TextureTransform {
     }
 }
 
-/// A material's use of a texture.
+/// Use of a texture by a material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TextureUse {
     /// Index into [`crate::scene::Scene::textures`].
     pub texture: u32,
-    /// Which UV set, 0 or 1.
+    /// Index of the UV set, 0 or 1.
     pub uv_set: u32,
-    /// Transform applied to the coordinates.
+    /// Transform of the texture coordinates.
     pub transform: TextureTransform,
 }
 
-/// A material; the defaults are glTF's.
+/// Material; the defaults are glTF's.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
-    /// Its name in the file, where it has one.
+    /// Name in the file, if there is one.
     pub name: Option<String>,
-    /// Linear RGB and straight alpha.
+    /// Base colour: linear RGB and straight alpha.
     pub base_color: [f32; 4],
-    /// 0 dielectric to 1 metal.
+    /// Metalness from 0 (dielectric) to 1 (metal).
     pub metallic: f32,
     /// Perceptual roughness, 0 to 1.
     pub roughness: f32,
     /// Linear emitted radiance, `KHR_materials_emissive_strength` multiplied in.
     pub emissive: [f32; 3],
-    /// Multiplies the x and y of the normal texture.
+    /// Factor of the x and y of the normal texture.
     pub normal_scale: f32,
-    /// 0 ignores the occlusion texture, 1 applies it fully.
+    /// Strength of the occlusion texture from 0 (ignored) to 1.
     pub occlusion_strength: f32,
-    /// How alpha is used.
+    /// Use of alpha.
     pub alpha_mode: AlphaMode,
-    /// Draw back faces too.
+    /// Whether back faces are drawn, too.
     pub double_sided: bool,
-    /// Whether an animation may change its numbers: nothing is left out then for what they are now.
+    /// Whether an animation may change the material's numbers. Lobes that have no effect with the present numbers are
+    /// kept then.
     pub animated: bool,
-    /// `KHR_materials_unlit`: the base colour is the result.
+    /// Whether the base colour is the result, without light (`KHR_materials_unlit`).
     pub unlit: bool,
-    /// sRGB colour and linear alpha.
+    /// Texture of the base colour: sRGB colour and linear alpha.
     pub base_color_texture: Option<TextureUse>,
-    /// Roughness in green, metalness in blue, linear.
+    /// Texture of roughness in green and metalness in blue, linear.
     pub metallic_roughness_texture: Option<TextureUse>,
-    /// Tangent-space normals, linear.
+    /// Texture of tangent-space normals, linear.
     pub normal_texture: Option<TextureUse>,
-    /// Occlusion in red, linear.
+    /// Texture of occlusion in red, linear.
     pub occlusion_texture: Option<TextureUse>,
-    /// sRGB colour.
+    /// Texture of emitted light: sRGB colour.
     pub emissive_texture: Option<TextureUse>,
-    /// What extensions add.
+    /// Lobes and layers of extensions.
     pub lobes: Lobes,
 }
 
@@ -102,7 +103,7 @@ impl Default for Material {
     }
 }
 
-/// What a material has a texture for.
+/// Property of a material that a texture modulates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[allow(missing_docs)]
 pub enum TextureRole {
@@ -132,7 +133,7 @@ impl TextureRole {
     /// Number of roles.
     pub const COUNT: usize = Self::SpecularGlossiness as usize + 1;
 
-    /// Whether red, green and blue are in sRGB, or not read at all; alpha is linear always.
+    /// Whether red, green and blue are in sRGB, or not read at all. Alpha is always linear.
     #[must_use]
     pub fn is_srgb(self) -> bool {
         matches!(
@@ -151,20 +152,20 @@ impl TextureRole {
 }
 
 impl Material {
-    /// Whether what lies behind shows through: its surfaces are composited in order of depth.
+    /// Whether surfaces show what lies behind, so that they are composited in order of depth.
     #[must_use]
     pub fn is_layer(&self) -> bool {
         self.alpha_mode == AlphaMode::Blend || (self.lobes.transmission.is_some() && !self.unlit)
     }
 
-    /// Whether it has a thickness that light passes through.
+    /// Whether the material has a thickness that light passes through.
     #[must_use]
     pub fn has_volume(&self) -> bool {
         let lobe = self.lobes.transmission;
         lobe.is_some_and(|lobe| lobe.thickness > 0.0 || self.animated)
     }
 
-    /// The UV set that tangents go along, where the surface needs tangents.
+    /// Index of the UV set that tangents follow, if the surface needs tangents.
     #[must_use]
     pub fn tangent_uv_set(&self) -> Option<u32> {
         let coat = self.lobes.clearcoat.and_then(|coat| coat.normal_texture);
@@ -174,7 +175,7 @@ impl Material {
         normal.map(|used| used.uv_set).or(drawn_out)
     }
 
-    /// The textures that the material uses.
+    /// Textures that the material uses, with their roles.
     pub fn textures(&self) -> impl Iterator<Item = (TextureRole, TextureUse)> + use<> {
         let mut copy = self.clone();
         let used: Vec<_> = copy
@@ -185,7 +186,7 @@ impl Material {
         used.into_iter()
     }
 
-    /// What holds a texture or could, in the order of roles.
+    /// Places of all textures of the material, used or not, in the order of roles.
     pub(super) fn texture_slots(&mut self) -> Vec<(TextureRole, &mut Option<TextureUse>)> {
         use TextureRole as Role;
         let mut slots = vec![
@@ -234,18 +235,18 @@ impl Material {
     }
 }
 
-/// glTF sampler state; the default is linear, trilinear and repeating.
+/// State of a glTF sampler; the default is linear, trilinear and repeating.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sampler {
-    /// Filter where a texel covers more than a pixel.
+    /// Filter for texels larger than a pixel.
     pub mag: Filter,
     /// Filter within a mipmap level.
     pub min: Filter,
-    /// Filter between mipmap levels; `None` uses the full image alone.
+    /// Filter between mipmap levels; `None` reads the full image alone.
     pub mip: Option<Filter>,
-    /// Along u.
+    /// Wrapping along u.
     pub wrap_u: Wrap,
-    /// Along v.
+    /// Wrapping along v.
     pub wrap_v: Wrap,
 }
 
@@ -261,24 +262,24 @@ impl Default for Sampler {
     }
 }
 
-/// An image seen through a sampler.
+/// Image seen through a sampler.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Texture {
     /// Index into [`crate::scene::Scene::images`].
     pub image: u32,
-    /// How it is read.
+    /// State of the sampler.
     pub sampler: Sampler,
 }
 
-/// A decoded image: rows from the top, RGBA, 8 bits a channel, as stored (no colour conversion).
+/// Decoded image: rows from the top, RGBA, 8 bits a channel, as stored (no colour conversion).
 #[derive(Clone, PartialEq, Eq)]
 pub struct Image {
     /// Width in texels, at least 1.
     pub width: u32,
     /// Height in texels, at least 1.
     pub height: u32,
-    /// `4 * width * height` bytes. What its file has of mipmaps follows, all levels down to a single texel, each half as wide
-    /// and high as the one before, rounded down; without them, they are made.
+    /// Texels, `4 * width * height` bytes. If the file holds mipmaps, all levels down to a single texel follow, each
+    /// half as wide and high as the one before, rounded down.
     pub pixels: Vec<u8>,
 }
 
@@ -295,7 +296,7 @@ impl Image {
         [self.width, self.height].map(|side| (side >> level).max(1))
     }
 
-    /// The levels that there are: one, or all.
+    /// Levels that the image holds: one, or all.
     pub fn levels(&self) -> impl Iterator<Item = &[u8]> {
         let mut rest = &self.pixels[..];
         (0..self.full_levels()).map_while(move |level| {

@@ -69,31 +69,33 @@ pub use view::{SceneCamera, SceneProjection};
 /// A file's content, checked and decoded.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// The file's materials in its order, glTF's default material for primitives without one, and unlit copies for points
-    /// and lines without normals; never empty.
+    /// Materials: the file's in its order, glTF's default material for primitives without one, and unlit copies for
+    /// points and lines without normals; never empty.
     pub materials: Vec<Material>,
-    /// The textures that materials use.
+    /// Textures that materials use.
     pub textures: Vec<Texture>,
-    /// The images that textures use.
+    /// Images that textures use.
     pub images: Vec<Image>,
-    /// Light from all around, in place of the file's own and the studio's.
+    /// Environment that replaces the file's own and the studio's: light from all around.
     pub environment: Option<Arc<Environment>>,
     document: document::Document,
-    /// What animations change.
+    /// Numbers that animations change.
     descriptions: Arc<read::Descriptions>,
 }
 
-/// A scene, and what is doubtful about it.
+/// Scene and the warnings of loading it.
 #[derive(Clone, Debug)]
 pub struct Loaded {
-    /// The scene.
+    /// Loaded scene.
     pub scene: Scene,
-    /// One sentence each: the file, the place in it, and what was left out or replaced why.
+    /// Warnings. Each is one sentence that names the file and the place in it, and says what was left out or replaced,
+    /// and why.
     pub warnings: Vec<String>,
 }
 
 impl Scene {
-    /// Reads a glTF, OBJ, STL or PLY file, told apart by content. Relative URIs start from its folder.
+    /// Reads a glTF, OBJ, STL or PLY file; the format is told by the content. Relative URIs start from the file's
+    /// folder.
     ///
     /// # Errors
     /// If the file cannot be read, is none of these, is glTF other than 2.0, requires an extension that is not supported, or
@@ -103,7 +105,7 @@ impl Scene {
         Self::from_slice(&read_file(path)?, &file, path.parent())
     }
 
-    /// As [`load`](Self::load), with the materials of the `variant` of that name
+    /// Reads a file as [`load`](Self::load) does, with the materials of the `variant` of that name
     /// (`KHR_materials_variants`).
     ///
     /// # Errors
@@ -113,8 +115,8 @@ impl Scene {
         read::read(&read_file(path)?, &file, path.parent(), Some(variant))
     }
 
-    /// Reads the bytes of a glTF, OBJ, STL or PLY file. Messages call it `name`; relative URIs start
-    /// from the folder `base`, without which they are errors where they are needed.
+    /// Reads the bytes of a glTF, OBJ, STL or PLY file. `name` stands for the file in messages. Relative URIs start
+    /// from the folder `base`; without it they are errors where they are needed.
     ///
     /// # Errors
     /// As [`load`](Self::load).
@@ -122,7 +124,7 @@ impl Scene {
         read::read(bytes, name, base, None)
     }
 
-    /// As [`from_slice`](Self::from_slice), with the materials of the `variant` of that name
+    /// Reads bytes as [`from_slice`](Self::from_slice) does, with the materials of the `variant` of that name
     /// (`KHR_materials_variants`).
     ///
     /// # Errors
@@ -136,8 +138,8 @@ impl Scene {
         read::read(bytes, name, base, Some(variant))
     }
 
-    /// A scene without a file and without textures, for [`Geometry`] made by other means; glTF's default material is
-    /// appended.
+    /// Makes a scene without a file and without textures, for [`Geometry`] made by other means. glTF's default material
+    /// is appended.
     #[must_use]
     pub fn from_materials(mut materials: Vec<Material>) -> Self {
         materials.push(Material::default());
@@ -157,7 +159,7 @@ impl Scene {
         edges::add(self, edges);
     }
 
-    /// The triangles, lights and cameras of one scene at one moment.
+    /// Poses one scene at one moment: its triangles, lights and cameras.
     ///
     /// # Errors
     /// If the file has no such scene or animation, or if repetition makes the scene too large.
@@ -165,8 +167,8 @@ impl Scene {
         pose::pose(self, request)
     }
 
-    /// As [`pose`](Self::pose), and what its animation moves, for other moments of it; nothing of that is drawn by
-    /// instances.
+    /// Poses a scene as [`pose`](Self::pose) does, and makes the [`Motion`] that shows other moments of its animation.
+    /// What moves is not drawn by instances.
     ///
     /// # Errors
     /// As [`pose`](Self::pose).
@@ -174,7 +176,7 @@ impl Scene {
         pose::pose_in_motion(self, request)
     }
 
-    /// A summary of the file.
+    /// Summarises the file.
     #[must_use]
     pub fn info(&self) -> SceneInfo {
         info::summarize(self)

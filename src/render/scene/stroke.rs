@@ -4,7 +4,7 @@
 /// line. The other vertices that it names are positions in space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stroke {
-    /// Which corner it is.
+    /// Corner of the point or line.
     pub part: StrokePart,
     /// The vertex to place; its position is that of [`at`](Self::at) until then.
     pub vertex: u32,
@@ -12,7 +12,7 @@ pub struct Stroke {
     pub at: u32,
     /// The other end of the segment.
     pub other: u32,
-    /// Where the line goes on from `at`; `at` itself where it ends there.
+    /// Index of the vertex at which the line goes on from `at`; `at` itself at its end.
     pub beyond: u32,
     /// Whether its normal is to face the camera, for want of one of its own.
     pub faces_camera: bool,
@@ -29,14 +29,14 @@ pub struct Edge {
     /// The vertices of its faces that are not the edge's: of the one that runs from the first end to the second, and of the
     /// one that runs back; an end of the edge where there is no such face.
     pub opposite: [u32; 2],
-    /// Whether it shows as a silhouette alone: one of its faces is seen from the front, the other from behind.
+    /// Whether the edge shows as a silhouette alone: one of its faces is seen from the front, the other from behind.
     pub is_smooth: bool,
-    /// Whether it shows where its faces are seen from behind, too.
+    /// Whether the edge also shows if its faces are seen from behind.
     pub is_double_sided: bool,
 }
 
 impl Edge {
-    /// How many corners it has.
+    /// Number of an edge's corners.
     pub const CORNERS: u32 = 4;
 
     /// The end that each corner belongs to.
@@ -50,7 +50,7 @@ impl Edge {
         [[0, 1, 2], [0, 2, 3]].map(|corners| corners.map(|corner| self.first_vertex + corner))
     }
 
-    /// The same with vertices counted from another one, of a mesh that may be mirrored, so that faces run the other way.
+    /// Edge with vertices counted from `first`, of a mesh that may be mirrored, so that faces turn the other way.
     pub(crate) fn placed(self, first: u32, mirrored: bool) -> Self {
         let [a, b] = self.opposite.map(|v| v + first);
         Self {
@@ -74,7 +74,7 @@ pub enum StrokePart {
     JointCentre,
     /// The next corner of that triangle, counter-clockwise.
     JointFirst,
-    /// Its last corner.
+    /// Last corner of a joint.
     JointSecond,
     /// A corner of the regular polygon that stands for a point's disc, counted counter-clockwise.
     Disc(u32),

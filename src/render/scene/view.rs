@@ -2,21 +2,21 @@
 
 use glam::{DMat3, DVec3};
 
-/// A glTF camera's projection (glTF 2.0, section 3.10).
+/// Projection of a glTF camera (glTF 2.0, section 3.10).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SceneProjection {
-    /// Perspective.
+    /// Perspective projection.
     Perspective {
         /// Vertical field of view in radians, above 0 and below pi.
         yfov: f64,
-        /// Width over height, where the file prescribes one.
+        /// Width over height, if the file prescribes one.
         aspect: Option<f64>,
         /// Distance of the near plane, above 0.
         near: f64,
         /// Distance of the far plane; `None` is infinite.
         far: Option<f64>,
     },
-    /// Orthographic.
+    /// Orthographic projection.
     Orthographic {
         /// Half of the width.
         xmag: f64,
@@ -30,7 +30,7 @@ pub enum SceneProjection {
 }
 
 impl SceneCamera {
-    /// Index of the camera of that name, or else of that index.
+    /// Index of the camera with this name, or else with this index.
     #[must_use]
     pub fn find(cameras: &[Self], asked: &str) -> Option<usize> {
         let by_name = cameras
@@ -41,15 +41,15 @@ impl SceneCamera {
     }
 }
 
-/// A camera placed in the world, at the moment of the pose.
+/// Camera placed in the world, at the moment of the pose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneCamera {
-    /// The camera's or else its node's name.
+    /// Name of the camera, or else of its node.
     pub name: Option<String>,
     /// World position.
     pub eye: DVec3,
     /// Columns: right, up and backward in world space, orthonormal (the camera looks along the negative third).
     pub axes: DMat3,
-    /// Its projection.
+    /// Projection of the camera.
     pub projection: SceneProjection,
 }

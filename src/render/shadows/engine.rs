@@ -2,10 +2,9 @@
 
 use super::casters::{Casters, Lit, caster_moment};
 use super::light::{LightView, Sight, views};
-use crate::engine::sampler::engine::RecordShading;
-use crate::engine::sampler::list::{ListEngine, ListKind};
 use crate::engine::sampler::plan::Capacity;
 use crate::engine::sampler::statistics::Shortfall;
+use crate::engine::sampler::{ListCells, RecordShading, Sampler, SamplerContext, SamplerRun};
 use crate::passes::{
     Argument, Cells, Content, FrameLayout, ListLength, Offsets, RasterTargets, ResourceSizes,
     Resources, SampleSet,
@@ -27,9 +26,8 @@ pub(in crate::render) struct ShadowEngine {
     /// What is shown in the stead of the first pose.
     moment: Option<Moment>,
     settings: Settings,
-    rounds: u32,
     receivers: Receivers,
-    engine: ListEngine,
+    sampler: Sampler,
     /// Of casters that may let light pass.
     shade: Option<Shade>,
     shadow: Shadow,
@@ -52,11 +50,13 @@ pub(in crate::render) struct Shadowed<'a> {
     pub views: &'a [LightView],
 }
 
-/// Shades casters for their opacities.
-struct Opacities<'a> {
-    scene: &'a GpuScene,
-    /// Nothing where all are opaque.
-    shade: Option<&'a Shade>,
+/// What the casters between a plane of a light and receivers are asked for.
+struct Occlusion<'a> {
+    engine: &'a ShadowEngine,
+    set: &'a SampleSet,
+    found: Found,
+    /// The light's bit.
+    light: u32,
 }
 
 impl Shadowed<'_> {
@@ -65,26 +65,28 @@ impl Shadowed<'_> {
     }
 }
 
-impl RecordShading for Opacities<'_> {
+impl RecordShading for Occlusion<'_> {
+    /// Shades casters that may let light pass, for their opacities.
     fn record(&self, recorder: &mut Recorder<'_>, resources: &Resources) {
-        if let Some(shade) = self.shade {
-            shade.record(recorder, self.scene, &resources.arguments);
+        if let Some(shade) = &self.engine.shade {
+            shade.record(recorder, &self.engine.casters.scene, &resources.arguments);
         }
+    }
+
+    fn record_round_end(&self, recorder: &mut Recorder<'_>) {
+        let occluders = (&self.engine.resources, self.set);
+        let shadow = &self.engine.shadow;
+        shadow.record(recorder, occluders, self.found, self.light);
     }
 }
 
-/// The kind of list that casters are sampled by.
-fn kind(capacity: Capacity) -> ListKind {
-    ListKind {
-        cells: Cells::Occluders,
-        attributes: false,
-        shadow_words: 0,
-        lent: true,
-        apart: capacity.apart,
-        unlisted: true,
-        layers: capacity.layers,
-    }
-}
+/// The list that casters are sampled by.
+const OCCLUDERS: ListCells = ListCells {
+    cells: Cells::Occluders,
+    attributes: false,
+    shadow_words: 0,
+    lent: true,
+};
 
 fn sizes(
     layout: &FrameLayout,
@@ -93,10 +95,8 @@ fn sizes(
     capacity: Capacity,
     (places, shading): (u64, &ResourceSizes),
 ) -> ResourceSizes {
-    let most = shading.receivers();
-    let side = LightView::side(places);
-    let scene = &*casters.scene;
-    kind(capacity).sizes(layout, scene, settings, (most, [side; 2]), capacity.lists)
+    let room = (shading.receivers(), [LightView::side(places); 2]);
+    OCCLUDERS.sizes(layout, &*casters.scene, settings, room, capacity.lists)
 }
 
 impl ShadowEngine {
@@ -138,8 +138,7 @@ impl ShadowEngine {
             (places, shading.sizes()),
         );
         sizes.check("the largest list of shadows", layout.gpu.limits())?;
-        let kind = kind(capacity);
-        let (offsets, count) = kind.offsets(layout, settings)?;
+        let (offsets, count) = OCCLUDERS.offsets(layout, settings)?;
         let offsets = Offsets {
             all: &offsets,
             count,
@@ -168,11 +167,22 @@ impl ShadowEngine {
             &[offsets],
         )?;
         let output = settings.color_constants(occluding);
+        let context = SamplerContext {
+            layout,
+            memory,
+            scene: occluding,
+            settings,
+            output: &output,
+            sizes: &sizes,
+            capacity: Capacity {
+                unlisted: true,
+                ..capacity
+            },
+            // `shadow` counts on the device.
+            runs: 0,
+        };
         // SAFETY: the list goes with this, and has room for as many locations.
-        let engine = unsafe {
-            let shown = (&resources, locations.view);
-            ListEngine::new(layout, occluding, settings, &kind, shown, &output)
-        }?;
+        let sampler = unsafe { OCCLUDERS.sampler(&context, (&resources, locations.view)) }?;
         let opacities = || {
             let source = ShadeSource::Records {
                 cells: Cells::Occluders,
@@ -181,7 +191,6 @@ impl ShadowEngine {
         };
         Ok(Self {
             shade: occluding.has_blend().then(opacities).transpose()?,
-            rounds: engine.most_rounds(&sizes, occluding.index_count()),
             receivers: Receivers::new(layout, scene, cells, shading, &locations.buffer)?,
             shadow: Shadow::new(layout, memory, shading)?,
             pose: occluding.moves().then(|| Pose::new(layout)).transpose()?,
@@ -189,7 +198,7 @@ impl ShadowEngine {
             moment: None,
             casters: casters.clone(),
             settings: settings.clone(),
-            engine,
+            sampler,
             geometry,
             look,
             resources,
@@ -295,25 +304,26 @@ impl ShadowEngine {
                 (shading.sizes().record_capacity, length)
             }
         };
-        let kind = (Cells::Occluders, self.engine.options().samples);
-        let opacities = Opacities {
-            scene,
-            shade: self.shade.as_ref(),
-        };
+        let cells = (Cells::Occluders, self.sampler.samples());
         let (pinhole, window) = (&view.pinhole, &view.window);
-        let uniform = window.uniform(scene, pinhole, &self.settings, kind, resources.sizes());
+        let uniform = window.uniform(scene, pinhole, &self.settings, cells, resources.sizes());
         self.receivers
             .record(recorder, (shading, shaded.set), receiving, plane);
         resources.record_begin(recorder, set, &uniform);
-        let region = window.region(most as usize);
-        self.engine
-            .record_candidates(recorder, (resources, set), &region, length);
-        resources.record_rounds(recorder, self.rounds, |recorder| {
-            self.engine.record_round(recorder, resources);
-            self.engine.record_values(recorder, resources, &opacities);
-            self.shadow
-                .record(recorder, (resources, set), found, view.bit);
-        });
+        let run = SamplerRun {
+            resources,
+            set,
+            uniform: &uniform,
+            list: (most, length),
+            index: 0,
+        };
+        let occlusion = Occlusion {
+            engine: self,
+            set,
+            found,
+            light: view.bit,
+        };
+        self.sampler.record(recorder, &run, &occlusion);
         self.shadow.record_left(recorder, set);
     }
 

@@ -1,33 +1,33 @@
-//! How far an image is from the reference.
+//! Accuracy of images: their distance from the reference.
 
 use crate::compare::{CompareError, compare};
 use crate::output::{DecodedImage, Picture};
 use serde::Serialize;
 
-/// Distance of an image from the reference. Colours count, alpha does not: the images are opaque.
+/// Distance of an image from the reference. Only colours count: the images are opaque.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Accuracy {
     /// Root of the mean squared difference of the linear values of 0 to 1.
     pub rmse_linear: f64,
-    /// Peak signal-to-noise ratio of the linear values in decibels, `None` (infinite) for identical images.
+    /// Peak signal-to-noise ratio of the linear values in decibels; `None` (infinite) for identical images.
     pub psnr_linear: Option<f64>,
-    /// The same as a display shows them: sRGB-encoded values of 0 to 1.
+    /// Root of the mean squared difference of the sRGB-encoded values of 0 to 1.
     pub rmse: f64,
-    /// Peak signal-to-noise ratio as a display shows it.
+    /// Peak signal-to-noise ratio of the sRGB-encoded values in decibels; `None` (infinite) for identical images.
     pub psnr: Option<f64>,
-    /// Largest difference of any channel of any pixel as a display shows it.
+    /// Largest difference of any sRGB-encoded value, 0 to 1.
     pub max: f64,
-    /// Mean of the FLIP error map.
+    /// Mean of the FLIP error map, 0 to 1.
     pub flip: f64,
-    /// Share of the aliasing error removed: 1 - MSE / MSE of one sample a pixel, as a display shows it. Negative for an
-    /// image worse than that; 1 where one sample is without error.
+    /// Share of the aliasing error that is removed: 1 - MSE / MSE of one sample a pixel, of sRGB-encoded values.
+    /// Negative for an image worse than one sample; 1 where one sample is without error.
     pub removed: f64,
-    /// Share of all pixels that were changed although one sample was right: it differs from the reference by less than
-    /// 1/255 in every channel, and the image differs from it by more in some.
+    /// Share of all pixels that were changed needlessly: one sample differs from the reference by less than 1/255 in
+    /// every channel, and the image differs from it by more in some.
     pub needless: f64,
 }
 
-/// The reference, and the image of one sample a pixel, which every other is held against.
+/// Reference and image of one sample a pixel, with which all images are compared.
 #[derive(Clone, Debug)]
 pub struct Yardstick {
     linear: Vec<[f32; 4]>,
@@ -37,7 +37,7 @@ pub struct Yardstick {
 }
 
 impl Yardstick {
-    /// Takes the reference and the image of one sample a pixel, both of opaque pixels.
+    /// Takes the reference and the image of one sample a pixel, both opaque.
     ///
     /// # Errors
     /// [`CompareError::Size`] if their sizes differ.
@@ -53,19 +53,19 @@ impl Yardstick {
         })
     }
 
-    /// The reference as a display shows it.
+    /// Reference as a display shows it.
     #[must_use]
     pub fn reference(&self) -> &DecodedImage {
         &self.shown
     }
 
-    /// The image of one sample a pixel as a display shows it.
+    /// Image of one sample a pixel as a display shows it.
     #[must_use]
     pub fn one_sample(&self) -> &DecodedImage {
         &self.one_sample
     }
 
-    /// Measures an image.
+    /// Measures the accuracy of an image.
     ///
     /// # Errors
     /// [`CompareError::Size`] if its size is not the reference's.
@@ -112,7 +112,7 @@ impl Yardstick {
     }
 }
 
-/// Each pixel's squared error, summed over its colours.
+/// Squared error of each pixel, summed over its colours.
 ///
 /// # Errors
 /// [`CompareError::Size`] if the sizes differ.
@@ -125,7 +125,7 @@ pub(super) fn squares(
     Ok(errors.into_iter().map(square).collect())
 }
 
-/// By how much each pixel's colours are above the reference's.
+/// Difference of each pixel's colours from the reference's: image - reference.
 ///
 /// # Errors
 /// [`CompareError::Size`] if the sizes differ.

@@ -1,4 +1,4 @@
-//! References on disk, since brute force takes minutes.
+//! Cache of references on disk, since brute force takes minutes.
 
 use super::reference::of_reference;
 use crate::camera::Camera;
@@ -9,10 +9,10 @@ use std::collections::hash_map::DefaultHasher;
 use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
 
-/// Samples a pixel of the image that stands for all that shading does.
+/// Samples a pixel of the probe: a quick image that shows whether shading has changed.
 const PROBE_SAMPLES: u32 = 16;
 
-/// A hash of everything that a reference depends on.
+/// Hash of everything that a reference depends on.
 ///
 /// Geometry, camera and footprint count bit by bit. Materials, textures, lights, shaders, and the code between them and the device
 /// count by what they show: every bit of the image at 16 samples a pixel, textures read as in the reference. Hence neither a change of a shader nor one of
@@ -22,7 +22,7 @@ const PROBE_SAMPLES: u32 = 16;
 pub struct Fingerprint(u64);
 
 impl Fingerprint {
-    /// The fingerprint of a reference of `samples` samples a pixel. It renders a probe.
+    /// Computes the fingerprint of a reference of `samples` samples a pixel, and renders a probe for it.
     ///
     /// # Errors
     /// As [`Headless::render`].
@@ -54,14 +54,14 @@ impl Fingerprint {
     }
 }
 
-/// A folder of references.
+/// Folder of cached references.
 #[derive(Clone, Debug)]
 pub struct Cache {
     folder: PathBuf,
 }
 
 impl Cache {
-    /// A cache in a folder, which need not exist yet.
+    /// Opens a cache in a folder, which need not exist yet.
     #[must_use]
     pub fn new(folder: &Path) -> Self {
         Self {
@@ -69,8 +69,8 @@ impl Cache {
         }
     }
 
-    /// Where references are kept unless another folder is named: `gpc` in the user's cache folder, `$XDG_CACHE_HOME`
-    /// or else `~/.cache` (XDG Base Directory Specification 0.8); `None` for a user without either.
+    /// Folder of the cache unless another one is named: `gpc` in the user's cache folder, `$XDG_CACHE_HOME` or else
+    /// `~/.cache` (XDG Base Directory Specification 0.8); `None` for a user without either.
     #[must_use]
     pub fn default_folder() -> Option<PathBuf> {
         let absolute = |name: &str| {
@@ -83,8 +83,8 @@ impl Cache {
             .map(|folder| folder.join("gpc"))
     }
 
-    /// The reference of a size with this fingerprint, if it is there. A file that can't be used counts as absent, with
-    /// a warning in the log.
+    /// Pixels of the reference of this fingerprint and size, if the cache holds them. A file that can't be used counts
+    /// as absent, with a warning in the log.
     #[must_use]
     pub fn get(&self, fingerprint: Fingerprint, size: [u32; 2]) -> Option<Vec<[f32; 4]>> {
         let path = self.path(fingerprint);
@@ -102,10 +102,10 @@ impl Cache {
         }
     }
 
-    /// Keeps a reference.
+    /// Adds a reference to the cache.
     ///
     /// # Errors
-    /// [`OutputError`] if it can't be written.
+    /// [`OutputError`] if its file can't be written.
     pub fn put(&self, fingerprint: Fingerprint, picture: &Picture<'_>) -> Result<(), OutputError> {
         let path = self.path(fingerprint);
         std::fs::create_dir_all(&self.folder).map_err(|source| OutputError::Write {

@@ -1,4 +1,4 @@
-//! Why pixels err: what antialiasing left, by what it could know of a pixel.
+//! Causes of the errors that antialiasing leaves in pixels.
 
 use super::Yardstick;
 use super::accuracy::squares;
@@ -11,41 +11,42 @@ use glam::DVec2;
 use serde::Serialize;
 use std::ops::RangeInclusive;
 
-/// Places in a pixel at which IDs are looked up besides its centre.
+/// Places in a pixel, besides its centre, at which IDs are looked up.
 pub const LOOKS: u32 = 64;
 
-/// Scrambling of these places.
+/// Scrambling seed of these places.
 const SEED: u32 = 2;
 
-/// What an error in a pixel is put down to.
+/// Cause of the error in a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cause {
-    /// It is a superpixel: the number of samples and how often they are shaded.
+    /// Superpixel: its error comes from the number of samples and of their shadings.
     Superpixel,
-    /// It is none although it holds several triangles, which it or its neighbours' centres see, for their colours are too
-    /// much alike.
+    /// Pixel that is no superpixel although it or a neighbour's centre sees several triangles: their colours contrast
+    /// too little.
     BelowThreshold,
-    /// It is none, and holds a triangle (or a gap between triangles) that no centre of the 3 x 3 pixels around it saw.
+    /// Pixel that is no superpixel and holds a triangle, or a gap between triangles, that no centre of the 3 x 3 pixels
+    /// around it sees.
     Unseen,
-    /// It is none, and holds one triangle: its shading or texture.
+    /// Pixel that is no superpixel and holds one triangle: its error comes from shading or texture.
     Inside,
 }
 
-/// An image's squared error by cause, each a share of the squared error of one sample a pixel, as a display shows it.
-/// They add up to 1 less the share removed.
+/// Squared error of an image by cause. Each part is a share of the squared error of one sample a pixel, of sRGB-encoded
+/// colours; they add up to 1 - [`super::Accuracy::removed`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Split {
-    /// In superpixels.
+    /// Error in superpixels.
     pub superpixels: f64,
-    /// In pixels that contrast too little to become superpixels.
+    /// Error in pixels that contrast too little to become superpixels.
     pub below_threshold: f64,
-    /// In pixels of features that no centre saw and that did not become superpixels.
+    /// Error in pixels of features that no centre saw and that did not become superpixels.
     pub unseen: f64,
-    /// In pixels of one triangle.
+    /// Error in pixels of one triangle.
     pub inside: f64,
 }
 
-/// What pixels hold besides what their centres see.
+/// Triangles in each pixel, as [`LOOKS`] places and the centre see them.
 ///
 /// IDs are those of opaque and MASK triangles; a BLEND triangle counts as what lies behind it.
 #[derive(Clone, Debug)]
@@ -55,7 +56,7 @@ pub struct Looks {
 }
 
 impl Looks {
-    /// Looks into the pixels of an image with these settings; `progress` is called after each of the [`LOOKS`]
+    /// Looks up the IDs in each pixel of an image with these settings. `progress` is called after each of [`LOOKS`]
     /// renderings.
     ///
     /// # Errors
@@ -95,8 +96,8 @@ impl Looks {
         self.several.get(pixel).copied().unwrap_or_default()
     }
 
-    /// Each pixel's cause under superpixel antialiasing with these settings, rows from the top. Scene, camera and size
-    /// are those that were looked at.
+    /// Cause of each pixel's error under superpixel antialiasing with these settings, rows from the top. Scene, camera
+    /// and size must be those that [`Looks::new`] was given.
     ///
     /// # Errors
     /// As [`Headless::render`].
@@ -126,7 +127,7 @@ impl Looks {
     }
 }
 
-/// One sample is enough to know IDs and superpixels.
+/// Settings that render IDs and superpixels; one sample a pixel suffices for these.
 fn with_attributes(settings: &Settings, method: Method) -> Settings {
     Settings {
         method,
@@ -136,7 +137,7 @@ fn with_attributes(settings: &Settings, method: Method) -> Settings {
     }
 }
 
-/// IDs at the centres of a pixel and those around it.
+/// IDs at the centres of a pixel and its neighbours.
 fn around(
     centres: &[PixelAttributes],
     [width, height]: [u32; 2],
@@ -154,10 +155,10 @@ fn around(
 }
 
 impl Yardstick {
-    /// Splits an image's error by cause; all zero where one sample is without error.
+    /// Splits an image's error by cause; all parts are zero if one sample a pixel has no error.
     ///
     /// # Errors
-    /// [`CompareError::Size`] if the image has not the reference's size.
+    /// [`CompareError::Size`] if the image does not have the reference's size.
     pub fn split(&self, picture: &Picture<'_>, causes: &[Cause]) -> Result<Split, CompareError> {
         let errors = squares(self.reference(), &DecodedImage::from(picture))?;
         let whole: f64 = squares(self.reference(), self.one_sample())?.iter().sum();
@@ -178,7 +179,7 @@ impl Yardstick {
 }
 
 impl Split {
-    /// The share of a cause.
+    /// Share of a cause.
     fn of_mut(&mut self, cause: Cause) -> &mut f64 {
         match cause {
             Cause::Superpixel => &mut self.superpixels,

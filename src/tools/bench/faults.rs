@@ -1,4 +1,4 @@
-//! Whose fault an error is: the edges', the texture's or the light's.
+//! Faults: whether edges, texture or light is to blame for an error.
 
 use super::accuracy::squares;
 use super::{Cause, Looks, Yardstick};
@@ -8,87 +8,89 @@ use crate::output::{DecodedImage, OutputError, Picture};
 use crate::render::{Detection, Headless, PreparedScene, RenderError, Settings, Shading};
 use serde::Serialize;
 
-/// What an error in a superpixel or amid one triangle is due to.
+/// Part of rendering that is to blame for an error in a superpixel or inside of one triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
-    /// The superpixel holds several triangles, and at least half of its squared error stays when every sample is shaded:
-    /// how many samples there are, where they lie and what they weigh.
+    /// Edges: the superpixel holds several triangles, and at least half of its squared error stays when every sample is
+    /// shaded. The number of samples, their places and their weights are to blame.
     Edges,
-    /// Paint alone errs at least as much there as light alone: how textures are filtered, how often they are read.
+    /// Texture: paint alone errs at least as much in the pixel as light alone. The filtering of textures and the number
+    /// of reads are to blame.
     Texture,
-    /// Light alone errs more: highlights, normals, roughness.
+    /// Light: light alone errs more. Highlights, normals and roughness are to blame.
     Light,
 }
 
-/// The squared error of superpixel antialiasing in superpixels and amid one triangle, split further, each a share of the
-/// squared error of one sample a pixel, as a display shows it. The first three add up to [`super::Split::superpixels`],
-/// the last two to [`super::Split::inside`].
+/// Squared error of superpixel antialiasing by fault. Each part is a share of the squared error of one sample a pixel,
+/// of sRGB-encoded colours. The first three add up to [`super::Split::superpixels`], the last two to
+/// [`super::Split::inside`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Within {
-    /// In superpixels, by edges and the number of samples.
+    /// Error in superpixels by edges and the number of samples.
     pub superpixel_edges: f64,
-    /// In superpixels, by texture.
+    /// Error in superpixels by texture.
     pub superpixel_texture: f64,
-    /// In superpixels, by light.
+    /// Error in superpixels by light.
     pub superpixel_light: f64,
-    /// Amid one triangle, by texture.
+    /// Error inside of one triangle by texture.
     pub inside_texture: f64,
-    /// Amid one triangle, by light.
+    /// Error inside of one triangle by light.
     pub inside_light: f64,
 }
 
-/// A stripped scene on the device, and the truth of it as a display shows it.
+/// Stripped scene on the device, and its truth as a display shows it.
 #[derive(Clone, Copy)]
 pub struct Half<'a> {
-    /// What [`super::Stripped::of`] left.
+    /// Scene of [`super::Stripped::of`].
     pub scene: &'a PreparedScene,
-    /// Its truth.
+    /// Truth of the scene.
     pub truth: &'a DecodedImage,
 }
 
-/// Why faults can't be told.
+/// Errors of telling faults.
 #[derive(Debug, thiserror::Error)]
 pub enum FaultError {
-    /// An image can't be rendered.
+    /// Image that can't be rendered.
     #[error(transparent)]
     Render(#[from] RenderError),
-    /// An image has not the reference's size.
+    /// Image that does not have the reference's size.
     #[error(transparent)]
     Compare(#[from] CompareError),
-    /// An image has no pixels.
+    /// Image without pixels.
     #[error(transparent)]
     Picture(#[from] OutputError),
 }
 
-/// What is looked at to tell whose fault an error is.
+/// Scenes that are compared to tell the fault of an error.
 pub struct Suspects<'a> {
-    /// The whole scene.
+    /// Whole scene.
     pub scene: &'a PreparedScene,
-    /// Its paint alone, and its light alone.
+    /// Paint alone and light alone.
     pub halves: [Half<'a>; 2],
-    /// What sees them.
+    /// Camera of all images.
     pub camera: &'a Camera,
-    /// What pixels hold.
+    /// Triangles in each pixel.
     pub looks: &'a Looks,
 }
 
 /// Squared errors of a stripped scene, pixel by pixel.
 struct Errors {
-    /// As if every pixel were a superpixel.
+    /// Errors with every pixel a superpixel.
     superpixels: Vec<f64>,
-    /// As if none were.
+    /// Errors with no pixel a superpixel.
     inside: Vec<f64>,
 }
 
 impl Suspects<'_> {
-    /// Each pixel's fault, rows from the top; `None` where the cause is neither superpixels nor one triangle. `picture` is
-    /// the whole scene under superpixel antialiasing with `settings`, and `causes` are its pixels'.
+    /// Fault of each pixel's error, rows from the top; `None` where the cause is neither superpixels nor one triangle.
+    /// `picture` is the whole scene under superpixel antialiasing with `settings`, and `causes` are those of its
+    /// pixels.
     ///
     /// Renders the whole scene with every sample of its superpixels shaded, and each half with superpixels everywhere and
     /// nowhere, for these contrast elsewhere than the whole.
     ///
     /// # Errors
-    /// As [`Headless::render`]; [`CompareError::Size`] if an image has not the reference's size.
+    /// As [`Headless::render`]; [`CompareError::Size`] if an image does not have the reference's size.
     pub fn faults(
         &self,
         headless: &mut Headless,
@@ -113,7 +115,7 @@ impl Suspects<'_> {
         };
         // No difference of 8-bit codes is above their greatest.
         let nowhere = Settings {
-            contrast: u8::MAX,
+            contrast: Some(u8::MAX),
             detection: Detection::Contrast,
             thin: false,
             ..settings.clone()
@@ -144,7 +146,7 @@ impl Suspects<'_> {
     }
 }
 
-/// The fault of a pixel's error, of which the share `stays` when every sample is shaded.
+/// Fault of a pixel's error. `stays` is the share of it that remains when every sample is shaded.
 fn fault(cause: Cause, several: bool, stays: f64, [paint, light]: [f64; 2]) -> Option<Fault> {
     match cause {
         Cause::BelowThreshold | Cause::Unseen => None,
@@ -155,10 +157,11 @@ fn fault(cause: Cause, several: bool, stays: f64, [paint, light]: [f64; 2]) -> O
 }
 
 impl Yardstick {
-    /// Splits an image's error in superpixels and amid one triangle by fault; all zero where one sample is without error.
+    /// Splits an image's error in superpixels and inside of one triangle by fault; all parts are zero if one sample a
+    /// pixel has no error.
     ///
     /// # Errors
-    /// [`CompareError::Size`] if the image has not the reference's size.
+    /// [`CompareError::Size`] if the image does not have the reference's size.
     pub fn split_within(
         &self,
         picture: &Picture<'_>,

@@ -1,4 +1,4 @@
-//! Measuring: what a method costs, and how far its image is from brute force at thousands of samples.
+//! Benchmarks: the costs of methods, and the distances of their images from brute force at thousands of samples.
 //!
 //! [`brute_force`] renders the reference, which a [`Cache`] keeps on disk; [`Yardstick`] holds images against it;
 //! [`take_turns`] times several [`Contender`]s in one run, each in its turn, so that a machine that slows down slows all

@@ -1,4 +1,4 @@
-//! Images in motion: how far each frame is from its own truth, and how much that flickers.
+//! Benchmark of motion: each frame's distance from its own truth, and how much this error flickers.
 
 use super::accuracy::differences;
 use crate::camera::Camera;
@@ -9,32 +9,33 @@ use glam::{DVec2, DVec3};
 use serde::Serialize;
 use std::fmt;
 
-/// How a camera moves.
+/// Motion of the camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Motion {
-    /// The film moves by fractions of a pixel, to places of an Owen-scrambled Sobol set: the same picture, sampled
-    /// elsewhere each time.
+    /// Pan of the film by fractions of a pixel, to the points of an Owen-scrambled Sobol set: the same picture, sampled
+    /// elsewhere in each frame.
     Pan,
-    /// The camera turns slowly, by a quarter of a degree a frame, about the vertical axis through what it looks at.
+    /// Turn of the camera about the vertical axis through its target, by a quarter of a degree a frame.
     Turn,
 }
 
-/// Frames of a motion: as many as make a Sobol set even.
+/// Frames of a motion; a power of two, so that the Sobol set is evenly spread.
 const FRAMES: u32 = 16;
 
 /// Degrees between two frames of a turn.
 const TURN: f64 = 0.25;
 
-/// Scrambling of the places of a pan; neither the superpixels' nor the reference's, which would then meet their own.
+/// Scrambling seed of a pan's places. Superpixels and references have others, so that a pan does not meet their
+/// samples.
 const SEED: u32 = 3;
 
 impl Motion {
-    /// Both.
+    /// All motions.
     pub const ALL: [Self; 2] = [Self::Pan, Self::Turn];
 
-    /// The cameras of its 16 frames, for an image of `size` = width and height in pixels; `target` is what the camera
-    /// looks at.
+    /// Cameras of the 16 frames for an image of `size` = [width, height]; `target` is the point that the camera looks
+    /// at.
     #[must_use]
     pub fn cameras(self, camera: &Camera, target: DVec3, size: [u32; 2]) -> Vec<Camera> {
         match self {
@@ -63,22 +64,22 @@ impl fmt::Display for Motion {
     }
 }
 
-/// How exact and how steady a sequence is, of sRGB-encoded values of 0 to 1.
+/// Accuracy and steadiness of a sequence, in sRGB-encoded values of 0 to 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Steadiness {
     /// Mean over the frames of each frame's RMSE against its own truth.
     pub rmse: f64,
-    /// Root mean square, over pixels and colours, of the standard deviation over time of the error: what an error that
-    /// stays the same in all frames has none of.
+    /// Root mean square, over pixels and colours, of the error's standard deviation over time. An error that is the
+    /// same in all frames does not count.
     pub flicker: f64,
 }
 
-/// A sequence, frame by frame.
+/// Accumulated errors of a sequence of frames.
 #[derive(Clone, Debug, Default)]
 pub struct Sequence {
     frames: u32,
     rmse: f64,
-    /// Of each pixel's colours: the sum of its errors, and of their squares.
+    /// Sum of the errors and of their squares, for each colour of each pixel.
     sums: Vec<[[f64; 2]; 3]>,
 }
 
@@ -86,7 +87,7 @@ impl Sequence {
     /// Adds a frame and its truth.
     ///
     /// # Errors
-    /// [`CompareError::Size`] if their sizes differ, or are not those of the frames before.
+    /// [`CompareError::Size`] if their sizes differ, or are not those of the earlier frames.
     pub fn add(&mut self, truth: &DecodedImage, image: &DecodedImage) -> Result<(), CompareError> {
         let errors = differences(truth, image)?;
         if self.frames == 0 {
@@ -105,7 +106,7 @@ impl Sequence {
         Ok(())
     }
 
-    /// What is said of it; all zero without frames.
+    /// Accuracy and steadiness of the frames so far; all zero without frames.
     #[must_use]
     pub fn steadiness(&self) -> Steadiness {
         if self.frames == 0 {

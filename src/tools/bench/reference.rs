@@ -1,11 +1,11 @@
-//! The reference: brute force at thousands of samples a pixel.
+//! Reference images: brute force at thousands of samples a pixel.
 
 use crate::camera::Camera;
 use crate::render::{Footprint, Headless, Method, PreparedScene, RenderError, Settings};
 use crate::sampling::owen_sobol;
 use glam::DVec2;
 
-/// Side of the grid of one rendering.
+/// Side of the sample grid of one rendering.
 const SIDE: u32 = 16;
 
 /// Samples a pixel of one rendering.
@@ -14,11 +14,11 @@ pub const GRID_SAMPLES: u32 = SIDE * SIDE;
 /// Most samples a pixel of a reference.
 pub const MAX_REFERENCE_SAMPLES: u32 = 1024 * GRID_SAMPLES;
 
-/// Side in output pixels of the squares that textures are read over in the truth: that of a sample's cell at 4,096
-/// samples.
+/// Side, in output pixels, of the square over which the truth reads textures: that of a sample's cell at 4,096 samples.
 pub const TRUTH_SIDE: f32 = 1.0 / 64.0;
 
-/// Scrambling of the shifts. It is not the one of the superpixels' pattern, which would then meet its own samples.
+/// Scrambling seed of the grids' shifts. The superpixels' pattern has another one: a reference of its own samples would
+/// favour it.
 const SEED: u32 = 1;
 
 /// Renders an image at `samples` samples a pixel: 16 x 16 supersampling again and again, each time with the grid moved
@@ -81,7 +81,7 @@ pub fn brute_force(
         .collect())
 }
 
-/// What a rendering of `samples` samples a pixel for a reference is made with.
+/// Settings of one rendering, of `samples` samples a pixel, for a reference.
 pub(super) fn of_reference(settings: &Settings, samples: u32) -> Settings {
     Settings {
         method: Method::Ssaa,

@@ -1,22 +1,22 @@
-//! Several measurements of one thing.
+//! Summary of several measurements of one quantity.
 
 use serde::Serialize;
 
-/// What is said of several measurements.
+/// Median, minimum and spread of several measurements.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Spread {
-    /// The middle one, or the mean of the middle two.
+    /// Middle one of the measurements, or the mean of the middle two.
     pub median: f64,
-    /// The least.
+    /// Least of the measurements.
     pub min: f64,
-    /// Distance of the greatest from the least.
+    /// Difference between the greatest and the least measurement.
     pub spread: f64,
-    /// How many there are.
+    /// Number of measurements.
     pub count: usize,
 }
 
 impl Spread {
-    /// Sums up measurements; all zero where there are none.
+    /// Summarises measurements; all fields are zero if there are none.
     #[must_use]
     pub fn of(values: impl IntoIterator<Item = f64>) -> Self {
         let mut sorted: Vec<f64> = values.into_iter().collect();

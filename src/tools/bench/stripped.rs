@@ -1,23 +1,23 @@
-//! A scene without its light, and one without its paint: whose fault an error is shows in which of them errs.
+//! Stripped scenes: one without light and one without paint. An error is the fault of the one in which it remains.
 
 use crate::color::srgb;
 use crate::scene::{AlphaMode, Image, Material, Scene, Texture};
 
-/// What is left of a scene.
+/// Part of a scene's looks that a stripped scene keeps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stripped {
-    /// Paint alone: every material unlit, with its base colour, of factor, texture and vertices.
+    /// Paint alone: every material is unlit, with its base colour, of factor, texture and vertices.
     Paint,
-    /// Light alone: every base colour texture has the mean of its colours everywhere and keeps its alpha. All other
-    /// textures stay, emissive ones too.
+    /// Light alone: every base colour texture has its mean colour everywhere and keeps its alpha. All other textures
+    /// stay, emissive ones too.
     Light,
 }
 
 impl Stripped {
-    /// Both.
+    /// Both parts.
     pub const ALL: [Self; 2] = [Self::Paint, Self::Light];
 
-    /// The scene with nothing but this. Its poses are those of the whole scene.
+    /// Strips a scene of all but this part. The poses of the whole scene are valid for it.
     #[must_use]
     pub fn of(self, scene: &Scene) -> Scene {
         let mut stripped = scene.clone();
@@ -37,7 +37,7 @@ impl Stripped {
     }
 }
 
-/// Gives a material's base colour texture its mean colour.
+/// Replaces the colours of a material's base colour texture by their mean.
 fn flatten(scene: &mut Scene, index: usize) {
     let Some(material) = scene.materials.get_mut(index) else {
         return;
@@ -75,7 +75,8 @@ fn tint(material: &mut Material, color: [f64; 3]) {
     }
 }
 
-/// The mean colour in linear light, weighted by alpha where that counts; white where nothing shows.
+/// Mean colour of an image in linear light, weighted by alpha unless `alpha_mode` is opaque; white if all is
+/// transparent.
 fn mean(image: &Image, alpha_mode: AlphaMode) -> [f64; 3] {
     let linear: Vec<f64> = (0..=255)
         .map(|code| srgb::decode(f64::from(code) / 255.0))

@@ -1,4 +1,4 @@
-//! What methods cost, measured side by side.
+//! Times of methods, measured by turns.
 
 use super::Spread;
 use crate::camera::Camera;
@@ -6,7 +6,7 @@ use crate::render::{Frame, Headless, PassTime, PreparedScene, RenderError, Rende
 use serde::Serialize;
 use std::time::{Duration, Instant};
 
-/// A method with its pipelines and memory, warmed up, and how long its frames took.
+/// Method that takes part in a measurement: warmed up, with the times of its frames.
 pub struct Contender {
     frame: Frame,
     frames: Vec<Timed>,
@@ -18,21 +18,21 @@ struct Timed {
     passes: Vec<PassTime>,
 }
 
-/// What a frame costs.
+/// Cost of a frame.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Cost {
     /// Milliseconds on the device.
     pub gpu_ms: Spread,
     /// Milliseconds by the clock, from recording to the image in host memory.
     pub wall_ms: Spread,
-    /// Milliseconds on the device by pass, in order.
+    /// Cost on the device of each pass, in their order.
     pub passes: Vec<PassCost>,
 }
 
-/// What a pass costs.
+/// Cost of a pass.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PassCost {
-    /// The pass.
+    /// Name of the pass.
     pub pass: &'static str,
     /// Milliseconds on the device.
     #[serde(flatten)]
@@ -40,10 +40,10 @@ pub struct PassCost {
 }
 
 impl Contender {
-    /// Prepares a method and renders a frame that is not timed, for the driver compiles shaders during it.
+    /// Prepares a method and renders a frame that is not timed, since drivers compile shaders during the first one.
     ///
     /// # Errors
-    /// If the settings are impossible, memory runs out or the device is lost.
+    /// [`RenderError`] if the settings are impossible, memory runs out or the device is lost.
     pub fn warm_up(
         headless: &mut Headless,
         scene: &PreparedScene,
@@ -60,7 +60,7 @@ impl Contender {
         Ok((contender, rendered))
     }
 
-    /// The settings that it was prepared with.
+    /// Settings of the method.
     #[must_use]
     pub fn settings(&self) -> &Settings {
         self.frame.settings()
@@ -82,7 +82,7 @@ impl Contender {
         Ok(())
     }
 
-    /// Whether another frame is wanted and fits into the time allowed; the first always is.
+    /// Whether another frame is wanted and fits into the time allowed. The first frame always does.
     fn goes_on(&self, repeat: u32, budget: Duration) -> bool {
         let Some(last) = self.frames.last() else {
             return true;
@@ -91,7 +91,7 @@ impl Contender {
         self.frames.len() < repeat as usize && expected <= budget.as_secs_f64()
     }
 
-    /// What its frames cost.
+    /// Cost of the frames so far.
     #[must_use]
     pub fn cost(&self) -> Cost {
         let of_pass = |pass: &str| {
@@ -116,8 +116,8 @@ impl Contender {
     }
 }
 
-/// Times every contender `repeat` times, in rounds of one frame each. Whoever would need more than `budget` for that
-/// drops out of later rounds, after at least one frame. `progress` is called before each frame.
+/// Times every contender `repeat` times, by turns. A contender that would need more than `budget` drops out of later
+/// rounds, after at least one frame. `progress` is called before each frame.
 ///
 /// # Errors
 /// As [`Headless::render`].

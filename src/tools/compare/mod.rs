@@ -1,4 +1,4 @@
-//! How far two images are apart.
+//! Differences between two images.
 //!
 //! Both are taken as a display shows them (see [`DecodedImage`]): sRGB-encoded, over black. Alpha
 //! is a fourth channel where either image has a pixel that is not opaque, and is left out otherwise, so that
@@ -9,12 +9,12 @@ use nv_flip::{FlipImageRgb8, FlipPool};
 use serde::Serialize;
 use std::sync::LazyLock;
 
-/// Differences between two images.
+/// Differences between an image and a reference.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Comparison {
     /// Root of the mean squared difference over all pixels and channels, 0 to 1.
     pub rmse: f64,
-    /// Peak signal-to-noise ratio in decibels, `None` (infinite) for identical images.
+    /// Peak signal-to-noise ratio in decibels; `None` (infinite) for identical images.
     pub psnr: Option<f64>,
     /// Largest difference of any channel of any pixel, 0 to 1.
     pub max: f64,
@@ -22,15 +22,15 @@ pub struct Comparison {
     pub flip: f64,
 }
 
-/// Images that can't be compared.
+/// Pair of images that can't be compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum CompareError {
-    /// Their sizes differ.
+    /// Images of different sizes.
     #[error("the images differ in size: {} x {} and {} x {} pixels", .first[0], .first[1], .second[0], .second[1])]
     Size {
-        /// Width and height of the first.
+        /// Width and height of the first image.
         first: [u32; 2],
-        /// Width and height of the second.
+        /// Width and height of the second image.
         second: [u32; 2],
     },
 }
@@ -65,8 +65,8 @@ pub fn compare(reference: &DecodedImage, image: &DecodedImage) -> Result<Compari
     })
 }
 
-/// The colour of a share of a scale, as sRGB codes: from black at 0 through purple and orange to light yellow at 1. What lies
-/// beyond an end has its colour.
+/// Colour of a value of 0 to 1 on a scale from black at 0 through purple and orange to light yellow at 1, as sRGB
+/// codes. Values outside of it have the colour of the nearer end.
 #[must_use]
 pub fn heat_color(share: f32) -> [u8; 3] {
     static PALETTE: LazyLock<Vec<[u8; 3]>> =
@@ -76,8 +76,8 @@ pub fn heat_color(share: f32) -> [u8; 3] {
     PALETTE.get(index).copied().unwrap_or_default()
 }
 
-/// The FLIP error map in the colours of its authors (black through purple and orange to light yellow), as sRGB.
-/// Where alpha differs by more than FLIP sees, it shows that difference.
+/// FLIP error map as an image: sRGB codes from black through purple and orange to light yellow, FLIP's own scale.
+/// Pixels whose alpha differs by more than FLIP's error show the difference of alpha.
 ///
 /// # Errors
 /// [`CompareError::Size`] if the sizes differ.

@@ -1,27 +1,27 @@
-//! Arbitrary output variables: what a pixel holds besides its colour.
+//! Arbitrary output variables (AOVs): values of a pixel other than its colour.
 
 use super::UnknownAov;
 use crate::render::PixelAttributes;
 use std::fmt;
 use std::str::FromStr;
 
-/// Which variable.
+/// Kind of an AOV.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AovKind {
-    /// Distance along the direction of view.
+    /// Distance from the eye along the direction of view, in the scene's unit.
     Depth,
-    /// Triangle ID.
+    /// ID of the triangle at the pixel's centre.
     Id,
-    /// World-space normal.
+    /// World-space normal at the pixel's centre.
     Normal,
     /// Whether the pixel is a superpixel.
     Superpixels,
-    /// Number of samples.
+    /// Number of samples that the pixel's colour is the mean of.
     Samples,
 }
 
 impl AovKind {
-    /// Every kind.
+    /// All kinds.
     pub const ALL: [Self; 5] = [
         Self::Depth,
         Self::Id,
@@ -30,7 +30,7 @@ impl AovKind {
         Self::Samples,
     ];
 
-    /// Its name on the command line and in files.
+    /// Name of the kind on the command line and in file names.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -58,23 +58,23 @@ impl FromStr for AovKind {
     }
 }
 
-/// One variable for every pixel, rows from the top.
+/// Values of one kind for every pixel, rows from the top.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Aov {
-    /// Distance along the direction of view in the scene's unit; infinite where nothing is seen.
+    /// Distances from the eye along the direction of view, in the scene's unit; infinite for background.
     Depth(Vec<f32>),
-    /// Index of the triangle in the scene plus 1; 0 where nothing is seen.
+    /// Triangle IDs: the index of the triangle in the scene plus 1; 0 for background.
     Id(Vec<u32>),
-    /// Unit normal in world space; zero where nothing is seen.
+    /// Unit normals in world space; zero for background.
     Normal(Vec<[f32; 3]>),
-    /// Whether the pixel is a superpixel.
+    /// Whether each pixel is a superpixel.
     Superpixels(Vec<bool>),
-    /// Number of samples, 1 outside of superpixels.
+    /// Numbers of samples; 1 outside of superpixels.
     Samples(Vec<u32>),
 }
 
 impl Aov {
-    /// Takes one variable out of [`Rendered::attributes`](crate::render::Rendered::attributes).
+    /// Extracts one kind of values from [`Rendered::attributes`](crate::render::Rendered::attributes).
     #[must_use]
     pub fn from_attributes(kind: AovKind, attributes: &[PixelAttributes]) -> Self {
         let pixels = attributes.iter();
@@ -99,7 +99,7 @@ impl Aov {
         }
     }
 
-    /// Which variable it is.
+    /// Kind of these values.
     #[must_use]
     pub fn kind(&self) -> AovKind {
         match self {

@@ -1,4 +1,4 @@
-//! Reads images back, to compare them.
+//! Decoding of image files, for comparisons and as inputs.
 
 use super::{OutputError, Picture, exr};
 use crate::color::srgb;
@@ -8,7 +8,7 @@ use std::fs::File;
 use std::io::{Cursor, Read};
 use std::path::Path;
 
-/// An image as a display shows it: sRGB-encoded colour of 0 to 1 over black, and alpha.
+/// Image as a display shows it: sRGB-encoded colours of 0 to 1 over black, and alpha.
 ///
 /// A PNG's translucent colours are multiplied by alpha in linear light and encoded again, so that colour which
 /// no one sees does not count. An EXR's values are brought into 0 to 1 and encoded; they are not tone-mapped.
@@ -16,12 +16,12 @@ use std::path::Path;
 pub struct DecodedImage {
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// RGBA, rows from the top.
+    /// RGBA of 0 to 1, rows from the top.
     pub pixels: Vec<[f32; 4]>,
 }
 
 impl From<&Picture<'_>> for DecodedImage {
-    /// A rendered image as a display shows it, without the rounding of a file.
+    /// Converts a rendered image to what a display shows of it, without the rounding of a file.
     fn from(picture: &Picture<'_>) -> Self {
         Self {
             size: picture.size(),
@@ -37,10 +37,10 @@ impl From<&Picture<'_>> for DecodedImage {
 
 const EXR_MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 
-/// Reads a PNG, JPEG or EXR file, told apart by content.
+/// Reads a PNG, JPEG or EXR file; the format is told by the content.
 ///
 /// # Errors
-/// [`OutputError::Read`] if there is no such file, otherwise as [`decode`].
+/// [`OutputError::Read`] if the file can't be read, otherwise as [`decode`].
 pub fn read(path: &Path) -> Result<DecodedImage, OutputError> {
     let bytes = std::fs::read(path).map_err(|source| OutputError::Read {
         path: path.to_path_buf(),
@@ -49,10 +49,11 @@ pub fn read(path: &Path) -> Result<DecodedImage, OutputError> {
     decode(&bytes, &path.display().to_string())
 }
 
-/// Decodes a PNG, JPEG or EXR image, told apart by content; messages call it `name`.
+/// Decodes a PNG, JPEG or EXR image; the format is told by the content. `name` stands for the file in messages.
 ///
 /// # Errors
-/// [`OutputError::Decode`] if it is none of these or broken, [`OutputError::NotANumber`] for an EXR with NaN.
+/// [`OutputError::Decode`] if the bytes are in none of these formats or broken, [`OutputError::NotANumber`] for an EXR
+/// with NaN.
 pub fn decode(bytes: &[u8], name: &str) -> Result<DecodedImage, OutputError> {
     let decoded = if bytes.starts_with(&EXR_MAGIC) {
         exr::decode(bytes).map(|(size, pixels)| (size, pixels, true))
@@ -79,11 +80,11 @@ pub fn decode(bytes: &[u8], name: &str) -> Result<DecodedImage, OutputError> {
     })
 }
 
-/// Decodes the size and pixels of an EXR or Radiance (.hdr) image as they are: linear light, premultiplied alpha, rows from
-/// the top; messages call it `name`.
+/// Decodes an EXR or Radiance (.hdr) image to [width, height] and its values as they are: linear light, premultiplied
+/// alpha, rows from the top. `name` stands for the file in messages.
 ///
 /// # Errors
-/// [`OutputError::Decode`] if it is neither or broken.
+/// [`OutputError::Decode`] if the bytes are in neither format or broken.
 pub fn decode_linear(bytes: &[u8], name: &str) -> Result<([u32; 2], Vec<[f32; 4]>), OutputError> {
     let opaque = |colors: Vec<[f32; 3]>| colors.into_iter().map(|[r, g, b]| [r, g, b, 1.0]);
     let decoded = if bytes.starts_with(&EXR_MAGIC) {
@@ -94,7 +95,7 @@ pub fn decode_linear(bytes: &[u8], name: &str) -> Result<([u32; 2], Vec<[f32; 4]
     decoded.map_err(|reason| not_linear(name, reason))
 }
 
-/// As [`decode_linear`], but without alpha, and without a copy of a Radiance image's colours.
+/// Decodes as [`decode_linear`] does, without alpha. A Radiance image's colours are not copied.
 ///
 /// # Errors
 /// As [`decode_linear`].
@@ -116,7 +117,7 @@ fn not_linear(name: &str, reason: String) -> OutputError {
     }
 }
 
-/// Size and straight sRGB-encoded pixels.
+/// Size and straight sRGB-encoded pixels of a PNG or JPEG.
 fn display_referred(bytes: &[u8]) -> Result<([u32; 2], Vec<[f32; 4]>), String> {
     // The reader's default limits bound what a header may claim.
     let image = ImageReader::new(Cursor::new(bytes))
@@ -158,7 +159,7 @@ fn show_straight([r, g, b, a]: [f32; 4]) -> [f32; 4] {
     [over_black(r), over_black(g), over_black(b), a]
 }
 
-/// Whether a file starts like a PNG or a JPEG; false where it can't be read.
+/// Whether a file begins like a PNG or a JPEG; false if it can't be read.
 #[must_use]
 pub fn is_image(path: &Path) -> bool {
     let mut start = [0; 3];

@@ -1,4 +1,4 @@
-//! From linear light to the bytes of a file.
+//! Encoding: from linear light to the bytes of an image file.
 
 use super::{Aov, Format, OutputError, Picture, check_count, exr};
 use crate::color::srgb;
@@ -10,7 +10,8 @@ use rayon::prelude::*;
 
 const JPEG_QUALITY: u8 = 95;
 
-/// Encodes a picture. AOVs become layers of an EXR; the other formats have no place for them.
+/// Encodes a picture in a format. AOVs become layers of an EXR; other formats have no place for them and leave them
+/// out.
 ///
 /// # Errors
 /// [`OutputError::PixelCount`] if an AOV is of another size, [`OutputError::Encode`] if the format can't hold the
@@ -40,7 +41,7 @@ pub fn encode(format: Format, picture: &Picture<'_>, aovs: &[Aov]) -> Result<Vec
     }
 }
 
-/// Encodes an AOV as a PNG to look at:
+/// Encodes an AOV of `size` = [width, height] as a PNG for people to look at:
 ///
 /// - depth: 16-bit grey, linear in distance, 65,535 at the nearest pixel, 1 at the furthest, 0 where nothing is seen;
 /// - id: a colour for each triangle, black where nothing is seen;
@@ -79,19 +80,21 @@ pub fn encode_aov(size: [u32; 2], aov: &Aov) -> Result<Vec<u8>, OutputError> {
     }
 }
 
-/// Encodes sRGB colours as a PNG with 8 bits a channel.
+/// Encodes sRGB colours as a PNG with 8 bits a channel; `size` is [width, height] in pixels.
 ///
 /// # Errors
-/// [`OutputError::PixelCount`] if there are not width times height pixels, [`OutputError::Encode`] if they can't be held.
+/// [`OutputError::PixelCount`] if the number of pixels is not width times height, [`OutputError::Encode`] if the
+/// encoder refuses.
 pub fn encode_rgb(size: [u32; 2], pixels: &[[u8; 3]]) -> Result<Vec<u8>, OutputError> {
     check_count(size, pixels.len())?;
     png(size, pixels.as_flattened(), ExtendedColorType::Rgb8)
 }
 
-/// Encodes shares of 0 to 1 as a PNG in grey, 65,535 for 1; linear, not sRGB.
+/// Encodes a share of 0 to 1 for each pixel as a 16-bit grey PNG: linear, with 65,535 for 1.
 ///
 /// # Errors
-/// [`OutputError::PixelCount`] if there are not width times height shares, [`OutputError::Encode`] if they can't be held.
+/// [`OutputError::PixelCount`] if the number of shares is not width times height, [`OutputError::Encode`] if the
+/// encoder refuses.
 pub fn encode_shares(size: [u32; 2], shares: &[f32]) -> Result<Vec<u8>, OutputError> {
     check_count(size, shares.len())?;
     let code = |share: &f32| (share.clamp(0.0, 1.0) * f32::from(u16::MAX)).round() as u16;
@@ -104,7 +107,7 @@ enum Channels {
     Rgba,
 }
 
-/// sRGB code values from 0 to `top` with straight alpha.
+/// Codes of 0 to `top` of sRGB colours and straight alpha.
 pub(super) fn straight_codes(picture: &Picture<'_>, top: u16) -> Vec<[u16; 4]> {
     let scale = f64::from(top);
     let code = |[r, g, b, a]: &[f32; 4]| {
@@ -120,7 +123,7 @@ pub(super) fn straight_codes(picture: &Picture<'_>, top: u16) -> Vec<[u16; 4]> {
     picture.pixels().par_iter().map(code).collect()
 }
 
-/// The same, without alpha where all of it would be `top`.
+/// Codes as of [`straight_codes`]; without alpha where every pixel is opaque.
 fn straight(picture: &Picture<'_>, top: u16) -> (Vec<u16>, Channels) {
     let codes = straight_codes(picture, top);
     if codes.par_iter().all(|code| code[3] == top) {
@@ -173,7 +176,7 @@ fn depth_codes(depths: &[f32]) -> Vec<u16> {
     depths.iter().map(code).collect()
 }
 
-/// A colour that differs clearly between neighbouring IDs.
+/// Colour of a triangle's ID, so that neighbouring IDs differ clearly.
 fn id_color(id: u32) -> [u8; 3] {
     if id == 0 {
         return [0; 3];

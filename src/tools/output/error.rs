@@ -1,32 +1,32 @@
-//! What can go wrong with image files.
+//! Errors of image files.
 
 use std::path::PathBuf;
 
-/// An image that can't be encoded, written, read or decoded.
+/// Image file or film that can't be encoded, written, read or decoded.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
-    /// Size and number of pixels disagree.
+    /// Number of pixels that contradicts the size.
     #[error("an image of {width} x {height} was given {found} pixels")]
     PixelCount {
-        /// Width in pixels.
+        /// Expected width in pixels.
         width: u32,
-        /// Height in pixels.
+        /// Expected height in pixels.
         height: u32,
-        /// Number of pixels found.
+        /// Number of pixels given.
         found: usize,
     },
-    /// The encoder refuses.
+    /// Image that the encoder refuses, with its reason.
     #[error("the image can't be encoded: {0}")]
     Encode(String),
-    /// The file can't be written.
+    /// File that can't be written.
     #[error("{}: can't be written: {source}", path.display())]
     Write {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system said.
+        /// Error of the system.
         source: std::io::Error,
     },
-    /// A frame of another size than the film's.
+    /// Frame whose size is not the film's.
     #[error(
         "a frame of {} x {} pixels for a film of {} x {}", found[0], found[1], expected[0], expected[1]
     )]
@@ -36,40 +36,40 @@ pub enum OutputError {
         /// Width and height of the film.
         expected: [u32; 2],
     },
-    /// Frames can't be passed on.
+    /// Film that can't be written, with the error of the system.
     #[error("frames can't be written: {0}")]
     Stream(#[source] std::io::Error),
-    /// The file can't be read.
+    /// File that can't be read.
     #[error("{}: can't be read: {source}", path.display())]
     Read {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system said.
+        /// Error of the system.
         source: std::io::Error,
     },
-    /// The bytes are no image that is understood.
+    /// File that is no image in an expected format.
     #[error("{file}: {reason}; it must be {expected}")]
     Decode {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// What is wrong.
+        /// Reason of the decoder.
         reason: String,
-        /// What is understood there.
+        /// Formats that are read in this place.
         expected: &'static str,
     },
-    /// A pixel of an EXR is not a number, so that no comparison would mean anything.
+    /// EXR with a pixel that is not a number, so that no comparison would mean anything.
     #[error("{file}: pixel ({x}, {y}) is not a number")]
     NotANumber {
-        /// The file.
+        /// Name of the file.
         file: String,
-        /// Column from the left.
+        /// Column of the pixel, 0 at the left.
         x: usize,
-        /// Row from the top.
+        /// Row of the pixel, 0 at the top.
         y: usize,
     },
 }
 
-/// A file name that asks for no known format.
+/// File name whose ending belongs to no image format.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "{}: the name must end in .png (8 bits a channel), .16.png (16 bits), .jpg, .jpeg or .exr",
@@ -77,7 +77,7 @@ pub enum OutputError {
 )]
 pub struct UnknownFormat(pub PathBuf);
 
-/// A name that no AOV has.
+/// Name that belongs to no AOV.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("there is no AOV \"{0}\"; there are depth, id, normal, superpixels and samples")]
 pub struct UnknownAov(pub String);

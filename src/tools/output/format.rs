@@ -1,26 +1,26 @@
-//! File formats by name.
+//! Image formats and the endings of their files' names.
 
 use super::UnknownFormat;
 use std::path::Path;
 
-/// A format that images are written in.
+/// Format of a written image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// PNG with 8 bits a channel.
+    /// PNG, 8 bits a channel.
     Png8,
-    /// PNG with 16 bits a channel.
+    /// PNG, 16 bits a channel.
     Png16,
-    /// JPEG.
+    /// JPEG, 8 bits a channel, without alpha.
     Jpeg,
-    /// OpenEXR with 32-bit floats.
+    /// OpenEXR, 32-bit floats.
     Exr,
 }
 
 impl Format {
-    /// The format that a file's name asks for; upper and lower case are the same.
+    /// Format for a file's name, by its ending in upper or lower case.
     ///
     /// # Errors
-    /// [`UnknownFormat`] lists the endings that are known.
+    /// [`UnknownFormat`], whose message lists the endings.
     pub fn of(path: &Path) -> Result<Self, UnknownFormat> {
         let name = path.file_name().map_or_else(String::new, |name| {
             name.to_string_lossy().to_ascii_lowercase()
@@ -39,7 +39,7 @@ impl Format {
             .ok_or_else(|| UnknownFormat(path.to_path_buf()))
     }
 
-    /// Whether it holds scene-linear light rather than colours for a display.
+    /// Whether files of this format hold scene-linear light; others hold sRGB colours.
     #[must_use]
     pub fn is_scene_linear(self) -> bool {
         self == Self::Exr

@@ -1,5 +1,4 @@
-//! Image files: encoding what was rendered, and decoding files to compare them; and frames for an encoder of films:
-//! see [`VideoFormat`].
+//! Image files: encoding rendered images, decoding files to compare them, and writing films ([`VideoWriter`]).
 //!
 //! Rendered colours are linear light with premultiplied alpha. What each format makes of them:
 //!
@@ -33,7 +32,7 @@ pub use text::{add_text, find_text};
 pub use video::{VideoFormat, VideoWriter};
 pub use write::write_atomically;
 
-/// A rendered image: rows from the top, linear light, premultiplied alpha.
+/// Rendered image: RGBA in linear light with premultiplied alpha, rows from the top.
 #[derive(Clone, Copy, Debug)]
 pub struct Picture<'a> {
     size: [u32; 2],
@@ -41,10 +40,10 @@ pub struct Picture<'a> {
 }
 
 impl<'a> Picture<'a> {
-    /// A picture of `size` = width and height in pixels.
+    /// Wraps the pixels of an image of `size` = [width, height].
     ///
     /// # Errors
-    /// [`OutputError::PixelCount`] unless there are width times height pixels, and at least one.
+    /// [`OutputError::PixelCount`] if the number of pixels is not width times height, or is 0.
     pub fn new(size: [u32; 2], pixels: &'a [[f32; 4]]) -> Result<Self, OutputError> {
         check_count(size, pixels.len())?;
         Ok(Self { size, pixels })
@@ -56,7 +55,7 @@ impl<'a> Picture<'a> {
         self.size
     }
 
-    /// RGBA, rows from the top.
+    /// RGBA in linear light, rows from the top.
     #[must_use]
     pub fn pixels(&self) -> &'a [[f32; 4]] {
         self.pixels

@@ -1,69 +1,42 @@
 //! Text in PNG files: tEXt chunks (PNG Specification, Third Edition, section 11.3.3.2).
 
 use super::OutputError;
+use image::ImageFormat;
+use png::text_metadata::{EncodableTextChunk, TEXtChunk};
+use std::io::Cursor;
 
-const SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
-const TEXT: &[u8] = b"tEXt";
+/// Bytes of a PNG's signature and header chunk; all other chunks follow them.
+const HEADER: usize = 8 + 25;
 
-/// Length and type before a chunk's data, and the checksum after it.
-const AROUND: usize = 12;
-
-/// Puts a text into an encoded PNG, right after its header. Keyword and text must be ASCII, the keyword 1 to 79
+/// Inserts a text into an encoded PNG, right after its header. Keyword and text are Latin-1, the keyword 1 to 79
 /// characters long.
 ///
 /// # Errors
-/// [`OutputError::Encode`] if the bytes are no PNG, or keyword or text can't be held.
+/// [`OutputError::Encode`] if the bytes are no PNG, or if a PNG can't hold the keyword or the text.
 pub fn add_text(png: &[u8], keyword: &str, text: &str) -> Result<Vec<u8>, OutputError> {
-    let refuse = |reason: &str| Err(OutputError::Encode(reason.to_owned()));
-    if !(1..=79).contains(&keyword.len()) || !keyword.is_ascii() || !text.is_ascii() {
-        return refuse("a PNG's keyword must be 1 to 79 ASCII characters, its text ASCII");
-    }
-    let Some((header, rest)) = header(png).and_then(|length| png.split_at_checked(length)) else {
-        return refuse("text can be put into a PNG only");
+    let is_png = image::guess_format(png).is_ok_and(|format| format == ImageFormat::Png);
+    let Some((header, rest)) = png.split_at_checked(HEADER).filter(|_| is_png) else {
+        let reason = "text can be put into a PNG only";
+        return Err(OutputError::Encode(reason.to_owned()));
     };
-    let data = [keyword.as_bytes(), &[0], text.as_bytes()].concat();
-    let Ok(length) = u32::try_from(data.len()) else {
-        return refuse("the text is too long for a PNG");
-    };
-    let checksum = crc32fast::hash(&[TEXT, &data].concat());
-    Ok([
-        header,
-        &length.to_be_bytes(),
-        TEXT,
-        &data,
-        &checksum.to_be_bytes(),
-        rest,
-    ]
-    .concat())
+    let mut noted = header.to_vec();
+    TEXtChunk::new(keyword, text)
+        .encode(&mut noted)
+        .map_err(|error| OutputError::Encode(error.to_string()))?;
+    noted.extend(rest);
+    Ok(noted)
 }
 
-/// The text of the first chunk with a keyword; `None` where there is none, or the bytes are no PNG.
+/// Text of the first tEXt chunk with this keyword; `None` if there is none, or if the bytes are no PNG.
 #[must_use]
 pub fn find_text(png: &[u8], keyword: &str) -> Option<String> {
-    let mut rest = png.strip_prefix(SIGNATURE)?;
-    loop {
-        let length = u32::from_be_bytes(rest.get(..4)?.try_into().ok()?) as usize;
-        let end = length.checked_add(AROUND)?;
-        let chunk = rest.get(..end)?;
-        if chunk.get(4..8) == Some(TEXT) {
-            let data = chunk.get(8..end - 4)?;
-            let text = data
-                .strip_prefix(keyword.as_bytes())
-                .and_then(|rest| rest.strip_prefix(&[0]));
-            if let Some(text) = text {
-                // Latin-1 is the start of Unicode.
-                return Some(text.iter().copied().map(char::from).collect());
-            }
-        }
-        rest = rest.get(end..)?;
-    }
-}
-
-/// Where the header chunk ends.
-fn header(png: &[u8]) -> Option<usize> {
-    const DATA: usize = 13;
-    let end = SIGNATURE.len() + AROUND + DATA;
-    (png.starts_with(SIGNATURE) && png.len() > end).then_some(end)
+    let mut reader = png::Decoder::new(Cursor::new(png)).read_info().ok()?;
+    // Texts may also follow the pixels.
+    reader.finish().ok()?;
+    let mut texts = reader.info().uncompressed_latin1_text.iter();
+    texts
+        .find(|text| text.keyword == keyword)
+        .map(|text| text.text.clone())
 }
 
 #[cfg(test)]
@@ -79,6 +52,8 @@ mod tests {
         assert_eq!(find_text(&noted, "note").as_deref(), Some("first"));
         assert_eq!(find_text(&noted, "other").as_deref(), Some("second"));
         assert_eq!(find_text(&noted, "not"), None);
+        let accented = add_text(&png, "note", "é").unwrap();
+        assert_eq!(find_text(&accented, "note").as_deref(), Some("é"));
         assert_eq!(decode(&noted, "a").unwrap(), decode(&png, "a").unwrap());
     }
 
@@ -89,6 +64,6 @@ mod tests {
             assert!(find_text(&png[..length], "other").is_none());
         }
         assert!(add_text(b"JFIF", "note", "text").is_err());
-        assert!(add_text(&png, "", "text").is_err() && add_text(&png, "note", "ü").is_err());
+        assert!(add_text(&png, "", "text").is_err() && add_text(&png, "note", "€").is_err());
     }
 }

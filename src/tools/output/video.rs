@@ -1,48 +1,79 @@
-//! Frames one after the other, for the standard input of an encoder.
+//! Films: frames of one size, written one after the other for an encoder to read from its standard input.
 
 use super::encode::straight_codes;
 use super::{OutputError, Picture};
 use crate::color::srgb;
 use rayon::prelude::*;
 use std::io::{self, Write};
+use y4m::{Colorspace, Ratio, VendorExtensionString};
 
-/// How frames are written.
+/// Format of a film's frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum VideoFormat {
-    /// YUV4MPEG2: a line that says size and rate, and Y', Cb and Cr planes of 8 bits, 4:4:4. The codes are those of
-    /// BT.709 in limited range (Y' from 16 to 235, Cb and Cr from 16 to 240), made of sRGB-encoded colours over black.
+    /// YUV4MPEG2: a header line with size and rate, then per frame the planes Y', Cb and Cr, 8 bits each, 4:4:4. Codes
+    /// are those of BT.709 in limited range (Y' from 16 to 235, Cb and Cr from 16 to 240), of sRGB-encoded colours over
+    /// black.
     Y4m,
-    /// RGBA of 8 bits a channel, sRGB-encoded, with straight alpha, and nothing else.
+    /// RGBA frames without any header: 8 bits a channel, sRGB-encoded, straight alpha.
     Raw,
 }
 
-/// Writes frames of one size.
+/// Writer of a film's frames.
 pub struct VideoWriter<W: Write> {
-    out: W,
-    format: VideoFormat,
+    stream: Stream<W>,
     size: [u32; 2],
 }
 
-impl<W: Write> VideoWriter<W> {
-    /// Begins a film of `size` = width and height in pixels and of `rate` frames a second, which raw frames don't tell.
-    /// Rates that are no whole number are written in millionths, but those of NTSC, such as 23.976 and 29.97, as
-    /// 24000:1001 and 30000:1001.
-    ///
-    /// # Errors
-    /// What `out` says.
-    pub fn new(mut out: W, format: VideoFormat, size: [u32; 2], rate: f64) -> io::Result<Self> {
-        if format == VideoFormat::Y4m {
-            let [width, height] = size;
-            let (number, of) = ratio(rate);
-            writeln!(
-                out,
-                "YUV4MPEG2 W{width} H{height} F{number}:{of} Ip A1:1 C444 XCOLORRANGE=LIMITED"
-            )?;
-        }
-        Ok(Self { out, format, size })
+/// Encoder or plain writer, by the film's format.
+enum Stream<W: Write> {
+    Y4m(y4m::Encoder<Unbuffered<W>>),
+    Raw(Unbuffered<W>),
+}
+
+/// Writer that flushes after each write, so that a frame does not wait for the next one.
+struct Unbuffered<W>(W);
+
+impl<W: Write> Write for Unbuffered<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.0.write(bytes)?;
+        self.0.flush()?;
+        Ok(written)
     }
 
-    /// Writes a frame, and sees to it that it is passed on at once.
+    fn flush(&mut self) -> io::Result<()> {
+        self.0.flush()
+    }
+}
+
+impl<W: Write> VideoWriter<W> {
+    /// Begins a film of `size` = [width, height] in pixels and `rate` frames a second. The rate of a YUV4MPEG2 film is
+    /// a fraction: n:1 for whole numbers, n:1001 for those of NTSC, such as 23.976 and 29.97, otherwise millionths in
+    /// lowest terms. Raw films do not hold their rate.
+    ///
+    /// # Errors
+    /// [`OutputError::Stream`] if `out` fails.
+    pub fn new(
+        out: W,
+        format: VideoFormat,
+        size: [u32; 2],
+        rate: f64,
+    ) -> Result<Self, OutputError> {
+        let out = Unbuffered(out);
+        let stream = match format {
+            VideoFormat::Y4m => {
+                let [width, height] = size.map(|side| side as usize);
+                let range = VendorExtensionString::new(b"COLORRANGE=LIMITED".to_vec());
+                let header = y4m::encode(width, height, ratio(rate))
+                    .with_colorspace(Colorspace::C444)
+                    .append_vendor_extension(range.map_err(refused)?);
+                Stream::Y4m(header.write_header(out).map_err(refused)?)
+            }
+            VideoFormat::Raw => Stream::Raw(out),
+        };
+        Ok(Self { stream, size })
+    }
+
+    /// Writes a frame and flushes it.
     ///
     /// # Errors
     /// [`OutputError::FrameSize`] if the picture has another size, [`OutputError::Stream`] if `out` fails.
@@ -53,34 +84,37 @@ impl<W: Write> VideoWriter<W> {
                 expected: self.size,
             });
         }
-        let bytes = match self.format {
-            VideoFormat::Y4m => y4m_frame(picture),
-            VideoFormat::Raw => {
-                let codes = straight_codes(picture, u8::MAX.into()).into_flattened();
-                codes.into_iter().map(|code| code as u8).collect()
+        match &mut self.stream {
+            Stream::Y4m(encoder) => {
+                let planes = planes(picture);
+                let frame = y4m::Frame::new(planes.each_ref().map(Vec::as_slice), None);
+                encoder.write_frame(&frame).map_err(refused)
             }
-        };
-        self.out
-            .write_all(&bytes)
-            .and_then(|()| self.out.flush())
-            .map_err(OutputError::Stream)
+            Stream::Raw(out) => {
+                let codes = straight_codes(picture, u8::MAX.into()).into_flattened();
+                let bytes: Vec<_> = codes.into_iter().map(|code| code as u8).collect();
+                out.write_all(&bytes).map_err(OutputError::Stream)
+            }
+        }
     }
 }
 
-/// `FRAME` and the three planes.
-fn y4m_frame(picture: &Picture<'_>) -> Vec<u8> {
+fn refused(error: y4m::Error) -> OutputError {
+    OutputError::Stream(match error {
+        y4m::Error::IoError(error) => error,
+        other => io::Error::other(other),
+    })
+}
+
+/// Planes Y', Cb and Cr of a picture over black.
+fn planes(picture: &Picture<'_>) -> [Vec<u8>; 3] {
     // Premultiplied colour is colour over black.
     let code = |[r, g, b, _]: &[f32; 4]| bt709([*r, *g, *b].map(|v| srgb::encode(f64::from(v))));
     let codes: Vec<_> = picture.pixels().par_iter().map(code).collect();
-    let mut bytes = b"FRAME\n".to_vec();
-    for plane in 0..3 {
-        bytes.extend(codes.iter().map(|code| code[plane]));
-    }
-    bytes
+    [0, 1, 2].map(|plane| codes.iter().map(|code| code[plane]).collect())
 }
 
-/// Y', Cb and Cr in 8 bits of limited range, by ITU-R BT.709-6, of gamma-encoded R', G' and B' of 0 to 1. They are rounded
-/// once, from colours that have not been rounded.
+/// Codes Y', Cb and Cr of a gamma-encoded colour R', G', B' of 0 to 1: 8 bits, limited range, by ITU-R BT.709-6.
 fn bt709([r, g, b]: [f64; 3]) -> [u8; 3] {
     let luma = 0.2126 * r + 0.7152 * g + 0.0722 * b;
     let chroma = |difference: f64, range: f64| 128.0 + 224.0 * difference / range;
@@ -92,19 +126,19 @@ fn bt709([r, g, b]: [f64; 3]) -> [u8; 3] {
     .map(|code| code.round() as u8)
 }
 
-/// Frames a second as a fraction.
-fn ratio(rate: f64) -> (u64, u64) {
-    const MILLION: u64 = 1_000_000;
+/// Frame rate as a fraction of whole numbers.
+fn ratio(rate: f64) -> Ratio {
+    const MILLION: usize = 1_000_000;
     let whole = (rate * 1.001).round();
     if rate.fract() != 0.0 && (rate - whole / 1.001).abs() < 5e-4 {
-        return (whole as u64 * 1000, 1001);
+        return Ratio::new(whole as usize * 1000, 1001);
     }
-    let number = (rate * MILLION as f64).round() as u64;
+    let number = (rate * MILLION as f64).round() as usize;
     let divisor = greatest_common_divisor(number, MILLION).max(1);
-    (number / divisor, MILLION / divisor)
+    Ratio::new(number / divisor, MILLION / divisor)
 }
 
-fn greatest_common_divisor(a: u64, b: u64) -> u64 {
+fn greatest_common_divisor(a: usize, b: usize) -> usize {
     if b == 0 {
         a
     } else {
@@ -116,7 +150,7 @@ fn greatest_common_divisor(a: u64, b: u64) -> u64 {
 mod tests {
     use super::*;
 
-    /// The bars of a test picture, whose codes ITU-R BT.709 and everyone's measuring devices agree on.
+    /// Codes of a test picture's colour bars, which ITU-R BT.709 and measuring devices agree on.
     #[test]
     fn colour_bars_have_their_codes() {
         let bars = [
@@ -134,7 +168,7 @@ mod tests {
         }
     }
 
-    /// Decoding by the inverse matrix finds each colour within what half a code of each channel makes of it.
+    /// Decoding by the inverse matrix finds each colour again, up to half a code of each channel.
     #[test]
     fn codes_are_the_nearest() {
         let steps = || (0..=20).map(|step| f64::from(step) / 20.0);
@@ -165,7 +199,8 @@ mod tests {
             (0.1, (1, 10)),
             (29.9, (299, 10)),
         ] {
-            assert_eq!(ratio(rate), expected, "{rate}");
+            let found = ratio(rate);
+            assert_eq!((found.num, found.den), expected, "{rate}");
         }
     }
 

@@ -1,4 +1,4 @@
-//! Files that are there whole or not at all.
+//! Atomic writes: a file is written completely or not at all.
 
 use super::OutputError;
 use std::ffi::OsString;
@@ -6,12 +6,12 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// Writes a file under a temporary name in the same folder and renames it, so that neither a failed run nor a
-/// reader at the wrong moment finds half of it. A symbolic link's target is replaced, not the link; what is no
-/// regular file (a pipe, a device) is written to directly.
+/// Writes a file atomically: under a temporary name in the same folder, which is then renamed, so that no reader finds
+/// half a file and no failure leaves one. If `path` is a symbolic link, its target is replaced; if it is a pipe or a
+/// device, the bytes are written to it directly.
 ///
 /// # Errors
-/// [`OutputError::Write`]; no temporary file is left then.
+/// [`OutputError::Write`]; the temporary file has been removed then.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     write(path, bytes).map_err(|source| OutputError::Write {
         path: path.to_path_buf(),
@@ -51,7 +51,7 @@ fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     written
 }
 
-/// A hidden name beside the target; the process' number keeps runs at the same time apart.
+/// Hidden temporary name in the target's folder, with the process' number, so that two processes have different ones.
 fn temporary_name(target: &Path) -> io::Result<PathBuf> {
     let name = target
         .file_name()

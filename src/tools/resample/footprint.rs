@@ -1,11 +1,11 @@
-//! What of a photograph an output pixel covers.
+//! Footprints: the part of a photograph that an output pixel covers.
 
 use glam::{DMat2, DVec2};
 
-/// Places along each axis of a footprint at the most.
+/// Most places along each axis of a footprint.
 const MOST: f64 = 64.0;
 
-/// The places over which the reconstruction is averaged: a grid along the principal axes of the footprint.
+/// Places at which a photograph is read for one output pixel: a grid along the principal axes of the pixel's footprint.
 ///
 /// The footprint of a pixel is an ellipse with the singular values of the Jacobian as its axes. Along an axis of length
 /// a <= 1 the reconstruction alone will do. Above, a box of the width sqrt(a^2 - 1) is added: variances of filters that
@@ -46,7 +46,7 @@ impl Footprint {
         f64::from(self.counts[0] * self.counts[1])
     }
 
-    /// Ways from the location to the places.
+    /// Offsets of the places from the footprint's middle, in pixels of the photograph.
     pub(super) fn offsets(&self) -> impl Iterator<Item = DVec2> {
         let [across, down] = self.counts;
         let place = |index: u32, count: u32| (f64::from(index) + 0.5) / f64::from(count) - 0.5;

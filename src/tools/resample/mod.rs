@@ -18,7 +18,7 @@ use footprint::Footprint;
 use glam::{DMat2, DVec2};
 use rayon::prelude::*;
 
-/// An image in linear light with premultiplied alpha, that can be sampled anywhere.
+/// Photograph that can be sampled between its pixels: linear light, premultiplied alpha.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Photograph {
     size: [u32; 2],
@@ -52,14 +52,15 @@ impl Photograph {
         self.size
     }
 
-    /// The pixels, rows from the top: linear light, premultiplied alpha.
+    /// RGBA in linear light with premultiplied alpha, rows from the top.
     #[must_use]
     pub fn pixels(&self) -> &[[f32; 4]] {
         &self.pixels
     }
 
-    /// The colour at (u, v), in pixels with (0, 0) the upper left corner, of an output pixel whose location changes by
-    /// `jacobian` for each output column and row. Outside of the photograph its border continues.
+    /// Colour at `uv`, for an output pixel whose location changes by `jacobian` = [per output column, per output row].
+    /// Both are in pixels of the photograph, whose upper left corner is (0, 0). Beyond the photograph its border pixels
+    /// continue.
     ///
     /// At the centre of a pixel and with no more than a pixel for a pixel, this is the pixel itself. Footprints of more
     /// than 64 pixels across are averaged with gaps.
@@ -76,8 +77,8 @@ impl Photograph {
         [r, g, b, a.min(1.0)]
     }
 
-    /// An image of `size` = width and height whose pixels look where `look` says, given the place of a pixel's centre:
-    /// at a location of this photograph, with the Jacobian of that.
+    /// Resamples the photograph to an image of `size` = [width, height]. For the centre of each output pixel, in pixels
+    /// of the output, `look` gives the location in the photograph and the location's Jacobian.
     #[must_use]
     pub fn resample(
         &self,
@@ -111,7 +112,7 @@ impl Photograph {
         sum
     }
 
-    /// The pixel nearest to a column and row.
+    /// Pixel nearest to a column and row.
     fn pixel(&self, column: f64, row: f64) -> [f32; 4] {
         let [width, height] = self.size;
         let column = column.clamp(0.0, f64::from(width - 1)) as usize;
@@ -121,7 +122,7 @@ impl Photograph {
     }
 }
 
-/// Weights of the four values at -1, 0, 1 and 2 for one at t, 0 to 1.
+/// Weights of four values at -1, 0, 1 and 2 for a place at `t` of 0 to 1.
 fn weights(t: f64) -> [f64; 4] {
     [
         t * (t * (1.0 - 0.5 * t) - 0.5),

@@ -1,13 +1,13 @@
-//! The light of several projectors on one wall.
+//! Simulation of several projectors that light one wall.
 
 use super::Photograph;
 use crate::camera::projector::Projector;
 use glam::DVec2;
 use rayon::prelude::*;
 
-/// What lands on the wall: an image of `size` = width and height of the picture that the projectors show together, rows
-/// from the top, linear light, opaque. Each location gets the sum of the frames, as their projectors' maps send it
-/// there; black where none shines.
+/// Adds up the projectors' light on the wall: an image of `size` = [width, height] of the picture that they show
+/// together, rows from the top, linear light, opaque. Each frame appears where its projector's map sends it; places
+/// that no projector reaches are black.
 #[must_use]
 pub fn light_on_wall(size: [u32; 2], frames: &[(&Projector, &Photograph)]) -> Vec<[f32; 4]> {
     let light = |location: DVec2| {

@@ -1,4 +1,4 @@
-//! Zoomed images that hold their map, so that an ordinary view can be made of them without the scene.
+//! Zoomed images that hold the map of their zoom, so that ordinary views can be made of them without the scene.
 
 use super::Photograph;
 use crate::camera::LocationMap;
@@ -7,66 +7,66 @@ use crate::output::{self, OutputError};
 use glam::{DMat2, DVec2};
 use serde::{Deserialize, Serialize};
 
-/// Keyword of the text in a PNG.
+/// Keyword of the text chunk that holds the map.
 const KEYWORD: &str = "gpc zoom";
 
-/// What the text says, as JSON.
+/// Content of the text chunk, as JSON.
 #[derive(Serialize, Deserialize)]
 struct Record {
-    /// Width and height of the image, in whose pixels the regions are given.
+    /// Width and height of the image in pixels; the regions are given in these pixels.
     size: [u32; 2],
     regions: Vec<ZoomRegion>,
 }
 
-/// An image of which regions were enlarged, and the map that it was made with.
+/// Zoomed image and its map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Zoomed {
     photograph: Photograph,
     map: ZoomMap,
 }
 
-/// A file holds no zoomed image.
+/// File that is no zoomed image.
 #[derive(Debug, thiserror::Error)]
 pub enum ZoomedError {
-    /// It is no image.
+    /// File that is no image.
     #[error(transparent)]
     Image(#[from] OutputError),
-    /// It says nothing of a zoom.
+    /// Image without a zoom's map.
     #[error("{0}: it holds no zoom; give a PNG as gpc zoom wrote it, not converted")]
     NoRecord(String),
-    /// What it says of a zoom makes no sense.
+    /// Map that is no valid JSON record of a zoom.
     #[error("{name}: the zoom that it holds can't be read: {source}")]
     Record {
-        /// The file.
+        /// Name of the file.
         name: String,
-        /// What is wrong.
+        /// Error of the JSON reader.
         source: serde_json::Error,
     },
-    /// What it says is possible for no zoom.
+    /// Record whose regions make no map.
     #[error("{name}: {source}")]
     Map {
-        /// The file.
+        /// Name of the file.
         name: String,
-        /// What is wrong.
+        /// Error of the map.
         source: ZoomError,
     },
-    /// It was cropped or scaled since.
+    /// Image that was cropped or scaled after it was zoomed.
     #[error(
         "{name}: its zoom is one of {} x {} pixels, but it has {} x {}; give it as gpc zoom wrote it",
         .recorded[0], .recorded[1], .found[0], .found[1]
     )]
     Size {
-        /// The file.
+        /// Name of the file.
         name: String,
-        /// Width and height that the zoom is of.
+        /// Width and height of the image when it was zoomed.
         recorded: [u32; 2],
-        /// Width and height of the image.
+        /// Width and height of the image now.
         found: [u32; 2],
     },
 }
 
 impl Zoomed {
-    /// Puts the map of a zoomed image of `size` = width and height in pixels into the PNG that holds it.
+    /// Inserts the map of a zoomed image of `size` = [width, height] into its PNG.
     ///
     /// # Errors
     /// [`OutputError::Encode`] if the bytes are no PNG.
@@ -80,16 +80,16 @@ impl Zoomed {
         output::add_text(png, KEYWORD, &text)
     }
 
-    /// Whether a file says that it holds a zoomed image.
+    /// Whether a file holds a zoom's map.
     #[must_use]
     pub fn is_in(bytes: &[u8]) -> bool {
         output::find_text(bytes, KEYWORD).is_some()
     }
 
-    /// Reads a PNG that holds its map; `name` is for errors.
+    /// Decodes a zoomed PNG and its map; `name` stands for the file in messages.
     ///
     /// # Errors
-    /// If it is no image, or its map is missing or not its own.
+    /// [`ZoomedError`] if the file is no image, or if its map is missing, broken or of another size.
     pub fn decode(bytes: &[u8], name: &str) -> Result<Self, ZoomedError> {
         let photograph = Photograph::from(&output::decode(bytes, name)?);
         let name = name.to_owned();
@@ -115,20 +115,20 @@ impl Zoomed {
         }
     }
 
-    /// The image as it is.
+    /// Zoomed image as a photograph.
     #[must_use]
     pub fn photograph(&self) -> &Photograph {
         &self.photograph
     }
 
-    /// The map that it was made with.
+    /// Map of the zoom.
     #[must_use]
     pub fn map(&self) -> &ZoomMap {
         &self.map
     }
 
-    /// Where in the image a location of the plane is found, given what it changes by for each column and row of the
-    /// output; what [`Photograph::sample`] takes.
+    /// Location in the zoomed image, and its Jacobian, of a location of the ordinary image plane with `jacobian` = its
+    /// change for each column and row of the output. [`Photograph::sample`] takes both.
     #[must_use]
     pub fn place(&self, location: DVec2, jacobian: DMat2) -> (DVec2, DMat2) {
         let place = self.map.inverse(location);

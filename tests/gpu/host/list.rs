@@ -71,7 +71,7 @@ fn a_list_of_points_is_the_picture_of_one_sample() {
         assert_eq!((outcome.left_over, outcome.left_out), (0, 0));
         let once = Options {
             // No two codes differ by more.
-            contrast: u8::MAX,
+            contrast: Some(u8::MAX),
             thin: false,
             ..Options::new(SIZE[0], SIZE[1])
         };

@@ -3,7 +3,7 @@
 use super::texture::Texture;
 use gpc::bench::brute_force;
 use gpc::bench::stress::stage::{Stage, camera, textured};
-use gpc::render::{Footprint, Headless, Method, PreparedScene, Reference, Settings};
+use gpc::render::{Footprint, Headless, Method, PreparedScene, Reference, SceneRequest, Settings};
 use gpc::scene::{AlphaMode, Filter, TextureTransform, TextureUse};
 use rayon::prelude::*;
 
@@ -63,7 +63,7 @@ impl Plane {
             triangle.uvs = triangle.corners.map(|[x, _, z]| [scale * x, -scale * z]);
         }
         let (scene, pose) = stage.build();
-        headless.upload(&scene, &pose, None).unwrap()
+        headless.upload(SceneRequest::new(&scene, &pose)).unwrap()
     }
 
     /// Texture coordinates at a place on the plane.
@@ -152,7 +152,6 @@ pub fn settings(method: Method, samples: u32) -> Settings {
     Settings {
         method,
         samples,
-        contrast: Settings::default_contrast(samples),
         background: Some([SKY as f32; 3]),
         reference: Reference::Scene,
         tonemapped_detection: false,

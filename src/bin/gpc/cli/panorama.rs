@@ -4,7 +4,7 @@ use super::exit::Usage;
 use super::render::{self, ImageArgs};
 use super::report::ReportArgs;
 use super::stage::Stage;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use gpc::camera::panorama::{Panorama, PanoramaError, PanoramaProjection};
 use gpc::render::{PixelAttributes, Rendered};
 use serde::Serialize;
@@ -32,7 +32,7 @@ pub struct PanoramaArgs {
     /// How directions are laid out: longitude and latitude, a cylinder unrolled, angles from the axis, or the six faces
     /// of a cube as the largest cross of 4 x 3 squares that fits
     #[arg(long)]
-    projection: Layout,
+    projection: PanoramaProjection,
 
     #[command(flatten)]
     image: ImageArgs,
@@ -40,36 +40,25 @@ pub struct PanoramaArgs {
     pub report: ReportArgs,
 }
 
-/// What `--json` says of a panorama beside what is said of every image.
+/// Fields of `--json` for a panorama, besides those of every image.
 #[derive(Serialize)]
 struct Around {
     /// Pinholes that were sampled.
     pinholes: usize,
 }
 
-/// Values of `--projection`.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Layout {
-    Equirectangular,
-    Cylindrical,
-    Fisheye,
-    Cubemap,
-}
-
 pub fn run(args: &PanoramaArgs) -> anyhow::Result<ExitCode> {
     args.report.check(&args.output)?;
     let format = args.image.format(&args.output)?;
-    let (projection, widest) = match args.projection {
-        Layout::Equirectangular => (PanoramaProjection::Equirectangular, 360.0),
-        Layout::Cylindrical => (PanoramaProjection::Cylindrical, 360.0),
-        Layout::Fisheye => (PanoramaProjection::Fisheye, 180.0),
-        Layout::Cubemap => (PanoramaProjection::Cubemap, 360.0),
+    let widest = match args.projection {
+        PanoramaProjection::Fisheye => 180.0,
+        _ => 360.0,
     };
     // The camera's own field of view does not matter, and may be less than what is asked for here.
     let mut image = args.image.clone();
     let fov = image.camera.fov.take().unwrap_or(widest);
     let refuse = |error: PanoramaError| Usage(error.to_string());
-    let panorama = Panorama::new(projection, fov, image.size).map_err(refuse)?;
+    let panorama = Panorama::new(args.projection, fov, image.size).map_err(refuse)?;
     let mut stage = Stage::open(&args.scene, &image, image.settings(format))?;
     let locations = panorama.locations(&stage.camera).map_err(refuse)?;
     let shot = stage.render(locations.size(), locations.rig())?;

@@ -10,13 +10,13 @@ use serde::Serialize;
 use std::path::Path;
 use std::time::Instant;
 
-/// What is sampled, from where, and with which settings.
+/// Scene on a device, the cameras that sample it, and the settings.
 pub struct Stage {
     pub headless: Headless,
     pub scene: PreparedScene,
     pub camera: Camera,
     pub settings: Settings,
-    /// What could not be shown of the scene.
+    /// Warnings: parts of the scene that could not be shown.
     warnings: Vec<String>,
 }
 
@@ -97,7 +97,7 @@ impl Stage {
         }
     }
 
-    /// What an image took.
+    /// Effort of making an image.
     pub fn effort(&self, shot: &Shot) -> Effort {
         Effort::new(
             &self.settings,

@@ -41,7 +41,7 @@ pub struct UnzoomArgs {
     pub report: ReportArgs,
 }
 
-/// What `--json` says.
+/// Output of `--json`.
 #[derive(Serialize)]
 struct Unzoomed {
     /// The file.
@@ -50,11 +50,11 @@ struct Unzoomed {
     size: [u32; 2],
     /// The regions that the zoomed image holds.
     regions: Vec<ZoomRegion>,
-    /// Which of them is shown; `null` for all that the image shows.
+    /// Index of the region that is shown; `null` if the whole image is.
     region: Option<usize>,
     /// Wall-clock milliseconds of resampling.
     wall_ms: f64,
-    /// How far the image is from that of `--reference`.
+    /// Difference of the image from that of `--reference`.
     comparison: Option<Comparison>,
 }
 

@@ -49,7 +49,7 @@ pub fn rate(text: &str) -> Result<f64, String> {
 /// A share of a sequence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
-    /// From 1 to `count`.
+    /// Number of the part, from 1 to `count`.
     pub number: u32,
     pub count: u32,
 }
@@ -118,7 +118,7 @@ pub fn place(text: &str) -> Result<[f64; 2], String> {
     numbers(text).ok_or_else(|| "expected two numbers X,Y, such as 320,240".to_owned())
 }
 
-/// One radius for both axes, `R`, or one for each, `RX,RY`; all above 0.
+/// Parses radii above 0: `R` for both axes, or `RX,RY`.
 pub fn radii(text: &str) -> Result<[f64; 2], String> {
     let radii = match numbers(text) {
         Some([radius]) => Some([radius; 2]),
@@ -129,10 +129,10 @@ pub fn radii(text: &str) -> Result<[f64; 2], String> {
         .ok_or_else(|| "expected a radius R or RX,RY above 0, such as 80 or 120,60".to_owned())
 }
 
-/// What lies behind the scene.
+/// Background behind the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Background {
-    /// Nothing: the image is transparent there.
+    /// No background: the image is transparent there.
     Transparent,
     /// An sRGB-encoded colour, each component 0 to 1.
     Color([f64; 3]),
@@ -169,10 +169,10 @@ fn color(text: &str) -> Option<[f64; 3]> {
     }
 }
 
-/// How edges of meshes are drawn.
+/// Width and colour of the edges of meshes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EdgeLines {
-    /// In pixels.
+    /// Width in pixels.
     pub width: f64,
     /// An sRGB-encoded colour, each component 0 to 1.
     pub color: [f64; 3],

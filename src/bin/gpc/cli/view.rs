@@ -1,12 +1,12 @@
 //! `gpc view`.
 
 use super::exit::{self, Usage, usage};
-use super::render::{Antialiasing, AppearanceArgs, CameraArgs, DeviceArgs, SamplingArgs};
+use super::render::{AppearanceArgs, CameraArgs, DeviceArgs, SamplingArgs};
 use super::values::{self, Background};
 use crate::view::{self, Appearance, Look, Options, Source, Start};
 use clap::Args;
 use gpc::camera::Orbit;
-use gpc::render::{HeadlessOptions, Settings, Shadows};
+use gpc::render::{HeadlessOptions, Method, Settings, Shadows};
 use gpc::scene::PoseRequest;
 use std::fmt::Display;
 use std::path::PathBuf;
@@ -79,7 +79,7 @@ pub fn run(args: ViewArgs) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Where the first scene is seen from at first.
+/// Viewpoint from which the first scene is seen at first.
 fn start(args: &CameraArgs) -> Result<Start, Usage> {
     let default = Orbit::default();
     let fov = args.fov.unwrap_or(default.fov);
@@ -115,7 +115,7 @@ fn start(args: &CameraArgs) -> Result<Start, Usage> {
     }
 }
 
-/// How pictures are antialiased, and how large the window is.
+/// Antialiasing of the pictures, and size of the window.
 fn look(args: &ViewArgs, background: Background) -> anyhow::Result<Look> {
     let background = match background {
         Background::Transparent | Background::Environment => None,
@@ -123,28 +123,29 @@ fn look(args: &ViewArgs, background: Background) -> anyhow::Result<Look> {
     };
     let [width, height] = args.size;
     let sampling = &args.sampling;
-    let method = sampling.aa.method();
+    let method = sampling.aa;
     let settings = args.appearance.settings(Settings {
         method,
         samples: sampling
             .asked_samples()
             .unwrap_or_else(|| view::default_samples(method)),
         pattern: sampling.pattern.clone(),
-        coverage: sampling.coverage.coverage(),
-        shading: sampling.shading.shading(),
-        detection: sampling.detect.detection(),
-        footprint: sampling.footprint.footprint(),
+        coverage: sampling.coverage,
+        shading: sampling.shading,
+        detection: sampling.detect,
+        footprint: sampling.footprint,
+        contrast: sampling.contrast,
         background,
         max_memory: args.device.max_memory,
         ..Settings::new(width, height)
     });
-    if sampling.aa == Antialiasing::None && settings.samples != 1 {
+    if sampling.aa == Method::None && settings.samples != 1 {
         usage!(
             "none can't have {} samples a pixel; it can have 1",
             settings.samples
         );
     }
-    Ok(Look::new(settings, sampling.asked_contrast()))
+    Ok(Look { settings })
 }
 
 /// The options that say how scenes look, but for numbers that the settings hold.

@@ -1,4 +1,4 @@
-//! What keys and mouse do.
+//! Actions of keys and mouse.
 
 use super::command::{Shot, line, unzoom_photo, zoom_photo};
 use super::files::{free_name, scenes_at};
@@ -270,7 +270,9 @@ impl View {
         // Numbers in between are passed over.
         while (1..=MAX_SAMPLES).contains(&change(samples)) {
             samples = change(samples);
-            let changed = Look::new(look.at(samples, None), look.contrast);
+            let changed = Look {
+                settings: look.at(samples, None),
+            };
             if changed.can_have(samples) {
                 *look = changed;
                 self.notes.say(format!("{samples} samples a pixel"));
@@ -392,7 +394,7 @@ impl View {
         self.notes.say(format!("copied: {command}"));
     }
 
-    /// What is seen of the scene under the pointer.
+    /// Scene, standpoint and settings of the picture under the pointer.
     fn shot<'a>(&'a self, stage: &'a Stage) -> Shot<'a> {
         Shot {
             source: &stage.source,

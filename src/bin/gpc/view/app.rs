@@ -12,7 +12,7 @@ use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
 use winit::window::WindowId;
 
-/// What other threads have done.
+/// Message from another thread.
 pub enum Event {
     /// A file is loaded, or can't be; the number tells which was asked for.
     Opened(u64, Box<anyhow::Result<Opened>>),
@@ -44,7 +44,7 @@ impl App {
         }
     }
 
-    /// What the validation layer said until the window was closed.
+    /// Closes the window, and gives all messages of the validation layer.
     pub fn close(self) -> anyhow::Result<Vec<String>> {
         self.outcome
     }

@@ -1,4 +1,4 @@
-//! What the window shows: pictures of the scene, and the panel over them.
+//! Canvas of the window: pictures of the scene, and the panel over them.
 
 use super::compose::Piece;
 use super::engine::Engine;
@@ -20,7 +20,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Where the panel is drawn.
+/// State of the window's image while the panel is drawn.
 const DRAWN: ImageState = ImageState {
     layout: vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
     stage: vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
@@ -30,7 +30,7 @@ const DRAWN: ImageState = ImageState {
     ),
 };
 
-/// Where the window system takes the image over, which waits for a semaphore.
+/// State of the window's image when the window system takes it over, after a semaphore.
 const PRESENTED: ImageState = ImageState {
     layout: vk::ImageLayout::PRESENT_SRC_KHR,
     stage: vk::PipelineStageFlags2::NONE,
@@ -66,7 +66,7 @@ pub struct Canvas {
     pub engine: Arc<Engine>,
 }
 
-/// What is to be seen.
+/// Contents of the window that are to be drawn.
 pub struct Seen<'a> {
     pub camera: Option<&'a Camera>,
     pub moment: Option<&'a Arc<Moment>>,
@@ -76,7 +76,8 @@ pub struct Seen<'a> {
 }
 
 impl Canvas {
-    /// For a window of that size. What the preparer delivers is to be handed to [`Self::prepared`].
+    /// Makes the canvas of a window of `size` = [width, height]. The caller hands what the preparer delivers to
+    /// [`Self::prepared`].
     pub fn new(engine: Arc<Engine>, size: [u32; 2], preparer: Preparer) -> anyhow::Result<Self> {
         let device = &engine.device;
         let swapchain = Swapchain::new(device, size, None)?;
@@ -122,7 +123,7 @@ impl Canvas {
         Ok(())
     }
 
-    /// What is shown.
+    /// Scene that is shown.
     pub fn stage(&self) -> Option<&Stage> {
         self.stage.as_ref()
     }
@@ -193,7 +194,7 @@ impl Canvas {
         }
     }
 
-    /// All pictures are others from now on: something moved.
+    /// Restarts all pictures, since something moved.
     pub fn restart(&mut self, now: Instant) {
         for layer in &mut self.layers {
             layer.restart(now);

@@ -1,11 +1,12 @@
 //! The `gpc render` or `gpc zoom` command that makes the picture which is seen.
 
-use super::look::{Look, method_name};
+use super::look::Look;
 use super::source::Source;
 use super::standpoint::Standpoint;
 use glam::DVec3;
 use gpc::camera::zoom::{Shape, Transition, ZoomRegion};
-use gpc::render::{Coverage, Detection, Footprint, Method, Settings, Shading};
+use gpc::names::name;
+use gpc::render::{Footprint, Method, Settings};
 use gpc::sampling::Pattern;
 use std::path::Path;
 
@@ -96,18 +97,13 @@ impl Arguments {
         // Where one differs from the default, all are said.
         if lenses.iter().any(|lens| lens.shape != Shape::default()) {
             for lens in lenses {
-                let name = match lens.shape {
-                    Shape::Circle => "circle",
-                    Shape::Rectangle => "rectangle",
-                };
-                self.add("--shape", name);
+                self.add("--shape", name(&lens.shape));
             }
         }
         let is_smooth = |lens: &ZoomRegion| lens.transition == Transition::Smooth;
         if lenses.iter().any(is_smooth) {
             for lens in lenses {
-                let name = if is_smooth(lens) { "smooth" } else { "linear" };
-                self.add("--transition", name);
+                self.add("--transition", name(&lens.transition));
             }
         }
     }
@@ -116,37 +112,28 @@ impl Arguments {
     fn settings(&mut self, settings: &Settings) {
         let default = Settings::new(settings.size[0], settings.size[1]);
         if settings.method != default.method {
-            self.add("--aa", method_name(settings.method));
+            self.add("--aa", settings.method);
         }
         if settings.method != Method::None {
             self.add("--samples", settings.samples);
         }
-        if settings.contrast != Settings::default_contrast(settings.samples) {
-            self.add("--contrast", settings.contrast);
+        if let Some(contrast) = settings.contrast {
+            self.add("--contrast", contrast);
         }
         if settings.detection != default.detection {
-            self.add("--detect", detection_name(settings.detection));
+            self.add("--detect", name(&settings.detection));
         }
         if settings.pattern != default.pattern {
             self.add("--pattern", pattern_name(&settings.pattern));
         }
         if settings.coverage != default.coverage {
-            let name = match settings.coverage {
-                Coverage::Area => "area",
-                Coverage::Samples => "samples",
-            };
-            self.add("--coverage", name);
+            self.add("--coverage", name(&settings.coverage));
         }
         if settings.footprint == Footprint::Pixel {
             self.add("--footprint", "pixel");
         }
         if settings.shading != default.shading {
-            let name = match settings.shading {
-                Shading::Triangle => "triangle",
-                Shading::Part => "part",
-                Shading::Sample => "sample",
-            };
-            self.add("--shading", name);
+            self.add("--shading", name(&settings.shading));
         }
         if settings.exposure != default.exposure {
             self.0.push(format!("--exposure={}", settings.exposure));
@@ -159,7 +146,7 @@ impl Arguments {
         }
     }
 
-    /// What of the scene is seen, and where from.
+    /// Adds the options that select the visible part of the scene and the standpoint.
     fn view(&mut self, shot: &Shot<'_>) {
         let request = &shot.source.request;
         if let Some(scene) = request.scene {
@@ -183,15 +170,6 @@ impl Arguments {
                 self.add("--fov", viewpoint.fov);
             }
         }
-    }
-}
-
-/// A rule of detection, as `--detect` has it.
-pub fn detection_name(detection: Detection) -> &'static str {
-    match detection {
-        Detection::Contrast => "contrast",
-        Detection::Edges => "edges",
-        Detection::Exact | Detection::Every => "exact",
     }
 }
 
@@ -245,7 +223,9 @@ mod tests {
 
     #[test]
     fn defaults_are_left_out() {
-        let look = Look::new(Settings::new(640, 480), None);
+        let look = Look {
+            settings: Settings::new(640, 480),
+        };
         let shot = Shot {
             source: &source("a b.glb"),
             standpoint: &Standpoint::Camera(2),
@@ -265,6 +245,7 @@ mod tests {
         let settings = Settings {
             method: Method::Superpixel,
             samples: 1024,
+            contrast: Some(5),
             pattern: Pattern::Lattice,
             detection: Detection::Edges,
             shading: Shading::Sample,
@@ -273,7 +254,7 @@ mod tests {
             background: Some([0.0; 3]),
             ..Settings::new(64, 48)
         };
-        let look = Look::new(settings, Some(5));
+        let look = Look { settings };
         let mut source = source("a.glb");
         source.request.animation = Some("run".to_owned());
         let shot = Shot {
@@ -294,7 +275,9 @@ mod tests {
 
     #[test]
     fn a_lens_is_a_zoom() {
-        let look = Look::new(Settings::new(64, 48), None);
+        let look = Look {
+            settings: Settings::new(64, 48),
+        };
         let lens = ZoomRegion {
             center: [20.0, 30.0],
             radius: [9.0, 9.0],

@@ -1,4 +1,4 @@
-//! Which pixels of which picture are seen where in the window: a split between two pictures, and a magnifier over them.
+//! Composition of the window: a split between two pictures, and a magnifier over them.
 
 /// A rectangle in pixels, from its upper left corner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,7 +57,7 @@ pub fn pictures(size: [u32; 2], split: Option<u32>) -> Vec<Piece> {
         .collect()
 }
 
-/// What the magnifier shows, over the pictures.
+/// Pieces of the pictures under the magnifier.
 pub fn magnified(size: [u32; 2], split: Option<u32>, magnifier: Magnifier) -> Vec<Piece> {
     let factor = magnifier.factor.max(1);
     // An odd number of pixels has one in the middle.

@@ -1,5 +1,4 @@
-//! What is looked at in the stead of the frames: zoom lenses, what pixels hold beside their colours, shadows, or a
-//! photograph.
+//! Cover: a picture that is shown instead of the frames, for zoom lenses, overlays, shadows or a photograph.
 
 use super::lens::Lenses;
 use super::overlay::Overlay;
@@ -8,10 +7,10 @@ use std::time::{Duration, Instant};
 
 /// Samples of the first pictures, before those asked for.
 const STEPS: [u32; 2] = [4, 64];
-/// Nothing has to have changed for this long before a picture of more samples is begun.
+/// Time without any change before a picture of more samples is begun.
 const REST: Duration = Duration::from_millis(700);
 
-/// What is wanted, and how much of it is there.
+/// Cover that is wanted, and the progress of making it.
 #[derive(Debug, Default)]
 pub struct Cover {
     pub lenses: Lenses,
@@ -24,20 +23,20 @@ pub struct Cover {
     pub shows_environment: bool,
     /// Whether there are no frames, but a photograph.
     pub is_photo: bool,
-    /// Of the last order.
+    /// Number of the last order.
     number: u64,
     /// Samples of the orders since the last change, in turn.
     steps: Vec<u32>,
     /// Index of the last order's.
     step: usize,
-    /// When to order the next one, where it waits.
+    /// Time of the next order, if it waits.
     due: Option<Instant>,
     /// Number of the first order since something moved.
     first: u64,
     is_done: bool,
 }
 
-/// What to do with a picture.
+/// Treatment of a picture that has arrived.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Arrival {
     pub is_shown: bool,
@@ -55,7 +54,7 @@ impl Cover {
         }
     }
 
-    /// The same without lenses and overlays, over frames or a photograph.
+    /// Cover without lenses and overlays, over frames or a photograph.
     pub fn cleared(&self, is_photo: bool) -> Self {
         Self {
             is_photo,
@@ -63,7 +62,7 @@ impl Cover {
         }
     }
 
-    /// What of a scene the studio is asked for, if anything is wanted.
+    /// Picture to order of a scene, if any is wanted.
     pub fn subject(&self) -> Option<Subject> {
         match (self.overlay, self.lenses.map()) {
             (Some(overlay), _) => Some(Subject::Overlay(overlay)),
@@ -103,12 +102,12 @@ impl Cover {
         self.next_order()
     }
 
-    /// When to order what follows, if it waits.
+    /// Time at which the next order is due, if one waits.
     pub fn due(&self) -> Option<Instant> {
         self.due
     }
 
-    /// What to do with the picture of an order.
+    /// Decides about the picture of an order that has arrived.
     pub fn arrived(&mut self, number: u64, now: Instant) -> Arrival {
         let is_last = number == self.number;
         let next = self.steps.get(self.step + 1).filter(|_| is_last);

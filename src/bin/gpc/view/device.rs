@@ -35,7 +35,7 @@ pub struct Device {
     _entry: ash::Entry,
 }
 
-/// What the validation layer has said.
+/// Messages of the validation layer.
 type Messages = Mutex<Vec<String>>;
 
 unsafe extern "system" fn on_message(
@@ -164,7 +164,7 @@ impl Device {
         }
     }
 
-    /// What the renderer is lent.
+    /// Device as it is lent to the renderer.
     pub fn host(&self) -> Host {
         Host {
             instance: self.instance.clone(),
@@ -182,7 +182,7 @@ impl Device {
         allocator.ok_or_else(|| anyhow!("the allocator is gone"))
     }
 
-    /// What the validation layer has said, if it was asked.
+    /// Messages of the validation layer, if it runs.
     pub fn validation_messages(&self) -> Vec<String> {
         let messages = self.messages.lock();
         messages.unwrap_or_else(PoisonError::into_inner).clone()

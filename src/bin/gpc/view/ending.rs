@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-/// What is at work when the window is closed has this long to come to an end.
+/// Time that unfinished work gets when the window is closed.
 const PATIENCE: Duration = Duration::from_millis(500);
 
 /// Ends the process soon, with success, unless it has ended by then. A driver that compiles and a file that is read can't be

@@ -3,7 +3,7 @@
 use anyhow::{Context, bail};
 use std::path::{Path, PathBuf};
 
-/// What names of scene files end in.
+/// Endings of scene files' names.
 const SCENES: [&str; 5] = ["glb", "gltf", "obj", "ply", "stl"];
 
 /// A file, or the scene files of a folder in the order of their names.

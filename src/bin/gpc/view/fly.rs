@@ -6,10 +6,10 @@ use winit::keyboard::{KeyCode, PhysicalKey};
 
 /// The scene's diagonal is flown along in so many seconds, unless the wheel sets another speed.
 const SECONDS_A_DIAGONAL: f64 = 10.0;
-/// What a picture that takes longer moves the eye by.
+/// Longest time by which one picture moves the eye, however long it takes.
 const LONGEST: Duration = Duration::from_millis(500);
 
-/// Where a key moves the eye.
+/// Direction in which a key moves the eye.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Way {
     Forward,
@@ -21,7 +21,7 @@ pub enum Way {
 }
 
 impl Way {
-    /// That of a key, by its place on the keyboard.
+    /// Direction of a key, by its place on the keyboard.
     pub fn of(key: PhysicalKey) -> Option<Self> {
         let PhysicalKey::Code(code) = key else {
             return None;
@@ -50,13 +50,13 @@ impl Way {
     }
 }
 
-/// How the eye moves.
+/// Movement of the eye by keys.
 #[derive(Clone, Debug)]
 pub struct Flight {
     held: Vec<Way>,
-    /// In units of the scene a second.
+    /// Speed in units of the scene a second.
     speed: f64,
-    /// When the eye was last moved, while a key is held.
+    /// Time at which the eye was last moved, while a key is held.
     last: Option<Instant>,
 }
 
@@ -95,7 +95,7 @@ impl Flight {
         }
     }
 
-    /// All keys are let go.
+    /// Stops, as if all keys were released.
     pub fn stop(&mut self) {
         self.held.clear();
         self.last = None;
@@ -106,7 +106,7 @@ impl Flight {
         self.last.is_some()
     }
 
-    /// How far the eye has moved until now: right, up and forward, in units of the scene.
+    /// Movement of the eye until now: right, up and forward, in units of the scene.
     pub fn advance(&mut self, now: Instant) -> DVec3 {
         let Some(last) = &mut self.last else {
             return DVec3::ZERO;

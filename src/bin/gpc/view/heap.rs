@@ -6,7 +6,7 @@
 pub fn share() {
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     {
-        /// One for the window's thread and one for the others.
+        /// Number of heaps: one for the window's thread and one for all others.
         const HEAPS: libc::c_int = 2;
         // SAFETY: the call takes plain numbers, and has a lock of its own. Where it is refused, memory is as without it.
         let _ = unsafe { libc::mallopt(libc::M_ARENA_MAX, HEAPS) };

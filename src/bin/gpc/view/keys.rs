@@ -1,10 +1,10 @@
-//! What keys do, and the list of them.
+//! Actions of keys, and the list of them.
 
 use super::navigate::Side;
 use gpc::render::Method;
 use winit::keyboard::{Key, ModifiersState, NamedKey};
 
-/// What a key or a button of the panel asks for.
+/// Action that a key or a button of the panel asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
     Help,
@@ -41,7 +41,7 @@ pub enum Action {
 struct Binding {
     key: Pressed,
     control: bool,
-    /// As the list has it.
+    /// Label of the key in the list.
     label: &'static str,
     action: Action,
     does: &'static str,
@@ -222,7 +222,7 @@ static BINDINGS: [Binding; 35] = [
     text("q", "Q", Action::Quit, "quit"),
 ];
 
-/// What the mouse does.
+/// Actions of the mouse, for the list.
 pub const MOUSE: [(&str, &str); 7] = [
     ("Left drag", "turn around the target"),
     ("Shift + left drag, middle drag", "move sideways"),
@@ -239,7 +239,7 @@ pub const MOUSE: [(&str, &str); 7] = [
     ("Drop a file or folder", "open it"),
 ];
 
-/// What a key asks for.
+/// Action of a key.
 pub fn action(key: &Key, modifiers: ModifiersState) -> Option<Action> {
     let is_pressed = |binding: &&Binding| {
         let pressed = match (&binding.key, key) {

@@ -22,7 +22,7 @@ pub struct Layer {
     picture: Picture,
     /// Seen until there is something in the picture.
     before: Option<Picture>,
-    /// What prepared frames are delivered by.
+    /// Ticket that identifies the layer to the preparer.
     ticket: Ticket,
     /// Frames of drafts that nothing uses just now.
     spare: Vec<Frame>,
@@ -44,17 +44,17 @@ pub struct Layer {
 
 /// Work that the device has not done yet, and what it uses.
 pub struct Job {
-    /// Of the layer that takes it back.
+    /// Ticket of the layer that takes the job back.
     pub ticket: Weak<()>,
     frame: Frame,
     work: Work,
     version: u64,
     tries: u32,
-    /// Where a band is rendered before its copy.
+    /// Picture that a band is rendered to before it is copied.
     _band: Option<Picture>,
 }
 
-/// What is seen, and where from.
+/// Scene and camera of a picture.
 pub struct Sight<'a> {
     pub scene: &'a Arc<PreparedScene>,
     pub camera: &'a Camera,
@@ -81,12 +81,12 @@ impl Layer {
         })
     }
 
-    /// Has another picture seen until something is rendered of its own.
+    /// Shows another picture until this layer has rendered something.
     pub fn set_before(&mut self, before: Picture) {
         self.before = Some(before);
     }
 
-    /// What is seen so far.
+    /// Picture that is shown at present.
     pub fn picture(&self) -> &Picture {
         let before = self.before.as_ref();
         before
@@ -94,7 +94,8 @@ impl Layer {
             .unwrap_or(&self.picture)
     }
 
-    /// The same, to be seen until another layer has something, and one that is not seen.
+    /// Splits the layer into the picture that is shown, for use until another layer has something to show, and one that
+    /// is not shown.
     pub fn into_pictures(self) -> (Picture, Option<Picture>) {
         match self.before {
             Some(before) if !self.picture.is_written() => (before, Some(self.picture)),
@@ -233,7 +234,7 @@ impl Layer {
         self.waiting.is_some()
     }
 
-    /// When the next work is due, if it waits for nothing else.
+    /// Time at which the next work is due, if it waits for nothing else.
     pub fn due(&self) -> Option<Instant> {
         self.schedule.due().filter(|_| !self.is_waiting())
     }

@@ -18,7 +18,7 @@ pub struct Lenses {
 }
 
 impl Lenses {
-    /// All of them.
+    /// Regions of all lenses.
     pub fn regions(&self) -> &[ZoomRegion] {
         &self.regions
     }

@@ -1,8 +1,8 @@
-//! How a picture is antialiased: what keys and panel change.
+//! Antialiasing of a picture, which keys and panel change.
 
 use gpc::render::{Detection, Footprint, Method, PixelRect, Settings, Shading};
 
-/// Most samples a pixel that are shown unless others are asked for.
+/// Most samples a pixel of a picture at rest, unless others are asked for.
 pub const DEFAULT_SAMPLES: u32 = 1024;
 
 /// The least threshold while something moves.
@@ -12,25 +12,15 @@ const DRAFT_CONTRAST: u8 = 16;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Look {
     /// Settings of the picture at rest.
-    ///
-    /// Its threshold is not used: see [`Self::contrast`].
     pub settings: Settings,
-    /// The threshold asked for; otherwise that of the number of samples of each step.
-    pub contrast: Option<u8>,
 }
 
 impl Look {
-    /// With these settings at rest, and a threshold where one is asked for.
-    pub fn new(settings: Settings, contrast: Option<u8>) -> Self {
-        Self { settings, contrast }
-    }
-
     /// Settings of a step with so many samples, of a part of the picture.
     pub fn at(&self, samples: u32, region: Option<PixelRect>) -> Settings {
         Settings {
             samples,
             region,
-            contrast: self.contrast_at(samples),
             ..self.settings.clone()
         }
     }
@@ -51,17 +41,11 @@ impl Look {
                     Detection::Contrast => Detection::Edges,
                     asked => asked,
                 },
-                contrast: settings.contrast.max(DRAFT_CONTRAST),
+                contrast: Some(settings.threshold().max(DRAFT_CONTRAST)),
                 ..settings
             },
             _ => settings,
         }
-    }
-
-    /// The threshold of a step with so many samples.
-    pub fn contrast_at(&self, samples: u32) -> u8 {
-        self.contrast
-            .unwrap_or_else(|| Settings::default_contrast(samples))
     }
 
     /// Whether method and pattern can have so many samples.
@@ -92,26 +76,24 @@ pub fn default_samples(method: Method) -> u32 {
     }
 }
 
-/// A method's name, as `--aa` has it.
-pub fn method_name(method: Method) -> &'static str {
-    match method {
-        Method::None => "none",
-        Method::Superpixel => "superpixel",
-        Method::Ssaa => "ssaa",
-        Method::Msaa => "msaa",
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn drafts_of_superpixels_are_cheaper_and_others_are_as_asked_for() {
-        let look = Look::new(Settings::new(10, 10), Some(40));
+        let look = Look {
+            settings: Settings {
+                contrast: Some(40),
+                ..Settings::new(10, 10)
+            },
+        };
         let draft = look.draft(16);
         assert_eq!((draft.method, draft.samples), (Method::Superpixel, 16));
-        assert_eq!((draft.detection, draft.contrast), (Detection::Edges, 40));
+        assert_eq!(
+            (draft.detection, draft.contrast),
+            (Detection::Edges, Some(40))
+        );
         assert_eq!(draft.shading, Shading::Triangle);
         assert_eq!(look.draft(1).method, Method::None);
         let mut other = look;
@@ -121,12 +103,14 @@ mod tests {
 
     #[test]
     fn the_threshold_is_that_of_the_step_unless_one_is_asked_for() {
-        let mut look = Look::new(Settings::new(10, 10), None);
+        let mut look = Look {
+            settings: Settings::new(10, 10),
+        };
         for samples in [64, 1024] {
             let expected = Settings::default_contrast(samples);
-            assert_eq!(look.contrast_at(samples), expected);
+            assert_eq!(look.at(samples, None).threshold(), expected);
         }
-        look.contrast = Some(5);
-        assert_eq!(look.at(1024, None).contrast, 5);
+        look.settings.contrast = Some(5);
+        assert_eq!(look.at(1024, None).threshold(), 5);
     }
 }

@@ -5,11 +5,11 @@ use gpc::render::RenderError;
 use gpc::vulkan::VulkanError;
 use std::time::{Duration, Instant};
 
-/// So many devices may be lost within [`WHILE`]; one more, and going on makes no sense.
+/// Largest number of devices that may be lost within [`WHILE`] before the viewer gives up.
 const MOST: usize = 3;
 const WHILE: Duration = Duration::from_secs(60);
 
-/// When devices were lost.
+/// Times at which devices were lost.
 #[derive(Debug, Default)]
 pub struct Losses(Vec<Instant>);
 

@@ -57,16 +57,16 @@ use gpc::render::HeadlessOptions;
 use std::path::PathBuf;
 use winit::event_loop::EventLoop;
 
-/// What to look at, and how.
+/// Options of the viewer.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// What is opened first: a file, or the scenes of a folder.
+    /// Source that is opened first: a file, or the scenes of a folder.
     pub source: Source,
     /// Other files and folders that the arrow keys go to.
     pub others: Vec<PathBuf>,
-    /// Where the first is seen from at first.
+    /// Standpoint in the first scene at the start.
     pub start: Start,
-    /// What scenes are shown with.
+    /// Appearance of scenes beyond what their files say.
     pub appearance: Appearance,
     /// The options of the command line that say the same, and what is behind the scene.
     pub appearance_options: Vec<String>,
@@ -74,19 +74,19 @@ pub struct Options {
     pub look: Look,
     /// Whether the scene's environment is seen behind it, at rest.
     pub shows_environment: bool,
-    /// How devices are opened: the window's, and those that write files.
+    /// Options for opening devices: the window's, and those that write files.
     pub device: HeadlessOptions,
     /// Puts errors into words.
     pub describe: fn(&anyhow::Error) -> String,
 }
 
-/// There is nothing to open a window on.
+/// Lack of a display to open a window on.
 #[derive(Debug, thiserror::Error)]
 #[error("no window can be opened: {0}. Without a display, gpc render writes images to files")]
 pub struct NoDisplay(String);
 
 impl NoDisplay {
-    /// Of what winit says, without the line of its source that says it.
+    /// Makes the error of winit's message, without the line of winit's source that it names.
     fn new(error: &dyn std::error::Error) -> Self {
         let said = error.to_string();
         let reason = match said.split_once("os error at ") {

@@ -12,7 +12,7 @@ use gpc::camera::{Camera, Pinhole};
 use std::time::Instant;
 use winit::event::MouseButton;
 
-/// How much nearer a notch of the wheel brings.
+/// Factor by which a notch of the wheel brings things nearer.
 pub const NOTCH: f64 = 1.15;
 /// Pixels of a touchpad or of a drag, on an ordinary display, that count as a notch.
 const PIXELS_A_NOTCH: f64 = 40.0;
@@ -40,7 +40,7 @@ impl View {
         }
     }
 
-    /// Everything has to be rendered again.
+    /// Renders everything again.
     pub fn restart(&mut self) {
         self.canvas.restart(Instant::now());
         self.view_changed();

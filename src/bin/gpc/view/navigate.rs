@@ -8,16 +8,16 @@ const DEGREES_A_HEIGHT: f64 = 180.0;
 /// Straight up and down have no sideways; this is as near as the camera gets.
 const STEEPEST: f64 = 89.99;
 
-/// Where the camera stands: at a distance from a target, at angles as those of [`Orbit`].
+/// Standpoint of a camera at a distance from a target, at the angles of [`Orbit`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turntable {
-    /// What stays in the middle while the camera turns.
+    /// Point that stays in the middle while the camera turns.
     pub target: DVec3,
     /// Degrees around the vertical axis; 0 looks along -z, 90 along -x.
     pub azimuth: f64,
     /// Degrees above the horizon.
     pub elevation: f64,
-    /// From eye to target.
+    /// Distance from eye to target.
     pub distance: f64,
     /// Vertical field of view in degrees.
     pub fov: f64,
@@ -198,7 +198,7 @@ impl Turntable {
         self.distance * (0.5 * self.fov.to_radians()).tan()
     }
 
-    /// From target to eye, of unit length.
+    /// Unit vector from target to eye.
     fn backward(&self) -> DVec3 {
         let (azimuth, elevation) = (self.azimuth.to_radians(), self.elevation.to_radians());
         DVec3::new(

@@ -1,4 +1,4 @@
-//! What is said in the window for a while.
+//! Notes: messages that the window shows for a while.
 
 use std::time::{Duration, Instant};
 
@@ -63,14 +63,14 @@ impl Notes {
         self.notes.retain(|note| !note.is_error);
     }
 
-    /// What is to be seen now.
+    /// Notes that are shown now.
     pub fn seen(&mut self, now: Instant) -> &[Note] {
         self.notes
             .retain(|note| note.is_error || now < note.since + SEEN);
         &self.notes
     }
 
-    /// When the next note goes.
+    /// Time at which the next note disappears.
     pub fn next_change(&self) -> Option<Instant> {
         let passing = self.notes.iter().filter(|note| !note.is_error);
         passing.map(|note| note.since + SEEN).min()

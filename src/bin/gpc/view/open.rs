@@ -11,13 +11,13 @@ use super::window::View;
 use std::path::Path;
 use std::time::Instant;
 
-/// What is being loaded.
+/// File that is being loaded.
 pub struct Loading {
     number: u64,
     pub source: Source,
     pub since: Instant,
     pub progress: Progress,
-    /// Whether it is seen from where the scene before was.
+    /// Whether the scene is seen from the standpoint of the scene before it.
     pub keeps_view: bool,
 }
 

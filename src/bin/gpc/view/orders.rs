@@ -1,4 +1,4 @@
-//! What the studio is asked for, and shows in the stead of frames.
+//! Orders for pictures that are shown instead of frames.
 
 use super::cover::Cover;
 use super::picture::Picture;
@@ -7,7 +7,7 @@ use super::window::View;
 use std::time::Instant;
 
 impl View {
-    /// What was made of another view is no longer seen, and asked for anew.
+    /// Drops pictures of the previous view, and orders them anew.
     pub fn view_changed(&mut self) {
         self.is_dirty = true;
         // A photograph has no frames to be seen meanwhile.

@@ -1,16 +1,16 @@
-//! What can be seen of pixels in the stead of their colours.
+//! Overlays: values of pixels that are shown instead of their colours.
 
 use gpc::compare::heat_color;
 use gpc::output::AovKind;
 
-/// What is seen of pixels.
+/// Values that are shown instead of colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Overlay {
-    /// What `gpc render --aov` writes.
+    /// Values of an AOV, as `gpc render --aov` writes them.
     Stored(AovKind),
-    /// How many triangles show in a pixel.
+    /// Number of triangles in a pixel.
     Triangles,
-    /// How far its colour is from that of brute force.
+    /// Distance of a pixel's colour from that of brute force.
     Error,
 }
 
@@ -46,12 +46,12 @@ impl Overlay {
         Self::ALL.get(index.map_or(0, |index| index + 1)).copied()
     }
 
-    /// Whether it is of use with all samples alone.
+    /// Whether the overlay makes sense only with all samples.
     pub fn needs_all_samples(self) -> bool {
         matches!(self, Self::Triangles | Self::Error)
     }
 
-    /// What its colours stand for: shares of the scale, and what is written there.
+    /// Legend of the colours: places on the scale, 0 to 1, and their labels.
     pub fn scale(self) -> &'static [(f64, &'static str)] {
         match self {
             Self::Stored(_) => &[],

@@ -14,7 +14,7 @@ pub struct Painter {
     device: Arc<Device>,
 }
 
-/// What egui laid out, ready to be drawn.
+/// Layout of egui, ready to be drawn.
 pub struct Painting {
     pub textures: egui::TexturesDelta,
     pub primitives: Vec<egui::ClippedPrimitive>,
@@ -22,7 +22,7 @@ pub struct Painting {
 }
 
 impl Painter {
-    /// For images of a format.
+    /// Makes a painter for images of a format.
     pub fn new(device: &Arc<Device>, format: vk::Format) -> anyhow::Result<Self> {
         let renderer = Renderer::with_gpu_allocator(
             device.allocator()?,

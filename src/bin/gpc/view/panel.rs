@@ -1,9 +1,8 @@
-//! What lies over the picture: the panel, notes, and the list of keys.
+//! Panel, notes and list of keys, which lie over the picture.
 
-use super::command::detection_name;
 use super::keys::{self, Action};
 use super::lens::Lenses;
-use super::look::{Look, method_name};
+use super::look::Look;
 use super::notes::Note;
 use super::overlay::Overlay;
 use super::player::Player;
@@ -14,7 +13,7 @@ use gpc::sampling::Pattern;
 use gpc::scene::AnimationInfo;
 use std::time::Duration;
 
-/// What there is to tell.
+/// Facts that the panel shows.
 pub struct Facts<'a> {
     pub notes: &'a [Note],
     pub loading: Option<LoadingFacts<'a>>,
@@ -25,9 +24,9 @@ pub struct Facts<'a> {
     pub lenses: &'a Lenses,
     /// Whether their transitions are coloured.
     pub tints: bool,
-    /// What is seen of pixels in the stead of their colours.
+    /// Overlay that is shown instead of colours.
     pub overlay: Option<Overlay>,
-    /// What there is to say of it.
+    /// Figures about the overlay, in words.
     pub figures: Option<&'a str>,
     /// Whether a better picture is being made.
     pub is_refining: bool,
@@ -36,35 +35,35 @@ pub struct Facts<'a> {
     pub pictures: Vec<PictureFacts<'a>>,
 }
 
-/// What is being loaded.
+/// Facts about the file that is being loaded.
 pub struct LoadingFacts<'a> {
     pub name: &'a str,
     pub since: Duration,
     pub step: &'static str,
-    /// Of all that is to be done.
+    /// Share of all the work that is done, 0 to 1.
     pub share: f32,
 }
 
-/// What is known of the photograph.
+/// Facts about the photograph.
 pub struct PhotoFacts {
     pub name: String,
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// Whether it can be unzoomed.
+    /// Whether the photograph can be unzoomed.
     pub is_zoomed: bool,
 }
 
-/// What is known of the scene.
+/// Facts about the scene.
 pub struct SceneFacts<'a> {
     pub name: String,
-    /// What of the file can't be shown.
+    /// Warnings: parts of the file that can't be shown.
     pub warnings: &'a [String],
     pub triangles: u64,
-    /// Where it moves: the animations, which of them is played, and its time.
+    /// Animations, the index of the one that is played, and its player; `None` if nothing moves.
     pub motion: Option<(&'a [AnimationInfo], usize, &'a Player)>,
 }
 
-/// What is known of a picture.
+/// Facts about a picture.
 pub struct PictureFacts<'a> {
     pub look: &'a Look,
     /// Samples of what is seen, where all of it has as many.
@@ -74,22 +73,22 @@ pub struct PictureFacts<'a> {
     pub statistics: &'a Statistics,
 }
 
-/// What the user changed in the panel.
+/// Changes that the user made in the panel.
 #[derive(Default)]
 pub struct Wishes {
-    /// How a picture is antialiased, by the picture's index.
+    /// Antialiasing that a picture should have, and the picture's index.
     pub look: Option<(usize, Look)>,
     /// Outline and transition of the lens at hand.
     pub lens: Option<(Shape, Transition)>,
-    /// What a key would do.
+    /// Action of a button, which a key could also ask for.
     pub action: Option<Action>,
-    /// What to see of pixels: their colours, or something else.
+    /// Overlay that should be shown; `Some(None)` for colours.
     pub overlay: Option<Option<Overlay>>,
     /// Moment of the animation in seconds.
     pub time: Option<f64>,
     /// Index of the animation.
     pub animation: Option<usize>,
-    /// To play or pause.
+    /// Whether to toggle between playing and pausing.
     pub toggles_play: bool,
     /// Steps of the speed.
     pub speed_steps: i32,
@@ -303,11 +302,7 @@ fn edit(ui: &mut egui::Ui, look: &mut Look) {
     ui.horizontal(|ui| {
         for method in [Method::Superpixel, Method::None, Method::Msaa, Method::Ssaa] {
             let is_chosen = look.settings.method == method;
-            if ui
-                .selectable_label(is_chosen, method_name(method))
-                .clicked()
-                && !is_chosen
-            {
+            if ui.selectable_label(is_chosen, method.to_string()).clicked() && !is_chosen {
                 look.set_method(method);
             }
         }
@@ -331,21 +326,21 @@ fn edit(ui: &mut egui::Ui, look: &mut Look) {
     }
     ui.horizontal(|ui| {
         ui.label("contrast");
-        let mut contrast = look.contrast_at(look.settings.samples);
+        let mut contrast = look.settings.threshold();
         if ui
             .add(egui::Slider::new(&mut contrast, 0..=MOST_CONTRAST))
             .changed()
         {
-            look.contrast = Some(contrast);
+            look.settings.contrast = Some(contrast);
         }
-        if look.contrast.is_some() && ui.button("default").clicked() {
-            look.contrast = None;
+        if look.settings.contrast.is_some() && ui.button("default").clicked() {
+            look.settings.contrast = None;
         }
     });
     ui.horizontal(|ui| {
         ui.label("detect");
         for detection in [Detection::Contrast, Detection::Edges, Detection::Exact] {
-            let name = detection_name(detection);
+            let name = gpc::names::name(&detection);
             ui.selectable_value(&mut look.settings.detection, detection, name);
         }
     });

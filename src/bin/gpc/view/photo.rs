@@ -61,17 +61,17 @@ impl Photo {
     }
 }
 
-/// Which part of a photograph the window shows.
+/// Part of a photograph that the window shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Framing {
-    /// Its place at the window's upper left corner, in pixels of the photograph.
+    /// Place of the photograph at the window's upper left corner, in pixels of the photograph.
     corner: DVec2,
     /// Pixels of the photograph for one of the window's.
     step: f64,
 }
 
 impl Framing {
-    /// All of a photograph in the middle of the window, as it is where there is room.
+    /// Shows a whole photograph in the middle of the window: pixel by pixel if there is room, otherwise smaller.
     pub fn fitting(photograph: [u32; 2], window: [u32; 2]) -> Self {
         let [photograph, window] = [photograph, window].map(as_vector);
         let step = (photograph / window).max_element().max(1.0);
@@ -116,12 +116,12 @@ impl Framing {
 pub struct Easel {
     pub photo: Arc<Photo>,
     pub framing: Framing,
-    /// Whether it is unzoomed under the pointer.
+    /// Whether the image is unzoomed under the pointer.
     pub unzooms: bool,
 }
 
 impl Easel {
-    /// All of a photograph in a window of that size.
+    /// Shows a whole photograph in a window of `window` = [width, height].
     pub fn new(photo: Photo, window: [u32; 2]) -> Self {
         Self {
             framing: Framing::fitting(photo.photograph().size(), window),
@@ -130,7 +130,7 @@ impl Easel {
         }
     }
 
-    /// What a window of that size shows.
+    /// Picture of the photograph for a window of `size` = [width, height].
     pub fn view(&self, size: [u32; 2], map: Option<ZoomMap>, tints: bool, pointer: DVec2) -> View {
         View {
             photo: self.photo.clone(),
@@ -148,7 +148,7 @@ impl Easel {
         regions.iter().position(|region| region.contains(place))
     }
 
-    /// All of the photograph, as `gpc zoom` makes it.
+    /// Picture of the whole photograph, as `gpc zoom` makes it.
     pub fn whole(&self, map: ZoomMap) -> View {
         View {
             photo: self.photo.clone(),
@@ -164,12 +164,12 @@ impl Easel {
     }
 }
 
-/// What is to be made of a photograph.
+/// Picture to make of a photograph.
 #[derive(Clone, Debug)]
 pub struct View {
     photo: Arc<Photo>,
     pub window: Window,
-    /// That of lenses.
+    /// Map of the lenses.
     pub map: Option<ZoomMap>,
     tints: bool,
     /// The place of the window around which the image is unzoomed.
@@ -177,13 +177,14 @@ pub struct View {
 }
 
 impl View {
-    /// Its pixels: rows of linear light with premultiplied alpha.
+    /// Pixels of the picture: rows of linear light with premultiplied alpha.
     pub fn pixels(&self) -> Vec<[f32; 4]> {
         let photograph = self.photo.photograph();
         photograph.resample(self.window.size, |place| self.look(place))
     }
 
-    /// What lies over a pixel whose code and centre these are: nothing of the photograph, a tint, or the loupe's frame.
+    /// Code of a pixel with what lies over it: black outside of the photograph, a tint, or the loupe's frame. `place`
+    /// is the pixel's centre.
     pub fn covered(&self, code: [u8; 4], place: DVec2) -> [u8; 4] {
         let plane = self.window.location(place);
         if let Some(distance) = self.outside_loupe(place)
@@ -205,7 +206,7 @@ impl View {
         }
     }
 
-    /// Where in the photograph a pixel of the window looks, and how that changes from pixel to pixel.
+    /// Location in the photograph at which a pixel of the window looks, and its Jacobian.
     fn look(&self, place: DVec2) -> (DVec2, DMat2) {
         if let (Some((location, rate)), Some(zoomed)) = (self.unzoomed(place), self.photo.zoomed())
         {
@@ -219,8 +220,8 @@ impl View {
         }
     }
 
-    /// In the loupe, the location of the ordinary view, and how far its pixels are apart: what the image looks at in the
-    /// loupe's middle, and as far as there.
+    /// Location of the ordinary view for a place inside of the loupe, and the distance between its pixels. The loupe's
+    /// middle shows what the image shows there, as large.
     fn unzoomed(&self, place: DVec2) -> Option<(DVec2, f64)> {
         let (middle, zoomed) = (self.loupe?, self.photo.zoomed()?);
         if self.outside_loupe(place)? >= 0.0 {
@@ -231,7 +232,7 @@ impl View {
         Some((zoomed.map().location(plane) + rate * (place - middle), rate))
     }
 
-    /// How far a place is outside of the loupe, below 0 inside; `None` where there is none.
+    /// Distance of a place from the loupe, below 0 inside; `None` without a loupe.
     fn outside_loupe(&self, place: DVec2) -> Option<f64> {
         let half = LOUPE * f64::from(self.window.size[1]);
         Some((place - self.loupe?).abs().max_element() - half)

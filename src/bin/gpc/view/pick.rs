@@ -1,4 +1,4 @@
-//! What a line of sight meets.
+//! Triangle that a line of sight meets first.
 
 use glam::{DAffine3, DVec3};
 use gpc::camera::Ray;
@@ -35,7 +35,7 @@ pub fn first_hit(geometry: &Geometry, ray: &Ray) -> Option<DVec3> {
     nearest.map(|distance| ray.start + distance * ray.direction)
 }
 
-/// How many directions lie between start and triangle (Moeller and Trumbore, 1997).
+/// Distance from the start to a triangle, in lengths of the direction (Moeller and Trumbore, 1997).
 fn distance(start: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f64> {
     let (ab, ac) = (b - a, c - a);
     let p = direction.cross(ac);

@@ -10,7 +10,7 @@ use gpu_allocator::MemoryLocation;
 use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
 use std::sync::{Arc, PoisonError};
 
-/// All of an image of one level and one layer.
+/// Whole image of one level and one layer.
 pub const COLOR: vk::ImageSubresourceRange = vk::ImageSubresourceRange {
     aspect_mask: vk::ImageAspectFlags::COLOR,
     base_mip_level: 0,
@@ -19,7 +19,7 @@ pub const COLOR: vk::ImageSubresourceRange = vk::ImageSubresourceRange {
     layer_count: 1,
 };
 
-/// The same, for copies.
+/// Whole image of one level and one layer, for copies.
 pub const LAYERS: vk::ImageSubresourceLayers = vk::ImageSubresourceLayers {
     aspect_mask: vk::ImageAspectFlags::COLOR,
     mip_level: 0,
@@ -27,21 +27,21 @@ pub const LAYERS: vk::ImageSubresourceLayers = vk::ImageSubresourceLayers {
     layer_count: 1,
 };
 
-/// Where an image is copied from.
+/// State of an image from which is copied.
 pub const SOURCE: ImageState = ImageState {
     layout: vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
     stage: vk::PipelineStageFlags2::ALL_TRANSFER,
     access: vk::AccessFlags2::TRANSFER_READ,
 };
 
-/// Where an image is copied to.
+/// State of an image to which is copied.
 pub const DESTINATION: ImageState = ImageState {
     layout: vk::ImageLayout::TRANSFER_DST_OPTIMAL,
     stage: vk::PipelineStageFlags2::ALL_TRANSFER,
     access: vk::AccessFlags2::TRANSFER_WRITE,
 };
 
-/// What an image holds is not needed, but copies from it may still run.
+/// State of an image whose contents are not needed, while copies from it may still run.
 pub const UNUSED: ImageState = ImageState {
     layout: vk::ImageLayout::UNDEFINED,
     stage: vk::PipelineStageFlags2::ALL_TRANSFER,
@@ -55,7 +55,7 @@ pub struct Picture {
     memory: Option<Allocation>,
     size: [u32; 2],
     is_written: bool,
-    /// Where pixels of the host wait to be copied from.
+    /// Memory in which pixels of the host wait for their copy.
     staging: Option<Staging>,
 }
 
@@ -67,7 +67,7 @@ struct Staging {
 }
 
 impl Picture {
-    /// Of `size` = width and height in pixels.
+    /// Makes a picture of `size` = [width, height] in pixels.
     pub fn new(device: &Arc<Device>, size: [u32; 2]) -> anyhow::Result<Self> {
         let info = vk::ImageCreateInfo::default()
             .image_type(vk::ImageType::TYPE_2D)
@@ -160,7 +160,7 @@ impl Picture {
         self.is_written
     }
 
-    /// To have the renderer replace all of it.
+    /// Target for a renderer that replaces the whole picture.
     pub fn target(&mut self) -> Target {
         self.is_written = true;
         Target::Image {

@@ -11,12 +11,12 @@ pub struct Player {
     time: f64,
     duration: f64,
     speed: f64,
-    /// When the time was last moved, while it plays.
+    /// Time at which the animation was last advanced, while it plays.
     last: Option<Instant>,
 }
 
 impl Player {
-    /// At a time of an animation, in seconds.
+    /// Makes a paused player at a time of an animation, in seconds.
     pub fn new(time: f64, duration: f64) -> Self {
         Self {
             time,

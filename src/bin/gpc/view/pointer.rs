@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 const DOUBLE: Duration = Duration::from_millis(400);
 const NEAR: f64 = 5.0;
 
-/// What dragging does.
+/// Effect of dragging.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drag {
     Orbit,
@@ -27,7 +27,7 @@ pub struct Pointer {
 }
 
 impl Pointer {
-    /// Where it is, in pixels from the window's upper left corner.
+    /// Place of the pointer, in pixels from the window's upper left corner.
     pub fn place(&self) -> DVec2 {
         self.place
     }

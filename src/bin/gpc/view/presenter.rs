@@ -22,7 +22,7 @@ pub struct Presenter {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fit {
     Fits,
-    /// They have to be made anew.
+    /// The images have to be made anew.
     Stale,
 }
 
@@ -57,7 +57,7 @@ impl Presenter {
         }
     }
 
-    /// What came of the last image, once.
+    /// Result of presenting the last image; `None` until there is one, and when asked again.
     pub fn poll(&mut self) -> Option<Result<Fit, VulkanError>> {
         let outcome = self.outcomes.try_recv().ok()?;
         self.is_busy = false;

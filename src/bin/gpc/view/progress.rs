@@ -1,4 +1,4 @@
-//! How far loading has come, and whether anybody waits for it.
+//! Progress of loading, and whether anybody still waits for it.
 
 use anyhow::bail;
 use std::sync::Arc;
@@ -15,7 +15,7 @@ pub enum Step {
 impl Step {
     const ALL: [Self; 3] = [Self::Read, Self::Pose, Self::Prepare];
 
-    /// As the window says it.
+    /// Name of the step in the window.
     pub fn name(self) -> &'static str {
         match self {
             Self::Read => "reading the file",

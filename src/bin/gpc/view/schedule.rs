@@ -1,21 +1,23 @@
-//! What to render next: few samples while anything moves, more and more at rest, in bands that leave time for the window.
+//! Schedule of rendering: few samples while anything moves, more and more at rest, in bands that leave time for the
+//! window.
 
 use super::look::Look;
 use gpc::render::{Method, Statistics};
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
-/// Nothing has to have moved for this long before a picture is refined.
+/// Time without movement before a picture is refined.
 const REST: Duration = Duration::from_millis(150);
-/// What a band, or a picture while something moves, should take of the device.
+/// Milliseconds on the device that a band, or a picture while something moves, should take.
 const TARGET_MS: f64 = 80.0;
 /// Pictures in a row that take too long before the next ones have fewer samples: other programs may be busy for a moment.
 const MOST_SLOW: u32 = 2;
-/// What was too slow is not tried again for so long, unless there was a rest.
+/// Time before a number of samples that was too slow is tried again, unless there was a rest.
 const AGAIN: Duration = Duration::from_secs(2);
 /// Bands have multiples of this many rows: the height of a tile.
 const ROW_STEP: u32 = 4;
-/// How much longer a row is thought to take with the samples of the next step, until one has been rendered.
+/// Expected ratio of a row's time with the samples of the next step to that of the present one, until a row has been
+/// rendered.
 const STEP_COST: f64 = 2.0;
 /// Passes that take as long for one row as for all: they go over the scene's triangles.
 const OF_TRIANGLES: [&str; 4] = ["pose", "stroke", "thin", "cull"];
@@ -27,12 +29,12 @@ const STEPS: [u32; 2] = [64, 256];
 /// A part of the work on a picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Work {
-    /// All of it, at once.
+    /// Whole picture at once.
     Draft {
         /// Samples a pixel.
         samples: u32,
     },
-    /// Some rows of it.
+    /// Some rows of the picture.
     Band {
         /// Samples a pixel.
         samples: u32,
@@ -41,11 +43,11 @@ pub enum Work {
     },
 }
 
-/// What some work took of the device, in milliseconds.
+/// Milliseconds on the device that some work took.
 #[derive(Clone, Copy, Debug)]
 pub struct Took {
     pub ms: f64,
-    /// Of that, what it would have taken for one row, too.
+    /// Milliseconds of these that one row would also have taken.
     pub fixed_ms: f64,
 }
 
@@ -65,23 +67,23 @@ impl Took {
     }
 }
 
-/// What is left to do for a picture.
+/// Work that is left to do for a picture.
 #[derive(Debug)]
 pub struct Schedule {
     /// Samples while something moves, from the best.
     drafts: Vec<u32>,
     /// Samples of the one that is the picture at rest, if one is.
     final_draft: Option<u32>,
-    /// Which of them is quick enough.
+    /// Index of the draft that is quick enough.
     draft: usize,
-    /// How many pictures in a row were too slow.
+    /// Number of pictures in a row that were too slow.
     slow: u32,
-    /// When the one before it was found to be too slow.
+    /// Time at which the draft before it was found to be too slow.
     too_slow: Option<Instant>,
     /// Samples at rest, to those asked for.
     steps: Vec<u32>,
     height: u32,
-    /// When the picture last became another one.
+    /// Time at which the picture last changed.
     changed: Instant,
     step: Step,
     /// Milliseconds that a row is thought to take.
@@ -102,7 +104,7 @@ enum Step {
 }
 
 impl Schedule {
-    /// For a picture that nothing is rendered of.
+    /// Schedule of a picture of which nothing is rendered.
     pub fn new(look: &Look, now: Instant) -> Self {
         let asked = look.settings.samples;
         let below = |samples: &u32| *samples < asked && look.can_have(*samples);
@@ -183,7 +185,7 @@ impl Schedule {
         self.step == Step::Draft
     }
 
-    /// When the next work is due, if any is left.
+    /// Time at which the next work is due, if any is left.
     pub fn due(&self) -> Option<Instant> {
         match self.step {
             Step::Done => None,
@@ -249,7 +251,7 @@ impl Schedule {
         self.drafts.get(self.draft).copied().unwrap_or(1)
     }
 
-    /// What follows a picture with so many samples.
+    /// Step that follows a picture with so many samples.
     fn after(&self, done: u32) -> Step {
         let next = self.steps.iter().find(|step| **step > done);
         next.map_or(Step::Done, |samples| Step::Band {
@@ -271,7 +273,7 @@ mod tests {
             samples,
             ..Settings::new(100, height)
         };
-        Schedule::new(&Look::new(settings, None), now)
+        Schedule::new(&Look { settings }, now)
     }
 
     fn after(ms: u64, start: Instant) -> Instant {
@@ -426,7 +428,7 @@ mod tests {
             pattern: Pattern::Grid,
             ..Settings::new(100, 100)
         };
-        let schedule = Schedule::new(&Look::new(settings, None), start);
+        let schedule = Schedule::new(&Look { settings }, start);
         assert_eq!(schedule.drafts, [16, 4, 1]);
         assert_eq!(schedule.steps, [64, 256, 1024]);
     }

@@ -9,10 +9,10 @@ use gpc::vulkan::VulkanError;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// How many frames may be in flight.
+/// Largest number of frames in flight.
 pub const SLOTS: usize = 2;
 
-/// What commands may use though it is not shown any more.
+/// Replaced object that commands may still use.
 pub enum Kept {
     Stage(#[expect(dead_code, reason = "kept until it is dropped")] Box<Stage>),
     Pictures(#[expect(dead_code, reason = "kept until it is dropped")] Vec<Picture>),
@@ -29,7 +29,7 @@ pub struct Slot {
     is_busy: bool,
     /// Work of the layers.
     pub jobs: Vec<Job>,
-    /// What was replaced while they used it.
+    /// Replaced objects that the commands use.
     pub kept: Vec<Rc<Kept>>,
     /// Textures of the panel that these commands are the last to use.
     pub textures: Vec<egui::TextureId>,

@@ -1,4 +1,4 @@
-//! What is opened, in a thread of its own: reading a scene, posing it and making room for it on the device.
+//! Opening of files in a thread of its own: reading a scene, posing it and making room for it on the device.
 
 use super::engine::Engine;
 use super::navigate::Bounds;
@@ -12,7 +12,7 @@ use gpc::scene::{
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Which scene, and which moment of it.
+/// Selection of a file, a scene in it and a moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Source {
     pub path: PathBuf,
@@ -22,16 +22,16 @@ pub struct Source {
     pub request: PoseRequest,
 }
 
-/// What scenes are shown with that their files do not say.
+/// Appearance of scenes beyond what their files say.
 #[derive(Clone, Debug, Default)]
 pub struct Appearance {
     /// Light from all around in place of the studio.
     pub environment: Option<Arc<Environment>>,
-    /// Which edges of meshes are drawn.
+    /// Edges of meshes that are drawn; `None` for none.
     pub edges: Option<Edges>,
 }
 
-/// What a file holds.
+/// Contents of an opened file.
 pub enum Opened {
     Scene(Box<Stage>),
     Photo(Photo),
@@ -42,14 +42,14 @@ pub struct Stage {
     pub source: Source,
     pub scene: Arc<Scene>,
     pub prepared: Arc<PreparedScene>,
-    /// Where the scene has animations.
+    /// Motion of the scene, if it has animations.
     pub motion: Option<Motion>,
     pub animations: Vec<AnimationInfo>,
     pub cameras: Vec<SceneCamera>,
-    /// What is looked for under the pointer.
+    /// Triangles among which the one under the pointer is found.
     pub geometry: Geometry,
     pub bounds: Bounds,
-    /// What of the file can't be shown.
+    /// Warnings: parts of the file that can't be shown.
     pub warnings: Vec<String>,
     /// The scene's device goes after it.
     _engine: Arc<Engine>,
@@ -103,19 +103,17 @@ impl Source {
         progress.begin(Step::Pose)?;
         let animations = loaded.scene.info().animations;
         let renderer = &engine.renderer;
-        let (pose, motion, prepared);
-        if animations.is_empty() {
-            pose = loaded.scene.pose(&self.request)?;
-            motion = None;
-            progress.begin(Step::Prepare)?;
-            prepared = renderer.prepare_scene(&loaded.scene, &pose, max_memory)?;
+        let (pose, motion) = if animations.is_empty() {
+            (loaded.scene.pose(&self.request)?, None)
         } else {
-            let (posed, moving) = loaded.scene.pose_in_motion(&self.request)?;
-            let both = (&posed, &moving);
-            progress.begin(Step::Prepare)?;
-            prepared = renderer.prepare_scene_in_motion(&loaded.scene, both, max_memory)?;
-            (pose, motion) = (posed, Some(moving));
-        }
+            let (pose, motion) = loaded.scene.pose_in_motion(&self.request)?;
+            (pose, Some(motion))
+        };
+        progress.begin(Step::Prepare)?;
+        let request = SceneRequest::new(&loaded.scene, &pose)
+            .moving(motion.as_ref())
+            .within(max_memory);
+        let prepared = renderer.prepare_scene(request)?;
         let warnings = loaded.warnings.iter().chain(&pose.warnings);
         let warnings: Vec<_> = warnings.map(ToString::to_string).collect();
         Ok(Opened::Scene(Box::new(Stage {
@@ -138,7 +136,7 @@ impl Source {
         name.to_string_lossy().into_owned()
     }
 
-    /// The same for files made of it: without the extension.
+    /// File name without its extension, for names of files made of the scene.
     pub fn stem(&self) -> String {
         let stem = self.path.file_stem().unwrap_or(self.path.as_os_str());
         stem.to_string_lossy().into_owned()

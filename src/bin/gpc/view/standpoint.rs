@@ -1,14 +1,14 @@
-//! Where a scene is seen from: one of its cameras, or where the user went.
+//! Standpoints of a scene: one of its cameras, or the place to which the user went.
 
 use super::navigate::{Bounds, Turntable};
 use glam::DVec3;
 use gpc::camera::{Camera, CameraError, Orbit, Viewpoint};
 use gpc::scene::SceneCamera;
 
-/// Where the first scene is seen from at first.
+/// Standpoint in the first scene at the start.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Start {
-    /// Its first camera, or else where everything is seen.
+    /// First camera of the scene, or else a standpoint that sees everything.
     #[default]
     First,
     /// A camera by name or index.
@@ -20,11 +20,11 @@ pub enum Start {
         /// Vertical field of view in degrees.
         fov: f64,
     },
-    /// Where everything is seen from an angle.
+    /// Standpoint that sees everything from an angle.
     Around(Orbit),
 }
 
-/// There is nowhere to stand.
+/// Standpoint that does not exist.
 #[derive(Debug, thiserror::Error)]
 pub enum NoStart {
     #[error("there is no camera {asked}; the scene has {found}")]
@@ -73,7 +73,7 @@ fn find(asked: &str, cameras: &[SceneCamera]) -> Result<usize, NoStart> {
     })
 }
 
-/// Where a scene is seen from.
+/// Standpoint from which a scene is seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Standpoint {
     /// A camera of the scene by index.

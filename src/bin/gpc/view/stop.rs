@@ -11,7 +11,7 @@ const SUPERSEDED: u8 = 1;
 const UNWANTED: u8 = 2;
 
 impl Stop {
-    /// Something newer was asked for: what is nearly done may still be of use.
+    /// Marks the work as superseded by newer work: it may still be of use if it is nearly done.
     pub fn supersede(&self) {
         self.0.fetch_max(SUPERSEDED, Ordering::Relaxed);
     }
@@ -21,12 +21,12 @@ impl Stop {
         self.0.fetch_max(UNWANTED, Ordering::Relaxed);
     }
 
-    /// Whether it is not to be begun.
+    /// Whether the work is not to be begun any more.
     pub fn is_superseded(&self) -> bool {
         self.0.load(Ordering::Relaxed) >= SUPERSEDED
     }
 
-    /// Whether it is not to be ended, either.
+    /// Whether the work is not to be finished, either.
     pub fn is_unwanted(&self) -> bool {
         self.0.load(Ordering::Relaxed) >= UNWANTED
     }

@@ -36,14 +36,14 @@ const QUICK: u32 = 4;
 /// Brute force that pictures are compared with has at least so many samples.
 const REFERENCE_SAMPLES: u32 = 256;
 
-/// What is to be made of a scene.
+/// Kind of picture that is made of a scene.
 #[derive(Clone, Debug)]
 pub enum Subject {
     /// The scene, to look at.
     Still,
     /// The scene with regions enlarged, to look at, with or without colours over the transitions.
     Zoom(ZoomMap, bool),
-    /// What pixels hold beside their colours, to look at.
+    /// Values of pixels other than their colours, to look at.
     Overlay(Overlay),
     /// A PNG file as `gpc render` writes it or, with regions enlarged, `gpc zoom`, to the same bytes.
     File(PathBuf, Option<ZoomMap>),
@@ -57,7 +57,7 @@ struct Order {
     stop: Stop,
 }
 
-/// What it is of.
+/// Contents of an order.
 pub enum Task {
     Scene(Box<SceneTask>),
     Photo(photo::View),
@@ -65,7 +65,7 @@ pub enum Task {
     PhotoFile(photo::View, PathBuf),
 }
 
-/// What of a scene, and from where.
+/// Order for a picture of a scene: the scene, the standpoint and the settings.
 pub struct SceneTask {
     pub source: Source,
     pub scene: Arc<Scene>,
@@ -106,7 +106,7 @@ pub struct Pixels {
     pub size: [u32; 2],
     /// Rows of RGBA from the top: sRGB codes, premultiplied.
     pub codes: Vec<[u8; 4]>,
-    /// What there is to say of it.
+    /// Figures about the picture, in words.
     pub figures: Option<String>,
 }
 
@@ -124,7 +124,7 @@ impl Pixels {
         }
     }
 
-    /// The same with other codes, each made of the old one and the pixel's centre.
+    /// Replaces each code by one made of it and of the pixel's centre.
     fn map(mut self, change: impl Fn([u8; 4], DVec2) -> [u8; 4]) -> Self {
         let width = self.size[0].max(1);
         for (index, code) in self.codes.iter_mut().enumerate() {
@@ -135,14 +135,14 @@ impl Pixels {
     }
 }
 
-/// What became of an order.
+/// Result of an order.
 pub enum Made {
     Pixels(u64, anyhow::Result<Pixels>),
     File(PathBuf, anyhow::Result<()>),
 }
 
 impl Made {
-    /// Why there is nothing.
+    /// Error for which there is no result.
     fn error(&self) -> Option<&anyhow::Error> {
         match self {
             Self::Pixels(_, made) => made.as_ref().err(),
@@ -500,11 +500,10 @@ impl Maker {
                 time: task.time,
                 ..task.source.request.clone()
             })?;
-            let max_memory = task.settings.max_memory;
-            let mut prepared = headless.upload(&task.scene, &pose, max_memory)?;
-            if task.settings.shadows == Shadows::Exact {
-                headless.prepare_shadows(&mut prepared, &task.scene, &pose, max_memory)?;
-            }
+            let request = SceneRequest::new(&task.scene, &pose)
+                .shadowed(task.settings.shadows)
+                .within(task.settings.max_memory);
+            let prepared = headless.upload(request)?;
             self.shown = Some(Shown {
                 scene: task.scene.clone(),
                 time: task.time,

@@ -15,7 +15,7 @@ pub struct Swapchain {
     images: Vec<Shown>,
 }
 
-/// One of the window's images.
+/// Image of the window.
 struct Shown {
     image: vk::Image,
     view: vk::ImageView,
@@ -30,23 +30,23 @@ pub struct Acquired {
     pub index: u32,
     pub image: vk::Image,
     pub view: vk::ImageView,
-    /// To be signalled when it is drawn.
+    /// Semaphore to signal when the image is drawn.
     pub drawn: vk::Semaphore,
     /// Whether the swapchain no longer fits its window.
     pub stale: bool,
 }
 
-/// What came of asking for an image.
+/// Result of asking for an image.
 pub enum Turn {
     Ready(Acquired),
-    /// Nothing is free just now.
+    /// No image is free just now.
     Busy,
     /// The swapchain has to be made anew.
     Stale,
 }
 
 impl Swapchain {
-    /// For a window of that size, in the place of an older one.
+    /// Makes the images of a window of `size` = [width, height], which replace an older swapchain.
     pub fn new(device: &Arc<Device>, size: [u32; 2], older: Option<Self>) -> anyhow::Result<Self> {
         // SAFETY: queries and creations on a live device and surface. What was made is destroyed by `Drop`.
         unsafe {

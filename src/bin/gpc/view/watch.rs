@@ -4,7 +4,7 @@ use notify::{EventKind, RecommendedWatcher, RecursiveMode, Watcher};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-/// What scene files refer to beside them, of which no other program of interest writes any.
+/// Endings of the files that scene files refer to. No other program of interest writes such files.
 const BESIDE: [&str; 2] = ["bin", "mtl"];
 
 /// Watches a scene file until it is dropped.

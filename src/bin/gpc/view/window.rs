@@ -34,9 +34,9 @@ use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
 use winit::keyboard::ModifiersState;
 use winit::window::Window;
 
-/// How long to wait before asking again whether the device is done.
+/// Time to wait before asking again whether the device is done.
 const POLL: Duration = Duration::from_millis(3);
-/// How long a file has to be left alone before it is loaded again: it may be written in parts.
+/// Time for which a file has to stay unchanged before it is loaded again: programs may write it in parts.
 const SETTLE: Duration = Duration::from_millis(300);
 
 /// The window with all that is in it.
@@ -49,7 +49,7 @@ pub struct View {
     /// Files that the arrow keys go through, and which of them was asked for.
     pub scenes: Vec<PathBuf>,
     pub scene: usize,
-    /// What was asked for.
+    /// Source that was asked for.
     pub source: Source,
     pub loading: Option<Loading>,
     /// Loads that were begun, and the threads of those that have not ended.
@@ -57,22 +57,22 @@ pub struct View {
     pub loaders: Vec<JoinHandle<()>>,
     /// Tells when the scene's file changes.
     pub watch: Option<Watch>,
-    /// When to load the scene again.
+    /// Time to load the scene again.
     pub reload: Option<Instant>,
 
-    /// Where the scene has animations.
+    /// Player of the animation, if the scene has one.
     pub player: Option<Player>,
-    /// What is shown of the animation, unless it is the first pose.
+    /// Moment of the animation that is shown, unless it is the first pose.
     pub moment: Option<Arc<Moment>>,
 
     pub standpoint: Standpoint,
-    /// Where the first scene is seen from at first.
+    /// Standpoint in the first scene at the start.
     pub start: Option<Start>,
     /// While keys move the eye.
     pub flight: Option<Flight>,
-    /// How the pictures are antialiased, left first.
+    /// Antialiasing of the pictures, the left one first.
     pub looks: Vec<Look>,
-    /// What scenes are shown with.
+    /// Appearance of scenes beyond what their files say.
     pub appearance: Arc<Appearance>,
     /// The options of the command line that say the same, and what is behind the scene.
     pub appearance_options: Vec<String>,
@@ -83,10 +83,10 @@ pub struct View {
 
     pub pointer: Pointer,
     pub modifiers: ModifiersState,
-    /// What is looked at in the stead of the frames, and what there is to say of it.
+    /// Cover: a picture that is shown instead of the frames.
     pub cover: Cover,
     pub cover_figures: Option<String>,
-    /// In the stead of a scene.
+    /// Photograph that is shown instead of a scene.
     pub easel: Option<Easel>,
     /// Makes it, and files.
     pub studio: Studio,
@@ -95,15 +95,15 @@ pub struct View {
     pub shows_panel: bool,
     /// Whether the window has to be drawn again.
     pub is_dirty: bool,
-    /// When the panel has to be drawn again.
+    /// Time to draw the panel again.
     pub repaint: Option<Instant>,
     /// Whether the picture was said to be at rest.
     pub rests: bool,
     pub wants_to_quit: bool,
 
-    /// How devices are opened.
+    /// Options for opening devices.
     device: HeadlessOptions,
-    /// What the validation layer said of devices that were lost.
+    /// Messages of the validation layer about devices that were lost.
     messages: Vec<String>,
 }
 
@@ -187,7 +187,7 @@ impl View {
         Ok(view)
     }
 
-    /// The same view on a device that was opened again, after the one before was lost.
+    /// Opens a device again after the one before was lost, for the same view.
     pub fn reopened(mut self) -> anyhow::Result<Self> {
         let mut messages = std::mem::take(&mut self.messages);
         messages.extend(self.canvas.engine.device.validation_messages());
@@ -286,7 +286,7 @@ impl View {
         self.pixels().map(f64::from)
     }
 
-    /// The same as whole numbers; a window without a size has one pixel.
+    /// Size of the window in whole pixels; a window without a size has one pixel.
     pub fn pixels(&self) -> [u32; 2] {
         self.canvas.size().unwrap_or([1, 1])
     }

@@ -1,17 +1,17 @@
 //! Eigenvectors of small symmetric matrices, by Jacobi's method (G. Golub and C. Van Loan, "Matrix Computations", 4th
 //! edition, section 8.5).
 
-/// An eigenvalue and its unit vector.
+/// Eigenvalue and its unit vector.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Eigen<const N: usize> {
     pub value: f64,
     pub vector: [f64; N],
 }
 
-/// Sweeps at the most; it takes six or so.
+/// Most sweeps; about six suffice.
 const SWEEPS: u32 = 50;
 
-/// All eigenvalues of a symmetric matrix, from the least to the largest.
+/// Eigenvalues and eigenvectors of a symmetric matrix, the least first.
 pub(super) fn symmetric<const N: usize>(mut a: [[f64; N]; N]) -> [Eigen<N>; N] {
     let mut vectors = [[0.0; N]; N];
     for (i, vector) in vectors.iter_mut().enumerate() {
@@ -50,7 +50,7 @@ pub(super) fn symmetric<const N: usize>(mut a: [[f64; N]; N]) -> [Eigen<N>; N] {
     found
 }
 
-/// Places above the diagonal.
+/// Indices of the elements above the diagonal.
 fn pairs<const N: usize>() -> impl Iterator<Item = (usize, usize)> {
     (0..N).flat_map(|p| (p + 1..N).map(move |q| (p, q)))
 }

@@ -1,40 +1,40 @@
-//! Why a projector can't be calibrated.
+//! Errors of calibrating a projector.
 
 use crate::camera::set::SetError;
 
-/// Correspondences or maps that tell nothing about a projector.
+/// Correspondences or maps that calibrate no projector.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum ProjectorError {
-    /// A homography has eight unknowns, and each correspondence tells two.
+    /// Fewer than four correspondences: a homography has eight unknowns, and each correspondence determines two.
     #[error("{0} correspondences; a homography takes at least 4")]
     TooFew(usize),
-    /// A coordinate is NaN or infinite.
+    /// Coordinate that is NaN or infinite, by the index of its correspondence.
     #[error("correspondence {0} is not finite")]
     NotFinite(usize),
-    /// Points on one line leave the homography undetermined.
+    /// Points on one line, which leave the homography undetermined.
     #[error(
         "the points on the {0} are on one line or too nearly so; give some that span the area, no three of four on a line"
     )]
     Collinear(&'static str),
-    /// Too few agree on any homography.
+    /// Correspondences of which too few agree on a homography.
     #[error(
         "only {agreeing} of {count} correspondences agree to {tolerance} pixels on a homography; are they of a plane?"
     )]
     Outliers {
-        /// How many agree.
+        /// Number of correspondences that agree.
         agreeing: usize,
-        /// How many there are.
+        /// Number of all correspondences.
         count: usize,
-        /// The tolerance in pixels of the image plane.
+        /// Tolerance in pixels of the image plane.
         tolerance: f64,
     },
-    /// A corner of the projector looks behind the horizon of the plane.
+    /// Projector a corner of which looks behind the horizon of the plane.
     #[error(
         "the homography has its horizon inside of the projector's {} x {} pixels; the correspondences or the size are wrong",
         .0[0], .0[1]
     )]
     Horizon([u32; 2]),
-    /// The projector has no pixels, or the map another number.
+    /// Projector without pixels, or with another number of locations.
     #[error("a projector of {} x {} pixels and a map of {found} locations; there must be one for each pixel", .size[0], .size[1])]
     Size {
         /// Width and height in pixels.
@@ -42,10 +42,10 @@ pub enum ProjectorError {
         /// Number of locations.
         found: usize,
     },
-    /// No pixel of a dense map has a location.
+    /// Dense map without any location.
     #[error("the map has too few locations; each pixel that lights the wall needs one")]
     Dark,
-    /// The locations make no sampling set.
+    /// Locations that make no sampling set.
     #[error(transparent)]
     Set(#[from] SetError),
 }

@@ -6,7 +6,7 @@ use crate::camera::LocationMap;
 use crate::random::Random;
 use glam::{DMat2, DMat3, DVec2, DVec3};
 
-/// A place of one plane and where it is on another.
+/// Place on a projector and its location on the image plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Correspondence {
     /// Place on the projector, in pixels, (0, 0) its upper left corner.
@@ -15,25 +15,26 @@ pub struct Correspondence {
     pub location: [f64; 2],
 }
 
-/// A projective map from places to locations.
+/// Projective map from places to locations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Homography {
     matrix: DMat3,
     inverse: DMat3,
 }
 
-/// Points whose spread across their line is below this share of that along it are on the line.
+/// Smallest spread of points across a line, as a share of their spread along it, at which they are not on the line.
 const THINNEST: f64 = 1e-4;
 
-/// Eigenvalues below this share of the largest are zero.
+/// Largest share of the greatest eigenvalue that counts as zero.
 const ZERO: f64 = 1e-12;
 
 impl Homography {
-    /// The homography nearest to correspondences in the sense of the normalised direct linear transform (R. Hartley, "In
-    /// Defense of the Eight-Point Algorithm", IEEE TPAMI 19(6), 1997): exact for four of them.
+    /// Fits a homography to correspondences by the normalised direct linear transform (R. Hartley, "In Defense of the
+    /// Eight-Point Algorithm", IEEE TPAMI 19(6), 1997). Four correspondences are met exactly.
     ///
     /// # Errors
-    /// If there are fewer than four, one is not finite, or they do not determine it.
+    /// [`ProjectorError`] if there are fewer than four correspondences, one is not finite, or they do not determine a
+    /// homography.
     pub fn fit(pairs: &[Correspondence]) -> Result<Self, ProjectorError> {
         if pairs.len() < 4 {
             return Err(ProjectorError::TooFew(pairs.len()));
@@ -81,13 +82,13 @@ impl Homography {
         Self::new(matrix).ok_or(ProjectorError::Collinear("image plane"))
     }
 
-    /// A homography that most correspondences agree on to `tolerance` pixels of the image plane, and which ones those
-    /// are: the best of random fits to four of them, scored by their squared errors up to the tolerance (P. Torr and A.
-    /// Zisserman, "MLESAC", CVIU 78(1), 2000), fitted again to all that agree. `seed` chooses the random fits; the same
-    /// one gives the same result.
+    /// Fits a homography that most correspondences agree with to `tolerance` pixels of the image plane, and says which
+    /// ones do. The best of random fits to four correspondences, scored by their squared errors up to the tolerance (P.
+    /// Torr and A. Zisserman, "MLESAC", CVIU 78(1), 2000), is fitted again to all that agree. The same `seed` gives the
+    /// same result.
     ///
     /// # Errors
-    /// If fewer than half agree, otherwise as [`Homography::fit`].
+    /// [`ProjectorError`] if fewer than half agree, otherwise as [`Homography::fit`].
     pub fn fit_robust(
         pairs: &[Correspondence],
         tolerance: f64,
@@ -141,13 +142,13 @@ impl Homography {
         valid.then_some(Self { matrix, inverse })
     }
 
-    /// The matrix from (x, y, 1) to (u w, v w, w).
+    /// Matrix from (x, y, 1) to (u w, v w, w).
     #[must_use]
     pub fn matrix(&self) -> DMat3 {
         self.matrix
     }
 
-    /// The place that is sent to a location; `None` behind the horizon.
+    /// Place of a location; `None` behind the horizon.
     #[must_use]
     pub fn inverse(&self, location: DVec2) -> Option<DVec2> {
         let p = self.inverse * location.extend(1.0);
@@ -160,7 +161,7 @@ impl Homography {
         (self.matrix * place.extend(1.0)).z > 0.0
     }
 
-    /// Distance in pixels between where a pair's place is sent and where it should be.
+    /// Distance in pixels between the location that the map gives a pair's place and the pair's own.
     fn error(&self, pair: &Correspondence) -> f64 {
         let place = DVec2::from(pair.place);
         if !self.is_ahead(place) {
@@ -189,7 +190,7 @@ impl LocationMap for Homography {
     }
 }
 
-/// The similarity that brings points to the mean 0 and the mean distance sqrt(2); `None` where they are on a line.
+/// Similarity that brings points to the mean 0 and the mean distance sqrt(2); `None` if they are on a line.
 fn normalisation(points: impl Iterator<Item = DVec2> + Clone) -> Option<DMat3> {
     let count = points.clone().count() as f64;
     let mean = points.clone().sum::<DVec2>() / count;

@@ -27,27 +27,27 @@ use super::set::{Sample, SamplingSet};
 use glam::{DMat2, DVec2};
 use rayon::prelude::*;
 
-/// A calibrated projector.
+/// Calibrated projector.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Projector {
     size: [u32; 2],
     map: ProjectorMap,
 }
 
-/// From a projector's pixels to the image plane.
+/// Map from a projector's pixels to the image plane.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ProjectorMap {
-    /// A plane wall, and a lens that keeps lines straight.
+    /// Map of a plane wall, and a lens that keeps lines straight.
     Planar(Homography),
-    /// Anything else.
+    /// Map of any other wall or lens.
     Dense(WarpMap),
 }
 
 impl Projector {
-    /// A projector of `size` = width x height pixels in front of a plane wall.
+    /// Makes a projector of `size` = [width, height] pixels in front of a plane wall.
     ///
     /// # Errors
-    /// If it has no pixels, or one of them is behind the homography's horizon.
+    /// [`ProjectorError`] if it has no pixels, or one of them is behind the homography's horizon.
     pub fn planar(size: [u32; 2], map: Homography) -> Result<Self, ProjectorError> {
         if size.contains(&0) {
             return Err(ProjectorError::Size { size, found: 0 });
@@ -65,7 +65,7 @@ impl Projector {
         Ok(Self { size, map })
     }
 
-    /// A projector with a location for each of `size` = width x height pixels: see [`WarpMap::new`].
+    /// Makes a projector of `size` = [width, height] pixels with a location for each: see [`WarpMap::new`].
     ///
     /// # Errors
     /// As [`WarpMap::new`].
@@ -80,13 +80,13 @@ impl Projector {
         self.size
     }
 
-    /// Its map.
+    /// Map of the projector.
     #[must_use]
     pub fn map(&self) -> &ProjectorMap {
         &self.map
     }
 
-    /// The location that a pixel lights; `None` where it lights nothing.
+    /// Location that a pixel lights; `None` if it lights nothing.
     #[must_use]
     pub fn location(&self, row: u32, col: u32) -> Option<DVec2> {
         match &self.map {
@@ -97,8 +97,8 @@ impl Projector {
         }
     }
 
-    /// Change of the location for each column and row at a place on the projector, in pixels; `None` where it lights
-    /// nothing.
+    /// Change of the location for each column and row at a place on the projector, in pixels; `None` if the place
+    /// lights nothing.
     #[must_use]
     pub fn jacobian(&self, place: DVec2) -> Option<DMat2> {
         match &self.map {
@@ -107,7 +107,7 @@ impl Projector {
         }
     }
 
-    /// The place on the projector, in pixels, that lights a location; `None` where it does not.
+    /// Place on the projector, in pixels, that lights a location; `None` if none does.
     #[must_use]
     pub fn place(&self, location: DVec2) -> Option<DVec2> {
         let place = match &self.map {
@@ -119,10 +119,10 @@ impl Projector {
         inside.then_some(place)
     }
 
-    /// Where the picture is sampled for the projector's frame, row and column by row and column.
+    /// Sampling set of the projector's frame: the location of each of its lit pixels, row by row.
     ///
     /// # Errors
-    /// If a location is too far away, or none is lit.
+    /// [`ProjectorError`] if a location is too far away, or no pixel is lit.
     pub fn set(&self) -> Result<SamplingSet, ProjectorError> {
         const LEAF_SAMPLES: usize = 32;
         let map = match &self.map {
@@ -141,7 +141,7 @@ impl Projector {
             .or_else(|_| SamplingSet::no_pattern(self.size, samples, None, LEAF_SAMPLES))?)
     }
 
-    /// How far a place is inside of the projector: 0 on its border, 1 in the middle.
+    /// Depth of a place inside of the projector: 0 on its border, 1 in the middle.
     fn depth(&self, place: DVec2) -> f64 {
         let size = DVec2::new(f64::from(self.size[0]), f64::from(self.size[1]));
         (2.0 * place.min(size - place) / size)
@@ -150,9 +150,10 @@ impl Projector {
     }
 }
 
-/// The share of the light of each pixel of each projector, row by row, 0 to 1: how far inside of its projector it is,
-/// against how far inside of all projectors that light the same location. Weights fall to 0 at the border of an overlap
-/// without a jump, and those of one location add up to 1. Where only one projector shines its weight is 1.
+/// Blending weights of 0 to 1 for each pixel of each projector, row by row. A weight is the depth of the pixel inside
+/// of its projector over the sum of the depths in all projectors that light the same location. Weights fall to 0 at the
+/// border of an overlap without a jump, and add up to 1 at each location; a projector that shines alone has the weight
+/// 1.
 #[must_use]
 pub fn blend_weights(projectors: &[Projector]) -> Vec<Vec<f32>> {
     let weights = |own: &Projector| {

@@ -4,28 +4,29 @@ use super::ProjectorError;
 use super::homography::{Correspondence, Homography};
 use glam::{DMat2, DVec2};
 
-/// A location on the image plane for each pixel of a projector.
+/// Dense map: a location on the image plane for each pixel of a projector.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WarpMap {
     size: [u32; 2],
-    /// Row by row; not finite where a pixel lights nothing.
+    /// Locations row by row; not finite for a pixel that lights nothing.
     locations: Vec<DVec2>,
-    /// Where to begin to look for the place of a location.
+    /// Homography near the map, for first guesses of places.
     rough: Homography,
 }
 
-/// Pixels along each side that the rough homography is fitted to.
+/// Pixels along each side to which the rough homography is fitted.
 const FITTED: u32 = 24;
 
-/// A place is found when its location is this near, in pixels of the image plane.
+/// Largest distance, in pixels of the image plane, between a location and that of the place found for it.
 const NEAR: f64 = 1e-6;
 
 impl WarpMap {
-    /// From a location for the centre of each of `size` = width x height pixels, row by row; NaN where a pixel lights
+    /// Takes the locations of the centres of `size` = [width, height] pixels, row by row; NaN for a pixel that lights
     /// nothing.
     ///
     /// # Errors
-    /// Unless there is one for each pixel, and enough of them are finite and span an area.
+    /// [`ProjectorError`] if the number of locations is not that of the pixels, or too few of them are finite or span
+    /// an area.
     pub fn new(size: [u32; 2], locations: Vec<[f64; 2]>) -> Result<Self, ProjectorError> {
         let [width, height] = size;
         let found = locations.len();
@@ -56,7 +57,7 @@ impl WarpMap {
         })
     }
 
-    /// The location of the centre of a pixel; `None` where it lights nothing.
+    /// Location of a pixel's centre; `None` if the pixel lights nothing.
     #[must_use]
     pub fn at(&self, row: u32, col: u32) -> Option<DVec2> {
         let index = row as usize * self.size[0] as usize + col as usize;
@@ -64,8 +65,8 @@ impl WarpMap {
         location.filter(|location| location.is_finite())
     }
 
-    /// The place that lights a location: Newton's method on the bilinear map between the centres of pixels. `None` where
-    /// no lit pixel does.
+    /// Place that lights a location, by Newton's method on the bilinear map between the centres of pixels; `None` if no
+    /// lit pixel does.
     #[must_use]
     pub fn inverse(&self, location: DVec2) -> Option<DVec2> {
         let [width, height] = self.size.map(f64::from);
@@ -87,14 +88,14 @@ impl WarpMap {
         None
     }
 
-    /// Change of the location for each column and row at a place; `None` where the pixels around it light nothing.
+    /// Change of the location for each column and row at a place; `None` if the pixels around it light nothing.
     #[must_use]
     pub fn jacobian(&self, place: DVec2) -> Option<DMat2> {
         self.bilinear(place).map(|(_, slope)| slope)
     }
 
-    /// The location of a place and its derivative, bilinear between the centres of four pixels; half a pixel at the
-    /// borders is extrapolated.
+    /// Location of a place and its derivative, bilinear between the centres of four pixels. Half a pixel at the borders
+    /// is extrapolated.
     fn bilinear(&self, place: DVec2) -> Option<(DVec2, DMat2)> {
         let [width, height] = self.size;
         let last = DVec2::new(f64::from(width), f64::from(height)) - DVec2::splat(2.0);

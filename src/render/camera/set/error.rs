@@ -1,11 +1,11 @@
-//! What can be wrong with sampling locations.
+//! Errors of sampling locations.
 
 use super::FARTHEST;
 
 /// Locations that make no sampling set.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SetError {
-    /// There are no locations.
+    /// Set without locations.
     #[error("no sampling locations; give at least one")]
     Empty,
     /// More than a 32-bit index can tell apart.
@@ -14,23 +14,23 @@ pub enum SetError {
     /// NaN or infinite.
     #[error("sampling location {index} is ({u}, {v}); both coordinates must be finite")]
     NotFinite {
-        /// Its position among the locations, from 0.
+        /// Index among the locations.
         index: usize,
-        /// Its u.
+        /// Coordinate u of the location.
         u: f64,
-        /// Its v.
+        /// Coordinate v of the location.
         v: f64,
     },
-    /// So far from the image that single precision loses pixels.
+    /// Location so far from the image that single precision can't tell pixels apart.
     #[error(
         "sampling location {index} is ({u}, {v}); both coordinates must be within {FARTHEST} pixels of 0"
     )]
     Far {
-        /// Its position among the locations, from 0.
+        /// Index among the locations.
         index: usize,
-        /// Its u.
+        /// Coordinate u of the location.
         u: f64,
-        /// Its v.
+        /// Coordinate v of the location.
         v: f64,
     },
     /// The output has no such cell.
@@ -38,11 +38,11 @@ pub enum SetError {
         "sampling location {index} belongs to row {row} and column {col}, which an output of {columns} x {rows} has not"
     )]
     Cell {
-        /// Its position among the locations, from 0.
+        /// Index among the locations.
         index: usize,
-        /// Its row.
+        /// Row of the cell.
         row: u32,
-        /// Its column.
+        /// Column of the cell.
         col: u32,
         /// Columns of the output.
         columns: u32,
@@ -85,9 +85,9 @@ pub enum SetError {
     /// The window of a quad-tree is empty or not finite.
     #[error("the window from ({}, {}) to ({}, {}) holds nothing", .low[0], .low[1], .high[0], .high[1])]
     Window {
-        /// Its upper left corner.
+        /// Upper left corner of the window.
         low: [f64; 2],
-        /// Its lower right corner.
+        /// Lower right corner of the window.
         high: [f64; 2],
     },
 }

@@ -33,7 +33,7 @@ use super::{LocationMap, SampleLocation};
 use glam::{DMat2, DVec2};
 use neighbours::Neighbours;
 
-/// How far a location may lie from (0, 0), in pixels: single precision still tells sixteenths of a pixel apart there.
+/// Largest coordinate of a location, in pixels: single precision still tells sixteenths of a pixel apart there.
 pub const FARTHEST: f64 = 1_048_576.0;
 
 /// The most cells that an output may have.
@@ -45,7 +45,7 @@ const LEAF_SAMPLES: usize = 32;
 /// A sampling location and the cell of the output that it belongs to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// (u, v) in pixels of the plane.
+    /// Location (u, v) in pixels of the plane.
     pub uv: [f64; 2],
     /// Row of the output, from 0 at the top.
     pub row: u32,
@@ -85,7 +85,7 @@ pub struct SamplingSet {
     layout: Layout,
     /// Indices of the samples, cell by cell.
     members: Vec<u32>,
-    /// Where each cell begins in `members`, and where the last one ends.
+    /// Index in `members` at which each cell begins, and at which the last one ends.
     starts: Vec<u32>,
 }
 
@@ -181,11 +181,11 @@ impl SamplingSet {
         })
     }
 
-    /// One sample for each of `size` = columns and rows of the output, where `map` sends its centre: an offset set, or
-    /// one without pattern where no grid fits.
+    /// Makes a set of one sample for each of `size` = [columns, rows] of the output, at the location that `map` gives
+    /// its centre. The set has an offset pattern, or none where no grid fits.
     ///
     /// # Errors
-    /// If the output has no cells or too many, or the map leads to what is not finite or far away.
+    /// [`SetError`] if the output has no cells or too many, or a location is not finite or too far away.
     pub fn mapped(size: [u32; 2], map: &impl LocationMap) -> Result<Self, SetError> {
         check_size(size)?;
         let place = |(row, col)| DVec2::new(f64::from(col) + 0.5, f64::from(row) + 0.5);
@@ -265,7 +265,7 @@ impl SamplingSet {
         &self.samples
     }
 
-    /// What the cells are.
+    /// Layout of the cells.
     #[must_use]
     pub fn layout(&self) -> &Layout {
         &self.layout
@@ -302,8 +302,8 @@ impl SamplingSet {
         Some(offsets.collect())
     }
 
-    /// What the renderer samples, one for each sample in their order. Their Jacobians are those of the location map
-    /// where there is one, otherwise differences of the locations of neighbouring rows and columns.
+    /// Locations that the renderer samples, one for each sample, in their order. Jacobians are those of the location
+    /// map if there is one, otherwise differences of the locations of neighbouring rows and columns.
     #[must_use]
     pub fn locations(&self) -> Vec<SampleLocation> {
         let output = |sample: &Sample| sample.row * self.size[0] + sample.col;
@@ -348,7 +348,7 @@ impl SamplingSet {
         sums.into_iter().map(mean).collect()
     }
 
-    /// How densely and how evenly the plane is sampled.
+    /// Density and evenness of the samples.
     #[must_use]
     pub fn statistics(&self) -> SetStatistics {
         let fullest = self.cells().map(<[u32]>::len).max().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! How densely and how evenly a set samples its plane.
+//! Statistics of a set: density and evenness of its samples on the plane.
 
 use super::neighbours::Neighbours;
 use serde::Serialize;

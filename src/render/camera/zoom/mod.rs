@@ -29,47 +29,47 @@ use glam::{DMat2, DVec2};
 use profile::Profile;
 use serde::{Deserialize, Serialize};
 
-/// The outline of a zoomed region.
+/// Outline of a zoomed region.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Shape {
-    /// An ellipse with the region's radii as semi-axes; a circle where they are equal.
+    /// Ellipse with the region's radii as semi-axes; a circle if they are equal.
     #[default]
     Circle,
-    /// A rectangle with the region's radii as half sides.
+    /// Rectangle with the region's radii as half sides.
     Rectangle,
 }
 
-/// A region of the output that is shown enlarged.
+/// Region of the output that is shown enlarged.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ZoomRegion {
-    /// Its centre in pixels of the output, (0, 0) the upper left corner.
+    /// Centre in pixels of the output; the upper left corner is (0, 0).
     pub center: [f64; 2],
-    /// Its radii along x and y in pixels of the output, above 0.
+    /// Radii along x and y in pixels of the output, above 0.
     pub radius: [f64; 2],
-    /// m, above 0 and at most 1: the inside is enlarged by 1/m.
+    /// Multiplicity m, above 0 and at most 1: the inside is enlarged by 1/m.
     pub multiplicity: f64,
-    /// Its outline.
+    /// Outline of the region.
     pub shape: Shape,
-    /// How it joins its surroundings.
+    /// Transition to the surroundings.
     pub transition: Transition,
 }
 
-/// A region that can't be.
+/// Region that can't be shown.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum ZoomError {
-    /// Above 1 the region would shrink, and above the square root of 2 fold.
+    /// Multiplicity out of range: above 1 the region would shrink, and above the square root of 2 it would fold.
     #[error(
         "a multiplicity of {0}: it must be above 0 and at most 1; 0.5 shows things twice as large"
     )]
     Multiplicity(f64),
-    /// Not finite, or not above 0.
+    /// Radii that are not finite, or not above 0.
     #[error("a radius of {} x {} pixels: both must be above 0", .0[0], .0[1])]
     Radius([f64; 2]),
-    /// Not finite.
+    /// Centre that is not finite.
     #[error("a centre at ({}, {}): both must be finite", .0[0], .0[1])]
     Center([f64; 2]),
-    /// There is nothing to zoom.
+    /// Zoom without any region.
     #[error("no region to zoom; give at least one")]
     Empty,
 }
@@ -92,7 +92,7 @@ impl ZoomRegion {
         Profile::new(self.multiplicity, self.transition)
     }
 
-    /// How far a place is from the centre, in radii, and the gradient of that.
+    /// Distance of a place from the centre, in radii, and its gradient.
     fn distance(&self, place: DVec2) -> (f64, DVec2) {
         let scaled = (place - DVec2::from(self.center)) / DVec2::from(self.radius);
         let (q, gradient) = match self.shape {
@@ -111,7 +111,7 @@ impl ZoomRegion {
         self.profile().outer()
     }
 
-    /// What an ordinary image of the inside shows: the rectangle around it, with a pixel for each of its pixels.
+    /// Window of an ordinary image of the inside: the rectangle around it, with as many pixels as the output has there.
     #[must_use]
     pub fn window(&self) -> Window {
         let size = self
@@ -171,19 +171,19 @@ impl ZoomRegion {
     }
 }
 
-/// The location map of zoomed regions, one after the other: a pixel looks where the last region's map sends what the
-/// map before it has found, and so on from the first, which takes the pixel itself.
+/// Location map of zoomed regions, composed in their order: the first region's map takes the pixel, and each further
+/// map takes what the one before it gives.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ZoomMap {
     regions: Vec<ZoomRegion>,
 }
 
 impl ZoomMap {
-    /// The composed map of regions, in their order.
+    /// Composes the maps of regions, in their order.
     ///
     /// # Errors
-    /// If there are none, or one of them has a multiplicity outside of (0, 1], a radius that is not above 0 or a centre
-    /// that is not finite.
+    /// [`ZoomError`] if there are none, or one of them has a multiplicity outside of (0, 1], a radius that is not above
+    /// 0 or a centre that is not finite.
     pub fn new(regions: Vec<ZoomRegion>) -> Result<Self, ZoomError> {
         if regions.is_empty() {
             return Err(ZoomError::Empty);
@@ -192,13 +192,13 @@ impl ZoomMap {
         Ok(Self { regions })
     }
 
-    /// The regions, in the order of their maps.
+    /// Regions in the order of their maps.
     #[must_use]
     pub fn regions(&self) -> &[ZoomRegion] {
         &self.regions
     }
 
-    /// The place of the output that looks at a location: the inverse of [`LocationMap::location`].
+    /// Place of the output that looks at a location: the inverse of [`LocationMap::location`].
     #[must_use]
     pub fn inverse(&self, location: DVec2) -> DVec2 {
         let regions = self.regions.iter().rev();

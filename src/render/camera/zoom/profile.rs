@@ -1,4 +1,5 @@
-//! How far from the centre a zoomed region looks, along any line through the centre.
+//! Profile of a zoomed region: the distance from the centre at which an output pixel looks, along any line through the
+//! centre.
 //!
 //! Distances are in radii of the region: an output pixel at distance q looks at distance s(q). With multiplicity m and
 //! Q = 1 + 1/m, the outer end of the transition,
@@ -11,12 +12,12 @@
 //! and in between
 //!
 //! - *linear*: q is moved by the share t = (Q - q) m of what it is moved by inside, s(q) = q (1 - t (1 - m)), a parabola.
-//!   Its slope is a line, from m (2 - m) at q = 1 to 2 - m^2 at q = Q: positive for 0 < m < sqrt(2), so that nothing
-//!   folds, but it jumps from m to m (2 - m) at the inner border and from 2 - m^2 to 1 at the outer one.
+//! Its slope is a line, from m (2 - m) at q = 1 to 2 - m^2 at q = Q: positive for 0 < m < sqrt(2), so that nothing
+//! folds, but it jumps from m to m (2 - m) at the inner border and from 2 - m^2 to 1 at the outer one.
 //! - *smooth*: the cubic with the values m and Q and the slopes m and 1 at the two borders. There is exactly one. Its mean
-//!   slope is D = m (Q - m) = 1 + m - m^2 and the second derivative of its slope, per unit of the transition squared,
-//!   6 (m + 1 - 2 D) = 6 (2 m + 1) (m - 1), which is not positive for m <= 1: the slope is concave, and so at least
-//!   min(m, 1) = m everywhere.
+//! slope is D = m (Q - m) = 1 + m - m^2 and the second derivative of its slope, per unit of the transition squared,
+//! 6 (m + 1 - 2 D) = 6 (2 m + 1) (m - 1), which is not positive for m <= 1: the slope is concave, and so at least
+//! min(m, 1) = m everywhere.
 //!
 //! The area that an output pixel looks at is s'(q) s(q) / q for circles and rectangles alike, since s depends on q alone
 //! and q grows in proportion along lines through the centre. s is continuous, so the *rate* of sampling, 1 / area, is
@@ -24,18 +25,19 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What joins a zoomed region to its surroundings.
+/// Transition from a zoomed region to its surroundings.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Transition {
-    /// The displacement fades linearly with the distance: locations are continuous, their rate jumps at both borders.
+    /// Displacement that fades linearly with the distance: locations are continuous, and their rate jumps at both
+    /// borders.
     #[default]
     Linear,
-    /// A cubic: locations and their rate are continuous.
+    /// Cubic profile: locations and their rate are continuous.
     Smooth,
 }
 
-/// s(q) for one multiplicity.
+/// Function s(q) for one multiplicity.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Profile {
     m: f64,
@@ -47,12 +49,12 @@ impl Profile {
         Self { m, transition }
     }
 
-    /// Q, where the transition ends.
+    /// Distance Q at which the transition ends.
     pub(super) fn outer(&self) -> f64 {
         1.0 + 1.0 / self.m
     }
 
-    /// s(q) / q, the factor on the way from the centre, and the slope s'(q).
+    /// Factor s(q) / q on the way from the centre, and the slope s'(q).
     pub(super) fn factor_and_slope(&self, q: f64) -> [f64; 2] {
         let m = self.m;
         if q <= 1.0 {
@@ -80,7 +82,7 @@ impl Profile {
         }
     }
 
-    /// The q of a value of s: Newton's method, kept in a bracket that is halved where it would leave.
+    /// Distance q of a value of s, by Newton's method in a bracket, which is halved where Newton's step would leave it.
     pub(super) fn inverse(&self, s: f64) -> f64 {
         let outer = self.outer();
         if s <= self.m {

@@ -1,16 +1,16 @@
-//! An ordinary view of part of an image plane.
+//! Ordinary view of a part of an image plane.
 
 use crate::camera::LocationMap;
 use glam::{DMat2, DVec2};
 
-/// A rectangle of an image plane, sampled regularly.
+/// Rectangle of an image plane that is sampled regularly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
     /// Columns and rows.
     pub size: [u32; 2],
-    /// Location of its upper left corner, in pixels of the plane.
+    /// Location of the upper left corner, in pixels of the plane.
     pub corner: [f64; 2],
-    /// How far its columns and rows are apart, in pixels of the plane.
+    /// Distance between columns and between rows, in pixels of the plane.
     pub step: f64,
 }
 

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
-/// Its texels, rows from the top. The middle is seen along -z, and what is right of it towards +x.
+/// Equirectangular image, rows from the top. Its middle is seen along -z, the right of it towards +x.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Equirectangular {
     pub(super) width: u32,
@@ -12,7 +12,7 @@ pub(super) struct Equirectangular {
 }
 
 impl Equirectangular {
-    /// What is seen along a unit vector, between the nearest texels; columns go on around.
+    /// Colour seen along a unit vector, interpolated between the nearest texels; columns wrap around.
     pub(super) fn towards(&self, direction: DVec3) -> DVec3 {
         let u = direction.x.atan2(-direction.z) / TAU + 0.5;
         let v = direction.y.clamp(-1.0, 1.0).acos() / PI;

@@ -25,7 +25,7 @@ pub(super) fn basis(d: DVec3) -> [f64; 9] {
     ]
 }
 
-/// What the cosine makes of each band, over pi.
+/// Factor of the cosine for each band, over pi.
 const COSINE: [f64; 9] = {
     let (one, two) = (2.0 / 3.0, 0.25);
     [1.0, one, one, one, two, two, two, two, two]

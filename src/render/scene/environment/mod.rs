@@ -9,7 +9,7 @@ use glam::{DMat3, DQuat, DVec3};
 use cube::Cube;
 use equirectangular::Equirectangular;
 
-/// Why an image is no environment.
+/// Image that is no environment.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum EnvironmentError {
     /// The numbers are not those of an image.
@@ -31,15 +31,15 @@ pub enum EnvironmentError {
         x: u32,
         /// Row.
         y: u32,
-        /// What was found there.
+        /// Colour that was found there.
         color: String,
     },
 }
 
-/// What surfaces see of an environment map: all of it, and what a matt surface gathers.
+/// Environment map, and the light that a matt surface gathers from it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Environment {
-    /// What it was made of, where that was one image.
+    /// Image that the environment was made of, if it was one.
     image: Option<Equirectangular>,
     /// The image as a cube, and ever coarser averages of it down to a texel a face. Where there was none, level `i` of `n` is
     /// what a surface of the perceptual roughness `i / (n - 1)` reflects.
@@ -106,7 +106,7 @@ impl Environment {
         }
     }
 
-    /// The same turned about the vertical axis, by `angle` in radians, counter-clockwise seen from above.
+    /// Turns the environment about the vertical axis by `angle` in radians, counter-clockwise seen from above.
     #[must_use]
     pub fn turned(mut self, angle: f64) -> Self {
         self.rotation *= DMat3::from_rotation_y(-angle);
@@ -147,7 +147,7 @@ impl Environment {
         }
     }
 
-    /// What a matt white surface facing the world direction `normal` reflects.
+    /// Light that a matt white surface with the normal `normal` in the world reflects.
     #[must_use]
     pub fn irradiance_towards(&self, normal: DVec3) -> DVec3 {
         let basis = harmonics::basis(self.rotation * normal.normalize());

@@ -30,11 +30,11 @@ const LEAST_SAVED: usize = 1 << 16;
 /// A placement and where its elements go.
 struct Job<'p, 'd> {
     placement: Placement<'d>,
-    /// Of its placement, or of one of them.
+    /// Index of its placement, or of one of its placements.
     index: usize,
     class: DrawClass,
     first_vertex: u32,
-    /// What its positions are made relative to.
+    /// Origin that its positions are relative to.
     origin: DVec3,
     /// Placements that draw it, of one mesh in a space of its own; none where it is in world space.
     instances: Vec<&'p Placement<'d>>,
@@ -108,9 +108,9 @@ pub fn assemble(
     Ok((geometry, moving.collect()))
 }
 
-/// Where the vertices of a placement that moves are.
+/// Vertices of a placement that moves.
 pub struct MovingPlacement {
-    /// Its index.
+    /// Index of the placement.
     pub placement: usize,
     pub first_vertex: u32,
 }
@@ -119,7 +119,7 @@ fn stream<T: Clone>(needed: bool, count: usize, default: T) -> Vec<T> {
     vec![default; if needed { count } else { 0 }]
 }
 
-/// Which optional streams some job has something for.
+/// Optional vertex streams that some job needs.
 struct Needed {
     tangents: bool,
     uvs: bool,
@@ -233,7 +233,7 @@ fn jobs<'p, 'd>(
     jobs
 }
 
-/// Where the triangles of jobs are drawn; empty where all are in world space.
+/// Instances that draw the triangles of jobs; empty if all are in world space.
 fn instances(jobs: &[Job<'_, '_>], origin: DVec3) -> Vec<Instance> {
     if jobs.iter().all(|job| job.instances.is_empty()) {
         return Vec::new();
@@ -428,7 +428,7 @@ impl Job<'_, '_> {
         }
     }
 
-    /// Its corners of points and lines.
+    /// Corners of its points and lines.
     fn strokes(&self) -> impl Iterator<Item = Stroke> {
         let primitive = self.placement.primitive;
         let first = self.first_vertex;
@@ -446,7 +446,7 @@ impl Job<'_, '_> {
             })
     }
 
-    /// Its edges.
+    /// Edges of its mesh.
     fn edges(&self) -> impl Iterator<Item = Edge> {
         let edges = self.placement.primitive.edges.iter();
         edges.map(|edge| edge.placed(self.first_vertex, self.placement.mirrored))

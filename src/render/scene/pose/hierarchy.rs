@@ -1,4 +1,4 @@
-//! Where every node is at one moment.
+//! Transforms of all nodes at one moment.
 
 use glam::{DAffine3, DQuat, DVec3};
 use gltf::json::animation::Property;
@@ -9,11 +9,11 @@ use crate::scene::document::{Animated, Channel, Document, Transform};
 /// The nodes at one moment.
 #[derive(Debug)]
 pub struct State {
-    /// Of every node, from its space to the world.
+    /// Transform of every node from its space to the world.
     pub world: Vec<DAffine3>,
-    /// Of every node, animated morph weights.
+    /// Animated morph weights of every node.
     pub weights: Vec<Option<Vec<f64>>>,
-    /// Of every node, whether it is drawn.
+    /// Whether each node is drawn.
     pub drawn: Vec<bool>,
 }
 

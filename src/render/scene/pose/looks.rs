@@ -18,9 +18,9 @@ use crate::scene::{
 pub struct Looks {
     /// Materials that the animation changes, by index and in its order, with their unlit copies.
     pub materials: Vec<(usize, Material)>,
-    /// All lights, as in the document.
+    /// Lights, in the document's order.
     pub lights: Vec<Option<Light>>,
-    /// All cameras, likewise.
+    /// Projections of cameras, in the document's order.
     pub cameras: Vec<Option<SceneProjection>>,
 }
 

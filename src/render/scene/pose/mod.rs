@@ -1,4 +1,4 @@
-//! From a document to the triangles, lights and cameras of one scene at one moment.
+//! Poses: from a document to the triangles, lights and cameras of one scene at one moment.
 
 mod assemble;
 mod hierarchy;
@@ -29,7 +29,7 @@ pub(crate) use motion::MovingBounds;
 pub use motion::{Moment, Motion, MotionPart};
 use placement::Placement;
 
-/// Which scene, and which moment of which animation.
+/// Selection of a scene, an animation and a moment of it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PoseRequest {
     /// Index of the scene; `None` is the file's default, or else its first.
@@ -44,7 +44,7 @@ pub struct PoseRequest {
 /// A scene at one moment, in world space.
 #[derive(Clone, Debug)]
 pub struct Pose {
-    /// All triangles.
+    /// Triangles of the scene.
     pub geometry: Geometry,
     /// Materials that an animation has changed, in place of the scene's of these indices, which ascend.
     pub materials: Vec<(usize, Material)>,
@@ -54,12 +54,12 @@ pub struct Pose {
     pub environment: Option<Arc<Environment>>,
     /// The cameras, in the order of a depth-first walk.
     pub cameras: Vec<SceneCamera>,
-    /// What could not be posed, and why.
+    /// Warnings: parts that could not be posed, and why.
     pub warnings: Vec<String>,
 }
 
 impl Pose {
-    /// All materials of its scene, as they are at its moment.
+    /// Materials of the scene at the moment of the pose.
     #[must_use]
     pub fn materials<'s>(&self, scene: &'s Scene) -> Cow<'s, [Material]> {
         if self.materials.is_empty() {
@@ -74,7 +74,8 @@ impl Pose {
         Cow::Owned(materials)
     }
 
-    /// What lights it from all around unless the studio does: its scene's [environment](Scene::environment), or else the file's.
+    /// Environment that lights the pose: its scene's [environment](Scene::environment), or else the file's; `None` if
+    /// the studio lights it.
     #[must_use]
     pub fn environment<'s>(&'s self, scene: &'s Scene) -> Option<&'s Environment> {
         let own = self.environment.as_deref();
@@ -82,7 +83,7 @@ impl Pose {
     }
 }
 
-/// What a moment shows, before its triangles are put together.
+/// Contents of a moment, before triangles are put together.
 struct Shown<'d> {
     materials: Vec<(usize, Material)>,
     placements: Vec<Placement<'d>>,
@@ -149,7 +150,7 @@ pub(super) fn environment_of(
     document.environments.get(scene)?.clone()
 }
 
-/// What a scene shows at a moment.
+/// Collects what a scene shows at a moment.
 fn show<'d>(
     scene: &'d Scene,
     request: &PoseRequest,
@@ -238,7 +239,7 @@ pub(super) fn drawn_nodes(document: &Document, scene: Option<usize>) -> Vec<usiz
     drawn
 }
 
-/// What the camera of a node is called, and its projection, one of `cameras`.
+/// Name of a node's camera, and its projection, which is one of `cameras`.
 pub(super) fn camera_of(
     document: &Document,
     cameras: &[Option<SceneProjection>],
@@ -262,8 +263,7 @@ pub(super) fn primitives_of<'d>(document: &'d Document, node: &Node) -> &'d [Pri
     mesh.map_or(&[], Vec::as_slice)
 }
 
-/// How often a node's mesh is drawn. A skin gives its mesh a place by itself, so that instances of
-/// it would coincide.
+/// Number of times that a node's mesh is drawn. A skin places its mesh by itself, so that instances would coincide.
 pub(super) fn copies(document: &Document, index: usize) -> usize {
     match &document.nodes[index].instances {
         Some(instances) if document.root.nodes[index].skin.is_none() => instances.len(),

@@ -1,4 +1,4 @@
-//! One primitive at one place: how its vertices move into the world.
+//! Placements: one primitive at one place, and the way of its vertices into the world.
 
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ pub struct Placement<'d> {
     /// Morph targets that have an effect: weight, index, displacements.
     pub targets: Arc<[(f64, usize, &'d Target)]>,
     motion: Motion,
-    /// Whether it is to be moved by the device.
+    /// Whether the device moves the vertices.
     pub moves: bool,
     /// Whether the way into the world mirrors, so that the winding has to be mended.
     pub mirrored: bool,
@@ -29,11 +29,11 @@ pub struct Placement<'d> {
 #[derive(Clone, Debug)]
 enum Motion {
     Rigid(Frame),
-    /// From the space of the bound mesh to the world, of every joint.
+    /// Transform of every joint, from the space of the bound mesh to the world.
     Skinned(Arc<[DAffine3]>),
 }
 
-/// How one vertex moves.
+/// Transform of one vertex.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
     affine: DAffine3,
@@ -58,14 +58,14 @@ impl Frame {
         }
     }
 
-    /// How much longer lengths become.
+    /// Ratio by which lengths become longer.
     pub fn scale(&self) -> f32 {
         length_scale(&self.affine) as f32
     }
 }
 
 impl<'d> Placement<'d> {
-    /// All primitives of a node, as often as it draws them.
+    /// Placements of all primitives of a node, as often as it draws them.
     pub fn of_node(
         document: &'d Document,
         index: usize,
@@ -130,7 +130,7 @@ impl<'d> Placement<'d> {
         is_rigid.then_some(self.primitive)
     }
 
-    /// From its mesh's space to the world, where all vertices move alike.
+    /// Transform from the mesh's space to the world, if all vertices have the same.
     pub fn rigid(&self) -> Option<DAffine3> {
         match &self.motion {
             Motion::Rigid(frame) => Some(frame.affine),
@@ -138,7 +138,7 @@ impl<'d> Placement<'d> {
         }
     }
 
-    /// From its mesh's space to the world: of each joint, or the one of its node.
+    /// Transforms from the mesh's space to the world: those of all joints, or the one of the node.
     pub fn matrices(&self) -> &[DAffine3] {
         match &self.motion {
             Motion::Rigid(frame) => std::slice::from_ref(&frame.affine),
@@ -151,7 +151,7 @@ impl<'d> Placement<'d> {
         matches!(self.motion, Motion::Skinned(_))
     }
 
-    /// The same mesh in another place.
+    /// Placement of the same mesh at another place.
     pub fn at(&self, affine: DAffine3) -> Self {
         let frame = Frame::new(affine);
         Self {
@@ -161,7 +161,7 @@ impl<'d> Placement<'d> {
         }
     }
 
-    /// How vertex `v` moves.
+    /// Transform of vertex `v`.
     #[inline]
     pub fn frame(&self, v: usize) -> Frame {
         match &self.motion {

@@ -183,7 +183,7 @@ fn read_keyframes(
     })
 }
 
-/// What channels are read with.
+/// Reader of channels.
 struct Reader<'c, 'm> {
     context: &'c mut Context<'m>,
     nodes: &'c [Node],
@@ -260,7 +260,7 @@ impl Reader<'_, '_> {
     }
 }
 
-/// What is drawn of a description.
+/// Relevance of a description's numbers for the image.
 #[derive(PartialEq)]
 enum Looks {
     Material(Box<Material>),
@@ -268,7 +268,7 @@ enum Looks {
     Camera(SceneProjection),
 }
 
-/// All numbers of an accessor of up to four components.
+/// Numbers of an accessor of up to four components.
 fn numbers(
     accessor: Accessor<'_>,
     cache: &mut HashMap<String, Arc<[f32]>>,

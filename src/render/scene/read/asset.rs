@@ -1,4 +1,4 @@
-//! What a file says about itself: its version and its extensions (glTF 2.0, sections 3.2 and 3.12).
+//! Version and extensions of a file (glTF 2.0, sections 3.2 and 3.12).
 
 use gltf::json::{Asset, Root};
 use serde_json::Value;
@@ -39,8 +39,8 @@ const SUPPORTED: [(&str, bool); 25] = [
     ("KHR_texture_transform", true),
 ];
 
-/// Those among them that are drawn otherwise than a path tracer would, and how; of others than these the lighting alone is
-/// approximate.
+/// Supported extensions that are drawn otherwise than a path tracer would, and the difference. Of the others, lighting
+/// alone is approximate.
 const APPROXIMATED: [(&str, &str); 3] = [
     (
         "KHR_materials_diffuse_transmission",

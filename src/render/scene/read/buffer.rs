@@ -7,7 +7,7 @@ use gltf::json::{Buffer, Index, buffer::View as Description, validation::USize64
 use super::{meshopt, model::Model, uri};
 use crate::scene::error::Fault;
 
-/// All buffers and views of a document.
+/// Buffers and views of a document.
 pub struct Buffers<'a> {
     model: &'a Model,
     binary: Option<&'a [u8]>,

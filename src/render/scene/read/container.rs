@@ -1,4 +1,4 @@
-//! From a file's bytes to its JSON document and binary chunk (glTF 2.0, section 4).
+//! JSON document and binary chunk in a file's bytes (glTF 2.0, section 4).
 
 use serde_json::Value;
 
@@ -114,5 +114,5 @@ fn split_glb<'a>(bytes: &'a [u8], file: &str) -> Result<(&'a [u8], Option<&'a [u
     Ok((json, binary))
 }
 
-/// What to do about glTF 1.0.
+/// Advice for files of glTF 1.0.
 pub const CONVERT_OLD: &str = "convert it with `gltf-pipeline -i OLD -o NEW.glb`";

@@ -28,7 +28,7 @@ pub struct Descriptions {
 }
 
 impl Descriptions {
-    /// Those of a document.
+    /// Collects the descriptions of a document.
     pub fn new(model: &Model) -> Self {
         let all = |place: &str| -> Vec<Value> {
             let elements = model.at(place).and_then(Value::as_array);
@@ -93,7 +93,7 @@ impl Descriptions {
         camera::read(&item, &place, &self.model)
     }
 
-    /// What `read` makes of a description, and its warnings.
+    /// Result of `read` on a description, and its warnings.
     fn with_context<T>(
         &self,
         warnings: &mut Warnings,
@@ -134,7 +134,7 @@ impl Descriptions {
 /// Heaviest description: it is read again at each moment, and for each channel.
 const MOST: usize = 1 << 12;
 
-/// How many values there are in one, a long text counted as many.
+/// Number of values in a JSON value; a long text counts as several.
 fn weight(value: &Value) -> usize {
     const TEXT: usize = 16;
     match value {

@@ -23,7 +23,7 @@ pub const NAME: &str = "KHR_draco_mesh_compression";
 /// Most elements that one encoded byte is allowed to stand for. Equal values cost next to nothing,
 /// so that an honest file may come to thousands.
 const ELEMENTS_PER_BYTE: u64 = 65_536;
-/// What exporters write may differ from what is decoded: a seam splits a vertex.
+/// Allowed excess of decoded over declared elements: a seam splits a vertex.
 const SLACK: u64 = 1024;
 /// Most bytes of one decoded attribute value.
 const WIDEST: u64 = 64;

@@ -113,7 +113,7 @@ impl Images {
         Ok(self.decoded.len() as u32 - 1)
     }
 
-    /// Where image `index` is among the decoded ones.
+    /// Index of image `index` among the decoded ones.
     pub fn place(&self, index: usize) -> Option<u32> {
         self.places.get(&index).copied().flatten()
     }
@@ -142,7 +142,7 @@ fn fetch<'b>(
     Ok((bytes, place))
 }
 
-/// How an image is encoded.
+/// Encoding of an image.
 #[derive(Clone, Copy)]
 enum Format {
     /// PNG, JPEG or WebP.

@@ -9,7 +9,7 @@ pub const MAX_ELEMENTS: u64 = 1 << 27;
 /// Most instances of `EXT_mesh_gpu_instancing` in a file.
 const MAX_INSTANCES: u64 = 1 << 22;
 
-/// What was read so far.
+/// Amounts that were read so far.
 #[derive(Debug, Default)]
 pub struct Budget {
     vertices: AtomicU64,

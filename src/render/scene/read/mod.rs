@@ -57,10 +57,10 @@ use super::{
     error::{Fault, Warnings},
 };
 
-/// What every reader needs.
+/// Context that every reader needs.
 struct Context<'a> {
     model: &'a Model,
-    /// Which variant of the materials is drawn.
+    /// Index of the materials' variant that is drawn.
     variant: Option<u32>,
     buffers: Buffers<'a>,
     budget: Budget,

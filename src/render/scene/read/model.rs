@@ -66,15 +66,15 @@ elements! {
     Variant, "/extensions/KHR_materials_variants/variants", [];
 }
 
-/// What has to be read for a primitive to be drawn at all.
+/// Attribute that has to be readable for a primitive to be drawn at all.
 const HARD: &str = "POSITION";
 
 /// A document.
 #[derive(Clone, Debug, Default)]
 pub struct Model {
-    /// Its content. Indices may be out of range, and enums [`Checked::Invalid`].
+    /// Document. Indices may be out of range, and enums [`Checked::Invalid`].
     pub root: Root,
-    /// The same as it was written, for messages and for numbers in double precision.
+    /// Document as it was written, for messages and for numbers in double precision.
     value: Value,
     /// Elements that are stand-ins, by place.
     broken: HashMap<String, Fault>,
@@ -156,7 +156,7 @@ impl Model {
         ))
     }
 
-    /// All elements of a kind; an error in place of those that are broken.
+    /// Elements of a kind; a broken one gives an error.
     pub fn all<T: Element>(&self) -> impl Iterator<Item = Result<(&T, String), Fault>>
     where
         Root: Get<T> + AsRef<[T]>,
@@ -175,7 +175,7 @@ impl Model {
         }
     }
 
-    /// What `gltf` finds at fault first with a part of the document at `place`.
+    /// Reports the first fault that `gltf` finds with a part of the document at `place`.
     pub fn check(&self, part: &impl Validate, place: &str) -> Result<(), Fault> {
         let mut first = None;
         part.validate(&self.root, || Path(place.to_owned()), &mut |path, error| {
@@ -205,7 +205,7 @@ impl Model {
         Fault::new(place, reason)
     }
 
-    /// What was written at `place`.
+    /// JSON value at `place`.
     pub fn at(&self, place: &str) -> Option<&Value> {
         self.value.pointer(place)
     }

@@ -6,7 +6,7 @@ use tobj::{LoadError, LoadOptions};
 
 use crate::scene::error::Fault;
 
-/// What an index names, in the order in which a corner of a face has them.
+/// Elements that indices refer to, in the order in which a corner of a face has them.
 const NAMED: [&str; 3] = ["vertex", "texture coordinate", "normal"];
 
 /// An index that is out of the range of what there was when it was read.
@@ -35,7 +35,7 @@ fn fault(line: usize, reason: &str) -> Fault {
     Fault::new(format!("line {line}"), reason)
 }
 
-/// What is wrong with a file that the parser refuses, and in which line; nothing if that can't be said.
+/// Finds the fault for which the parser refuses a file, and its line; `None` if neither can be told.
 pub fn find(obj: &[u8]) -> Option<Fault> {
     let text = String::from_utf8_lossy(obj);
     let mut counts = [0; 3];
@@ -84,7 +84,7 @@ pub fn find(obj: &[u8]) -> Option<Fault> {
     out_of_range.iter().find_map(|it| it.fault(counts))
 }
 
-/// What the parser says to a statement that needs no others.
+/// Answer of the parser to a statement that needs no others.
 fn parsed(statement: &str) -> Result<(), LoadError> {
     let no_materials = |_: &_| Err(LoadError::OpenFileFailed);
     tobj::load_obj_buf(

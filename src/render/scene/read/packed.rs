@@ -1,4 +1,4 @@
-//! What came out of a compressed primitive, in the place of its accessors.
+//! Decoded streams of a compressed primitive, which replace its accessors.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use gltf::json::accessor::ComponentType;
 pub struct Packed {
     /// Three a triangle.
     pub indices: Stream,
-    /// By name; one value a vertex.
+    /// Streams by attribute name, with one value a vertex.
     pub attributes: BTreeMap<String, Stream>,
 }
 

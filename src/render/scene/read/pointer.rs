@@ -1,4 +1,4 @@
-//! What the pointers of `KHR_animation_pointer` lead to.
+//! Targets of the pointers of `KHR_animation_pointer`.
 
 use std::collections::BTreeSet;
 
@@ -94,11 +94,11 @@ fn check_weight(
 
 enum Pointed {
     Target(Animated),
-    /// All weights, or one, of the nodes that draw the mesh and have none of their own.
+    /// Weights, all or one, of the nodes that draw the mesh and have none of their own.
     Mesh(usize, Option<usize>),
 }
 
-/// What a pointer means; nothing where it is none that is supported.
+/// Parses a pointer; `None` for an unsupported one.
 fn parse(pointer: &str) -> Option<Pointed> {
     let index = |text: &str| text.parse::<u32>().ok().map(|index| index as usize);
     let description = |kind: fn(usize) -> Described, at: &str, rest: &[&str]| {

@@ -198,8 +198,7 @@ fn choose_material(
     }
 }
 
-/// How many triangles `item` will be read to at most, found without reading them; 0 where that will
-/// fail.
+/// Largest number of triangles that `item` can be read to, found without reading them; 0 if reading will fail.
 pub fn claimed_triangles(item: &mesh::Primitive, context: &Context<'_>) -> u64 {
     let defining = item
         .indices

@@ -16,7 +16,7 @@ use crate::scene::{
 use glam::DVec3;
 use std::sync::Arc;
 
-/// One object of a file. Streams beside the positions are empty, or have as many entries.
+/// Object of a file. Streams other than the positions are empty or as long as these.
 #[derive(Debug, Default)]
 pub struct Shape {
     pub name: Option<String>,
@@ -33,11 +33,11 @@ pub struct Shape {
     pub colors: Vec<[f32; 4]>,
 }
 
-/// All that a file holds.
+/// Contents of a file.
 #[derive(Debug, Default)]
 pub struct Drawing {
     pub shapes: Vec<Shape>,
-    /// What the positions of all shapes are relative to.
+    /// Origin that the positions of all shapes are relative to.
     pub origin: DVec3,
     pub materials: Vec<Material>,
     pub textures: Vec<Texture>,
@@ -158,7 +158,7 @@ impl Drawing {
 }
 
 impl Shape {
-    /// What can be drawn of the shape; the rest is warned of.
+    /// Makes a primitive of the drawable parts of a shape, and warns of the others.
     fn into_primitive(
         mut self,
         material: usize,
@@ -215,7 +215,7 @@ impl Shape {
         })
     }
 
-    /// What can be drawn of the shape's lines or points; the rest is warned of.
+    /// Makes strokes of the drawable lines or points of a shape, and warns of the others.
     fn strokes(
         &self,
         mode: Mode,

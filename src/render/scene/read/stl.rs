@@ -22,7 +22,8 @@ pub fn is_stl(bytes: &[u8]) -> bool {
     is_binary(bytes) || is_text(bytes)
 }
 
-/// Many binary files start with "solid", too, but only theirs is the size that they state.
+/// Whether a file is binary: its size is the one that it states. The first word does not tell, since many binary files
+/// also start with "solid".
 fn is_binary(bytes: &[u8]) -> bool {
     let count = bytes
         .get(HEADER..HEADER + COUNT)

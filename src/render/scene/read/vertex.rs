@@ -39,9 +39,9 @@ pub fn attribute_of(item: &mesh::Primitive, semantic: Semantic) -> Option<Index<
 pub struct Reader<'r, 'a> {
     /// The primitive.
     pub primitive: &'r mesh::Primitive,
-    /// Where it is.
+    /// JSON pointer to the primitive.
     pub place: &'r str,
-    /// Where it is compressed, what came out.
+    /// Decoded streams of a compressed primitive.
     pub packed: Option<&'r Packed>,
     /// The document.
     pub context: &'r Context<'a>,
@@ -96,7 +96,7 @@ impl<'r> Reader<'r, '_> {
         self.read(accessor, place, components, types, notes)
     }
 
-    /// Both UV sets, if `material` has textures or needs tangents that are not given.
+    /// Both UV sets, if `material` has textures, or needs tangents that the file does not give.
     pub fn uvs(
         &self,
         material: &Material,
@@ -218,7 +218,7 @@ impl<'r> Reader<'r, '_> {
             .collect()
     }
 
-    /// All sets of joints and weights. A vertex without weight follows its first joint.
+    /// Joints and weights of all sets. A vertex without weights follows its first joint.
     pub fn influences(&self, sources: &[u32], notes: &mut Vec<Fault>) -> Vec<Influences> {
         let mut sets = Vec::new();
         loop {

@@ -1,4 +1,4 @@
-//! What the triangles, points and lines of any format need: assembly, normals and tangents.
+//! Surfaces of all formats: assembly of triangles, points and lines, normals and tangents.
 
 pub mod normals;
 pub mod strokes;

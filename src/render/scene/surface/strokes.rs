@@ -20,7 +20,7 @@ pub struct Corner {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Strokes {
     pub triangles: Vec<[u32; 3]>,
-    /// Of the last vertices, in their order.
+    /// Corners, which are the last vertices, in their order.
     pub corners: Vec<Corner>,
 }
 

@@ -37,8 +37,8 @@ pub fn assemble(
     (triangles, left_over)
 }
 
-/// Which of `vertex_count` vertices the triangles use, ascending; the triangles then refer to that
-/// list. The cost does not depend on `vertex_count` where few vertices are used, for many primitives
+/// Keeps only the vertices that the triangles use, of `vertex_count`; returns their indices in ascending order and
+/// renumbers the triangles. If few vertices are used the cost does not depend on `vertex_count`, since many primitives
 /// may share one large buffer.
 pub fn compact(triangles: &mut [[u32; 3]], vertex_count: usize) -> Vec<u32> {
     const FEW: usize = 32;

@@ -1,9 +1,9 @@
-//! Grids of triangles.
+//! Grids of triangles for the scenes of growth.
 
 use crate::scene::{Draw, DrawClass, Geometry, Material, Pose, Scene, VertexStreams};
 use glam::{DVec3, Vec3};
 
-/// A mesh in the making; all of it has one material.
+/// Mesh in the making; all its triangles have one material.
 #[derive(Default)]
 pub(super) struct Mesh {
     positions: Vec<[f32; 3]>,
@@ -12,7 +12,7 @@ pub(super) struct Mesh {
     triangles: Vec<[u32; 3]>,
 }
 
-/// A vertex: position, normal and linear colour.
+/// Vertex: position, normal and linear colour.
 pub(super) struct Vertex {
     pub position: Vec3,
     pub normal: Vec3,
@@ -20,8 +20,8 @@ pub(super) struct Vertex {
 }
 
 impl Mesh {
-    /// Adds `columns` x `rows` quadrilaterals, whose corners share vertices; `vertex` gets fractions (0 to 1) of the
-    /// way to the right and down.
+    /// Adds `columns` x `rows` quadrilaterals with shared vertices. `vertex` makes the vertex at a fraction (0 to 1) of
+    /// the grid's width and height, from the upper left.
     pub fn add_grid(&mut self, [columns, rows]: [u32; 2], vertex: impl Fn(f32, f32) -> Vertex) {
         let first = self.positions.len() as u32;
         for row in 0..=rows {
@@ -42,7 +42,7 @@ impl Mesh {
         }
     }
 
-    /// The mesh as a scene.
+    /// Makes a scene of the mesh.
     pub fn build(self, material: Material) -> (Scene, Pose) {
         let draws = vec![Draw {
             first_triangle: 0,

@@ -1,4 +1,4 @@
-//! Scenes of which one quantity grows, to see what it costs.
+//! Benchmark of growth: series of scenes in each of which one quantity grows, to see what it costs.
 
 mod mesh;
 mod scenes;
@@ -7,37 +7,37 @@ use crate::camera::Camera;
 use crate::scene::{Pose, Scene};
 use std::fmt;
 
-/// What grows while the rest stays as it is.
+/// Quantity that grows in a series of scenes while all others stay.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Growth {
     /// Triangles of a landscape of hills, 10^3 to 10^7.
     Triangles,
     /// Pixels of an image of a landscape of 10^5 triangles, 0.1 to 33 megapixels.
     Pixels,
-    /// The share of pixels that are superpixels, 0 to 100 %: upright strips two pixels wide, of which this share
-    /// alternates between two colours.
+    /// Superpixels' share of the pixels, 0 to 100 %: upright strips two pixels wide, of which this share alternates
+    /// between two colours.
     Superpixels,
     /// Layers that fill the image, 1 to 64, the nearest last: triangles that cover each sample.
     Depth,
 }
 
-/// One point of a curve: what to render.
+/// One scene of a series.
 #[derive(Clone, Debug)]
 pub struct Step {
-    /// What has grown: a number of triangles, megapixels, a percentage or a number of layers.
+    /// Value of the quantity: a number of triangles, megapixels, a percentage or a number of layers.
     pub value: f64,
     /// Width and height of the image in pixels.
     pub size: [u32; 2],
-    /// The materials.
+    /// Scene with its materials.
     pub scene: Scene,
-    /// The triangles.
+    /// Pose with its triangles.
     pub pose: Pose,
-    /// The camera.
+    /// Camera of the scene.
     pub camera: Camera,
 }
 
 impl Growth {
-    /// Every quantity.
+    /// All quantities.
     pub const ALL: [Self; 4] = [
         Self::Triangles,
         Self::Pixels,
@@ -45,7 +45,7 @@ impl Growth {
         Self::Depth,
     ];
 
-    /// The number of steps from the least to the most.
+    /// Number of scenes in the series.
     #[must_use]
     pub fn steps(self) -> usize {
         match self {
@@ -56,7 +56,8 @@ impl Growth {
         }
     }
 
-    /// Makes a step, for an image of `size` pixels unless these are what grows; `None` after the last.
+    /// Makes scene number `index`, 0 being the least, for an image of `size` pixels unless the size is what grows;
+    /// `None` after the last.
     #[must_use]
     pub fn step(self, index: usize, size: [u32; 2]) -> Option<Step> {
         match self {

@@ -1,4 +1,4 @@
-//! The scenes of the curves.
+//! Scenes of the benchmark of growth.
 
 use super::Step;
 use super::mesh::{Mesh, Vertex};
@@ -6,9 +6,9 @@ use crate::camera::{Camera, Projection};
 use crate::scene::Material;
 use glam::{DMat3, DVec2, DVec3, Vec3};
 
-/// Numbers of triangles.
+/// Numbers of triangles of the steps of [`super::Growth::Triangles`].
 pub(super) const TRIANGLES: [u32; 5] = [1_000, 10_000, 100_000, 1_000_000, 10_000_000];
-/// Sizes of images.
+/// Image sizes of the steps of [`super::Growth::Pixels`].
 pub(super) const SIZES: [[u32; 2]; 6] = [
     [427, 240],
     [854, 480],
@@ -17,12 +17,12 @@ pub(super) const SIZES: [[u32; 2]; 6] = [
     [3840, 2160],
     [7680, 4320],
 ];
-/// Shares of superpixels.
+/// Percentages of superpixels of the steps of [`super::Growth::Superpixels`].
 pub(super) const PERCENTAGES: [u32; 8] = [0, 1, 5, 10, 25, 50, 75, 100];
-/// Numbers of layers.
+/// Numbers of layers of the steps of [`super::Growth::Depth`].
 pub(super) const LAYERS: [u32; 7] = [1, 2, 4, 8, 16, 32, 64];
 
-/// Hills that hide each other, seen from above their tops; `value` is what the step says has grown.
+/// Landscape of hills that hide each other, seen from above their tops; `value` becomes the step's.
 pub(super) fn landscape(triangles: u32, size: [u32; 2], value: f64) -> Step {
     const SIDE: f32 = 24.0;
     let cells = (f64::from(triangles) / 2.0).sqrt().round() as u32;
@@ -67,7 +67,7 @@ pub(super) fn landscape(triangles: u32, size: [u32; 2], value: f64) -> Step {
     }
 }
 
-/// Strips side by side, two pixels wide and a little tilted; a share of them alternates between light and dark.
+/// Upright strips two pixels wide, a little tilted; `percentage` of them alternate between light and dark.
 pub(super) fn strips(percentage: u32, size: [u32; 2]) -> Step {
     const PITCH: f32 = 2.0;
     const ROWS: u32 = 16;
@@ -100,7 +100,7 @@ pub(super) fn strips(percentage: u32, size: [u32; 2]) -> Step {
     }
 }
 
-/// Layers behind each other, the farthest first, of checks of two colours.
+/// Layers behind each other, checked in two colours, the farthest first.
 pub(super) fn layers(count: u32, size: [u32; 2]) -> Step {
     let [width, height] = size.map(|side| side as f32);
     let mut mesh = Mesh::default();
@@ -133,7 +133,7 @@ pub(super) fn layers(count: u32, size: [u32; 2]) -> Step {
     }
 }
 
-/// A vertex at a place of the image in pixels, at a distance along the view of [`straight_ahead`].
+/// Vertex at a place of the image in pixels, at `distance` along the direction of view of [`straight_ahead`].
 fn at([x, y]: [f32; 2], distance: f32, color: Vec3, size: [u32; 2]) -> Vertex {
     let [width, height] = size.map(|side| side as f32);
     let scale = 2.0 * distance / height;
@@ -157,7 +157,7 @@ fn double_sided(unlit: bool) -> Material {
     }
 }
 
-/// At the world's origin along -z, with a vertical field of view of 90 degrees.
+/// Camera at the world's origin that looks along -z, with a vertical field of view of 90 degrees.
 fn straight_ahead() -> Camera {
     Camera {
         eye: DVec3::ZERO,

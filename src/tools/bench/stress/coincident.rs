@@ -1,4 +1,4 @@
-//! Surfaces in the same place.
+//! Stress check: surfaces in the same place.
 
 use super::meshes::{Depths, delaunay};
 use super::stage::{Stage, everywhere, flat, once};
@@ -53,7 +53,7 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
     Ok(findings)
 }
 
-/// White triangles, and black duplicates after them in another order, their vertices turned.
+/// Stage of white triangles, followed by black duplicates in another order and with their vertices turned.
 fn with_duplicates(plain: &Stage, turns: usize) -> Stage {
     let mut stage = plain.clone();
     let mut duplicates = plain.triangles.clone();

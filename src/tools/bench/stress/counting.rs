@@ -1,18 +1,18 @@
-//! Counting how often samples are hit.
+//! Counts of how often samples are hit.
 
 use super::stage::{Stage, flat};
 use crate::camera::Camera;
 use crate::render::{Headless, RenderError, Settings};
 use crate::scene::AlphaMode;
 
-/// What was counted.
+/// Hits of samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Hits {
-    /// Samples that were looked at.
+    /// Samples that were checked.
     pub samples: u64,
     /// Samples that no opaque triangle covers.
     pub holes: f64,
-    /// Hits of translucent triangles by which samples differ from those that opaque triangles cover once.
+    /// Difference of the hits of translucent triangles from the samples that opaque triangles cover.
     pub excess: f64,
 }
 
@@ -24,7 +24,7 @@ impl Hits {
     }
 }
 
-/// Counts the hits of a stage's triangles in the pixels that `counts` names by column and row.
+/// Counts the hits of a stage's triangles in the pixels that `counts` selects by column and row.
 ///
 /// Opacity is coverage: where all triangles are opaque, a pixel's alpha is the share of samples hit. Where all let one
 /// half through, samples hit once weigh a half and those hit twice three quarters.
@@ -67,7 +67,7 @@ pub(super) fn count(
     Ok(hits)
 }
 
-/// The greatest error of the coverage of the pixels that `counts` names, where opaque triangles cover all of each.
+/// Greatest error of the coverage of the pixels that `counts` selects, each of which opaque triangles cover completely.
 pub(super) fn worst_cover(
     headless: &mut Headless,
     stage: &Stage,

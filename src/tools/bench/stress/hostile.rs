@@ -1,4 +1,4 @@
-//! Vertices that are no places, and triangles that are no surfaces: none may show, nor harm what does.
+//! Stress check: vertices without a place, and triangles without a surface. None may show, nor change what others show.
 
 use super::difference::same;
 use super::stage::once;
@@ -35,7 +35,7 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
     Ok(findings)
 }
 
-/// Triangles that have no area, or none that can be said.
+/// Triangles without an area, or with one that has no value.
 fn hostile() -> [(&'static str, [[f32; 3]; 3]); 9] {
     let (right, up) = ([1.0, 0.0, -1.0], [0.0, 1.0, -1.0]);
     [
@@ -66,7 +66,7 @@ fn hostile() -> [(&'static str, [[f32; 3]; 3]); 9] {
     ]
 }
 
-/// A triangle with its vertices in all three rotations and the windings of two.
+/// Triangle with its vertices in all three rotations, and in the other winding.
 fn turned(corners: [[f32; 3]; 3]) -> [[[f32; 3]; 3]; 4] {
     let [a, b, c] = corners;
     [[a, b, c], [b, c, a], [c, a, b], [b, a, c]]

@@ -1,4 +1,4 @@
-//! What must not change an image.
+//! Stress check: changes that must not change an image.
 
 use super::difference::same;
 use super::stage::{Stage, everywhere};
@@ -6,7 +6,7 @@ use super::{Finding, Length, Random, soup};
 use crate::render::{Headless, RenderError, Rendered, Settings};
 use crate::sampling::Pattern;
 
-/// Samples a superpixel.
+/// Samples of a superpixel.
 const SAMPLES: u32 = 16;
 
 pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Finding>, RenderError> {
@@ -38,7 +38,7 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
     Ok(findings)
 }
 
-/// Renders in three quarters of the memory again and again, until the least does not fit.
+/// Renders in less and less memory, by a quarter each time, until the least does not suffice.
 fn less_memory(
     headless: &mut Headless,
     stage: &Stage,

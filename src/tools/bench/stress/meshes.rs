@@ -1,23 +1,23 @@
-//! Meshes that tile a square of the screen and are hard to rasterize without holes or double hits. All are made from a
-//! seed.
+//! Meshes, made from seeds, that tile a square of the screen and are hard to rasterize without holes or double hits.
 
 use super::Random;
 use glam::DVec3;
 
-/// Triangles over shared vertices.
+/// Triangles with shared vertices in clip space.
 #[derive(Clone, Debug)]
 pub struct Mesh {
-    /// What kind of mesh it is, for messages.
+    /// Kind of mesh, for messages.
     pub name: String,
-    /// Clip-space vertices (X, Y, z, w), X and Y in pixels from the screen's centre times w, y down; 0 < z < w where
-    /// w > 0.
+    /// Clip-space vertices (X, Y, z, w): X and Y are w times the pixels from the screen's centre, y down; 0 < z < w
+    /// where w > 0.
     pub vertices: Vec<[f32; 4]>,
-    /// Places of each triangle's corners in `vertices`.
+    /// Indices in `vertices` of each triangle's corners.
     pub triangles: Vec<[usize; 3]>,
 }
 
 impl Mesh {
-    /// The corners of a triangle, their order changed by one of the six permutations, three of which flip its facing.
+    /// Corners of a triangle in one of their six orders, three of which flip its facing; `permutation` is taken modulo
+    /// 6.
     ///
     /// # Panics
     /// If there is no such triangle.
@@ -35,12 +35,12 @@ impl Mesh {
     }
 }
 
-/// How screen positions become homogeneous vertices.
+/// Distances from the eye that the vertices of a mesh get.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depths {
-    /// w = 1, positions rounded to 1/16 pixel: regular samples fall on edges and corners.
+    /// w = 1, and positions rounded to 1/16 pixel: samples on a grid fall on edges and corners.
     Snapped,
-    /// Each vertex has a w of its own, 1/8 to 8.
+    /// Random w for each vertex, 1/8 to 8.
     Random,
 }
 
@@ -56,7 +56,7 @@ impl Depths {
     }
 }
 
-/// All meshes that cover the square from -half to half pixels on both axes with positive w.
+/// All kinds of meshes that cover the square from -half to half pixels on both axes with positive w.
 #[must_use]
 pub fn tilings(seed: u64, half: f64) -> Vec<Mesh> {
     let mut meshes = Vec::new();
@@ -69,7 +69,7 @@ pub fn tilings(seed: u64, half: f64) -> Vec<Mesh> {
     meshes
 }
 
-/// A jittered grid of `cells` x `cells` quadrilaterals, each split along its Delaunay diagonal.
+/// Jittered grid of `cells` x `cells` quadrilaterals, each split along its Delaunay diagonal.
 #[must_use]
 pub fn delaunay(seed: u64, half: f64, cells: usize, depths: Depths) -> Mesh {
     let mut random = Random::new(seed);
@@ -110,8 +110,8 @@ pub fn delaunay(seed: u64, half: f64, cells: usize, depths: Depths) -> Mesh {
     }
 }
 
-/// Positive where the last point lies in the circle through the others, which turn counter-clockwise in the axes' sense;
-/// up to rounding, for either diagonal makes a tiling.
+/// Positive if the last point lies in the circle through the others, which turn counter-clockwise in the axes' sense.
+/// Rounding may decide otherwise: either diagonal makes a tiling.
 fn in_circle([a, b, c, d]: [[f64; 2]; 4]) -> f64 {
     let rows = [a, b, c].map(|[x, y]| {
         let [x, y] = [x - d[0], y - d[1]];
@@ -120,7 +120,7 @@ fn in_circle([a, b, c, d]: [[f64; 2]; 4]) -> f64 {
     rows[0].dot(rows[1].cross(rows[2]))
 }
 
-/// `spokes` triangles around one vertex in the square.
+/// Fan of `spokes` triangles around one vertex in the square.
 #[must_use]
 pub fn fan(seed: u64, half: f64, spokes: usize, depths: Depths) -> Mesh {
     let mut random = Random::new(seed);
@@ -147,8 +147,8 @@ pub fn fan(seed: u64, half: f64, spokes: usize, depths: Depths) -> Mesh {
     }
 }
 
-/// A strip of long thin triangles, `count` vertices on either side; many are far thinner than a sample's distance from
-/// the next.
+/// Strip of long thin triangles, with `count` vertices on either side; many are far thinner than the distance between
+/// samples.
 #[must_use]
 pub fn slivers(seed: u64, half: f64, count: usize, depths: Depths) -> Mesh {
     let mut random = Random::new(seed);
@@ -180,9 +180,10 @@ pub fn slivers(seed: u64, half: f64, count: usize, depths: Depths) -> Mesh {
     }
 }
 
-/// A horizontal plane under the camera, in `cells` x `cells` irregular cells that begin behind it: quadrilaterals that
-/// the near plane cuts in every way, and whose vertices lie up to 10^6 pixels off the screen. It covers the lower half
-/// of a screen that is not more than `half` pixels from its centre to its side, down from the pixel row `horizon`.
+/// Horizontal plane under the camera, of `cells` x `cells` irregular cells that begin behind it: the near plane cuts
+/// its quadrilaterals in every way, and its vertices lie up to 10^6 pixels off the screen. It covers the screen from
+/// the pixel row `horizon` (from the centre) down; `half` is the distance in pixels from the screen's centre to its
+/// sides.
 #[must_use]
 pub fn ground(seed: u64, half: f64, horizon: f64, cells: usize) -> Mesh {
     let mut random = Random::new(seed);
@@ -216,7 +217,7 @@ pub fn ground(seed: u64, half: f64, horizon: f64, cells: usize) -> Mesh {
     }
 }
 
-/// The nearest multiple of 1/16.
+/// Nearest multiple of 1/16.
 fn snap(value: f64) -> f32 {
     ((value * 16.0).round() / 16.0) as f32
 }

@@ -1,4 +1,4 @@
-//! The stress suite: geometry that is hard on a rasterizer, and what must hold of its images.
+//! Stress suite: geometry that is hard on a rasterizer, and properties that its images must have.
 //!
 //! Every check is made from seeds and says what it found as [`Finding`]s, in numbers. Tests run them short, `gpc bench
 //! --stress` long.
@@ -24,7 +24,7 @@ use super::Random;
 use crate::render::{Headless, RenderError};
 use serde::Serialize;
 
-/// How much a check looks at.
+/// Amount of work of a check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Length {
     /// Seconds on a CPU device.
@@ -34,7 +34,7 @@ pub enum Length {
 }
 
 impl Length {
-    /// One of two values.
+    /// Picks one of two values.
     fn choose<T>(self, short: T, long: T) -> T {
         match self {
             Self::Short => short,
@@ -43,39 +43,39 @@ impl Length {
     }
 }
 
-/// What a check found of one case.
+/// Result of a check for one case.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Finding {
-    /// What was rendered, and what was asked of it.
+    /// Scene, and the property that was checked.
     pub case: String,
-    /// How many samples, pixels or frames were looked at, see `unit`.
+    /// Number of samples, pixels or frames that were checked; `unit` names them.
     pub checked: u64,
-    /// What was counted or measured, and in what.
+    /// Unit of `checked` and `measured`.
     pub unit: &'static str,
-    /// The count or measure.
+    /// Count or measure.
     pub measured: f64,
-    /// The most that may be; `None` where a method is only measured for comparison.
+    /// Most that `measured` may be; `None` if it is only measured for comparison.
     pub allowed: Option<f64>,
 }
 
 impl Finding {
-    /// Whether it is within what may be.
+    /// Whether the measure is at most what is allowed.
     #[must_use]
     pub fn holds(&self) -> bool {
         self.allowed.is_none_or(|allowed| self.measured <= allowed)
     }
 }
 
-/// A part of the suite.
+/// Check of the suite.
 #[derive(Clone, Copy, Debug)]
 pub struct Check {
-    /// What it is about.
+    /// Name of the check.
     pub name: &'static str,
     run: fn(&mut Headless, Length) -> Result<Vec<Finding>, RenderError>,
 }
 
 impl Check {
-    /// All parts.
+    /// All checks.
     pub const ALL: [Self; 8] = [
         Self {
             name: "partition of unity",
@@ -111,7 +111,7 @@ impl Check {
         },
     ];
 
-    /// Runs it.
+    /// Runs the check.
     ///
     /// # Errors
     /// As [`Headless::render`].

@@ -1,19 +1,19 @@
-//! Thin wires under a camera that pans by parts of a pixel: their energy must stay, and not flicker.
+//! Stress check: thin wires under a camera that pans by parts of a pixel. Their energy must stay, and not flicker.
 
 use super::stage::{Stage, camera, flat, once, seen_at};
 use super::{Finding, Length};
 use crate::camera::Camera;
-use crate::render::{Headless, Method, RenderError, Settings};
+use crate::render::{Headless, Method, RenderError, SceneRequest, Settings};
 use crate::scene::AlphaMode;
 use glam::DVec2;
 
-/// Share by which the energy of an image may differ from the wires'.
+/// Largest relative difference of an image's energy from the wires'.
 const ENERGY: f64 = 0.01;
 /// Widths of the wires in pixels.
 const WIDTHS: [f64; 3] = [0.1, 0.3, 0.8];
 /// Degrees between the wires and the vertical.
 const LEANS: [f64; 4] = [0.5, 3.0, 11.0, 27.0];
-/// Distance between the wires' middles in heights of the image, so that the most slanted stays within it.
+/// Distance between the wires' middles, in heights of the image: the most slanted wire stays within it.
 const PITCH: f64 = 0.625;
 
 pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Finding>, RenderError> {
@@ -53,11 +53,11 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
     Ok(findings)
 }
 
-/// White wires side by side from above to below the image.
+/// White wires side by side, from above to below the image.
 struct Wires {
     size: [u32; 2],
     stage: Stage,
-    /// What the colours of a row add up to.
+    /// Sum of the colours of a row.
     energy: f64,
 }
 
@@ -93,8 +93,8 @@ impl Wires {
         }
     }
 
-    /// Pans to the right by a pixel, and down by less, in `frames` steps: the greatest relative error of an image's
-    /// energy, and the root of the mean squared relative error of that of a row.
+    /// Pans to the right by a pixel, and down by less, in `frames` steps. Returns the greatest relative error of an
+    /// image's energy, and the root of the mean squared relative error of a row's.
     fn pan(
         &self,
         headless: &mut Headless,
@@ -102,7 +102,7 @@ impl Wires {
         frames: u32,
     ) -> Result<[f64; 2], RenderError> {
         let (scene, pose) = self.stage.build();
-        let prepared = headless.upload(&scene, &pose, None)?;
+        let prepared = headless.upload(SceneRequest::new(&scene, &pose))?;
         let mut frame = headless.prepare(&prepared, settings)?;
         let [columns, rows] = self.size.map(|side| side as usize);
         let mut worst = 0.0_f64;

@@ -1,5 +1,5 @@
-//! Cameras inside closed surfaces, whose triangles cross the planes of the eye and of the near plane in all ways and
-//! reach millions of pixels off the image.
+//! Stress check: cameras inside closed surfaces, whose triangles cross the planes of the eye and of the near plane in
+//! all ways and reach millions of pixels off the image.
 
 use super::counting::{Hits, count};
 use super::partition::report;
@@ -13,7 +13,7 @@ use std::f64::consts::{PI, TAU};
 
 /// Vertical fields of view in degrees.
 const FIELDS: [f64; 8] = [0.1, 1.0, 10.0, 60.0, 90.0, 150.0, 175.0, 179.0];
-/// Distance of the near plane; the surface is 1 unit from its middle.
+/// Distance of the near plane; the surface's distance from its middle is 1.
 const NEAR: f64 = 1e-4;
 
 pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Finding>, RenderError> {
@@ -42,8 +42,8 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
     Ok(findings)
 }
 
-/// A convex surface of about 2 x `rings`^2 triangles around the origin: vertices on a sphere, at random but common
-/// longitudes and latitudes, so that its quadrilaterals are plane.
+/// Convex surface of about 2 x `rings`^2 triangles around the origin. Its vertices lie on a sphere at random longitudes
+/// and latitudes that rows and columns share, so that its quadrilaterals are plane.
 fn closed_surface(random: &mut Random, rings: usize) -> Stage {
     let mut steps = |count: usize, length: f64| -> Vec<f64> {
         (0..count)

@@ -1,4 +1,4 @@
-//! Partition of unity: each sample of a tiling is hit, and hit once.
+//! Stress check: each sample of a tiling is hit exactly once (partition of unity).
 
 use super::counting::{Hits, count, worst_cover};
 use super::meshes::{ground, tilings};
@@ -7,13 +7,13 @@ use super::{Finding, Length, Mesh};
 use crate::render::{Coverage, Detection, Headless, RenderError, Settings};
 use crate::sampling::Pattern;
 
-/// Samples a pixel.
+/// Samples a pixel of each run.
 const COUNTS: [u32; 6] = [1, 4, 16, 64, 256, 1024];
 
-/// By how much areas may fail to add up to a pixel.
+/// Largest error of the sum of areas in a pixel.
 const AREA: f64 = 1e-4;
 
-/// The row below the image's centre from which [`ground`] covers it.
+/// Row below the image's centre from which [`ground`] covers it.
 const HORIZON: f64 = 2.0;
 
 pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Finding>, RenderError> {
@@ -75,7 +75,7 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
     Ok(findings)
 }
 
-/// Counts the hits of a mesh.
+/// Counts the hits of a mesh's triangles.
 fn of_mesh(
     headless: &mut Headless,
     mesh: &Mesh,
@@ -91,14 +91,14 @@ fn of_mesh(
     )
 }
 
-/// A mesh's triangles in all orders of vertices.
+/// Stage of a mesh's triangles with their vertices in all orders.
 fn stage(mesh: &Mesh, settings: &Settings) -> Stage {
     let mut stage = Stage::default();
     stage.add_mesh(0, mesh, settings.size[1], |triangle| triangle);
     stage
 }
 
-/// Notes holes and double hits, of which there must be none.
+/// Reports holes and double hits, neither of which may occur.
 pub(super) fn report(findings: &mut Vec<Finding>, case: &str, hits: Hits) {
     for (unit, measured) in [
         ("samples without a hit", hits.holes),

@@ -1,10 +1,10 @@
-//! Scenes of all sizes, far from the origin, and deep ones.
+//! Stress check: scenes of all sizes, far from the origin, and deep ones.
 
 use super::difference::{in_codes, same};
 use super::stage::{NEAR, Stage, camera, everywhere, flat, seen_at};
 use super::{Finding, Length, Random, soup};
 use crate::camera::{Camera, Projection};
-use crate::render::{Headless, RenderError, Rendered, Settings};
+use crate::render::{Headless, RenderError, Rendered, SceneRequest, Settings};
 use crate::sampling::Pattern;
 use crate::scene::AlphaMode;
 use glam::DVec3;
@@ -45,7 +45,7 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
         let away = DVec3::new(far, -far, far);
         let (scene, mut pose) = stage.build();
         pose.geometry.origin = away;
-        let prepared = headless.upload(&scene, &pose, None)?;
+        let prepared = headless.upload(SceneRequest::new(&scene, &pose))?;
         let mut frame = headless.prepare(&prepared, &settings)?;
         let camera = Camera {
             eye: away,
@@ -64,7 +64,7 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
     Ok(findings)
 }
 
-/// The stage, and the near plane's distance, scaled.
+/// Stage with all its lengths scaled, and the near plane's distance with them.
 fn scaled(
     headless: &mut Headless,
     stage: &Stage,
@@ -89,7 +89,8 @@ fn near_at(near: f64) -> Camera {
     }
 }
 
-/// Columns at distances from 10^-3 to 10^6, each before a wall that is farther by a 2^16th, in random order.
+/// Columns at distances from 10^-3 to 10^6 in random order, each before a wall that is farther by a factor of 1 +
+/// 2^-16.
 fn ladder(headless: &mut Headless, samples: u32) -> Result<Finding, RenderError> {
     const STEPS: u32 = 10;
     const COLUMN: u32 = 8;

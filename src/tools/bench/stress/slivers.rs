@@ -1,16 +1,16 @@
-//! Attributes of slivers, of triangles with vertices behind the eye and of those smaller than pixels stay within the
-//! range of their vertices.
+//! Stress check: interpolated attributes stay within the range of a triangle's vertices, for slivers, for triangles
+//! with vertices behind the eye, and for those smaller than pixels.
 
 use super::meshes::{Depths, delaunay, fan, ground, slivers};
 use super::stage::{Stage, camera, everywhere, flat};
 use super::{Finding, Length, Random};
-use crate::render::{Headless, Method, RenderError, Settings, Shading};
+use crate::render::{Headless, Method, RenderError, SceneRequest, Settings, Shading};
 use crate::sampling::Pattern;
 use crate::scene::AlphaMode;
 
 /// Range of the vertices' colours.
 const RANGE: [f32; 2] = [0.25, 0.75];
-/// By how much a colour may leave it: rounding of 24 bits, over a sum of samples.
+/// Largest excess of a colour: rounding of 24 bits, over a sum of samples.
 const ROUNDING: f64 = 1e-5;
 
 pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Finding>, RenderError> {
@@ -46,7 +46,7 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
             .map(|_| [0; 3].map(|_| random.range(low, high) as f32))
             .map(|[r, g, b]| [r, g, b, 1.0])
             .collect();
-        let prepared = headless.upload(&scene, &pose, None)?;
+        let prepared = headless.upload(SceneRequest::new(&scene, &pose))?;
         for (name, settings) in &methods {
             let mut frame = headless.prepare(&prepared, settings)?;
             let image = headless.render(&mut frame, &camera())?;

@@ -1,14 +1,14 @@
-//! Triangles anywhere.
+//! Random triangles.
 
 use super::Random;
 use super::stage::{Stage, flat, seen_at};
 use crate::scene::{AlphaMode, Material};
 
-/// Colours of a [`soup`]'s opaque triangles.
+/// Number of colours of a [`soup`]'s opaque triangles.
 const COLORS: usize = 16;
 
-/// A stage of `count` random triangles in sixteen colours whose sums over samples are exact, so that the order of
-/// summation, which is that of IDs, does not show. The last `blend` of them let others through.
+/// Stage of `count` random triangles in sixteen colours. Sums of these over samples are exact, so that the order of
+/// summation, which is that of IDs, does not show. The last `blend` triangles are translucent.
 #[must_use]
 pub fn soup(seed: u64, size: [u32; 2], count: usize, blend: usize) -> Stage {
     let mut random = Random::new(seed);

@@ -1,4 +1,4 @@
-//! Scenes of a few triangles before a camera whose transform a CPU repeats to the bit.
+//! Stages: scenes of a few triangles before a camera whose transform a CPU repeats to the bit.
 //!
 //! The camera stands at the origin, looks along -z with a vertical field of view of 90 degrees and has its far plane at
 //! infinity. Each row of its matrix then has a single entry, so that a clip-space coordinate is one product (or the
@@ -7,7 +7,8 @@
 use super::{Mesh, Random};
 use crate::camera::{Camera, Projection};
 use crate::render::{
-    Coverage, Detection, Headless, Method, Reference, RenderError, Rendered, Settings, Shading,
+    Coverage, Detection, Headless, Method, Reference, RenderError, Rendered, SceneRequest,
+    Settings, Shading,
 };
 use crate::sampling::Pattern;
 use crate::scene::{
@@ -16,10 +17,10 @@ use crate::scene::{
 };
 use glam::{DMat3, DVec2, DVec3, Vec3};
 
-/// Distance of the near plane, and every vertex's clip-space z.
+/// Distance of the near plane, and the clip-space z of every vertex.
 pub const NEAR: f64 = 0.01;
 
-/// The camera of all stages.
+/// Camera of all stages.
 #[must_use]
 pub fn camera() -> Camera {
     Camera {
@@ -34,39 +35,39 @@ pub fn camera() -> Camera {
     }
 }
 
-/// The position that the camera sees at a place of an image `height` pixels high, in pixels from its centre, y down, at
-/// `distance` along the view.
+/// Position that the camera sees at `distance` along the direction of view, at a place in pixels from the image's
+/// centre, y down. The image is `height` pixels high.
 #[must_use]
 pub fn seen_at([x, y]: [f64; 2], distance: f64, height: u32) -> [f32; 3] {
     let scale = distance * 2.0 / f64::from(height);
     [x * scale, -y * scale, -distance].map(|v| v as f32)
 }
 
-/// A triangle with vertices of its own.
+/// Triangle with vertices of its own.
 #[derive(Clone, Debug)]
 pub struct Triangle {
     /// Index of its material.
     pub material: usize,
     /// Positions of its vertices.
     pub corners: [[f32; 3]; 3],
-    /// Their colour.
+    /// Linear colour of its vertices.
     pub color: [f32; 4],
-    /// Their texture coordinates.
+    /// Texture coordinates of its vertices.
     pub uvs: [[f32; 2]; 3],
 }
 
-/// A scene in the making. Triangle `i` has the ID `i + 1`.
+/// Stage in the making. Triangle `i` has the ID `i + 1`.
 #[derive(Clone, Debug, Default)]
 pub struct Stage {
-    /// Its materials.
+    /// Materials of the stage.
     pub materials: Vec<Material>,
-    /// Its triangles; those of opaque materials come first, then MASK, then BLEND.
+    /// Triangles of the stage; those of opaque materials come first, then MASK, then BLEND.
     pub triangles: Vec<Triangle>,
-    /// The texture of all materials made by [`textured`].
+    /// Texture of all materials made by [`textured`].
     pub texture: Option<(Image, Sampler)>,
 }
 
-/// An unlit material, seen from both sides.
+/// Unlit material, seen from both sides.
 #[must_use]
 pub fn flat(base_color: [f32; 4], alpha_mode: AlphaMode) -> Material {
     Material {
@@ -78,7 +79,7 @@ pub fn flat(base_color: [f32; 4], alpha_mode: AlphaMode) -> Material {
     }
 }
 
-/// An unlit material with the stage's texture.
+/// Unlit material with the stage's texture.
 #[must_use]
 pub fn textured(alpha_mode: AlphaMode) -> Material {
     Material {
@@ -92,7 +93,7 @@ pub fn textured(alpha_mode: AlphaMode) -> Material {
 }
 
 impl Stage {
-    /// A stage with these materials and no triangles yet.
+    /// Makes a stage with these materials and without triangles.
     pub fn new(materials: Vec<Material>) -> Self {
         Self {
             materials,
@@ -110,14 +111,14 @@ impl Stage {
         });
     }
 
-    /// Adds the two triangles of a quadrilateral, given by its corners in turn.
+    /// Adds the two triangles of a quadrilateral, whose corners are given in turn.
     pub fn add_quad(&mut self, material: usize, [a, b, c, d]: [[f32; 3]; 4]) {
         self.add(material, [a, b, c]);
         self.add(material, [a, c, d]);
     }
 
-    /// Adds a mesh as seen in an image `height` pixels high: its pixel positions and w. The corners of each triangle
-    /// come in the order that `permutation` says for it.
+    /// Adds a mesh as seen in an image `height` pixels high, at its vertices' pixels and w. `permutation` gives the
+    /// order of each triangle's corners, as [`Mesh::corners`] takes it.
     pub fn add_mesh(
         &mut self,
         material: usize,
@@ -135,7 +136,7 @@ impl Stage {
         }
     }
 
-    /// Gives every triangle three [codes](code) as its colour.
+    /// Colours every triangle with its three [codes](code).
     pub fn color_by_code(&mut self) {
         for (index, triangle) in self.triangles.iter_mut().enumerate() {
             let [r, g, b] = code(index as u32 + 1);
@@ -143,7 +144,7 @@ impl Stage {
         }
     }
 
-    /// The scene and its pose, as the renderer takes them.
+    /// Makes the scene and pose that the renderer takes.
     pub fn build(&self) -> (Scene, Pose) {
         let mut scene = Scene::from_materials(self.materials.clone());
         if let Some((image, sampler)) = &self.texture {
@@ -218,7 +219,7 @@ impl Stage {
         (scene, pose)
     }
 
-    /// Renders it with the camera of all stages.
+    /// Renders the stage with [`camera`].
     ///
     /// # Errors
     /// As [`Headless::upload`], [`Headless::prepare`] and [`Headless::render`].
@@ -230,7 +231,7 @@ impl Stage {
         self.seen_by(headless, settings, &camera())
     }
 
-    /// Renders it with another camera.
+    /// Renders the stage with another camera.
     ///
     /// # Errors
     /// As [`render`](Self::render).
@@ -241,27 +242,28 @@ impl Stage {
         camera: &Camera,
     ) -> Result<Rendered, RenderError> {
         let (scene, pose) = self.build();
-        let prepared = headless.upload(&scene, &pose, settings.max_memory)?;
+        let prepared =
+            headless.upload(SceneRequest::new(&scene, &pose).within(settings.max_memory))?;
         let mut frame = headless.prepare(&prepared, settings)?;
         headless.render(&mut frame, camera)
     }
 }
 
-/// The unit normal of a triangle's front face; towards the camera where it has no area.
+/// Unit normal of a triangle's front face; towards the camera if the triangle has no area.
 fn normal(triangle: &Triangle) -> [f32; 3] {
     let [a, b, c] = triangle.corners.map(Vec3::from_array);
     (b - a).cross(c - a).normalize_or(Vec3::Z).to_array()
 }
 
-/// Three whole numbers from 1 to 4,095 that tell a triangle from others, as an unlit colour does: sums of them over up to
-/// 1,024 samples are told apart as well.
+/// Code of an ID as an unlit colour: three whole numbers from 1 to 4,095, chosen so that sums over up to 1,024 samples
+/// still tell triangles apart.
 #[must_use]
 pub fn code(id: u32) -> [f32; 3] {
     let mut random = Random::new(u64::from(id));
     [0; 3].map(|_| (1 + random.below(4095)) as f32)
 }
 
-/// Settings under which every pixel is sampled `samples` times, its colour being the plain average of radiances.
+/// Settings under which every pixel is sampled `samples` times; its colour is the plain average of radiances.
 #[must_use]
 pub fn everywhere(size: [u32; 2], pattern: Pattern, samples: u32) -> Settings {
     Settings {
@@ -277,7 +279,7 @@ pub fn everywhere(size: [u32; 2], pattern: Pattern, samples: u32) -> Settings {
     }
 }
 
-/// Settings for one sample at each pixel's centre, radiances as they are, with attributes.
+/// Settings for one sample at each pixel's centre, with attributes and radiances as they are.
 #[must_use]
 pub fn once(size: [u32; 2]) -> Settings {
     Settings {

@@ -1,4 +1,4 @@
-//! Why a variant can't be measured.
+//! Errors of camera variants.
 
 use crate::camera::PinholeError;
 use crate::camera::panorama::PanoramaError;
@@ -6,22 +6,22 @@ use crate::camera::set::SetError;
 use crate::camera::zoom::ZoomError;
 use crate::render::RenderError;
 
-/// A variant that a camera or a device can't have.
+/// Variant that a camera or a device can't have.
 #[derive(Debug, thiserror::Error)]
 pub enum VariantError {
-    /// The camera is no pinhole.
+    /// Camera that is no pinhole.
     #[error(transparent)]
     Pinhole(#[from] PinholeError),
-    /// The locations make no set.
+    /// Locations that make no set.
     #[error(transparent)]
     Set(#[from] SetError),
-    /// The image has no middle to zoom.
+    /// Image without a middle to zoom.
     #[error(transparent)]
     Zoom(#[from] ZoomError),
-    /// There is no panorama.
+    /// Camera without a panorama.
     #[error(transparent)]
     Panorama(#[from] PanoramaError),
-    /// Sampling failed.
+    /// Sampling that failed.
     #[error(transparent)]
     Render(#[from] RenderError),
 }

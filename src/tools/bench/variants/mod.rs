@@ -1,4 +1,4 @@
-//! What the variants of the camera cost a sample, beside the raster pass.
+//! Benchmark of camera variants: the cost of a sample beside that of the raster pass.
 //!
 //! All of a scene's variants are warmed up once and then run in turns. The time is that of sampling: locations are made
 //! before, once.
@@ -16,26 +16,26 @@ use std::fmt;
 use std::time::{Duration, Instant};
 use work::Work;
 
-/// What is sampled, and by what.
+/// Camera variant: locations and the way that they are sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Variant {
-    /// The centres of pixels by the raster pass: what the others are held against.
+    /// Pixels' centres by the raster pass, which the other variants are compared with.
     Raster,
-    /// The same locations as a set.
+    /// Pixels' centres as a set of locations.
     Planar,
-    /// The middle of the image zoomed.
+    /// Zoom into the middle of the image.
     Offset,
-    /// The centres of pixels, and more where these alias.
+    /// Pixels' centres, and more samples in pixels that alias.
     Superpixel,
     /// Random locations.
     NoPattern,
-    /// A panorama.
+    /// Panorama.
     Rig,
 }
 
 impl Variant {
-    /// All, the raster pass first.
+    /// All variants, the raster pass first.
     pub const ALL: [Self; 6] = [
         Self::Raster,
         Self::Planar,
@@ -45,7 +45,7 @@ impl Variant {
         Self::Rig,
     ];
 
-    /// What is sampled, for readers of a table.
+    /// Description of the variant for readers of a table.
     #[must_use]
     pub fn about(self) -> &'static str {
         match self {
@@ -80,12 +80,12 @@ impl fmt::Display for Variant {
     }
 }
 
-/// What a variant costs.
+/// Cost of a variant.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct VariantCost {
-    /// The variant.
+    /// Variant that was measured.
     pub variant: Variant,
-    /// Samples taken in one run.
+    /// Samples of one run.
     pub samples: u64,
     /// Milliseconds of a run on the device.
     pub gpu_ms: Spread,
@@ -94,20 +94,20 @@ pub struct VariantCost {
 }
 
 impl VariantCost {
-    /// Nanoseconds a sample on the device; the median.
+    /// Median nanoseconds a sample on the device.
     #[must_use]
     pub fn gpu_ns(&self) -> f64 {
         1e6 * self.gpu_ms.median / self.samples as f64
     }
 
-    /// Nanoseconds a sample by the clock; the median.
+    /// Median nanoseconds a sample by the clock.
     #[must_use]
     pub fn wall_ns(&self) -> f64 {
         1e6 * self.wall_ms.median / self.samples as f64
     }
 }
 
-/// A variant that is warmed up, and how long its runs took.
+/// Camera variant that takes part in a measurement: warmed up, with the times of its runs.
 pub struct VariantContender {
     variant: Variant,
     work: Work,
@@ -117,12 +117,12 @@ pub struct VariantContender {
 }
 
 impl VariantContender {
-    /// Makes the locations of a variant for images of the settings' size, and runs it once unmeasured. Of the settings,
-    /// the method does not matter.
+    /// Makes the locations of a variant for images of the settings' size, and runs it once unmeasured. The settings'
+    /// method is ignored: the variant decides.
     ///
     /// # Errors
-    /// [`VariantError`] if the camera has no such locations, as an orthographic one has no panorama, or if they can't be
-    /// sampled.
+    /// [`VariantError`] if the camera has no such locations, as an orthographic one has no panorama, or if they can't
+    /// be sampled.
     pub fn warm_up(
         variant: Variant,
         headless: &mut Headless,
@@ -141,8 +141,8 @@ impl VariantContender {
         })
     }
 
-    /// Runs every contender `repeat` times, in rounds of one run each. Whoever would need more than `budget` for that
-    /// drops out of later rounds, after at least one run.
+    /// Runs every contender `repeat` times, by turns. A contender that would need more than `budget` drops out of later
+    /// rounds, after at least one run.
     ///
     /// # Errors
     /// As [`Headless::render`].
@@ -183,7 +183,7 @@ impl VariantContender {
         Ok(())
     }
 
-    /// What its runs cost.
+    /// Cost of the runs so far.
     #[must_use]
     pub fn cost(&self) -> VariantCost {
         VariantCost {

@@ -1,4 +1,4 @@
-//! The locations of a variant, and a run over them.
+//! Locations of a camera variant, and a run that samples them.
 
 use super::{Variant, VariantError};
 use crate::bench::Random;
@@ -10,22 +10,22 @@ use crate::render::{Frame, Headless, Method, PreparedScene, RenderError, Setting
 
 /// Most samples of a leaf of the quad-tree.
 const LEAF_SAMPLES: usize = 32;
-/// The random locations are the same in every run.
+/// Seed of the random locations, which are the same in every run.
 const SEED: u64 = 2010;
-/// How much the middle of the image is zoomed.
+/// Strength of the zoom into the image's middle.
 const MULTIPLICITY: f64 = 0.3;
 
-/// A variant, ready to run.
+/// Camera variant that is ready to run.
 pub(super) enum Work {
-    /// A frame of the raster pass.
+    /// Frame of the raster pass.
     Frame(Box<Frame>),
     /// One sample at each location of each pinhole.
     Points(Vec<(Pinhole, Vec<SampleLocation>)>, Box<Settings>),
-    /// An image at two rates.
+    /// Image at two rates: one sample a cell, and more in cells that alias.
     TwoRates(Vec<(Pinhole, Vec<SampleLocation>)>, Box<Settings>),
 }
 
-/// What a run did.
+/// Result of a run.
 pub(super) struct Done {
     pub samples: u64,
     pub gpu_ms: f64,
@@ -106,7 +106,7 @@ impl Work {
     }
 }
 
-/// A zoom of the middle of an image.
+/// Zoom into the middle of an image.
 fn zoom(size: [u32; 2]) -> Result<ZoomMap, ZoomError> {
     let [width, height] = size.map(f64::from);
     let radius = 0.15 * width.min(height);
@@ -119,7 +119,7 @@ fn zoom(size: [u32; 2]) -> Result<ZoomMap, ZoomError> {
     }])
 }
 
-/// A random location for each pixel of an image, anywhere in the image. All belong to one cell of the output, so that
+/// Random locations anywhere in the image, one for each of its pixels. All belong to one cell of the output, so that
 /// none has a neighbour and each stands for a pixel.
 fn random(size: [u32; 2]) -> Result<SamplingSet, SetError> {
     let [width, height] = size.map(f64::from);

@@ -1,9 +1,10 @@
 //! The options of `gpc bench`.
 
-use crate::cli::render::Antialiasing;
+use super::METHODS;
 use crate::cli::values;
 use clap::Args;
 use gpc::bench::{GRID_SAMPLES, MAX_REFERENCE_SAMPLES};
+use gpc::render::Method;
 use gpc::sampling::MAX_SAMPLES;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -41,7 +42,7 @@ pub struct BenchArgs {
         value_delimiter = ',',
         default_value = "none,msaa,ssaa,superpixel"
     )]
-    methods: Vec<Antialiasing>,
+    methods: Vec<Method>,
     /// Samples a pixel; methods that can't have a number are left out there
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "4,16,64,256,1024",
         value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES)))]
@@ -85,16 +86,16 @@ pub struct BenchArgs {
 
 impl BenchArgs {
     /// The methods and numbers of samples asked for, each once, one sample a pixel first.
-    pub fn cells(&self) -> Vec<(Antialiasing, u32)> {
+    pub fn cells(&self) -> Vec<(Method, u32)> {
         let mut counts = self.samples.clone();
         counts.sort_unstable();
         counts.dedup();
         let mut cells = Vec::new();
-        for method in Antialiasing::ALL {
+        for method in METHODS {
             if !self.methods.contains(&method) {
                 continue;
             }
-            if method == Antialiasing::None {
+            if method == Method::None {
                 cells.push((method, 1));
             } else {
                 cells.extend(counts.iter().map(|count| (method, *count)));

@@ -1,7 +1,7 @@
 //! The best that was measured: which points none beats, and what an error costs along them.
 
 use super::results::{Row, SceneResults};
-use crate::cli::render::Antialiasing;
+use gpc::render::Method;
 
 /// Numbers of samples whose error under supersampling superpixels are to reach.
 pub const TARGETS: [u32; 2] = [64, 256];
@@ -39,9 +39,9 @@ pub fn front<'a>(
 /// The share of supersampling's time at `samples` samples in which superpixels reach its error; `Some(None)` if they
 /// never do, and `None` where either was not measured.
 pub fn time_to_error(scene: &SceneResults, samples: u32) -> Option<Option<f64>> {
-    let goal = scene.row(Antialiasing::Ssaa, samples)?;
+    let goal = scene.row(Method::Ssaa, samples)?;
     let rows = scene.rows.iter();
-    let superpixels = rows.filter(|row| row.method == Antialiasing::Superpixel);
+    let superpixels = rows.filter(|row| row.method == Method::Superpixel);
     let points: Vec<_> = front(superpixels, error)
         .into_iter()
         .map(|row| [time(row), error(row)])
@@ -52,8 +52,8 @@ pub fn time_to_error(scene: &SceneResults, samples: u32) -> Option<Option<f64>> 
     Some(reached(&points, error(goal)).map(|ms| ms / time(goal)))
 }
 
-/// When a front of times and falling errors reaches an error: at its first point, or along straight lines between points
-/// on logarithmic axes, but never beyond its last.
+/// Time at which a front of times and falling errors reaches an error: at its first point, or along straight lines
+/// between points on logarithmic axes, but never beyond its last.
 fn reached(front: &[[f64; 2]], goal: f64) -> Option<f64> {
     let after = front.iter().position(|[_, error]| *error <= goal)?;
     let [late, low] = *front.get(after)?;

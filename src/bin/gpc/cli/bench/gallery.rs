@@ -32,7 +32,7 @@ pub struct Version {
 
 /// A part of the image in several versions.
 pub struct Part {
-    /// What it is an example of.
+    /// Title: the effect that the example shows.
     pub title: String,
     pub window: Window,
     pub versions: Vec<Version>,
@@ -85,7 +85,7 @@ impl Gallery {
 }
 
 impl Shown {
-    /// What the squared error in a window is due to, the largest share first.
+    /// Causes of the squared error in a window, the largest share first.
     fn blame(&self, errors: &ErrorMap, window: Window) -> String {
         let mut shares: Vec<(&str, f64)> = Vec::new();
         for (pixel, square) in errors.squares(window) {

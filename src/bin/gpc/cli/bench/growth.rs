@@ -1,11 +1,10 @@
-//! What methods cost when one quantity of the scene or the image grows.
+//! Costs of methods while one quantity of the scene or the image grows.
 
 use super::results::{Curve, Point, Time};
 use super::subject::{Bench, settings};
 use crate::cli::print;
-use crate::cli::render::Antialiasing;
 use gpc::bench::{self, Contender, Growth, Step};
-use gpc::render::{RenderError, Settings};
+use gpc::render::{Method, RenderError, SceneRequest, Settings};
 use std::fmt::Write;
 
 const COLUMNS: &str = "quantity,value,width,height,triangles,superpixel_fraction,method,samples,gpu_ms_median,wall_ms_median";
@@ -39,10 +38,10 @@ pub fn csv(curves: &[Curve]) -> String {
 }
 
 /// The methods that are compared, and their samples a pixel.
-const METHODS: [(Antialiasing, u32); 3] = [
-    (Antialiasing::None, 1),
-    (Antialiasing::Superpixel, Settings::DEFAULT_SAMPLES),
-    (Antialiasing::Ssaa, Settings::DEFAULT_SAMPLES),
+const METHODS: [(Method, u32); 3] = [
+    (Method::None, 1),
+    (Method::Superpixel, Settings::DEFAULT_SAMPLES),
+    (Method::Ssaa, Settings::DEFAULT_SAMPLES),
 ];
 
 impl Bench<'_> {
@@ -81,12 +80,7 @@ impl Bench<'_> {
     }
 
     /// Takes methods that would need too long for the next scene out of the list.
-    fn drop_slow(
-        &self,
-        point: &Point,
-        methods: &mut Vec<(Antialiasing, u32)>,
-        notes: &mut Vec<String>,
-    ) {
+    fn drop_slow(&self, point: &Point, methods: &mut Vec<(Method, u32)>, notes: &mut Vec<String>) {
         let budget = self.args.budget;
         methods.retain(|(method, _)| {
             let time = point.times.iter().find(|time| time.method == *method);
@@ -105,10 +99,12 @@ impl Bench<'_> {
     fn point(
         &mut self,
         step: &Step,
-        methods: &mut Vec<(Antialiasing, u32)>,
+        methods: &mut Vec<(Method, u32)>,
         notes: &mut Vec<String>,
     ) -> Result<Point, RenderError> {
-        let prepared = self.headless.upload(&step.scene, &step.pose, None)?;
+        let prepared = self
+            .headless
+            .upload(SceneRequest::new(&step.scene, &step.pose))?;
         let pixels = f64::from(step.size[0]) * f64::from(step.size[1]);
         let mut contenders = Vec::new();
         let mut superpixel_fraction = None;
@@ -117,7 +113,7 @@ impl Bench<'_> {
             let headless = &mut self.headless;
             match Contender::warm_up(headless, &prepared, &step.camera, &settings) {
                 Ok((contender, rendered)) => {
-                    if *method == Antialiasing::Superpixel {
+                    if *method == Method::Superpixel {
                         superpixel_fraction = Some(rendered.statistics.superpixels as f64 / pixels);
                     }
                     contenders.push(contender);
@@ -178,9 +174,9 @@ pub fn print(curve: &Curve) -> anyhow::Result<()> {
             point
                 .superpixel_fraction
                 .map_or_else(|| "-".to_owned(), |share| format!("{:.1} %", 100.0 * share)),
-            ms(point.ms(Antialiasing::None)),
-            ms(point.ms(Antialiasing::Superpixel)),
-            ms(point.ms(Antialiasing::Ssaa)),
+            ms(point.ms(Method::None)),
+            ms(point.ms(Method::Superpixel)),
+            ms(point.ms(Method::Ssaa)),
         ))?;
     }
     for note in &curve.notes {

@@ -1,4 +1,4 @@
-//! Where and when a benchmark ran.
+//! Machine and time of a benchmark.
 
 use serde::Serialize;
 use std::time::{SystemTime, UNIX_EPOCH};

@@ -1,13 +1,12 @@
-//! One scene, measured: what every method costs, and how far it is from the truth.
+//! Measurement of one scene: the cost of every method, and its distance from the truth.
 
 use super::gallery::{Gallery, Shown};
 use super::results::{Row, SceneResults};
 use super::split::Splitter;
 use super::subject::{self, Bench, Subject};
-use crate::cli::render::Antialiasing;
 use gpc::bench::{self, Accuracy, Contender, Yardstick};
 use gpc::output::{DecodedImage, Picture};
-use gpc::render::{Footprint, RenderError, Settings};
+use gpc::render::{Footprint, Method, RenderError, Settings};
 use std::path::Path;
 
 /// A method that takes part, with what is known of it before it is timed.
@@ -22,7 +21,7 @@ impl Bench<'_> {
         let name = subject::name(path);
         self.progress.begin(&name);
         let subject = self.upload(path, self.args.size)?;
-        let settings = self.settings(Antialiasing::None, 1);
+        let settings = self.settings(Method::None, 1);
         let wanted = subject.wanted(&settings, self.args.reference, "its truth");
         let (truth, reference_seconds) = self.reference(&wanted)?;
         let (_, one_sample) = self.warm_up(&subject, &settings)?;
@@ -81,11 +80,11 @@ impl Bench<'_> {
                 },
                 contender,
             });
-            if (method, Some(samples)) == (Antialiasing::Ssaa, shown) {
+            if (method, Some(samples)) == (Method::Ssaa, shown) {
                 ssaa = Some(DecodedImage::from(&picture));
             }
             if let Some(pieces) = pieces
-                && (method, Some(samples)) == (Antialiasing::Superpixel, shown)
+                && (method, Some(samples)) == (Method::Superpixel, shown)
             {
                 superpixels = Some(Shown {
                     samples,
@@ -113,12 +112,12 @@ impl Bench<'_> {
         let cells = self.args.cells();
         let counts = cells
             .iter()
-            .filter(|(method, _)| *method == Antialiasing::Superpixel)
+            .filter(|(method, _)| *method == Method::Superpixel)
             .map(|(_, samples)| *samples);
         counts.max_by_key(|samples| (*samples == Settings::DEFAULT_SAMPLES, *samples))
     }
 
-    /// What geometry alone is measured against, if that is wanted. One sample a pixel is the same image either way.
+    /// Yardstick of geometry alone, if it is wanted. One sample a pixel is the same image with either footprint.
     fn geometry_yardstick(
         &mut self,
         subject: &Subject,
@@ -127,7 +126,7 @@ impl Bench<'_> {
         if !self.args.geometry {
             return Ok(None);
         }
-        let settings = for_whole_pixels(self.settings(Antialiasing::None, 1));
+        let settings = for_whole_pixels(self.settings(Method::None, 1));
         let name = "its reference for geometry alone";
         let (reference, _) =
             self.reference(&subject.wanted(&settings, self.args.reference, name))?;
@@ -135,12 +134,12 @@ impl Bench<'_> {
         Ok(Some(Yardstick::new(&reference, one_sample)?))
     }
 
-    /// How exact a method is by geometry alone.
+    /// Accuracy of a method by geometry alone.
     fn geometry(
         &mut self,
         subject: &Subject,
         yardstick: &Yardstick,
-        method: Antialiasing,
+        method: Method,
         samples: u32,
     ) -> anyhow::Result<Accuracy> {
         let settings = for_whole_pixels(self.settings(method, samples));
@@ -175,7 +174,7 @@ impl Bench<'_> {
     }
 }
 
-/// The same with textures read for a whole pixel, whatever the number of samples.
+/// Settings with textures read for a whole pixel, whatever the number of samples.
 fn for_whole_pixels(settings: Settings) -> Settings {
     Settings {
         footprint: Footprint::Pixel,
@@ -183,12 +182,12 @@ fn for_whole_pixels(settings: Settings) -> Settings {
     }
 }
 
-/// What is left out: a line for each method and reason.
+/// Notes of what is left out: a line for each method and reason.
 #[derive(Default)]
-struct Notes(Vec<(Antialiasing, String, Vec<u32>)>);
+struct Notes(Vec<(Method, String, Vec<u32>)>);
 
 impl Notes {
-    fn leave_out(&mut self, method: Antialiasing, samples: u32, possible: String) {
+    fn leave_out(&mut self, method: Method, samples: u32, possible: String) {
         match self
             .0
             .iter_mut()
@@ -200,7 +199,7 @@ impl Notes {
     }
 
     fn lines(&self) -> Vec<String> {
-        let line = |(method, possible, counts): &(Antialiasing, String, Vec<u32>)| {
+        let line = |(method, possible, counts): &(Method, String, Vec<u32>)| {
             let counts: Vec<_> = counts.iter().map(ToString::to_string).collect();
             format!(
                 "{method} left out at {} samples: it can have {possible}",

@@ -25,12 +25,15 @@ use anyhow::Context;
 use gpc::bench::stress::Check;
 use gpc::bench::{Cache, Growth};
 use gpc::output;
-use gpc::render::{Headless, HeadlessOptions};
+use gpc::render::{Headless, HeadlessOptions, Method};
 use progress::Progress;
 use results::Results;
 use std::path::Path;
 use std::process::ExitCode;
 use subject::Bench;
+
+/// Every method, in the order of tables.
+const METHODS: [Method; 4] = [Method::None, Method::Msaa, Method::Ssaa, Method::Superpixel];
 
 pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
     let mut files = args.scenes.iter().chain(&args.motion);

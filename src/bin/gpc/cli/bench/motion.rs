@@ -1,14 +1,13 @@
-//! How exact and how steady methods are in motion.
+//! Accuracy and steadiness of methods in motion.
 
 use super::results::{MotionRow, SceneMotion};
 use super::subject::{self, Bench, Subject, Wanted};
 use super::summary::Ratio;
 use crate::cli::print;
-use crate::cli::render::Antialiasing;
 use gpc::bench::{Motion, Sequence};
 use gpc::camera::Camera;
 use gpc::output::{DecodedImage, Picture};
-use gpc::render::{RenderError, Settings};
+use gpc::render::{Method, RenderError, Settings};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::Path;
@@ -17,22 +16,22 @@ use std::path::Path;
 const TRUTH_SAMPLES: u32 = 1024;
 
 /// Methods and their samples a pixel.
-const CELLS: [(Antialiasing, u32); 6] = [
-    (Antialiasing::None, 1),
-    (Antialiasing::Msaa, 4),
-    (Antialiasing::Ssaa, 16),
-    (Antialiasing::Ssaa, 64),
-    (Antialiasing::Superpixel, 16),
-    (Antialiasing::Superpixel, 64),
+const CELLS: [(Method, u32); 6] = [
+    (Method::None, 1),
+    (Method::Msaa, 4),
+    (Method::Ssaa, 16),
+    (Method::Ssaa, 64),
+    (Method::Superpixel, 16),
+    (Method::Superpixel, 64),
 ];
 
 /// Superpixels in motion over supersampling at equal numbers of samples, over all scenes and both motions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MotionRatio {
     pub samples: u32,
-    /// Of the mean of each frame's RMSE.
+    /// Ratio of the mean of each frame's RMSE.
     pub rmse: Ratio,
-    /// Of the flicker.
+    /// Ratio of the flicker.
     pub flicker: Ratio,
 }
 
@@ -83,7 +82,7 @@ impl Bench<'_> {
         size: [u32; 2],
         motion: Motion,
     ) -> anyhow::Result<Vec<DecodedImage>> {
-        let settings = subject::settings(Antialiasing::None, 1, size);
+        let settings = subject::settings(Method::None, 1, size);
         let mut truths = Vec::new();
         for (index, camera) in cameras.iter().enumerate() {
             let name = format!("{motion}, truth {} of {}", index + 1, cameras.len());
@@ -96,7 +95,7 @@ impl Bench<'_> {
         Ok(truths)
     }
 
-    /// All frames with the same settings.
+    /// Measures all frames with the same settings.
     fn sequence(
         &mut self,
         subject: &Subject,
@@ -119,14 +118,14 @@ impl Bench<'_> {
 pub fn summarize(scenes: &[SceneMotion]) -> Vec<MotionRatio> {
     let counts = CELLS
         .iter()
-        .filter(|(method, _)| *method == Antialiasing::Superpixel);
-    let at = |&(_, samples): &(Antialiasing, u32)| {
+        .filter(|(method, _)| *method == Method::Superpixel);
+    let at = |&(_, samples): &(Method, u32)| {
         let pairs = || {
             scenes.iter().flat_map(move |scene| {
                 Motion::ALL.into_iter().filter_map(move |motion| {
                     let find = |method| scene.row(motion, method, samples);
-                    let superpixel = find(Antialiasing::Superpixel)?.steadiness;
-                    let ssaa = find(Antialiasing::Ssaa)?.steadiness;
+                    let superpixel = find(Method::Superpixel)?.steadiness;
+                    let ssaa = find(Method::Ssaa)?.steadiness;
                     Some((format!("{}, {motion}", scene.name), superpixel, ssaa))
                 })
             })
@@ -181,7 +180,7 @@ pub fn print_summary(summary: &[MotionRatio]) -> anyhow::Result<()> {
 
 const COLUMNS: &str = "scene,textured,width,height,motion,method,samples,rmse,flicker";
 
-/// All rows of all scenes (RFC 4180, but with bare line feeds).
+/// Table of all rows of all scenes as CSV (RFC 4180, but with bare line feeds).
 pub fn csv(scenes: &[SceneMotion]) -> String {
     let mut text = format!("{COLUMNS}\n");
     for scene in scenes {

@@ -60,8 +60,8 @@ impl ErrorMap {
         }
     }
 
-    /// From black (none) through purple and orange to light yellow ([`BRIGHTEST`] and above). The scale is that of the
-    /// error's root, since most errors are small.
+    /// Colours of the errors, from black (none) through purple and orange to light yellow ([`BRIGHTEST`] and above).
+    /// The scale is that of the error's root, since most errors are small.
     pub fn colors(&self) -> Vec<[f32; 3]> {
         let color = |error: &f32| {
             let share = (error / BRIGHTEST).clamp(0.0, 1.0).sqrt();

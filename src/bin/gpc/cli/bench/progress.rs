@@ -10,7 +10,7 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Of a number of scenes, curves and checks.
+    /// Begins a bar of so many scenes, curves and checks.
     pub fn new(parts: usize) -> Self {
         let style = ProgressStyle::with_template("{spinner} {pos}/{len}, {elapsed}  {wide_msg}");
         let bar = ProgressBar::new(parts as u64)

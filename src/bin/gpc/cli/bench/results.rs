@@ -1,20 +1,20 @@
-//! What `results.json` holds.
+//! Contents of `results.json`.
 
 use super::BenchArgs;
 use super::machine::{self, Machine};
 use super::motion::MotionRatio;
 use super::summary::Summary;
-use crate::cli::render::Antialiasing;
 use gpc::bench::stress::Finding;
 use gpc::bench::{Accuracy, Cost, Motion, Split, Spread, Steadiness, VariantCost, Within};
+use gpc::render::Method;
 use gpc::vulkan::Limits;
 use serde::Serialize;
 
-/// Everything that one run measured.
+/// Results of one run.
 #[derive(Serialize)]
 pub struct Results {
     pub version: &'static str,
-    /// When the run began: `YYYY-MM-DD`, universal time.
+    /// Date on which the run began, universal time: `YYYY-MM-DD`.
     pub date: String,
     pub machine: Machine,
     pub device: String,
@@ -35,11 +35,11 @@ pub struct Results {
     pub variants: Vec<SceneVariants>,
     /// Time against the size of things.
     pub growth: Vec<Curve>,
-    /// What the stress suite found.
+    /// Findings of the stress suite.
     pub stress: Vec<Stress>,
 }
 
-/// How exact and steady methods are in motion on one scene.
+/// Accuracy and steadiness of methods in motion, of one scene.
 #[derive(Serialize)]
 pub struct SceneMotion {
     pub name: String,
@@ -47,32 +47,32 @@ pub struct SceneMotion {
     pub textured: bool,
     pub size: [u32; 2],
     pub rows: Vec<MotionRow>,
-    /// What was left out, and why.
+    /// Notes of what was left out, and why.
     pub notes: Vec<String>,
 }
 
-/// One method in one motion.
+/// Measurements of one method in one motion.
 #[derive(Serialize)]
 pub struct MotionRow {
     pub motion: Motion,
-    pub method: Antialiasing,
+    pub method: Method,
     pub samples: u32,
     #[serde(flatten)]
     pub steadiness: Steadiness,
 }
 
-/// What the variants of the camera cost on one scene.
+/// Costs of the camera's variants, of one scene.
 #[derive(Serialize)]
 pub struct SceneVariants {
     pub name: String,
     pub triangles: u64,
     /// The raster pass first.
     pub rows: Vec<VariantRow>,
-    /// What was left out, and why.
+    /// Notes of what was left out, and why.
     pub notes: Vec<String>,
 }
 
-/// What a variant costs, in all, a sample and beside the raster pass.
+/// Cost of a variant: in all, per sample and relative to the raster pass.
 #[derive(Serialize)]
 pub struct VariantRow {
     #[serde(flatten)]
@@ -95,16 +95,16 @@ pub struct Stress {
     pub findings: Vec<Finding>,
 }
 
-/// What it costs that one quantity grows.
+/// Costs while one quantity grows.
 #[derive(Serialize)]
 pub struct Curve {
     pub quantity: String,
     pub points: Vec<Point>,
-    /// What was left out, and why.
+    /// Notes of what was left out, and why.
     pub notes: Vec<String>,
 }
 
-/// One scene of a curve.
+/// Measurements of one scene of a curve.
 #[derive(Serialize)]
 pub struct Point {
     /// The quantity that grows.
@@ -116,10 +116,10 @@ pub struct Point {
     pub times: Vec<Time>,
 }
 
-/// What a method took.
+/// Time of a method.
 #[derive(Serialize)]
 pub struct Time {
-    pub method: Antialiasing,
+    pub method: Method,
     pub samples: u32,
     /// Milliseconds on the device.
     pub gpu_ms: Spread,
@@ -127,7 +127,7 @@ pub struct Time {
     pub wall_ms: Spread,
 }
 
-/// What was measured of one scene.
+/// Measurements of one scene.
 #[derive(Serialize)]
 pub struct SceneResults {
     pub name: String,
@@ -137,15 +137,15 @@ pub struct SceneResults {
     pub textured: bool,
     /// Seconds that the truth took to render; `None` if it came from the cache.
     pub reference_seconds: Option<f64>,
-    /// What was left out, and why.
+    /// Notes of what was left out, and why.
     pub notes: Vec<String>,
     pub rows: Vec<Row>,
 }
 
-/// One method at one number of samples.
+/// Measurements of one method at one number of samples.
 #[derive(Serialize)]
 pub struct Row {
-    pub method: Antialiasing,
+    pub method: Method,
     pub samples: u32,
     #[serde(flatten)]
     pub cost: Cost,
@@ -157,11 +157,11 @@ pub struct Row {
     pub candidates: u64,
     /// Against the truth.
     pub accuracy: Accuracy,
-    /// With textures read for a whole pixel, against a reference that reads them so, where that was wanted.
+    /// Accuracy with textures read for a whole pixel, against a reference that also reads them so; only if wanted.
     pub geometry: Option<Accuracy>,
     /// The error that is left by cause, where superpixels were measured.
     pub left: Option<Split>,
-    /// What of it is the fault of edges, of texture and of light, for superpixels.
+    /// Split of the remaining error by edges, texture and light, for superpixels.
     pub left_within: Option<Within>,
 }
 
@@ -218,7 +218,7 @@ impl VariantRow {
 
 impl Point {
     /// The median of what a method took on the device, in milliseconds.
-    pub fn ms(&self, method: Antialiasing) -> Option<f64> {
+    pub fn ms(&self, method: Method) -> Option<f64> {
         let time = self.times.iter().find(|time| time.method == method)?;
         Some(time.gpu_ms.median)
     }
@@ -226,7 +226,7 @@ impl Point {
 
 impl SceneMotion {
     /// The row of a motion under a method at a number of samples.
-    pub fn row(&self, motion: Motion, method: Antialiasing, samples: u32) -> Option<&MotionRow> {
+    pub fn row(&self, motion: Motion, method: Method, samples: u32) -> Option<&MotionRow> {
         let wanted = |row: &&MotionRow| {
             row.motion == motion && row.method == method && row.samples == samples
         };
@@ -236,7 +236,7 @@ impl SceneMotion {
 
 impl SceneResults {
     /// The row of a method at a number of samples.
-    pub fn row(&self, method: Antialiasing, samples: u32) -> Option<&Row> {
+    pub fn row(&self, method: Method, samples: u32) -> Option<&Row> {
         let wanted = |row: &&Row| row.method == method && row.samples == samples;
         self.rows.iter().find(wanted)
     }

@@ -1,15 +1,14 @@
-//! Where an image's error is, and whose fault it is.
+//! Split of an image's error by place and fault.
 
 use super::subject::{Bench, Subject, Wanted};
-use crate::cli::render::Antialiasing;
 use gpc::bench::{self, Cause, Fault, Half, Looks, Split, Stripped, Suspects, Within, Yardstick};
 use gpc::output::{DecodedImage, Picture};
-use gpc::render::PreparedScene;
+use gpc::render::{Method, PreparedScene, SceneRequest};
 
 /// Most samples a pixel of the truths of stripped scenes, which only have to tell which of two errors is the larger.
 const MOST_SAMPLES: u32 = 1024;
 
-/// What tells the errors of a scene's images apart.
+/// Images and scenes by which errors are split.
 pub(super) struct Splitter {
     looks: Looks,
     /// Paint alone and light alone, and their truths.
@@ -21,7 +20,7 @@ pub(super) struct Splitter {
 /// An image's error in pieces.
 pub(super) struct Pieces {
     pub split: Split,
-    /// Of superpixels alone.
+    /// Split of the error in superpixels and inside of one triangle, for superpixel antialiasing alone.
     pub within: Option<Within>,
     /// Pixel by pixel.
     pub causes: Vec<Cause>,
@@ -32,7 +31,7 @@ pub(super) struct Pieces {
 impl Splitter {
     /// Looks into the scene's pixels, and renders the truths of its paint and of its light alone.
     pub fn new(bench: &mut Bench<'_>, subject: &Subject, shown: u32) -> anyhow::Result<Self> {
-        let settings = bench.settings(Antialiasing::None, 1);
+        let settings = bench.settings(Method::None, 1);
         let progress = &bench.progress;
         let mut looks = 0;
         let found = Looks::new(
@@ -47,7 +46,9 @@ impl Splitter {
         )?;
         let mut half = |stripped: Stripped, name: &str| -> anyhow::Result<_> {
             let scene = stripped.of(&subject.scene);
-            let prepared = bench.headless.upload(&scene, &subject.pose, None)?;
+            let prepared = bench
+                .headless
+                .upload(SceneRequest::new(&scene, &subject.pose))?;
             let (truth, _) = bench.reference(&Wanted {
                 prepared: &prepared,
                 ..subject.wanted(&settings, bench.args.reference.min(MOST_SAMPLES), name)
@@ -72,12 +73,12 @@ impl Splitter {
         subject: &Subject,
         yardstick: &Yardstick,
         picture: &Picture<'_>,
-        method: Antialiasing,
+        method: Method,
         samples: u32,
     ) -> anyhow::Result<Pieces> {
-        let superpixels = method == Antialiasing::Superpixel;
+        let superpixels = method == Method::Superpixel;
         let samples = if superpixels { samples } else { self.shown };
-        let settings = bench.settings(Antialiasing::Superpixel, samples);
+        let settings = bench.settings(Method::Superpixel, samples);
         let camera = &subject.view.camera;
         let scene = &subject.prepared;
         let causes = self
@@ -124,7 +125,7 @@ pub fn reason(cause: Option<Cause>, fault: Option<Fault>) -> &'static str {
     }
 }
 
-/// All that superpixels leave by what it is due to, in words and as shares of the squared error of one sample a pixel.
+/// Parts of the error that superpixels leave, in words and as shares of the squared error of one sample a pixel.
 pub fn shares(left: &Split, within: &Within) -> [(&'static str, f64); 7] {
     [
         (

@@ -36,7 +36,7 @@ pub fn print(stress: &Stress) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Whether it holds, is only for comparison, or fails.
+/// Verdict on a finding: whether it holds, is only for comparison, or fails.
 pub fn verdict(finding: &Finding) -> &'static str {
     match finding.allowed {
         None => "-",

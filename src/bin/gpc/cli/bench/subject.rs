@@ -3,20 +3,20 @@
 use super::BenchArgs;
 use super::progress::Progress;
 use crate::cli::input;
-use crate::cli::render::{Antialiasing, CameraArgs, View, choose_views};
+use crate::cli::render::{CameraArgs, View, choose_views};
 use gpc::bench::{self, Cache, Contender, Fingerprint};
 use gpc::camera::Camera;
 use gpc::color::srgb;
 use gpc::output::Picture;
-use gpc::render::{Headless, PreparedScene, RenderError, Rendered, Settings};
+use gpc::render::{Headless, Method, PreparedScene, RenderError, Rendered, SceneRequest, Settings};
 use gpc::scene::{Geometry, Pose, PoseRequest, Scene};
 use std::path::Path;
 use std::time::Instant;
 
-/// sRGB values of the background: opaque, so that colours tell everything.
+/// Background colour in sRGB: opaque, so that colours alone tell images apart.
 const BACKGROUND: [f64; 3] = [0.87, 0.89, 0.91];
 
-/// What measures scene after scene.
+/// Device and options that scene after scene is measured with.
 pub struct Bench<'a> {
     pub headless: Headless,
     pub cache: Cache,
@@ -40,7 +40,7 @@ pub(super) struct Wanted<'a> {
     pub settings: &'a Settings,
     /// Samples a pixel.
     pub samples: u32,
-    /// What it is, for the bar of progress.
+    /// Name of the scene for the bar of progress.
     pub name: &'a str,
 }
 
@@ -55,14 +55,16 @@ impl Bench<'_> {
             anyhow::bail!("{}: there is no camera to see it with", path.display());
         };
         Ok(Subject {
-            prepared: self.headless.upload(&loaded.scene, &pose, None)?,
+            prepared: self
+                .headless
+                .upload(SceneRequest::new(&loaded.scene, &pose))?,
             scene: loaded.scene,
             pose,
             view,
         })
     }
 
-    pub(super) fn settings(&self, method: Antialiasing, samples: u32) -> Settings {
+    pub(super) fn settings(&self, method: Method, samples: u32) -> Settings {
         settings(method, samples, self.args.size)
     }
 
@@ -154,12 +156,11 @@ impl Subject {
     }
 }
 
-/// What a method is rendered with.
-pub fn settings(method: Antialiasing, samples: u32, [width, height]: [u32; 2]) -> Settings {
+/// Settings of a method.
+pub fn settings(method: Method, samples: u32, [width, height]: [u32; 2]) -> Settings {
     Settings {
-        method: method.method(),
+        method,
         samples,
-        contrast: Settings::default_contrast(samples),
         background: Some(BACKGROUND.map(|value| srgb::decode(value) as f32)),
         ..Settings::new(width, height)
     }

@@ -3,17 +3,16 @@
 use super::front::{TARGETS, time_to_error};
 use super::results::{Row, SceneResults};
 use super::split::shares;
-use crate::cli::render::Antialiasing;
 use gpc::bench::Spread;
-use gpc::render::Settings;
+use gpc::render::{Method, Settings};
 use serde::Serialize;
 
-/// What is said of the scenes with textures, or of those without.
+/// Summary of the scenes with textures, or of those without.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
     /// Whether a material of something drawn has a texture.
     pub textured: bool,
-    /// How many scenes there are.
+    /// Number of scenes.
     pub scenes: usize,
     /// A line for each number of samples that superpixels were measured with.
     pub at: Vec<AtSamples>,
@@ -21,7 +20,8 @@ pub struct Summary {
     pub reach: Vec<Reach>,
 }
 
-/// What superpixels cost and remove at one number of samples. Medians are over the scenes that have both rows.
+/// Cost of superpixels, and error that they remove, at one number of samples. Medians are over the scenes that have
+/// both rows.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AtSamples {
     pub samples: u32,
@@ -33,7 +33,7 @@ pub struct AtSamples {
     pub over_none: Option<f64>,
     /// RMSE with superpixels over that of supersampling, against the truth and as a display shows it.
     pub rmse_ratio: Option<Ratio>,
-    /// The same of FLIP.
+    /// Ratio of the FLIP errors.
     pub flip_ratio: Option<Ratio>,
     /// RMSE over that of supersampling, of geometry alone.
     pub geometry_ratio: Option<Ratio>,
@@ -45,13 +45,13 @@ pub struct AtSamples {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Ratio {
     pub median: f64,
-    /// Where it is largest.
+    /// Largest ratio.
     pub worst: f64,
     /// The scene where that is.
     pub worst_scene: String,
 }
 
-/// In which share of supersampling's time superpixels reach its error.
+/// Share of supersampling's time in which superpixels reach its error.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reach {
     /// Samples a pixel of supersampling.
@@ -85,7 +85,7 @@ pub fn summarize(scenes: &[SceneResults]) -> Vec<Summary> {
 /// Numbers of samples that superpixels were measured with.
 pub fn counts<'a>(scenes: impl IntoIterator<Item = &'a SceneResults>) -> Vec<u32> {
     let rows = scenes.into_iter().flat_map(|scene| &scene.rows);
-    let superpixels = rows.filter(|row: &&Row| row.method == Antialiasing::Superpixel);
+    let superpixels = rows.filter(|row: &&Row| row.method == Method::Superpixel);
     let mut counts: Vec<_> = superpixels.map(|row| row.samples).collect();
     counts.sort_unstable();
     counts.dedup();
@@ -110,7 +110,7 @@ fn at(scenes: &[&SceneResults], samples: u32) -> AtSamples {
         median(scenes.iter().filter_map(|s| ratio(s)))
     };
     let row = |scene: &SceneResults| {
-        let row = scene.row(Antialiasing::Superpixel, samples)?;
+        let row = scene.row(Method::Superpixel, samples)?;
         Some(row.accuracy.removed)
     };
     AtSamples {
@@ -153,7 +153,7 @@ impl Ratio {
         )
     }
 
-    /// Of named pairs of an error above and one below; those of none below are left out.
+    /// Ratios of named pairs of an error above and one below; pairs with 0 below are left out.
     pub fn of(pairs: impl IntoIterator<Item = (String, f64, f64)>) -> Option<Self> {
         let ratios: Vec<_> = pairs
             .into_iter()
@@ -170,36 +170,36 @@ impl Ratio {
 
 /// Time under supersampling over that with superpixels.
 pub fn speedup(scene: &SceneResults, samples: u32) -> Option<f64> {
-    let ssaa = scene.row(Antialiasing::Ssaa, samples)?;
-    let superpixel = scene.row(Antialiasing::Superpixel, samples)?;
+    let ssaa = scene.row(Method::Ssaa, samples)?;
+    let superpixel = scene.row(Method::Superpixel, samples)?;
     ratio(ssaa.cost.gpu_ms.median, superpixel.cost.gpu_ms.median)
 }
 
 /// Time with superpixels over that of one sample a pixel.
 pub fn over_none(scene: &SceneResults, samples: u32) -> Option<f64> {
-    let superpixel = scene.row(Antialiasing::Superpixel, samples)?;
-    let none = scene.row(Antialiasing::None, 1)?;
+    let superpixel = scene.row(Method::Superpixel, samples)?;
+    let none = scene.row(Method::None, 1)?;
     ratio(superpixel.cost.gpu_ms.median, none.cost.gpu_ms.median)
 }
 
 /// RMSE with superpixels over that of supersampling.
 pub fn rmse_ratio(scene: &SceneResults, samples: u32) -> Option<f64> {
-    let superpixel = scene.row(Antialiasing::Superpixel, samples)?;
-    let ssaa = scene.row(Antialiasing::Ssaa, samples)?;
+    let superpixel = scene.row(Method::Superpixel, samples)?;
+    let ssaa = scene.row(Method::Ssaa, samples)?;
     ratio(superpixel.accuracy.rmse, ssaa.accuracy.rmse)
 }
 
 /// FLIP with superpixels over that of supersampling.
 fn flip_ratio(scene: &SceneResults, samples: u32) -> Option<f64> {
-    let superpixel = scene.row(Antialiasing::Superpixel, samples)?;
-    let ssaa = scene.row(Antialiasing::Ssaa, samples)?;
+    let superpixel = scene.row(Method::Superpixel, samples)?;
+    let ssaa = scene.row(Method::Ssaa, samples)?;
     ratio(superpixel.accuracy.flip, ssaa.accuracy.flip)
 }
 
-/// What most of the squared error is due to that superpixels leave at the default number of samples, or else at the most
-/// that were measured; and the share of it.
+/// Largest part of the squared error that superpixels leave, at the default number of samples or else at the most that
+/// were measured, and its share.
 pub fn most_of_what_is_left(scene: &SceneResults) -> Option<(&'static str, f64)> {
-    let superpixels = |row: &&Row| row.method == Antialiasing::Superpixel;
+    let superpixels = |row: &&Row| row.method == Method::Superpixel;
     let row = scene
         .rows
         .iter()
@@ -214,8 +214,8 @@ pub fn most_of_what_is_left(scene: &SceneResults) -> Option<(&'static str, f64)>
 
 /// RMSE over that of supersampling, of geometry alone.
 pub fn geometry_ratio(scene: &SceneResults, samples: u32) -> Option<f64> {
-    let superpixel = scene.row(Antialiasing::Superpixel, samples)?;
-    let ssaa = scene.row(Antialiasing::Ssaa, samples)?;
+    let superpixel = scene.row(Method::Superpixel, samples)?;
+    let ssaa = scene.row(Method::Ssaa, samples)?;
     ratio(superpixel.geometry?.rmse, ssaa.geometry?.rmse)
 }
 
@@ -233,8 +233,8 @@ mod tests {
     use super::*;
     use gpc::bench::{Accuracy, Cost};
 
-    fn scene(name: &str, textured: bool, rows: &[(Antialiasing, u32, f64, f64)]) -> SceneResults {
-        let row = |&(method, samples, ms, rmse): &(Antialiasing, u32, f64, f64)| Row {
+    fn scene(name: &str, textured: bool, rows: &[(Method, u32, f64, f64)]) -> SceneResults {
+        let row = |&(method, samples, ms, rmse): &(Method, u32, f64, f64)| Row {
             method,
             samples,
             cost: Cost {
@@ -266,7 +266,7 @@ mod tests {
 
     #[test]
     fn untextured_scenes_do_not_flatter() {
-        use Antialiasing::{Ssaa, Superpixel};
+        use Method::{Ssaa, Superpixel};
         let scenes = [
             scene(
                 "paint",

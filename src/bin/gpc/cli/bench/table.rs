@@ -170,7 +170,7 @@ const COLUMNS: &str = "scene,triangles,textured,method,samples,frames,gpu_ms_med
     wall_ms_min,wall_ms_spread,memory_bytes,superpixel_fraction,candidates,rmse_linear,psnr_linear,rmse,psnr,max,flip,\
     removed,needless,left_superpixels,left_below_threshold,left_unseen,left_inside,left_superpixel_edges,left_superpixel_texture,left_superpixel_light,left_inside_texture,left_inside_light,geometry_rmse,geometry_flip";
 
-/// All rows of all scenes, without the times of passes (RFC 4180, but with bare line feeds).
+/// Table of all rows of all scenes as CSV, without the times of passes (RFC 4180, but with bare line feeds).
 pub fn csv(scenes: &[SceneResults]) -> String {
     let mut text = format!("{COLUMNS}\n");
     for scene in scenes {
@@ -234,7 +234,7 @@ fn left_within(row: &Row) -> String {
     shares.map(optional).join(",")
 }
 
-/// In superpixels by edges, texture and light, and amid one triangle by texture and light.
+/// Shares in superpixels by edges, texture and light, and inside of one triangle by texture and light.
 pub fn within(within: &Within) -> [f64; 5] {
     [
         within.superpixel_edges,

@@ -1,10 +1,10 @@
-//! What the variants of the camera cost.
+//! Costs of the camera's variants.
 
 use super::results::{SceneVariants, VariantRow};
 use super::subject::{self, Bench};
 use crate::cli::print;
-use crate::cli::render::Antialiasing;
 use gpc::bench::{Variant, VariantContender, VariantError};
+use gpc::render::Method;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -14,7 +14,7 @@ impl Bench<'_> {
         let name = subject::name(path);
         self.progress.begin(&format!("{name}, variants"));
         let subject = self.upload(path, self.args.size)?;
-        let settings = subject::settings(Antialiasing::Superpixel, 64, self.args.size);
+        let settings = subject::settings(Method::Superpixel, 64, self.args.size);
         let mut contenders = Vec::new();
         let mut notes = Vec::new();
         for variant in Variant::ALL {
@@ -83,7 +83,7 @@ pub fn print(scene: &SceneVariants) -> anyhow::Result<()> {
 const COLUMNS: &str = "scene,triangles,variant,samples,runs,gpu_ms_median,gpu_ms_min,gpu_ms_spread,wall_ms_median,\
     wall_ms_min,wall_ms_spread,gpu_ns,wall_ns,gpu_ratio,wall_ratio";
 
-/// All rows of all scenes (RFC 4180, but with bare line feeds).
+/// Table of all rows of all scenes as CSV (RFC 4180, but with bare line feeds).
 pub fn csv(scenes: &[SceneVariants]) -> String {
     let mut text = format!("{COLUMNS}\n");
     for scene in scenes {

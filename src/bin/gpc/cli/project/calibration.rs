@@ -15,7 +15,7 @@ pub struct Calibrated {
     pub fit: Option<Fit>,
 }
 
-/// How many correspondences a homography is fitted to.
+/// Numbers of the correspondences that a homography was fitted to.
 #[derive(Clone, Copy, Serialize)]
 pub struct Fit {
     correspondences: usize,
@@ -52,7 +52,7 @@ pub fn read(args: &ProjectArgs) -> anyhow::Result<Vec<Calibrated>> {
         .collect()
 }
 
-/// From a location for each pixel.
+/// Calibration by a location for each pixel.
 fn dense(bytes: &[u8], name: &str) -> anyhow::Result<Calibrated> {
     let (size, pixels) = output::decode_linear(bytes, name)?;
     let location = |[u, v, _, alpha]: [f32; 4]| match alpha {
@@ -66,7 +66,7 @@ fn dense(bytes: &[u8], name: &str) -> anyhow::Result<Calibrated> {
     })
 }
 
-/// From correspondences.
+/// Calibration by correspondences.
 fn planar(
     args: &ProjectArgs,
     bytes: &[u8],

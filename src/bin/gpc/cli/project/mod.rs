@@ -60,17 +60,17 @@ pub struct ProjectArgs {
     pub report: ReportArgs,
 }
 
-/// What `--json` says of a frame beside what is said of every image.
+/// Fields of `--json` for a projector's frame, besides those of every image.
 #[derive(Serialize)]
 struct Frame {
-    /// What its correspondences were worth; `null` for a dense map.
+    /// Quality of the correspondences; `null` for a dense map.
     calibration: Option<Fit>,
     /// Mean of its blend weights.
     mean_weight: f64,
     weights: Option<String>,
 }
 
-/// What `--json` prints.
+/// Output of `--json`.
 #[derive(Serialize)]
 struct Report {
     images: Vec<Figures<Frame>>,
@@ -164,7 +164,7 @@ fn shoot(stage: &mut Stage, projector: &Projector) -> anyhow::Result<Shot> {
     stage.render(projector.size(), &[(pinhole, locations)])
 }
 
-/// What a projector shows: opaque, for a projector knows no other, and black where it lights nothing.
+/// Light of a projector, dimmed by weights: opaque, and black where the projector lights nothing.
 fn dim(colors: &[[f32; 4]], weights: &[f32]) -> Vec<[f32; 4]> {
     let dim = |([r, g, b, _], weight): (&[f32; 4], &f32)| {
         let [r, g, b] = [r, g, b].map(|light| light * weight);

@@ -6,10 +6,8 @@ use crate::cli::values::{self, Shard};
 use clap::{Args, ValueEnum};
 use glam::DVec3;
 use gpc::output::VideoFormat;
-use gpc::render::{Coverage, Detection, Footprint, Method, PixelRect, Settings, Shading, Shadows};
+use gpc::render::{Coverage, Detection, Footprint, Method, PixelRect, Settings, Shading};
 use gpc::sampling::Pattern;
-use serde::Serialize;
-use std::fmt;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
@@ -32,7 +30,7 @@ pub struct RenderArgs {
     /// y4m is YUV4MPEG2, BT.709 in limited range, 4:4:4, over black where there is no background; raw is RGBA of 8 bits, sRGB
     /// with straight alpha.
     #[arg(long, value_name = "F", hide_short_help = true)]
-    pub format: Option<Stream>,
+    pub format: Option<VideoFormat>,
 
     #[command(flatten)]
     pub image: ImageArgs,
@@ -55,7 +53,7 @@ pub struct RenderArgs {
 pub struct SamplingArgs {
     /// Method
     #[arg(long, value_name = "METHOD", default_value = "superpixel")]
-    pub aa: Antialiasing,
+    pub aa: Method,
     /// Samples a pixel [default: 64; 4 for msaa]
     ///
     /// 1 to 1024 for superpixel, a square for ssaa, what the device has for msaa.
@@ -64,11 +62,11 @@ pub struct SamplingArgs {
     /// Differences of neighbours above this are a contrast, in 8-bit sRGB code values
     /// [default: 6; 1 from 128 samples on]
     #[arg(long, value_name = "T", hide_short_help = true)]
-    contrast: Option<u8>,
+    pub contrast: Option<u8>,
     /// What makes a pixel a superpixel: a neighbour in a contrasting colour; one that also shows another triangle; or
     /// any neighbour that shows another triangle
     #[arg(long, default_value = "contrast", hide_short_help = true)]
-    pub detect: Detect,
+    pub detect: Detection,
     /// Where a superpixel's samples lie: sobol, lattice, korobov, grid or rotated
     #[arg(
         long,
@@ -79,41 +77,29 @@ pub struct SamplingArgs {
     pub pattern: Pattern,
     /// How samples become coverage: the exact area of triangles that are seen whole, or counts of samples alone
     #[arg(long, default_value = "area", hide_short_help = true)]
-    pub coverage: CoverageRule,
+    pub coverage: Coverage,
     /// What texture levels are chosen for: the part of a pixel that a shading place stands for, or the whole pixel. none
     /// and msaa have the pixel's at either
     #[arg(long, default_value = "sample", hide_short_help = true)]
-    pub footprint: TextureFootprint,
+    pub footprint: Footprint,
     /// Shade a superpixel once for each visible triangle, in up to 16 to 128 parts where colours vary, or once a sample
     #[arg(long, default_value = "part", hide_short_help = true)]
-    pub shading: ShadingRate,
+    pub shading: Shading,
 }
 
 impl SamplingArgs {
-    /// The threshold asked for, if any.
-    #[cfg(feature = "view")]
-    pub fn asked_contrast(&self) -> Option<u8> {
-        self.contrast
-    }
-
     /// The number of samples asked for, if any.
     #[cfg(feature = "view")]
     pub fn asked_samples(&self) -> Option<u32> {
         self.samples
     }
 
-    /// The threshold asked for, or the default for the number of samples.
-    pub fn contrast(&self) -> u8 {
-        self.contrast
-            .unwrap_or_else(|| Settings::default_contrast(self.samples()))
-    }
-
     /// The number of samples asked for, or the method's default.
     pub fn samples(&self) -> u32 {
         self.samples.unwrap_or(match self.aa {
-            Antialiasing::None => 1,
-            Antialiasing::Msaa => 4,
-            Antialiasing::Superpixel | Antialiasing::Ssaa => Settings::DEFAULT_SAMPLES,
+            Method::None => 1,
+            Method::Msaa => 4,
+            Method::Superpixel | Method::Ssaa => Settings::DEFAULT_SAMPLES,
         })
     }
 }
@@ -189,146 +175,6 @@ impl SequenceArgs {
     /// Frames a second.
     pub fn fps(&self) -> f64 {
         self.fps.unwrap_or(Self::DEFAULT_FPS)
-    }
-}
-
-/// Values of `--format`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Stream {
-    Y4m,
-    Raw,
-}
-
-impl Stream {
-    pub fn format(self) -> VideoFormat {
-        match self {
-            Self::Y4m => VideoFormat::Y4m,
-            Self::Raw => VideoFormat::Raw,
-        }
-    }
-}
-
-/// Values of `--aa`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ValueEnum)]
-#[serde(rename_all = "lowercase")]
-pub enum Antialiasing {
-    /// One sample a pixel
-    None,
-    /// Many samples where the image aliases, one elsewhere
-    Superpixel,
-    /// Brute force: everything at k x k times the resolution
-    Ssaa,
-    /// The device's own multisampling
-    Msaa,
-}
-
-impl Antialiasing {
-    /// Every method.
-    pub const ALL: [Self; 4] = [Self::None, Self::Msaa, Self::Ssaa, Self::Superpixel];
-
-    pub fn method(self) -> Method {
-        match self {
-            Self::None => Method::None,
-            Self::Superpixel => Method::Superpixel,
-            Self::Ssaa => Method::Ssaa,
-            Self::Msaa => Method::Msaa,
-        }
-    }
-}
-
-impl fmt::Display for Antialiasing {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::None => "none",
-            Self::Superpixel => "superpixel",
-            Self::Ssaa => "ssaa",
-            Self::Msaa => "msaa",
-        })
-    }
-}
-
-/// Values of `--footprint`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ValueEnum)]
-#[serde(rename_all = "lowercase")]
-pub enum TextureFootprint {
-    Sample,
-    Pixel,
-}
-
-impl TextureFootprint {
-    pub fn footprint(self) -> Footprint {
-        match self {
-            Self::Sample => Footprint::Sample,
-            Self::Pixel => Footprint::Pixel,
-        }
-    }
-}
-
-/// Values of `--detect`.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum Detect {
-    Contrast,
-    Edges,
-    Exact,
-}
-
-impl Detect {
-    pub fn detection(self) -> Detection {
-        match self {
-            Self::Contrast => Detection::Contrast,
-            Self::Edges => Detection::Edges,
-            Self::Exact => Detection::Exact,
-        }
-    }
-}
-
-/// Values of `--coverage`.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum CoverageRule {
-    Area,
-    Samples,
-}
-
-impl CoverageRule {
-    pub fn coverage(self) -> Coverage {
-        match self {
-            Self::Area => Coverage::Area,
-            Self::Samples => Coverage::Samples,
-        }
-    }
-}
-
-/// Values of `--shading`.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum ShadingRate {
-    Triangle,
-    Part,
-    Sample,
-}
-
-impl ShadingRate {
-    pub fn shading(self) -> Shading {
-        match self {
-            Self::Triangle => Shading::Triangle,
-            Self::Part => Shading::Part,
-            Self::Sample => Shading::Sample,
-        }
-    }
-}
-
-/// Values of `--shadows`.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum Shadow {
-    None,
-    Exact,
-}
-
-impl Shadow {
-    pub fn shadows(self) -> Shadows {
-        match self {
-            Self::None => Shadows::None,
-            Self::Exact => Shadows::Exact,
-        }
     }
 }
 

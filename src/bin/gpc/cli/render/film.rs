@@ -19,7 +19,7 @@ pub struct Film<'a> {
     motion: Option<Motion>,
     bounds: (DVec3, DVec3),
     first: f64,
-    /// What is shown.
+    /// Cameras of the scene that is shown.
     cameras: Vec<SceneCamera>,
     shown: Option<Shown>,
 }
@@ -59,7 +59,7 @@ impl<'a> Film<'a> {
         })
     }
 
-    /// What lights the scene from all around, unless it is the studio.
+    /// Environment that lights the scene; `None` if the studio does.
     pub fn environment(&self) -> Option<&Environment> {
         self.pose.environment(&self.loaded.scene)
     }

@@ -1,12 +1,12 @@
 //! The options that all commands share which make an image of a scene.
 
-use super::args::{Antialiasing, CameraArgs, SamplingArgs, Shadow, Tonemap};
+use super::args::{CameraArgs, SamplingArgs, Tonemap};
 use crate::cli::exit::{Usage, usage};
 use crate::cli::input;
 use crate::cli::values::{self, Background, EdgeLines};
 use clap::Args;
 use gpc::output::{AovKind, Format};
-use gpc::render::{Reference, Settings};
+use gpc::render::{Method, Reference, Settings, Shadows};
 use gpc::scene::{Edges, Environment, Loaded, Motion, Pose, PoseRequest, SceneError};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -53,9 +53,11 @@ pub struct AppearanceArgs {
     #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true, value_parser = values::finite,
         requires = "environment", hide_short_help = true)]
     pub environment_rotation: f64,
-    /// Shadows of the scene's own lights: none, or exact at every sample
+    /// Shadows of the scene's own lights
+    ///
+    /// They are exact at every sample, whatever the number and distance of the lights.
     #[arg(long, value_name = "S", default_value = "none")]
-    pub shadows: Shadow,
+    pub shadows: Shadows,
     /// Width of lines in pixels of the image
     #[arg(long, value_name = "PX", default_value_t = 1.0, allow_negative_numbers = true, value_parser = values::stroke, hide_short_help = true)]
     pub line_width: f64,
@@ -91,7 +93,7 @@ impl AppearanceArgs {
     pub fn settings(&self, settings: Settings) -> Settings {
         Settings {
             exposure: self.exposure as f32,
-            shadows: self.shadows.shadows(),
+            shadows: self.shadows,
             line_width: self.line_width as f32,
             point_size: self.point_size as f32,
             edge_width: self.edges.map_or(1.0, |edges| edges.width) as f32,
@@ -116,7 +118,7 @@ impl ImageArgs {
     /// Refuses numbers of samples that the method can't have whatever the device.
     pub fn check_samples(&self) -> Result<(), Usage> {
         match (self.sampling.aa, self.sampling.samples()) {
-            (Antialiasing::None, samples) if samples != 1 => Err(Usage(format!(
+            (Method::None, samples) if samples != 1 => Err(Usage(format!(
                 "none can't have {samples} samples a pixel; it can have 1"
             ))),
             _ => Ok(()),
@@ -155,19 +157,19 @@ impl ImageArgs {
         Ok(loaded)
     }
 
-    /// How to render for a format.
+    /// Settings for images of a format.
     pub fn settings(&self, format: Format) -> Settings {
         let [width, height] = self.size;
         let tonemaps = self.tonemap != Some(Tonemap::None);
         self.appearance.settings(Settings {
-            method: self.sampling.aa.method(),
+            method: self.sampling.aa,
             samples: self.sampling.samples(),
             pattern: self.sampling.pattern.clone(),
-            coverage: self.sampling.coverage.coverage(),
-            shading: self.sampling.shading.shading(),
-            detection: self.sampling.detect.detection(),
-            footprint: self.sampling.footprint.footprint(),
-            contrast: self.sampling.contrast(),
+            coverage: self.sampling.coverage,
+            shading: self.sampling.shading,
+            detection: self.sampling.detect,
+            footprint: self.sampling.footprint,
+            contrast: self.sampling.contrast,
             background: match self.background {
                 Background::Transparent | Background::Environment => None,
                 Background::Color(color) => Some(values::linear(color)),

@@ -14,7 +14,7 @@ mod view;
 
 #[cfg(feature = "view")]
 pub use args::SamplingArgs;
-pub use args::{Antialiasing, CameraArgs, RenderArgs, Tonemap};
+pub use args::{CameraArgs, RenderArgs, Tonemap};
 pub use image::ImageArgs;
 #[cfg(feature = "view")]
 pub use image::{AppearanceArgs, DeviceArgs};
@@ -37,7 +37,7 @@ use startup::Clock;
 use std::process::ExitCode;
 use template::{Fields, Template};
 
-/// What `--json` prints for several images.
+/// Output of `--json` for several images.
 #[derive(Serialize)]
 struct Sequence {
     images: Vec<Report>,
@@ -80,7 +80,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     let mut video = args
         .format
         .map(|stream| {
-            let (format, size) = (stream.format(), settings.output_size());
+            let (format, size) = (stream, settings.output_size());
             VideoWriter::new(std::io::stdout(), format, size, args.sequence.fps())
         })
         .transpose()?;
@@ -141,7 +141,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// How to render, and in what format, or why that can't be.
+/// Settings and format of the images; an error if these contradict each other.
 fn settings(args: &RenderArgs) -> anyhow::Result<(Format, Settings)> {
     args.report.check(&args.output)?;
     let format = args.image.format(&args.output)?;

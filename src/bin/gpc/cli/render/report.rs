@@ -1,4 +1,4 @@
-//! What is said of an image.
+//! Report on an image.
 
 use super::session::Shot;
 use super::startup::StartUp;
@@ -22,13 +22,13 @@ pub struct Report {
     camera: CameraReport,
     #[serde(flatten)]
     effort: Effort,
-    /// Of the first image, unless renderings are repeated.
+    /// Times of starting, for the first image unless renderings are repeated.
     #[serde(skip_serializing_if = "Option::is_none")]
     startup_ms: Option<StartUp>,
     warnings: Vec<String>,
 }
 
-/// Which part of an image was rendered.
+/// Part of an image that was rendered.
 #[derive(Serialize)]
 struct RegionReport {
     /// Column and row of its upper left pixel.
@@ -49,7 +49,7 @@ struct CameraReport {
     fov: Option<f64>,
 }
 
-/// Where an image comes from and goes to.
+/// Source and destination of an image.
 pub struct Origin<'a> {
     pub output: String,
     pub device: &'a Device,
@@ -88,7 +88,7 @@ impl Report {
         }
     }
 
-    /// One line for people.
+    /// Report as one line for people.
     pub fn line(&self) -> String {
         let [width, height] = self.size;
         let Effort {

@@ -1,14 +1,15 @@
 //! The images of a sequence.
 
-use super::args::{RenderArgs, SequenceArgs, Stream};
+use super::args::{RenderArgs, SequenceArgs};
 use crate::cli::exit::Usage;
 use crate::cli::input;
 use crate::cli::values::Shard;
+use gpc::output::VideoFormat;
 
 /// A moment or an angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
-    /// What stands for `{frame}`.
+    /// Number that replaces `{frame}` in the output's name.
     pub frame: u32,
     /// Seconds into the animation.
     pub time: f64,
@@ -31,7 +32,7 @@ pub fn check(args: &RenderArgs) -> Result<(), Usage> {
     if args.format.is_some() && !standard {
         return refuse("--format: OUT's ending decides the format of files; say -o -");
     }
-    if fps.is_some() && frames.is_none() && args.format != Some(Stream::Y4m) {
+    if fps.is_some() && frames.is_none() && args.format != Some(VideoFormat::Y4m) {
         return refuse("--fps: it says when --frames A..B are, and the rate of --format y4m");
     }
     if shard.is_some() && frames.is_none() && turntable.is_none() {

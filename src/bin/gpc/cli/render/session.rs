@@ -4,8 +4,8 @@ use super::startup::Clock;
 use crate::cli::report::Device;
 use gpc::camera::Camera;
 use gpc::render::{
-    Frame, Headless, HeadlessOptions, PassTime, PreparedScene, RenderError, Rendered, Settings,
-    Shadows,
+    Frame, Headless, HeadlessOptions, PassTime, PreparedScene, RenderError, Rendered, SceneRequest,
+    Settings, Shadows,
 };
 use gpc::scene::{Moment, Motion, Pose, Scene};
 use gpc::vulkan::VulkanError;
@@ -57,27 +57,19 @@ pub fn upload(
     (pose, motion): (&Pose, Option<&Motion>),
     settings: &Settings,
 ) -> Result<PreparedScene, RenderError> {
-    let memory = settings.max_memory;
-    let mut prepared = match motion {
-        Some(motion) => headless.upload_in_motion(scene, (pose, motion), memory)?,
-        None => headless.upload(scene, pose, memory)?,
-    };
-    if settings.shadows == Shadows::Exact {
-        if pose.lights.is_empty() {
-            log::warn!("--shadows: the scene has no lights of its own, and so no shadows");
-        }
-        match motion {
-            Some(motion) => {
-                headless.prepare_shadows_in_motion(&mut prepared, scene, (pose, motion), memory)?
-            }
-            None => headless.prepare_shadows(&mut prepared, scene, pose, memory)?,
-        }
+    if settings.shadows == Shadows::Exact && pose.lights.is_empty() {
+        log::warn!("--shadows: the scene has no lights of its own, and so no shadows");
     }
-    Ok(prepared)
+    headless.upload(
+        SceneRequest::new(scene, pose)
+            .moving(motion)
+            .shadowed(settings.shadows)
+            .within(settings.max_memory),
+    )
 }
 
 impl Session {
-    /// In a device.
+    /// Opens a session on a device.
     pub fn new(headless: Headless, settings: Settings) -> Self {
         Self {
             headless,
@@ -147,7 +139,7 @@ impl Session {
         Ok(self.headless.render(frame, camera)?)
     }
 
-    /// What the validation layer has said, if it was asked.
+    /// Messages of the validation layer, if it runs.
     pub fn validation_messages(&self) -> Vec<String> {
         self.headless.validation_messages()
     }

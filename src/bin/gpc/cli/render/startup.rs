@@ -1,4 +1,4 @@
-//! Where the time to the first image goes.
+//! Times of the steps up to the first image.
 
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -39,7 +39,7 @@ impl Clock {
         self.last = now;
     }
 
-    /// All steps up to the first image, once.
+    /// Times of all steps up to the first image; `None` when asked again.
     pub fn finish(&mut self) -> Option<StartUp> {
         let total = 1e3 * (self.last - self.start).as_secs_f64();
         let mut laps = self.laps.take()?;

@@ -3,7 +3,7 @@
 use crate::cli::exit::Usage;
 use std::path::{Path, PathBuf};
 
-/// What `{stem}`, `{camera}` and `{frame}` stand for.
+/// Values of `{stem}`, `{camera}` and `{frame}`.
 pub struct Fields<'a> {
     pub stem: &'a str,
     pub camera: &'a str,

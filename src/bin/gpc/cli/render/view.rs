@@ -1,4 +1,4 @@
-//! Which cameras a pose is seen through.
+//! Cameras through which a pose is seen.
 
 use super::args::CameraArgs;
 use super::template::file_name_part;
@@ -10,7 +10,7 @@ use std::collections::HashMap;
 
 /// A camera to render with.
 pub struct View {
-    /// What stands for `{camera}`.
+    /// Text that replaces `{camera}` in the output's name.
     pub label: String,
     pub camera: Camera,
     /// A point on the camera's axis: where it looks, or else abreast of the scene's centre.
@@ -28,7 +28,7 @@ pub fn choose(args: &CameraArgs, pose: &Pose, aspect: f64) -> Result<Vec<View>, 
     choose_among(args, &pose.cameras, bounds(pose), aspect)
 }
 
-/// As [`choose`], among these cameras, for what lies within a box.
+/// Chooses as [`choose`] does, among these cameras, for contents within a box.
 pub fn choose_among(
     args: &CameraArgs,
     cameras: &[SceneCamera],

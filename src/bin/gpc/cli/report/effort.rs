@@ -1,10 +1,10 @@
-//! What it took to render an image.
+//! Effort of rendering an image.
 
 use gpc::render::{PassTime, Settings, Statistics, TriangleCounts};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// What was done for an image, and how long it took.
+/// Work that was done for an image, and its times.
 #[derive(Serialize)]
 pub struct Effort {
     /// Samples of a superpixel; of every pixel under methods without superpixels.
@@ -21,9 +21,9 @@ pub struct Effort {
 #[derive(Serialize)]
 pub struct Superpixels {
     pub count: u64,
-    /// Of the pixels or locations.
+    /// Share of the pixels or locations.
     pub fraction: f64,
-    /// Those that the first few of their samples did not settle.
+    /// Superpixels that the first few of their samples did not settle.
     resampled: u64,
     /// Visibility samples: the places that are shaded, and the links of BLEND layers.
     records: u64,
@@ -47,7 +47,7 @@ struct Skipped {
 
 /// Renderings of one image.
 pub struct Work<'a> {
-    /// What the last of them did.
+    /// Statistics of the last rendering.
     pub statistics: &'a Statistics,
     /// Pixels or locations.
     pub cells: u64,
@@ -75,7 +75,7 @@ impl Effort {
         }
     }
 
-    /// All passes, in milliseconds.
+    /// Milliseconds on the device of all passes together.
     pub fn total_gpu_ms(&self) -> f64 {
         self.gpu_ms.get("total").copied().unwrap_or_default()
     }

@@ -1,4 +1,4 @@
-//! What commands say of the images that they make.
+//! Reports of commands on the images that they make.
 
 mod effort;
 
@@ -11,7 +11,7 @@ use gpc::render::Headless;
 use serde::Serialize;
 use std::path::Path;
 
-/// How much is said.
+/// Amount of reporting.
 #[derive(Args, Clone, Copy)]
 pub struct ReportArgs {
     /// Print figures as one JSON object

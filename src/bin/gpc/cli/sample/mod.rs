@@ -5,7 +5,7 @@ mod npy;
 mod table;
 
 use super::exit::{Usage, usage};
-use super::render::{Antialiasing, ImageArgs, Tonemap};
+use super::render::{ImageArgs, Tonemap};
 use super::report::{Effort, ReportArgs, Work};
 use super::stage::Stage;
 use super::{input, render};
@@ -14,7 +14,7 @@ use clap::Args;
 use gpc::camera::Pinhole;
 use gpc::camera::set::SamplingSet;
 use gpc::output::{self, Format, OutputError, Picture};
-use gpc::render::{PointSample, Sampled};
+use gpc::render::{Method, PointSample, Sampled};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -57,16 +57,16 @@ pub struct SampleArgs {
     pub report: ReportArgs,
 }
 
-/// What `--json` says of samples beside what is said of every image.
+/// Fields of `--json` for samples, besides those of every image.
 #[derive(Serialize)]
 struct Seen {
     /// Sampling locations.
     locations: usize,
-    /// Those that see a triangle.
+    /// Number of samples that see a triangle.
     hits: usize,
 }
 
-/// What is written.
+/// Format of the output.
 #[derive(Clone, Copy)]
 enum Kind {
     Csv,
@@ -148,7 +148,7 @@ fn sample(
     stage: &mut Stage,
     pinhole: &Pinhole,
     set: &SamplingSet,
-    aa: Antialiasing,
+    aa: Method,
 ) -> anyhow::Result<Sampled<PointSample>> {
     let locations = set.locations();
     let Stage {
@@ -159,15 +159,15 @@ fn sample(
     } = stage;
     let mut samples = headless.sample_points(scene, pinhole, &locations, settings)?;
     match aa {
-        Antialiasing::None => {}
-        Antialiasing::Superpixel | Antialiasing::Ssaa => {
+        Method::None => {}
+        Method::Superpixel | Method::Ssaa => {
             let means = headless.sample_superpixels(scene, pinhole, &locations, settings)?;
             for (sample, color) in samples.values.iter_mut().zip(means.values) {
                 sample.color = color;
             }
             samples.statistics.append(means.statistics);
         }
-        Antialiasing::Msaa => usage!("--aa msaa: the device's own samples lie in pixels only"),
+        Method::Msaa => usage!("--aa msaa: the device's own samples lie in pixels only"),
     }
     Ok(samples)
 }

@@ -12,7 +12,7 @@ pub struct Locations {
 }
 
 impl Locations {
-    /// From rows of 2 or 4 numbers: u, v and perhaps row and column.
+    /// Makes a table of rows of 2 or 4 numbers: u, v and perhaps row and column.
     pub fn from_rows(width: usize, numbers: &[f64]) -> Self {
         let pair = |row: &[f64], start: usize| match row.get(start..start + 2) {
             Some([a, b]) => [*a, *b],

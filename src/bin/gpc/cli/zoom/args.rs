@@ -4,7 +4,7 @@ use crate::cli::exit::Usage;
 use crate::cli::render::ImageArgs;
 use crate::cli::report::ReportArgs;
 use crate::cli::values;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use gpc::camera::zoom::{Shape, Transition, ZoomMap, ZoomRegion};
 use std::path::PathBuf;
 
@@ -52,11 +52,11 @@ pub struct RegionArgs {
     multiplicity: Vec<f64>,
     /// Its outline; once for all regions, or once for each
     #[arg(long, default_value = "circle")]
-    shape: Vec<Outline>,
+    shape: Vec<Shape>,
     /// What joins it to the rest: displacements that fade linearly, or a rate of sampling without jumps; once for all
     /// regions, or once for each
     #[arg(long, default_value = "linear")]
-    transition: Vec<Fade>,
+    transition: Vec<Transition>,
 }
 
 impl RegionArgs {
@@ -82,14 +82,8 @@ impl RegionArgs {
                 center: *center,
                 radius: *radius,
                 multiplicity: *multiplicity,
-                shape: match shape {
-                    Outline::Circle => Shape::Circle,
-                    Outline::Rectangle => Shape::Rectangle,
-                },
-                transition: match transition {
-                    Fade::Linear => Transition::Linear,
-                    Fade::Smooth => Transition::Smooth,
-                },
+                shape,
+                transition,
             },
         );
         ZoomMap::new(regions.collect()).map_err(|error| Usage(error.to_string()))
@@ -106,18 +100,4 @@ fn each<T: Copy>(option: &str, values: &[T], count: usize) -> Result<Vec<T>, Usa
             values.len()
         ))),
     }
-}
-
-/// Values of `--shape`.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Outline {
-    Circle,
-    Rectangle,
-}
-
-/// Values of `--transition`.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Fade {
-    Linear,
-    Smooth,
 }

@@ -29,7 +29,7 @@ struct Outcome {
     figures: Report,
 }
 
-/// What `--json` prints.
+/// Output of `--json`.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Report {
@@ -43,7 +43,7 @@ enum Report {
     },
 }
 
-/// What is said of the zoom of a scene beside what is said of every image.
+/// Fields of `--json` for the zoom of a scene, besides those of every image.
 #[derive(Serialize)]
 struct About {
     regions: Vec<ZoomRegion>,

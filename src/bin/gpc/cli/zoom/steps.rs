@@ -9,7 +9,7 @@ type Pixels = Vec<[f32; 4]>;
 
 /// A picture on the way to the result.
 pub struct Step {
-    /// What its file is called.
+    /// Name of the step's file.
     pub name: String,
     pub size: [u32; 2],
     pub pixels: Pixels,
@@ -43,7 +43,7 @@ pub fn common(
 /// Locations along the wider side that are drawn.
 const DRAWN: u32 = 96;
 
-/// What is left of the light of the image under the locations.
+/// Share of its light that the image keeps under the locations.
 const DIMMED: f32 = 0.15;
 
 /// Every so many locations, as dots over the dimmed image.

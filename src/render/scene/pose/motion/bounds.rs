@@ -13,7 +13,7 @@ type Box3 = [DVec3; 2];
 
 const NOTHING: Box3 = [DVec3::INFINITY, DVec3::NEG_INFINITY];
 
-/// What is known of a motion's extent before there is a moment.
+/// Bounds of a motion, known before any moment is.
 pub(crate) struct MovingBounds {
     origin: DVec3,
     /// Around what does not move.
@@ -21,7 +21,7 @@ pub(crate) struct MovingBounds {
     parts: Vec<PartBounds>,
 }
 
-/// Of vertices that move alike.
+/// Bounds of vertices that move alike.
 struct PartBounds {
     /// Around the resting vertices that each of its matrices moves.
     resting: Vec<Box3>,
@@ -30,7 +30,7 @@ struct PartBounds {
 }
 
 impl MovingBounds {
-    /// Of a motion, and its geometry without instances.
+    /// Computes the bounds of a motion with its geometry, which has no instances.
     pub fn new(geometry: &Geometry, motion: &Motion) -> Self {
         let mut moves = vec![false; geometry.positions.len()];
         for part in &motion.parts {
@@ -119,7 +119,7 @@ impl PartBounds {
         }
     }
 
-    /// How far vertices are displaced at the least and at the most along each axis, by weights of targets.
+    /// Least and greatest displacements of the vertices along each axis, by weights of targets.
     fn displaced_by(&self, weights: impl Iterator<Item = (f64, usize)>) -> Box3 {
         weights.fold([DVec3::ZERO; 2], |[low, high], (weight, target)| {
             let [a, b] = self
@@ -232,7 +232,7 @@ mod tests {
         }
     }
 
-    /// Where a vertex is, as `shaders/pose.comp` has it.
+    /// Position of a vertex, as `shaders/pose.comp` computes it.
     fn posed(motion: &Motion, moment: &Moment, vertex: usize) -> DVec3 {
         let row = |matrix: usize, axis: usize| moment.vectors[3 * matrix + axis].map(f64::from);
         let mut place = vector(&motion.vertices[vertex][0]);

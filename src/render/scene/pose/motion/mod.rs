@@ -1,5 +1,5 @@
-//! What moves and changes in a scene, and its matrices, weights, materials and lights at a moment: all that a device needs to
-//! show it.
+//! Motion of a scene, and the matrices, weights, materials and lights of its moments: all that a device needs to show
+//! them.
 
 mod bounds;
 
@@ -17,12 +17,12 @@ use crate::scene::{
     error::Warnings,
 };
 
-/// Which nodes an animation moves or deforms, and what else it changes.
+/// Nodes that an animation moves or deforms, and other properties that it changes.
 #[derive(Debug, Default)]
 pub struct Moving {
-    /// Of every node, whether its place in the world may change; empty where nothing does.
+    /// Whether each node's place in the world may change; empty if no place does.
     places: Vec<bool>,
-    /// Of every node, whether its morph weights may.
+    /// Whether each node's morph weights may change; empty if none do.
     weights: Vec<bool>,
     /// Indices of materials.
     materials: Vec<usize>,
@@ -30,7 +30,7 @@ pub struct Moving {
 }
 
 impl Moving {
-    /// What these channels move and change.
+    /// Collects what these channels move and change.
     pub fn new(scene: &Scene, animation: &[Channel]) -> Self {
         let document = &scene.document;
         let mut lights = false;
@@ -75,17 +75,17 @@ impl Moving {
     }
 }
 
-/// What moves in a [`Pose`]: skins, morph targets, and meshes of animated nodes. A renderer that has it on the device
-/// shows other [moments](Self::at) without a look at any vertex.
+/// Moving parts of a [`Pose`]: skins, morph targets, and meshes of animated nodes. A renderer that has them on the
+/// device shows other [moments](Self::at) without reading any vertex.
 #[derive(Clone, Debug)]
 pub struct Motion {
-    /// What its moments and it have in common with no other.
+    /// Identity that the motion shares with its moments alone.
     pub(crate) identity: Arc<()>,
-    /// Of the geometry.
+    /// Number of vertices of the geometry.
     vertex_count: usize,
     request: PoseRequest,
     origin: DVec3,
-    /// Those of the first pose.
+    /// Lights of the first pose.
     lights: Vec<Light>,
     /// Whether they change.
     pub(crate) changes_lights: bool,
@@ -106,15 +106,15 @@ pub struct Motion {
 pub struct MotionPart {
     placement: usize,
     pub mirrored: bool,
-    /// Of the geometry.
+    /// Index of the first vertex in the geometry.
     pub first_vertex: u32,
     pub vertex_count: u32,
-    /// In [`Motion::vertices`].
+    /// Index in [`Motion::vertices`] of the first vertex at rest.
     pub first_resting: u32,
-    /// In [`Motion::influences`]; those of a set follow each other.
+    /// Index in [`Motion::influences`] of the first influence; those of a set follow each other.
     pub first_influence: u32,
     pub sets: u32,
-    /// In [`Motion::displacements`]; those of a target follow each other.
+    /// Index in [`Motion::displacements`] of the first displacement; those of a target follow each other.
     pub first_displacement: u32,
     /// Vectors of a vertex there.
     pub displacement_vectors: u32,
@@ -127,11 +127,11 @@ pub struct MotionPart {
 /// Matrices and weights of what moves, and the materials and lights that change, at one moment.
 #[derive(Clone, Debug)]
 pub struct Moment {
-    /// Its motion's.
+    /// Identity of the motion.
     pub(crate) identity: Arc<()>,
     /// The cameras, as in [`Pose::cameras`].
     pub cameras: Vec<SceneCamera>,
-    /// All that change, by index.
+    /// Materials that change, with their indices.
     pub(crate) materials: Vec<(usize, Material)>,
     pub(crate) lights: Vec<Light>,
     /// Three rows a matrix, to the geometry's space; and of each target with a weight that, and its index.
@@ -139,7 +139,7 @@ pub struct Moment {
     pub(crate) parts: Vec<MomentPart>,
 }
 
-/// Where the vectors of a [`MotionPart`] are.
+/// Places of a [`MotionPart`]'s vectors.
 #[derive(Clone, Copy, Debug)]
 pub struct MomentPart {
     pub first_matrix: u32,
@@ -238,16 +238,16 @@ impl Motion {
         self.vertex_count == pose.geometry.positions.len()
     }
 
-    /// Most vectors of a [`Moment`].
+    /// Largest number of vectors of a [`Moment`].
     pub(crate) fn vector_count(&self) -> u64 {
         let of =
             |part: &MotionPart| 3 * u64::from(part.matrix_count) + u64::from(part.target_count);
         self.parts.iter().map(of).sum()
     }
 
-    /// What moves and changes at another time, in seconds, of the animation and scene that the motion is of. `None` where
-    /// that can't lead there from the first pose, and the scene has to be posed anew: where a mesh turns inside out, meshes or
-    /// lights come or go, or something goes beyond what numbers can say.
+    /// Makes another moment of the same animation and scene, at `time` in seconds. `None` if the first pose can't lead
+    /// there, so that the scene has to be posed anew: if a mesh turns inside out, meshes or lights come or go, or a
+    /// number leaves its range.
     ///
     /// # Errors
     /// As [`Scene::pose`].
@@ -303,7 +303,7 @@ impl Motion {
 }
 
 impl Motion {
-    /// All materials that change: as `shown`, or as they are at rest.
+    /// Materials that change: as `shown`, or else as they are at rest.
     fn materials_of(&self, scene: &Scene, shown: Vec<(usize, Material)>) -> Vec<(usize, Material)> {
         let mut shown: BTreeMap<usize, Material> = shown.into_iter().collect();
         let at_rest = |index: usize| scene.materials.get(index).cloned();

@@ -11,7 +11,7 @@ pub struct Axis {
     logarithmic: bool,
 }
 
-/// Where a chart's axes are, in the picture's units.
+/// Place of a chart's axes, in the picture's units.
 pub struct Frame {
     pub left: f64,
     pub right: f64,
@@ -44,7 +44,7 @@ impl Axis {
         }
     }
 
-    /// Where a value lies.
+    /// Place of a value on the axis.
     pub fn place(&self, value: f64) -> f64 {
         let share = if self.logarithmic {
             (value / self.low).ln() / (self.high / self.low).ln()

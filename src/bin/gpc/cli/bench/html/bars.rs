@@ -2,7 +2,7 @@
 
 use super::{escape, short};
 use crate::cli::bench::results::{Row, SceneResults};
-use crate::cli::render::Antialiasing;
+use gpc::render::Method;
 use std::fmt::Write;
 
 const WIDTH: f64 = 1120.0;
@@ -17,7 +17,7 @@ const LEAST: f64 = 0.012;
 
 /// Draws a bar for one sample a pixel and for each number of samples of the superpixels; supersampling's would dwarf them.
 pub fn chart(scene: &SceneResults) -> String {
-    let shown = |row: &&Row| matches!(row.method, Antialiasing::None | Antialiasing::Superpixel);
+    let shown = |row: &&Row| matches!(row.method, Method::None | Method::Superpixel);
     let rows: Vec<&Row> = scene.rows.iter().filter(shown).collect();
     let longest = rows
         .iter()
@@ -32,7 +32,7 @@ pub fn chart(scene: &SceneResults) -> String {
     for (index, row) in rows.iter().enumerate() {
         let top = STEP * index as f64 + 4.0;
         let baseline = top + 13.5;
-        let name = if row.method == Antialiasing::None {
+        let name = if row.method == Method::None {
             "one sample".to_owned()
         } else {
             format!("{} {}", row.method, row.samples)

@@ -2,9 +2,10 @@
 
 use super::axis::{self, Axis, points};
 use super::short;
+use crate::cli::bench::METHODS;
 use crate::cli::bench::front::{self, front, time};
 use crate::cli::bench::results::{Row, SceneResults};
-use crate::cli::render::Antialiasing;
+use gpc::render::Method;
 use std::fmt::Write;
 
 const WIDTH: f64 = 660.0;
@@ -68,7 +69,7 @@ pub fn chart(scene: &SceneResults, measure: &Measure) -> String {
         points(&front)
     );
     let mut at = LEFT;
-    for method in Antialiasing::ALL {
+    for method in METHODS {
         let rows: Vec<&Row> = drawn
             .iter()
             .filter(|row| row.method == method)
@@ -112,11 +113,11 @@ fn mark(svg: &mut String, row: &Row, measure: &Measure, x: f64, y: f64) {
     axis::mark(svg, (x, y), &words);
     // Curves fall to the right, and superpixels lie left of the others.
     let (dx, dy, anchor) = match row.method {
-        Antialiasing::None => (0.0, -10.0, "middle"),
-        Antialiasing::Superpixel => (-8.0, 13.0, "end"),
-        Antialiasing::Msaa | Antialiasing::Ssaa => (8.0, -6.0, "start"),
+        Method::None => (0.0, -10.0, "middle"),
+        Method::Superpixel => (-8.0, 13.0, "end"),
+        Method::Msaa | Method::Ssaa => (8.0, -6.0, "start"),
     };
-    if row.method != Antialiasing::None {
+    if row.method != Method::None {
         let _ = write!(
             svg,
             "<text class=\"count\" x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"{anchor}\">{}</text>",

@@ -83,7 +83,7 @@ fn summary(results: &Results) -> String {
     format!("<section>\n<h2>All scenes</h2>\n{tables}</section>\n")
 }
 
-/// How the numbers came about.
+/// Description of the way that the numbers were measured.
 fn method(results: &Results) -> String {
     format!(
         "<section class=\"method\">\n<h2>How this was measured</h2>\n<ul>\n\

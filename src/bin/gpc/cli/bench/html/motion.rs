@@ -92,8 +92,8 @@ mod tests {
     use super::*;
     use crate::cli::bench::motion::summarize;
     use crate::cli::bench::results::MotionRow;
-    use crate::cli::render::Antialiasing;
     use gpc::bench::Steadiness;
+    use gpc::render::Method;
 
     #[test]
     fn superpixels_are_held_against_supersampling_of_as_many_samples() {
@@ -111,10 +111,10 @@ mod tests {
             textured: true,
             size: [320, 180],
             rows: vec![
-                row(Motion::Pan, Antialiasing::Ssaa, 0.01),
-                row(Motion::Pan, Antialiasing::Superpixel, 0.02),
-                row(Motion::Turn, Antialiasing::Ssaa, 0.01),
-                row(Motion::Turn, Antialiasing::Superpixel, 0.04),
+                row(Motion::Pan, Method::Ssaa, 0.01),
+                row(Motion::Pan, Method::Superpixel, 0.02),
+                row(Motion::Turn, Method::Ssaa, 0.01),
+                row(Motion::Turn, Method::Superpixel, 0.04),
             ],
             notes: Vec::new(),
         };

@@ -38,7 +38,7 @@ pub fn summary(summary: &Summary) -> String {
     )
 }
 
-/// How soon superpixels reach an error; empty where that was not measured.
+/// Time in which superpixels reach an error; empty if that was not measured.
 pub fn reach(summary: &Summary) -> String {
     let row = |reach: &Reach| {
         let never = reach.scenes.iter().filter(|(_, share)| share.is_none());
@@ -149,7 +149,7 @@ fn group(index: usize) -> &'static str {
     if index == 0 { " class=\"group\"" } else { "" }
 }
 
-/// Everything but the times of passes.
+/// Table of all figures but the times of passes.
 pub fn figures(scene: &SceneResults) -> String {
     let row = |row: &Row| {
         let Row { cost, accuracy, .. } = row;
@@ -186,7 +186,7 @@ pub fn figures(scene: &SceneResults) -> String {
     )
 }
 
-/// What is left of the error of one sample a pixel, by cause; empty where that was not measured.
+/// Table of the remaining share of the error of one sample a pixel, by cause; empty if that was not measured.
 pub fn left(scene: &SceneResults) -> String {
     let rows: Vec<_> = scene
         .rows
