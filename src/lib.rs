@@ -41,7 +41,7 @@
 //!
 //! `image.colors` has rows of linear, premultiplied RGBA. Any other set of locations is a `camera::Pinhole` and a list of
 //! `camera::SampleLocation`s, which `Headless::sample_points`, `sample_superpixels` and `render_locations` take. `camera` makes
-//! such lists: for zooms, panoramas, rigs and projectors. `SceneRequest::shadows` readies a scene for shadows.
+//! such lists: for zooms, panoramas, rigs and projectors. `SceneRequest::shadowed` readies a scene for shadows.
 //!
 //! ## 2. A file, in your command buffer
 //!

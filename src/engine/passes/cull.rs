@@ -2,7 +2,7 @@
 
 use super::arguments::{After, Arguments};
 use super::{Argument, Content, FrameLayout, spirv};
-use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
 /// Which triangles are kept.
@@ -26,12 +26,13 @@ impl Cull {
     /// # Errors
     /// If the driver refuses one.
     pub fn new(layout: &FrameLayout, scene: &dyn Content, kept: Kept) -> Result<Self, VulkanError> {
-        let constants = scene
-            .constants(Constants::new())
-            .flag(0, kept == Kept::Thin);
+        let shader = spirv::Cull {
+            thin_alone: kept == Kept::Thin,
+            instanced: scene.is_instanced(),
+        };
         Ok(Self {
             arguments: Arguments::new(layout, After::Detect)?,
-            pipeline: layout.compute(spirv::CULL, &constants, None)?,
+            pipeline: layout.compute(&shader, None)?,
         })
     }
 

@@ -193,8 +193,8 @@ impl<'a> Recorder<'a> {
     }
 
     /// Sets the push constants of `layout`.
-    pub fn push(&self, layout: vk::PipelineLayout, words: &[u32]) {
-        let bytes = bytemuck::cast_slice(words);
+    pub fn push(&self, layout: vk::PipelineLayout, pushed: &impl bytemuck::NoUninit) {
+        let bytes = bytemuck::bytes_of(pushed);
         // SAFETY: `new`'s contract; layouts reserve room for what their passes push.
         unsafe {
             self.gpu

@@ -76,7 +76,7 @@ impl Gpu {
     /// Works in a host's device.
     ///
     /// # Errors
-    /// [`VulkanError::Missing`] names all that the device lacks.
+    /// [`VulkanError::Missing`] names all that the device lacks, [`VulkanError::QueueFamily`] a family that it has not.
     ///
     /// # Safety
     /// - All handles are alive, belong together and outlive the returned value and all made with it.
@@ -110,6 +110,20 @@ impl Gpu {
             return Err(VulkanError::Missing {
                 device: limits.device_name,
                 missing,
+            });
+        }
+        // SAFETY: passed on to the caller.
+        let (is_fit, possible) = unsafe {
+            (
+                Requirements::is_fit(&instance, physical_device, queue_family),
+                Requirements::queue_family(&instance, physical_device),
+            )
+        };
+        if !is_fit {
+            return Err(VulkanError::QueueFamily {
+                device: limits.device_name,
+                found: queue_family,
+                possible,
             });
         }
         let allocator = match allocator {

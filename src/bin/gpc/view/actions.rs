@@ -13,8 +13,8 @@ use super::photo::Framing;
 use super::pointer::Drag;
 use super::source::{Source, Stage};
 use super::standpoint::Standpoint;
-use super::studio::{Subject, Task};
-use super::window::View;
+use super::window::Viewer;
+use super::worker::{Subject, Task};
 use glam::DVec2;
 use gpc::render::Method;
 use gpc::sampling::MAX_SAMPLES;
@@ -23,7 +23,7 @@ use std::time::Instant;
 use winit::event::{ElementState, KeyEvent, MouseScrollDelta, WindowEvent};
 use winit::window::Fullscreen;
 
-impl View {
+impl Viewer {
     /// Takes an event of the window.
     pub fn on_event(&mut self, event: &WindowEvent) -> anyhow::Result<()> {
         let response = self.interface.on_window_event(&self.window, event);
@@ -136,7 +136,7 @@ impl View {
                     self.notes
                         .say(format!("stopped loading {}", loading.source.name()));
                 }
-                for path in self.studio.stop_files() {
+                for path in self.worker.stop_files() {
                     self.notes
                         .say(format!("stopped writing {}", path.display()));
                 }
@@ -359,7 +359,7 @@ impl View {
                 return;
             };
             let task = Task::PhotoFile(easel.whole(map), path.clone());
-            self.studio.ask(0, task);
+            self.worker.ask(0, task);
             self.notes.say(format!("writing {}", path.display()));
             return;
         }

@@ -41,11 +41,11 @@ mod slot;
 mod source;
 mod standpoint;
 mod stop;
-mod studio;
 mod swapchain;
 mod tint;
 mod watch;
 mod window;
+mod worker;
 
 pub use look::{Look, default_samples};
 pub use source::{Appearance, Source};

@@ -6,7 +6,7 @@ use super::navigate::Turntable;
 use super::photo::Framing;
 use super::pick;
 use super::pointer::Drag;
-use super::window::View;
+use super::window::Viewer;
 use glam::DVec2;
 use gpc::camera::{Camera, Pinhole};
 use std::time::Instant;
@@ -29,7 +29,7 @@ pub fn pinched(delta: f64) -> f64 {
     }
 }
 
-impl View {
+impl Viewer {
     /// Moves to another place.
     pub fn go(&mut self, change: impl FnOnce(&mut Turntable)) {
         if let Some(bounds) = self.canvas.stage().map(|stage| stage.bounds) {

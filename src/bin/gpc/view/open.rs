@@ -7,7 +7,7 @@ use super::progress::Progress;
 use super::source::{Opened, Source, Stage};
 use super::standpoint::Standpoint;
 use super::watch::Watch;
-use super::window::View;
+use super::window::Viewer;
 use std::path::Path;
 use std::time::Instant;
 
@@ -28,7 +28,7 @@ impl Drop for Loading {
     }
 }
 
-impl View {
+impl Viewer {
     /// Loads what was asked for, in the background.
     pub fn load(&mut self, keeps_view: bool) {
         let source = self.source.clone();

@@ -13,7 +13,7 @@ use gltf::json::{
 };
 
 use super::{
-    buffer::{Buffers, View},
+    buffer::{BufferView, Buffers},
     model::Model,
     packed::Stream,
 };
@@ -31,7 +31,7 @@ impl<'b> Elements<'b> {
     /// `count` elements of `size` bytes from `offset` on, checked to lie within `view`.
     fn new(
         place: &str,
-        view: View<'b>,
+        view: BufferView<'b>,
         offset: USize64,
         count: usize,
         size: usize,

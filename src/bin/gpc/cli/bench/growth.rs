@@ -3,7 +3,7 @@
 use super::results::{Curve, Point, Time};
 use super::subject::{Bench, settings};
 use crate::cli::print;
-use gpc::bench::{self, Contender, Growth, Step};
+use gpc::bench::{self, Contender, Growth, GrowthStep};
 use gpc::render::{Method, RenderError, SceneRequest, Settings};
 use std::fmt::Write;
 
@@ -98,7 +98,7 @@ impl Bench<'_> {
     /// Measures a scene, and takes methods that can go no further out of the list.
     fn point(
         &mut self,
-        step: &Step,
+        step: &GrowthStep,
         methods: &mut Vec<(Method, u32)>,
         notes: &mut Vec<String>,
     ) -> Result<Point, RenderError> {

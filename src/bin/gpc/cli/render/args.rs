@@ -82,7 +82,7 @@ pub struct SamplingArgs {
     /// and msaa have the pixel's at either
     #[arg(long, default_value = "sample", hide_short_help = true)]
     pub footprint: Footprint,
-    /// Shade a superpixel once for each visible triangle, in up to 16 to 128 parts where colours vary, or once a sample
+    /// Shade a superpixel once for each visible triangle, in up to 256 parts where colours vary, or once a sample
     #[arg(long, default_value = "part", hide_short_help = true)]
     pub shading: Shading,
 }

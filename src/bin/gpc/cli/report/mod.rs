@@ -2,7 +2,7 @@
 
 mod effort;
 
-pub use effort::{Effort, Work};
+pub use effort::{Effort, RenderWork};
 
 use super::exit::Usage;
 use super::{input, print};

@@ -20,12 +20,12 @@ use serde::Serialize;
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
-use steps::Step;
+use steps::StepPicture;
 
 /// An image, the steps to it, and what is said of it.
 struct Outcome {
     result: Rendered,
-    steps: Vec<Step>,
+    steps: Vec<StepPicture>,
     figures: Report,
 }
 
@@ -174,7 +174,7 @@ fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<Outco
                 [_] => "direct".to_owned(),
                 _ => format!("direct-{index}"),
             };
-            steps.push(Step::new(&name, window.size, direct.rendered.colors));
+            steps.push(StepPicture::new(&name, window.size, direct.rendered.colors));
         }
     }
     stage.finish()?;

@@ -10,7 +10,7 @@ use std::{collections::BTreeMap, mem::discriminant, sync::Arc};
 use glam::{DAffine3, DVec3};
 use gltf::json::{Node, animation::Property};
 
-use super::{MovingPlacement, Placement, Pose, PoseRequest, Shown, light_of, looks, show};
+use super::{MovingPlacement, Placement, Pose, PoseContents, PoseRequest, light_of, looks, show};
 use crate::scene::{
     Light, Material, Scene, SceneCamera, SceneError,
     document::{Animated, Channel, Described, Document, Target},
@@ -151,7 +151,7 @@ impl Motion {
     pub(super) fn new(
         request: &PoseRequest,
         pose: &Pose,
-        shown: &Shown<'_>,
+        shown: &PoseContents<'_>,
         (moving, placed): (&Moving, &[MovingPlacement]),
     ) -> Self {
         let mut motion = Self {
