@@ -13,7 +13,6 @@ pub use crate::passes::{
 pub use crate::render::passes::prefilter;
 pub use crate::vulkan::commands::Recorder;
 pub use crate::vulkan::memory::{Buffer, Image, Memory, MemoryUse};
-pub use crate::vulkan::pipeline::Constants;
 
 use crate::vulkan::{Gpu, VulkanError};
 use std::sync::Arc;

@@ -305,7 +305,11 @@ impl Headless {
         Ok(())
     }
 
-    fn render_once(&mut self, frame: &mut Frame, camera: &Camera) -> Result<Rendered, RenderError> {
+    pub(super) fn render_once(
+        &mut self,
+        frame: &mut Frame,
+        camera: &Camera,
+    ) -> Result<Rendered, RenderError> {
         self.check(frame.scene())?;
         let size = frame.settings().output_size();
         let output = ReadBack::for_frame(&self.gpu, frame, self.output.take())?;

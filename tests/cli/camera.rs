@@ -384,3 +384,20 @@ fn a_scene_fits_in_a_pixel() {
     assert!(around.iter().flatten().all(|value| value.is_finite()));
     assert!(around.iter().any(|color| color[1] != around[0][1]));
 }
+
+#[test]
+fn an_image_of_nothing_says_which_camera_sees_something() {
+    let folder = tempfile::tempdir().unwrap();
+    let letters = asset("letters.glb");
+    let render = ["render", &letters, "-o", "a.png", "--size", "64x36"];
+    let away = ["--eye", "0,0,1000", "--target", "0,0,2000"];
+    gpc(folder.path(), &[&render[..], &away].concat())
+        .ok()
+        .says(&[
+            "nothing of the scene is in view",
+            "--camera 'reader'",
+            "--azimuth 35",
+        ]);
+    let run = gpc(folder.path(), &render).ok();
+    assert!(!run.stderr.contains("in view"), "{}", run.stderr);
+}

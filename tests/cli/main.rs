@@ -1,6 +1,7 @@
 //! The built command: what it writes, prints and refuses.
 
 mod camera;
+mod ci;
 #[path = "../common/command.rs"]
 mod command;
 mod compare;

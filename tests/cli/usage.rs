@@ -171,3 +171,53 @@ fn help_lists_every_option_and_exit_code() {
         assert!(help.contains(&format!("--{option}")), "--{option}");
     }
 }
+
+#[test]
+fn no_arguments_show_three_examples() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = gpc(folder.path(), &[])
+        .exits(2)
+        .says(&["Examples:", "Commands:"]);
+    let examples = run.stderr.lines().filter(|line| line.starts_with("  gpc "));
+    assert_eq!(examples.count(), 3, "{}", run.stderr);
+}
+
+#[test]
+fn short_help_fits_one_screen_and_long_help_groups_all_options() {
+    let folder = tempfile::tempdir().unwrap();
+    let help =
+        |option| String::from_utf8(gpc(folder.path(), &["render", option]).ok().stdout).unwrap();
+    let short = help("-h");
+    assert!(
+        short.lines().count() <= 45,
+        "{} lines: {short}",
+        short.lines().count()
+    );
+    let widest = short
+        .lines()
+        .map(|line| line.chars().count())
+        .max()
+        .unwrap();
+    assert!(widest <= 140, "{widest} columns: {short}");
+    for option in [
+        "--size",
+        "--samples",
+        "--camera",
+        "--background",
+        "--shadows",
+        "--turntable",
+    ] {
+        assert!(short.contains(option), "{option}");
+    }
+    let long = help("--help");
+    for heading in [
+        "Antialiasing:",
+        "Light and lines:",
+        "View:",
+        "Sequences:",
+        "Device:",
+        "Report:",
+    ] {
+        assert!(long.contains(&format!("\n{heading}\n")), "{heading}");
+    }
+}

@@ -1,7 +1,7 @@
 //! The documents with their generated parts.
 
 use crate::data::root;
-use crate::{help, plot, table};
+use crate::{help, plot, sets, table};
 use std::path::PathBuf;
 
 /// What makes the text of a part.
@@ -19,7 +19,11 @@ const PARTS: [(&str, Make); 9] = [
     ("help", help::every),
 ];
 
-const PLOTS: [(&str, Make); 2] = [("error-time", plot::error_time), ("growth", plot::growth)];
+const PLOTS: [(&str, Make); 3] = [
+    ("error-time", plot::error_time),
+    ("growth", plot::growth),
+    ("sets", sets::draw),
+];
 
 const BEGIN: &str = "<!-- figures: ";
 const END: &str = "<!-- end -->";

@@ -7,6 +7,7 @@ mod data;
 mod documents;
 mod help;
 mod plot;
+mod sets;
 mod table;
 mod text;
 

@@ -71,7 +71,7 @@ pub fn error_time() -> String {
             .x_label_area_size(46)
             .y_label_area_size(64)
             .build_cartesian_2d(
-                (0.8..1.6 * most(|point| point.0)).log_scale(),
+                (0.8..3.0 * most(|point| point.0)).log_scale(),
                 (0.7 * least..1.5 * most(|point| point.1)).log_scale(),
             )
             .unwrap();
@@ -95,11 +95,24 @@ pub fn error_time() -> String {
                 .draw_series(points.iter().map(|(time, error, n)| {
                     EmptyElement::at((*time, *error))
                         + Circle::new((0, 0), 4, colour.filled())
-                        + Text::new(label(method, *n), (7, -14), FONT.into_font().color(&colour))
+                        + Text::new(
+                            label(method, *n),
+                            beside(method),
+                            FONT.into_font().color(&colour),
+                        )
                 }))
                 .unwrap();
         }
     })
+}
+
+/// Where a point's label lies: above the upper curve, below the lower one.
+fn beside(method: &str) -> (i32, i32) {
+    match method {
+        "superpixel" => (-112, 6),
+        "msaa" => (-64, 4),
+        _ => (8, -14),
+    }
 }
 
 fn label(method: &str, samples: u32) -> String {
@@ -159,7 +172,7 @@ pub fn growth() -> String {
                 .unwrap();
             if let Some(last) = points.first() {
                 let name = label(method, 64);
-                let text = Text::new(name, (6, -16), FONT.into_font().color(&colour));
+                let text = Text::new(name, (-4, -24), FONT.into_font().color(&colour));
                 let at = EmptyElement::at(*last) + Circle::new((0, 0), 4, colour.filled()) + text;
                 chart.draw_series([at]).unwrap();
             }

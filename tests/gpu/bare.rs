@@ -3,8 +3,8 @@
 use ash::vk;
 use gpc::render::Headless;
 use gpc::testing::{
-    Buffer, Constants, Content, FrameLayout, Memory, MemoryUse, Offsets, RasterTargets,
-    ResourceSizes, Resources, frame_layout, memory,
+    Buffer, Content, FrameLayout, Memory, MemoryUse, Offsets, RasterTargets, ResourceSizes,
+    Resources, frame_layout, memory,
 };
 use std::sync::Arc;
 
@@ -18,10 +18,6 @@ impl Content for Unread {
 
     fn is_instanced(&self) -> bool {
         false
-    }
-
-    fn constants(&self, constants: Constants) -> Constants {
-        constants
     }
 
     fn has_mask(&self) -> bool {

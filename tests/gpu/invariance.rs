@@ -87,7 +87,7 @@ fn runs_give_the_same_bytes() {
     });
 }
 
-/// A frame expects others to take about as many rounds as the one before, and is made again where they take more.
+/// The same frame object shows the same image, which takes several rounds, whether or not it showed nothing before.
 #[test]
 fn earlier_frames_do_not_matter() {
     on_gpu(|gpu| {
@@ -110,7 +110,7 @@ fn earlier_frames_do_not_matter() {
         let nothing = gpu.render(&mut frame, &away).unwrap();
         assert_eq!(nothing.statistics.superpixels, 0);
         let found = gpu.render(&mut frame, &camera()).unwrap();
-        // One each is recorded for superpixels and for growth, where frames showed nothing.
+        // One round for the superpixels and one for their growth would be the least.
         assert!(found.statistics.rounds > 2, "{}", found.statistics.rounds);
         assert_same(&expected, &found, "after a frame of less");
     });

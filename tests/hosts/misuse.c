@@ -73,7 +73,7 @@ static GpcImage make_image(VkFormat format, VkDeviceMemory *memory) {
     };
     GpcImage image = {
         .aspects = VK_IMAGE_ASPECT_COLOR_BIT,
-        .before = {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_NONE},
+        .before = {VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_NONE},
         .after = {VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_NONE},
     };
     VkImageViewCreateInfo view = {
@@ -94,8 +94,11 @@ static GpcImage make_image(VkFormat format, VkDeviceMemory *memory) {
 
 static void without_a_device(void) {
     VkPhysicalDeviceVulkan13Features features = {.privateData = VK_TRUE};
+    EXPECT(gpc_version() == GPC_VERSION && GPC_VERSION >> 12 == (GPC_VERSION_MAJOR << 10 | GPC_VERSION_MINOR), "the version");
     EXPECT(gpc_last_error()[0] == '\0', "the message before any failure");
     ANSWERS(gpc_require_features(NULL), GPC_RESULT_NULL, "features is NULL");
+    ANSWERS(gpc_require_features(&features), GPC_RESULT_VALUE, "features->sType is 0");
+    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
     EXPECT(gpc_require_features(&features) == GPC_RESULT_SUCCESS, "features");
     EXPECT(features.privateData && features.dynamicRendering && features.synchronization2 && !features.inlineUniformBlock,
            "features are added to what is set");
@@ -138,7 +141,7 @@ static void make_device(void) {
     MUST(vkCreateInstance(&instance_info, NULL, &instance));
     vkEnumeratePhysicalDevices(instance, &count, &physical);
     ANSWERS(gpc_check_device(without_features2, instance, physical, NULL), GPC_RESULT_UNSUPPORTED,
-            "finds no vkGetPhysicalDeviceFeatures2");
+            "there is no vkGetPhysicalDeviceFeatures2: create the instance for Vulkan 1.3");
     ANSWERS(gpc_check_device(vkGetInstanceProcAddr, instance, NULL, NULL), GPC_RESULT_NULL, "physical_device is NULL");
     MUST((VkResult)gpc_check_device(vkGetInstanceProcAddr, instance, physical, &family));
     queue.queueFamilyIndex = family;
@@ -158,6 +161,12 @@ static void make_antialiaser(void) {
     lent.size += 8;
     ANSWERS(gpc_antialiaser_create(&lent, &antialiaser), GPC_RESULT_STRUCT_SIZE, "GpcDevice.size is");
     lent.size -= 8;
+    lent.queue_family = 99;
+    ANSWERS(gpc_antialiaser_create(&lent, &antialiaser), GPC_RESULT_VALUE, "queue family 99 of device");
+    lent.queue_family = family;
+    lent.conditional_rendering = VK_TRUE;
+    ANSWERS(gpc_antialiaser_create(&lent, &antialiaser), GPC_RESULT_UNSUPPORTED, "create the device with VK_EXT_conditional_rendering");
+    lent.conditional_rendering = VK_FALSE;
     MUST((VkResult)gpc_antialiaser_create(&lent, &antialiaser));
 }
 
@@ -174,12 +183,15 @@ static void recordings(GpcFrame *frame) {
     VkCommandBuffer commands;
     GpcDraw draws[2] = {{.triangle_count = 2, .vertex_count = 3}, {.first_index = 6, .triangle_count = 2, .vertex_count = 3}};
     GpcScenery scenery = {.size = sizeof scenery, .draw_count = 2, .draws = draws};
-    GpcOutcome outcome = {.size = 0};
+    GpcOutcome outcome = {.size = sizeof outcome};
+    GpcFrame *grown = NULL;
     int calls = 0;
     scenery.projection[0][0] = scenery.projection[1][1] = scenery.projection[2][2] = scenery.projection[3][3] = 1;
     MUST(vkCreateCommandPool(device, &pool_info, NULL, &info.commandPool));
     MUST(vkAllocateCommandBuffers(device, &info, &commands));
     MUST(vkBeginCommandBuffer(commands, &begin));
+    ANSWERS(gpc_frame_outcome(frame, &outcome), GPC_RESULT_NOT_READY, "nothing was recorded yet");
+    outcome.size = 0;
 
 #define RECORD gpc_frame_record(frame, commands, &scenery, shade_nothing, &calls)
     ANSWERS(gpc_frame_record(frame, commands, NULL, shade_nothing, NULL), GPC_RESULT_NULL, "GpcScenery is NULL");
@@ -192,7 +204,7 @@ static void recordings(GpcFrame *frame) {
     ANSWERS(RECORD, GPC_RESULT_VALUE, "GpcDraw.material is 70000; it can be 0 to 65535");
     draws[1].material = 0;
     draws[0].double_sided = 2;
-    ANSWERS(RECORD, GPC_RESULT_VALUE, "GpcDraw.double_sided is 2; it can be 0, 1");
+    ANSWERS(RECORD, GPC_RESULT_VALUE, "GpcDraw.double_sided is 2; it can be VK_FALSE (0), VK_TRUE (1)");
     draws[0].double_sided = VK_TRUE;
     draws[1].key = 1;
     ANSWERS(RECORD, GPC_RESULT_VALUE, "draw 1 has shading key 1, and there are 1");
@@ -200,12 +212,12 @@ static void recordings(GpcFrame *frame) {
     draws[1].alpha_map = 70000;
     ANSWERS(RECORD, GPC_RESULT_VALUE, "GpcDraw.alpha_map is 70000; it can be 0 to 65536");
     draws[1].alpha_map = 1;
-    ANSWERS(RECORD, GPC_RESULT_VALUE, "draw 1 has alpha map 0, and there are 0");
+    ANSWERS(RECORD, GPC_RESULT_VALUE, "GpcDraw.alpha_map of draw 1 is 1; it can be 0 to 0");
     draws[1].alpha_map = 0;
     draws[1].blended = 2;
-    ANSWERS(RECORD, GPC_RESULT_VALUE, "GpcDraw.blended is 2; it can be 0, 1");
+    ANSWERS(RECORD, GPC_RESULT_VALUE, "GpcDraw.blended is 2; it can be VK_FALSE (0), VK_TRUE (1)");
     draws[1].blended = VK_TRUE;
-    ANSWERS(RECORD, GPC_RESULT_VALUE, "draw 1 is blended; prepare the frame with Geometry::blended");
+    ANSWERS(RECORD, GPC_RESULT_VALUE, "draw 1 is blended; create the frame with GpcGeometry.blended");
     draws[1].blended = VK_FALSE;
     draws[1].triangle_count = 3;
     ANSWERS(RECORD, GPC_RESULT_CAPACITY, "draw 1 reads indices up to 15, and there are 12");
@@ -222,9 +234,15 @@ static void recordings(GpcFrame *frame) {
     scenery.projection[2][1] = 0.0f / (scenery.projection[3][0]);
     ANSWERS(RECORD, GPC_RESULT_VALUE, "not finite");
     scenery.projection[2][1] = 0;
+    scenery.projection[1][1] = 0;
+    ANSWERS(RECORD, GPC_RESULT_VALUE, "GpcScenery.projection has a scale of 0 along y");
+    scenery.projection[1][1] = 1;
     EXPECT(calls == 0, "what is refused records nothing");
     EXPECT(RECORD == GPC_RESULT_SUCCESS && calls > 0, "a recording");
     ANSWERS(gpc_frame_outcome(frame, &outcome), GPC_RESULT_STRUCT_SIZE, "GpcOutcome.size is 0");
+    outcome.size = sizeof outcome;
+    ANSWERS(gpc_frame_outcome(frame, &outcome), GPC_RESULT_NOT_READY, "the commands of the last recording are not done");
+    ANSWERS(gpc_frame_grow(frame, &grown), GPC_RESULT_NOT_READY, "the commands of the last recording are not done");
     MUST(vkEndCommandBuffer(commands));
     vkDestroyCommandPool(device, info.commandPool, NULL);
 }
@@ -361,7 +379,7 @@ static void frames(void) {
     geometry.position_stride = 12;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "position_stride is 12 bytes; it can be any multiple of 4 from 16 on");
     geometry.position_space = 2;
-    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcGeometry.position_space is 2; it can be 0, 1");
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcGeometry.position_space is 2; it can be GPC_POSITION_SPACE_CLIP (0), GPC_POSITION_SPACE_OBJECT (1)");
     geometry.position_space = GPC_POSITION_SPACE_OBJECT;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "the capacity of positions in object space is 0");
     geometry.position_capacity = 6;
@@ -372,7 +390,7 @@ static void frames(void) {
     ANSWERS(CREATE, GPC_RESULT_VALUE, "the buffer of positions");
     geometry.vertex_capacity = VERTICES;
     geometry.index_type = VK_INDEX_TYPE_NONE_KHR;
-    ANSWERS(CREATE, GPC_RESULT_VALUE, "index_type is NONE_KHR; it can be UINT16 or UINT32");
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcGeometry.index_type is 1000165000; it can be VK_INDEX_TYPE_UINT16 (0) or VK_INDEX_TYPE_UINT32 (1)");
     geometry.index_type = VK_INDEX_TYPE_UINT16;
     geometry.indices_offset = 1;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "indices_offset is 1 bytes; it can be a multiple of 2");
@@ -381,23 +399,39 @@ static void frames(void) {
     geometry.y_up = 3;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcGeometry.y_up is 3");
     geometry.y_up = VK_TRUE;
-    ANSWERS(CREATE, GPC_RESULT_VALUE, "lend the depth image");
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "lend GpcImages.depth, the depth image, or set GpcOptions.thin to VK_FALSE");
     options.thin = VK_FALSE;
     images.corner[1] = 0xffffffffu;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "the frame's part of the images ends at");
     images.corner[1] = 0;
     geometry.blended = 2;
-    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcGeometry.blended is 2; it can be 0, 1");
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcGeometry.blended is 2; it can be VK_FALSE (0), VK_TRUE (1)");
     geometry.blended = VK_TRUE;
     options.shade_all = VK_TRUE;
-    ANSWERS(CREATE, GPC_RESULT_VALUE, "Geometry::blended with Options::shade_all");
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcGeometry.blended with GpcOptions.shade_all");
     options.shade_all = VK_FALSE;
     geometry.blended = VK_FALSE;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "a colour image of format R8G8B8A8_UINT");
     images.color_format = VK_FORMAT_R8G8B8A8_UNORM;
+    images.color.before.layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "the image of colours is in the layout UNDEFINED before the recording");
+    images.color.before.layout = VK_IMAGE_LAYOUT_GENERAL;
+    images.color.after.layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "the image of colours is in the layout UNDEFINED after the recording");
+    images.color.after.layout = VK_IMAGE_LAYOUT_GENERAL;
+    images.color.aspects = 0;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "the image of colours has the aspects");
+    images.color.aspects = VK_IMAGE_ASPECT_COLOR_BIT;
+    options.has_background = VK_TRUE;
+    options.background[1] = zero / zero;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "its light must be finite");
+    options.background[1] = 0;
+    options.has_background = VK_FALSE;
     images.depth.image = ids.image;
     ANSWERS(CREATE, GPC_RESULT_NULL, "the view of depth is VK_NULL_HANDLE");
     images.depth.view = color.view;
+    images.depth.aspects = VK_IMAGE_ASPECT_DEPTH_BIT;
+    images.depth.before.layout = images.depth.after.layout = VK_IMAGE_LAYOUT_GENERAL;
     images.ids.image = VK_NULL_HANDLE;
     ANSWERS(CREATE, GPC_RESULT_NULL, "the image of IDs is VK_NULL_HANDLE");
     images.ids.view = VK_NULL_HANDLE;
@@ -406,7 +440,7 @@ static void frames(void) {
     images.depth.image = VK_NULL_HANDLE;
     images.depth.view = VK_NULL_HANDLE;
     options.pattern = 6;
-    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcOptions.pattern is 6; it can be 0, 1, 2, 3, 4, 5");
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcOptions.pattern is 6; it can be GPC_PATTERN_SOBOL (0), GPC_PATTERN_LATTICE (1)");
     options.pattern = GPC_PATTERN_LIST;
     ANSWERS(CREATE, GPC_RESULT_NULL, "GpcOptions.locations is NULL");
     options.locations = locations;

@@ -73,8 +73,8 @@ impl Adoption {
         let limits = self.shared.gpu.limits();
         let draws = placed.draws.len() as u32;
         let counts = |before: u32, stride: u32| VertexCounts {
-            positions: placed.positions,
-            draws,
+            position_count: placed.positions,
+            draw_count: draws,
             first_word: before / 4,
             stride: stride / 4,
         };
@@ -94,10 +94,10 @@ impl Adoption {
             recorder.mark("transform");
         }
         let counts = AdoptedCounts {
-            triangles: placed.triangles,
-            draws,
+            triangle_count: placed.triangles,
+            draw_count: draws,
             first_index: self.geometry.first_lent_index(limits),
-            indices: self.geometry.index_capacity,
+            index_count: self.geometry.index_capacity,
         };
         let (pipeline, set) = &self.adopt;
         self.shared.adopt.record(recorder, pipeline, set, counts);

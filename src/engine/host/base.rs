@@ -4,10 +4,10 @@ use super::draw::PlacedDraws;
 use super::{HostError, Images, Options, Shared};
 use crate::engine::sampler::{RecordShading, record_shading};
 use crate::passes::{
-    Centres, Content, FrameUniform, HostDraw, OwnSet, Raster, RasterPush, RasterRun, RasterTargets,
-    Resources, SampleSet, Sort,
+    Centres, ColorConstants, Content, FrameUniform, HostDraw, OwnSet, Raster, RasterPush,
+    RasterRun, RasterTargets, Resources, SampleSet, Sort,
 };
-use crate::vulkan::{Constants, Pipeline, Recorder};
+use crate::vulkan::{Pipeline, Recorder};
 use ash::vk;
 
 /// What fills triangle IDs, depth and colours of all pixels.
@@ -35,7 +35,7 @@ impl Base {
         images: &Images,
         options: &Options,
         targets: Option<RasterTargets>,
-        output: &Constants,
+        output: &ColorConstants,
     ) -> Result<Self, HostError> {
         let layout = &shared.frame;
         let single = vk::SampleCountFlags::TYPE_1;
@@ -112,7 +112,7 @@ impl Base {
 fn runs(placed: &PlacedDraws, transform: &[f32; 16]) -> Vec<RasterRun> {
     let push = RasterPush {
         matrix: *transform,
-        words: [0, placed.triangles, 0, 0],
+        instance: [0, placed.triangles, 0, 0],
     };
     let mut runs: Vec<RasterRun> = Vec::new();
     let solid = |draw: &HostDraw| draw.first_triangle < placed.solid;

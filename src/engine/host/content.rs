@@ -2,10 +2,10 @@
 
 use super::Geometry;
 use super::alpha::Alpha;
+use crate::passes::BoundTexels;
 use crate::passes::Content;
-use crate::vulkan::{
-    Buffer, BufferView, Constants, Gpu, Memory, MemoryUse, TexelView, VulkanError,
-};
+use crate::passes::spirv::frame_set;
+use crate::vulkan::{Buffer, BufferView, Gpu, Memory, MemoryUse, TexelView, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -122,7 +122,7 @@ impl HostContent {
     }
 
     /// The texel buffers of `shaders/include/frame.glsl` that it has, by binding.
-    pub fn texels(&self) -> [(u32, vk::BufferView); 10] {
+    pub fn texels(&self) -> [BoundTexels; 10] {
         let positions = match &self.positions {
             Positions::Lent { texels, .. } => texels.raw,
             Positions::Made(made) => made.view,
@@ -131,16 +131,22 @@ impl HostContent {
         let alpha = self.alpha.as_ref();
         let coordinates = alpha.map_or(floats, |alpha| alpha.coordinates.view);
         [
-            (1, positions),
-            (2, self.triangles.view),
-            (3, floats),
-            (4, floats),
-            (5, coordinates),
-            (6, coordinates),
-            (7, alpha.map_or(words, |alpha| alpha.rows.view)),
-            (9, alpha.map_or(words, |alpha| alpha.atlas.view)),
-            (10, words),
-            (11, words),
+            (frame_set::POSITIONS, positions),
+            (frame_set::TRIANGLES, self.triangles.view),
+            (frame_set::NORMALS, floats),
+            (frame_set::TANGENTS, floats),
+            (frame_set::UVS, coordinates),
+            (frame_set::COLORS, coordinates),
+            (
+                frame_set::MATERIALS,
+                alpha.map_or(words, |alpha| alpha.rows.view),
+            ),
+            (
+                frame_set::ALPHA_ATLAS,
+                alpha.map_or(words, |alpha| alpha.atlas.view),
+            ),
+            (frame_set::INSTANCE_OF, words),
+            (frame_set::INSTANCES, words),
         ]
     }
 }
@@ -152,10 +158,6 @@ impl Content for HostContent {
 
     fn is_instanced(&self) -> bool {
         false
-    }
-
-    fn constants(&self, constants: Constants) -> Constants {
-        constants
     }
 
     fn has_mask(&self) -> bool {

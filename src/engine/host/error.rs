@@ -198,6 +198,31 @@ pub enum HostError {
     /// A number of the projection is not finite.
     #[error("the projection matrix has a number that is not finite")]
     Projection,
+    /// The projection makes nothing of heights.
+    #[error("the projection matrix has a scale of 0 along y: it is projection[1][1], in columns")]
+    FlatProjection,
+    /// An image is in a layout that holds nothing, or is to be left in one.
+    #[error(
+        "{what} is in the layout {found:?} {when} the recording; it can be any that keeps what the image holds"
+    )]
+    Layout {
+        /// The image.
+        what: &'static str,
+        /// Before or after.
+        when: &'static str,
+        /// The layout.
+        found: vk::ImageLayout,
+    },
+    /// An image has other aspects than are read.
+    #[error("{what} has the aspects {found:?}; it can have {possible}")]
+    Aspects {
+        /// The image.
+        what: &'static str,
+        /// What was said of it.
+        found: vk::ImageAspectFlags,
+        /// What can be.
+        possible: &'static str,
+    },
 }
 
 impl From<VulkanError> for HostError {

@@ -84,7 +84,7 @@ impl Frame {
         if geometry.blended && options.shade_all {
             return Err(HostError::BlendedCentres);
         }
-        images.check(options.thin, settings.size, gpu.limits().max_image_side)?;
+        images.check(options, gpu.limits().max_image_side)?;
         check_size(settings.size)?;
         let [width, height] = settings.size;
         let memory = Memory::new(gpu.clone(), settings.max_memory);
@@ -238,6 +238,9 @@ impl Frame {
             .all(|n| n.is_finite())
         {
             return Err(HostError::Projection);
+        }
+        if scenery.projection[1][1] == 0.0 {
+            return Err(HostError::FlatProjection);
         }
         let uniform = self.uniform(&placed, &scenery.projection);
         let gpu = self.shared.gpu.clone();

@@ -1,6 +1,6 @@
 //! Images that a host lends.
 
-use super::HostError;
+use super::{HostError, Options};
 use crate::engine::sampler::ImageState;
 use crate::vulkan::Recorder;
 use ash::vk;
@@ -68,11 +68,53 @@ const ENCODING: [vk::Format; 3] = [
     vk::Format::A8B8G8R8_SRGB_PACK32,
 ];
 
+/// Aspects that images may have, and how these are called; the last ones name all.
+const COLOR: [(vk::ImageAspectFlags, &str); 1] = [(vk::ImageAspectFlags::COLOR, "COLOR")];
+const DEPTH: [(vk::ImageAspectFlags, &str); 2] = [
+    (vk::ImageAspectFlags::DEPTH, "DEPTH"),
+    (
+        vk::ImageAspectFlags::from_raw(
+            vk::ImageAspectFlags::DEPTH.as_raw() | vk::ImageAspectFlags::STENCIL.as_raw(),
+        ),
+        "DEPTH, and STENCIL where its format has that too",
+    ),
+];
+
 impl LentImage {
-    fn check(&self, image: &'static str, view: &'static str) -> Result<(), HostError> {
-        match (self.image, self.view) {
-            (raw, _) if raw == vk::Image::null() => Err(HostError::NullHandle(image)),
-            (_, raw) if raw == vk::ImageView::null() => Err(HostError::NullHandle(view)),
+    /// Refuses an image without handles, of other aspects than `possible`, or that holds nothing before, where it is read then, or
+    /// afterwards.
+    fn check(
+        &self,
+        (image, view): (&'static str, &'static str),
+        is_read: bool,
+        possible: &[(vk::ImageAspectFlags, &'static str)],
+    ) -> Result<(), HostError> {
+        if self.image == vk::Image::null() {
+            return Err(HostError::NullHandle(image));
+        }
+        if self.view == vk::ImageView::null() {
+            return Err(HostError::NullHandle(view));
+        }
+        if !possible.iter().any(|(aspects, _)| *aspects == self.aspects) {
+            return Err(HostError::Aspects {
+                what: image,
+                found: self.aspects,
+                possible: possible.last().map_or("", |(_, names)| names),
+            });
+        }
+        let layout = |when, found| {
+            Err(HostError::Layout {
+                what: image,
+                when,
+                found,
+            })
+        };
+        let undefined = vk::ImageLayout::UNDEFINED;
+        match (self.before.layout, self.after.layout) {
+            (found, _) if is_read && found == undefined => layout("before", found),
+            (_, found) if found == undefined || found == vk::ImageLayout::PREINITIALIZED => {
+                layout("after", found)
+            }
             _ => Ok(()),
         }
     }
@@ -84,16 +126,18 @@ impl LentImage {
 
 impl Images {
     /// `most` is the largest side of an image on the device.
-    pub(super) fn check(&self, thin: bool, size: [u32; 2], most: u32) -> Result<(), HostError> {
+    pub(super) fn check(&self, options: &Options, most: u32) -> Result<(), HostError> {
+        let (thin, size) = (options.thin, options.size);
         let end = [0, 1].map(|axis| u64::from(self.corner[axis]) + u64::from(size[axis]));
         if end.iter().any(|end| *end > u64::from(most)) {
             return Err(HostError::Part { end, most });
         }
         if let Some(ids) = &self.ids {
-            ids.check("the image of IDs", "the view of IDs")?;
+            ids.check(("the image of IDs", "the view of IDs"), true, &COLOR)?;
         }
         if let Some(depth) = &self.depth {
-            depth.check("the image of depth", "the view of depth")?;
+            let names = ("the image of depth", "the view of depth");
+            depth.check(names, true, &DEPTH)?;
         }
         match (&self.ids, &self.depth) {
             (Some(_), None) if thin => return Err(HostError::NoDepth),
@@ -105,7 +149,8 @@ impl Images {
             format,
             encoded,
         } = &self.color;
-        lent.check("the image of colours", "the view of colours")?;
+        let names = ("the image of colours", "the view of colours");
+        lent.check(names, !options.shade_all, &COLOR)?;
         if !FORMATS.contains(format) {
             return Err(HostError::Format(*format));
         }
@@ -167,7 +212,10 @@ mod tests {
         };
         Images {
             ids: Some(lent),
-            depth: Some(lent),
+            depth: Some(LentImage {
+                aspects: vk::ImageAspectFlags::DEPTH,
+                ..lent
+            }),
             color: ColorImage {
                 lent,
                 format: vk::Format::B8G8R8A8_UNORM,
@@ -179,7 +227,7 @@ mod tests {
 
     #[test]
     fn what_is_missing_or_does_not_fit_is_named() {
-        let check = |images: &Images| images.check(true, [64, 32], 1024);
+        let check = |images: &Images| images.check(&Options::new(64, 32), 1024);
         assert!(check(&images()).is_ok());
         let refused = |spoil: &dyn Fn(&mut Images)| {
             let mut images = images();
@@ -203,5 +251,29 @@ mod tests {
         assert!(integers.starts_with("a colour image of format R8G8B8A8_UINT"));
         let twice = refused(&|images| images.color.format = vk::Format::B8G8R8A8_SRGB);
         assert!(twice.ends_with("it can't be encoded as well"));
+        let lost = refused(&|images| images.color.lent.after.layout = vk::ImageLayout::UNDEFINED);
+        assert_eq!(
+            lost,
+            "the image of colours is in the layout UNDEFINED after the recording; it can be any that keeps what the image holds"
+        );
+        let empty = refused(&|images| images.color.lent.before.layout = vk::ImageLayout::UNDEFINED);
+        assert!(empty.starts_with("the image of colours is in the layout UNDEFINED before"));
+        let mut shaded = images();
+        shaded.color.lent.before.layout = vk::ImageLayout::UNDEFINED;
+        let options = Options {
+            shade_all: true,
+            ..Options::new(64, 32)
+        };
+        assert!(shaded.check(&options, 1024).is_ok());
+        let aspects = refused(&|images| images.color.lent.aspects = vk::ImageAspectFlags::DEPTH);
+        assert_eq!(
+            aspects,
+            "the image of colours has the aspects DEPTH; it can have COLOR"
+        );
+        let none = refused(&|images| {
+            let depth = images.depth.as_mut();
+            depth.unwrap().aspects = vk::ImageAspectFlags::empty();
+        });
+        assert!(none.starts_with("the image of depth has the aspects"));
     }
 }

@@ -125,7 +125,7 @@ impl Lending {
             scale: scale(&self.geometry, settings.size),
             half_size: settings.size.map(|side| 0.5 * side as f32),
             place_side,
-            boxes: u32::from(boxes),
+            r#box: u32::from(boxes),
             ..VisibilityUniform::default()
         }
     }

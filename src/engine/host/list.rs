@@ -11,6 +11,7 @@ use crate::engine::sampler::statistics::Shortfall;
 use crate::engine::sampler::uniform::{PlaneBlock, frame_uniform};
 use crate::engine::sampler::{ListCells, Sampler, SamplerContext, SamplerRun};
 use crate::engine::sampler::{Settings, Statistics};
+use crate::passes::spirv::frame_set;
 use crate::passes::{
     Cells, FrameUniform, ListLength, Offsets, OwnSet, RasterTargets, Resources, VisibilityUniform,
 };
@@ -176,7 +177,7 @@ impl List {
         let locations =
             unsafe { TexelView::new(gpu, list.locations, uint4, list.offset, list.bytes()) }?;
         let mut shown = content.texels().to_vec();
-        shown.push((42, locations.raw));
+        shown.push((frame_set::LOCATIONS, locations.raw));
         let resources = Resources::new(
             layout,
             &memory,

@@ -3,24 +3,16 @@
 use super::draws::Draws;
 use super::lent_kernel::LentKernel;
 use super::own_layout::{OwnSet, whole};
-use super::spirv;
+use super::spirv::{self, adopt_set};
 use crate::vulkan::{Buffer, Gpu, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// How much there is of what a frame adopts.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
-pub(crate) struct AdoptedCounts {
-    pub triangles: u32,
-    pub draws: u32,
-    /// Where indices begin in the buffer that the set shows, in indices.
-    pub first_index: u32,
-    pub indices: u32,
-}
+/// How much there is of what a frame adopts; indices begin in the buffer that the set shows at `first_index`, in indices.
+pub(crate) use spirv::AdoptPush as AdoptedCounts;
 
 /// Expands indices into triangles.
-pub(crate) struct Adopt(LentKernel<AdoptedCounts>);
+pub(crate) struct Adopt(LentKernel<spirv::Adopt, AdoptedCounts>);
 
 impl Adopt {
     /// Makes the layouts.
@@ -28,7 +20,7 @@ impl Adopt {
     /// # Errors
     /// If the driver refuses one.
     pub fn new(gpu: &Arc<Gpu>) -> Result<Self, VulkanError> {
-        Ok(Self(LentKernel::new(gpu, spirv::ADOPT, 4)?))
+        Ok(Self(LentKernel::new(gpu, &adopt_set::ALL)?))
     }
 
     /// The pipeline for indices of 32 bits or, `short`, 16.
@@ -36,7 +28,7 @@ impl Adopt {
     /// # Errors
     /// If the driver refuses it.
     pub fn pipeline(&self, gpu: &Arc<Gpu>, short: bool) -> Result<Pipeline, VulkanError> {
-        self.0.pipeline(gpu, short)
+        self.0.pipeline(gpu, &spirv::Adopt { short })
     }
 
     /// A set that shows draws, the host's indices, triangles and the draw of each.
@@ -51,10 +43,10 @@ impl Adopt {
         draw_of: &Buffer,
     ) -> Result<OwnSet, VulkanError> {
         let buffers = [
-            whole(&draws.table),
-            indices,
-            whole(triangles),
-            whole(draw_of),
+            (adopt_set::DRAWS, whole(&draws.table)),
+            (adopt_set::INDICES, indices),
+            (adopt_set::TRIANGLES_OUT, whole(triangles)),
+            (adopt_set::DRAW_OF_OUT, whole(draw_of)),
         ];
         // SAFETY: of the host's buffer as the caller says; ours go with the frame.
         unsafe { self.0.set(&buffers) }
@@ -68,7 +60,7 @@ impl Adopt {
         set: &OwnSet,
         counts: AdoptedCounts,
     ) {
-        let invocations = counts.triangles;
+        let invocations = counts.triangle_count;
         self.0.record(recorder, pipeline, set, &counts, invocations);
     }
 }

@@ -1,23 +1,16 @@
 //! alpha_map: a host's alpha maps as the alpha test reads them.
 
 use super::own_layout::{OwnSet, PipelineLayout, SetLayout, whole};
-use super::spirv;
-use crate::vulkan::{Buffer, Constants, Gpu, Pipeline, Recorder, VulkanError, compute_pipeline};
+use super::spirv::{self, alpha_map_set};
+use crate::vulkan::{
+    Buffer, Compiled, Gpu, Pipeline, Recorder, Specialized, VulkanError, compute_pipeline,
+};
 use ash::vk;
 use std::sync::Arc;
 
-/// A level of an alpha map, and where it goes.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
-pub(crate) struct AlphaLevel {
-    /// In texels.
-    pub size: [u32; 2],
-    pub level: u32,
-    /// Its first word in the atlas.
-    pub first: u32,
-    /// 1 where it repeats along u, and 2 along v.
-    pub repeats: u32,
-}
+/// A level of an alpha map, of a size in texels, and its first word in the atlas. It repeats along u where `repeats` has 1, and along v
+/// where it has 2.
+pub(crate) use spirv::AlphaMapPush as AlphaLevel;
 
 impl AlphaLevel {
     /// Places between 2 x 2 texels, the first of them half outside of the image: a word each.
@@ -40,15 +33,13 @@ impl AlphaMaps {
     /// # Errors
     /// If the driver refuses it.
     pub fn new(gpu: &Arc<Gpu>) -> Result<Self, VulkanError> {
-        let kinds = [
-            vk::DescriptorType::SAMPLED_IMAGE,
-            vk::DescriptorType::STORAGE_BUFFER,
-        ];
-        let set_layout = SetLayout::new(gpu, &kinds)?;
+        let set_layout = SetLayout::new(gpu, &alpha_map_set::ALL)?;
         let layout = PipelineLayout::new(gpu, &[set_layout.raw], size_of::<AlphaLevel>() as u32)?;
-        let constants = Constants::new();
+        let constants = spirv::AlphaMap.constants();
+        let code = spirv::AlphaMap::code();
         Ok(Self {
-            pipeline: compute_pipeline(gpu, layout.raw, spirv::ALPHA_MAP, &constants, None)?,
+            pipeline: compute_pipeline(gpu, layout.raw, code, &constants, None)?
+                .of(spirv::AlphaMap::INTERFACE),
             layout,
             set_layout,
         })
@@ -62,8 +53,8 @@ impl AlphaMaps {
         let set = self.set_layout.allocate()?;
         // SAFETY: the set is new; of the view as the caller says, the atlas goes with the frame.
         unsafe {
-            set.write_image(view);
-            set.write_buffers(1, &[whole(atlas)]);
+            set.write_image(alpha_map_set::MAP, view);
+            set.write_buffers(&[(alpha_map_set::ATLAS, whole(atlas))]);
         }
         Ok(set)
     }

@@ -1,23 +1,23 @@
 //! arguments: what passes counted, as the sizes of the dispatches that follow.
 
 use super::{FrameLayout, spirv};
-use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// What has counted, as `shaders/arguments.comp` numbers it.
+/// What has counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 pub(crate) enum After {
-    Detect,
-    Cull,
-    Sample,
-    Records,
-    Spans,
-    Thin,
-    Groups,
-    Probe,
-    Pairs,
+    Detect = spirv::AFTER_DETECT,
+    Cull = spirv::AFTER_CULL,
+    Sample = spirv::AFTER_SAMPLE,
+    Records = spirv::AFTER_RECORDS,
+    Spans = spirv::AFTER_SPANS,
+    Thin = spirv::AFTER_THIN,
+    Groups = spirv::AFTER_GROUPS,
+    Probe = spirv::AFTER_PROBE,
+    Pairs = spirv::AFTER_PAIRS,
 }
 
 /// One kernel for all that counts: drivers take longer to compile one than to run it.
@@ -26,7 +26,7 @@ pub(crate) struct Arguments {
     pipeline: Arc<Pipeline>,
     /// What has counted, and the subgroups that [`Sample`](super::Sample) gives an entry of a list, in a first run and where it
     /// takes all samples.
-    pushed: [u32; 3],
+    pushed: spirv::ArgumentsPush,
 }
 
 impl Arguments {
@@ -50,8 +50,12 @@ impl Arguments {
     ) -> Result<Self, VulkanError> {
         Ok(Self {
             layout: layout.pipeline,
-            pipeline: layout.compute(spirv::ARGUMENTS, &Constants::new(), None)?,
-            pushed: [after as u32, first, all],
+            pipeline: layout.compute(&spirv::Arguments, None)?,
+            pushed: spirv::ArgumentsPush {
+                after: after as u32,
+                subgroups_first: first,
+                subgroups: all,
+            },
         })
     }
 

@@ -1,7 +1,7 @@
 //! attributes: depth, ID, normal and sampling of every pixel, where asked for.
 
 use super::{Content, FrameLayout, spirv};
-use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
 /// Writes two vectors a pixel, see `shaders/attributes.comp`.
@@ -21,10 +21,14 @@ impl Attributes {
         superpixels: bool,
         grown: bool,
     ) -> Result<Self, VulkanError> {
-        let constants = Constants::new().flag(0, superpixels).flag(1, grown);
-        let constants = scene.constants(constants);
-        let pipeline = layout.compute(spirv::ATTRIBUTES, &constants, None)?;
-        Ok(Self { pipeline })
+        let shader = spirv::Attributes {
+            superpixels,
+            grown,
+            instanced: scene.is_instanced(),
+        };
+        Ok(Self {
+            pipeline: layout.compute(&shader, None)?,
+        })
     }
 
     /// Records it for a region of `pixels` pixels.

@@ -2,7 +2,7 @@
 
 use super::arguments::{After, Arguments};
 use super::{Argument, Content, FrameLayout, spirv};
-use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -19,11 +19,11 @@ impl Bin {
     /// # Errors
     /// If the driver refuses one.
     pub fn new(layout: &FrameLayout, scene: &dyn Content) -> Result<Self, VulkanError> {
-        let constants = scene.constants(Constants::new());
+        let instanced = scene.is_instanced();
         Ok(Self {
             layout: layout.pipeline,
             arguments: Arguments::new(layout, After::Cull)?,
-            pipeline: layout.compute(spirv::BIN, &constants, None)?,
+            pipeline: layout.compute(&spirv::Bin { instanced }, None)?,
         })
     }
 
@@ -31,7 +31,7 @@ impl Bin {
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
         self.arguments.record(recorder);
         for (large, argument) in [(0, Argument::BinSmall), (1, Argument::BinLarge)] {
-            recorder.push(self.layout, &[large]);
+            recorder.push(self.layout, &spirv::BinPush { large });
             recorder.dispatch_indirect_unordered(&self.pipeline, arguments, argument as u32);
         }
         recorder.barrier();

@@ -1,7 +1,7 @@
 //! box_filter: k x k supersampled pixels to one.
 
 use super::{FrameLayout, spirv};
-use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
 /// Averages squares of pixels.
@@ -16,7 +16,7 @@ impl BoxFilter {
     /// # Errors
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
-        let pipeline = layout.compute(spirv::BOX_FILTER, &Constants::new(), None)?;
+        let pipeline = layout.compute(&spirv::BoxFilter, None)?;
         Ok(Self {
             layout: layout.pipeline,
             pipeline,
@@ -25,7 +25,7 @@ impl BoxFilter {
 
     /// Records it for a region that becomes `pixels` pixels, each of `side` x `side`.
     pub fn record(&self, recorder: &Recorder<'_>, pixels: u32, side: u32) {
-        recorder.push(self.layout, &[side]);
+        recorder.push(self.layout, &spirv::BoxFilterPush { side });
         recorder.dispatch(&self.pipeline, u64::from(pixels.div_ceil(64)));
     }
 }

@@ -1,7 +1,7 @@
 //! centres: the centres of pixels as visibility samples.
 
-use super::{FrameLayout, Resources, spirv};
-use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
+use super::{ColorConstants, FrameLayout, Resources, spirv};
+use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -17,10 +17,14 @@ impl Centres {
     ///
     /// # Errors
     /// If the driver refuses one.
-    pub fn new(layout: &Arc<FrameLayout>, output: &Constants) -> Result<Self, VulkanError> {
+    pub fn new(layout: &Arc<FrameLayout>, output: &ColorConstants) -> Result<Self, VulkanError> {
         let make = |gather| {
-            let constants = output.clone().flag(0, gather);
-            layout.compute(spirv::CENTRES, &constants, None)
+            let shader = spirv::Centres {
+                gather,
+                tonemap: output.tonemap,
+                tonemap_codes: output.tonemap_codes,
+            };
+            layout.compute(&shader, None)
         };
         Ok(Self {
             list: make(false)?,
@@ -55,7 +59,11 @@ impl Centres {
 
     fn record_half(&self, recorder: &Recorder<'_>, pipeline: &Pipeline, band: &Range<u32>) {
         let count = band.end - band.start;
-        recorder.push(self.layout.pipeline, &[band.start, count]);
+        let push = spirv::CentresPush {
+            first: band.start,
+            count,
+        };
+        recorder.push(self.layout.pipeline, &push);
         recorder.dispatch(pipeline, u64::from(count.div_ceil(64)));
     }
 }

@@ -1,6 +1,5 @@
 //! What the engine's passes know of a scene, whoever made it.
 
-use crate::vulkan::Constants;
 use ash::vk;
 
 /// Triangles, and what passes read them from.
@@ -10,9 +9,6 @@ pub trait Content: Sync {
 
     /// Whether some triangles are drawn several times.
     fn is_instanced(&self) -> bool;
-
-    /// Adds the constants of `shaders/include/triangle.glsl`.
-    fn constants(&self, constants: Constants) -> Constants;
 
     /// Whether any triangle is alpha-tested.
     fn has_mask(&self) -> bool;

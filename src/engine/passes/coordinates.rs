@@ -1,15 +1,16 @@
 //! coordinates: texture coordinates of a host's vertices, one for each position in clip space.
 
+use super::VertexCounts;
 use super::draws::Draws;
 use super::lent_kernel::LentKernel;
 use super::own_layout::{OwnSet, whole};
-use super::{VertexCounts, spirv};
+use super::spirv::{self, coordinates_set};
 use crate::vulkan::{Buffer, Gpu, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
 /// Reads coordinates in the order of positions.
-pub(crate) struct Coordinates(LentKernel<VertexCounts>);
+pub(crate) struct Coordinates(LentKernel<spirv::Coordinates, VertexCounts>);
 
 impl Coordinates {
     /// Makes the layouts.
@@ -17,7 +18,7 @@ impl Coordinates {
     /// # Errors
     /// If the driver refuses one.
     pub fn new(gpu: &Arc<Gpu>) -> Result<Self, VulkanError> {
-        Ok(Self(LentKernel::new(gpu, spirv::COORDINATES, 3)?))
+        Ok(Self(LentKernel::new(gpu, &coordinates_set::ALL)?))
     }
 
     /// The pipeline: each draw has positions of its own if it has a matrix.
@@ -25,7 +26,8 @@ impl Coordinates {
     /// # Errors
     /// If the driver refuses it.
     pub fn pipeline(&self, gpu: &Arc<Gpu>, draws: &Draws) -> Result<Pipeline, VulkanError> {
-        self.0.pipeline(gpu, draws.matrices.is_some())
+        let object = draws.matrices.is_some();
+        self.0.pipeline(gpu, &spirv::Coordinates { object })
     }
 
     /// A set that shows draws, the host's vertices and coordinates.
@@ -38,7 +40,11 @@ impl Coordinates {
         vertices: vk::DescriptorBufferInfo,
         coordinates: &Buffer,
     ) -> Result<OwnSet, VulkanError> {
-        let buffers = [whole(&draws.table), vertices, whole(coordinates)];
+        let buffers = [
+            (coordinates_set::DRAWS, whole(&draws.table)),
+            (coordinates_set::VERTICES, vertices),
+            (coordinates_set::COORDINATES_OUT, whole(coordinates)),
+        ];
         // SAFETY: of the host's buffer as the caller says; ours go with the frame.
         unsafe { self.0.set(&buffers) }
     }
@@ -51,7 +57,7 @@ impl Coordinates {
         set: &OwnSet,
         counts: VertexCounts,
     ) {
-        let invocations = counts.positions;
+        let invocations = counts.position_count;
         self.0.record(recorder, pipeline, set, &counts, invocations);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::arguments::{After, Arguments};
 use super::{Argument, Content, FrameLayout, spirv};
-use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
 /// Which triangles are kept.
@@ -30,12 +30,13 @@ impl Cull {
         scene: &dyn Content,
         filter: CullFilter,
     ) -> Result<Self, VulkanError> {
-        let constants = scene
-            .constants(Constants::new())
-            .flag(0, filter == CullFilter::Thin);
+        let shader = spirv::Cull {
+            thin_alone: filter == CullFilter::Thin,
+            instanced: scene.is_instanced(),
+        };
         Ok(Self {
             arguments: Arguments::new(layout, After::Detect)?,
-            pipeline: layout.compute(spirv::CULL, &constants, None)?,
+            pipeline: layout.compute(&shader, None)?,
         })
     }
 

@@ -1,7 +1,7 @@
 //! detect: which pixels are superpixels.
 
-use super::{FrameLayout, shadow_words, spirv};
-use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
+use super::{FrameLayout, spirv};
+use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
 /// What makes a pixel a superpixel.
@@ -49,20 +49,21 @@ impl Detect {
     /// # Errors
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout, options: &DetectOptions) -> Result<Self, VulkanError> {
-        let constants = Constants::new()
-            .with(0, options.mode as u32)
-            .flag(1, options.blend_ids)
-            .flag(2, options.thin)
-            .flag(3, options.transparent)
-            .with(4, options.beyond);
-        let constants = shadow_words::constants(constants, options.shadow_words);
+        let shader = spirv::Detect {
+            mode: options.mode as u32,
+            blend_ids: options.blend_ids,
+            thin: options.thin,
+            transparent: options.transparent,
+            beyond: options.beyond,
+            shadow_words: options.shadow_words,
+        };
         let code = if options.multisampled {
             spirv::DETECT_MULTISAMPLED
         } else {
             spirv::DETECT
         };
         Ok(Self {
-            pipeline: layout.compute(code, &constants, None)?,
+            pipeline: layout.compute_variant(code, &shader, None)?,
         })
     }
 

@@ -2,8 +2,9 @@
 
 use super::locations::CellSizes;
 use super::own_layout::{OwnSet, PipelineLayout, SetLayout};
-use super::{Argument, Cells, FrameLayout, Resources, spirv};
-use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+use super::spirv::{self, distribute_set};
+use super::{Argument, Cells, FrameLayout, Resources};
+use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -12,17 +13,6 @@ const STEPS: u32 = 4;
 /// Those that go over tiles and cells; the others go over locations.
 const LAY_OUT: u32 = 1;
 const ENCLOSE: u32 = 3;
-
-/// What is pushed.
-#[repr(C)]
-#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
-struct Push {
-    tiles: [u32; 2],
-    count: u32,
-    in_cell: u32,
-    in_group: u32,
-    samples: u32,
-}
 
 /// A list of sample locations, of which those count that lie in a region of the plane: on pixels from (0, 0) on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,26 +58,22 @@ impl Distribute {
     ) -> Result<Self, VulkanError> {
         let gpu = &layout.gpu;
         let (buffers, texels) = resources.location_buffers(locations);
-        let mut kinds = vec![vk::DescriptorType::STORAGE_BUFFER; buffers.len()];
-        kinds.resize(
-            buffers.len() + texels.len(),
-            vk::DescriptorType::UNIFORM_TEXEL_BUFFER,
-        );
-        let set_layout = SetLayout::new(gpu, &kinds)?;
-        let own_layout = PipelineLayout::new(gpu, &[set_layout.raw], size_of::<Push>() as u32)?;
+        let set_layout = SetLayout::new(gpu, &distribute_set::ALL)?;
+        let own_layout = PipelineLayout::new(
+            gpu,
+            &[set_layout.raw],
+            spirv::Distribute::INTERFACE.push_bytes,
+        )?;
         let step = |step: u32| {
-            let constants = Constants::new().with(0, step).flag(1, cells.are_points());
-            // Layouts that are made alike are one and the same to pipelines.
-            layout.cached(spirv::DISTRIBUTE, &constants, 0, || {
-                compute_pipeline(gpu, own_layout.raw, spirv::DISTRIBUTE, &constants, None)
-            })
+            let points = cells.are_points();
+            own_layout.compute(layout, &spirv::Distribute { step, points })
         };
         let steps = (0..STEPS).map(step).collect::<Result<_, _>>()?;
         let set = set_layout.allocate()?;
         // SAFETY: the set is new; of the list as the caller says, the rest goes with the resources.
         unsafe {
-            set.write_buffers(0, &buffers);
-            set.write_texels(buffers.len() as u32, &texels);
+            set.write_buffers(&buffers);
+            set.write_texels(&texels);
         }
         Ok(Self {
             steps,
@@ -100,7 +86,7 @@ impl Distribute {
 
     /// Records it; afterwards the frame's set is no longer bound.
     pub fn record(&self, recorder: &Recorder<'_>, region: &ListRegion, length: ListLength<'_>) {
-        let push = Push {
+        let push = spirv::DistributePush {
             tiles: region.tiles,
             count: region.count,
             in_cell: self.sizes.in_cell,

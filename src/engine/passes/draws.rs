@@ -4,26 +4,8 @@ use super::TriangleWord;
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 
-/// A draw, as in `shaders/include/draws.glsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
-pub(crate) struct HostDraw {
-    /// Index of its first triangle among those of all draws.
-    pub first_triangle: u32,
-    pub first_index: u32,
-    /// Added to each index, modulo 2^32.
-    pub vertex_offset: u32,
-    /// The triangles' last word: see `shaders/include/frame.glsl`.
-    pub word: u32,
-    /// Index of its first position among those in clip space.
-    pub first_position: u32,
-    /// Its last position, counted from the first one.
-    pub last_position: u32,
-    /// What leads from a position to the host's vertex, modulo 2^32.
-    pub shift: u32,
-    /// The host's number.
-    pub material: u32,
-}
+/// A draw, as `shaders/include/draws.glsl` describes it.
+pub(crate) use super::spirv::Draw as HostDraw;
 
 impl HostDraw {
     /// Whether back faces show.

@@ -1,7 +1,7 @@
 //! encode: colours in the format of a host's image.
 
 use super::{FrameLayout, spirv};
-use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -50,9 +50,10 @@ impl Encode {
     /// # Errors
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout, encoding: Encoding) -> Result<Self, VulkanError> {
-        let constants = Constants::new().with(0, u32::from(encoding == Encoding::Rgba16Float));
-        let pipeline = layout.compute(spirv::ENCODE, &constants, None)?;
-        Ok(Self { pipeline })
+        let format = u32::from(encoding == Encoding::Rgba16Float);
+        Ok(Self {
+            pipeline: layout.compute(&spirv::Encode { format }, None)?,
+        })
     }
 
     /// Records it for a region of `pixels` pixels.

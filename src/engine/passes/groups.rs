@@ -2,7 +2,7 @@
 
 use super::arguments::{After, Arguments};
 use super::{Argument, FrameLayout, Sample, spirv};
-use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
 /// Lists them by what their samples need, and sizes the dispatches over them.
@@ -19,9 +19,14 @@ impl Groups {
     pub fn new(layout: &FrameLayout, sample: &Sample) -> Result<Self, VulkanError> {
         let lanes = layout.gpu.limits().lanes;
         let cells = sample.options().cells;
-        let constants = cells.constants(Constants::new()).with(1, lanes);
+        let shader = spirv::Groups {
+            lanes,
+            locations: cells.are_locations(),
+            points: cells.are_points(),
+            occluders: cells.are_occluders(),
+        };
         Ok(Self {
-            pipeline: layout.compute(spirv::GROUPS, &constants, None)?,
+            pipeline: layout.compute(&shader, None)?,
             arguments: Arguments::of_samples(layout, After::Groups, sample.subgroups())?,
         })
     }

@@ -1,7 +1,7 @@
 //! grow: pixels that contrast with a superpixel beside them become superpixels.
 
 use super::{FrameLayout, spirv};
-use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
 /// Puts the pixels that [`Resolve`](super::Resolve) marked in the place of the superpixels that it resolved.
@@ -16,7 +16,7 @@ impl Grow {
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout, beyond: u32) -> Result<Self, VulkanError> {
         Ok(Self {
-            pipeline: layout.compute(spirv::GROW, &Constants::new().with(0, beyond), None)?,
+            pipeline: layout.compute(&spirv::Grow { beyond }, None)?,
         })
     }
 

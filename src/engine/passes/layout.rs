@@ -2,89 +2,20 @@
 
 use super::pipelines::Pipelines;
 use super::pool::DescriptorPool;
-use crate::vulkan::{Constants, Gpu, Limits, PUSH_STAGES, Pipeline, VulkanError, compute_pipeline};
+use super::spirv::{self, frame_set};
+use crate::vulkan::{
+    Compiled, Constants, Gpu, Interface, PUSH_STAGES, Pipeline, Specialized, VulkanError,
+    compute_pipeline,
+};
 use ash::vk;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Textures of a material that differ, at the most. With one for the environment, these are the samplers that every Vulkan
 /// device has.
-pub(crate) const SLOTS: usize = 15;
+pub(crate) const SLOTS: usize = spirv::shade_set::TEXTURES.count as usize;
 
 /// Bytes of push constants: a matrix and four words, as `raster` has them.
 pub(crate) const PUSH_BYTES: u32 = 80;
-
-/// The bindings of set 0.
-const BINDINGS: [(u32, vk::DescriptorType); 58] = {
-    use vk::DescriptorType as T;
-    [
-        (0, T::UNIFORM_BUFFER),
-        (1, T::UNIFORM_TEXEL_BUFFER),
-        (2, T::UNIFORM_TEXEL_BUFFER),
-        (3, T::UNIFORM_TEXEL_BUFFER),
-        (4, T::UNIFORM_TEXEL_BUFFER),
-        (5, T::UNIFORM_TEXEL_BUFFER),
-        (6, T::UNIFORM_TEXEL_BUFFER),
-        (7, T::UNIFORM_TEXEL_BUFFER),
-        (8, T::STORAGE_BUFFER),
-        (9, T::UNIFORM_TEXEL_BUFFER),
-        (10, T::UNIFORM_TEXEL_BUFFER),
-        (11, T::UNIFORM_TEXEL_BUFFER),
-        (12, T::SAMPLED_IMAGE),
-        (13, T::SAMPLED_IMAGE),
-        (14, T::SAMPLED_IMAGE),
-        (15, T::SAMPLED_IMAGE),
-        (16, T::UNIFORM_TEXEL_BUFFER),
-        (17, T::STORAGE_BUFFER),
-        (18, T::STORAGE_BUFFER),
-        (19, T::STORAGE_BUFFER),
-        (20, T::STORAGE_BUFFER),
-        (21, T::STORAGE_BUFFER),
-        (22, T::STORAGE_BUFFER),
-        (23, T::STORAGE_BUFFER),
-        (24, T::UNIFORM_TEXEL_BUFFER),
-        (25, T::STORAGE_BUFFER),
-        (26, T::STORAGE_BUFFER),
-        (27, T::UNIFORM_TEXEL_BUFFER),
-        (28, T::STORAGE_BUFFER),
-        (29, T::UNIFORM_TEXEL_BUFFER),
-        (30, T::STORAGE_BUFFER),
-        (31, T::STORAGE_BUFFER),
-        (32, T::UNIFORM_TEXEL_BUFFER),
-        (33, T::STORAGE_BUFFER),
-        (34, T::STORAGE_BUFFER),
-        (35, T::STORAGE_TEXEL_BUFFER),
-        (36, T::STORAGE_BUFFER),
-        (37, T::STORAGE_BUFFER),
-        (38, T::UNIFORM_TEXEL_BUFFER),
-        (39, T::STORAGE_BUFFER),
-        (40, T::SAMPLED_IMAGE),
-        (41, T::STORAGE_BUFFER),
-        (42, T::UNIFORM_TEXEL_BUFFER),
-        (43, T::UNIFORM_TEXEL_BUFFER),
-        (44, T::UNIFORM_TEXEL_BUFFER),
-        (45, T::STORAGE_BUFFER),
-        (46, T::UNIFORM_TEXEL_BUFFER),
-        (47, T::UNIFORM_TEXEL_BUFFER),
-        (48, T::UNIFORM_TEXEL_BUFFER),
-        (49, T::UNIFORM_TEXEL_BUFFER),
-        (50, T::STORAGE_TEXEL_BUFFER),
-        (51, T::STORAGE_TEXEL_BUFFER),
-        (52, T::STORAGE_TEXEL_BUFFER),
-        (53, T::COMBINED_IMAGE_SAMPLER),
-        (54, T::UNIFORM_BUFFER),
-        (55, T::UNIFORM_TEXEL_BUFFER),
-        (56, T::UNIFORM_TEXEL_BUFFER),
-        (57, T::UNIFORM_TEXEL_BUFFER),
-    ]
-};
-
-/// What a binding of set 0 shows.
-pub(crate) fn descriptor_type(binding: u32) -> vk::DescriptorType {
-    BINDINGS
-        .iter()
-        .find(|(known, _)| *known == binding)
-        .map_or(vk::DescriptorType::default(), |(_, kind)| *kind)
-}
 
 /// The layout of both descriptor sets and of every pipeline, and the pipelines made so far.
 pub struct FrameLayout {
@@ -115,9 +46,9 @@ impl FrameLayout {
             .address_mode_w(vk::SamplerAddressMode::CLAMP_TO_EDGE)
             .max_lod(vk::LOD_CLAMP_NONE);
         let textures = vk::DescriptorSetLayoutBinding::default()
-            .binding(0)
-            .descriptor_type(vk::DescriptorType::COMBINED_IMAGE_SAMPLER)
-            .descriptor_count(SLOTS as u32)
+            .binding(spirv::shade_set::TEXTURES.number)
+            .descriptor_type(spirv::shade_set::TEXTURES.kind)
+            .descriptor_count(spirv::shade_set::TEXTURES.count)
             .stage_flags(vk::ShaderStageFlags::COMPUTE);
         let mut layout = Self {
             gpu: gpu.clone(),
@@ -125,7 +56,7 @@ impl FrameLayout {
             texture_set: vk::DescriptorSetLayout::null(),
             pipeline: vk::PipelineLayout::null(),
             environment_sampler: vk::Sampler::null(),
-            pipelines: Mutex::new(Pipelines::new()),
+            pipelines: Mutex::new(Pipelines::new(gpu.limits().max_unused_pipelines)),
         };
         // SAFETY: plain creations on a live device; handles made before a failure are destroyed by `Drop`.
         unsafe {
@@ -140,13 +71,13 @@ impl FrameLayout {
                 .create_sampler(&trilinear, None)
                 .map_err(VulkanError::of("vkCreateSampler"))?;
             let samplers = [layout.environment_sampler];
-            let frame = BINDINGS.map(|(binding, kind)| {
+            let frame = frame_set::ALL.map(|binding| {
                 let one = vk::DescriptorSetLayoutBinding::default()
-                    .binding(binding)
-                    .descriptor_type(kind)
-                    .descriptor_count(1)
+                    .binding(binding.number)
+                    .descriptor_type(binding.kind)
+                    .descriptor_count(binding.count)
                     .stage_flags(stages);
-                if kind == vk::DescriptorType::COMBINED_IMAGE_SAMPLER {
+                if binding == frame_set::ENVIRONMENT_MAP {
                     one.immutable_samplers(&samplers)
                 } else {
                     one
@@ -176,33 +107,39 @@ impl FrameLayout {
         Some(self.gpu.limits().subgroup_size)
     }
 
-    /// Adds the constants of `shaders/include/lanes.glsl`, where `lanes` invocations of a subgroup are used.
-    pub(crate) fn lane_constants(&self, constants: Constants, lanes: u32) -> Constants {
-        let Limits {
-            subgroup_size,
-            can_require_subgroup_size,
-            ..
-        } = *self.gpu.limits();
-        let sure = can_require_subgroup_size && lanes == subgroup_size;
-        constants.with(1, lanes).flag(24, !sure)
+    /// Whether kernels that use `lanes` invocations of a subgroup have to check how large theirs are: the constant `UNSURE`
+    /// of `shaders/include/lanes.glsl`.
+    pub(crate) fn is_unsure(&self, lanes: u32) -> bool {
+        let limits = self.gpu.limits();
+        !(limits.can_require_subgroup_size && lanes == limits.subgroup_size)
     }
 
     /// A compute pipeline of one of the crate's shaders; `subgroup` fixes the size of its subgroups.
-    pub(crate) fn compute(
+    pub(crate) fn compute<S: Compiled>(
         &self,
-        code: &'static [u8],
-        constants: &Constants,
+        shader: &S,
         subgroup: Option<u32>,
     ) -> Result<Arc<Pipeline>, VulkanError> {
-        self.cached(code, constants, subgroup.unwrap_or(0), || {
-            compute_pipeline(&self.gpu, self.pipeline, code, constants, subgroup)
-        })
+        self.compute_variant(S::code(), shader, subgroup)
+    }
+
+    /// The same of one of the variants of a shader.
+    pub(crate) fn compute_variant<S: Specialized>(
+        &self,
+        code: &'static [u8],
+        shader: &S,
+        subgroup: Option<u32>,
+    ) -> Result<Arc<Pipeline>, VulkanError> {
+        let constants = &shader.constants();
+        let made = || compute_pipeline(&self.gpu, self.pipeline, code, constants, subgroup);
+        self.cached(code, S::INTERFACE, constants, subgroup.unwrap_or(0), made)
     }
 
     /// The pipeline of a shader, constants and variant, made where it is not known yet.
     pub(crate) fn cached(
         &self,
         code: &'static [u8],
+        interface: &'static Interface,
         constants: &Constants,
         variant: u32,
         make: impl FnOnce() -> Result<Pipeline, VulkanError>,
@@ -217,19 +154,20 @@ impl FrameLayout {
             return Ok(pipeline);
         }
         // Not under the lock, so that several threads make theirs at once.
-        let made = make()?;
+        let made = make()?.of(interface);
         Ok(known().add(key, made))
     }
 
     /// A pool for `frames` sets 0 and `bins` sets 1.
     pub(crate) fn pool(&self, frames: u32, bins: u32) -> Result<DescriptorPool, VulkanError> {
         let mut sizes: Vec<vk::DescriptorPoolSize> = Vec::new();
-        for (_, kind) in BINDINGS {
-            match sizes.iter_mut().find(|size| size.ty == kind) {
-                Some(size) => size.descriptor_count += frames,
+        for binding in frame_set::ALL {
+            let count = frames * binding.count;
+            match sizes.iter_mut().find(|size| size.ty == binding.kind) {
+                Some(size) => size.descriptor_count += count,
                 None => sizes.push(vk::DescriptorPoolSize {
-                    ty: kind,
-                    descriptor_count: frames,
+                    ty: binding.kind,
+                    descriptor_count: count,
                 }),
             }
         }
@@ -271,9 +209,9 @@ mod tests {
     fn devices_are_asked_for_as_many_descriptors_as_there_are() {
         use vk::DescriptorType as T;
         let slots = std::iter::repeat_n(T::COMBINED_IMAGE_SAMPLER, SLOTS);
-        let all: Vec<_> = BINDINGS
+        let all: Vec<_> = frame_set::ALL
             .iter()
-            .map(|(_, kind)| *kind)
+            .map(|binding| binding.kind)
             .chain(slots)
             .collect();
         let count = |kinds: &[T]| all.iter().filter(|kind| kinds.contains(kind)).count() as u32;

@@ -2,8 +2,9 @@
 
 use super::distribute::{Distribute, ListLength, ListRegion};
 use super::own_layout::whole;
+use super::spirv::distribute_set;
 use super::{Resources, SampleSet};
-use crate::vulkan::{Buffer, BufferView, Constants, Memory, MemoryUse, Recorder, VulkanError};
+use crate::vulkan::{Binding, Buffer, BufferView, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 
 /// What a cell is.
@@ -26,12 +27,14 @@ impl Cells {
         matches!(self, Self::Points | Self::Occluders)
     }
 
-    /// Adds the constants of `shaders/include/locations.glsl`.
-    pub(crate) fn constants(self, constants: Constants) -> Constants {
-        constants
-            .flag(20, self != Self::Pixels)
-            .flag(21, self.are_points())
-            .flag(22, self == Self::Occluders)
+    /// Whether they are made of sample locations.
+    pub(crate) fn are_locations(self) -> bool {
+        self != Self::Pixels
+    }
+
+    /// Whether it is asked what lies before their locations.
+    pub(crate) fn are_occluders(self) -> bool {
+        self == Self::Occluders
     }
 }
 
@@ -204,7 +207,10 @@ impl Resources {
     pub(crate) fn location_buffers(
         &self,
         locations: vk::BufferView,
-    ) -> ([vk::DescriptorBufferInfo; 8], [vk::BufferView; 2]) {
+    ) -> (
+        [(Binding, vk::DescriptorBufferInfo); 8],
+        [(Binding, vk::BufferView); 2],
+    ) {
         let LocationBuffers {
             order,
             cells,
@@ -214,17 +220,21 @@ impl Resources {
             ..
         } = &self.locations;
         let buffers = [
-            whole(loads),
+            (distribute_set::LOADS, whole(loads)),
             // Nothing is shaded yet.
-            whole(&self.shade_order),
-            whole(&order.buffer),
-            whole(&cells.buffer),
-            whole(&groups.buffer),
-            whole(tile_loads),
-            whole(&self.masks),
-            whole(&self.counters),
+            (distribute_set::RANKS, whole(&self.shade_order)),
+            (distribute_set::ORDER_OUT, whole(&order.buffer)),
+            (distribute_set::CELLS_OUT, whole(&cells.buffer)),
+            (distribute_set::GROUPS_OUT, whole(&groups.buffer)),
+            (distribute_set::TILE_LOADS, whole(tile_loads)),
+            (distribute_set::MASKS, whole(&self.masks)),
+            (distribute_set::COUNTERS, whole(&self.counters)),
         ];
-        (buffers, [locations, order.view])
+        let texels = [
+            (distribute_set::LOCATIONS, locations),
+            (distribute_set::ORDER, order.view),
+        ];
+        (buffers, texels)
     }
 
     /// Records the sorting of a list into a region that has begun.

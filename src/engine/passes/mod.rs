@@ -22,6 +22,7 @@ mod attributes;
 mod bin;
 mod box_filter;
 mod centres;
+mod color_constants;
 mod content;
 mod coordinates;
 pub(crate) mod counters;
@@ -48,9 +49,12 @@ pub(crate) mod resources;
 mod sample;
 mod schedule;
 mod setup;
-pub(crate) mod shadow_words;
 mod sort;
 mod spans;
+// Written by `make shaders`; some of what it has is of use to nobody yet.
+#[allow(dead_code, missing_docs)]
+#[rustfmt::skip]
+pub(crate) mod spirv;
 mod take;
 mod thin;
 mod transform;
@@ -58,18 +62,13 @@ mod triangle_word;
 pub(crate) mod upload;
 mod visibility;
 
-/// The compiled shaders.
-#[allow(missing_docs)]
-pub(crate) mod spirv {
-    include!(concat!(env!("OUT_DIR"), "/spirv.rs"));
-}
-
 pub(crate) use adopt::{Adopt, AdoptedCounts};
 pub(crate) use alpha_map::{AlphaLevel, AlphaMaps};
 pub use attributes::Attributes;
 pub use bin::Bin;
 pub use box_filter::BoxFilter;
 pub(crate) use centres::Centres;
+pub use color_constants::ColorConstants;
 pub use content::Content;
 pub(crate) use coordinates::Coordinates;
 pub(crate) use counters::STRETCH;
@@ -91,7 +90,7 @@ pub use points::Points;
 pub use raster::{Raster, RasterTargets};
 pub(crate) use raster::{RasterPush, RasterRun};
 pub use resolve::{Resolve, ResolveTarget};
-pub use resources::{IdViews, Offsets, ResourceSizes, Resources, SampleSet};
+pub use resources::{BoundTexels, IdViews, Offsets, ResourceSizes, Resources, SampleSet};
 pub use sample::{RecordRate, Sample, SampleOptions, TileList};
 pub use schedule::Schedule;
 pub use setup::Setup;

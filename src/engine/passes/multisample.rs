@@ -1,7 +1,7 @@
 //! multisample: what the device's own multisampling saw, as visibility samples.
 
 use super::{FrameLayout, spirv};
-use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
 /// Turns multisampled triangle IDs into records.
@@ -15,12 +15,10 @@ impl Multisample {
     /// # Errors
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
-        let pipeline = layout.compute(
-            spirv::MULTISAMPLE,
-            &Constants::new().with(1, layout.gpu.limits().lanes),
-            None,
-        )?;
-        Ok(Self { pipeline })
+        let lanes = layout.gpu.limits().lanes;
+        Ok(Self {
+            pipeline: layout.compute(&spirv::Multisample { lanes }, None)?,
+        })
     }
 
     /// Records it for a region of `tiles` tiles.

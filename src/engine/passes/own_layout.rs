@@ -1,55 +1,57 @@
 //! Layouts of descriptor sets beside the frame's, and of pipelines that bind them.
 
+use super::FrameLayout;
 use super::pool::DescriptorPool;
-use crate::vulkan::{Buffer, Gpu, Recorder, VulkanError};
+use crate::vulkan::{
+    Binding, Buffer, Compiled, Gpu, Pipeline, Recorder, VulkanError, compute_pipeline,
+};
 use ash::vk;
 use std::sync::Arc;
 
-/// The layout of a set whose bindings count from 0, for compute shaders.
+/// The layout of a set of a compute shader's own.
 pub(crate) struct SetLayout {
     gpu: Arc<Gpu>,
     pub(crate) raw: vk::DescriptorSetLayout,
-    kinds: Vec<vk::DescriptorType>,
+    bindings: &'static [Binding],
 }
 
 impl SetLayout {
-    pub fn new(gpu: &Arc<Gpu>, kinds: &[vk::DescriptorType]) -> Result<Self, VulkanError> {
-        let bindings: Vec<_> = (0..)
-            .zip(kinds)
-            .map(|(binding, kind)| {
+    pub fn new(gpu: &Arc<Gpu>, bindings: &'static [Binding]) -> Result<Self, VulkanError> {
+        let layouts: Vec<_> = bindings
+            .iter()
+            .map(|binding| {
                 vk::DescriptorSetLayoutBinding::default()
-                    .binding(binding)
-                    .descriptor_type(*kind)
-                    .descriptor_count(1)
+                    .binding(binding.number)
+                    .descriptor_type(binding.kind)
+                    .descriptor_count(binding.count)
                     .stage_flags(vk::ShaderStageFlags::COMPUTE)
             })
             .collect();
-        let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
+        let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&layouts);
         // SAFETY: plain creation on a live device.
         let raw = unsafe { gpu.device.create_descriptor_set_layout(&info, None) }
             .map_err(VulkanError::of("vkCreateDescriptorSetLayout"))?;
         Ok(Self {
             gpu: gpu.clone(),
             raw,
-            kinds: kinds.to_vec(),
+            bindings,
         })
     }
 
     /// A set of this layout in a pool of its own.
     pub fn allocate(&self) -> Result<OwnSet, VulkanError> {
         let sizes: Vec<_> = self
-            .kinds
+            .bindings
             .iter()
-            .map(|kind| vk::DescriptorPoolSize {
-                ty: *kind,
-                descriptor_count: 1,
+            .map(|binding| vk::DescriptorPoolSize {
+                ty: binding.kind,
+                descriptor_count: binding.count,
             })
             .collect();
         let pool = DescriptorPool::new(&self.gpu, 1, &sizes)?;
         Ok(OwnSet {
             gpu: self.gpu.clone(),
             raw: pool.allocate(self.raw)?,
-            kinds: self.kinds.clone(),
             _pool: pool,
         })
     }
@@ -70,62 +72,60 @@ impl Drop for SetLayout {
 pub(crate) struct OwnSet {
     gpu: Arc<Gpu>,
     pub(crate) raw: vk::DescriptorSet,
-    kinds: Vec<vk::DescriptorType>,
     _pool: DescriptorPool,
 }
 
 impl OwnSet {
-    /// Shows buffers at the set's bindings from one on, in their order.
+    /// Shows buffers.
     ///
     /// # Safety
-    /// The set is not in use, and its bindings are those of buffers, which outlive its use.
-    pub unsafe fn write_buffers(&self, first: u32, buffers: &[vk::DescriptorBufferInfo]) {
-        // SAFETY: passed on to the caller.
-        unsafe { self.write(first, buffers, vk::WriteDescriptorSet::buffer_info) };
-    }
-
-    /// Shows texel buffers at the set's bindings from one on, in their order.
-    ///
-    /// # Safety
-    /// The set is not in use, and its bindings are those of texel buffers, which outlive its use.
-    pub unsafe fn write_texels(&self, first: u32, views: &[vk::BufferView]) {
-        // SAFETY: passed on to the caller.
-        unsafe { self.write(first, views, vk::WriteDescriptorSet::texel_buffer_view) };
-    }
-
-    /// # Safety
-    /// The set is not in use, and its bindings are of what `show` shows there, which outlives its use.
-    unsafe fn write<'a, T>(
-        &self,
-        first: u32,
-        shown: &'a [T],
-        show: impl Fn(vk::WriteDescriptorSet<'a>, &'a [T]) -> vk::WriteDescriptorSet<'a>,
-    ) {
-        let kinds = self.kinds.iter().skip(first as usize);
-        let writes: Vec<_> = (first..)
-            .zip(shown.chunks(1).zip(kinds))
-            .map(|(binding, (one, kind))| {
-                let write = vk::WriteDescriptorSet::default()
-                    .dst_set(self.raw)
-                    .dst_binding(binding)
-                    .descriptor_type(*kind);
-                show(write, one)
+    /// The set is not in use, and its bindings are these, of buffers, which outlive its use.
+    pub unsafe fn write_buffers(&self, shown: &[(Binding, vk::DescriptorBufferInfo)]) {
+        let writes: Vec<_> = shown
+            .iter()
+            .map(|(binding, buffer)| {
+                self.write(binding)
+                    .buffer_info(std::slice::from_ref(buffer))
             })
             .collect();
         // SAFETY: passed on to the caller.
         unsafe { self.gpu.device.update_descriptor_sets(&writes, &[]) };
     }
 
-    /// Shows an image, in the layout `SHADER_READ_ONLY_OPTIMAL`, at binding 0.
+    /// Shows texel buffers.
+    ///
+    /// # Safety
+    /// The set is not in use, and its bindings are these, of texel buffers, which outlive its use.
+    pub unsafe fn write_texels(&self, shown: &[(Binding, vk::BufferView)]) {
+        let writes: Vec<_> = shown
+            .iter()
+            .map(|(binding, view)| {
+                let view = std::slice::from_ref(view);
+                self.write(binding).texel_buffer_view(view)
+            })
+            .collect();
+        // SAFETY: passed on to the caller.
+        unsafe { self.gpu.device.update_descriptor_sets(&writes, &[]) };
+    }
+
+    /// Shows an image, in the layout `SHADER_READ_ONLY_OPTIMAL`.
     ///
     /// # Safety
     /// The set is not in use, and its binding is that of an image, which outlives its use.
-    pub unsafe fn write_image(&self, view: vk::ImageView) {
+    pub unsafe fn write_image(&self, binding: Binding, view: vk::ImageView) {
         let info = [vk::DescriptorImageInfo::default()
             .image_view(view)
             .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)];
+        let writes = [self.write(&binding).image_info(&info)];
         // SAFETY: passed on to the caller.
-        unsafe { self.write(0, &info, vk::WriteDescriptorSet::image_info) };
+        unsafe { self.gpu.device.update_descriptor_sets(&writes, &[]) };
+    }
+
+    fn write(&self, binding: &Binding) -> vk::WriteDescriptorSet<'static> {
+        vk::WriteDescriptorSet::default()
+            .dst_set(self.raw)
+            .dst_binding(binding.number)
+            .descriptor_type(binding.kind)
     }
 }
 
@@ -162,6 +162,18 @@ impl PipelineLayout {
 }
 
 impl PipelineLayout {
+    /// A pipeline of this layout, of those that a frame's layout knows. Layouts that are made alike are one and the same to
+    /// pipelines.
+    pub fn compute<S: Compiled>(
+        &self,
+        frame: &FrameLayout,
+        shader: &S,
+    ) -> Result<Arc<Pipeline>, VulkanError> {
+        let constants = &shader.constants();
+        let made = || compute_pipeline(&self.gpu, self.raw, S::code(), constants, None);
+        frame.cached(S::code(), S::INTERFACE, constants, 0, made)
+    }
+
     /// Binds sets and pushes constants; both are of this layout.
     pub fn bind(
         &self,

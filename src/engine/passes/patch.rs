@@ -1,7 +1,7 @@
 //! patch: the colours of superpixels, or of all pixels, drawn into a host's image.
 
 use super::{FrameLayout, spirv};
-use crate::vulkan::{Constants, GraphicsPipeline, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Compiled, GraphicsPipeline, Pipeline, Recorder, Specialized, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -33,16 +33,22 @@ impl Patch {
         encoded: bool,
         patched: Patched,
     ) -> Result<Self, VulkanError> {
-        let constants = Constants::new()
-            .flag(0, encoded)
-            .flag(1, patched == Patched::Grown)
-            .flag(2, patched == Patched::All);
+        let shader = spirv::PatchFragment {
+            encoded,
+            grown: patched == Patched::Grown,
+            all: patched == Patched::All,
+        };
+        let (code, interface) = (
+            spirv::PatchFragment::code(),
+            spirv::PatchFragment::INTERFACE,
+        );
+        let constants = &shader.constants();
         let variant = format.as_raw() as u32;
-        let pipeline = layout.cached(spirv::PATCH_FRAGMENT, &constants, variant, || {
+        let pipeline = layout.cached(code, interface, constants, variant, || {
             let pipeline = GraphicsPipeline {
-                vertex: spirv::PATCH_VERTEX,
-                fragment: spirv::PATCH_FRAGMENT,
-                constants: &constants,
+                vertex: spirv::PatchVertex::code(),
+                fragment: code,
+                constants,
                 samples: vk::SampleCountFlags::TYPE_1,
                 color: format,
                 depth: None,

@@ -1,7 +1,7 @@
 //! points: colour and attributes of locations that are sampled once.
 
-use super::{Argument, Cells, Content, FrameLayout, shadow_words, spirv};
-use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use super::{Argument, ColorConstants, Content, FrameLayout, spirv};
+use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
 /// Writes a colour and, where asked, two vectors a location, see `shaders/points.comp`.
@@ -18,13 +18,20 @@ impl Points {
     pub fn new(
         layout: &FrameLayout,
         scene: &dyn Content,
-        output: &Constants,
-        (attributes, words): (bool, u32),
+        output: &ColorConstants,
+        (attributes, shadow_words): (bool, u32),
     ) -> Result<Self, VulkanError> {
-        let constants = Cells::Points.constants(scene.constants(output.clone()));
-        let constants = shadow_words::constants(constants, words).flag(2, attributes);
+        let shader = spirv::Points {
+            attributes,
+            tinted: output.tinted,
+            locations: true,
+            instanced: scene.is_instanced(),
+            shadow_words,
+            tonemap: output.tonemap,
+            tonemap_codes: output.tonemap_codes,
+        };
         Ok(Self {
-            pipeline: layout.compute(spirv::POINTS, &constants, None)?,
+            pipeline: layout.compute(&shader, None)?,
         })
     }
 

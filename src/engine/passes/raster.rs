@@ -1,8 +1,9 @@
 //! raster: depth and triangle ID of every pixel, by the device's rasterizer.
 
-use super::layout::PUSH_BYTES;
 use super::{Content, FrameLayout, IdViews, spirv};
-use crate::vulkan::{Constants, GraphicsPipeline, Image, Memory, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{
+    Compiled, GraphicsPipeline, Image, Memory, Pipeline, Recorder, Specialized, VulkanError,
+};
 use ash::vk;
 use std::sync::Arc;
 
@@ -114,17 +115,8 @@ fn id_format(samples: vk::SampleCountFlags) -> vk::Format {
     }
 }
 
-/// `Push` in `shaders/raster.vert`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-pub(crate) struct RasterPush {
-    /// To pixel-scaled clip space.
-    pub matrix: [f32; 16],
-    /// What leads from an index to a triangle, end of the indices, flags, 0.
-    pub words: [u32; 4],
-}
-
-const _: () = assert!(size_of::<RasterPush>() == PUSH_BYTES as usize);
+/// What leads to pixel-scaled clip space and, as `instance`, from an index to a triangle.
+pub(crate) use spirv::RasterVertexPush as RasterPush;
 
 /// Neighbouring triangles that are drawn at once.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -161,13 +153,15 @@ impl Raster {
         } else {
             (spirv::RASTER_OPAQUE, spirv::RASTER_MASKED)
         };
-        let constants = scene.constants(Constants::new());
+        let instanced = scene.is_instanced();
+        let constants = &spirv::RasterFragment { instanced }.constants();
+        let interface = spirv::RasterFragment::INTERFACE;
         let make = |code| {
-            layout.cached(code, &constants, samples.as_raw(), || {
+            layout.cached(code, interface, constants, samples.as_raw(), || {
                 let pipeline = GraphicsPipeline {
-                    vertex: spirv::RASTER_VERTEX,
+                    vertex: spirv::RasterVertex::code(),
                     fragment: code,
-                    constants: &constants,
+                    constants,
                     samples,
                     color: id_format(samples),
                     depth: Some(DEPTH),
@@ -299,7 +293,7 @@ impl Raster {
             } else {
                 vk::CullModeFlags::BACK
             };
-            recorder.push(self.layout.pipeline, bytemuck::cast_slice(&[run.push]));
+            recorder.push(self.layout.pipeline, &run.push);
             // SAFETY: as above; the shader reads 3 vertices a triangle of the run.
             unsafe {
                 device.cmd_set_cull_mode(raw, cull);

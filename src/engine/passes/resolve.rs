@@ -1,7 +1,7 @@
 //! resolve: the colour of each superpixel.
 
-use super::{FrameLayout, Sample, TileList, spirv};
-use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use super::{Cells, ColorConstants, FrameLayout, Sample, TileList, spirv};
+use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
 /// The pass that reads what [`Resolve`] wrote, beside the colours.
@@ -31,9 +31,9 @@ impl Resolve {
         sample: &Sample,
         has_blend: bool,
         target: ResolveTarget,
-        output: &Constants,
+        output: &ColorConstants,
     ) -> Result<Self, VulkanError> {
-        let output = &sample.options().cells.constants(output.clone());
+        let cells = sample.options().cells;
         let kernels = sample
             .lists()
             .map(|list| {
@@ -48,7 +48,7 @@ impl Resolve {
                         sample.options().probes()
                             && matches!(list, TileList::Plain | TileList::Masked),
                         target,
-                        output,
+                        (cells, output),
                     )?,
                 ))
             })
@@ -64,7 +64,7 @@ impl Resolve {
         layout: &FrameLayout,
         samples: u32,
         target: ResolveTarget,
-        output: &Constants,
+        output: &ColorConstants,
     ) -> Result<Self, VulkanError> {
         let pipeline = Self::pipeline(
             layout,
@@ -73,7 +73,7 @@ impl Resolve {
             false,
             false,
             target,
-            output,
+            (Cells::Pixels, output),
         )?;
         Ok(Self {
             kernels: vec![(TileList::Plain, pipeline)],
@@ -87,19 +87,25 @@ impl Resolve {
         layered: bool,
         probed: bool,
         target: ResolveTarget,
-        output: &Constants,
+        (cells, output): (Cells, &ColorConstants),
     ) -> Result<Arc<Pipeline>, VulkanError> {
         let lanes = layout.gpu.limits().lanes;
-        let constants = layout
-            .lane_constants(output.clone(), lanes)
-            .with(0, lanes)
-            .with(2, block)
-            .flag(3, layered)
-            .with(4, list as u32)
-            .flag(5, target == ResolveTarget::Detect)
-            .flag(6, probed)
-            .flag(7, target == ResolveTarget::Grow);
-        layout.compute(spirv::RESOLVE, &constants, layout.subgroup())
+        let shader = spirv::Resolve {
+            local_size: lanes,
+            lanes,
+            block,
+            layered,
+            list: list as u32,
+            display_codes: target == ResolveTarget::Detect,
+            probed,
+            grows: target == ResolveTarget::Grow,
+            tinted: output.tinted,
+            locations: cells.are_locations(),
+            unsure: layout.is_unsure(lanes),
+            tonemap: output.tonemap,
+            tonemap_codes: output.tonemap_codes,
+        };
+        layout.compute(&shader, layout.subgroup())
     }
 
     /// Records it over the tiles of the round.

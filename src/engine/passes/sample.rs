@@ -2,7 +2,7 @@
 
 use super::arguments::{After, Arguments};
 use super::{Argument, Cells, Content, FrameLayout, spirv};
-use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
 /// The lists that `enlist` sorts tiles into, in the order of `shaders/include/load.glsl`.
@@ -133,6 +133,22 @@ fn kernel(kernels: &Kernels, rows: u32) -> (u32, &'static [u8]) {
         .unwrap_or(largest)
 }
 
+/// The constants of kernels that hold masks, by those of the others.
+fn of_masks(shader: &spirv::Sample) -> spirv::SampleMasks {
+    spirv::SampleMasks {
+        local_size: shader.local_size,
+        lanes: shader.lanes,
+        has_mask: shader.has_mask,
+        list: shader.list,
+        by_part: shader.by_part,
+        exact_areas: shader.exact_areas,
+        part: shader.part,
+        locations: shader.locations,
+        instanced: shader.instanced,
+        unsure: shader.unsure,
+    }
+}
+
 impl Sample {
     /// Samples of the first of two runs; their locations follow those of the cell.
     pub const PROBES: u32 = 64;
@@ -151,26 +167,33 @@ impl Sample {
         let lanes = layout.gpu.limits().lanes;
         let (rows, _) = kernel(&KERNELS, options.samples.min(Self::BLOCK).div_ceil(lanes));
         let make = |(list, run, kernels, mask): &(TileList, Run, &Kernels, bool)| {
-            let constants = options.cells.constants(scene.constants(Constants::new()));
-            let constants = layout
-                .lane_constants(constants, lanes)
-                .with(0, lanes)
-                .flag(2, options.records == RecordRate::Sample)
-                .flag(3, *mask)
-                .with(4, *list as u32)
-                .with(5, *run as u32)
-                .flag(6, options.by_part(*run, rows * lanes))
-                .flag(7, options.measures(*list, *run))
-                .with(8, options.part_samples())
-                .flag(9, options.apart);
-            let code = if list.is_opaque() && *run == Run::Whole && options.by_masks() {
-                let [few, many] = MASKS;
-                let masks = if options.samples <= few.0 { few } else { many };
-                masks.1
-            } else {
-                kernel(kernels, rows).1
+            let by_masks = list.is_opaque() && *run == Run::Whole && options.by_masks();
+            let shader = spirv::Sample {
+                local_size: lanes,
+                lanes,
+                per_sample: options.records == RecordRate::Sample,
+                has_mask: *mask,
+                list: *list as u32,
+                run: *run as u32,
+                by_part: options.by_part(*run, rows * lanes),
+                exact_areas: options.measures(*list, *run),
+                part: options.part_samples(),
+                apart: options.apart,
+                locations: options.cells.are_locations(),
+                points: options.cells.are_points(),
+                occluders: options.cells.are_occluders(),
+                instanced: scene.is_instanced(),
+                unsure: layout.is_unsure(lanes),
             };
-            Ok::<_, VulkanError>((*list, layout.compute(code, &constants, layout.subgroup())?))
+            let pipeline = if by_masks {
+                let [few, many] = MASKS;
+                let (_, code) = if options.samples <= few.0 { few } else { many };
+                layout.compute_variant(code, &of_masks(&shader), layout.subgroup())?
+            } else {
+                let (_, code) = kernel(kernels, rows);
+                layout.compute_variant(code, &shader, layout.subgroup())?
+            };
+            Ok::<_, VulkanError>((*list, pipeline))
         };
         let probes = options.probes();
         let listed = |run: Run| {
@@ -296,7 +319,11 @@ impl Sample {
 impl SampleOptions {
     /// Most triangles that are tried in a cell, whose loops end after so many trips. Cells of longer lists are left, and counted.
     pub(crate) fn longest_list(&self) -> u32 {
-        if self.apart { 350_000 } else { 40_000 }
+        if self.apart {
+            spirv::LONGEST_LIST_APART
+        } else {
+            spirv::LONGEST_LIST
+        }
     }
 
     /// Whether a run measures areas: where it takes all samples of a cell at once. What masks leave sees more triangles
@@ -343,31 +370,5 @@ impl SampleOptions {
             && self.exact_areas
             && self.records != RecordRate::Sample
             && self.samples > Sample::PROBES
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_longest_list_is_the_shaders() {
-        let of = |apart| {
-            let options = SampleOptions {
-                cells: Cells::Pixels,
-                samples: 64,
-                records: RecordRate::Triangle,
-                exact_areas: false,
-                can_settle: false,
-                apart,
-                unlisted: true,
-                has_mask: false,
-                has_blend: false,
-                always_blends: false,
-            };
-            options.longest_list()
-        };
-        let constant = format!("LONGEST_LIST = APART ? {}u : {}u;", of(true), of(false));
-        assert!(include_str!("../../../shaders/sample.comp").contains(&constant));
     }
 }

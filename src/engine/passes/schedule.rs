@@ -1,7 +1,7 @@
 //! tally, schedule, enlist: which tiles are in a round, and where their lists are.
 
 use super::{Argument, FrameLayout, RecordRate, ResourceSizes, Sample, SampleOptions, spirv};
-use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -13,24 +13,11 @@ pub struct Schedule {
     enlist: Arc<Pipeline>,
     options: SampleOptions,
     /// As `shaders/include/load.glsl` takes them.
-    pushed: Push,
+    pushed: spirv::SchedulePush,
 }
 
-/// What is pushed.
-#[repr(C)]
-#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
-struct Push {
-    block: u32,
-    per_sample: u32,
-    layers: u32,
-    parts: u32,
-    subgroups_first: u32,
-    subgroups: u32,
-    longest_list: u32,
-}
-
-/// Trials of a triangle in a cell that a round takes where tiles have no list, as in `shaders/include/load.glsl`.
-const MOST_TRIALS: u64 = 1 << 31;
+/// Trials of a triangle in a cell that a round takes where tiles have no list.
+const MOST_TRIALS: u64 = spirv::MOST_TRIALS as u64;
 
 impl Schedule {
     /// Makes the pipelines for what `sample` writes. Tiles are admitted with `layers` BLEND layers a list and twice as
@@ -41,18 +28,37 @@ impl Schedule {
     pub fn new(layout: &FrameLayout, sample: &Sample, layers: u32) -> Result<Self, VulkanError> {
         let lanes = layout.gpu.limits().lanes;
         let options = sample.options();
-        let constants = options.cells.constants(Constants::new());
-        let constants = layout.lane_constants(constants, lanes).with(0, lanes);
-        let make = |code| layout.compute(code, &constants, layout.subgroup());
+        let (locations, points) = (options.cells.are_locations(), options.cells.are_points());
+        let unsure = layout.is_unsure(lanes);
+        let tally = spirv::Tally {
+            local_size: lanes,
+            lanes,
+            locations,
+            points,
+            unsure,
+        };
+        let schedule = spirv::Schedule {
+            local_size: lanes,
+            lanes,
+            locations,
+            points,
+            unsure,
+        };
+        let enlist = spirv::Enlist {
+            local_size: lanes,
+            lanes,
+            locations,
+            unsure,
+        };
         let [subgroups_first, subgroups] = sample.subgroups();
         let per_sample = u32::from(options.records == RecordRate::Sample);
         Ok(Self {
             layout: layout.pipeline,
-            tally: make(spirv::TALLY)?,
-            schedule: make(spirv::SCHEDULE)?,
-            enlist: make(spirv::ENLIST)?,
+            tally: layout.compute(&tally, layout.subgroup())?,
+            schedule: layout.compute(&schedule, layout.subgroup())?,
+            enlist: layout.compute(&enlist, layout.subgroup())?,
             options: *options,
-            pushed: Push {
+            pushed: spirv::SchedulePush {
                 block: sample.block(),
                 per_sample,
                 layers,
@@ -133,13 +139,13 @@ impl Schedule {
 
     /// Records what is done once for all rounds, after `bin`.
     pub fn record_tally(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
-        recorder.push(self.layout, bytemuck::cast_slice(&[self.pushed]));
+        recorder.push(self.layout, &self.pushed);
         recorder.dispatch_indirect(&self.tally, arguments, Argument::Tally as u32);
     }
 
     /// Records what begins a round.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
-        recorder.push(self.layout, bytemuck::cast_slice(&[self.pushed]));
+        recorder.push(self.layout, &self.pushed);
         recorder.dispatch(&self.schedule, 1);
         recorder.dispatch_indirect(&self.enlist, arguments, Argument::Enlist as u32);
     }

@@ -1,7 +1,7 @@
 //! setup: triangles as edge functions around the tiles they touch.
 
 use super::{Argument, Content, FrameLayout, spirv};
-use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
 /// Fills the lists that `enlist` has placed.
@@ -15,8 +15,10 @@ impl Setup {
     /// # Errors
     /// If the driver refuses it.
     pub fn new(layout: &FrameLayout, scene: &dyn Content) -> Result<Self, VulkanError> {
-        let pipeline = layout.compute(spirv::SETUP, &scene.constants(Constants::new()), None)?;
-        Ok(Self { pipeline })
+        let instanced = scene.is_instanced();
+        Ok(Self {
+            pipeline: layout.compute(&spirv::Setup { instanced }, None)?,
+        })
     }
 
     /// Records it over the pairs.

@@ -2,7 +2,7 @@
 
 use super::arguments::{After, Arguments};
 use super::{Argument, Content, FrameLayout, spirv};
-use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -30,9 +30,9 @@ impl Sort {
         one_bin: bool,
     ) -> Result<Self, VulkanError> {
         let passes = || {
-            let constants = scene.constants(Constants::new());
+            let instanced = scene.is_instanced();
             Ok::<_, VulkanError>(Passes {
-                pipeline: layout.compute(spirv::SORT, &constants, None)?,
+                pipeline: layout.compute(&spirv::Sort { instanced }, None)?,
                 arguments: Arguments::new(layout, After::Records)?,
             })
         };
@@ -50,7 +50,7 @@ impl Sort {
         self.before.record(recorder);
         if let Some(passes) = &self.passes {
             let run = |scatter| {
-                recorder.push(self.layout, &[scatter]);
+                recorder.push(self.layout, &spirv::SortPush { scatter });
                 recorder.dispatch_indirect(&passes.pipeline, arguments, Argument::Sort as u32);
             };
             run(0);

@@ -2,7 +2,7 @@
 
 use super::arguments::{After, Arguments};
 use super::{Content, FrameLayout, spirv};
-use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -25,12 +25,16 @@ impl Spans {
     /// If the driver refuses one.
     pub fn new(layout: &FrameLayout, scene: &dyn Content) -> Result<Self, VulkanError> {
         let one_bin = scene.bin_count() == 1;
-        let size = layout.gpu.limits().subgroup_size.min(Self::WORKGROUP);
-        let constants = scene.constants(Constants::new());
-        let constants = layout.lane_constants(constants, size).flag(2, one_bin);
+        let lanes = layout.gpu.limits().subgroup_size.min(Self::WORKGROUP);
+        let shader = spirv::Spans {
+            lanes,
+            one_bin,
+            instanced: scene.is_instanced(),
+            unsure: layout.is_unsure(lanes),
+        };
         Ok(Self {
             layout: layout.pipeline,
-            pipeline: layout.compute(spirv::SPANS, &constants, layout.subgroup())?,
+            pipeline: layout.compute(&shader, layout.subgroup())?,
             one_bin,
             arguments: Arguments::new(layout, After::Spans)?,
         })
@@ -42,7 +46,7 @@ impl Spans {
         recorder.clear(bins);
         recorder.barrier();
         let run = |scatter| {
-            recorder.push(self.layout, &[scatter]);
+            recorder.push(self.layout, &spirv::SpansPush { scatter });
             recorder.dispatch(&self.pipeline, groups);
         };
         run(u32::from(self.one_bin));

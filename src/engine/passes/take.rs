@@ -1,8 +1,9 @@
 //! take: a host's image as what superpixels stand in.
 
 use super::own_layout::{OwnSet, PipelineLayout, SetLayout};
-use super::{FrameLayout, spirv};
-use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+use super::spirv::{self, take_set};
+use super::{ColorConstants, FrameLayout};
+use crate::vulkan::{Compiled, Pipeline, Recorder, Specialized, VulkanError, compute_pipeline};
 use ash::vk;
 
 /// Reads colours, and makes the codes that detection compares.
@@ -18,7 +19,7 @@ impl Take {
     /// If the driver refuses one.
     pub fn new(frame: &FrameLayout) -> Result<Self, VulkanError> {
         let gpu = &frame.gpu;
-        let set_layout = SetLayout::new(gpu, &[vk::DescriptorType::SAMPLED_IMAGE])?;
+        let set_layout = SetLayout::new(gpu, &take_set::ALL)?;
         let sets = [frame.frame_set, set_layout.raw];
         Ok(Self {
             layout: PipelineLayout::new(gpu, &sets, 0)?,
@@ -35,10 +36,16 @@ impl Take {
         &self,
         frame: &FrameLayout,
         encoded: bool,
-        output: &Constants,
+        output: &ColorConstants,
     ) -> Result<Pipeline, VulkanError> {
-        let constants = output.clone().flag(0, encoded);
-        compute_pipeline(&frame.gpu, self.layout.raw, spirv::TAKE, &constants, None)
+        let shader = spirv::Take {
+            encoded,
+            tonemap: output.tonemap,
+            tonemap_codes: output.tonemap_codes,
+        };
+        let (code, constants) = (spirv::Take::code(), shader.constants());
+        let made = compute_pipeline(&frame.gpu, self.layout.raw, code, &constants, None)?;
+        Ok(made.of(spirv::Take::INTERFACE))
     }
 
     /// A set that shows a host's image.
@@ -48,7 +55,7 @@ impl Take {
     pub unsafe fn set(&self, view: vk::ImageView) -> Result<OwnSet, VulkanError> {
         let set = self.set_layout.allocate()?;
         // SAFETY: the set is new; of the view as the caller says.
-        unsafe { set.write_image(view) };
+        unsafe { set.write_image(take_set::HOST_IMAGE, view) };
         Ok(set)
     }
 

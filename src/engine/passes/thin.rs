@@ -2,7 +2,7 @@
 
 use super::arguments::{After, Arguments};
 use super::{Argument, Content, FrameLayout, spirv};
-use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -27,11 +27,13 @@ impl Thin {
         farther_is_larger: bool,
     ) -> Result<Self, VulkanError> {
         let thin = |select| {
-            let constants = Constants::new()
-                .flag(0, select)
-                .flag(1, blend_ids)
-                .flag(2, farther_is_larger);
-            layout.compute(spirv::THIN, &scene.constants(constants), None)
+            let shader = spirv::Thin {
+                select,
+                blend_ids,
+                farther_is_larger,
+                instanced: scene.is_instanced(),
+            };
+            layout.compute(&shader, None)
         };
         Ok(Self {
             layout: layout.pipeline,
@@ -54,7 +56,7 @@ impl Thin {
         recorder.dispatch(&self.select, u64::from(indices.div_ceil(512)));
         self.arguments.record(recorder);
         for (long, argument) in [(0, Argument::Thin), (1, Argument::ThinLong)] {
-            recorder.push(self.layout, &[long]);
+            recorder.push(self.layout, &spirv::ThinPush { long });
             recorder.dispatch_indirect_unordered(&self.walk, arguments, argument as u32);
         }
         recorder.barrier();

@@ -3,25 +3,17 @@
 use super::draws::Draws;
 use super::lent_kernel::LentKernel;
 use super::own_layout::{OwnSet, whole};
-use super::spirv;
+use super::spirv::{self, transform_set};
 use crate::vulkan::{Buffer, Gpu, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// Where something of a frame's vertices is, and how many positions there are.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
-pub(crate) struct VertexCounts {
-    pub positions: u32,
-    pub draws: u32,
-    /// Where it begins in the buffer that the set shows, in words of 4 bytes.
-    pub first_word: u32,
-    /// Words from one vertex to the next.
-    pub stride: u32,
-}
+/// Where something of a frame's vertices is in the buffer that the set shows, in words of 4 bytes, and how many positions there
+/// are.
+pub(crate) use spirv::TransformPush as VertexCounts;
 
 /// Reads vertices, and multiplies them by the matrices of their draws.
-pub(crate) struct Transform(LentKernel<VertexCounts>);
+pub(crate) struct Transform(LentKernel<spirv::Transform, VertexCounts>);
 
 impl Transform {
     /// Makes the layouts.
@@ -29,7 +21,7 @@ impl Transform {
     /// # Errors
     /// If the driver refuses one.
     pub fn new(gpu: &Arc<Gpu>) -> Result<Self, VulkanError> {
-        Ok(Self(LentKernel::new(gpu, spirv::TRANSFORM, 4)?))
+        Ok(Self(LentKernel::new(gpu, &transform_set::ALL)?))
     }
 
     /// The pipeline for three floats in object space, if the draws have matrices, or else for four in clip space.
@@ -37,7 +29,8 @@ impl Transform {
     /// # Errors
     /// If the driver refuses it.
     pub fn pipeline(&self, gpu: &Arc<Gpu>, draws: &Draws) -> Result<Pipeline, VulkanError> {
-        self.0.pipeline(gpu, draws.matrices.is_some())
+        let object = draws.matrices.is_some();
+        self.0.pipeline(gpu, &spirv::Transform { object })
     }
 
     /// A set that shows draws, the host's vertices, matrices and positions.
@@ -53,10 +46,10 @@ impl Transform {
         // Matrices that are not there are not read.
         let matrices = draws.matrices.as_ref().unwrap_or(&draws.table);
         let buffers = [
-            whole(&draws.table),
-            vertices,
-            whole(matrices),
-            whole(positions),
+            (transform_set::DRAWS, whole(&draws.table)),
+            (transform_set::VERTICES, vertices),
+            (transform_set::MATRICES, whole(matrices)),
+            (transform_set::POSITIONS_OUT, whole(positions)),
         ];
         // SAFETY: of the host's buffer as the caller says; ours go with the frame.
         unsafe { self.0.set(&buffers) }
@@ -70,7 +63,7 @@ impl Transform {
         set: &OwnSet,
         counts: VertexCounts,
     ) {
-        let invocations = counts.positions;
+        let invocations = counts.position_count;
         self.0.record(recorder, pipeline, set, &counts, invocations);
     }
 }

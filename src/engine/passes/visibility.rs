@@ -3,27 +3,17 @@
 use super::Resources;
 use super::draws::Draws;
 use super::own_layout::{OwnSet, SetLayout, whole};
+use super::spirv::gpc_visibility_set;
 use crate::vulkan::{Buffer, Gpu, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// The uniform block `GpcFrame`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-pub(crate) struct VisibilityUniform {
-    pub scale: [f32; 2],
-    pub half_size: [f32; 2],
-    pub place_side: f32,
-    pub boxes: u32,
-    pub list: u32,
-    pub padding: u32,
-}
+/// What hosts' shaders are told of a frame.
+pub(crate) use super::spirv::GpcFrame as VisibilityUniform;
 
 /// The set's layout, which hosts make their pipelines with.
 pub(crate) fn visibility_layout(gpu: &Arc<Gpu>) -> Result<SetLayout, VulkanError> {
-    let mut kinds = [vk::DescriptorType::STORAGE_BUFFER; 10];
-    kinds[0] = vk::DescriptorType::UNIFORM_BUFFER;
-    SetLayout::new(gpu, &kinds)
+    SetLayout::new(gpu, &gpc_visibility_set::ALL)
 }
 
 /// What a host's shaders see beside a frame's resources.
@@ -52,51 +42,23 @@ impl Resources {
         let set = layout.allocate()?;
         let draw_of = whole(geometry.draw_of);
         let buffers = [
-            whole(uniform),
-            whole(&self.bins),
-            whole(&self.shade_order),
-            whole(&self.records.buffer),
-            whole(geometry.triangles),
-            geometry.positions,
-            whole(&self.shaded.buffer),
-            whole(&geometry.draws.table),
-            draw_of,
+            (gpc_visibility_set::GPC_FRAME, whole(uniform)),
+            (gpc_visibility_set::GPC_KEYS, whole(&self.bins)),
+            (gpc_visibility_set::GPC_ORDER, whole(&self.shade_order)),
+            (gpc_visibility_set::GPC_RECORDS, whole(&self.records.buffer)),
+            (gpc_visibility_set::GPC_TRIANGLES, whole(geometry.triangles)),
+            (gpc_visibility_set::GPC_POSITIONS, geometry.positions),
+            (gpc_visibility_set::GPC_SHADED, whole(&self.shaded.buffer)),
+            (gpc_visibility_set::GPC_DRAWS, whole(&geometry.draws.table)),
+            (gpc_visibility_set::GPC_DRAW_OF, draw_of),
             // A frame's shaders read none.
-            geometry.locations.unwrap_or(draw_of),
+            (
+                gpc_visibility_set::GPC_LOCATIONS,
+                geometry.locations.unwrap_or(draw_of),
+            ),
         ];
         // SAFETY: the set is new; of the host's buffers as the caller says, ours go with the frame.
-        unsafe { set.write_buffers(0, &buffers) };
+        unsafe { set.write_buffers(&buffers) };
         Ok(set)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_uniform_block_is_the_shaders() {
-        let text = include_str!("../../../shaders/include/gpc_visibility.glsl");
-        let block = text
-            .split("uniform GpcFrame {")
-            .nth(1)
-            .and_then(|rest| rest.split("} gpc_frame;").next())
-            .unwrap();
-        let fields: Vec<_> = block
-            .lines()
-            .filter_map(|line| line.split_once(';'))
-            .map(|(field, _)| field.trim())
-            .collect();
-        assert_eq!(
-            fields,
-            [
-                "vec2 scale",
-                "vec2 half_size",
-                "float place_side",
-                "uint box",
-                "uint list"
-            ]
-        );
-        assert_eq!(size_of::<VisibilityUniform>() % 16, 0);
     }
 }

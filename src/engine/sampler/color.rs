@@ -2,8 +2,7 @@
 
 use super::{Reference, Settings};
 use crate::color::{srgb, tonemap};
-use crate::passes::Content;
-use crate::vulkan::Constants;
+use crate::passes::{ColorConstants, Content};
 
 impl Settings {
     /// The background as linear, premultiplied RGBA.
@@ -16,14 +15,14 @@ impl Settings {
         self.reference == Reference::Display && self.tonemapped_detection
     }
 
-    /// The constants of `shaders/include/color.glsl`, and of `shaders/shade.comp` and `shaders/include/tint.glsl` what is
-    /// the same for all materials of a scene.
-    pub(crate) fn color_constants(&self, scene: &dyn Content) -> Constants {
-        Constants::new()
-            .flag(15, self.filters_boxes())
-            .flag(16, scene.is_tinted())
-            .flag(30, self.tonemaps())
-            .flag(31, self.tonemapped_detection)
+    /// How colours of a scene are made.
+    pub(crate) fn color_constants(&self, scene: &dyn Content) -> ColorConstants {
+        ColorConstants {
+            tonemap: self.tonemaps(),
+            tonemap_codes: self.tonemapped_detection,
+            box_filter: self.filters_boxes(),
+            tinted: scene.is_tinted(),
+        }
     }
 }
 

@@ -92,6 +92,9 @@ pub enum RenderError {
         limit = super::Settings::LARGEST_STROKE
     )]
     Stroke(f32),
+    /// A number of the background is not finite.
+    #[error("a background of {0:?}: its light must be finite")]
+    Background([f32; 3]),
     /// The image has no pixels or too many.
     #[error("an image of {width} x {height} pixels: each side must be from 1 to {limit}")]
     Size {
@@ -147,6 +150,7 @@ impl RenderError {
                 | Self::Attributes
                 | Self::Footprint(_)
                 | Self::Stroke(_)
+                | Self::Background(_)
                 | Self::Size { .. }
         )
     }

@@ -34,12 +34,12 @@ pub use settings::{
 pub use statistics::{PassTime, Statistics, TriangleCounts};
 
 use crate::passes::{
-    Bin, Cells, Content, Counter, Cull, CullFilter, Detect, Distribute, FrameLayout, FrameUniform,
-    Groups, Grow, ListLength, ListRegion, Points, RecordRate, Resolve, ResourceSizes, Resources,
-    Sample, SampleOptions, SampleSet, Schedule, Setup, Sort, Thin,
+    Bin, Cells, ColorConstants, Content, Counter, Cull, CullFilter, Detect, Distribute,
+    FrameLayout, FrameUniform, Groups, Grow, ListLength, ListRegion, Points, RecordRate, Resolve,
+    ResourceSizes, Resources, Sample, SampleOptions, SampleSet, Schedule, Setup, Sort, Thin,
 };
 use crate::sampling::Pattern;
-use crate::vulkan::{Constants, Memory, Recorder, VulkanError};
+use crate::vulkan::{Memory, Recorder, VulkanError};
 use plan::Capacity;
 use statistics::Shortfall;
 use std::slice::ChunksExact;
@@ -67,7 +67,7 @@ pub(crate) struct SamplerContext<'a> {
     pub scene: &'a dyn Content,
     pub settings: &'a Settings,
     /// The colour constants of `shaders/include/color.glsl`.
-    pub output: &'a Constants,
+    pub output: &'a ColorConstants,
     /// The sizes of the memory that it works in.
     pub sizes: &'a ResourceSizes,
     pub capacity: Capacity,

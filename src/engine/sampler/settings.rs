@@ -294,6 +294,11 @@ impl Settings {
         {
             return Err(RenderError::Footprint(side));
         }
+        if let Some(light) = self.background
+            && !light.iter().all(|light| light.is_finite())
+        {
+            return Err(RenderError::Background(light));
+        }
         for size in [self.line_width, self.point_size, self.edge_width] {
             if !(size > 0.0 && size <= Self::LARGEST_STROKE) {
                 return Err(RenderError::Stroke(size));

@@ -25,6 +25,19 @@ pub enum VulkanError {
         /// All that it lacks.
         missing: Vec<Missing>,
     },
+    /// The queue family is none of the device's, or can't do what commands ask of it.
+    #[error(
+        "queue family {found} of device \"{device}\" has no graphics and compute; {}",
+        match possible { Some(family) => format!("family {family} has"), None => "none has".to_owned() }
+    )]
+    QueueFamily {
+        /// The device's name.
+        device: String,
+        /// The family asked for.
+        found: u32,
+        /// The first family that will do.
+        possible: Option<u32>,
+    },
     /// The device was lost.
     #[error("the device was lost; its driver may have reset it")]
     DeviceLost,

@@ -121,7 +121,7 @@ impl Memory {
         Ok(block)
     }
 
-    /// A buffer of at least `size` bytes (4 if 0 is asked for).
+    /// Makes a buffer of at least `size` bytes, and at least 16.
     ///
     /// # Errors
     /// [`VulkanError::OutOfMemory`] past the account's bound or the device's memory.

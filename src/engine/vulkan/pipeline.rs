@@ -1,6 +1,6 @@
 //! Shader modules, specialisation and pipelines.
 
-use super::{Gpu, VulkanError};
+use super::{Gpu, Interface, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -92,6 +92,7 @@ pub struct Pipeline {
     gpu: Arc<Gpu>,
     pub(crate) raw: vk::Pipeline,
     pub(crate) bind_point: vk::PipelineBindPoint,
+    interface: Option<&'static Interface>,
 }
 
 impl Pipeline {
@@ -104,7 +105,19 @@ impl Pipeline {
             gpu: gpu.clone(),
             raw,
             bind_point,
+            interface: None,
         }
+    }
+
+    /// The same, with what its shader says of itself.
+    pub(crate) fn of(mut self, interface: &'static Interface) -> Self {
+        self.interface = Some(interface);
+        self
+    }
+
+    /// What its shader says of itself.
+    pub(crate) fn interface(&self) -> Option<&'static Interface> {
+        self.interface
     }
 }
 

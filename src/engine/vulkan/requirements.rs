@@ -19,6 +19,9 @@ pub enum Missing {
     /// A feature is absent.
     #[error("the feature {0}")]
     Feature(&'static str),
+    /// The instance was created for a version that has no queries of features; a device says nothing of its own through it.
+    #[error("an instance created for Vulkan 1.3 (VkApplicationInfo::apiVersion is 1.0)")]
+    Instance,
     /// No queue family does both graphics and compute.
     #[error("a queue family with graphics and compute")]
     Queue,
@@ -162,12 +165,18 @@ impl Requirements {
                 minor: vk::api_version_minor(version),
             }];
         }
+        let mut driver = vk::PhysicalDeviceDriverProperties::default();
         let mut properties2 = vk::PhysicalDeviceProperties2::default()
+            .push_next(&mut driver)
             .push_next(&mut subgroup)
             .push_next(&mut size_control);
         // SAFETY: the device has Vulkan 1.3; the chained structures live until after the call.
         unsafe { instance.get_physical_device_properties2(device, &mut properties2) };
         let limits = properties2.properties.limits;
+        // Loaders answer the query themselves for instances of Vulkan 1.0, and leave what is chained to it alone.
+        if driver.driver_id.as_raw() == 0 {
+            return vec![Missing::Instance];
+        }
 
         let mut found13 = vk::PhysicalDeviceVulkan13Features::default();
         let mut found2 = vk::PhysicalDeviceFeatures2::default().push_next(&mut found13);
@@ -250,10 +259,29 @@ impl Requirements {
     ) -> Option<u32> {
         // SAFETY: passed on to the caller.
         let families = unsafe { instance.get_physical_device_queue_family_properties(device) };
-        let both = vk::QueueFlags::GRAPHICS | vk::QueueFlags::COMPUTE;
         families
             .iter()
-            .position(|family| family.queue_flags.contains(both))
+            .position(is_fit)
             .and_then(|i| u32::try_from(i).ok())
     }
+
+    /// Whether the device has that queue family, with graphics and compute.
+    ///
+    /// # Safety
+    /// The device belongs to the instance, which is alive.
+    pub(super) unsafe fn is_fit(
+        instance: &ash::Instance,
+        device: vk::PhysicalDevice,
+        family: u32,
+    ) -> bool {
+        // SAFETY: passed on to the caller.
+        let families = unsafe { instance.get_physical_device_queue_family_properties(device) };
+        families.get(family as usize).is_some_and(is_fit)
+    }
+}
+
+/// Whether queues of a family take all commands that the crate records.
+fn is_fit(family: &vk::QueueFamilyProperties) -> bool {
+    let both = vk::QueueFlags::GRAPHICS | vk::QueueFlags::COMPUTE;
+    family.queue_flags.contains(both)
 }

@@ -2,7 +2,7 @@
 
 use crate::passes::own_layout::{OwnSet, PipelineLayout, SetLayout};
 use crate::passes::{FrameLayout, SampleSet};
-use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError, compute_pipeline};
+use crate::vulkan::{Binding, Compiled, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -16,7 +16,7 @@ pub(super) struct BesideFrame<C> {
 }
 
 impl<C: bytemuck::NoUninit> BesideFrame<C> {
-    /// Makes the layouts, and a set that shows buffers in the order of its bindings.
+    /// Makes the layouts, and a set of these bindings that shows buffers.
     ///
     /// # Errors
     /// If the driver refuses one.
@@ -25,16 +25,16 @@ impl<C: bytemuck::NoUninit> BesideFrame<C> {
     /// The buffers outlive the set's use.
     pub unsafe fn new(
         layout: &FrameLayout,
-        buffers: &[vk::DescriptorBufferInfo],
+        bindings: &'static [Binding],
+        buffers: &[(Binding, vk::DescriptorBufferInfo)],
     ) -> Result<Self, VulkanError> {
         let gpu = &layout.gpu;
-        let kinds = vec![vk::DescriptorType::STORAGE_BUFFER; buffers.len()];
-        let set_layout = SetLayout::new(gpu, &kinds)?;
+        let set_layout = SetLayout::new(gpu, bindings)?;
         let sets = [layout.frame_set, set_layout.raw];
         let own_layout = PipelineLayout::new(gpu, &sets, size_of::<C>() as u32)?;
         let set = set_layout.allocate()?;
         // SAFETY: the set is new; of the buffers as the caller says.
-        unsafe { set.write_buffers(0, buffers) };
+        unsafe { set.write_buffers(buffers) };
         Ok(Self {
             layout: own_layout,
             set,
@@ -47,16 +47,12 @@ impl<C: bytemuck::NoUninit> BesideFrame<C> {
     ///
     /// # Errors
     /// If the driver refuses it.
-    pub fn pipeline(
+    pub fn pipeline<S: Compiled>(
         &self,
         layout: &FrameLayout,
-        shader: &'static [u8],
-        constants: &Constants,
+        shader: &S,
     ) -> Result<Arc<Pipeline>, VulkanError> {
-        // Layouts that are made alike are one and the same to pipelines.
-        layout.cached(shader, constants, 0, || {
-            compute_pipeline(&layout.gpu, self.layout.raw, shader, constants, None)
-        })
+        self.layout.compute(layout, shader)
     }
 
     /// Binds a frame's set and this one; afterwards the former is no longer bound as other passes bind it.

@@ -3,8 +3,9 @@
 use super::beside_frame::BesideFrame;
 use crate::passes::arguments::{After, Arguments};
 use crate::passes::own_layout::whole;
-use crate::passes::{Argument, Cells, Content, FrameLayout, Resources, SampleSet, spirv};
-use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use crate::passes::spirv::{self, crossings_set};
+use crate::passes::{Argument, Content, FrameLayout, Resources, SampleSet};
+use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
 /// What a location sees and what it is of, as `shaders/crossings.comp` describes it.
@@ -21,17 +22,9 @@ pub struct SeenLocation {
     pub output: u32,
 }
 
-/// The output whose cells are marked.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-pub struct MarkedOutput {
-    /// Its size in tiles of 8 x 4 cells.
-    pub tiles: [u32; 2],
-    /// Its width in cells.
-    pub width: u32,
-    /// Width of a pixel of the plane in world units: at a distance of 1 or, where rays are parallel, at any.
-    pub pixel: f32,
-}
+/// The output whose cells are marked: its size in tiles of 8 x 4 cells, its width in cells, and the width of a `pixel` of the plane in
+/// world units, at a distance of 1 or, where rays are parallel, at any.
+pub use crate::passes::spirv::CrossingsPush as MarkedOutput;
 
 /// Marks cells for `detect`.
 pub struct Crossings {
@@ -55,14 +48,21 @@ impl Crossings {
         resources: &Resources,
         (seen, marks): (&Buffer, &Buffer),
     ) -> Result<Self, VulkanError> {
-        let shown = [whole(&resources.locations.loads), whole(seen), whole(marks)];
+        let shown = [
+            (crossings_set::LOADS, whole(&resources.locations.loads)),
+            (crossings_set::SEEN, whole(seen)),
+            (crossings_set::CELL_MARKS, whole(marks)),
+        ];
         // SAFETY: passed on to the caller; the first buffer goes with the resources.
-        let beside = unsafe { BesideFrame::new(layout, &shown) }?;
-        let constants = scene.constants(Constants::new()).flag(1, scene.has_blend());
-        let constants = Cells::Superpixels.constants(constants);
+        let beside = unsafe { BesideFrame::new(layout, &crossings_set::ALL, &shown) }?;
+        let shader = spirv::Crossings {
+            blend_ids: scene.has_blend(),
+            occluders: false,
+            instanced: scene.is_instanced(),
+        };
         Ok(Self {
             arguments: Arguments::new(layout, After::Pairs)?,
-            pipeline: beside.pipeline(layout, spirv::CROSSINGS, &constants)?,
+            pipeline: beside.pipeline(layout, &shader)?,
             beside,
         })
     }

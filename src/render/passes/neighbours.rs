@@ -1,7 +1,7 @@
 //! neighbours: cells of an output that contrast with a superpixel beside them.
 
-use crate::passes::{FrameLayout, spirv};
-use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
+use crate::passes::{ColorConstants, FrameLayout, spirv};
+use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
 /// Marks cells for [`Grow`](crate::passes::Grow), where superpixels are locations of lists.
@@ -10,13 +10,17 @@ pub struct Neighbours {
 }
 
 impl Neighbours {
-    /// Makes the pipeline; `output` are the colour constants of `shaders/include/color.glsl`.
+    /// Makes the pipeline; `output` says how colours of the image are made.
     ///
     /// # Errors
     /// If the driver refuses it.
-    pub fn new(layout: &FrameLayout, output: &Constants) -> Result<Self, VulkanError> {
+    pub fn new(layout: &FrameLayout, output: &ColorConstants) -> Result<Self, VulkanError> {
+        let shader = spirv::Neighbours {
+            tonemap: output.tonemap,
+            tonemap_codes: output.tonemap_codes,
+        };
         Ok(Self {
-            pipeline: layout.compute(spirv::NEIGHBOURS, output, None)?,
+            pipeline: layout.compute(&shader, None)?,
         })
     }
 

@@ -3,7 +3,7 @@
 use super::{FrameGeometry, GpuScene};
 use crate::passes::{FrameLayout, spirv};
 use crate::scene::Moment;
-use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
 /// As in `shaders/pose.comp`.
@@ -25,7 +25,7 @@ impl Pose {
     pub fn new(layout: &Arc<FrameLayout>) -> Result<Self, VulkanError> {
         Ok(Self {
             layout: layout.clone(),
-            pipeline: layout.compute(spirv::POSE, &Constants::new(), None)?,
+            pipeline: layout.compute(&spirv::Pose, None)?,
         })
     }
 
@@ -48,20 +48,20 @@ impl Pose {
         for (part, at) in motion.parts.iter().zip(&moment.parts) {
             let flag = |bit: u32, set: bool| if set { bit } else { 0 };
             let flags = flag(FLAT, part.is_flat) | flag(INSIDE_OUT, part.mirrored) | tangents;
-            let words = [
-                part.vertex_count,
-                part.first_vertex,
-                part.first_resting,
-                part.first_influence,
-                part.sets,
-                part.first_displacement,
-                part.displacement_vectors,
-                at.first_matrix,
-                at.first_weight,
-                at.weight_count,
+            let push = spirv::PosePush {
+                count: part.vertex_count,
+                first_vertex: part.first_vertex,
+                first_resting: part.first_resting,
+                first_influence: part.first_influence,
+                sets: part.sets,
+                first_displacement: part.first_displacement,
+                displacement_vectors: part.displacement_vectors,
+                first_matrix: at.first_matrix,
+                first_weight: at.first_weight,
+                weight_count: at.weight_count,
                 flags,
-            ];
-            recorder.push(self.layout.pipeline, &words);
+            };
+            recorder.push(self.layout.pipeline, &push);
             let groups = u64::from(part.vertex_count.div_ceil(64));
             // Parts have vertices of their own.
             recorder.dispatch_unordered(&self.pipeline, groups);

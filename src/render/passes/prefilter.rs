@@ -4,8 +4,10 @@
 //! Importance Sampling", 2008).
 
 use crate::passes::own_layout::{OwnSet, PipelineLayout, SetLayout, whole};
-use crate::passes::spirv;
-use crate::vulkan::{Buffer, Constants, Memory, Pipeline, Recorder, VulkanError, compute_pipeline};
+use crate::passes::spirv::{self, prefilter_set};
+use crate::vulkan::{
+    Buffer, Compiled, Memory, Pipeline, Recorder, Specialized, VulkanError, compute_pipeline,
+};
 use ash::vk;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
@@ -16,17 +18,6 @@ const LEVELS: u32 = 6;
 /// left out. So rough levels, which are small, are not blurred by what they read.
 const DIRECTIONS: u32 = 64;
 
-/// What the cubes are pushed as.
-#[repr(C)]
-#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
-struct Push {
-    finest: u32,
-    side: u32,
-    first: u32,
-    first_ray: u32,
-    ray_count: u32,
-}
-
 /// Filters one environment.
 pub struct Prefilter {
     layout: PipelineLayout,
@@ -35,7 +26,7 @@ pub struct Prefilter {
     set: OwnSet,
     texels: Buffer,
     _rays: Buffer,
-    cubes: Vec<Push>,
+    cubes: Vec<spirv::PrefilterPush>,
 }
 
 /// The levels of an environment whose finest cube has faces of `side` texels, a power of two: texels along the side of each,
@@ -60,17 +51,22 @@ impl Prefilter {
     /// If the driver refuses it, or memory runs out.
     pub fn new(memory: &Memory, texels: Buffer, side: u32) -> Result<Self, VulkanError> {
         let gpu = memory.gpu();
-        let set_layout = SetLayout::new(gpu, &[vk::DescriptorType::STORAGE_BUFFER; 2])?;
-        let layout = PipelineLayout::new(gpu, &[set_layout.raw], size_of::<Push>() as u32)?;
-        let constants = Constants::new();
-        let pipeline = compute_pipeline(gpu, layout.raw, spirv::PREFILTER, &constants, None)?;
+        let set_layout = SetLayout::new(gpu, &prefilter_set::ALL)?;
+        let layout = PipelineLayout::new(
+            gpu,
+            &[set_layout.raw],
+            spirv::Prefilter::INTERFACE.push_bytes,
+        )?;
+        let (code, constants) = (spirv::Prefilter::code(), spirv::Prefilter.constants());
+        let pipeline = compute_pipeline(gpu, layout.raw, code, &constants, None)?
+            .of(spirv::Prefilter::INTERFACE);
         let mut rays = Vec::new();
         let mut cubes = Vec::new();
         let steps = levels(side).count() as u32 - 1;
         for (level, (own, first)) in (0..).zip(levels(side)).skip(1) {
             let first_ray = rays.len() as u32;
             rays.extend(lobe(level, steps, side));
-            cubes.push(Push {
+            cubes.push(spirv::PrefilterPush {
                 finest: side,
                 side: own,
                 first,
@@ -81,8 +77,12 @@ impl Prefilter {
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
         let rays = memory.filled("prefilter rays", bytemuck::cast_slice(&rays), usage)?;
         let set = set_layout.allocate()?;
+        let shown = [
+            (prefilter_set::TEXELS, whole(&texels)),
+            (prefilter_set::RAYS, whole(&rays)),
+        ];
         // SAFETY: the set is new, and both buffers go with it.
-        unsafe { set.write_buffers(0, &[whole(&texels), whole(&rays)]) };
+        unsafe { set.write_buffers(&shown) };
         Ok(Self {
             layout,
             _set_layout: set_layout,

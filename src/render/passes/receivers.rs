@@ -3,26 +3,13 @@
 use super::GpuScene;
 use super::beside_frame::BesideFrame;
 use crate::passes::own_layout::whole;
-use crate::passes::{
-    Argument, Cells, Content, FrameLayout, Resources, SampleSet, shadow_words, spirv,
-};
-use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use crate::passes::spirv::{self, receivers_set};
+use crate::passes::{Argument, Cells, Content, FrameLayout, Resources, SampleSet};
+use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
 /// The plane of a light as the pass is told of it; `shaders/receivers.comp` says what the fields are.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-#[allow(missing_docs)]
-pub struct LightPlane {
-    pub to_plane: [f32; 16],
-    pub light: [f32; 4],
-    pub cone: [f32; 4],
-    pub low: [i32; 2],
-    pub size: [u32; 2],
-    pub range: f32,
-    pub step: u32,
-    pub face: u32,
-}
+pub use crate::passes::spirv::ReceiversPush as LightPlane;
 
 impl LightPlane {
     /// The face of what is no plane of a cube.
@@ -76,16 +63,23 @@ impl Receivers {
         resources: &Resources,
         locations: &Buffer,
     ) -> Result<Self, VulkanError> {
-        let shown = [whole(locations), whole(&resources.shadow_words.buffer)];
+        let words = whole(&resources.shadow_words.buffer);
+        let shown = [
+            (receivers_set::LOCATIONS_OUT, whole(locations)),
+            (receivers_set::WORDS, words),
+        ];
         // SAFETY: both buffers go with the frame that this is of.
-        let beside = unsafe { BesideFrame::new(layout, &shown) }?;
-        let words = resources.sizes().shadow_words;
+        let beside = unsafe { BesideFrame::new(layout, &receivers_set::ALL, &shown) }?;
         let pipeline = |pixels: bool| {
-            let constants = cells.constants(scene.constants(Constants::new()));
-            let constants = shadow_words::constants(constants, words)
-                .flag(0, pixels)
-                .flag(37, scene.is_backlit());
-            beside.pipeline(layout, spirv::RECEIVERS, &constants)
+            let shader = spirv::Receivers {
+                pixels,
+                locations: cells.are_locations(),
+                occluders: cells.are_occluders(),
+                instanced: scene.is_instanced(),
+                shadow_words: resources.sizes().shadow_words,
+                diffuse_transmission: scene.is_backlit(),
+            };
+            beside.pipeline(layout, &shader)
         };
         Ok(Self {
             of_pixels: pipeline(true)?,

@@ -2,8 +2,8 @@
 
 use super::GpuScene;
 use super::scene::ShadeFeatures;
-use crate::passes::{Argument, Cells, Content, FrameLayout, shadow_words, spirv};
-use crate::vulkan::{Buffer, Constants, Pipeline, Recorder, VulkanError};
+use crate::passes::{Argument, Cells, ColorConstants, Content, FrameLayout, spirv};
+use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -41,30 +41,36 @@ impl Shade {
     pub fn new(
         layout: &Arc<FrameLayout>,
         scene: &GpuScene,
-        (source, words): (ShadeSource, u32),
-        output: &Constants,
+        (source, shadow_words): (ShadeSource, u32),
+        output: &ColorConstants,
     ) -> Result<Self, VulkanError> {
         let lights = scene.light_features();
         let (pixels, cells) = match source {
             ShadeSource::Pixels { .. } => (true, Cells::Pixels),
             ShadeSource::Records { cells } => (false, cells),
         };
-        let common = cells
-            .constants(scene.constants(output.clone()))
-            .flag(0, pixels)
-            .flag(1, scene.bins.len() <= 1)
-            .flag(
-                2,
-                source
-                    == ShadeSource::Pixels {
-                        display_codes: true,
-                    },
-            )
-            .flag(10, lights.count > 0)
-            .flag(11, lights.local)
-            .flag(12, !pixels && scene.has_blend())
-            .flag(17, scene.has_environment());
-        let common = shadow_words::constants(common, words);
+        let display_codes = source
+            == ShadeSource::Pixels {
+                display_codes: true,
+            };
+        let common = spirv::Shade {
+            pixels,
+            one_bin: scene.bins.len() <= 1,
+            display_codes,
+            punctual: lights.count > 0,
+            local_lights: lights.local,
+            blended: !pixels && scene.has_blend(),
+            box_filter: output.box_filter,
+            tinted: output.tinted,
+            environment: scene.has_environment(),
+            locations: cells.are_locations(),
+            occluders: cells.are_occluders(),
+            instanced: scene.is_instanced(),
+            shadow_words,
+            tonemap: output.tonemap,
+            tonemap_codes: output.tonemap_codes,
+            ..spirv::Shade::default()
+        };
         let mut known: HashMap<ShadeFeatures, usize> = HashMap::new();
         let mut pipelines = Vec::new();
         let mut bins = Vec::new();
@@ -74,8 +80,7 @@ impl Shade {
                 bins.push(*index);
                 continue;
             }
-            let constants = features.constants(&common);
-            pipelines.push(layout.compute(spirv::SHADE, &constants, None)?);
+            pipelines.push(layout.compute(&features.shader(common), None)?);
             known.insert(features, pipelines.len() - 1);
             bins.push(pipelines.len() - 1);
         }
@@ -104,7 +109,7 @@ impl Shade {
                     &[],
                 );
             }
-            recorder.push(self.layout.pipeline, &[bin as u32]);
+            recorder.push(self.layout.pipeline, &spirv::ShadePush { bin: bin as u32 });
             let every_record =
                 matches!(self.source, ShadeSource::Records { .. }) && self.bins.len() == 1;
             let argument = if every_record {

@@ -3,20 +3,11 @@
 use super::beside_frame::BesideFrame;
 use crate::passes::arguments::{After, Arguments};
 use crate::passes::own_layout::whole;
-use crate::passes::{Argument, Cells, FrameLayout, Resources, SampleSet, shadow_words, spirv};
-use crate::vulkan::{Buffer, Constants, Memory, MemoryUse, Pipeline, Recorder, VulkanError};
+use crate::passes::spirv::{self, shadow_set};
+use crate::passes::{Argument, FrameLayout, Resources, SampleSet};
+use crate::vulkan::{Buffer, Memory, MemoryUse, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
-
-/// What is pushed.
-#[repr(C)]
-#[derive(Clone, Copy, Default, bytemuck::Pod, bytemuck::Zeroable)]
-struct Push {
-    first_place: u32,
-    light: u32,
-    ends: u32,
-    width: u32,
-}
 
 /// What is done with what was found between a light and receivers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,7 +31,7 @@ const LEFT_WORDS: usize = 2;
 pub struct Shadow {
     arguments: Arguments,
     pipeline: Arc<Pipeline>,
-    beside: BesideFrame<Push>,
+    beside: BesideFrame<spirv::ShadowPush>,
     left: Buffer,
     kept: Buffer,
 }
@@ -61,12 +52,15 @@ impl Shadow {
         let left = words("shadows left", storage | transfer, MemoryUse::Device)?;
         let kept = words("shadows left, read back", transfer, MemoryUse::Readback)?;
         let words = whole(&receivers.shadow_words.buffer);
-        let shown = [words, whole(&left), whole(&receivers.marks)];
+        let shown = [
+            (shadow_set::WORDS, words),
+            (shadow_set::LEFT, whole(&left)),
+            (shadow_set::MARKS_OF_PIXELS, whole(&receivers.marks)),
+        ];
         // SAFETY: the buffers go with the frame that this is of.
-        let beside = unsafe { BesideFrame::new(layout, &shown) }?;
-        let constants = Cells::Occluders.constants(Constants::new());
-        let constants = shadow_words::constants(constants, receivers.sizes().shadow_words);
-        let pipeline = beside.pipeline(layout, spirv::SHADOW, &constants)?;
+        let beside = unsafe { BesideFrame::new(layout, &shadow_set::ALL, &shown) }?;
+        let shadow_words = receivers.sizes().shadow_words;
+        let pipeline = beside.pipeline(layout, &spirv::Shadow { shadow_words })?;
         Ok(Self {
             arguments: Arguments::new(layout, After::Sample)?,
             pipeline,
@@ -95,11 +89,11 @@ impl Shadow {
             ShadowTarget::Words { first_place } => (first_place, 0),
             ShadowTarget::Marks { width } => (0, width),
         };
-        let push = Push {
+        let push = spirv::ShadowPush {
             first_place,
             light,
             width,
-            ..Push::default()
+            ..spirv::ShadowPush::default()
         };
         self.beside.bind(recorder, set, &push);
         let sort = Argument::Sort as u32;
@@ -109,9 +103,9 @@ impl Shadow {
 
     /// Records what follows the last round.
     pub fn record_left(&self, recorder: &Recorder<'_>, set: &SampleSet) {
-        let push = Push {
+        let push = spirv::ShadowPush {
             ends: 1,
-            ..Push::default()
+            ..spirv::ShadowPush::default()
         };
         self.beside.bind(recorder, set, &push);
         recorder.dispatch(&self.pipeline, 1);

@@ -3,7 +3,7 @@
 use super::{FrameGeometry, GpuScene};
 use crate::passes::{FrameLayout, spirv};
 use crate::scene::Edge;
-use crate::vulkan::{Constants, Pipeline, Recorder, VulkanError};
+use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use glam::{DMat4, DVec3, Vec4Swizzles};
 use std::sync::Arc;
 
@@ -38,7 +38,7 @@ impl Stroke {
     pub fn new(layout: &Arc<FrameLayout>) -> Result<Self, VulkanError> {
         Ok(Self {
             layout: layout.clone(),
-            pipeline: layout.compute(spirv::STROKE, &Constants::new(), None)?,
+            pipeline: layout.compute(&spirv::Stroke, None)?,
         })
     }
 
@@ -59,15 +59,17 @@ impl Stroke {
         let half = |size: f32| 0.5 * side * size;
         let vector = |step: DVec3, size: f32| {
             let [x, y, z] = step.as_vec3().to_array();
-            [x, y, z, half(size)].map(f32::to_bits)
+            [x, y, z, half(size)]
         };
-        let mut words = Vec::new();
-        words.extend(vector(right, sizes.line_width));
-        words.extend(vector(down, sizes.point_size));
-        words.push(strokes.corner_count);
-        words.extend([half(sizes.edge_width), APART * side].map(f32::to_bits));
-        words.push(strokes.edge_count);
-        recorder.push(self.layout.pipeline, &words);
+        let push = spirv::StrokePush {
+            right: vector(right, sizes.line_width),
+            down: vector(down, sizes.point_size),
+            corners: strokes.corner_count,
+            half_edge: half(sizes.edge_width),
+            apart: APART * side,
+            edges: strokes.edge_count,
+        };
+        recorder.push(self.layout.pipeline, &push);
         let corners = u64::from(strokes.corner_count)
             + u64::from(Edge::CORNERS) * u64::from(strokes.edge_count);
         recorder.dispatch(&self.pipeline, corners.div_ceil(64));

@@ -5,6 +5,7 @@ use super::light::{LightView, Sight, views};
 use crate::engine::sampler::plan::Capacity;
 use crate::engine::sampler::statistics::Shortfall;
 use crate::engine::sampler::{ListCells, RecordShading, Sampler, SamplerContext, SamplerRun};
+use crate::passes::spirv::frame_set;
 use crate::passes::{
     Argument, Cells, Content, FrameLayout, ListLength, Offsets, RasterTargets, ResourceSizes,
     Resources, SampleSet,
@@ -156,7 +157,7 @@ impl ShadowFinder {
             vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | vk::BufferUsageFlags::STORAGE_BUFFER,
             MemoryUse::Device,
         )?;
-        texels.push((42, locations.view));
+        texels.push((frame_set::LOCATIONS, locations.view));
         let resources = Resources::new(
             layout,
             memory,

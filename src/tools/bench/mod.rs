@@ -23,7 +23,7 @@ pub use accuracy::{Accuracy, Yardstick};
 pub use cache::{Cache, Fingerprint};
 pub use causes::{Cause, LOOKS, Looks, Split};
 pub use faults::{Fault, FaultError, Half, Suspects, Within};
-pub use growth::{Growth, Step};
+pub use growth::{Growth, GrowthStep};
 pub use motion::{Motion, Sequence, Steadiness};
 pub use reference::{GRID_SAMPLES, MAX_REFERENCE_SAMPLES, TRUTH_SIDE, brute_force};
 pub use spread::Spread;

@@ -95,6 +95,12 @@ impl Command {
     }
 }
 
+/// The command's options, for manual pages and completions.
+#[allow(dead_code, reason = "the example `manual` uses it")]
+pub fn command() -> clap::Command {
+    <Cli as clap::CommandFactory>::command()
+}
+
 /// Runs the command that the process was started with.
 pub fn run() -> ExitCode {
     // Wrong usage ends here with exit code 2.

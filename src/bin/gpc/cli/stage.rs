@@ -2,7 +2,7 @@
 
 use super::exit::usage;
 use super::render::{self, ImageArgs, Shot};
-use super::report::{Device, Effort, Figures, Work};
+use super::report::{Device, Effort, Figures, RenderWork};
 use super::values::Background;
 use gpc::camera::{Camera, Pinhole, SampleLocation};
 use gpc::render::{Headless, PreparedScene, Settings};
@@ -79,7 +79,7 @@ impl Stage {
         })
     }
 
-    /// Figures of what was rendered to a file; `more` is what only the command can say.
+    /// Figures of what was rendered to a file; `more` adds the command's own.
     pub fn figures<T: Serialize>(
         &self,
         output: &Path,
@@ -101,7 +101,7 @@ impl Stage {
     pub fn effort(&self, shot: &Shot) -> Effort {
         Effort::new(
             &self.settings,
-            &Work {
+            &RenderWork {
                 statistics: &shot.rendered.statistics,
                 cells: shot.rendered.colors.len() as u64,
                 passes: &shot.passes,

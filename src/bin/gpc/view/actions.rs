@@ -13,8 +13,8 @@ use super::photo::Framing;
 use super::pointer::Drag;
 use super::source::{Source, Stage};
 use super::standpoint::Standpoint;
-use super::studio::{Subject, Task};
-use super::window::View;
+use super::window::Viewer;
+use super::worker::{Subject, Task};
 use glam::DVec2;
 use gpc::render::Method;
 use gpc::sampling::MAX_SAMPLES;
@@ -23,7 +23,7 @@ use std::time::Instant;
 use winit::event::{ElementState, KeyEvent, MouseScrollDelta, WindowEvent};
 use winit::window::Fullscreen;
 
-impl View {
+impl Viewer {
     /// Takes an event of the window.
     pub fn on_event(&mut self, event: &WindowEvent) -> anyhow::Result<()> {
         let response = self.interface.on_window_event(&self.window, event);
@@ -100,7 +100,7 @@ impl View {
         }
     }
 
-    /// Opens a file, or those of a folder, beside those that there are.
+    /// Opens a file, or the scene files of a folder, in addition to those that are open.
     fn open(&mut self, path: &Path) {
         match scenes_at(path) {
             Ok(scenes) => {
@@ -136,7 +136,7 @@ impl View {
                     self.notes
                         .say(format!("stopped loading {}", loading.source.name()));
                 }
-                for path in self.studio.stop_files() {
+                for path in self.worker.stop_files() {
                     self.notes
                         .say(format!("stopped writing {}", path.display()));
                 }
@@ -249,7 +249,7 @@ impl View {
         self.restart();
     }
 
-    /// Goes on by so many scenes, round and round.
+    /// Goes on by `by` scenes; the first one follows the last.
     fn turn_to(&mut self, by: usize) {
         if self.scenes.len() > 1 {
             self.show_scene((self.scene + by) % self.scenes.len());
@@ -262,7 +262,7 @@ impl View {
         usize::from(column.is_some_and(|column| self.pointer.place().x >= column))
     }
 
-    /// Changes the samples of the picture under the pointer, where its method and pattern can have so many.
+    /// Changes the number of samples of the picture under the pointer, if its method and pattern allow the new number.
     fn change_samples(&mut self, change: impl Fn(u32) -> u32) -> anyhow::Result<()> {
         let layer = self.layer_under_pointer();
         let look = &mut self.looks[layer];
@@ -359,7 +359,7 @@ impl View {
                 return;
             };
             let task = Task::PhotoFile(easel.whole(map), path.clone());
-            self.studio.ask(0, task);
+            self.worker.ask(0, task);
             self.notes.say(format!("writing {}", path.display()));
             return;
         }

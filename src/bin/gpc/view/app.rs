@@ -4,8 +4,8 @@ use super::Options;
 use super::losses::{Losses, is_lost};
 use super::preparer::Prepared;
 use super::source::Opened;
-use super::studio::Made;
-use super::window::View;
+use super::window::Viewer;
+use super::worker::Made;
 use std::time::Instant;
 use winit::application::ApplicationHandler;
 use winit::event::WindowEvent;
@@ -28,7 +28,7 @@ pub enum Event {
 pub struct App {
     options: Options,
     proxy: EventLoopProxy<Event>,
-    view: Option<View>,
+    view: Option<Viewer>,
     losses: Losses,
     outcome: anyhow::Result<Vec<String>>,
 }
@@ -75,7 +75,7 @@ impl ApplicationHandler<Event> for App {
         if self.view.is_some() {
             return;
         }
-        match View::new(events, self.options.clone(), self.proxy.clone()) {
+        match Viewer::new(events, self.options.clone(), self.proxy.clone()) {
             Ok(view) => self.view = Some(view),
             Err(error) => self.check(events, Err(error)),
         }

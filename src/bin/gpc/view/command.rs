@@ -206,6 +206,7 @@ fn quote(word: &str) -> String {
 mod tests {
     use super::super::navigate::Turntable;
     use super::*;
+    use gpc::render::{Detection, Shading};
 
     fn source(path: &str) -> Source {
         Source::new(path.into())

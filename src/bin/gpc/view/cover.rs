@@ -2,7 +2,7 @@
 
 use super::lens::Lenses;
 use super::overlay::Overlay;
-use super::studio::Subject;
+use super::worker::Subject;
 use std::time::{Duration, Instant};
 
 /// Samples of the first pictures, before those asked for.

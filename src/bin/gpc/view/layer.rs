@@ -4,7 +4,7 @@ use super::engine::Engine;
 use super::look::Look;
 use super::picture::Picture;
 use super::preparer::{Preparer, Ticket};
-use super::schedule::{Schedule, Took, Work};
+use super::schedule::{PictureWork, Schedule, Took};
 use ash::vk;
 use gpc::camera::Camera;
 use gpc::render::{Frame, PixelRect, PreparedScene, RenderError, Settings, Shadows, Statistics};
@@ -31,12 +31,12 @@ pub struct Layer {
     /// Settings of the frames that are being prepared.
     asked: Vec<Settings>,
     /// Work that waits for its frame.
-    waiting: Option<Work>,
+    waiting: Option<PictureWork>,
     /// Work to do again, in a frame that has more room.
-    again: Option<(Work, Frame, u32)>,
-    /// Counts pictures, so that the results of older ones are told apart.
+    again: Option<(PictureWork, Frame, u32)>,
+    /// Number of the picture, by which results of older pictures are recognised.
     version: u64,
-    /// Samples of what is seen, where all of it has as many.
+    /// Samples a pixel of the picture that is shown, if all of its pixels have the same number.
     pub shown: Option<u32>,
     /// Figures of the last work.
     pub statistics: Statistics,
@@ -47,7 +47,7 @@ pub struct Job {
     /// Ticket of the layer that takes the job back.
     pub ticket: Weak<()>,
     frame: Frame,
-    work: Work,
+    work: PictureWork,
     version: u64,
     tries: u32,
     /// Picture that a band is rendered to before it is copied.
@@ -62,7 +62,7 @@ pub struct Sight<'a> {
 }
 
 impl Layer {
-    /// A picture of which nothing is rendered.
+    /// Makes a layer of which nothing is rendered yet.
     pub fn new(engine: &Engine, look: Look, now: Instant) -> anyhow::Result<Self> {
         Ok(Self {
             picture: Picture::new(&engine.device, look.settings.size)?,
@@ -149,13 +149,13 @@ impl Layer {
             frame.show(moment.clone())?;
         }
         let band = match &work {
-            Work::Draft { .. } => {
+            PictureWork::Draft { .. } => {
                 let target = self.picture.target();
                 // SAFETY: passed on to the caller; spare frames were waited for, and the picture has the frame's size.
                 unsafe { frame.record(sight.camera, commands, &target) };
                 None
             }
-            Work::Band { rows, .. } => {
+            PictureWork::Band { rows, .. } => {
                 let mut band = Picture::new(&engine.device, frame.settings().output_size())?;
                 let target = band.target();
                 // SAFETY: as above; the band lies in the picture, and the job keeps it.
@@ -190,7 +190,7 @@ impl Layer {
                 if is_current {
                     self.note(&job.work, statistics);
                 }
-                if let Work::Draft { .. } = job.work {
+                if let PictureWork::Draft { .. } = job.work {
                     self.spare.push(job.frame);
                 }
                 Ok(())
@@ -211,7 +211,7 @@ impl Layer {
         Weak::ptr_eq(&Arc::downgrade(&self.ticket), ticket)
     }
 
-    /// Takes a frame that was asked for, or why there is none.
+    /// Takes a frame that was asked for, or the error of preparing it.
     pub fn prepared(
         &mut self,
         settings: &Settings,
@@ -245,13 +245,13 @@ impl Layer {
     }
 
     /// Adds figures of work on the picture that is seen.
-    fn note(&mut self, work: &Work, statistics: Statistics) {
+    fn note(&mut self, work: &PictureWork, statistics: Statistics) {
         let is_first = match work {
-            Work::Draft { samples } => {
+            PictureWork::Draft { samples } => {
                 self.shown = Some(*samples);
                 true
             }
-            Work::Band { samples, rows } => {
+            PictureWork::Band { samples, rows } => {
                 let is_last = rows.end == self.picture.size()[1];
                 self.shown = is_last.then_some(*samples);
                 rows.start == 0
@@ -278,10 +278,10 @@ impl Layer {
         self.spare.pop()
     }
 
-    fn settings(&self, work: &Work) -> Settings {
+    fn settings(&self, work: &PictureWork) -> Settings {
         let settings = match work {
-            Work::Draft { samples } => self.look.draft(*samples),
-            Work::Band { samples, rows } => self.look.at(
+            PictureWork::Draft { samples } => self.look.draft(*samples),
+            PictureWork::Band { samples, rows } => self.look.at(
                 *samples,
                 Some(PixelRect {
                     corner: [0, rows.start],
@@ -289,7 +289,7 @@ impl Layer {
                 }),
             ),
         };
-        // Shadows are for pictures of the studio: they would take frames too long.
+        // Shadows are for pictures of the worker: they would take frames too long.
         Settings {
             shadows: Shadows::None,
             ..settings

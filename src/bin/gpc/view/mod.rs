@@ -41,11 +41,11 @@ mod slot;
 mod source;
 mod standpoint;
 mod stop;
-mod studio;
 mod swapchain;
 mod tint;
 mod watch;
 mod window;
+mod worker;
 
 pub use look::{Look, default_samples};
 pub use source::{Appearance, Source};
@@ -68,7 +68,7 @@ pub struct Options {
     pub start: Start,
     /// Appearance of scenes beyond what their files say.
     pub appearance: Appearance,
-    /// The options of the command line that say the same, and what is behind the scene.
+    /// Options of the command line for this appearance and the background.
     pub appearance_options: Vec<String>,
     /// Antialiasing, and the size of the window.
     pub look: Look,

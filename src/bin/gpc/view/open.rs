@@ -7,7 +7,7 @@ use super::progress::Progress;
 use super::source::{Opened, Source, Stage};
 use super::standpoint::Standpoint;
 use super::watch::Watch;
-use super::window::View;
+use super::window::Viewer;
 use std::path::Path;
 use std::time::Instant;
 
@@ -28,7 +28,7 @@ impl Drop for Loading {
     }
 }
 
-impl View {
+impl Viewer {
     /// Loads what was asked for, in the background.
     pub fn load(&mut self, keeps_view: bool) {
         let source = self.source.clone();
@@ -150,7 +150,7 @@ impl View {
         self.view_changed();
     }
 
-    /// Goes from scenes to photographs or back, whose lenses are not at the same places.
+    /// Switches between scenes and photographs, whose lenses are not at the same places.
     fn set_easel(&mut self, easel: Option<Easel>) {
         if easel.is_some() != self.easel.is_some() {
             self.cover = self.cover.cleared(easel.is_some());

@@ -2,11 +2,11 @@
 
 use super::cover::Cover;
 use super::picture::Picture;
-use super::studio::{Pixels, SceneTask, Subject, Task};
-use super::window::View;
+use super::window::Viewer;
+use super::worker::{Pixels, SceneTask, Subject, Task};
 use std::time::Instant;
 
-impl View {
+impl Viewer {
     /// Drops pictures of the previous view, and orders them anew.
     pub fn view_changed(&mut self) {
         self.is_dirty = true;
@@ -27,7 +27,7 @@ impl View {
         self.begin_cover(false);
     }
 
-    /// Shows what the studio has made.
+    /// Shows what the worker has made.
     pub fn show_made(&mut self, number: u64, pixels: &Pixels) -> anyhow::Result<()> {
         let arrival = self.cover.arrived(number, Instant::now());
         if arrival.is_shown {
@@ -41,7 +41,7 @@ impl View {
         Ok(())
     }
 
-    /// Orders the first picture of what is wanted in the stead of the frames, if anything is.
+    /// Orders the first picture of the cover, if one is wanted.
     fn begin_cover(&mut self, view_changed: bool) {
         self.cover_figures = None;
         let look = &self.looks[self.layer_under_pointer()];
@@ -60,7 +60,7 @@ impl View {
             let (lenses, tints) = (&self.cover.lenses, self.cover.tints);
             let view = easel.view(size, lenses.map(), tints, self.pointer.place());
             let (number, _) = step(&mut self.cover);
-            self.studio.ask(number, Task::Photo(view));
+            self.worker.ask(number, Task::Photo(view));
         } else if let Some(subject) = self.cover.subject() {
             let (number, samples) = step(&mut self.cover);
             let look = &self.looks[self.layer_under_pointer()];
@@ -71,11 +71,11 @@ impl View {
             };
             self.order(number, samples, subject);
         } else {
-            self.studio.supersede();
+            self.worker.supersede();
         }
     }
 
-    /// Asks the studio for a picture of what is seen of the scene, antialiased like that under the pointer.
+    /// Asks the worker for a picture of the visible scene, antialiased like the picture under the pointer.
     pub fn order(&mut self, number: u64, samples: u32, subject: Subject) {
         let Some(stage) = self.canvas.stage() else {
             return;
@@ -90,6 +90,6 @@ impl View {
             shows_environment: self.cover.shows_environment,
             subject,
         };
-        self.studio.ask(number, Task::Scene(Box::new(task)));
+        self.worker.ask(number, Task::Scene(Box::new(task)));
     }
 }

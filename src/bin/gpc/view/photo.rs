@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// Half of the side of the square that is unzoomed, as a share of the window's height.
 const LOUPE: f64 = 0.25;
-/// The most that a photograph is enlarged: so many pixels of the window for one of its.
+/// Largest enlargement of a photograph: pixels of the window for one of the photograph.
 const MOST: f64 = 64.0;
 
 /// A photograph from a file.
@@ -131,8 +131,14 @@ impl Easel {
     }
 
     /// Picture of the photograph for a window of `size` = [width, height].
-    pub fn view(&self, size: [u32; 2], map: Option<ZoomMap>, tints: bool, pointer: DVec2) -> View {
-        View {
+    pub fn view(
+        &self,
+        size: [u32; 2],
+        map: Option<ZoomMap>,
+        tints: bool,
+        pointer: DVec2,
+    ) -> PhotoView {
+        PhotoView {
             photo: self.photo.clone(),
             window: self.framing.window(size),
             map,
@@ -149,8 +155,8 @@ impl Easel {
     }
 
     /// Picture of the whole photograph, as `gpc zoom` makes it.
-    pub fn whole(&self, map: ZoomMap) -> View {
-        View {
+    pub fn whole(&self, map: ZoomMap) -> PhotoView {
+        PhotoView {
             photo: self.photo.clone(),
             window: Window {
                 size: self.photo.photograph().size(),
@@ -166,7 +172,7 @@ impl Easel {
 
 /// Picture to make of a photograph.
 #[derive(Clone, Debug)]
-pub struct View {
+pub struct PhotoView {
     photo: Arc<Photo>,
     pub window: Window,
     /// Map of the lenses.
@@ -176,7 +182,7 @@ pub struct View {
     loupe: Option<DVec2>,
 }
 
-impl View {
+impl PhotoView {
     /// Pixels of the picture: rows of linear light with premultiplied alpha.
     pub fn pixels(&self) -> Vec<[f32; 4]> {
         let photograph = self.photo.photograph();

@@ -1,7 +1,7 @@
 //! Images that the renderer writes and the window's images are copied from.
 
 use super::device::Device;
-use super::studio::Pixels;
+use super::worker::Pixels;
 use anyhow::anyhow;
 use ash::vk;
 use gpc::render::{ImageState, Target};

@@ -6,13 +6,13 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// Steps of loading, in their order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Step {
+pub enum LoadStep {
     Read,
     Pose,
     Prepare,
 }
 
-impl Step {
+impl LoadStep {
     const ALL: [Self; 3] = [Self::Read, Self::Pose, Self::Prepare];
 
     /// Name of the step in the window.
@@ -40,7 +40,7 @@ impl Progress {
     ///
     /// # Errors
     /// If nobody waits for it any more.
-    pub fn begin(&self, step: Step) -> anyhow::Result<()> {
+    pub fn begin(&self, step: LoadStep) -> anyhow::Result<()> {
         if self.0.is_cancelled.load(Ordering::Relaxed) {
             bail!("loading was stopped");
         }
@@ -49,11 +49,11 @@ impl Progress {
     }
 
     /// The step at hand, and the share of all that is done.
-    pub fn step(&self) -> (Step, f32) {
+    pub fn step(&self) -> (LoadStep, f32) {
         let index = self.0.step.load(Ordering::Relaxed);
-        let step = Step::ALL.get(index).copied().unwrap_or(Step::Read);
+        let step = LoadStep::ALL.get(index).copied().unwrap_or(LoadStep::Read);
         // In the middle of the step, for want of more to go by.
-        let share = (index as f32 + 0.5) / Step::ALL.len() as f32;
+        let share = (index as f32 + 0.5) / LoadStep::ALL.len() as f32;
         (step, share)
     }
 
@@ -72,7 +72,7 @@ mod tests {
         let loads = Progress::default();
         let waits = loads.clone();
         let mut last = 0.0;
-        for step in Step::ALL {
+        for step in LoadStep::ALL {
             loads.begin(step).unwrap();
             let (found, share) = waits.step();
             assert_eq!(found, step);
@@ -80,6 +80,6 @@ mod tests {
             last = share;
         }
         waits.cancel();
-        assert!(loads.begin(Step::Prepare).is_err());
+        assert!(loads.begin(LoadStep::Prepare).is_err());
     }
 }

@@ -28,7 +28,7 @@ const STEPS: [u32; 2] = [64, 256];
 
 /// A part of the work on a picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Work {
+pub enum PictureWork {
     /// Whole picture at once.
     Draft {
         /// Samples a pixel.
@@ -61,7 +61,7 @@ impl Took {
         }
     }
 
-    /// Milliseconds of each of so many rows.
+    /// Milliseconds of one of `rows` rows, without the fixed ones.
     fn of_row(self, rows: u32) -> f64 {
         (self.ms - self.fixed_ms) / f64::from(rows.max(1))
     }
@@ -85,7 +85,7 @@ pub struct Schedule {
     height: u32,
     /// Time at which the picture last changed.
     changed: Instant,
-    step: Step,
+    step: Phase,
     /// Milliseconds that a row is thought to take.
     row_ms: f64,
     /// Milliseconds that a band takes besides, however few rows it has.
@@ -93,9 +93,9 @@ pub struct Schedule {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Step {
+enum Phase {
     Draft,
-    /// Rendering with so many samples, from this row on.
+    /// Rendering with `samples` samples, from `row` on.
     Band {
         samples: u32,
         row: u32,
@@ -129,7 +129,7 @@ impl Schedule {
             steps,
             height,
             changed: now,
-            step: Step::Draft,
+            step: Phase::Draft,
             row_ms: TARGET_MS / f64::from(height.max(1)),
             fixed_ms: 0.0,
         }
@@ -138,25 +138,25 @@ impl Schedule {
     /// The picture is another one from now on.
     pub fn restart(&mut self, now: Instant) {
         self.changed = now;
-        self.step = Step::Draft;
+        self.step = Phase::Draft;
     }
 
     /// Takes the next work that is due.
-    pub fn take(&mut self, now: Instant) -> Option<Work> {
+    pub fn take(&mut self, now: Instant) -> Option<PictureWork> {
         match self.step {
-            Step::Draft => {
+            Phase::Draft => {
                 let samples = self.draft_samples();
                 self.step = match (self.final_draft == Some(samples), self.steps.first()) {
-                    (false, Some(first)) => Step::Band {
+                    (false, Some(first)) => Phase::Band {
                         samples: *first,
                         row: 0,
                     },
-                    _ => Step::Done,
+                    _ => Phase::Done,
                 };
-                Some(Work::Draft { samples })
+                Some(PictureWork::Draft { samples })
             }
-            Step::Band { row: 0, .. } if now < self.changed + REST => None,
-            Step::Band { samples, row } => {
+            Phase::Band { row: 0, .. } if now < self.changed + REST => None,
+            Phase::Band { samples, row } => {
                 if row == 0 {
                     self.too_slow = None;
                     self.row_ms *= STEP_COST;
@@ -167,49 +167,49 @@ impl Schedule {
                 let rows = (rows / ROW_STEP * ROW_STEP).max(ROW_STEP);
                 let end = (row + rows).min(self.height);
                 self.step = if end < self.height {
-                    Step::Band { samples, row: end }
+                    Phase::Band { samples, row: end }
                 } else {
                     self.after(samples)
                 };
-                Some(Work::Band {
+                Some(PictureWork::Band {
                     samples,
                     rows: row..end,
                 })
             }
-            Step::Done => None,
+            Phase::Done => None,
         }
     }
 
     /// Whether nothing is rendered of the picture.
     pub fn is_draft(&self) -> bool {
-        self.step == Step::Draft
+        self.step == Phase::Draft
     }
 
     /// Time at which the next work is due, if any is left.
     pub fn due(&self) -> Option<Instant> {
         match self.step {
-            Step::Done => None,
-            Step::Draft => Some(self.changed),
-            Step::Band { .. } => Some(self.changed + REST),
+            Phase::Done => None,
+            Phase::Draft => Some(self.changed),
+            Phase::Band { .. } => Some(self.changed + REST),
         }
     }
 
     /// Whether the picture has all samples that it should have, or will have once the work taken is done.
     pub fn is_done(&self) -> bool {
-        self.step == Step::Done
+        self.step == Phase::Done
     }
 
     /// Learns from what work took on the device.
-    pub fn learn(&mut self, work: &Work, took: Took, now: Instant) {
+    pub fn learn(&mut self, work: &PictureWork, took: Took, now: Instant) {
         match work {
-            Work::Draft { samples } => {
+            PictureWork::Draft { samples } => {
                 self.row_ms = took.of_row(self.height);
                 self.fixed_ms = took.fixed_ms;
                 if *samples == self.draft_samples() {
                     self.learn_draft(took.ms, now);
                 }
             }
-            Work::Band { samples, rows } if self.is_rendering(*samples) => {
+            PictureWork::Band { samples, rows } if self.is_rendering(*samples) => {
                 self.fixed_ms = took.fixed_ms;
                 let found = took.of_row(rows.end - rows.start);
                 // What a row takes differs along the image: halfway there, but never far from what was found.
@@ -217,7 +217,7 @@ impl Schedule {
                 self.row_ms = halfway.clamp(0.5 * found, 2.0 * found);
             }
             // The last bands of a step are done when the next one has begun.
-            Work::Band { .. } => {}
+            PictureWork::Band { .. } => {}
         }
     }
 
@@ -240,9 +240,9 @@ impl Schedule {
         }
     }
 
-    /// Whether the step at hand has so many samples.
+    /// Whether the present step renders with `samples` samples.
     fn is_rendering(&self, samples: u32) -> bool {
-        matches!(self.step, Step::Band { samples: at_hand, .. } if at_hand == samples)
+        matches!(self.step, Phase::Band { samples: at_hand, .. } if at_hand == samples)
     }
 
     /// Samples while something moves.
@@ -251,10 +251,10 @@ impl Schedule {
         self.drafts.get(self.draft).copied().unwrap_or(1)
     }
 
-    /// Step that follows a picture with so many samples.
-    fn after(&self, done: u32) -> Step {
+    /// Step that follows a picture of `done` samples.
+    fn after(&self, done: u32) -> Phase {
         let next = self.steps.iter().find(|step| **step > done);
-        next.map_or(Step::Done, |samples| Step::Band {
+        next.map_or(Phase::Done, |samples| Phase::Band {
             samples: *samples,
             row: 0,
         })
@@ -280,11 +280,11 @@ mod tests {
         start + Duration::from_millis(ms)
     }
 
-    /// Samples and rows of all bands until the picture is done, each of which takes `ms` a row.
+    /// Samples and rows of all bands until the picture is done, if each takes `ms` milliseconds a row.
     fn bands(schedule: &mut Schedule, ms: f64, now: Instant) -> Vec<(u32, Range<u32>)> {
         let mut bands = Vec::new();
         while let Some(work) = schedule.take(now) {
-            if let Work::Band { samples, rows } = &work {
+            if let PictureWork::Band { samples, rows } = &work {
                 let fixed_ms = schedule.fixed_ms;
                 let ms = fixed_ms + ms * f64::from(rows.end - rows.start);
                 schedule.learn(&work, Took { ms, fixed_ms }, now);
@@ -298,7 +298,10 @@ mod tests {
     fn refines_at_rest_and_every_row_once() {
         let start = Instant::now();
         let mut schedule = schedule(Method::Superpixel, 1024, 540, start);
-        assert_eq!(schedule.take(start), Some(Work::Draft { samples: 16 }));
+        assert_eq!(
+            schedule.take(start),
+            Some(PictureWork::Draft { samples: 16 })
+        );
         assert_eq!(schedule.take(after(149, start)), None);
         assert_eq!(schedule.due(), Some(after(150, start)));
         let bands = bands(&mut schedule, 2.0, after(150, start));
@@ -343,12 +346,12 @@ mod tests {
         schedule.take(start);
         assert!(matches!(
             schedule.take(after(200, start)),
-            Some(Work::Band { samples: 64, .. })
+            Some(PictureWork::Band { samples: 64, .. })
         ));
         schedule.restart(after(210, start));
         assert_eq!(
             schedule.take(after(210, start)),
-            Some(Work::Draft { samples: 16 })
+            Some(PictureWork::Draft { samples: 16 })
         );
         assert_eq!(schedule.take(after(300, start)), None);
     }
@@ -366,21 +369,27 @@ mod tests {
         // One that is slow is no reason, two in a row are.
         for (ms, samples) in [(200.0, 16), (90.0, 16), (200.0, 16), (200.0, 16), (90.0, 8)] {
             let work = draft(&mut schedule, ms, start);
-            assert_eq!(work, Work::Draft { samples });
+            assert_eq!(work, PictureWork::Draft { samples });
         }
         for samples in [8, 8, 4, 4, 2, 2, 1, 1, 1] {
             let work = draft(&mut schedule, 200.0, start);
-            assert_eq!(work, Work::Draft { samples });
+            assert_eq!(work, PictureWork::Draft { samples });
         }
         // What was too slow is tried again after a while, and not before.
         let soon = after(1000, start);
-        assert_eq!(draft(&mut schedule, 10.0, soon), Work::Draft { samples: 1 });
-        assert_eq!(draft(&mut schedule, 10.0, soon), Work::Draft { samples: 1 });
+        assert_eq!(
+            draft(&mut schedule, 10.0, soon),
+            PictureWork::Draft { samples: 1 }
+        );
+        assert_eq!(
+            draft(&mut schedule, 10.0, soon),
+            PictureWork::Draft { samples: 1 }
+        );
         let later = after(2001, start);
         draft(&mut schedule, 10.0, later);
         assert_eq!(
             draft(&mut schedule, 90.0, later),
-            Work::Draft { samples: 2 }
+            PictureWork::Draft { samples: 2 }
         );
         // Or after a rest.
         for _ in 0..2 {
@@ -390,7 +399,7 @@ mod tests {
         draft(&mut schedule, 10.0, later);
         assert_eq!(
             draft(&mut schedule, 90.0, later),
-            Work::Draft { samples: 2 }
+            PictureWork::Draft { samples: 2 }
         );
     }
 
@@ -399,19 +408,19 @@ mod tests {
         let start = Instant::now();
         for (method, samples) in [(Method::None, 1), (Method::Msaa, 4), (Method::Ssaa, 1)] {
             let mut schedule = schedule(method, samples, 100, start);
-            assert_eq!(schedule.take(start), Some(Work::Draft { samples }));
+            assert_eq!(schedule.take(start), Some(PictureWork::Draft { samples }));
             assert!(schedule.is_done());
         }
         // Drafts of superpixels are cheaper than what is asked for.
         let mut few = schedule(Method::Superpixel, 4, 100, start);
-        assert_eq!(few.take(start), Some(Work::Draft { samples: 4 }));
+        assert_eq!(few.take(start), Some(PictureWork::Draft { samples: 4 }));
         let rest = after(150, start);
         assert!(matches!(
             few.take(rest),
-            Some(Work::Band { samples: 4, .. })
+            Some(PictureWork::Band { samples: 4, .. })
         ));
         let mut brute = schedule(Method::Ssaa, 256, 100, start);
-        assert_eq!(brute.take(start), Some(Work::Draft { samples: 1 }));
+        assert_eq!(brute.take(start), Some(PictureWork::Draft { samples: 1 }));
         let mut samples: Vec<_> = bands(&mut brute, 0.1, after(150, start))
             .into_iter()
             .map(|band| band.0)

@@ -3,9 +3,9 @@
 use super::engine::Engine;
 use super::navigate::Bounds;
 use super::photo::Photo;
-use super::progress::{Progress, Step};
+use super::progress::{LoadStep, Progress};
 use glam::DVec3;
-use gpc::render::PreparedScene;
+use gpc::render::{PreparedScene, SceneRequest};
 use gpc::scene::{
     AnimationInfo, Edges, Environment, Geometry, Motion, Pose, PoseRequest, Scene, SceneCamera,
 };
@@ -51,7 +51,7 @@ pub struct Stage {
     pub bounds: Bounds,
     /// Warnings: parts of the file that can't be shown.
     pub warnings: Vec<String>,
-    /// The scene's device goes after it.
+    /// Engine whose device the scene needs until it is dropped.
     _engine: Arc<Engine>,
 }
 
@@ -86,7 +86,7 @@ impl Source {
         progress: &Progress,
     ) -> anyhow::Result<Opened> {
         let is_photo = gpc::output::is_image(&self.path);
-        progress.begin(Step::Read)?;
+        progress.begin(LoadStep::Read)?;
         if is_photo {
             return Ok(Opened::Photo(Photo::open(&self.path)?));
         }
@@ -100,7 +100,7 @@ impl Source {
         if let Some(edges) = &appearance.edges {
             loaded.scene.add_edges(edges);
         }
-        progress.begin(Step::Pose)?;
+        progress.begin(LoadStep::Pose)?;
         let animations = loaded.scene.info().animations;
         let renderer = &engine.renderer;
         let (pose, motion) = if animations.is_empty() {
@@ -109,7 +109,7 @@ impl Source {
             let (pose, motion) = loaded.scene.pose_in_motion(&self.request)?;
             (pose, Some(motion))
         };
-        progress.begin(Step::Prepare)?;
+        progress.begin(LoadStep::Prepare)?;
         let request = SceneRequest::new(&loaded.scene, &pose)
             .moving(motion.as_ref())
             .within(max_memory);

@@ -12,11 +12,11 @@ pub struct Swapchain {
     handle: vk::SwapchainKHR,
     pub extent: vk::Extent2D,
     pub format: vk::Format,
-    images: Vec<Shown>,
+    images: Vec<SwapchainImage>,
 }
 
 /// Image of the window.
-struct Shown {
+struct SwapchainImage {
     image: vk::Image,
     view: vk::ImageView,
     /// Signalled when it is drawn.
@@ -133,7 +133,7 @@ impl Swapchain {
                 .get_swapchain_images(handle)
                 .map_err(VulkanError::of("vkGetSwapchainImagesKHR"))?;
             for image in images {
-                let mut shown = Shown {
+                let mut shown = SwapchainImage {
                     image,
                     view: vk::ImageView::null(),
                     drawn: vk::Semaphore::null(),

@@ -20,8 +20,8 @@ use super::pointer::Pointer;
 use super::preparer::Preparer;
 use super::source::{Appearance, Source};
 use super::standpoint::{Standpoint, Start};
-use super::studio::{Made, Studio};
 use super::watch::Watch;
+use super::worker::{Made, PictureWorker};
 use super::{NoDisplay, Options, ending};
 use gpc::render::{HeadlessOptions, Shadows};
 use gpc::scene::{Moment, SceneCamera};
@@ -40,7 +40,7 @@ const POLL: Duration = Duration::from_millis(3);
 const SETTLE: Duration = Duration::from_millis(300);
 
 /// The window with all that is in it.
-pub struct View {
+pub struct Viewer {
     pub proxy: EventLoopProxy<Event>,
     pub canvas: Canvas,
     pub interface: egui_winit::State,
@@ -74,7 +74,7 @@ pub struct View {
     pub looks: Vec<Look>,
     /// Appearance of scenes beyond what their files say.
     pub appearance: Arc<Appearance>,
-    /// The options of the command line that say the same, and what is behind the scene.
+    /// Options of the command line for this appearance and the background.
     pub appearance_options: Vec<String>,
     /// Column of the split, as a share of the width.
     pub split: f64,
@@ -89,7 +89,7 @@ pub struct View {
     /// Photograph that is shown instead of a scene.
     pub easel: Option<Easel>,
     /// Makes it, and files.
-    pub studio: Studio,
+    pub worker: PictureWorker,
     pub notes: Notes,
     pub shows_keys: bool,
     pub shows_panel: bool,
@@ -107,7 +107,7 @@ pub struct View {
     messages: Vec<String>,
 }
 
-impl View {
+impl Viewer {
     pub fn new(
         events: &ActiveEventLoop,
         options: Options,
@@ -124,7 +124,7 @@ impl View {
         let canvas = canvas(&window, &options.device, &proxy)?;
         let interface = interface(&window);
         let deliver = proxy.clone();
-        let studio = Studio::new(options.device.clone(), move |made| {
+        let worker = PictureWorker::new(options.device.clone(), move |made| {
             // Nobody waits for it once the window is closed.
             let _ = deliver.send_event(Event::Made(made));
         });
@@ -170,7 +170,7 @@ impl View {
             cover,
             cover_figures: None,
             easel: None,
-            studio,
+            worker,
             notes,
             shows_keys: false,
             shows_panel: true,
@@ -216,7 +216,7 @@ impl View {
     /// are waited for, for a moment, or, where the validation layer is asked, until it has heard all.
     pub fn close(mut self) -> Vec<String> {
         self.window.set_visible(false);
-        for path in self.studio.stop_files() {
+        for path in self.worker.stop_files() {
             log::warn!("closed before {} was written", path.display());
         }
         self.loading = None;
@@ -247,7 +247,7 @@ impl View {
                 }
             }
             Event::Made(Made::File(path, written)) => {
-                self.studio.delivered(&path);
+                self.worker.delivered(&path);
                 match written {
                     Ok(()) => self.notes.say(format!("wrote {}", path.display())),
                     Err(error) => self.notes.fail(&error),
@@ -546,7 +546,7 @@ fn canvas(
     Canvas::new(Arc::new(engine), window.inner_size().into(), preparer)
 }
 
-/// Lays out the panel, from nothing: the device has none of its textures.
+/// Lays out the panel from nothing, since a new device has none of its textures.
 fn interface(window: &Window) -> egui_winit::State {
     let context = egui::Context::default();
     context.set_visuals(egui::Visuals::dark());

@@ -2,9 +2,12 @@
 
 use super::{Resources, SampleSet};
 use crate::passes::Content;
-use crate::passes::layout::descriptor_type;
-use crate::vulkan::Buffer;
+use crate::passes::spirv::frame_set;
+use crate::vulkan::{Binding, Buffer};
 use ash::vk;
+
+/// A texel buffer, and the binding of the frame's set that shows it.
+pub type BoundTexels = (Binding, vk::BufferView);
 
 /// What shows triangle IDs and depth to passes, in the layout `SHADER_READ_ONLY_OPTIMAL`.
 #[derive(Clone, Copy, Debug)]
@@ -20,31 +23,30 @@ pub struct IdViews {
 }
 
 impl Resources {
-    /// Writes a set that was just allocated; `texels` by binding, and `lights`, belong to a scene or to what a frame sees of
-    /// it: see `shaders/include/frame.glsl`.
+    /// Writes a set that was just allocated; `texels` and `lights` belong to a scene or to what a frame sees of it.
     pub(crate) fn write_set(
         &self,
         set: &SampleSet,
         scene: &dyn Content,
-        (texels, lights): (&[(u32, vk::BufferView)], &Buffer),
+        (texels, lights): (&[BoundTexels], &Buffer),
         shown: &IdViews,
     ) {
         let own_texels = [
-            (16, &self.display),
-            (24, &self.candidates),
-            (27, &self.records),
-            (29, &self.shaded),
-            (32, &set.offsets),
-            (35, &self.filtered),
-            (38, &self.pairs),
-            (57, &self.locations.order),
-            (43, &self.locations.cells),
-            (44, &self.locations.groups),
-            (56, &self.shadow_words),
+            (frame_set::DISPLAY, &self.display),
+            (frame_set::CANDIDATES, &self.candidates),
+            (frame_set::RECORDS, &self.records),
+            (frame_set::SHADED, &self.shaded),
+            (frame_set::PATTERN_OFFSETS, &set.offsets),
+            (frame_set::FILTERED, &self.filtered),
+            (frame_set::PAIRS, &self.pairs),
+            (frame_set::LOCATION_ORDER, &self.locations.order),
+            (frame_set::LOCATION_CELLS, &self.locations.cells),
+            (frame_set::LOCATION_GROUPS, &self.locations.groups),
+            (frame_set::SHADOW_WORDS, &self.shadow_words),
         ]
         .map(|(binding, texels)| (binding, texels.view));
         let listed = self.locations.locations.as_ref();
-        let listed = listed.map(|listed| (42, listed.view));
+        let listed = listed.map(|listed| (frame_set::LOCATIONS, listed.view));
         let texels: Vec<_> = texels
             .iter()
             .copied()
@@ -58,28 +60,28 @@ impl Resources {
                 .range(vk::WHOLE_SIZE)]
         };
         let buffers = [
-            (0, &set.uniform),
-            (8, lights),
-            (17, &self.display.buffer),
-            (18, &self.color.buffer),
-            (25, &self.candidates.buffer),
-            (28, &self.records.buffer),
-            (30, &self.shaded.buffer),
-            (39, &self.pairs.buffer),
-            (19, &self.counters),
-            (20, &self.masks),
-            (21, &self.tiles),
-            (22, &self.tile_lists),
-            (23, &self.survivors),
-            (26, &self.headers),
-            (31, &self.shade_order),
-            (33, &self.bins),
-            (34, &self.arguments),
-            (36, &self.attributes),
-            (37, &self.encoded),
-            (41, &self.marks),
-            (45, &self.locations.tile_loads),
-            (54, &set.offsets.buffer),
+            (frame_set::FRAME, &set.uniform),
+            (frame_set::LIGHTS, lights),
+            (frame_set::DISPLAY_OUT, &self.display.buffer),
+            (frame_set::COLOR, &self.color.buffer),
+            (frame_set::CANDIDATES_OUT, &self.candidates.buffer),
+            (frame_set::RECORDS_OUT, &self.records.buffer),
+            (frame_set::SHADED_OUT, &self.shaded.buffer),
+            (frame_set::PAIRS_OUT, &self.pairs.buffer),
+            (frame_set::COUNTERS, &self.counters),
+            (frame_set::MASKS, &self.masks),
+            (frame_set::TILES, &self.tiles),
+            (frame_set::TILE_LISTS, &self.tile_lists),
+            (frame_set::SURVIVORS, &self.survivors),
+            (frame_set::HEADERS, &self.headers),
+            (frame_set::SHADE_ORDER, &self.shade_order),
+            (frame_set::BINS, &self.bins),
+            (frame_set::ARGUMENTS, &self.arguments),
+            (frame_set::ATTRIBUTES_OUT, &self.attributes),
+            (frame_set::ENCODED, &self.encoded),
+            (frame_set::MARKS, &self.marks),
+            (frame_set::TILE_LOADS, &self.locations.tile_loads),
+            (frame_set::PATTERN, &set.offsets.buffer),
         ]
         .map(|(binding, buffer)| (binding, whole(buffer)));
         // A set shows either single-sampled or multisampled IDs; pipelines that could read the former but are
@@ -87,9 +89,18 @@ impl Resources {
         let IdViews { ids, .. } = *shown;
         let blend_ids = shown.blend_ids.unwrap_or(ids);
         let images = match (shown.placeholder, shown.depth) {
-            (Some(unread), _) => vec![(12, unread), (13, unread), (14, ids), (15, blend_ids)],
-            (None, Some(depth)) => vec![(12, ids), (13, blend_ids), (40, depth)],
-            (None, None) => vec![(12, ids), (13, blend_ids)],
+            (Some(unread), _) => vec![
+                (frame_set::IDS, unread),
+                (frame_set::BLEND_IDS, unread),
+                (frame_set::IDS_MS, ids),
+                (frame_set::BLEND_IDS_MS, blend_ids),
+            ],
+            (None, Some(depth)) => vec![
+                (frame_set::IDS, ids),
+                (frame_set::BLEND_IDS, blend_ids),
+                (frame_set::RASTER_DEPTH, depth),
+            ],
+            (None, None) => vec![(frame_set::IDS, ids), (frame_set::BLEND_IDS, blend_ids)],
         };
         let images: Vec<_> = images
             .into_iter()
@@ -101,11 +112,11 @@ impl Resources {
             })
             .collect();
         let environment = scene.environment_map().map(|map| [map]);
-        let write = |binding: u32| {
+        let write = |binding: Binding| {
             vk::WriteDescriptorSet::default()
                 .dst_set(set.descriptor())
-                .dst_binding(binding)
-                .descriptor_type(descriptor_type(binding))
+                .dst_binding(binding.number)
+                .descriptor_type(binding.kind)
         };
         let texels = texels
             .iter()
@@ -116,7 +127,9 @@ impl Resources {
         let images = images
             .iter()
             .map(|(binding, info)| write(*binding).image_info(info));
-        let environment = environment.as_ref().map(|map| write(53).image_info(map));
+        let environment = environment
+            .as_ref()
+            .map(|map| write(frame_set::ENVIRONMENT_MAP).image_info(map));
         let writes: Vec<_> = texels
             .chain(buffers)
             .chain(images)

@@ -5,7 +5,7 @@ mod record;
 mod sample_set;
 mod sizes;
 
-pub use descriptors::IdViews;
+pub use descriptors::{BoundTexels, IdViews};
 pub use sample_set::{Offsets, SampleSet};
 pub use sizes::ResourceSizes;
 
@@ -68,7 +68,7 @@ const TEXELS: vk::BufferUsageFlags = vk::BufferUsageFlags::from_raw(
 
 impl Resources {
     /// Allocates a frame's memory and one descriptor set for each list of offsets of sub-samples. `texels_of_others` are the
-    /// texel buffers of `shaders/include/frame.glsl` that others own, by binding, as they own the lights.
+    /// texel buffers that others own, as they own the lights.
     ///
     /// # Errors
     /// If memory runs out or a buffer passes the device's limits.
@@ -76,7 +76,7 @@ impl Resources {
         layout: &Arc<FrameLayout>,
         memory: &Memory,
         scene: &dyn Content,
-        (texels_of_others, lights): (&[(u32, vk::BufferView)], &Buffer),
+        (texels_of_others, lights): (&[BoundTexels], &Buffer),
         ids: &IdViews,
         sizes: ResourceSizes,
         offset_lists: &[Offsets<'_>],

@@ -1,11 +1,12 @@
 //! A frame's own part of the geometry.
 
 use super::{MovingVertices, PlacedInstances, double_sided};
+use crate::passes::BoundTexels;
 use crate::passes::RasterRun;
+use crate::passes::spirv::frame_set;
 use crate::render::passes::GpuScene;
 use crate::scene::{DrawClass, Moment};
 use crate::vulkan::{Memory, Recorder, VulkanError};
-use ash::vk;
 use glam::DMat4;
 
 /// Where a frame's camera sees instances, and the vertices that move at the frame's moment.
@@ -34,10 +35,9 @@ impl FrameGeometry {
         PlacedInstances::bytes(&scene.geometry) + MovingVertices::bytes(&scene.geometry)
     }
 
-    /// The scene's texel buffers and its own, by their bindings in `shaders/include/frame.glsl`, `shaders/pose.comp` and
-    /// `shaders/stroke.comp`.
+    /// The scene's texel buffers and its own.
     #[must_use]
-    pub fn texels(&self, scene: &GpuScene) -> Vec<(u32, vk::BufferView)> {
+    pub fn texels(&self, scene: &GpuScene) -> Vec<BoundTexels> {
         let geometry = &scene.geometry;
         let (positions, normals) = match &self.moving {
             Some(moving) => (&moving.positions, &moving.normals),
@@ -46,32 +46,40 @@ impl FrameGeometry {
         let moving_tangents = self.moving.as_ref().and_then(|m| m.tangents.as_ref());
         let tangents = moving_tangents.unwrap_or(&geometry.tangents);
         let mut texels = vec![
-            (1, positions),
-            (2, &geometry.triangles),
-            (3, normals),
-            (4, tangents),
-            (5, &geometry.uvs),
-            (6, &geometry.colors),
-            (9, &scene.alpha_atlas),
-            (10, &geometry.blocks),
-            (11, &self.placed.buffer),
+            (frame_set::POSITIONS, positions),
+            (frame_set::TRIANGLES, &geometry.triangles),
+            (frame_set::NORMALS, normals),
+            (frame_set::TANGENTS, tangents),
+            (frame_set::UVS, &geometry.uvs),
+            (frame_set::COLORS, &geometry.colors),
+            (frame_set::ALPHA_ATLAS, &scene.alpha_atlas),
+            (frame_set::INSTANCE_OF, &geometry.blocks),
+            (frame_set::INSTANCES, &self.placed.buffer),
         ];
         if let Some(moving) = &self.moving {
-            texels.extend([(50, &moving.positions), (51, &moving.normals)]);
-            texels.extend(moving_tangents.map(|tangents| (52, tangents)));
-            texels.extend(moving.moment.as_ref().map(|moment| (46, moment)));
+            texels.extend([
+                (frame_set::POSITIONS_OUT, &moving.positions),
+                (frame_set::NORMALS_OUT, &moving.normals),
+            ]);
+            texels.extend(moving_tangents.map(|tangents| (frame_set::TANGENTS_OUT, tangents)));
+            texels.extend(
+                moving
+                    .moment
+                    .as_ref()
+                    .map(|moment| (frame_set::MOMENT, moment)),
+            );
             texels.extend(
                 geometry
                     .strokes
                     .as_ref()
-                    .map(|strokes| (55, &strokes.records)),
+                    .map(|strokes| (frame_set::STROKES, &strokes.records)),
             );
         }
         if let Some(motion) = &geometry.motion {
             texels.extend([
-                (47, &motion.resting),
-                (48, &motion.influences),
-                (49, &motion.displacements),
+                (frame_set::RESTING, &motion.resting),
+                (frame_set::INFLUENCES, &motion.influences),
+                (frame_set::DISPLACEMENTS, &motion.displacements),
             ]);
         }
         texels

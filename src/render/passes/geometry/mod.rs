@@ -17,7 +17,7 @@ pub(super) use placed::PlacedInstances;
 
 use crate::passes::upload::Uploader;
 use crate::scene::{AlphaMode, DrawClass, Geometry, Instance, Motion, Scene};
-use crate::vulkan::{BufferView, Constants, VulkanError};
+use crate::vulkan::{BufferView, VulkanError};
 use ash::vk;
 use glam::{DAffine3, DVec3};
 use std::borrow::Cow;
@@ -173,11 +173,6 @@ impl GpuGeometry {
             .iter()
             .find(|run| run.class >= class)
             .map_or(self.index_count, |run| run.first_index)
-    }
-
-    /// Adds the constants of `shaders/include/triangle.glsl`.
-    pub(super) fn constants(&self, constants: Constants) -> Constants {
-        constants.flag(23, self.is_instanced)
     }
 }
 

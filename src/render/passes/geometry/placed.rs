@@ -72,7 +72,7 @@ impl PlacedInstances {
             let matrix = *to_clip * DMat4::from(place.transform);
             *draw = RasterPush {
                 matrix: matrix.as_mat4().to_cols_array(),
-                words: place.words,
+                instance: place.words,
             };
             *hidden = geometry.is_instanced
                 && image.is_some_and(|image| is_outside(&matrix, place.bounds, image));
@@ -86,7 +86,7 @@ impl PlacedInstances {
             let [x, y, z] = rows(&place.transform);
             let columns: [[u32; 4]; 4] = bytemuck::cast(draw.matrix);
             let [a, b, c, d] = columns;
-            *vectors = [draw.words, a, b, c, d, x, y, z];
+            *vectors = [draw.instance, a, b, c, d, x, y, z];
         }
         self.draws = draws;
     }

@@ -2,10 +2,10 @@
 
 use super::slots::{RoleSlots, SLOTS, Slots};
 use super::texture_set::{TextureIndex, TextureSet};
-use crate::passes::FrameLayout;
 use crate::passes::pool::DescriptorPool;
-use crate::scene::{Geometry, Material, Scene};
-use crate::vulkan::{Constants, VulkanError};
+use crate::passes::{FrameLayout, spirv};
+use crate::scene::{Geometry, Material, Scene, TextureRole};
+use crate::vulkan::VulkanError;
 use ash::vk;
 use std::collections::HashMap;
 
@@ -51,24 +51,56 @@ impl ShadeFeatures {
         self.lobes[5]
     }
 
-    /// Constants of `shaders/shade.comp` and what it includes.
-    pub(in crate::render::passes) fn constants(&self, common: &Constants) -> Constants {
+    /// The shader of materials with these features, by what is the same for all of a scene.
+    pub(in crate::render::passes) fn shader(&self, common: spirv::Shade) -> spirv::Shade {
+        use TextureRole as T;
         // Slots count from 16, so that 0 is none.
-        let slot = |slot: Option<u8>| slot.map_or(0, |slot| 16 + u32::from(slot));
-        let common = common
-            .clone()
-            .flag(3, self.slots.iter().any(Option::is_some))
-            .flag(8, self.vertex_colors)
-            .flag(9, self.unlit)
-            .flag(14, self.one_uv_transform);
-        let with_lobes = (32..)
-            .zip(self.lobes)
-            .fold(common, |constants, (id, lobe)| constants.flag(id, lobe));
-        (40..)
-            .zip(self.slots)
-            .fold(with_lobes, |constants, (id, role)| {
-                constants.with(id, slot(role))
-            })
+        let slot = |role: T| self.slots[role as usize].map_or(0, |slot| 16 + u32::from(slot));
+        let [
+            specular,
+            clearcoat,
+            sheen,
+            anisotropy,
+            iridescence,
+            diffuse_transmission,
+            transmission,
+            specular_glossiness,
+        ] = self.lobes;
+        spirv::Shade {
+            textured: self.slots.iter().any(Option::is_some),
+            vertex_colors: self.vertex_colors,
+            unlit: self.unlit,
+            one_uv_transform: self.one_uv_transform,
+            specular,
+            clearcoat,
+            sheen,
+            anisotropy,
+            iridescence,
+            diffuse_transmission,
+            transmission,
+            specular_glossiness,
+            base_color_texture: slot(T::BaseColor),
+            metallic_roughness_texture: slot(T::MetallicRoughness),
+            normal_texture: slot(T::Normal),
+            occlusion_texture: slot(T::Occlusion),
+            emissive_texture: slot(T::Emissive),
+            specular_texture: slot(T::Specular),
+            specular_color_texture: slot(T::SpecularColor),
+            clearcoat_texture: slot(T::Clearcoat),
+            clearcoat_roughness_texture: slot(T::ClearcoatRoughness),
+            clearcoat_normal_texture: slot(T::ClearcoatNormal),
+            sheen_color_texture: slot(T::SheenColor),
+            sheen_roughness_texture: slot(T::SheenRoughness),
+            anisotropy_texture: slot(T::Anisotropy),
+            iridescence_texture: slot(T::Iridescence),
+            iridescence_thickness_texture: slot(T::IridescenceThickness),
+            diffuse_transmission_texture: slot(T::DiffuseTransmission),
+            diffuse_transmission_color_texture: slot(T::DiffuseTransmissionColor),
+            transmission_texture: slot(T::Transmission),
+            thickness_texture: slot(T::Thickness),
+            specular_glossiness_texture: slot(T::SpecularGlossiness),
+            ..common
+        }
     }
 }
 

@@ -4,17 +4,10 @@ use crate::scene::{Light, LightKind};
 use glam::DVec3;
 
 /// `Light` of `shaders/include/frame.glsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, bytemuck::Pod, bytemuck::Zeroable)]
-pub(super) struct GpuLight {
-    position_range: [f32; 4],
-    direction_kind: [f32; 4],
-    color_scale: [f32; 4],
-    offset: [f32; 4],
-}
+pub(super) use crate::passes::spirv::Light as GpuLight;
 
 impl GpuLight {
-    pub(super) fn new(light: &Light, origin: DVec3) -> Self {
+    pub(super) fn of_scene(light: &Light, origin: DVec3) -> Self {
         let position = (light.position - origin).as_vec3();
         let direction = light.direction.as_vec3();
         // KHR_lights_punctual, "Inner and Outer Cone Angles".
@@ -59,23 +52,5 @@ impl LightFeatures {
                 .iter()
                 .any(|light| light.kind != LightKind::Directional),
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_light_is_the_shaders() {
-        let text = include_str!("../../../../shaders/include/frame.glsl");
-        let light = text
-            .split("struct Light {")
-            .nth(1)
-            .unwrap()
-            .split("};")
-            .next()
-            .unwrap();
-        assert_eq!(light.matches("vec4 ").count() * 16, size_of::<GpuLight>());
     }
 }

@@ -3,6 +3,8 @@
 use super::light::GpuLight;
 use super::material::MaterialRow;
 use super::{GpuScene, Slots};
+use crate::passes::BoundTexels;
+use crate::passes::spirv::frame_set;
 use crate::scene::{Moment, Motion};
 use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
@@ -89,10 +91,13 @@ impl FrameLook {
         })
     }
 
-    /// The table of materials that the frame shows, by its binding in `shaders/include/frame.glsl`.
+    /// The table of materials that the frame shows.
     #[must_use]
-    pub fn texels(&self, scene: &GpuScene) -> (u32, vk::BufferView) {
-        (7, self.materials.as_ref().unwrap_or(&scene.materials).view)
+    pub fn texels(&self, scene: &GpuScene) -> BoundTexels {
+        (
+            frame_set::MATERIALS,
+            self.materials.as_ref().unwrap_or(&scene.materials).view,
+        )
     }
 
     /// The lights that it shows.
@@ -131,7 +136,7 @@ impl FrameLook {
         if self.lights.is_some() {
             let lights = moment.lights.iter();
             let lights: Vec<_> = lights
-                .map(|light| GpuLight::new(light, scene.origin()))
+                .map(|light| GpuLight::of_scene(light, scene.origin()))
                 .collect();
             self.updates.push(Update {
                 of_materials: false,

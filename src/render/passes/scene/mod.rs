@@ -22,7 +22,7 @@ use crate::passes::pool::DescriptorPool;
 use crate::passes::upload::{Upload, Uploader};
 use crate::passes::{Content, FrameLayout};
 use crate::scene::{DrawClass, Moment, Motion, Pose, Scene};
-use crate::vulkan::{Buffer, BufferView, Constants, Memory, Recorder, VulkanError};
+use crate::vulkan::{Buffer, BufferView, Memory, Recorder, VulkanError};
 use alpha_atlas::AlphaAtlas;
 use ash::vk;
 use bins::{Bins, MaterialBin};
@@ -113,7 +113,7 @@ impl GpuScene {
         let lights: Vec<GpuLight> = pose
             .lights
             .iter()
-            .map(|light| GpuLight::new(light, geometry.origin))
+            .map(|light| GpuLight::of_scene(light, geometry.origin))
             .collect();
         let uint4 = vk::Format::R32G32B32A32_UINT;
         let (bins, pool) = bins.allocate(layout, &textures)?;
@@ -261,10 +261,6 @@ impl Content for GpuScene {
 
     fn is_instanced(&self) -> bool {
         self.geometry.is_instanced
-    }
-
-    fn constants(&self, constants: Constants) -> Constants {
-        self.geometry.constants(constants)
     }
 
     fn has_mask(&self) -> bool {

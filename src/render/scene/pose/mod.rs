@@ -84,7 +84,7 @@ impl Pose {
 }
 
 /// Contents of a moment, before triangles are put together.
-struct Shown<'d> {
+struct PoseContents<'d> {
     materials: Vec<(usize, Material)>,
     placements: Vec<Placement<'d>>,
     lights: Vec<Light>,
@@ -156,7 +156,7 @@ fn show<'d>(
     request: &PoseRequest,
     moving: &Moving,
     warnings: &mut Warnings,
-) -> Result<Shown<'d>, SceneError> {
+) -> Result<PoseContents<'d>, SceneError> {
     let document = &scene.document;
     if let Some(asked) = request.scene
         && asked >= document.root.scenes.len()
@@ -208,7 +208,7 @@ fn show<'d>(
             placements.extend(Placement::of_node(document, index, node, &state, moving));
         }
     }
-    Ok(Shown {
+    Ok(PoseContents {
         materials: looks.materials,
         placements,
         lights,

@@ -18,7 +18,7 @@ pub struct Buffers<'a> {
 
 /// The bytes of a buffer view.
 #[derive(Clone, Copy, Debug)]
-pub struct View<'b> {
+pub struct BufferView<'b> {
     /// The bytes.
     pub bytes: &'b [u8],
     /// Distance of two elements, where the view prescribes one.
@@ -48,7 +48,7 @@ impl<'a> Buffers<'a> {
     }
 
     /// The view `index`, referred to at the place `from`.
-    pub fn view(&self, index: Index<Description>, from: &str) -> Result<View<'_>, Fault> {
+    pub fn view(&self, index: Index<Description>, from: &str) -> Result<BufferView<'_>, Fault> {
         let (view, place) = self.model.get(index, from)?;
         let others = view
             .extensions
@@ -70,7 +70,7 @@ impl<'a> Buffers<'a> {
             }
         };
         let stride = view.byte_stride.map(|stride| stride.0);
-        Ok(View {
+        Ok(BufferView {
             bytes,
             stride: stride.filter(|&stride| stride > 0),
         })

@@ -23,7 +23,7 @@ pub enum Growth {
 
 /// One scene of a series.
 #[derive(Clone, Debug)]
-pub struct Step {
+pub struct GrowthStep {
     /// Value of the quantity: a number of triangles, megapixels, a percentage or a number of layers.
     pub value: f64,
     /// Width and height of the image in pixels.
@@ -59,7 +59,7 @@ impl Growth {
     /// Makes scene number `index`, 0 being the least, for an image of `size` pixels unless the size is what grows;
     /// `None` after the last.
     #[must_use]
-    pub fn step(self, index: usize, size: [u32; 2]) -> Option<Step> {
+    pub fn step(self, index: usize, size: [u32; 2]) -> Option<GrowthStep> {
         match self {
             Self::Triangles => {
                 let count = *scenes::TRIANGLES.get(index)?;

@@ -1,6 +1,6 @@
 //! Scenes of the benchmark of growth.
 
-use super::Step;
+use super::GrowthStep;
 use super::mesh::{Mesh, Vertex};
 use crate::camera::{Camera, Projection};
 use crate::scene::Material;
@@ -23,7 +23,7 @@ pub(super) const PERCENTAGES: [u32; 8] = [0, 1, 5, 10, 25, 50, 75, 100];
 pub(super) const LAYERS: [u32; 7] = [1, 2, 4, 8, 16, 32, 64];
 
 /// Landscape of hills that hide each other, seen from above their tops; `value` becomes the step's.
-pub(super) fn landscape(triangles: u32, size: [u32; 2], value: f64) -> Step {
+pub(super) fn landscape(triangles: u32, size: [u32; 2], value: f64) -> GrowthStep {
     const SIDE: f32 = 24.0;
     let cells = (f64::from(triangles) / 2.0).sqrt().round() as u32;
     let height =
@@ -58,7 +58,7 @@ pub(super) fn landscape(triangles: u32, size: [u32; 2], value: f64) -> Step {
         ),
         ..straight_ahead()
     };
-    Step {
+    GrowthStep {
         value,
         size,
         scene,
@@ -68,7 +68,7 @@ pub(super) fn landscape(triangles: u32, size: [u32; 2], value: f64) -> Step {
 }
 
 /// Upright strips two pixels wide, a little tilted; `percentage` of them alternate between light and dark.
-pub(super) fn strips(percentage: u32, size: [u32; 2]) -> Step {
+pub(super) fn strips(percentage: u32, size: [u32; 2]) -> GrowthStep {
     const PITCH: f32 = 2.0;
     const ROWS: u32 = 16;
     let [width, height] = size.map(|side| side as f32);
@@ -91,7 +91,7 @@ pub(super) fn strips(percentage: u32, size: [u32; 2]) -> Step {
         });
     }
     let (scene, pose) = mesh.build(double_sided(true));
-    Step {
+    GrowthStep {
         value: f64::from(percentage),
         size,
         scene,
@@ -101,7 +101,7 @@ pub(super) fn strips(percentage: u32, size: [u32; 2]) -> Step {
 }
 
 /// Layers behind each other, checked in two colours, the farthest first.
-pub(super) fn layers(count: u32, size: [u32; 2]) -> Step {
+pub(super) fn layers(count: u32, size: [u32; 2]) -> GrowthStep {
     let [width, height] = size.map(|side| side as f32);
     let mut mesh = Mesh::default();
     for layer in (0..count).rev() {
@@ -124,7 +124,7 @@ pub(super) fn layers(count: u32, size: [u32; 2]) -> Step {
         }
     }
     let (scene, pose) = mesh.build(double_sided(true));
-    Step {
+    GrowthStep {
         value: f64::from(count),
         size,
         scene,

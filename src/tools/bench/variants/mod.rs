@@ -14,7 +14,7 @@ use crate::render::{Headless, PreparedScene, RenderError, Settings};
 use serde::Serialize;
 use std::fmt;
 use std::time::{Duration, Instant};
-use work::Work;
+use work::VariantWork;
 
 /// Camera variant: locations and the way that they are sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -110,7 +110,7 @@ impl VariantCost {
 /// Camera variant that takes part in a measurement: warmed up, with the times of its runs.
 pub struct VariantContender {
     variant: Variant,
-    work: Work,
+    work: VariantWork,
     samples: u64,
     gpu_ms: Vec<f64>,
     wall_ms: Vec<f64>,
@@ -130,7 +130,7 @@ impl VariantContender {
         camera: &Camera,
         settings: &Settings,
     ) -> Result<Self, VariantError> {
-        let mut work = Work::new(variant, headless, scene, camera, settings)?;
+        let mut work = VariantWork::new(variant, headless, scene, camera, settings)?;
         let done = work.run(headless, scene, camera)?;
         Ok(Self {
             variant,

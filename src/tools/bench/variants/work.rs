@@ -16,7 +16,7 @@ const SEED: u64 = 2010;
 const MULTIPLICITY: f64 = 0.3;
 
 /// Camera variant that is ready to run.
-pub(super) enum Work {
+pub(super) enum VariantWork {
     /// Frame of the raster pass.
     Frame(Box<Frame>),
     /// One sample at each location of each pinhole.
@@ -31,7 +31,7 @@ pub(super) struct Done {
     pub gpu_ms: f64,
 }
 
-impl Work {
+impl VariantWork {
     pub fn new(
         variant: Variant,
         headless: &Headless,

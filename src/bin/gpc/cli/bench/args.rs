@@ -14,10 +14,15 @@ use std::time::Duration;
 /// Every scene is rendered as by `gpc render`, before a light grey background, by every method at every number of
 /// samples that it can have: once to warm up and then R times, the methods taking turns. Each image is held against
 /// the truth: brute force at thousands of samples a pixel that read textures at a 64th of its side, which is kept on disk
-/// for the next run. With --geometry, the methods are also measured with textures read for a whole pixel, against a
-/// reference that does so too, so that they differ by geometry alone. With --motion, sequences show what flickers. With --variants, other sampling sets than the pixels of an image are timed too; with --growth, scenes made for it show what grows with what;
-/// with --stress, geometry that is hard on a rasterizer shows what holds. DIR then holds results.json, results.csv and
-/// report.html, motion.csv with --motion and variants.csv with --variants, written anew after each scene.
+/// for the next run.
+///
+/// With --geometry, the methods are also measured with textures read for a whole pixel, against a reference that does so
+/// too, so that they differ by geometry alone. With --motion, sequences show what flickers. With --variants, other sampling
+/// sets than the pixels of an image are timed too; with --growth, scenes made for it show what grows with what; with
+/// --stress, geometry that is hard on a rasterizer shows what holds.
+///
+/// DIR then holds results.json, results.csv and report.html, and motion.csv, variants.csv and growth.csv with these options,
+/// written anew after each scene. Lines at the head of a CSV begin with # and say where its figures come from.
 #[derive(Args)]
 pub struct BenchArgs {
     /// .glb or .gltf files

@@ -14,7 +14,7 @@ pub struct Gallery {
 }
 
 /// An image of superpixels, and why its pixels err.
-pub struct Shown {
+pub struct GalleryImage {
     /// Samples a superpixel.
     pub samples: u32,
     pub image: DecodedImage,
@@ -39,11 +39,11 @@ pub struct Part {
 }
 
 impl Gallery {
-    /// Draws the pictures; `ssaa` is supersampling of as many samples as the superpixels have.
+    /// Draws the pictures; `ssaa` is supersampling with as many samples as the superpixels.
     pub fn new(
         yardstick: &Yardstick,
         ssaa: Option<&DecodedImage>,
-        superpixels: Option<&Shown>,
+        superpixels: Option<&GalleryImage>,
     ) -> anyhow::Result<Self> {
         let truth = yardstick.reference();
         let method = |name: String, image| Method {
@@ -84,7 +84,7 @@ impl Gallery {
     }
 }
 
-impl Shown {
+impl GalleryImage {
     /// Causes of the squared error in a window, the largest share first.
     fn blame(&self, errors: &ErrorMap, window: Window) -> String {
         let mut shares: Vec<(&str, f64)> = Vec::new();

@@ -3,8 +3,39 @@
 use super::results::{Curve, Point, Time};
 use super::subject::{Bench, settings};
 use crate::cli::print;
-use gpc::bench::{self, Contender, Growth, Step};
+use gpc::bench::{self, Contender, Growth, GrowthStep};
 use gpc::render::{Method, RenderError, SceneRequest, Settings};
+use std::fmt::Write;
+
+const COLUMNS: &str = "quantity,value,width,height,triangles,superpixel_fraction,method,samples,gpu_ms_median,wall_ms_median";
+
+/// All times of all curves (RFC 4180, but with bare line feeds).
+pub fn csv(curves: &[Curve]) -> String {
+    let mut text = format!("{COLUMNS}\n");
+    for curve in curves {
+        for point in &curve.points {
+            let superpixels = point.superpixel_fraction.map(|share| share.to_string());
+            for time in &point.times {
+                // Writing to a string can't fail.
+                let _ = writeln!(
+                    text,
+                    "\"{}\",{},{},{},{},{},{},{},{},{}",
+                    curve.quantity.replace('"', "\"\""),
+                    point.value,
+                    point.size[0],
+                    point.size[1],
+                    point.triangles,
+                    superpixels.as_deref().unwrap_or_default(),
+                    time.method,
+                    time.samples,
+                    time.gpu_ms.median,
+                    time.wall_ms.median,
+                );
+            }
+        }
+    }
+    text
+}
 
 /// The methods that are compared, and their samples a pixel.
 const METHODS: [(Method, u32); 3] = [
@@ -67,7 +98,7 @@ impl Bench<'_> {
     /// Measures a scene, and takes methods that can go no further out of the list.
     fn point(
         &mut self,
-        step: &Step,
+        step: &GrowthStep,
         methods: &mut Vec<(Method, u32)>,
         notes: &mut Vec<String>,
     ) -> Result<Point, RenderError> {

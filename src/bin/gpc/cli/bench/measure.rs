@@ -1,6 +1,6 @@
 //! Measurement of one scene: the cost of every method, and its distance from the truth.
 
-use super::gallery::{Gallery, Shown};
+use super::gallery::{Gallery, GalleryImage};
 use super::results::{Row, SceneResults};
 use super::split::Splitter;
 use super::subject::{self, Bench, Subject};
@@ -86,7 +86,7 @@ impl Bench<'_> {
             if let Some(pieces) = pieces
                 && (method, Some(samples)) == (Method::Superpixel, shown)
             {
-                superpixels = Some(Shown {
+                superpixels = Some(GalleryImage {
                     samples,
                     image: DecodedImage::from(&picture),
                     causes: pieces.causes,

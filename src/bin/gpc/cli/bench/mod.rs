@@ -108,16 +108,22 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
 }
 
 fn write(folder: &Path, results: &Results, galleries: &[gallery::Gallery]) -> anyhow::Result<()> {
+    let head = results.head(results.size);
     let mut files = vec![
         ("results.json", serde_json::to_string(results)? + "\n"),
-        ("results.csv", table::csv(&results.scenes)),
+        ("results.csv", head.clone() + &table::csv(&results.scenes)),
         ("report.html", html::page(results, galleries)),
     ];
-    if !results.motion.is_empty() {
-        files.push(("motion.csv", motion::csv(&results.motion)));
+    if let Some(moved) = results.motion.first() {
+        let text = results.head(moved.size) + &motion::csv(&results.motion);
+        files.push(("motion.csv", text));
     }
     if !results.variants.is_empty() {
-        files.push(("variants.csv", variants::csv(&results.variants)));
+        let text = head.clone() + &variants::csv(&results.variants);
+        files.push(("variants.csv", text));
+    }
+    if !results.growth.is_empty() {
+        files.push(("growth.csv", head + &growth::csv(&results.growth)));
     }
     for (name, text) in files {
         output::write_atomically(&folder.join(name), text.as_bytes())?;

@@ -81,7 +81,7 @@ pub struct VariantRow {
     pub gpu_ns: f64,
     /// Nanoseconds a sample by the clock.
     pub wall_ns: f64,
-    /// Time of the device a sample over that of the raster pass.
+    /// Ratio of the device's time for a sample to that of the raster pass.
     pub gpu_ratio: f64,
     /// Time by the clock a sample over that of the raster pass.
     pub wall_ratio: f64,
@@ -185,6 +185,21 @@ impl Results {
             growth: Vec::new(),
             stress: Vec::new(),
         }
+    }
+
+    /// Where the figures of a CSV come from, as lines `# key: value` before it.
+    pub fn head(&self, [width, height]: [u32; 2]) -> String {
+        let Machine { cpu, threads, os } = &self.machine;
+        let lines = [
+            ("driver", self.driver.clone()),
+            ("machine", format!("{cpu}, {threads} threads, {os}")),
+            ("date", self.date.clone()),
+            ("size", format!("{width}x{height}")),
+            ("reference", self.reference_samples.to_string()),
+            ("repeat", self.repeat.to_string()),
+        ];
+        let lines = lines.map(|(key, value)| format!("# {key}: {value}\n"));
+        lines.concat()
     }
 }
 

@@ -3,7 +3,7 @@
 use super::BenchArgs;
 use super::progress::Progress;
 use crate::cli::input;
-use crate::cli::render::{CameraArgs, View, choose_views};
+use crate::cli::render::{CameraArgs, NamedView, choose_views};
 use gpc::bench::{self, Cache, Contender, Fingerprint};
 use gpc::camera::Camera;
 use gpc::color::srgb;
@@ -29,7 +29,7 @@ pub(super) struct Subject {
     pub prepared: PreparedScene,
     pub scene: Scene,
     pub pose: Pose,
-    pub view: View,
+    pub view: NamedView,
 }
 
 /// A reference in the making.

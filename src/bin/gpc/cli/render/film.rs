@@ -1,10 +1,10 @@
 //! A scene over the moments of a sequence.
 
 use super::ImageArgs;
-use super::sequence::Step;
+use super::sequence::SequenceFrame;
 use super::session::Session;
 use super::startup::Clock;
-use super::view::{self, View};
+use super::view::{self, NamedView};
 use crate::cli::exit::Usage;
 use glam::DVec3;
 use gpc::scene::{Environment, Loaded, Motion, Pose, SceneCamera};
@@ -21,11 +21,11 @@ pub struct Film<'a> {
     first: f64,
     /// Cameras of the scene that is shown.
     cameras: Vec<SceneCamera>,
-    shown: Option<Shown>,
+    shown: Option<ShownMoment>,
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum Shown {
+enum ShownMoment {
     /// The first pose, moved to a time.
     Moved(f64),
     /// A pose of its own.
@@ -38,7 +38,7 @@ impl<'a> Film<'a> {
         image: &'a ImageArgs,
         loaded: Loaded,
         first: f64,
-        steps: &[Step],
+        steps: &[SequenceFrame],
     ) -> anyhow::Result<Self> {
         let moves = steps.iter().any(|step| step.time != first);
         let (pose, motion) = if moves {
@@ -64,13 +64,13 @@ impl<'a> Film<'a> {
         self.pose.environment(&self.loaded.scene)
     }
 
-    /// The cameras of what is shown.
+    /// Cameras of the scene that is shown.
     pub fn cameras(&self) -> &[SceneCamera] {
         &self.cameras
     }
 
-    /// The views of what is shown.
-    pub fn views(&self, aspect: f64) -> Result<Vec<View>, Usage> {
+    /// Views of the scene that is shown.
+    pub fn views(&self, aspect: f64) -> Result<Vec<NamedView>, Usage> {
         view::choose_among(&self.image.camera, &self.cameras, self.bounds, aspect)
     }
 
@@ -81,7 +81,8 @@ impl<'a> Film<'a> {
         session: &mut Session,
         clock: &mut Clock,
     ) -> anyhow::Result<Vec<String>> {
-        if matches!(self.shown, Some(Shown::Moved(now) | Shown::Posed(now)) if now == time) {
+        if matches!(self.shown, Some(ShownMoment::Moved(now) | ShownMoment::Posed(now)) if now == time)
+        {
             return Ok(Vec::new());
         }
         let scene = &self.loaded.scene;
@@ -91,24 +92,24 @@ impl<'a> Film<'a> {
             _ => None,
         };
         if let Some(moment) = moment {
-            if !matches!(self.shown, Some(Shown::Moved(_))) {
+            if !matches!(self.shown, Some(ShownMoment::Moved(_))) {
                 session.show(scene, &self.pose, self.motion.as_ref(), clock)?;
             }
             self.cameras.clone_from(&moment.cameras);
             session.show_moment(moment)?;
-            self.shown = Some(Shown::Moved(time));
+            self.shown = Some(ShownMoment::Moved(time));
             return Ok(Vec::new());
         }
         if at_first {
             session.show(scene, &self.pose, self.motion.as_ref(), clock)?;
             self.cameras.clone_from(&self.pose.cameras);
-            self.shown = Some(Shown::Moved(time));
+            self.shown = Some(ShownMoment::Moved(time));
             return Ok(Vec::new());
         }
         let pose = self.image.pose(&self.loaded, time)?;
         session.show(scene, &pose, None, clock)?;
         self.cameras = pose.cameras;
-        self.shown = Some(Shown::Posed(time));
+        self.shown = Some(ShownMoment::Posed(time));
         Ok(pose.warnings)
     }
 }

@@ -18,18 +18,19 @@ pub struct ImageArgs {
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = values::size)]
     pub size: [u32; 2],
     /// How radiance becomes display colour: Khronos PBR Neutral, or clamped [default: neutral; none for .exr]
-    #[arg(long)]
+    #[arg(long, hide_short_help = true)]
     pub tonemap: Option<Tonemap>,
-    /// What is behind the scene: none (transparent), sRGB R,G,B of 0 to 1, #rrggbb, or environment
+    /// Behind the scene: none (transparent), #rrggbb, environment, or sRGB R,G,B of 0 to 1
     #[arg(long, value_name = "COLOUR", default_value = "none", value_parser = values::background)]
     pub background: Background,
-    #[command(flatten)]
-    pub appearance: AppearanceArgs,
-    /// More of each pixel: depth, id, normal, superpixels, samples. Layers of an EXR; otherwise PNG files beside OUT,
-    /// named like it with .depth and so on before .png
+    /// More of each pixel: depth, id, normal, superpixels, samples
+    ///
+    /// Layers of an EXR; otherwise PNG files beside OUT, named like it with .depth and so on before .png.
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub aov: Vec<AovKind>,
 
+    #[command(flatten)]
+    pub appearance: AppearanceArgs,
     #[command(flatten)]
     pub sampling: SamplingArgs,
     #[command(flatten)]
@@ -40,28 +41,32 @@ pub struct ImageArgs {
 
 /// How a scene is lit, and how its strokes are drawn.
 #[derive(Args, Clone)]
+#[command(next_help_heading = "Light and lines")]
 pub struct AppearanceArgs {
-    /// Linear factor on the light, in stops
+    /// Brightness in stops: 1 is twice as bright
     #[arg(long, value_name = "EV", default_value_t = 0.0, allow_negative_numbers = true, value_parser = values::finite)]
     pub exposure: f64,
-    /// Light from all around: an equirectangular image, .hdr or .exr, in place of the neutral studio
+    /// Light from all around: an equirectangular .hdr or .exr [default: a neutral studio]
     #[arg(long, value_name = "FILE")]
     pub environment: Option<PathBuf>,
     /// Turn it about the vertical axis, counter-clockwise seen from above
     #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true, value_parser = values::finite,
-        requires = "environment")]
+        requires = "environment", hide_short_help = true)]
     pub environment_rotation: f64,
-    /// Shadows of the scene's own lights: none, or exact at every sample, whatever their number and distance
-    #[arg(long, default_value = "none")]
+    /// Shadows of the scene's own lights
+    ///
+    /// They are exact at every sample, whatever the number and distance of the lights.
+    #[arg(long, value_name = "S", default_value = "none")]
     pub shadows: Shadows,
     /// Width of lines in pixels of the image
-    #[arg(long, value_name = "PX", default_value_t = 1.0, allow_negative_numbers = true, value_parser = values::stroke)]
+    #[arg(long, value_name = "PX", default_value_t = 1.0, allow_negative_numbers = true, value_parser = values::stroke, hide_short_help = true)]
     pub line_width: f64,
     /// Diameter of points in pixels of the image
-    #[arg(long, value_name = "PX", default_value_t = 3.0, allow_negative_numbers = true, value_parser = values::stroke)]
+    #[arg(long, value_name = "PX", default_value_t = 3.0, allow_negative_numbers = true, value_parser = values::stroke, hide_short_help = true)]
     pub point_size: f64,
-    /// Draw silhouettes, boundaries and creases of more than 30 degrees as lines of this width in pixels; black, or R,G,B of
-    /// 0 to 1, or #rrggbb
+    /// Draw silhouettes, boundaries and creases as lines of this width in pixels
+    ///
+    /// Creases are of more than 30 degrees. Lines are black, or R,G,B of 0 to 1, or #rrggbb.
     #[arg(long, value_name = "WIDTH[,COLOUR]", allow_negative_numbers = true, value_parser = values::edges)]
     pub edges: Option<EdgeLines>,
 }
@@ -105,7 +110,7 @@ pub struct DeviceArgs {
     #[arg(long = "device", value_name = "NAME")]
     pub name: Option<String>,
     /// Bound on device memory, such as 512M or 2G
-    #[arg(long, value_name = "BYTES", value_parser = values::bytes)]
+    #[arg(long, value_name = "BYTES", value_parser = values::bytes, hide_short_help = true)]
     pub max_memory: Option<u64>,
 }
 

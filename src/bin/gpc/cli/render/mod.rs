@@ -20,7 +20,7 @@ pub use image::ImageArgs;
 pub use image::{AppearanceArgs, DeviceArgs};
 pub use save::{beside, encode, save, write};
 pub use session::{Shot, open_beside, upload};
-pub use view::{View, choose as choose_views};
+pub use view::{NamedView, choose as choose_views};
 
 use super::exit::{Usage, usage};
 use super::input;
@@ -30,7 +30,7 @@ use gpc::output::{Format, Picture, VideoWriter};
 use gpc::render::Settings;
 use indicatif::{ProgressBar, ProgressStyle};
 use report::{Origin, Report};
-use sequence::Step;
+use sequence::SequenceFrame;
 use serde::Serialize;
 use session::Session;
 use startup::Clock;
@@ -156,7 +156,7 @@ fn settings(args: &RenderArgs) -> anyhow::Result<(Format, Settings)> {
 }
 
 /// The images of the sequence, or of the share of it that is asked for.
-fn steps(args: &RenderArgs, template: &Template) -> Result<(f64, Vec<Step>), Usage> {
+fn steps(args: &RenderArgs, template: &Template) -> Result<(f64, Vec<SequenceFrame>), Usage> {
     sequence::check(args)?;
     let steps = sequence::steps(args)?;
     if args.format.is_none() {
@@ -167,7 +167,7 @@ fn steps(args: &RenderArgs, template: &Template) -> Result<(f64, Vec<Step>), Usa
     Ok((first, sequence::share(steps, args.sequence.shard)))
 }
 
-/// Counts images on standard error where that is a terminal.
+/// Progress bar on standard error, if that is a terminal.
 fn progress(count: usize, quiet: bool) -> ProgressBar {
     if quiet || count < 2 {
         return ProgressBar::hidden();

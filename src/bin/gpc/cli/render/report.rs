@@ -2,8 +2,8 @@
 
 use super::session::Shot;
 use super::startup::StartUp;
-use super::view::View;
-use crate::cli::report::{Device, Effort, Work};
+use super::view::NamedView;
+use crate::cli::report::{Device, Effort, RenderWork};
 use gpc::camera::{Camera, Projection};
 use gpc::render::Settings;
 use serde::Serialize;
@@ -15,7 +15,7 @@ pub struct Report {
     output: String,
     #[serde(flatten)]
     device: Device,
-    /// Width and height of what was rendered.
+    /// Width and height of the rendered image or part in pixels.
     size: [u32; 2],
     #[serde(skip_serializing_if = "Option::is_none")]
     region: Option<RegionReport>,
@@ -54,7 +54,7 @@ pub struct Origin<'a> {
     pub output: String,
     pub device: &'a Device,
     pub settings: &'a Settings,
-    pub view: &'a View,
+    pub view: &'a NamedView,
     /// The view's camera as it was turned.
     pub camera: &'a Camera,
     pub startup: Option<StartUp>,
@@ -76,7 +76,7 @@ impl Report {
             camera: describe(origin.camera, origin.view, width / height),
             effort: Effort::new(
                 origin.settings,
-                &Work {
+                &RenderWork {
                     statistics: &shot.rendered.statistics,
                     cells: u64::from(size[0]) * u64::from(size[1]),
                     passes: &shot.passes,
@@ -109,7 +109,7 @@ impl Report {
     }
 }
 
-fn describe(camera: &Camera, view: &View, aspect: f64) -> CameraReport {
+fn describe(camera: &Camera, view: &NamedView, aspect: f64) -> CameraReport {
     let distance = (view.target - view.camera.eye).length();
     CameraReport {
         view: camera.view().to_cols_array(),

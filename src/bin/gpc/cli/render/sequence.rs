@@ -8,7 +8,7 @@ use gpc::output::VideoFormat;
 
 /// A moment or an angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Step {
+pub struct SequenceFrame {
     /// Number that replaces `{frame}` in the output's name.
     pub frame: u32,
     /// Seconds into the animation.
@@ -47,7 +47,7 @@ pub fn check(args: &RenderArgs) -> Result<(), Usage> {
 }
 
 /// The steps of a share: every N-th one, since those close to each other cost about the same.
-pub fn share(steps: Vec<Step>, shard: Option<Shard>) -> Vec<Step> {
+pub fn share(steps: Vec<SequenceFrame>, shard: Option<Shard>) -> Vec<SequenceFrame> {
     let Some(Shard { number, count }) = shard else {
         return steps;
     };
@@ -56,9 +56,9 @@ pub fn share(steps: Vec<Step>, shard: Option<Shard>) -> Vec<Step> {
 }
 
 /// The steps of the whole sequence that the options ask for, at least one.
-pub fn steps(args: &RenderArgs) -> Result<Vec<Step>, Usage> {
+pub fn steps(args: &RenderArgs) -> Result<Vec<SequenceFrame>, Usage> {
     let time = args.image.camera.time;
-    let still = Step {
+    let still = SequenceFrame {
         frame: 0,
         time,
         turn: 0.0,
@@ -68,7 +68,7 @@ pub fn steps(args: &RenderArgs) -> Result<Vec<Step>, Usage> {
             return Err(Usage(format!("--frames: at most {MAX_STEPS} at once")));
         }
         let fps = args.sequence.fps();
-        let step = |frame| Step {
+        let step = |frame| SequenceFrame {
             frame,
             time: f64::from(frame) / fps,
             ..still
@@ -81,7 +81,7 @@ pub fn steps(args: &RenderArgs) -> Result<Vec<Step>, Usage> {
     if count > MAX_STEPS {
         return Err(Usage(format!("--turntable: at most {MAX_STEPS} images")));
     }
-    let step = |frame| Step {
+    let step = |frame| SequenceFrame {
         frame,
         turn: 360.0 * f64::from(frame) / f64::from(count),
         ..still

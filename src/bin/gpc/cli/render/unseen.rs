@@ -1,6 +1,6 @@
 //! What to say of an image that shows nothing.
 
-use super::view::View;
+use super::view::NamedView;
 use glam::DVec3;
 use gpc::camera::Camera;
 use gpc::scene::{Pose, SceneCamera};
@@ -9,7 +9,7 @@ use gpc::scene::{Pose, SceneCamera};
 /// width / height.
 pub fn warning(
     colors: &[[f32; 4]],
-    view: &View,
+    view: &NamedView,
     pose: &Pose,
     cameras: &[SceneCamera],
     aspect: f64,
@@ -48,7 +48,7 @@ pub fn warning(
         "every pixel shows the background: nothing of the scene is in view"
     };
     let mut ways = seeing;
-    if view.label != View::ORBIT {
+    if view.label != NamedView::ORBIT {
         ways.push("--azimuth 35, which frames the whole scene".to_owned());
     }
     let ways = match ways.len() {
@@ -58,7 +58,7 @@ pub fn warning(
     Some(format!("camera {}: {found}; {ways}", view.label))
 }
 
-/// Whether a point lies within the sides of what a camera sees, and before it.
+/// Whether a point lies in front of a camera and within the sides of its image.
 fn sees(camera: &Camera, point: DVec3, aspect: f64) -> bool {
     let clip = camera.projection_matrix(aspect) * camera.view() * point.extend(1.0);
     clip.w > 0.0 && clip.x.abs() <= clip.w && clip.y.abs() <= clip.w

@@ -9,7 +9,7 @@ use gpc::scene::{Pose, SceneCamera};
 use std::collections::HashMap;
 
 /// A camera to render with.
-pub struct View {
+pub struct NamedView {
     /// Text that replaces `{camera}` in the output's name.
     pub label: String,
     pub camera: Camera,
@@ -24,7 +24,7 @@ pub fn bounds(pose: &Pose) -> (DVec3, DVec3) {
 }
 
 /// The cameras that the options ask for, at least one; `aspect` is width / height.
-pub fn choose(args: &CameraArgs, pose: &Pose, aspect: f64) -> Result<Vec<View>, Usage> {
+pub fn choose(args: &CameraArgs, pose: &Pose, aspect: f64) -> Result<Vec<NamedView>, Usage> {
     choose_among(args, &pose.cameras, bounds(pose), aspect)
 }
 
@@ -34,7 +34,7 @@ pub fn choose_among(
     cameras: &[SceneCamera],
     bounds: (DVec3, DVec3),
     aspect: f64,
-) -> Result<Vec<View>, Usage> {
+) -> Result<Vec<NamedView>, Usage> {
     if let Some(eye) = args.eye {
         return Ok(vec![stand_at(eye, args, bounds)?]);
     }
@@ -62,7 +62,7 @@ pub fn choose_among(
             widen(&mut camera, args.fov, &label)?;
             let ahead = (centre - camera.eye).dot(camera.direction());
             let distance = if ahead > 0.0 { ahead } else { 1.0 };
-            Ok(View {
+            Ok(NamedView {
                 label,
                 target: camera.eye + camera.direction() * distance,
                 camera,
@@ -71,7 +71,11 @@ pub fn choose_among(
         .collect()
 }
 
-fn stand_at(eye: DVec3, args: &CameraArgs, (low, high): (DVec3, DVec3)) -> Result<View, Usage> {
+fn stand_at(
+    eye: DVec3,
+    args: &CameraArgs,
+    (low, high): (DVec3, DVec3),
+) -> Result<NamedView, Usage> {
     let viewpoint = Viewpoint {
         eye,
         target: args.target.unwrap_or(0.5 * (low + high)),
@@ -81,14 +85,14 @@ fn stand_at(eye: DVec3, args: &CameraArgs, (low, high): (DVec3, DVec3)) -> Resul
     let camera = viewpoint
         .frame(low, high)
         .map_err(|error| Usage(error.to_string()))?;
-    Ok(View {
+    Ok(NamedView {
         label: "eye".to_owned(),
         camera,
         target: viewpoint.target,
     })
 }
 
-fn orbit(args: &CameraArgs, (low, high): (DVec3, DVec3), aspect: f64) -> Result<View, Usage> {
+fn orbit(args: &CameraArgs, (low, high): (DVec3, DVec3), aspect: f64) -> Result<NamedView, Usage> {
     let default = Orbit::default();
     let orbit = Orbit {
         azimuth: args.azimuth.unwrap_or(default.azimuth),
@@ -99,8 +103,8 @@ fn orbit(args: &CameraArgs, (low, high): (DVec3, DVec3), aspect: f64) -> Result<
     let camera = orbit
         .frame(low, high, aspect)
         .map_err(|error| Usage(error.to_string()))?;
-    Ok(View {
-        label: View::ORBIT.to_owned(),
+    Ok(NamedView {
+        label: NamedView::ORBIT.to_owned(),
         camera,
         target: 0.5 * (low + high),
     })
@@ -160,7 +164,7 @@ fn widen(camera: &mut Camera, asked: Option<f64>, label: &str) -> Result<(), Usa
     }
 }
 
-impl View {
+impl NamedView {
     /// The label of a view of the whole scene.
     pub const ORBIT: &str = "orbit";
 

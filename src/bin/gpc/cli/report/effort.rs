@@ -46,7 +46,7 @@ struct Skipped {
 }
 
 /// Renderings of one image.
-pub struct Work<'a> {
+pub struct RenderWork<'a> {
     /// Statistics of the last rendering.
     pub statistics: &'a Statistics,
     /// Pixels or locations.
@@ -58,7 +58,7 @@ pub struct Work<'a> {
 }
 
 impl Effort {
-    pub fn new(settings: &Settings, work: &Work<'_>) -> Self {
+    pub fn new(settings: &Settings, work: &RenderWork<'_>) -> Self {
         let statistics = work.statistics;
         Self {
             samples: settings.samples,

@@ -2,7 +2,7 @@
 
 mod effort;
 
-pub use effort::{Effort, Work};
+pub use effort::{Effort, RenderWork};
 
 use super::exit::Usage;
 use super::{input, print};
@@ -14,7 +14,9 @@ use std::path::Path;
 /// Amount of reporting.
 #[derive(Args, Clone, Copy)]
 pub struct ReportArgs {
-    /// Print one JSON object of figures: files, sizes, samples, superpixels, times and memory; several images are a list
+    /// Print figures as one JSON object
+    ///
+    /// They are files, sizes, samples, superpixels, times and memory; several images are a list.
     #[arg(long, help_heading = "Report")]
     pub json: bool,
     /// Say nothing but errors
@@ -23,7 +25,7 @@ pub struct ReportArgs {
 }
 
 impl ReportArgs {
-    /// Refuses to print figures where the image goes.
+    /// Refuses to print figures to the standard output that the image goes to.
     pub fn check(&self, output: &Path) -> Result<(), Usage> {
         if self.json && input::is_standard(output) {
             return Err(Usage(
@@ -67,7 +69,7 @@ pub struct Figures<T> {
     pub output: String,
     #[serde(flatten)]
     pub device: Device,
-    /// Width and height of the image; of samples without one, those of the image plane.
+    /// Width and height of the image, or of the image plane if samples make no image.
     pub size: [u32; 2],
     #[serde(flatten)]
     pub effort: Effort,

@@ -6,7 +6,7 @@ mod table;
 
 use super::exit::{Usage, usage};
 use super::render::{ImageArgs, Tonemap};
-use super::report::{Effort, ReportArgs, Work};
+use super::report::{Effort, RenderWork, ReportArgs};
 use super::stage::Stage;
 use super::{input, render};
 use anyhow::Context;
@@ -97,7 +97,7 @@ pub fn run(args: &SampleArgs) -> anyhow::Result<ExitCode> {
         values: samples,
         statistics,
     } = sample(&mut stage, &pinhole, &set, args.image.sampling.aa)?;
-    let work = Work {
+    let work = RenderWork {
         statistics: &statistics,
         cells: samples.len() as u64,
         passes: std::slice::from_ref(&statistics.passes),

@@ -20,12 +20,12 @@ use serde::Serialize;
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
-use steps::Step;
+use steps::StepPicture;
 
 /// An image, the steps to it, and what is said of it.
 struct Outcome {
     result: Rendered,
-    steps: Vec<Step>,
+    steps: Vec<StepPicture>,
     figures: Report,
 }
 
@@ -174,7 +174,7 @@ fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<Outco
                 [_] => "direct".to_owned(),
                 _ => format!("direct-{index}"),
             };
-            steps.push(Step::new(&name, window.size, direct.rendered.colors));
+            steps.push(StepPicture::new(&name, window.size, direct.rendered.colors));
         }
     }
     stage.finish()?;
@@ -185,7 +185,7 @@ fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<Outco
     })
 }
 
-/// A rate for people; images of one row or column have none of their own.
+/// Rate in words. Images of one row or column have no rate.
 fn rate(rate: Option<f64>) -> String {
     match rate.unwrap_or(1.0) {
         rate if rate < 1e6 => format!("{rate:.2}"),

@@ -8,14 +8,14 @@ use gpc::camera::zoom::ZoomMap;
 type Pixels = Vec<[f32; 4]>;
 
 /// A picture on the way to the result.
-pub struct Step {
+pub struct StepPicture {
     /// Name of the step's file.
     pub name: String,
     pub size: [u32; 2],
     pub pixels: Pixels,
 }
 
-impl Step {
+impl StepPicture {
     pub fn new(name: &str, size: [u32; 2], pixels: Pixels) -> Self {
         Self {
             name: name.to_owned(),
@@ -31,12 +31,12 @@ pub fn common(
     original: &[[f32; 4]],
     result: &[[f32; 4]],
     map: &ZoomMap,
-) -> Vec<Step> {
+) -> Vec<StepPicture> {
     vec![
-        Step::new("original", size, original.to_vec()),
-        Step::new("locations", size, locations(size, original, map)),
-        Step::new("resampled", size, resampled(size, result, map)),
-        Step::new("transition", size, transition(size, result, map)),
+        StepPicture::new("original", size, original.to_vec()),
+        StepPicture::new("locations", size, locations(size, original, map)),
+        StepPicture::new("resampled", size, resampled(size, result, map)),
+        StepPicture::new("transition", size, transition(size, result, map)),
     ]
 }
 
@@ -46,7 +46,7 @@ const DRAWN: u32 = 96;
 /// Share of its light that the image keeps under the locations.
 const DIMMED: f32 = 0.15;
 
-/// Every so many locations, as dots over the dimmed image.
+/// Picture of some of the locations, as dots over the dimmed image.
 fn locations(size: [u32; 2], original: &[[f32; 4]], map: &ZoomMap) -> Pixels {
     let dim = |[r, g, b, _]: &[f32; 4]| [r * DIMMED, g * DIMMED, b * DIMMED, 1.0];
     let mut picture: Pixels = original.iter().map(dim).collect();

@@ -10,7 +10,7 @@ use std::{collections::BTreeMap, mem::discriminant, sync::Arc};
 use glam::{DAffine3, DVec3};
 use gltf::json::{Node, animation::Property};
 
-use super::{MovingPlacement, Placement, Pose, PoseRequest, Shown, light_of, looks, show};
+use super::{MovingPlacement, Placement, Pose, PoseContents, PoseRequest, light_of, looks, show};
 use crate::scene::{
     Light, Material, Scene, SceneCamera, SceneError,
     document::{Animated, Channel, Described, Document, Target},
@@ -120,11 +120,11 @@ pub struct MotionPart {
     pub displacement_vectors: u32,
     matrix_count: u32,
     target_count: u32,
-    /// Whether normals are those of triangles, of which each has three vertices for itself.
+    /// Whether normals are those of triangles, each of which has three vertices to itself.
     pub is_flat: bool,
 }
 
-/// Matrices and weights of what moves, and the materials and lights that change, at one moment.
+/// Matrices and weights of moving parts, and the materials and lights that change, at one moment.
 #[derive(Clone, Debug)]
 pub struct Moment {
     /// Identity of the motion.
@@ -151,7 +151,7 @@ impl Motion {
     pub(super) fn new(
         request: &PoseRequest,
         pose: &Pose,
-        shown: &Shown<'_>,
+        shown: &PoseContents<'_>,
         (moving, placed): (&Moving, &[MovingPlacement]),
     ) -> Self {
         let mut motion = Self {

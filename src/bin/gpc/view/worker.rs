@@ -4,7 +4,7 @@
 
 use super::losses::is_lost;
 use super::overlay::{self, COUNT_SIDE, Overlay};
-use super::photo;
+use super::photo::PhotoView;
 use super::source::{Source, bounds};
 use super::standpoint::Standpoint;
 use super::stop::Stop;
@@ -18,8 +18,8 @@ use gpc::color::srgb;
 use gpc::compare;
 use gpc::output::{self, Aov, AovKind, DecodedImage, Format, Picture};
 use gpc::render::{
-    Headless, HeadlessOptions, Method, PixelRect, PreparedScene, RenderError, Rendered, Settings,
-    Shadows, Statistics,
+    Headless, HeadlessOptions, Method, PixelRect, PreparedScene, RenderError, Rendered,
+    SceneRequest, Settings, Shadows, Statistics,
 };
 use gpc::resample::Zoomed;
 use gpc::scene::{Pose, PoseRequest, Scene};
@@ -30,10 +30,10 @@ use std::thread::JoinHandle;
 
 /// Rows of a picture that are made at once, where it takes long: in between it can be stopped.
 const BAND: u32 = 32;
-/// A picture of at most so many samples is soon done: it is shown though another one is asked for meanwhile, so that there
-/// is something to see while lenses move.
+/// Most samples of a picture that is soon done. Such a picture is shown even if another one has been asked for
+/// meanwhile, so that there is something to see while lenses move.
 const QUICK: u32 = 4;
-/// Brute force that pictures are compared with has at least so many samples.
+/// Least samples of the brute force that pictures are compared with.
 const REFERENCE_SAMPLES: u32 = 256;
 
 /// Kind of picture that is made of a scene.
@@ -45,7 +45,7 @@ pub enum Subject {
     Zoom(ZoomMap, bool),
     /// Values of pixels other than their colours, to look at.
     Overlay(Overlay),
-    /// A PNG file as `gpc render` writes it or, with regions enlarged, `gpc zoom`, to the same bytes.
+    /// PNG file with the same bytes that `gpc render` writes or, with regions enlarged, `gpc zoom`.
     File(PathBuf, Option<ZoomMap>),
 }
 
@@ -60,9 +60,9 @@ struct Order {
 /// Contents of an order.
 pub enum Task {
     Scene(Box<SceneTask>),
-    Photo(photo::View),
-    /// A PNG file as `gpc zoom` and `gpc unzoom` write it, to the same bytes.
-    PhotoFile(photo::View, PathBuf),
+    Photo(PhotoView),
+    /// PNG file with the same bytes that `gpc zoom` or `gpc unzoom` writes.
+    PhotoFile(PhotoView, PathBuf),
 }
 
 /// Order for a picture of a scene: the scene, the standpoint and the settings.
@@ -79,7 +79,7 @@ pub struct SceneTask {
 }
 
 impl Task {
-    /// The file that it is for, which is made whatever else is asked for.
+    /// File that the task writes; such a task is done whatever else is asked for.
     fn file(&self) -> Option<&Path> {
         match self {
             Self::Scene(task) => match &task.subject {
@@ -152,7 +152,7 @@ impl Made {
 }
 
 /// Takes orders until it is dropped, which stops what it is at.
-pub struct Studio {
+pub struct PictureWorker {
     /// `None` only while dropping.
     orders: Option<Sender<Order>>,
     thread: Option<JoinHandle<()>>,
@@ -162,7 +162,7 @@ pub struct Studio {
     files: Vec<(PathBuf, Stop)>,
 }
 
-impl Studio {
+impl PictureWorker {
     /// Starts a thread that opens a device with the first order of a scene, and delivers what it makes.
     pub fn new(options: HeadlessOptions, deliver: impl Fn(Made) + Send + 'static) -> Self {
         let (orders, received) = channel();
@@ -216,7 +216,7 @@ impl Studio {
     }
 }
 
-impl Drop for Studio {
+impl Drop for PictureWorker {
     fn drop(&mut self) {
         self.orders = None;
         self.picture.stop();
@@ -231,13 +231,13 @@ impl Drop for Studio {
 /// The thread's own.
 struct Maker {
     /// First, since it goes before the device.
-    shown: Option<Shown>,
+    shown: Option<OpenScene>,
     headless: Option<Headless>,
     options: HeadlessOptions,
 }
 
 /// A pose on the device.
-struct Shown {
+struct OpenScene {
     scene: Arc<Scene>,
     time: f64,
     pose: Pose,
@@ -263,7 +263,7 @@ impl Maker {
         }
     }
 
-    /// Makes a picture; where it is stopped, an error of which [`is_stopped`] holds.
+    /// Makes a picture. If it is stopped, the error is one that [`is_stopped`] recognises.
     fn make(&mut self, order: &Order) -> Made {
         let number = order.number;
         let task = match &order.task {
@@ -441,7 +441,7 @@ impl Maker {
         })
     }
 
-    /// Renders bands of so many rows from the top, and hands each to `take`.
+    /// Renders bands of `rows` rows from the top, and hands each to `take`.
     fn render_bands(
         &mut self,
         task: &SceneTask,
@@ -489,10 +489,10 @@ impl Maker {
     }
 
     /// Puts what the task is of on the device, unless it is there.
-    fn show(&mut self, task: &SceneTask) -> anyhow::Result<(&mut Headless, &Shown)> {
+    fn show(&mut self, task: &SceneTask) -> anyhow::Result<(&mut Headless, &OpenScene)> {
         let headless = self.headless.as_mut().context("there is no device")?;
         let is_shown =
-            |shown: &Shown| Arc::ptr_eq(&shown.scene, &task.scene) && shown.time == task.time;
+            |shown: &OpenScene| Arc::ptr_eq(&shown.scene, &task.scene) && shown.time == task.time;
         if !self.shown.as_ref().is_some_and(is_shown) {
             // The memory of the pose before is free for this one.
             self.shown = None;
@@ -504,7 +504,7 @@ impl Maker {
                 .shadowed(task.settings.shadows)
                 .within(task.settings.max_memory);
             let prepared = headless.upload(request)?;
-            self.shown = Some(Shown {
+            self.shown = Some(OpenScene {
                 scene: task.scene.clone(),
                 time: task.time,
                 pose,
@@ -516,7 +516,7 @@ impl Maker {
     }
 }
 
-fn write_photo(view: &photo::View, path: &Path) -> anyhow::Result<()> {
+fn write_photo(view: &PhotoView, path: &Path) -> anyhow::Result<()> {
     write_png(path, view.window.size, &view.pixels(), view.map.as_ref())
 }
 
@@ -534,7 +534,7 @@ fn write_png(
     Ok(output::write_atomically(path, &bytes)?)
 }
 
-fn camera(task: &SceneTask, shown: &Shown) -> anyhow::Result<gpc::camera::Camera> {
+fn camera(task: &SceneTask, shown: &OpenScene) -> anyhow::Result<gpc::camera::Camera> {
     let [width, height] = task.settings.size.map(f64::from);
     let pose = &shown.pose;
     Ok(task
@@ -576,16 +576,16 @@ mod tests {
         let easel = Easel::new(Photo::open(&path("photo.png")).unwrap(), [1, 1]);
         let view = easel.view([1, 1], None, false, DVec2::ZERO);
         let (sender, made) = channel();
-        let mut studio = Studio::new(HeadlessOptions::default(), move |made| {
+        let mut worker = PictureWorker::new(HeadlessOptions::default(), move |made| {
             let _ = sender.send(made);
         });
         for number in 1..20 {
-            studio.ask(number, Task::Photo(view.clone()));
+            worker.ask(number, Task::Photo(view.clone()));
         }
         for name in ["a.png", "b.png"] {
-            studio.ask(0, Task::PhotoFile(view.clone(), path(name)));
+            worker.ask(0, Task::PhotoFile(view.clone(), path(name)));
         }
-        studio.ask(20, Task::Photo(view.clone()));
+        worker.ask(20, Task::Photo(view.clone()));
         let mut files = Vec::new();
         loop {
             match made.recv_timeout(LONG).unwrap() {
@@ -596,13 +596,13 @@ mod tests {
                 Made::Pixels(_, pixels) => drop(pixels.unwrap()),
                 Made::File(path, written) => {
                     written.unwrap();
-                    studio.delivered(&path);
+                    worker.delivered(&path);
                     files.push(path);
                 }
             }
         }
         assert_eq!(files, [path("a.png"), path("b.png")]);
         assert!(files.iter().all(|file| file.exists()));
-        assert_eq!(studio.stop_files(), Vec::<PathBuf>::new());
+        assert_eq!(worker.stop_files(), Vec::<PathBuf>::new());
     }
 }
