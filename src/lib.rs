@@ -74,7 +74,7 @@
 //! | none | the engine: [`host`], which knows no files |
 //! | `gltf` | scenes, cameras, and rendering in your device or one of the library's |
 //! | `draco`, `basisu` | Draco meshes and KTX2 textures; files with them are refused otherwise |
-//! | `cli`, on by default | what the command needs: image files (`output`), comparisons and benchmarks |
+//! | `cli`, on by default | what the command needs: image files (`output`), comparisons (`compare`) and resampling (`resample`) |
 //! | `view` | the command's window |
 //! | `capi` | [`host`] in C: `include/gpc.h` |
 //! | `compile-shaders` | compiles the shaders instead of taking the SPIR-V that comes with the package |

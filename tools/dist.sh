@@ -5,6 +5,8 @@
 #   gpc-render_VERSION-1_ARCH.deb  the same as a package (by cargo-deb)
 #   libgpc-VERSION-TRIPLE.tar.xz   the C library: header, libraries, GLSL includes, pkg-config file, manual, licences
 #
+# FEATURES=cli leaves the window out.
+#
 # Archives unpack into a folder of their name, whose bin, lib, share and include belong below a prefix such as /usr/local.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -26,8 +28,9 @@ doc="$root/share/doc/gpc-render"
 install -d "$root/bin" "$root/share/man/man1" "$root/share/bash-completion/completions" \
     "$root/share/fish/vendor_completions.d" "$root/share/zsh/site-functions" "$doc"
 
-cargo build --release --locked --features view --bin gpc
-cargo run --release --locked --features view --example manual "$dist/manual"
+features="${FEATURES:-view}"
+cargo build --release --locked --features "$features" --bin gpc
+cargo run --release --locked --features "$features" --example manual "$dist/manual"
 install -m 755 "$built/gpc" "$root/bin/gpc"
 strip "$root/bin/gpc"
 install -m 644 "$dist"/manual/man1/*.1 "$root/share/man/man1/"
@@ -48,7 +51,7 @@ licences() { # FILE FEATURES...
         cargo deny --locked "$@" list --format human --layout license
     } | sed 's/\x1b\[[0-9;]*m//g' >"$file"
 }
-licences "$doc/THIRD-PARTY.txt" --features view
+licences "$doc/THIRD-PARTY.txt" --features "$features"
 install -m 644 LICENSE-MIT LICENSE-APACHE README.md CHANGELOG.md CITATION.cff "$doc/"
 # A scene to try, and what a golden-image workflow looks like.
 install -m 644 assets/fence.glb assets/letters.glb examples/ci/golden-images.yml "$doc/"

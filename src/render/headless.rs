@@ -257,10 +257,10 @@ impl Headless {
         scene: &PreparedScene,
         settings: &Settings,
     ) -> Result<Frame, RenderError> {
-        let beside = ReadBack::bytes(settings);
+        let reserved = ReadBack::bytes(settings);
         self.check(&scene.gpu_scene)?;
         self.renderer
-            .prepare_with(scene, settings, None, Capacity::least(), beside)
+            .prepare_with(scene, settings, None, Capacity::least(), reserved)
     }
 
     /// Renders a frame and waits for it. Where what it lists outgrows its memory it is prepared again with more, so that the image

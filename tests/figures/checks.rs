@@ -2,6 +2,7 @@
 
 use crate::data::root;
 use crate::documents::{handwritten, markdown};
+use crate::help;
 use std::path::Path;
 
 fn read(path: impl AsRef<Path>) -> String {
@@ -135,4 +136,37 @@ fn versions_agree() {
             "{file} lacks \"{text}\""
         );
     }
+}
+
+/// Options that documents name as the command's are options of a subcommand.
+#[test]
+fn options_exist() {
+    let known = help::every();
+    let known: Vec<&str> = options(&known).collect();
+    let mut unknown = Vec::new();
+    for path in markdown() {
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        // What these tell of may be gone.
+        if ["CHANGELOG.md", "decisions.md"].contains(&name.as_str()) {
+            continue;
+        }
+        let text = handwritten(&read(&path));
+        let spans = text.split('`').skip(1).step_by(2);
+        let spans = spans.filter(|span| span.starts_with("--") || span.starts_with("gpc "));
+        let lines = text
+            .lines()
+            .filter(|line| line.trim_start().starts_with("gpc "));
+        for option in spans.chain(lines).flat_map(options) {
+            if !known.contains(&option) && !["--help", "--version"].contains(&option) {
+                unknown.push(format!("{name}: {option}"));
+            }
+        }
+    }
+    assert!(unknown.is_empty(), "{unknown:#?}");
+}
+
+/// The long options in a text.
+fn options(text: &str) -> impl Iterator<Item = &str> {
+    let words = text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '-'));
+    words.filter(|word| word.starts_with("--") && word.len() > 3)
 }

@@ -172,7 +172,7 @@ pub fn growth() -> String {
                 .unwrap();
             if let Some(last) = points.first() {
                 let name = label(method, 64);
-                let text = Text::new(name, (6, -16), FONT.into_font().color(&colour));
+                let text = Text::new(name, (-4, -24), FONT.into_font().color(&colour));
                 let at = EmptyElement::at(*last) + Circle::new((0, 0), 4, colour.filled()) + text;
                 chart.draw_series([at]).unwrap();
             }

@@ -1128,6 +1128,49 @@ impl Compiled for Multisample {
     }
 }
 
+/// Constants of `shaders/neighbours.comp`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Neighbours {
+    pub tonemap: bool,
+    pub tonemap_codes: bool,
+}
+
+impl Default for Neighbours {
+    fn default() -> Self {
+        Self {
+            tonemap: true,
+            tonemap_codes: true,
+        }
+    }
+}
+
+impl Specialized for Neighbours {
+    const INTERFACE: &'static Interface = &Interface {
+        name: "neighbours",
+        uses: &[
+            Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
+            Use { set: 0, binding: frame_set::DISPLAY, access: Access::Read },
+            Use { set: 0, binding: frame_set::COLOR, access: Access::Read },
+            Use { set: 0, binding: frame_set::MASKS, access: Access::Read },
+            Use { set: 0, binding: frame_set::MARKS, access: Access::ReadWrite },
+        ],
+        push_bytes: 0,
+        invocations: Invocations::Fixed(64),
+    };
+
+    fn constants(&self) -> Constants {
+        Constants::new()
+            .flag(30, self.tonemap)
+            .flag(31, self.tonemap_codes)
+    }
+}
+
+impl Compiled for Neighbours {
+    fn code() -> &'static [u8] {
+        NEIGHBOURS
+    }
+}
+
 /// Constants of `shaders/patch.frag`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PatchFragment {

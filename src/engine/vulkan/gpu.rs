@@ -58,6 +58,9 @@ pub struct Limits {
     pub sample_counts: vk::SampleCountFlags,
     /// Whether commands can be skipped by a word in the device's memory.
     pub conditional_rendering: bool,
+    /// Most pipelines that are kept although no frame uses them: a frame has some 25, and a driver may keep a megabyte or
+    /// two for each.
+    pub max_unused_pipelines: usize,
 }
 
 /// A device in use.
@@ -294,6 +297,7 @@ pub(super) unsafe fn limits(
             & basic.limits.sampled_image_color_sample_counts,
         // SAFETY: passed on to the caller.
         conditional_rendering: unsafe { Requirements::has_conditional_rendering(instance, device) },
+        max_unused_pipelines: 64,
     }
 }
 

@@ -53,7 +53,9 @@ pub struct AppearanceArgs {
     #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true, value_parser = values::finite,
         requires = "environment", hide_short_help = true)]
     pub environment_rotation: f64,
-    /// Shadows of the scene's own lights: none, or exact at every sample
+    /// Shadows of the scene's own lights
+    ///
+    /// They are exact at every sample, whatever the number and distance of the lights.
     #[arg(long, value_name = "S", default_value = "none")]
     pub shadows: Shadows,
     /// Width of lines in pixels of the image
