@@ -38,6 +38,8 @@ pub struct SampleOptions {
     pub cells: Cells,
     /// Sub-samples of a cell, or points at the most.
     pub samples: u32,
+    /// Whether these lie on lines, of cells that `sample_lines` can take.
+    pub lines: bool,
     /// How often records are written.
     pub records: RecordRate,
     /// Whether triangles that are seen whole weigh the exact area of their part of a cell.
@@ -98,6 +100,16 @@ const KERNELS: Kernels = [
 ];
 /// Kernels that hold the samples of a cell as a mask, by how many these can be.
 const MASKS: [(u32, &[u8]); 2] = [(16, spirv::SAMPLE_MASKS_16), (64, spirv::SAMPLE_MASKS_64)];
+/// Kernels of samples on lines, by invocations of a subgroup.
+const LINES: [(u32, &[u8]); 4] = [
+    (32, spirv::SAMPLE_LINES_1),
+    (16, spirv::SAMPLE_LINES_2),
+    (8, spirv::SAMPLE_LINES_4),
+    (4, spirv::SAMPLE_LINES_8),
+];
+/// Records that a cell makes beyond its number of samples, at the most, as in `shaders/sample_lines.comp`: visible triangles
+/// share parts.
+const MORE_RECORDS: u32 = 16;
 const UNLISTED: Kernels = [
     (1, spirv::SAMPLE_UNLISTED_1),
     (2, spirv::SAMPLE_UNLISTED_2),
@@ -133,6 +145,15 @@ fn kernel(kernels: &Kernels, rows: u32) -> (u32, &'static [u8]) {
         .unwrap_or(largest)
 }
 
+/// The kernel of samples on lines for so many invocations: 4, 8, 16 or 32.
+fn lines_kernel(lanes: u32) -> &'static [u8] {
+    if let Ok(path) = std::env::var("GPC_LINES_SPV") {
+        return Box::leak(std::fs::read(path).unwrap().into_boxed_slice());
+    }
+    let found = LINES.into_iter().find(|(of, _)| *of == lanes);
+    found.map_or(spirv::SAMPLE_LINES_1, |(_, code)| code)
+}
+
 impl Sample {
     /// Samples of the first of two runs; their locations follow those of the cell.
     pub const PROBES: u32 = 64;
@@ -162,8 +183,12 @@ impl Sample {
                 .flag(6, options.by_part(*run, rows * lanes))
                 .flag(7, options.measures(*list, *run))
                 .with(8, options.part_samples())
-                .flag(9, options.apart);
-            let code = if list.is_opaque() && *run == Run::Whole && options.by_masks() {
+                .flag(9, options.apart)
+                .with(10, rows * lanes);
+            let first_run = list.is_opaque() && *run != Run::Rest;
+            let code = if first_run && options.by_lines() {
+                lines_kernel(lanes)
+            } else if first_run && options.by_masks() {
                 let [few, many] = MASKS;
                 let masks = if options.samples <= few.0 { few } else { many };
                 masks.1
@@ -227,11 +252,13 @@ impl Sample {
             }
         };
         let first = if probes {
-            Self::PROBES
+            taking(Self::PROBES)
+        } else if options.by_lines() {
+            1
         } else {
-            options.samples
+            taking(options.samples)
         };
-        let subgroups = [taking(first), taking(options.samples)];
+        let subgroups = [first, taking(options.samples)];
         Ok(Self {
             kernels,
             rest,
@@ -304,7 +331,7 @@ impl SampleOptions {
     fn measures(&self, list: TileList, run: Run) -> bool {
         let at_once = match run {
             Run::Whole => self.samples <= Sample::PROBES,
-            Run::Rest => self.samples <= Sample::PROBES && !self.by_masks(),
+            Run::Rest => self.samples <= Sample::PROBES && !self.by_masks() && !self.by_lines(),
             Run::Probe => true,
         };
         self.exact_areas && self.records != RecordRate::Sample && at_once && list.is_opaque()
@@ -315,19 +342,38 @@ impl SampleOptions {
         self.records == RecordRate::Part && (run == Run::Probe || self.part_samples() < block)
     }
 
-    /// Whether cells of opaque and alpha-tested triangles are taken by masks of their samples.
-    fn by_masks(&self) -> bool {
+    /// Whether cells of opaque and alpha-tested triangles are taken by kernels of their own, which leave some of them.
+    fn by_cell(&self) -> bool {
         self.cells == Cells::Pixels
             && !self.always_blends
             && self.records != RecordRate::Sample
             && !self.apart
-            && (2..=64).contains(&self.samples)
+    }
+
+    /// Whether these hold the samples of a cell as a mask.
+    fn by_masks(&self) -> bool {
+        self.by_cell() && !self.by_lines() && (2..=64).contains(&self.samples)
+    }
+
+    /// Whether these have samples on lines.
+    fn by_lines(&self) -> bool {
+        self.by_cell() && self.lines && self.samples >= 16
+    }
+
+    /// Whether a cell has one header where it is not left to a second run.
+    pub(super) fn has_one_header(&self) -> bool {
+        self.probes() || self.by_lines()
+    }
+
+    /// Records that a cell makes beyond its number of samples, at the most.
+    pub(super) fn more_records(&self) -> u32 {
+        if self.by_lines() { MORE_RECORDS } else { 0 }
     }
 
     /// Whether a first run leaves cells to a second one, and marks them.
     #[must_use]
     pub fn leaves_cells(&self) -> bool {
-        self.probes() || self.by_masks()
+        self.probes() || self.by_masks() || self.by_lines()
     }
 
     /// Samples of a part: there are 16 parts of 16 samples, 32 of 64, 128 of 256 and 256 of 1,024.
@@ -343,6 +389,7 @@ impl SampleOptions {
             && self.exact_areas
             && self.records != RecordRate::Sample
             && self.samples > Sample::PROBES
+            && !self.by_lines()
     }
 }
 
@@ -356,6 +403,7 @@ mod tests {
             let options = SampleOptions {
                 cells: Cells::Pixels,
                 samples: 64,
+                lines: false,
                 records: RecordRate::Triangle,
                 exact_areas: false,
                 can_settle: false,

@@ -27,6 +27,7 @@ struct Push {
     subgroups_first: u32,
     subgroups: u32,
     longest_list: u32,
+    more_records: u32,
 }
 
 /// Trials of a triangle in a cell that a round takes where tiles have no list, as in `shaders/include/load.glsl`.
@@ -60,6 +61,7 @@ impl Schedule {
                 subgroups_first,
                 subgroups,
                 longest_list: options.longest_list(),
+                more_records: options.more_records(),
             },
         })
     }
@@ -78,8 +80,9 @@ impl Schedule {
         .map(u64::from);
         /// Pixels of a tile.
         const PIXELS: u64 = 32;
+        let records_of_cell = samples + u64::from(self.pushed.more_records);
         let (cells, all_samples) = match sizes.locations {
-            None => (PIXELS * tiles, PIXELS * tiles * samples),
+            None => (PIXELS * tiles, PIXELS * tiles * records_of_cell),
             Some(list) => {
                 let of_location = if self.options.cells.are_points() {
                     1
@@ -90,7 +93,7 @@ impl Schedule {
             }
         };
         let (cells_of_tile, samples_of_tile) = match sizes.locations {
-            None => (PIXELS, PIXELS * samples),
+            None => (PIXELS, PIXELS * records_of_cell),
             Some(_) => (cells, all_samples),
         };
         let headers = |cells: u64| cells * samples.div_ceil(self.pushed.block.into());

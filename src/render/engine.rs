@@ -90,6 +90,7 @@ impl Engine {
         let options = SampleOptions {
             cells: Cells::Pixels,
             samples: kind.samples,
+            lines: settings.pattern == Pattern::Lines,
             records: record_rate(settings, scene),
             exact_areas: settings.coverage == Coverage::Area && kind.samples > 1,
             can_settle: can_settle(settings, scene),

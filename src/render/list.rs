@@ -67,6 +67,7 @@ impl ListKind {
             } else {
                 settings.samples
             },
+            lines: false,
             records: if points {
                 RecordRate::Sample
             } else {

@@ -198,6 +198,7 @@ pub fn detection_name(detection: Detection) -> &'static str {
 /// A pattern, as `--pattern` has it.
 pub fn pattern_name(pattern: &Pattern) -> &'static str {
     match pattern {
+        Pattern::Lines => "lines",
         Pattern::Sobol | Pattern::List(_) => "sobol",
         Pattern::Lattice => "lattice",
         Pattern::Korobov => "korobov",
