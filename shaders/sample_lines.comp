@@ -34,8 +34,6 @@ const uint LINE_WORDS = WORDS < HALVES ? WORDS : HALVES;    // of them, those of
 const uint OWN_LINES = WORDS / LINE_WORDS;
 const uint SLOT_BITS = 4u, SLOTS = (1u << SLOT_BITS) - 1u;
 const uint HELD = (SLOTS + LANES - 1u) / LANES;         // slots that an invocation keeps what is known of
-const uint CELLS = 8u;                                  // whose candidates are listed at once
-const uint KEPT = 96u;                                  // candidates of a cell
 const uint MORE_RECORDS = 16u;                          // of a cell than samples: src/passes/sample.rs has the same number
 const uint INDEX = 1023u;           // bits of a candidate's number in a key; the depth has those above
 
@@ -44,8 +42,47 @@ const uint INDEX = 1023u;           // bits of a candidate's number in a key; th
 #include "include/records.glsl"
 #include "include/variation.glsl"
 
-shared uint kept[CELLS * KEPT];     // keys of candidates, by cell
-shared uint sorted[KEPT];           // candidates of the cell at hand, the nearest first
+shared uint touched[32u * LANES];   // candidates that touch a cell, a bit each, by blocks of 32 and cells
+
+// A candidate's place in the order: its nearest depth in the cell, rounded down, and its number; its ID. 0 where there is none.
+struct Key {
+    uint depth, id;
+};
+
+// The order of candidates: the nearer one first and, of those whose keys have the same depth, the smaller ID, since their
+// order in the list differs from run to run.
+bool comes_before(Key k, Key other) { return (k.depth ^ other.depth) <= INDEX ? k.id < other.id : k.depth > other.depth; }
+
+// Puts what comes first into the one, and what comes later into the other.
+void keep_before(inout Key one, inout Key other) {
+    bool stays = comes_before(one, other);
+    Key first = Key(stays ? one.depth : other.depth, stays ? one.id : other.id);
+    other = Key(stays ? other.depth : one.depth, stays ? other.id : one.id);
+    one = first;
+}
+
+// Batcher's bitonic sorting of the keys of a subgroup, one an invocation, from runs of half of `from` that are sorted upwards and
+// downwards in turns, to runs of `to`; in the end from the last one to the first one if `reversed`.
+void sort_keys(inout Key k, uint from, uint to, bool reversed) {
+    uint lane = gl_SubgroupInvocationID;
+    [[unroll]] for (uint size = from; size <= to; size *= 2u) {
+        [[unroll]] for (uint step = size / 2u; step > 0u; step /= 2u) {
+            Key other = Key(subgroupShuffleXor(k.depth, step), subgroupShuffleXor(k.id, step));
+            bool upper = (lane & step) != 0u, turned = size == LANES ? reversed : (lane & size) != 0u;
+            bool keeps = comes_before(k, other) != (upper != turned);
+            k.depth = keeps ? k.depth : other.depth;
+            k.id = keeps ? k.id : other.id;
+        }
+    }
+}
+
+// Keeps the first keys of those in order and those in reversed order, in order.
+void merge_keys(inout Key k, Key reversed) {
+    bool stays = comes_before(k, reversed);
+    k.depth = stays ? k.depth : reversed.depth;
+    k.id = stays ? k.id : reversed.id;
+    sort_keys(k, LANES, LANES, false);
+}
 
 // The range of a candidate's depths in the square of side 1 around `at`.
 vec2 depth_range(Candidate k, vec2 at) {
@@ -137,61 +174,25 @@ void main() {
         phases[l] = float(bitfieldReverse(line) >> 28) * (1.0 / 16.0) + 1.0 / 32.0;
     }
 
-    uint group = 0u;
+    // Which candidates touch the cell of each invocation: a bit each, in words of 32.
+    uint block = 0u;
     do {
-        uint grouped = min(cells - group, CELLS);
-        // Candidates of the cells of a group, as keys.
-        uint my_count = 0u;             // of the cell of this invocation's number in the group
-        uint chunk = 0u;
-        do {
-            int o = int(first + min(chunk + lane, max(listed, 1u) - 1u)) * 4;
-            uvec4 last = texelFetch(candidates, o + 3);
-            vec4 plane = uintBitsToFloat(texelFetch(candidates, o + 2));
-            uint touches = chunk + lane < listed ? last.w : 0u;
-            float highest = plane.w + (0.5 + ROUNDING) * (abs(plane.y) + abs(plane.z)), near = max(uintBitsToFloat(last.x), 1e-30);
-            uint c = 0u;
-            do {
-                uint bit = subgroupShuffle(my_bit, group + c), kept_before = subgroupShuffle(my_count, c);
-                vec2 at = vec2(bit & 7u, bit >> 3) - vec2(3.5, 1.5);
-                float depth = min(max(plane.y * at.x + plane.z * at.y + highest, 1e-30), near);
-                bool keeps = (touches >> bit & 1u) != 0u;
-                uvec4 keeping = subgroupBallot(keeps);
-                uint place = kept_before + subgroupBallotExclusiveBitCount(keeping);
-                if (keeps && place < KEPT) kept[c * KEPT + place] = floatBitsToUint(depth) & ~INDEX | (chunk + lane);
-                my_count += lane == c ? subgroupBallotBitCount(keeping) : 0u;
-            } while (++c < grouped);
-            chunk += LANES;
-        } while (chunk < listed);
-        subgroupBarrier();
+        uint touching = 0u;
+        [[unroll]] for (uint part = 0u; part < 32u; part += LANES) {
+            uint own = block * 32u + part + lane;
+            uint touches = own < listed ? texelFetch(candidates, int(first + own) * 4 + 3).w : 0u;
+            [[unroll]] for (uint j = 0u; j < LANES; j++) touching |= (subgroupShuffle(touches, j) >> my_bit & 1u) << (part + j);
+        }
+        touched[block * LANES + lane] = touching;
+    } while (++block * 32u < listed);
+    subgroupBarrier();
+    uint blocks = (listed + 31u) / 32u;
 
-        uint c = 0u;
-        do {
-            uint bit = subgroupShuffle(my_bit, group + c), entries = subgroupShuffle(my_count, c);
+    uint c = 0u;
+    do {
+            uint bit = subgroupShuffle(my_bit, c);
             vec2 at = vec2(bit & 7u, bit >> 3) - vec2(3.5, 1.5);
-            bool failed = !listable || entries > KEPT;
-            entries = failed ? 0u : entries;
-
-            // Their order: the nearer one first and, of those whose keys have the same depth, the smaller ID, since their
-            // order in the list differs from run to run.
-            uint mine = 0u;
-            do {
-                uint my_key = kept[c * KEPT + min(mine + lane, KEPT - 1u)];
-                uint my_id = texelFetch(candidates, int(first + min(my_key & INDEX, max(listed, 1u) - 1u)) * 4 + 3).z;
-                uint rank = 0u, others = 0u;
-                do {
-                    uint key = kept[c * KEPT + min(others + lane, KEPT - 1u)];
-                    uint id = texelFetch(candidates, int(first + min(key & INDEX, max(listed, 1u) - 1u)) * 4 + 3).z;
-                    [[unroll]] for (uint j = 0u; j < LANES; j++) {
-                        uint its_key = subgroupShuffle(key, j), its_id = subgroupShuffle(id, j);
-                        bool before = (its_key ^ my_key) <= INDEX ? its_id < my_id : its_key > my_key;
-                        rank += before && others + j < entries ? 1u : 0u;
-                    }
-                    others += LANES;
-                } while (others < entries);
-                if (mine + lane < entries) sorted[rank] = my_key;
-                mine += LANES;
-            } while (mine < entries);
-            subgroupBarrier();
+            bool failed = !listable;
 
             uint owner[SLOT_BITS * WORDS], settled[WORDS], shown[WORDS], open_[WORDS];
             [[unroll]] for (uint r = 0u; r < WORDS; r++) {
@@ -209,18 +210,51 @@ void main() {
             }
             uint used = 0u, settling = 0u;      // slots; those that are settled or looked at
             float deepest = 3.4e38;
-            bool columns = false, done = entries == 0u;
+            bool columns = false, directed = false, done = failed, more;
+            Key limit = Key(~0u, 0u);           // this one and those before it have passed by
+            do {
+            // The next candidates in their order, one an invocation, and those after them.
+            Key nearer = Key(0u, ~0u), farther_ = Key(0u, ~0u);
+            uint passed = 0u;                   // blocks
+            do {
+                uint my_word = passed + lane < blocks ? touched[(passed + lane) * LANES + c] : 0u;
+                uint in_word = uint(bitCount(my_word)), before = lanes_before(in_word), all = lanes_add(in_word), entry_ = 0u;
+                do {
+                    // Bit number entry_ + lane of the words of all invocations.
+                    uint wanted = entry_ + lane, of = 0u;
+                    [[unroll]] for (uint j = 1u; j < LANES; j++) of += subgroupShuffle(before, j) <= wanted ? 1u : 0u;
+                    uint index = (passed + of) * 32u + bit_of_cell(subgroupShuffle(my_word, of), wanted - subgroupShuffle(before, of));
+                    int o = int(first + min(index, max(listed, 1u) - 1u)) * 4;
+                    uvec4 last = texelFetch(candidates, o + 3);
+                    vec4 plane = uintBitsToFloat(texelFetch(candidates, o + 2));
+                    float highest = plane.w + (0.5 + ROUNDING) * (abs(plane.y) + abs(plane.z));
+                    float depth = min(max(plane.y * at.x + plane.z * at.y + highest, 1e-30), max(uintBitsToFloat(last.x), 1e-30));
+                    Key key = Key(floatBitsToUint(depth) & ~INDEX | (index & INDEX), last.z);
+                    key.depth = wanted < all && comes_before(limit, key) ? key.depth : 0u;
+                    sort_keys(key, 2u, LANES, true);
+                    merge_keys(farther_, key);
+                    key = farther_;
+                    farther_ = Key(subgroupShuffle(farther_.depth, LANES - 1u - lane), subgroupShuffle(farther_.id, LANES - 1u - lane));
+                    keep_before(nearer, farther_);
+                    sort_keys(nearer, LANES, LANES, false);
+                    sort_keys(farther_, LANES, LANES, false);
+                    entry_ += LANES;
+                } while (entry_ < all);
+                passed += LANES;
+            } while (passed < blocks);
+            limit = Key(subgroupShuffle(farther_.depth, LANES - 1u), subgroupShuffle(farther_.id, LANES - 1u));
+            more = limit.depth != 0u;
             uint batch = 0u;
             do {
                 // Candidates of a batch, one an invocation.
-                uint key = sorted[min(batch + lane, KEPT - 1u)];
-                float beyond = nearest_after(sorted[min(batch + LANES, KEPT - 1u)]), nearest = nearest_after(key);
+                uint key = batch == 0u ? nearer.depth : farther_.depth;
+                float beyond = nearest_after(batch == 0u ? subgroupShuffle(farther_.depth, 0u) : limit.depth), nearest = nearest_after(key);
                 Candidate k = load_candidate(first, min(key & INDEX, max(listed, 1u) - 1u), center);
-                bool exists = batch + lane < entries;
+                bool exists = key != 0u;
                 vec3 edges = edges_at(k, at);
                 vec3 plane = vec3(k.depth.xy, k.depth.x * at.x + k.depth.y * at.y + k.depth.z);
                 vec2 range = depth_range(k, at);
-                if (batch == 0u) {
+                if (true) {
                     // Rows or columns: what the edges cross more often, as far as they lie in the cell.
                     vec2 sum = vec2(0.0);
                     [[unroll]] for (int e = 0; e < 3; e++) {
@@ -239,7 +273,8 @@ void main() {
                         }
                         sum += exists && lane < 8u ? max(to - from, 0.0) * abs(d) : vec2(0.0);
                     }
-                    columns = lanes_add(sum.x) > lanes_add(sum.y);
+                    columns = directed ? columns : lanes_add(sum.x) > lanes_add(sum.y);
+                    directed = true;
                 }
                 vec2 along[3], cross_[3];
                 bool rises[3];
@@ -259,7 +294,7 @@ void main() {
                 usable = usable && !(HAS_MASK && k.id > frame.first_mask);
                 uint kind = (third_begins ? 1u : 0u) | (usable ? 0u : 2u);
 
-                uint j = 0u, last_of_batch = min(entries - min(batch, entries), LANES);
+                uint j = 0u, last_of_batch = lanes_add(exists ? 1u : 0u);
                 bool comparing = false;         // some bits of the candidate at hand are owned
                 uint id = 0u;
                 vec4 own = vec4(0.0);           // its plane and farthest depth
@@ -363,8 +398,10 @@ void main() {
                     done = done || failed || (!comparing && next < deepest && lanes_or(uncovered) == 0u);
                     comparing = comparing && !done;
                 } while (comparing || (!done && j < last_of_batch));
-                batch += LANES;
-            } while (!done && batch < entries);
+                done = done || last_of_batch < LANES;
+                batch++;
+            } while (!done && batch < 2u);
+            } while (!done && more);
 
             // What each slot has: its number of bits and their middle, and records.
             uint slot_count[HELD], slot_place[HELD], slot_parts[HELD], slot_records[HELD];
@@ -374,7 +411,7 @@ void main() {
                 slot_parts[h] = PARTS_ONE;
                 slot_records[h] = 0u;
                 if (BY_PART) {
-                    Variation around = variation_of(group + c);
+                    Variation around = variation_of(c);
                     bool some = h * LANES + lane < used;
                     uint of = some ? slot_id[h] : 1u;
                     slot_parts[h] = some && high_frequency_triangle(of) ? parts_around(around, of) : PARTS_ONE;
@@ -463,7 +500,7 @@ void main() {
             fits = fits && !failed;
             uvec2 pixel = uvec2(tile_at) * uvec2(8u, 4u) + uvec2(bit & 7u, bit >> 3);
             uint cell_id = pixel.x | pixel.y << 16, at_record = base;
-            uint cell = first_cell + group + c;
+            uint cell = first_cell + c;
             if (subgroupElect() && !failed) headers[min(header.z + cell * headers_a_cell, frame.record_capacity - 1u)] = uvec2(base, fits ? all : 0u);
             left |= failed ? 1u << bit : 0u;
             float weight = float(frame.sample_count) * (1.0 / float(ALL_BITS));
@@ -480,7 +517,6 @@ void main() {
                 [[unroll]] for (uint h = 0u; h < HELD; h++)
                     several |= subgroupBallot(slot_count[h] != 0u && slot_parts[h] != PARTS_ONE).x << (h * LANES);
                 several = fits ? several : 0u;
-                uint step = 0u;
                 do {
                     uint s = several != 0u ? uint(findLSB(several)) : 0u, keeper = s % LANES, level = s / LANES;
                     uint parts = PARTS_FOURS, id = 0u;
@@ -492,45 +528,83 @@ void main() {
                     uint log_parts = uint(findMSB(max(frame.sample_count / part_length(parts), 1u)));
                     uint log_along = (columns ? log_parts + 1u : log_parts) >> 1, log_across = log_parts - log_along;
                     uint field = BITS >> log_along, part_lines = LINES >> log_across;
-                    // Lines of this invocation that are in one part, and words that are left of them.
-                    uint own_lines = min(part_lines, OWN_LINES), own_words = WORDS / own_lines;
-                    uint r = step % own_words, at_bit = step / own_words * field;
-                    uint first_word = r % LINE_WORDS + r / LINE_WORDS * own_lines * LINE_WORDS;
-                    uvec2 sums = uvec2(0u);     // bits, and above them sums of groups of four; sums of lines
-                    [[unroll]] for (uint n = 0u; n < OWN_LINES; n++) {
-                        uint bits = 0u, w = first_word + n * LINE_WORDS;
-                        [[unroll]] for (uint q = 0u; q < WORDS; q++) {
-                            uint of_slot = ~0u;
-                            [[unroll]] for (uint b = 0u; b < SLOT_BITS; b++)
-                                of_slot &= (s + 1u >> b & 1u) != 0u ? owner[b * WORDS + q] : ~owner[b * WORDS + q];
-                            bits = w == q && n < own_lines ? of_slot : bits;
-                        }
-                        bits = bits >> at_bit & (field == 32u ? ~0u : (1u << field) - 1u);
-                        uvec2 of_bits = sums_of_bits(bits);
-                        sums += uvec2(of_bits.x | of_bits.y << 12, of_bits.x * line_of(min(w, WORDS - 1u)));
+                    uint fields = field == 32u ? 1u : field == 16u ? 0x00010001u : field == 8u ? 0x01010101u : 0x11111111u;
+                    bool wide = part_is_wide(frame.sample_count, parts);
+                    // Fields that have some bits, of lines of a part merged: the invocations that share a part agree on them.
+                    uint of_slot[WORDS], pending[WORDS];
+                    [[unroll]] for (uint r = 0u; r < WORDS; r++) {
+                        uint bits = several != 0u ? ~0u : 0u;
+                        [[unroll]] for (uint b = 0u; b < SLOT_BITS; b++)
+                            bits &= (s + 1u >> b & 1u) != 0u ? owner[b * WORDS + r] : ~owner[b * WORDS + r];
+                        of_slot[r] = bits;
+                        bits |= bits >> 1;
+                        bits |= bits >> 2;
+                        bits |= field > 4u ? bits >> 4 : 0u;
+                        bits |= field > 8u ? bits >> 8 : 0u;
+                        bits |= field > 16u ? bits >> 16 : 0u;
+                        pending[r] = bits & fields;
                     }
+                    [[unroll]] for (uint span = 1u; span < OWN_LINES; span *= 2u) {
+                        [[unroll]] for (uint r = 0u; r < WORDS; r++) {
+                            bool second = (r / LINE_WORDS & span) != 0u;
+                            if (!second && part_lines > span) {
+                                pending[r] |= pending[r + span * LINE_WORDS];
+                                pending[r + span * LINE_WORDS] = 0u;
+                            }
+                        }
+                    }
+                    uint sharing = 0u, own_records = 0u;        // bits of the number of an invocation that those that share parts differ in
                     [[unroll]] for (uint span = OWN_LINES; span < LINES; span *= 2u) {
                         uint apart = span * HALVES / WORDS;
-                        uvec2 other = uvec2(subgroupShuffleXor(sums.x, apart), subgroupShuffleXor(sums.y, apart));
-                        sums = part_lines <= span ? sums : (lane & apart) != 0u ? uvec2(0u) : sums + other;
+                        [[unroll]] for (uint r = 0u; r < WORDS; r++) {
+                            uint other = subgroupShuffleXor(pending[r], apart);
+                            pending[r] |= part_lines <= span ? 0u : other;
+                        }
+                        sharing |= part_lines <= span ? 0u : apart;
                     }
-                    uint bits_in = sums.x & 0xfffu, fours = (sums.x >> 12) + bits_in * (half_of(r % LINE_WORDS) * 8u + at_bit / 4u);
-                    uint place = place_of_bits(bits_in, fours, sums.y, columns, part_is_wide(frame.sample_count, parts));
-                    bool writes = several != 0u && bits_in != 0u;
-                    uvec4 writing = subgroupBallot(writes);
-                    if (writes)
-                        records_out[at_record + subgroupBallotExclusiveBitCount(writing)] = uvec4(cell_id, id, place, floatBitsToUint(float(bits_in) * weight));
-                    at_record += subgroupBallotBitCount(writing);
-                    step++;
-                    bool last_step = step >= own_words * (32u / field);
-                    several &= last_step ? several - 1u : ~0u;
-                    step = last_step ? 0u : step;
+                    [[unroll]] for (uint r = 0u; r < WORDS; r++) own_records += uint(bitCount(pending[r]));
+                    bool writes = (lane & sharing) == 0u;
+                    own_records = writes ? own_records : 0u;
+                    uint at_own = at_record + lanes_before(own_records);
+                    at_record += lanes_add(own_records);
+                    bool some;
+                    do {
+                        // The first field that is left.
+                        uint r = WORDS - 1u, fields_left = pending[WORDS - 1u];
+                        [[unroll]] for (uint q = WORDS - 1u; q-- > 0u;) {
+                            r = pending[q] != 0u ? q : r;
+                            fields_left = pending[q] != 0u ? pending[q] : fields_left;
+                        }
+                        some = fields_left != 0u;
+                        uint at_bit = some ? uint(findLSB(fields_left)) : 0u;
+                        uint others_left = 0u;
+                        uvec2 sums = uvec2(0u);     // bits, and above them sums of groups of four; sums of lines
+                        uint window = field == 32u ? ~0u : (1u << field) - 1u;
+                        [[unroll]] for (uint q = 0u; q < WORDS; q++) {
+                            pending[q] = r == q ? pending[q] & (pending[q] - 1u) : pending[q];
+                            others_left |= pending[q];
+                        }
+                        [[unroll]] for (uint n = 0u; n < OWN_LINES; n++) {
+                            uint w = r + n * LINE_WORDS, bits = 0u;
+                            [[unroll]] for (uint q = 0u; q < WORDS; q++) bits = w == q ? of_slot[q] : bits;
+                            uvec2 of_bits = sums_of_bits(n < part_lines ? bits >> at_bit & window : 0u);
+                            sums += uvec2(of_bits.x | of_bits.y << 12, of_bits.x * line_of(w));
+                        }
+                        [[unroll]] for (uint span = OWN_LINES; span < LINES; span *= 2u) {
+                            uint apart = span * HALVES / WORDS;
+                            uvec2 other = uvec2(subgroupShuffleXor(sums.x, apart), subgroupShuffleXor(sums.y, apart));
+                            sums += part_lines <= span ? uvec2(0u) : other;
+                        }
+                        uint bits_in = sums.x & 0xfffu, fours = (sums.x >> 12) + bits_in * (half_of(r) * 8u + at_bit / 4u);
+                        uint place = place_of_bits(bits_in, fours, sums.y, columns, wide);
+                        if (writes && some) records_out[at_own] = uvec4(cell_id, id, place, floatBitsToUint(float(bits_in) * weight));
+                        at_own++;
+                        some = others_left != 0u;
+                    } while (lanes_or(some ? 1u : 0u) != 0u);
+                    several &= several - 1u;
                 } while (several != 0u);
             }
-        } while (++c < grouped);
-        subgroupBarrier();
-        group += CELLS;
-    } while (group < cells);
+    } while (++c < cells);
 
     if (left != 0u && subgroupElect()) {
         atomicAdd(counters[COUNTER_RESAMPLED], uint(bitCount(left)));
