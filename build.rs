@@ -79,10 +79,7 @@ const VARIANTS: &[Variant] = &[
     ("sample_16", "sample.comp", &[("ROWS", "16")]),
     ("sample_masks_16", "sample_masks.comp", &[("SAMPLES", "16")]),
     ("sample_masks_64", "sample_masks.comp", &[("SAMPLES", "64")]),
-    ("sample_lines_1", "sample_lines.comp", &[("WORDS", "1u")]),
-    ("sample_lines_2", "sample_lines.comp", &[("WORDS", "2u")]),
-    ("sample_lines_4", "sample_lines.comp", &[("WORDS", "4u")]),
-    ("sample_lines_8", "sample_lines.comp", &[("WORDS", "8u")]),
+    ("sample_lines", "sample_lines.comp", &[]),
     (
         "sample_layered_1",
         "sample.comp",

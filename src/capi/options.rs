@@ -23,6 +23,9 @@ pub enum GpcPattern {
     Rotated = 4,
     /// GpcOptions.locations.
     List = 5,
+    /// 512 or 1,024 samples on straight lines; the count decides in how many places a superpixel is shaded. Below 16 samples, and
+    /// where each sample is shaded, as GPC_PATTERN_SOBOL. Any count.
+    Lines = 6,
 }
 
 /// How often the inside of a superpixel is shaded.
@@ -123,7 +126,7 @@ pub unsafe extern "C" fn gpc_options_init(
                 width,
                 height,
                 samples: defaults.samples,
-                pattern: GpcPattern::Sobol as u32,
+                pattern: GpcPattern::Lines as u32,
                 shading: GpcShading::Part as u32,
                 detection: GpcDetection::Contrast as u32,
                 contrast: u32::from(defaults.contrast),
@@ -191,6 +194,7 @@ impl GpcOptions {
             (GpcPattern::Grid as u32, Pattern::Grid),
             (GpcPattern::Rotated as u32, Pattern::Rotated),
             (GpcPattern::List as u32, Pattern::List(Vec::new())),
+            (GpcPattern::Lines as u32, Pattern::Lines),
         ];
         match choice("GpcOptions.pattern", self.pattern, &patterns)? {
             Pattern::List(_) if self.locations.is_null() => {

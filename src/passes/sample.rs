@@ -100,13 +100,6 @@ const KERNELS: Kernels = [
 ];
 /// Kernels that hold the samples of a cell as a mask, by how many these can be.
 const MASKS: [(u32, &[u8]); 2] = [(16, spirv::SAMPLE_MASKS_16), (64, spirv::SAMPLE_MASKS_64)];
-/// Kernels of samples on lines, by invocations of a subgroup.
-const LINES: [(u32, &[u8]); 4] = [
-    (32, spirv::SAMPLE_LINES_1),
-    (16, spirv::SAMPLE_LINES_2),
-    (8, spirv::SAMPLE_LINES_4),
-    (4, spirv::SAMPLE_LINES_8),
-];
 /// Records that a cell makes beyond its number of samples, at the most, as in `shaders/sample_lines.comp`: visible triangles
 /// share parts.
 const MORE_RECORDS: u32 = 16;
@@ -145,15 +138,6 @@ fn kernel(kernels: &Kernels, rows: u32) -> (u32, &'static [u8]) {
         .unwrap_or(largest)
 }
 
-/// The kernel of samples on lines for so many invocations: 4, 8, 16 or 32.
-fn lines_kernel(lanes: u32) -> &'static [u8] {
-    if let Ok(path) = std::env::var("GPC_LINES_SPV") {
-        return Box::leak(std::fs::read(path).unwrap().into_boxed_slice());
-    }
-    let found = LINES.into_iter().find(|(of, _)| *of == lanes);
-    found.map_or(spirv::SAMPLE_LINES_1, |(_, code)| code)
-}
-
 impl Sample {
     /// Samples of the first of two runs; their locations follow those of the cell.
     pub const PROBES: u32 = 64;
@@ -184,10 +168,11 @@ impl Sample {
                 .flag(7, options.measures(*list, *run))
                 .with(8, options.part_samples())
                 .flag(9, options.apart)
-                .with(10, rows * lanes);
+                .with(10, rows * lanes)
+                .with(11, options.lines_of_cell(lanes));
             let first_run = list.is_opaque() && *run != Run::Rest;
             let code = if first_run && options.by_lines() {
-                lines_kernel(lanes)
+                spirv::SAMPLE_LINES
             } else if first_run && options.by_masks() {
                 let [few, many] = MASKS;
                 let masks = if options.samples <= few.0 { few } else { many };
@@ -342,22 +327,28 @@ impl SampleOptions {
         self.records == RecordRate::Part && (run == Run::Probe || self.part_samples() < block)
     }
 
-    /// Whether cells of opaque and alpha-tested triangles are taken by kernels of their own, which leave some of them.
+    /// Whether cells of opaque and alpha-tested triangles may be taken by kernels of their own, which leave some of them.
     fn by_cell(&self) -> bool {
-        self.cells == Cells::Pixels
-            && !self.always_blends
-            && self.records != RecordRate::Sample
-            && !self.apart
+        self.cells == Cells::Pixels && !self.always_blends && self.records != RecordRate::Sample
     }
 
     /// Whether these hold the samples of a cell as a mask.
     fn by_masks(&self) -> bool {
-        self.by_cell() && !self.by_lines() && (2..=64).contains(&self.samples)
+        self.by_cell() && !self.by_lines() && !self.apart && (2..=64).contains(&self.samples)
     }
 
     /// Whether these have samples on lines.
     fn by_lines(&self) -> bool {
         self.by_cell() && self.lines && self.samples >= 16
+    }
+
+    /// Lines of 64 samples, for subgroups of so many invocations: each of these has half a line at the least.
+    fn lines_of_cell(&self, lanes: u32) -> u32 {
+        if self.samples <= 64 && lanes < 32 {
+            8
+        } else {
+            16
+        }
     }
 
     /// Whether a cell has one header where it is not left to a second run.

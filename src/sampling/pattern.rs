@@ -14,9 +14,10 @@ pub const MAX_SAMPLES: u32 = 1024;
 /// How the samples of a superpixel are placed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Pattern {
-    /// Samples on straight lines, 1,024 of them whatever the count: pixels' superpixels of opaque triangles are covered
-    /// by these, and the count decides in how many places they are shaded. Elsewhere, and below 16 samples,
-    /// [Sobol](Pattern::Sobol)'s. Any count.
+    /// Samples on straight lines, rows or columns, whichever edges in the superpixel cross more often, 64 on each: 8
+    /// lines up to a count of 64, and 16 above that. The count decides in how many places the superpixel is shaded.
+    /// Superpixels of a frame have them that see opaque and alpha-tested triangles; where each sample is shaded, where
+    /// BLEND triangles show, in lists of locations, and below a count of 16, there are [Sobol](Pattern::Sobol)'s. Any count.
     Lines,
     /// The first points of an Owen-scrambled Sobol sequence, a (0,2)-sequence in base 2: any count. Its error on
     /// straight edges is the most even over orientations.

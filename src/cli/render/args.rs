@@ -66,8 +66,8 @@ pub struct SamplingArgs {
     /// any neighbour that shows another triangle
     #[arg(long, default_value = "contrast")]
     pub detect: Detect,
-    /// Where a superpixel's samples lie: sobol, lattice, korobov, grid or rotated
-    #[arg(long, value_name = "P", default_value = "sobol")]
+    /// Where a superpixel's samples lie: lines, or as points: sobol, lattice, korobov, grid or rotated
+    #[arg(long, value_name = "P", default_value = "lines")]
     pub pattern: Pattern,
     /// How samples become coverage: the exact area of triangles that are seen whole, or counts of samples alone
     #[arg(long, default_value = "area")]
