@@ -1,10 +1,10 @@
 //! Sample locations of the caller's own on the device, in the place of pixels.
 
 use super::distribute::{Distribute, ListLength, ListRegion};
-use super::own_layout::whole;
+use super::own_layout::{BoundBuffer, whole};
 use super::spirv::distribute_set;
-use super::{Resources, SampleSet};
-use crate::vulkan::{Binding, Buffer, BufferView, Memory, MemoryUse, Recorder, VulkanError};
+use super::{BoundTexels, Resources, SampleSet};
+use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 
 /// What a cell is.
@@ -207,10 +207,7 @@ impl Resources {
     pub(crate) fn location_buffers(
         &self,
         locations: vk::BufferView,
-    ) -> (
-        [(Binding, vk::DescriptorBufferInfo); 8],
-        [(Binding, vk::BufferView); 2],
-    ) {
+    ) -> ([BoundBuffer; 8], [BoundTexels; 2]) {
         let LocationBuffers {
             order,
             cells,

@@ -52,7 +52,7 @@ mod setup;
 mod sort;
 mod spans;
 // Written by `make shaders`; some of what it has is of use to nobody yet.
-#[allow(dead_code, missing_docs)]
+#[allow(dead_code, missing_docs, clippy::derivable_impls)]
 #[rustfmt::skip]
 pub(crate) mod spirv;
 mod take;

@@ -68,6 +68,9 @@ impl Drop for SetLayout {
     }
 }
 
+/// A buffer, and the binding that shows it.
+pub(crate) type BoundBuffer = (Binding, vk::DescriptorBufferInfo);
+
 /// A descriptor set and the pool that it is of.
 pub(crate) struct OwnSet {
     gpu: Arc<Gpu>,
@@ -80,7 +83,7 @@ impl OwnSet {
     ///
     /// # Safety
     /// The set is not in use, and its bindings are these, of buffers, which outlive its use.
-    pub unsafe fn write_buffers(&self, shown: &[(Binding, vk::DescriptorBufferInfo)]) {
+    pub unsafe fn write_buffers(&self, shown: &[BoundBuffer]) {
         let writes: Vec<_> = shown
             .iter()
             .map(|(binding, buffer)| {
