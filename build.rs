@@ -85,6 +85,7 @@ const VARIANTS: &[Variant] = &[
     ("sample_16", "sample.comp", &[("ROWS", "16")]),
     ("sample_masks_16", "sample_masks.comp", &[("SAMPLES", "16")]),
     ("sample_masks_64", "sample_masks.comp", &[("SAMPLES", "64")]),
+    ("sample_lines", "sample_lines.comp", &[]),
     (
         "sample_layered_1",
         "sample.comp",

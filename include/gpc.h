@@ -114,6 +114,9 @@ enum GpcPattern
     GPC_PATTERN_ROTATED = 4,
     // GpcOptions.locations.
     GPC_PATTERN_LIST = 5,
+    // 512 or 1,024 samples on straight lines; the count decides in how many places a superpixel is shaded. Below 16 samples, and
+    // where each sample is shaded, as GPC_PATTERN_SOBOL. Any count.
+    GPC_PATTERN_LINES = 6,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L

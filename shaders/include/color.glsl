@@ -1,4 +1,4 @@
-// Colour transforms; the twins are src/color/tonemap.rs and src/color/srgb.rs.
+// Colour transforms; the twins are src/engine/color/tonemap.rs and src/engine/color/srgb.rs.
 #include "interface.glsl"
 
 // Khronos PBR Neutral tone mapping, in the form of its specification (2024): linear in, linear out.

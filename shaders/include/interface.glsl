@@ -182,6 +182,8 @@
 #define SAMPLE_CONSTANT_EXACT_AREAS 7
 #define SAMPLE_CONSTANT_PART 8
 #define SAMPLE_CONSTANT_APART 9
+#define SAMPLE_LINES_CONSTANT_HEADER 10
+#define SAMPLE_LINES_CONSTANT_LINES 11
 #define SHADE_CONSTANT_PIXELS 0
 #define SHADE_CONSTANT_ONE_BIN 1
 #define SHADE_CONSTANT_DISPLAY_CODES 2
@@ -300,5 +302,8 @@
 // a time.
 #define LONGEST_LIST 40000u
 #define LONGEST_LIST_APART 350000u
+
+// Records that `sample_lines` makes of a cell beyond its number of samples, at the most: visible triangles share parts.
+#define MORE_RECORDS 16u
 
 #endif

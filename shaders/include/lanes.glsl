@@ -64,4 +64,15 @@ uint lanes_add(uint v) {
     return uint(lanes_add(int(v)));
 }
 
+// The sum over the invocations before this one.
+uint lanes_before(uint v) {
+    if (!BY_SHUFFLE) return subgroupExclusiveAdd(v);
+    uint lane = gl_SubgroupInvocationID, sum = v;
+    [[unroll]] for (uint step = 1u; step < LANES; step *= 2u) {
+        uint below = subgroupShuffle(sum, max(lane, step) - step);
+        sum += lane >= step ? below : 0u;
+    }
+    return sum - v;
+}
+
 #endif

@@ -14,6 +14,7 @@ layout(push_constant) uniform Push {
     uint subgroups_first;   // that `sample` gives an entry, where it may PROBE it
     uint subgroups;         // and where it takes all samples
     uint longest_list;      // most triangles that `sample` tries in a cell; where there are more, it leaves the cell
+    uint more_records;      // that a cell of opaque or alpha-tested triangles makes beyond its number of samples, at the most
 } push;
 
 struct Load {
@@ -69,7 +70,7 @@ Load load_of(uint index, uvec4 tile) {
     uint lists_of_block = push.parts > 8u ? push.layers * push.parts / 4u : push.layers * 2u;
     uint lists = per_sample || POINTS ? samples : min(cells * blocks * lists_of_block, samples);
     uint records_ = layered ? lists * (2u + min(candidates_, push.layers))
-        : per_sample ? samples : min(cells * blocks * min(push.parts * candidates_, push.block), samples);
+        : per_sample ? samples : min(cells * blocks * min(push.parts * candidates_, push.block + push.more_records), samples + cells * push.more_records);
     uint entries = LOCATIONS ? 0u : (cells + LANES - 1u) / LANES;
     Load load;
     bool tried = !listed && frame.triangle_count <= push.longest_list;

@@ -16,7 +16,7 @@ struct Surface {
 // Surfaces that invocations hold, one each: as many on all devices of 8 or more, so that images agree.
 const uint HELD = LANES < 8u ? LANES : 8u;
 
-// Parts of a block: runs of neighbouring samples, at most 32 of them (src/passes/sample.rs chooses their length).
+// Parts of a block: runs of neighbouring samples, at most 32 of them (src/engine/passes/sample.rs chooses their length).
 const uint PARTS_A_ROW = LANES > PART ? LANES / PART : 1u, ROWS_A_PART = PART > LANES ? PART / LANES : 1u;
 const uint PART_LANES = PART < LANES ? PART : LANES, PART_ROWS = ROWS_A_PART < uint(ROWS) ? uint(ROWS) / ROWS_A_PART : 1u;
 

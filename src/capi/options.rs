@@ -23,6 +23,9 @@ pub enum GpcPattern {
     Rotated = 4,
     /// GpcOptions.locations.
     List = 5,
+    /// 512 or 1,024 samples on straight lines; the count decides in how many places a superpixel is shaded. Below 16 samples, and
+    /// where each sample is shaded, as GPC_PATTERN_SOBOL. Any count.
+    Lines = 6,
 }
 
 /// How often the inside of a superpixel is shaded.
@@ -126,7 +129,7 @@ pub unsafe extern "C" fn gpc_options_init(
                 width,
                 height,
                 samples: defaults.samples,
-                pattern: GpcPattern::Sobol as u32,
+                pattern: GpcPattern::Lines as u32,
                 shading: GpcShading::Part as u32,
                 detection: GpcDetection::Contrast as u32,
                 contrast: defaults.contrast.map_or(GPC_CONTRAST_OF_SAMPLES, u32::from),
@@ -240,6 +243,11 @@ impl GpcOptions {
                 GpcPattern::List as u32,
                 "GPC_PATTERN_LIST",
                 Pattern::List(Vec::new()),
+            ),
+            (
+                GpcPattern::Lines as u32,
+                "GPC_PATTERN_LINES",
+                Pattern::Lines,
             ),
         ];
         match choice("GpcOptions.pattern", self.pattern, &patterns)? {

@@ -14,6 +14,7 @@ pub mod distribute;
 pub mod edge;
 mod exact;
 pub mod grow;
+pub mod lines;
 pub mod prefilter;
 pub mod schedule;
 pub mod shadow;

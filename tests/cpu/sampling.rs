@@ -4,7 +4,8 @@ use std::collections::HashSet;
 
 use gpc::sampling::{MAX_SAMPLES, Pattern, PatternError, owen_sobol};
 
-const NAMED: [Pattern; 5] = [
+const NAMED: [Pattern; 6] = [
+    Pattern::Lines,
     Pattern::Sobol,
     Pattern::Lattice,
     Pattern::Korobov,

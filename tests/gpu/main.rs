@@ -17,6 +17,7 @@ mod grow;
 mod host;
 mod instances;
 mod invariance;
+mod lines;
 mod lobes;
 mod locations;
 mod mask;

@@ -143,6 +143,7 @@ impl<'a> Passes<'a> {
         let options = SampleOptions {
             cells: Cells::Pixels,
             samples: case.samples,
+            lines: false,
             records: case.records_are,
             exact_areas: false,
             can_settle: false,

@@ -45,7 +45,7 @@ impl Resolve {
                         list,
                         sample.block(),
                         layered,
-                        sample.options().probes()
+                        sample.options().has_one_header()
                             && matches!(list, TileList::Plain | TileList::Masked),
                         target,
                         (cells, output),

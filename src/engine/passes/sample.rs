@@ -38,6 +38,8 @@ pub struct SampleOptions {
     pub cells: Cells,
     /// Sub-samples of a cell, or points at the most.
     pub samples: u32,
+    /// Whether these lie on lines, of cells that `sample_lines` can take.
+    pub lines: bool,
     /// How often records are written.
     pub records: RecordRate,
     /// Whether triangles that are seen whole weigh the exact area of their part of a cell.
@@ -149,6 +151,23 @@ fn of_masks(shader: &spirv::Sample) -> spirv::SampleMasks {
     }
 }
 
+/// The constants of the kernel of lines, by those of the others: a header stands for `header` samples, and a cell has `lines` lines.
+fn of_lines(shader: &spirv::Sample, header: u32, lines: u32) -> spirv::SampleLines {
+    spirv::SampleLines {
+        local_size: shader.local_size,
+        lanes: shader.lanes,
+        has_mask: shader.has_mask,
+        list: shader.list,
+        by_part: shader.by_part,
+        part: shader.part,
+        header,
+        lines,
+        locations: shader.locations,
+        instanced: shader.instanced,
+        unsure: shader.unsure,
+    }
+}
+
 impl Sample {
     /// Samples of the first of two runs; their locations follow those of the cell.
     pub const PROBES: u32 = 64;
@@ -167,7 +186,7 @@ impl Sample {
         let lanes = layout.gpu.limits().lanes;
         let (rows, _) = kernel(&KERNELS, options.samples.min(Self::BLOCK).div_ceil(lanes));
         let make = |(list, run, kernels, mask): &(TileList, Run, &Kernels, bool)| {
-            let by_masks = list.is_opaque() && *run == Run::Whole && options.by_masks();
+            let first_run = list.is_opaque() && *run != Run::Rest;
             let shader = spirv::Sample {
                 local_size: lanes,
                 lanes,
@@ -185,7 +204,10 @@ impl Sample {
                 instanced: scene.is_instanced(),
                 unsure: layout.is_unsure(lanes),
             };
-            let pipeline = if by_masks {
+            let pipeline = if first_run && options.by_lines() {
+                let shader = of_lines(&shader, rows * lanes, options.lines_of_cell(lanes));
+                layout.compute(&shader, layout.subgroup())?
+            } else if first_run && options.by_masks() {
                 let [few, many] = MASKS;
                 let (_, code) = if options.samples <= few.0 { few } else { many };
                 layout.compute_variant(code, &of_masks(&shader), layout.subgroup())?
@@ -250,11 +272,13 @@ impl Sample {
             }
         };
         let first = if probes {
-            Self::PROBES
+            taking(Self::PROBES)
+        } else if options.by_lines() {
+            1
         } else {
-            options.samples
+            taking(options.samples)
         };
-        let subgroups = [taking(first), taking(options.samples)];
+        let subgroups = [first, taking(options.samples)];
         Ok(Self {
             kernels,
             rest,
@@ -331,7 +355,7 @@ impl SampleOptions {
     fn measures(&self, list: TileList, run: Run) -> bool {
         let at_once = match run {
             Run::Whole => self.samples <= Sample::PROBES,
-            Run::Rest => self.samples <= Sample::PROBES && !self.by_masks(),
+            Run::Rest => self.samples <= Sample::PROBES && !self.by_masks() && !self.by_lines(),
             Run::Probe => true,
         };
         self.exact_areas && self.records != RecordRate::Sample && at_once && list.is_opaque()
@@ -342,19 +366,48 @@ impl SampleOptions {
         self.records == RecordRate::Part && (run == Run::Probe || self.part_samples() < block)
     }
 
-    /// Whether cells of opaque and alpha-tested triangles are taken by masks of their samples.
+    /// Whether cells of opaque and alpha-tested triangles may be taken by kernels of their own, which leave some of them.
+    fn by_cell(&self) -> bool {
+        self.cells == Cells::Pixels && !self.always_blends && self.records != RecordRate::Sample
+    }
+
+    /// Whether these hold the samples of a cell as a mask.
     fn by_masks(&self) -> bool {
-        self.cells == Cells::Pixels
-            && !self.always_blends
-            && self.records != RecordRate::Sample
-            && !self.apart
-            && (2..=64).contains(&self.samples)
+        self.by_cell() && !self.by_lines() && !self.apart && (2..=64).contains(&self.samples)
+    }
+
+    /// Whether these have samples on lines.
+    fn by_lines(&self) -> bool {
+        self.by_cell() && self.lines && self.samples >= 16
+    }
+
+    /// Lines of 64 samples, for subgroups of so many invocations: each of these has half a line at the least.
+    fn lines_of_cell(&self, lanes: u32) -> u32 {
+        if self.samples <= 64 && lanes < 32 {
+            8
+        } else {
+            16
+        }
+    }
+
+    /// Whether a cell has one header where it is not left to a second run.
+    pub(super) fn has_one_header(&self) -> bool {
+        self.probes() || self.by_lines()
+    }
+
+    /// Records that a cell makes beyond its number of samples, at the most.
+    pub(super) fn more_records(&self) -> u32 {
+        if self.by_lines() {
+            spirv::MORE_RECORDS
+        } else {
+            0
+        }
     }
 
     /// Whether a first run leaves cells to a second one, and marks them.
     #[must_use]
     pub fn leaves_cells(&self) -> bool {
-        self.probes() || self.by_masks()
+        self.probes() || self.by_masks() || self.by_lines()
     }
 
     /// Samples of a part: there are 16 parts of 16 samples, 32 of 64, 128 of 256 and 256 of 1,024.
@@ -370,5 +423,6 @@ impl SampleOptions {
             && self.exact_areas
             && self.records != RecordRate::Sample
             && self.samples > Sample::PROBES
+            && !self.by_lines()
     }
 }

@@ -66,6 +66,7 @@ impl Schedule {
                 subgroups_first,
                 subgroups,
                 longest_list: options.longest_list(),
+                more_records: options.more_records(),
             },
         })
     }
@@ -84,8 +85,9 @@ impl Schedule {
         .map(u64::from);
         /// Pixels of a tile.
         const PIXELS: u64 = 32;
+        let records_of_cell = samples + u64::from(self.pushed.more_records);
         let (cells, all_samples) = match sizes.locations {
-            None => (PIXELS * tiles, PIXELS * tiles * samples),
+            None => (PIXELS * tiles, PIXELS * tiles * records_of_cell),
             Some(list) => {
                 let of_location = if self.options.cells.are_points() {
                     1
@@ -96,7 +98,7 @@ impl Schedule {
             }
         };
         let (cells_of_tile, samples_of_tile) = match sizes.locations {
-            None => (PIXELS, PIXELS * samples),
+            None => (PIXELS, PIXELS * records_of_cell),
             Some(_) => (cells, all_samples),
         };
         let headers = |cells: u64| cells * samples.div_ceil(self.pushed.block.into());

@@ -904,6 +904,7 @@ pub struct EnlistPush {
     pub subgroups_first: u32,
     pub subgroups: u32,
     pub longest_list: u32,
+    pub more_records: u32,
 }
 
 /// Constants of `shaders/enlist.comp`.
@@ -937,7 +938,7 @@ impl Specialized for Enlist {
             Use { set: 0, binding: frame_set::TILE_LISTS, access: Access::Write },
             Use { set: 0, binding: frame_set::TILE_LOADS, access: Access::Read },
         ],
-        push_bytes: 28,
+        push_bytes: 32,
         invocations: Invocations::Constant,
     };
 
@@ -1744,6 +1745,90 @@ impl Specialized for Sample {
     }
 }
 
+/// Constants of `shaders/sample_lines.comp`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SampleLines {
+    pub local_size: u32,
+    pub lanes: u32,
+    pub has_mask: bool,
+    pub list: u32,
+    pub by_part: bool,
+    pub part: u32,
+    pub header: u32,
+    pub lines: u32,
+    pub locations: bool,
+    pub instanced: bool,
+    pub unsure: bool,
+}
+
+impl Default for SampleLines {
+    fn default() -> Self {
+        Self {
+            local_size: 1,
+            lanes: 8,
+            has_mask: false,
+            list: 0,
+            by_part: false,
+            part: 4,
+            header: 64,
+            lines: 16,
+            locations: false,
+            instanced: false,
+            unsure: false,
+        }
+    }
+}
+
+impl Specialized for SampleLines {
+    const INTERFACE: &'static Interface = &Interface {
+        name: "sample_lines",
+        uses: &[
+            Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
+            Use { set: 0, binding: frame_set::POSITIONS, access: Access::Read },
+            Use { set: 0, binding: frame_set::TRIANGLES, access: Access::Read },
+            Use { set: 0, binding: frame_set::UVS, access: Access::Read },
+            Use { set: 0, binding: frame_set::COLORS, access: Access::Read },
+            Use { set: 0, binding: frame_set::MATERIALS, access: Access::Read },
+            Use { set: 0, binding: frame_set::ALPHA_ATLAS, access: Access::Read },
+            Use { set: 0, binding: frame_set::INSTANCE_OF, access: Access::Read },
+            Use { set: 0, binding: frame_set::INSTANCES, access: Access::Read },
+            Use { set: 0, binding: frame_set::IDS, access: Access::Read },
+            Use { set: 0, binding: frame_set::DISPLAY, access: Access::Read },
+            Use { set: 0, binding: frame_set::COUNTERS, access: Access::ReadWrite },
+            Use { set: 0, binding: frame_set::MASKS, access: Access::Read },
+            Use { set: 0, binding: frame_set::TILES, access: Access::Read },
+            Use { set: 0, binding: frame_set::TILE_LISTS, access: Access::ReadWrite },
+            Use { set: 0, binding: frame_set::CANDIDATES, access: Access::Read },
+            Use { set: 0, binding: frame_set::HEADERS, access: Access::Write },
+            Use { set: 0, binding: frame_set::RECORDS_OUT, access: Access::Write },
+            Use { set: 0, binding: frame_set::MARKS, access: Access::ReadWrite },
+        ],
+        push_bytes: 0,
+        invocations: Invocations::Constant,
+    };
+
+    fn constants(&self) -> Constants {
+        Constants::new()
+            .with(0, self.local_size)
+            .with(1, self.lanes)
+            .flag(3, self.has_mask)
+            .with(4, self.list)
+            .flag(6, self.by_part)
+            .with(8, self.part)
+            .with(10, self.header)
+            .with(11, self.lines)
+            .flag(20, self.locations)
+            .flag(23, self.instanced)
+            .flag(24, self.unsure)
+    }
+}
+
+impl Compiled for SampleLines {
+    fn code() -> &'static [u8] {
+        SAMPLE_LINES
+    }
+}
+
 /// The uniform block `pattern`, as in `shaders/sample_masks.comp`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -1864,7 +1949,7 @@ impl Specialized for Schedule {
             Use { set: 0, binding: frame_set::ARGUMENTS, access: Access::Write },
             Use { set: 0, binding: frame_set::TILE_LOADS, access: Access::Read },
         ],
-        push_bytes: 28,
+        push_bytes: 32,
         invocations: Invocations::Constant,
     };
 
@@ -2453,7 +2538,7 @@ impl Specialized for Tally {
             Use { set: 0, binding: frame_set::TILES, access: Access::ReadWrite },
             Use { set: 0, binding: frame_set::TILE_LOADS, access: Access::Read },
         ],
-        push_bytes: 28,
+        push_bytes: 32,
         invocations: Invocations::Constant,
     };
 
@@ -2750,3 +2835,4 @@ pub const STRETCH: u32 = 256;
 pub const MOST_TRIALS: u32 = 2147483648;
 pub const LONGEST_LIST: u32 = 40000;
 pub const LONGEST_LIST_APART: u32 = 350000;
+pub const MORE_RECORDS: u32 = 16;

@@ -82,6 +82,7 @@ impl SamplerContext<'_> {
         SampleOptions {
             cells,
             samples,
+            lines: settings.pattern == Pattern::Lines,
             records: if points {
                 RecordRate::Sample
             } else {

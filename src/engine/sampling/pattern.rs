@@ -14,6 +14,11 @@ pub const MAX_SAMPLES: u32 = 1024;
 /// How the samples of a superpixel are placed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Pattern {
+    /// Samples on straight lines, rows or columns, whichever edges in the superpixel cross more often, 64 on each: 8
+    /// lines up to a count of 64, and 16 above that. The count decides in how many places the superpixel is shaded.
+    /// Superpixels of a frame have them that see opaque and alpha-tested triangles; where each sample is shaded, where
+    /// BLEND triangles show, in lists of locations, and below a count of 16, there are [Sobol](Pattern::Sobol)'s. Any count.
+    Lines,
     /// The first points of an Owen-scrambled Sobol sequence, a (0,2)-sequence in base 2: any count. Its error on
     /// straight edges is the most even over orientations.
     Sobol,
@@ -41,7 +46,7 @@ pub enum Pattern {
 pub enum PatternError {
     /// No pattern has this name.
     #[error(
-        "no sample pattern is called `{0}`; there are sobol, lattice, korobov, grid and rotated"
+        "no sample pattern is called `{0}`; there are lines, sobol, lattice, korobov, grid and rotated"
     )]
     Unknown(String),
     /// The count is 0 or above [`MAX_SAMPLES`].
@@ -49,7 +54,7 @@ pub enum PatternError {
     CountOutOfRange(u32),
     /// The pattern exists for some counts only.
     #[error(
-        "pattern {pattern} cannot have {count} samples; choose {}, or pattern sobol, lattice or korobov",
+        "pattern {pattern} cannot have {count} samples; choose {}, or pattern lines, sobol, lattice or korobov",
         alternatives(available)
     )]
     CountUnavailable {
@@ -105,7 +110,7 @@ impl Pattern {
         let mut locations = match self {
             Self::List(list) => locate_list(list, count)?,
             _ if count == 1 => vec![locate(0.5, 0.5)],
-            Self::Sobol => sobol::locations(count, sobol::SEED),
+            Self::Lines | Self::Sobol => sobol::locations(count, sobol::SEED),
             Self::Lattice if side * side == count => lattice::rotated(side),
             Self::Lattice | Self::Korobov => lattice::korobov(count),
             Self::Grid => standard::grid(count)?,
@@ -119,6 +124,7 @@ impl Pattern {
 impl fmt::Display for Pattern {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
+            Self::Lines => "lines",
             Self::Sobol => "sobol",
             Self::Lattice => "lattice",
             Self::Korobov => "korobov",
@@ -135,6 +141,7 @@ impl FromStr for Pattern {
     /// The pattern of a name; a [list](Pattern::List) has none, since it needs its offsets.
     fn from_str(name: &str) -> Result<Self, PatternError> {
         match name {
+            "lines" => Ok(Self::Lines),
             "sobol" => Ok(Self::Sobol),
             "lattice" => Ok(Self::Lattice),
             "korobov" => Ok(Self::Korobov),

@@ -176,6 +176,7 @@ impl Arguments {
 /// A pattern, as `--pattern` has it.
 pub fn pattern_name(pattern: &Pattern) -> &'static str {
     match pattern {
+        Pattern::Lines => "lines",
         Pattern::Sobol | Pattern::List(_) => "sobol",
         Pattern::Lattice => "lattice",
         Pattern::Korobov => "korobov",

@@ -347,6 +347,7 @@ fn edit(ui: &mut egui::Ui, look: &mut Look) {
     ui.horizontal(|ui| {
         ui.label("pattern");
         for (pattern, name) in [
+            (Pattern::Lines, "lines"),
             (Pattern::Sobol, "sobol"),
             (Pattern::Lattice, "lattice"),
             (Pattern::Korobov, "korobov"),

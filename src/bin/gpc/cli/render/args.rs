@@ -67,11 +67,11 @@ pub struct SamplingArgs {
     /// any neighbour that shows another triangle
     #[arg(long, default_value = "contrast", hide_short_help = true)]
     pub detect: Detection,
-    /// Where a superpixel's samples lie: sobol, lattice, korobov, grid or rotated
+    /// Where a superpixel's samples lie: lines, or as points: sobol, lattice, korobov, grid or rotated
     #[arg(
         long,
         value_name = "P",
-        default_value = "sobol",
+        default_value = "lines",
         hide_short_help = true
     )]
     pub pattern: Pattern,

@@ -1,0 +1,531 @@
+// sample_lines: what sample.comp finds, for cells of triangles that are opaque or alpha-tested, by samples on straight lines
+// (include/lines.glsl): a subgroup takes a cell, and then the next one.
+// Reads: tiles, masks, tile_lists, candidates. Writes: records, headers; marks and lists the cells that it leaves to
+// sample.comp: those that see more than SLOTS triangles, or one that crosses the near plane, or that take too many trips of loops.
+//
+// A triangle covers a run of samples on a line, between the crossings of its edges. Candidates come by their nearest depth in
+// the cell, the nearest first. A sample has one owner, whose slot's number is held as bits. A triangle takes what it covers and
+// nobody owns. What is owned is compared, one owner at a time: where two planes cross, the line where they do is an edge, too.
+// What the triangles own that are nearer than all that is to come is settled, and lost to what comes without a comparison.
+// A cell is done when all samples are owned and what is to come lies behind all owners.
+//
+// Two triangles that share an edge find the same numbers for its crossings, so that each sample falls on one side.
+//
+// Invocations of a subgroup agree on everything but their own bits, so that loops end for all of them at once, and have one
+// body for all kinds of trips: on lavapipe no branch skips anything.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "include/frame.glsl"
+#include "include/workgroup.glsl"
+#include "include/work.glsl"
+layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
+layout(constant_id = SAMPLE_CONSTANT_HAS_MASK) const bool HAS_MASK = false;    // as in sample.comp, like those that follow
+layout(constant_id = SAMPLE_CONSTANT_LIST) const uint LIST = 0u;
+layout(constant_id = SAMPLE_CONSTANT_BY_PART) const bool BY_PART = false;
+layout(constant_id = SAMPLE_CONSTANT_PART) const uint PART = 4u;
+layout(constant_id = SAMPLE_LINES_CONSTANT_HEADER) const uint HEADER = 64u;       // samples that a header of sample.comp stands for
+
+const float ROUNDING = 1.0 / 64.0;                      // as in sample.comp
+const uint SLOT_BITS = 4u, SLOTS = (1u << SLOT_BITS) - 1u;  // 0 is no owner
+const uint HELD = (SLOTS + LANES - 1u) / LANES;         // slots that an invocation keeps what is known of
+
+#include "include/alpha.glsl"
+#include "include/candidate.glsl"
+#include "include/place.glsl"
+#include "include/records.glsl"
+#include "include/variation.glsl"
+#include "include/lines.glsl"
+#include "include/order.glsl"
+
+shared uint touched[32u * LANES];   // candidates that touch a cell, a bit each, by words of 32 candidates and by cells
+
+uint trips;                         // of loops, by this invocation
+uint owner[SLOT_BITS * WORDS];      // of the samples of an invocation: bits of its slot's number, word by word
+
+// The samples that a slot owns, of a word.
+uint owned_by(uint slot, uint own) {
+    uint bits = ~0u;
+    [[unroll]] for (uint b = 0u; b < SLOT_BITS; b++) bits &= (slot >> b & 1u) != 0u ? owner[b * WORDS + own] : ~owner[b * WORDS + own];
+    return bits;
+}
+
+uint owned(uint own) {
+    uint bits = 0u;
+    [[unroll]] for (uint b = 0u; b < SLOT_BITS; b++) bits |= owner[b * WORDS + own];
+    return bits;
+}
+
+// What is known of a slot: slot s is kept by invocation (s - 1) % LANES.
+struct Slot {
+    vec4 plane;             // its depth along and across lines and in the cell's middle, and its farthest depth in the cell
+    uint id;
+    uint parts;
+    uint records;           // that it makes
+    uint count;             // of its samples
+    uint place;             // in their middle
+};
+
+vec3 edges_at(Candidate k, vec2 at) {
+    precise vec3 e = k.a * at.x + k.b * at.y + k.c;
+    return e;
+}
+
+// The range of a candidate's depths in the square of side 1 around `at`.
+vec2 depth_range(Candidate k, vec2 at) {
+    float depth = k.depth.x * at.x + k.depth.y * at.y + k.depth.z;
+    float slope = (0.5 + ROUNDING) * (abs(k.depth.x) + abs(k.depth.y)) + abs(depth) * 1e-6;
+    return vec2(max(depth - slope, k.far), min(depth + slope, k.near));
+}
+
+// How far the edges of a candidate reach to the sides, and up and down, within the square of side 1 around the point where
+// its edge functions are `e`.
+vec2 reach_of_edges(Candidate k, vec3 e) {
+    vec2 sum = vec2(0.0);
+    [[unroll]] for (int i = 0; i < 3; i++) {
+        vec2 n = vec2(k.a[i], k.b[i]);
+        float inverse = inversesqrt(max(dot(n, n), 1e-37));
+        n *= inverse;
+        vec2 p = -e[i] * inverse * n, d = vec2(-n.y, n.x);
+        vec2 per = 1.0 / max(abs(d), vec2(1e-15)), middle = p * per * sign(d);
+        float from = max(-0.5 * per.x - middle.x, -0.5 * per.y - middle.y), to = min(0.5 * per.x - middle.x, 0.5 * per.y - middle.y);
+        [[unroll]] for (int o = 1; o < 3; o++) {
+            int j = (i + o) % 3;
+            float slope = k.a[j] * d.x + k.b[j] * d.y, value = k.a[j] * p.x + k.b[j] * p.y + e[j];
+            float root = -value / (abs(slope) < 1e-30 ? 1e-30 : slope);
+            from = slope > 0.0 ? max(from, root) : from;
+            to = slope > 0.0 ? to : min(to, root);
+        }
+        sum += max(to - from, 0.0) * abs(d);
+    }
+    return sum;
+}
+
+// The crossings of a triangle's edges with the lines of a cell: an edge that runs of samples begin at, one that they end at, and
+// another one of either kind.
+struct Crossings {
+    vec2 begin, end, third;
+    bool third_begins;
+    bool usable;
+};
+
+vec2 choose(uint i, vec2 a, vec2 b, vec2 c) { return i == 0u ? a : i == 1u ? b : c; }
+
+Crossings crossings_of(Candidate k, vec3 e, bool columns) {
+    vec2 at[3];
+    bvec3 rises;
+    [[unroll]] for (int i = 0; i < 3; i++) {
+        vec2 along = columns ? vec2(k.b[i], k.a[i]) : vec2(k.a[i], k.b[i]);
+        at[i] = crossing(along, e[i]);
+        rises[i] = rises_along(along);
+    }
+    uint begin = rises.x ? 0u : rises.y ? 1u : 2u, end = !rises.x ? 0u : !rises.y ? 1u : 2u, third = 3u - begin - end;
+    Crossings r;
+    r.begin = choose(begin, at[0], at[1], at[2]);
+    r.end = choose(end, at[0], at[1], at[2]);
+    r.third = choose(third, at[0], at[1], at[2]);
+    r.third_begins = third == 0u ? rises.x : third == 1u ? rises.y : rises.z;
+    r.usable = any(rises) && !all(rises);
+    return r;
+}
+
+vec2 shuffled(vec2 v, uint lane) { return vec2(subgroupShuffle(v.x, lane), subgroupShuffle(v.y, lane)); }
+vec3 shuffled(vec3 v, uint lane) { return vec3(shuffled(v.xy, lane), subgroupShuffle(v.z, lane)); }
+vec4 shuffled(vec4 v, uint lane) { return vec4(shuffled(v.xy, lane), shuffled(v.zw, lane)); }
+uvec2 shuffled(uvec2 v, uint lane) { return uvec2(subgroupShuffle(v.x, lane), subgroupShuffle(v.y, lane)); }
+uvec3 lanes_add(uvec3 v) { return uvec3(lanes_add(v.x), lanes_add(v.y), lanes_add(v.z)); }
+
+AlphaTest shuffled(AlphaTest t, uint lane) {
+    AlphaTest r;
+    r.weight = shuffled(t.weight, lane);
+    r.u = shuffled(t.u, lane);
+    r.v = shuffled(t.v, lane);
+    r.opacity = shuffled(t.opacity, lane);
+    r.first = shuffled(t.first, lane);
+    r.size_low = shuffled(t.size_low, lane);
+    r.size_high = shuffled(t.size_high, lane);
+    r.level_blend = subgroupShuffle(t.level_blend, lane);
+    uint flags = subgroupShuffle(t.flags | (t.nearest ? 1u << 31 : 0u), lane);
+    r.nearest = flags >> 31 != 0u;
+    r.flags = flags & 0x7fffffffu;
+    r.cutoff = subgroupShuffle(t.cutoff, lane);
+    return r;
+}
+
+// Of a word's samples, those where a triangle passes its alpha test in the cell around `at`: alpha is read as often as a cell
+// has samples by its number, once for a run of several bits.
+void test_alpha(AlphaTest test, vec2 at, bool columns, inout uint bits[WORDS]) {
+    uint run = ALL_BITS / min(uint(1u << findMSB(frame.sample_count)), ALL_BITS);
+    run = min(run, 32u);
+    uint window = run == 32u ? ~0u : (1u << run) - 1u, pending[WORDS];
+    [[unroll]] for (uint r = 0u; r < WORDS; r++) {
+        pending[r] = bits[r];
+        bits[r] = 0u;
+    }
+    uint left;
+    do {
+        uint own = 0u, word = pending[0];
+        [[unroll]] for (uint r = 1u; r < WORDS; r++) {
+            own = word == 0u ? r : own;
+            word = word == 0u ? pending[r] : word;
+        }
+        uint first = word == 0u ? 0u : uint(findLSB(word)) & ~(run - 1u), tested = word & window << first, line = line_of(own);
+        // Another one of the run in each line, where it is covered.
+        uint wanted = first + (line * 5u + run / 2u & run - 1u);
+        uint read = (tested >> wanted & 1u) != 0u || tested == 0u ? wanted : uint(findLSB(tested));
+        float u = (float(half_of(own) * 32u + read) + line_phase(line)) * (1.0 / float(BITS)) - 0.5, v = line_at(line);
+        uint passed = alpha_passes(test, at + (columns ? vec2(v, u) : vec2(u, v))) ? tested : 0u;
+        left = 0u;
+        [[unroll]] for (uint r = 0u; r < WORDS; r++) {
+            bits[r] |= own == r ? passed : 0u;
+            pending[r] &= own == r ? ~tested : ~0u;
+            left |= pending[r];
+        }
+        trips++;
+    } while (lanes_or(left) != 0u);
+}
+
+void main() {
+    if (in_other_subgroups(LANES)) return;
+    uint number = workgroup_number();
+    if (number >= counters[COUNTER_PLAIN_TILES + LIST]) return;
+    uint lane = gl_SubgroupInvocationID;
+    uint entry = tile_lists[first_entry(LIST) + number], tile = entry_item(entry);
+    uvec4 header = tiles[tile];
+    ivec2 tile_at = ivec2(split(tile, frame.tiles.x));
+    vec2 center = tile_center(tile_at);
+    uint first = header.y, count = header.w >> TILE_COUNT_SHIFT;
+    uint word = masks[tile];
+    uint first_cell = entry_part(entry) * LANES, cells = min(uint(bitCount(word)) - first_cell, LANES);
+    uint my_bit = bit_of_cell(word, first_cell + min(lane, cells - 1u));
+    if (BY_PART) my_variation = variation_around(uvec2(tile_at) * uvec2(8u, 4u) + uvec2(my_bit & 7u, my_bit >> 3));
+    uint headers_a_cell = (frame.sample_count + HEADER - 1u) / HEADER;
+    bool listable = count <= INDEX;
+    count = listable ? count : 0u;
+    uint last_candidate = max(count, 1u) - 1u;
+
+    // Which candidates touch the cell of each invocation.
+    uint words = 0u;
+    do {
+        uint touching = 0u;
+        [[unroll]] for (uint part = 0u; part < 32u; part += LANES) {
+            uint candidate = words * 32u + part + lane;
+            uint touches = candidate < count ? texelFetch(candidates, int(first + candidate) * 4 + 3).w : 0u;
+            [[unroll]] for (uint j = 0u; j < LANES; j++) touching |= (subgroupShuffle(touches, j) >> my_bit & 1u) << (part + j);
+        }
+        touched[words * LANES + lane] = touching;
+    } while (++words * 32u < count);
+    subgroupBarrier();
+
+    float lines[OWN_LINES], phases[OWN_LINES];
+    [[unroll]] for (uint l = 0u; l < OWN_LINES; l++) {
+        lines[l] = line_at(line_of(l * LINE_WORDS));
+        phases[l] = line_phase(line_of(l * LINE_WORDS));
+    }
+
+    trips = words;
+    uint left = 0u;                     // cells that sample.comp takes
+    uint cell = 0u;
+    do {
+        uint bit = subgroupShuffle(my_bit, cell);
+        vec2 at = vec2(bit & 7u, bit >> 3) - vec2(3.5, 1.5);
+        uint settled[WORDS], shown[WORDS], open_[WORDS];        // samples: lost to what comes; of the candidate at hand; to be compared
+        [[unroll]] for (uint b = 0u; b < SLOT_BITS * WORDS; b++) owner[b] = 0u;
+        [[unroll]] for (uint r = 0u; r < WORDS; r++) {
+            settled[r] = 0u;
+            shown[r] = 0u;
+            open_[r] = 0u;
+        }
+        Slot slots[HELD];
+        [[unroll]] for (uint h = 0u; h < HELD; h++) slots[h] = Slot(vec4(0.0), 0u, PARTS_ONE, 0u, 0u, 0u);
+        uint used = 0u, settling = 0u;  // slots; those that were looked at for being settled
+        float deepest = 3.4e38;         // that a slot reaches
+        bool failed = !listable, done = failed, directed = false, columns = false, more;
+        Key limit = Key(~0u, 0u);       // what does not come after it has passed by
+        do {
+            // The next candidates in order, one an invocation, and those after them.
+            Key nearer = Key(0u, ~0u), farther = Key(0u, ~0u);
+            uint word_ = 0u;
+            do {
+                uint mine = word_ + lane < words ? touched[(word_ + lane) * LANES + cell] : 0u;
+                uint own = uint(bitCount(mine)), before = lanes_before(own), all = lanes_add(own), read = 0u;
+                do {
+                    uint wanted = read + lane, of = 0u;
+                    [[unroll]] for (uint j = 1u; j < LANES; j++) of += subgroupShuffle(before, j) <= wanted ? 1u : 0u;
+                    uint candidate = min((word_ + of) * 32u + bit_of_cell(subgroupShuffle(mine, of), wanted - subgroupShuffle(before, of)), last_candidate);
+                    int o = int(first + candidate) * 4;
+                    uvec4 last = texelFetch(candidates, o + 3);
+                    vec4 plane = uintBitsToFloat(texelFetch(candidates, o + 2));
+                    float depth = plane.y * at.x + plane.z * at.y + plane.w + (0.5 + ROUNDING) * (abs(plane.y) + abs(plane.z));
+                    depth = min(max(depth, 1e-30), max(uintBitsToFloat(last.x), 1e-30));
+                    Key key = Key(floatBitsToUint(depth) & ~INDEX | candidate, last.z);
+                    key.depth = wanted < all && comes_before(limit, key) ? key.depth : 0u;
+                    sort_keys(key, 2u, true);
+                    merge_keys(farther, key);
+                    farther = reversed_keys(farther);
+                    merge_keys(nearer, farther);
+                    trips++;
+                    read += LANES;
+                } while (read < all);
+                word_ += LANES;
+            } while (word_ < words);
+            limit = Key(subgroupShuffle(farther.depth, LANES - 1u), subgroupShuffle(farther.id, LANES - 1u));
+            more = limit.depth != 0u;
+            uint batch = 0u;
+            do {
+                uint key = batch == 0u ? nearer.depth : farther.depth;
+                float nearest = nearest_from(key), after = nearest_from(batch == 0u ? subgroupShuffle(farther.depth, 0u) : limit.depth);
+                Candidate k = load_candidate(first, min(key & INDEX, last_candidate), center);
+                bool exists = key != 0u;
+                vec3 edges = edges_at(k, at);
+                vec2 range = depth_range(k, at);
+                // Columns or rows: what the edges of the first eight cross more often.
+                vec2 reach = exists && lane < 8u ? reach_of_edges(k, edges) : vec2(0.0);
+                columns = directed ? columns : lanes_add(reach.x) > lanes_add(reach.y);
+                directed = true;
+                Crossings c = crossings_of(k, edges, columns);
+                bool tested = HAS_MASK && exists && k.id > frame.first_mask;
+                bool usable = c.usable && range.y <= 1.0 && range.x > 0.0;
+                uint kind = (c.third_begins ? 1u : 0u) | (usable ? 0u : 2u) | (tested ? 4u : 0u);
+                vec4 plane = vec4(columns ? k.depth.yx : k.depth.xy, k.depth.x * at.x + k.depth.y * at.y + k.depth.z, range.x);
+                AlphaTest alpha;
+                if (HAS_MASK) alpha = alpha_test(tested ? k.id - 1u : 0u, center, at, mat2(frame.sample_footprint));
+
+                uint j = 0u, entries = lanes_add(exists ? 1u : 0u), id = 0u;
+                bool comparing = false;
+                vec4 own = vec4(0.0);   // of the candidate at hand
+                float near = 0.0;
+                do {
+                    bool takes = !comparing;
+                    uint from = min(j, LANES - 1u);
+                    vec4 its_plane = shuffled(plane, from);
+                    float its_nearest = subgroupShuffle(nearest, from);
+                    uint its_kind = subgroupShuffle(kind, from), its_id = subgroupShuffle(k.id, from);
+                    bool valid = takes && j < entries;
+                    id = takes ? its_id : id;
+                    own = takes ? its_plane : own;
+                    near = takes ? its_nearest : near;
+                    trips++;
+                    failed = failed || (valid && (its_kind & 2u) != 0u) || trips > MOST_TRIPS;
+
+                    // The slot to compare with, the first one that owns an open sample; or, of a new candidate, one to settle.
+                    uint rival = ~0u;
+                    [[unroll]] for (uint r = 0u; r < WORDS; r++) {
+                        uint lowest = open_[r] & (0u - open_[r]), slot = 0u;
+                        [[unroll]] for (uint b = 0u; b < SLOT_BITS; b++) slot |= (owner[b * WORDS + r] & lowest) != 0u ? 1u << b : 0u;
+                        rival = lowest != 0u ? min(rival, slot) : rival;
+                    }
+                    rival = min(takes ? settling + 1u : lanes_min(rival), SLOTS);
+                    uint keeper = (rival - 1u) % LANES, level = (rival - 1u) / LANES, other_id = 0u;
+                    vec4 other = vec4(0.0);
+                    [[unroll]] for (uint h = 0u; h < HELD; h++) {
+                        vec4 kept_plane = shuffled(slots[h].plane, keeper);
+                        uint kept_id = subgroupShuffle(slots[h].id, keeper);
+                        other = level == h ? kept_plane : other;
+                        other_id = level == h ? kept_id : other_id;
+                    }
+                    bool behind = near < other.w;       // like all that follow
+
+                    // Where both planes cross is an edge. What is as near goes to the smaller ID, planes within rounding too.
+                    bool smaller = id < other_id;
+                    vec3 difference = smaller ? own.xyz - other.xyz : other.xyz - own.xyz;
+                    bool alike = 0.5 * (abs(difference.x) + abs(difference.y)) + abs(difference.z) <= 4e-7 * abs(own.z);
+                    vec2 where = crossing(difference.xy, difference.z);
+                    bool wins_beyond = rises_along(difference.xy) == smaller;
+                    bool loses_all = behind || (alike && !smaller), wins_all = alike && smaller;
+                    vec2 low = loses_all ? BEYOND_ALL : wins_all ? BEFORE_ALL : wins_beyond ? where : BEFORE_ALL;
+                    vec2 high = loses_all || wins_all || wins_beyond ? BEYOND_ALL : where;
+                    low = takes ? shuffled(c.begin, from) : low;
+                    high = takes ? shuffled(c.end, from) : high;
+                    vec2 third = takes ? shuffled(c.third, from) : BEFORE_ALL;
+                    bool third_begins = !takes || (its_kind & 1u) != 0u;
+
+                    // The samples of a new candidate; or of the one at hand, less what it loses to the slot.
+                    bool settles = behind && (!takes || settling < used);
+                    [[unroll]] for (uint l = 0u; l < OWN_LINES; l++) {
+                        float x0 = crossing_at(low, lines[l]), x1 = crossing_at(high, lines[l]), x2 = crossing_at(third, lines[l]);
+                        float begins = (third_begins ? max(x0, x2) : x0) - phases[l], ends = (third_begins ? x1 : min(x1, x2)) - phases[l];
+                        int first_bit = int(ceil(clamp(begins, 0.0, float(BITS)))), end_bit = int(ceil(clamp(ends, 0.0, float(BITS))));
+                        [[unroll]] for (uint h = 0u; h < LINE_WORDS; h++) {
+                            uint r = l * LINE_WORDS + h;
+                            int before = int(half_of(r)) * 32;
+                            uint holds = bits_from(first_bit - before) & ~bits_from(end_bit - before), of_rival = owned_by(rival, r);
+                            settled[r] |= settles ? of_rival : 0u;
+                            shown[r] = takes ? (valid ? holds & ~settled[r] : 0u) : shown[r] & ~(of_rival & ~holds);
+                            open_[r] &= ~of_rival;
+                        }
+                    }
+                    settling += takes && settles ? 1u : 0u;
+                    if (HAS_MASK) {
+                        uint passing[WORDS];
+                        bool tests = valid && (its_kind & 4u) != 0u;
+                        [[unroll]] for (uint r = 0u; r < WORDS; r++) passing[r] = tests ? shown[r] : 0u;
+                        test_alpha(shuffled(alpha, from), at, columns, passing);
+                        [[unroll]] for (uint r = 0u; r < WORDS; r++) shown[r] = tests ? passing[r] : shown[r];
+                    }
+                    uint some = 0u, some_open = 0u, some_free = 0u;
+                    [[unroll]] for (uint r = 0u; r < WORDS; r++) {
+                        uint by_some = owned(r);
+                        open_[r] = takes ? shown[r] & by_some : open_[r];
+                        some |= shown[r];
+                        some_open |= open_[r];
+                        some_free |= ~(by_some | shown[r]);
+                    }
+                    comparing = lanes_or(some_open) != 0u;
+                    bool shows = !comparing && lanes_or(some) != 0u;
+                    failed = failed || (shows && used == SLOTS);
+
+                    // It owns what is left to it.
+                    [[unroll]] for (uint r = 0u; r < WORDS; r++) {
+                        uint taken = shows ? shown[r] : 0u;
+                        [[unroll]] for (uint b = 0u; b < SLOT_BITS; b++)
+                            owner[b * WORDS + r] = (used + 1u >> b & 1u) != 0u ? owner[b * WORDS + r] | taken : owner[b * WORDS + r] & ~taken;
+                    }
+                    [[unroll]] for (uint h = 0u; h < HELD; h++) {
+                        bool here = shows && used == h * LANES + lane;
+                        slots[h].plane = here ? own : slots[h].plane;
+                        slots[h].id = here ? id : slots[h].id;
+                    }
+                    used += shows ? 1u : 0u;
+                    deepest = shows ? min(deepest, own.w) : deepest;
+                    j += comparing ? 0u : 1u;
+                    float next = j < LANES ? subgroupShuffle(nearest, min(j, LANES - 1u)) : after;
+                    done = done || failed || (!comparing && next < deepest && lanes_or(some_free) == 0u);
+                } while (!done && (comparing || j < entries));
+                done = done || entries < LANES;
+                batch++;
+            } while (!done && batch < 2u);
+        } while (!done && more);
+
+        // The records that each slot makes.
+        uint all = 0u;
+        if (BY_PART) {
+            Variation around = variation_of(cell);
+            [[unroll]] for (uint h = 0u; h < HELD; h++) {
+                bool some = h * LANES + lane < used && high_frequency_triangle(slots[h].id);
+                slots[h].parts = some ? parts_around(around, slots[h].id) : PARTS_ONE;
+            }
+        }
+        uint slot = 0u;
+        do {
+            uint parts = PARTS_ONE, bits[WORDS];
+            [[unroll]] for (uint h = 0u; h < HELD; h++) {
+                uint its = subgroupShuffle(slots[h].parts, slot % LANES);
+                parts = slot / LANES == h ? its : parts;
+            }
+            uvec3 sums = uvec3(0u);
+            [[unroll]] for (uint r = 0u; r < WORDS; r++) {
+                bits[r] = owned_by(slot + 1u, r);
+                sums += sums_of_word(r, bits[r]);
+            }
+            sums = lanes_add(sums);
+            uint records_ = min(sums.x, 1u);
+            if (BY_PART) {
+                Grid grid = grid_of(parts, columns);
+                uint found[WORDS], rest[WORDS], own = 0u, some = 0u;
+                find_parts(bits, grid, found);
+                find_rest(bits, grid, found, rest);
+                [[unroll]] for (uint r = 0u; r < WORDS; r++) {
+                    own += uint(bitCount(found[r]));
+                    some |= rest[r];
+                }
+                own = lanes_add((lane & sharing_lanes(grid)) == 0u ? own : 0u) + (lanes_or(some) != 0u ? 1u : 0u);
+                records_ = parts == PARTS_ONE ? records_ : own;
+            }
+            uint place = place_of_bits(sums, columns, false);
+            [[unroll]] for (uint h = 0u; h < HELD; h++) {
+                bool here = slot == h * LANES + lane && slot < used;
+                slots[h].count = here ? sums.x : slots[h].count;
+                slots[h].place = here ? place : slots[h].place;
+                slots[h].records = here ? records_ : slots[h].records;
+            }
+        } while (++slot < used);
+        uint single_records = 0u, several = 0u;
+        [[unroll]] for (uint h = 0u; h < HELD; h++) all += slots[h].records;
+        all = lanes_add(all);
+        // Where parts would be more than there is room for, each triangle is shaded once.
+        bool too_many = all > frame.sample_count + MORE_RECORDS;
+        [[unroll]] for (uint h = 0u; h < HELD; h++) {
+            bool single = too_many || slots[h].parts == PARTS_ONE, some = slots[h].count != 0u;
+            single_records += single && some ? 1u : 0u;
+            several |= !single && some ? 1u << (h * LANES + lane) : 0u;
+            slots[h].parts = single ? PARTS_ONE : slots[h].parts;
+        }
+        uint singles = lanes_add(single_records), at_single = lanes_before(single_records);
+        all = failed ? 0u : too_many ? singles : all;
+        bool fits;
+        uint base = allocate_records(all, fits);
+        fits = fits && !failed;
+        uvec2 pixel = uvec2(tile_at) * uvec2(8u, 4u) + uvec2(bit & 7u, bit >> 3);
+        uint cell_id = pixel.x | pixel.y << 16;
+        if (lane == 0u && !failed) headers[min(header.z + (first_cell + cell) * headers_a_cell, frame.record_capacity - 1u)] = uvec2(base, fits ? all : 0u);
+        left |= failed ? 1u << bit : 0u;
+        float weight = float(frame.sample_count) * (1.0 / float(ALL_BITS));
+        [[unroll]] for (uint h = 0u; h < HELD; h++) {
+            bool single = slots[h].parts == PARTS_ONE && slots[h].count != 0u;
+            if (fits && single) records_out[base + at_single] = uvec4(cell_id, slots[h].id, slots[h].place, floatBitsToUint(float(slots[h].count) * weight));
+            at_single += single ? 1u : 0u;
+        }
+        if (BY_PART) {
+            several = fits ? lanes_or(several) : 0u;
+            uint at_record = base + singles;
+            do {
+                bool exists = several != 0u;
+                uint s = exists ? uint(findLSB(several)) : 0u, parts = PARTS_FOURS, id = 0u;
+                several &= several - 1u;
+                [[unroll]] for (uint h = 0u; h < HELD; h++) {
+                    uvec2 its = uvec2(subgroupShuffle(slots[h].parts, s % LANES), subgroupShuffle(slots[h].id, s % LANES));
+                    parts = s / LANES == h && exists ? its.x : parts;
+                    id = s / LANES == h ? its.y : id;
+                }
+                Grid grid = grid_of(parts, columns);
+                bool wide = part_is_wide(frame.sample_count, parts);
+                uint bits[WORDS], pending[WORDS], rest[WORDS], own = 0u;
+                [[unroll]] for (uint r = 0u; r < WORDS; r++) bits[r] = exists ? owned_by(s + 1u, r) : 0u;
+                find_parts(bits, grid, pending);
+                find_rest(bits, grid, pending, rest);
+
+                // What lies in no part, in its middle.
+                uvec3 sums = uvec3(0u);
+                [[unroll]] for (uint r = 0u; r < WORDS; r++) {
+                    sums += sums_of_word(r, rest[r]);
+                    own += uint(bitCount(pending[r]));
+                }
+                sums = lanes_add(sums);
+                bool writes = (lane & sharing_lanes(grid)) == 0u;
+                own = writes ? own : 0u;
+                if (lane == 0u && sums.x != 0u) records_out[at_record] = uvec4(cell_id, id, place_of_bits(sums, columns, wide), floatBitsToUint(float(sums.x) * weight));
+                at_record += sums.x != 0u ? 1u : 0u;
+                uint at_own = at_record + lanes_before(own), step = 0u, steps;
+                at_record += lanes_add(own);
+                steps = uint(lanes_max(float(own)));
+                do {
+                    // The first part that is left.
+                    uint r = WORDS - 1u, fields = pending[WORDS - 1u];
+                    [[unroll]] for (uint q = WORDS - 1u; q-- > 0u;) {
+                        r = pending[q] != 0u ? q : r;
+                        fields = pending[q] != 0u ? pending[q] : fields;
+                    }
+                    uint at_bit = fields != 0u ? uint(findLSB(fields)) : 0u;
+                    [[unroll]] for (uint q = 0u; q < WORDS; q++) pending[q] = r == q ? pending[q] & (pending[q] - 1u) : pending[q];
+                    sums = uvec3(0u);
+                    [[unroll]] for (uint n = 0u; n < OWN_LINES; n++) {
+                        uint w = r + n * LINE_WORDS, of_word = 0u;
+                        [[unroll]] for (uint q = 0u; q < WORDS; q++) of_word = w == q ? bits[q] : of_word;
+                        sums += sums_of_word(w, n < grid.lines ? of_word & field_bits(grid) << at_bit : 0u);
+                    }
+                    [[unroll]] for (uint span = OWN_LINES; span < LINES; span *= 2u) {
+                        uint apart = span * HALVES / WORDS;
+                        uvec3 others = uvec3(subgroupShuffleXor(sums.x, apart), subgroupShuffleXor(sums.y, apart), subgroupShuffleXor(sums.z, apart));
+                        sums += grid.lines > span ? others : uvec3(0u);
+                    }
+                    if (writes && fields != 0u) records_out[at_own + step] = uvec4(cell_id, id, place_of_bits(sums, columns, wide), floatBitsToUint(float(sums.x) * weight));
+                } while (++step < steps);
+            } while (several != 0u);
+        }
+    } while (++cell < cells);
+
+    if (left != 0u && subgroupElect()) {
+        atomicAdd(counters[COUNTER_RESAMPLED], uint(bitCount(left)));
+        leave_cells(LIST, tile, left);
+    }
+}
