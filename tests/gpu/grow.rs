@@ -2,7 +2,7 @@
 
 use gpc::reference::detect::{Frame, Mode, superpixels};
 use gpc::reference::grow::grown;
-use gpc::render::{Detection, Method, Rendered, Settings};
+use gpc::render::{Coverage, Detection, Method, Rendered, Settings};
 use gpc::scene::AlphaMode;
 
 use crate::detect::{CONTRAST, codes, mosaic, near, pixels};
@@ -84,6 +84,8 @@ fn growths_of_locations_do_not_depend_on_memory() {
                 method: Method::Superpixel,
                 samples: 144,
                 contrast: Some(CONTRAST),
+                // How many locations of a tile are sampled at once decides of which triangles areas are known.
+                coverage: Coverage::Samples,
                 max_memory,
                 ..once(size)
             };
