@@ -66,6 +66,7 @@ const VARIANTS: &[Variant] = &[
         &[("MULTISAMPLED", "")],
     ),
     ("grow", "grow.comp", &[]),
+    ("neighbours", "neighbours.comp", &[]),
     ("cull", "cull.comp", &[]),
     ("bin", "bin.comp", &[]),
     ("setup", "setup.comp", &[]),

@@ -827,7 +827,12 @@ fn of_numbers(numbers: &str) -> String {
     for (name, value) in defines(numbers, "ARGUMENT_") {
         writeln!(code, "    {} = {value},", camel(name)).expect("a string");
     }
-    code += "}\n\n";
+    code += "}\n\nimpl Argument {\n    /// Their names, in their order.\n    pub const NAMES: &[&str] = &[\n";
+    for (number, (name, value)) in defines(numbers, "ARGUMENT_").iter().enumerate() {
+        assert_eq!(*value as usize, number, "arguments have gaps");
+        writeln!(code, "        {:?},", name.to_lowercase().replace('_', " ")).expect("a string");
+    }
+    code += "    ];\n}\n\n";
     let known = ["COUNTER_", "ARGUMENT_", "BINDING_", "CONSTANT_", "SET_"];
     for (name, value) in defines(numbers, "") {
         let is_known = known

@@ -46,7 +46,7 @@ const float ROUNDING = 1.0 / 64.0;                      // of positions and edge
 const uint BLOCKS_AT_ONCE = APART ? 1u : 4u, CELLS_AT_ONCE = APART ? 1u : LANES;
 const uint KEPT = APART ? 3072u : 96u;                  // room for candidates of a cell
 const uint PROBES = 64u;                                // samples of a PROBE, in one block; they follow the others
-const uint LONGEST_LIST = APART ? 350000u : 40000u;     // that MOST_TRIPS are enough for
+const uint LONGEST = APART ? LONGEST_LIST_APART : LONGEST_LIST;     // list that MOST_TRIPS are enough for
 
 shared uint kept[3072];                                 // by cell, then entry
 
@@ -94,7 +94,7 @@ void main() {
     uint count = header.w >> TILE_COUNT_SHIFT;
     cell.first = header.y;
 #endif
-    bool manageable = count <= LONGEST_LIST;
+    bool manageable = count <= LONGEST;
     if (!manageable && subgroupElect()) atomicAdd(counters[COUNTER_STALLED], group);
     count = manageable ? count : 0u;
 

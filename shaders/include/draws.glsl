@@ -1,4 +1,4 @@
-// A host's draws, and which of them a triangle or a position is of. The host's twin is `src/passes/draws.rs`.
+// A host's draws, and which of them a triangle or a position is of.
 #ifndef DRAWS_GLSL
 #define DRAWS_GLSL
 #include "interface.glsl"

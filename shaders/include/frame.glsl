@@ -1,5 +1,5 @@
 // What every pass of one frame reads and writes: one uniform block, one descriptor set.
-// The host's twin is `src/passes/frame.rs`; a test compares both sides.
+// Bindings have their numbers in interface.glsl, and the host its structure of the block by `make shaders`.
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_KHR_shader_subgroup_basic : require

@@ -1,5 +1,5 @@
 // The numbers by which the host and the shaders know the same thing: bindings, specialisation constants, counters, indirect
-// dispatches. They stand here alone; `make shaders` writes them into `src/passes/spirv.rs`, by name, with what it finds in the
+// dispatches. They stand here alone; `make shaders` writes them into `src/engine/passes/spirv.rs`, by name, with what it finds in the
 // compiled shaders. Names that begin with a shader's are its own.
 #ifndef INTERFACE_GLSL
 #define INTERFACE_GLSL
@@ -262,7 +262,43 @@
 #define ARGUMENT_THIN_LONG 15
 #define ARGUMENT_SHADE 16
 
+// What has counted when `arguments` runs.
+#define AFTER_DETECT 0u
+#define AFTER_CULL 1u
+#define AFTER_SAMPLE 2u
+#define AFTER_RECORDS 3u
+#define AFTER_SPANS 4u
+#define AFTER_THIN 5u
+#define AFTER_GROUPS 6u
+#define AFTER_PROBE 7u
+#define AFTER_PAIRS 8u
+
+// Vectors of a material, see material.glsl.
+#define MATERIAL_BASE_COLOR 0u
+#define MATERIAL_EMISSIVE_METALLIC 1u
+#define MATERIAL_FACTORS 2u         // roughness, normal scale, occlusion strength, alpha cutoff; negative for BLEND
+#define MATERIAL_ALPHA 3u           // atlas: table of levels, width | height << 16, levels, flags
+#define MATERIAL_SPECULAR 4u        // rgb of a dielectric's reflectance at normal incidence, strength
+#define MATERIAL_CLEARCOAT 5u       // factor, roughness, normal scale
+#define MATERIAL_SHEEN 6u           // rgb, roughness
+#define MATERIAL_ANISOTROPY 7u      // strength, cosine and sine of the rotation
+#define MATERIAL_IRIDESCENCE 8u     // factor, index of refraction, least and greatest thickness in nanometres
+#define MATERIAL_DIFFUSE_TRANSMISSION 9u    // rgb, factor
+#define MATERIAL_TRANSMISSION 10u   // factor, thickness
+#define MATERIAL_VOLUME 11u         // rgb of absorption per unit of length
+#define MATERIAL_SPECULAR_GLOSSINESS 12u    // rgb, glossiness
+#define MATERIAL_UV_ROWS 13u        // two rows a texture, the base colour's first: (m00, m01, m02, uv set), (m10, m11, m12, 0)
+
 // Tiles of a stretch, see load.glsl.
 #define STRETCH 256
+
+// Trials of a triangle in a cell that a round takes where tiles have no list: some tenths of a second on small GPUs, well
+// below what systems let a dispatch take.
+#define MOST_TRIALS 0x80000000u
+
+// Most triangles that `sample` tries in a cell, whose loops end after so many trips; and where it takes a block of one cell at
+// a time.
+#define LONGEST_LIST 40000u
+#define LONGEST_LIST_APART 350000u
 
 #endif

@@ -257,10 +257,10 @@ impl Headless {
         scene: &PreparedScene,
         settings: &Settings,
     ) -> Result<Frame, RenderError> {
-        let beside = ReadBack::bytes(settings);
+        let reserved = ReadBack::bytes(settings);
         self.check(&scene.gpu_scene)?;
         self.renderer
-            .prepare_with(scene, settings, None, Capacity::least(), beside)
+            .prepare_with(scene, settings, None, Capacity::least(), reserved)
     }
 
     /// Renders a frame and waits for it. Where what it lists outgrows its memory it is prepared again with more, so that the image
@@ -305,7 +305,11 @@ impl Headless {
         Ok(())
     }
 
-    fn render_once(&mut self, frame: &mut Frame, camera: &Camera) -> Result<Rendered, RenderError> {
+    pub(super) fn render_once(
+        &mut self,
+        frame: &mut Frame,
+        camera: &Camera,
+    ) -> Result<Rendered, RenderError> {
         self.check(frame.scene())?;
         let size = frame.settings().output_size();
         let output = ReadBack::for_frame(&self.gpu, frame, self.output.take())?;

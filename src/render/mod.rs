@@ -7,6 +7,7 @@ pub mod camera;
 mod frame;
 mod headless;
 mod locations;
+mod pass_list;
 pub(crate) mod passes;
 mod plane;
 mod renderer;
@@ -22,4 +23,5 @@ pub use crate::engine::sampler::{
 pub use frame::{Frame, Target};
 pub use headless::{Headless, HeadlessOptions, PixelAttributes, Rendered};
 pub use locations::{LocationError, PointSample, Sampled};
+pub use pass_list::FramePass;
 pub use renderer::{PreparedScene, Renderer, SceneRequest};

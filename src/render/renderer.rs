@@ -255,7 +255,7 @@ impl Renderer {
             frame.settings(),
             frame.encoding(),
             capacity,
-            frame.beside(),
+            frame.reserved(),
         )?;
         if let Some(moment) = frame.moment() {
             like.show(moment.clone())?;
@@ -263,19 +263,19 @@ impl Renderer {
         Ok(like)
     }
 
-    /// Of what the settings allow, `beside` bytes are kept free for others.
+    /// Of what the settings allow, `reserved` bytes are kept free for others.
     pub(super) fn prepare_with(
         &self,
         scene: &PreparedScene,
         settings: &Settings,
         encoding: Option<Encoding>,
         capacity: Capacity,
-        beside: u64,
+        reserved: u64,
     ) -> Result<Frame, RenderError> {
         self.check(&scene.gpu_scene)?;
         settings.check(self.gpu.limits())?;
         let shown = (&scene.gpu_scene, scene.casters.as_ref());
-        let beside = beside + scene.casters_bytes();
-        Frame::new(&self.layout, shown, settings, encoding, capacity, beside)
+        let reserved = reserved + scene.casters_bytes();
+        Frame::new(&self.layout, shown, settings, encoding, capacity, reserved)
     }
 }

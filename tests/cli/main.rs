@@ -12,7 +12,6 @@ mod malformed;
 mod parts;
 mod render;
 #[path = "../common/scene_builder.rs"]
-#[allow(dead_code, reason = "other tests use the rest")]
 mod scene_builder;
 mod shadows;
 #[path = "../common/shared.rs"]

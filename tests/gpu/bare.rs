@@ -3,8 +3,8 @@
 use ash::vk;
 use gpc::render::Headless;
 use gpc::testing::{
-    Buffer, Content, FrameLayout, Memory, MemoryUse, Offsets, RasterTargets,
-    ResourceSizes, Resources, frame_layout, memory,
+    Buffer, Content, FrameLayout, Memory, MemoryUse, Offsets, RasterTargets, ResourceSizes,
+    Resources, frame_layout, memory,
 };
 use std::sync::Arc;
 

@@ -7,6 +7,7 @@ use glam::{DVec3, Vec3};
 use gpc::bench::stress::stage;
 use gpc::render::{Headless, HeadlessOptions, PreparedScene, Rendered, SceneRequest, Settings};
 use gpc::scene::Material;
+use gpc::vulkan::Limits;
 
 pub use gpc::bench::stress::stage::{camera, code, everywhere, flat, once, seen_at, textured};
 
@@ -27,7 +28,10 @@ pub fn on_gpu(test: impl FnOnce(&mut Headless)) {
             device: None,
             validation: true,
         };
-        Headless::new(&options).unwrap()
+        // Most of the tests' time goes to pipelines, and many tests have the same ones.
+        let keep = |limits: &mut Limits| limits.max_unused_pipelines = 256;
+        // SAFETY: keeping more pipelines takes memory alone.
+        unsafe { Headless::within(&options, keep) }.unwrap()
     });
     test(&mut gpu);
     assert_eq!(gpu.validation_messages(), Vec::<String>::new());

@@ -296,7 +296,10 @@ impl Frame {
 
     fn shortfall(&self) -> Result<Shortfall, HostError> {
         self.lending.check_done()?;
-        Ok(self.sampler.shortfall([self.plan.sizes.tiles()])?)
+        let mut shortfall = Shortfall::default();
+        let tiles = self.plan.sizes.tiles();
+        self.sampler.add_shortfall([tiles], &mut shortfall)?;
+        Ok(shortfall)
     }
 
     /// What the last recording did, once its commands are done, until the next one. It waits for nothing.

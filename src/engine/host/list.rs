@@ -352,7 +352,10 @@ impl List {
 
     fn shortfall(&self) -> Result<Shortfall, HostError> {
         self.lending.check_done()?;
-        Ok(self.sampler.shortfall([self.resources.sizes().tiles()])?)
+        let mut shortfall = Shortfall::default();
+        let tiles = self.resources.sizes().tiles();
+        self.sampler.add_shortfall([tiles], &mut shortfall)?;
+        Ok(shortfall)
     }
 
     fn footprints(&self) -> Footprints {

@@ -5,19 +5,19 @@ use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// What has counted, as `shaders/arguments.comp` numbers it.
+/// What has counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 pub(crate) enum After {
-    Detect,
-    Cull,
-    Sample,
-    Records,
-    Spans,
-    Thin,
-    Groups,
-    Probe,
-    Pairs,
+    Detect = spirv::AFTER_DETECT,
+    Cull = spirv::AFTER_CULL,
+    Sample = spirv::AFTER_SAMPLE,
+    Records = spirv::AFTER_RECORDS,
+    Spans = spirv::AFTER_SPANS,
+    Thin = spirv::AFTER_THIN,
+    Groups = spirv::AFTER_GROUPS,
+    Probe = spirv::AFTER_PROBE,
+    Pairs = spirv::AFTER_PAIRS,
 }
 
 /// One kernel for all that counts: drivers take longer to compile one than to run it.

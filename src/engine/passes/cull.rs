@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 /// Which triangles are kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kept {
+pub enum CullFilter {
     /// All that may touch a cell.
     Touching,
     /// Of these, those that may be thin in some cell.
@@ -25,9 +25,13 @@ impl Cull {
     ///
     /// # Errors
     /// If the driver refuses one.
-    pub fn new(layout: &FrameLayout, scene: &dyn Content, kept: Kept) -> Result<Self, VulkanError> {
+    pub fn new(
+        layout: &FrameLayout,
+        scene: &dyn Content,
+        filter: CullFilter,
+    ) -> Result<Self, VulkanError> {
         let shader = spirv::Cull {
-            thin_alone: kept == Kept::Thin,
+            thin_alone: filter == CullFilter::Thin,
             instanced: scene.is_instanced(),
         };
         Ok(Self {

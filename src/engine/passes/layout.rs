@@ -56,7 +56,7 @@ impl FrameLayout {
             texture_set: vk::DescriptorSetLayout::null(),
             pipeline: vk::PipelineLayout::null(),
             environment_sampler: vk::Sampler::null(),
-            pipelines: Mutex::new(Pipelines::new()),
+            pipelines: Mutex::new(Pipelines::new(gpu.limits().max_unused_pipelines)),
         };
         // SAFETY: plain creations on a live device; handles made before a failure are destroyed by `Drop`.
         unsafe {

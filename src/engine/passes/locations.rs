@@ -141,7 +141,8 @@ pub struct LocationBuffers {
     pub groups: BufferView,
     /// Cells and samples of each tile.
     pub tile_loads: Buffer,
-    loads: Buffer,
+    /// What `distribute` knows of each tile, as `shaders/include/tile_locations.glsl` describes it.
+    pub(crate) loads: Buffer,
 }
 
 impl LocationBuffers {
@@ -200,12 +201,6 @@ impl Resources {
     pub fn listed(&self) -> Result<vk::BufferView, VulkanError> {
         let listed = self.locations.locations.as_ref().ok_or(UNMAPPED)?;
         Ok(listed.view)
-    }
-
-    /// What `distribute` knows of each tile, as `shaders/include/tile_locations.glsl` describes it.
-    #[cfg(feature = "gltf")]
-    pub(crate) fn tile_locations(&self) -> &Buffer {
-        &self.locations.loads
     }
 
     /// All that `distribute` reads and writes.

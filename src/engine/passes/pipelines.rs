@@ -4,10 +4,6 @@ use crate::vulkan::{Constants, Pipeline};
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Pipelines that no frame uses are kept up to this number. A frame has some 25, and a driver may keep a megabyte or two
-/// for each.
-const MOST_UNUSED: usize = 64;
-
 /// What tells one pipeline from another: where its shader's code lies, its constants, and a variant of its fixed state.
 pub(crate) type PipelineKey = (usize, Constants, u32);
 
@@ -16,6 +12,8 @@ pub(crate) struct Pipelines<P = Pipeline> {
     known: HashMap<PipelineKey, Known<P>>,
     /// Counts the times that one was asked for.
     turn: u64,
+    /// Pipelines that no frame uses are kept up to this number.
+    most_unused: usize,
 }
 
 struct Known<P> {
@@ -25,10 +23,11 @@ struct Known<P> {
 }
 
 impl<P> Pipelines<P> {
-    pub fn new() -> Self {
+    pub fn new(most_unused: usize) -> Self {
         Self {
             known: HashMap::new(),
             turn: 0,
+            most_unused,
         }
     }
 
@@ -41,7 +40,7 @@ impl<P> Pipelines<P> {
     }
 
     /// Adds one, and hands over that which is there: another thread may have been sooner. Lets go of what was not asked for
-    /// the longest, where more than [`MOST_UNUSED`] are used by no frame.
+    /// the longest, where more are unused than are kept.
     pub fn add(&mut self, key: PipelineKey, made: P) -> Arc<P> {
         self.turn += 1;
         let added = self.known.entry(key).or_insert_with(|| Known {
@@ -53,7 +52,7 @@ impl<P> Pipelines<P> {
         let is_unused = |known: &&Known<P>| Arc::strong_count(&known.pipeline) == 1;
         let mut unused: Vec<_> = self.known.values().filter(is_unused).collect();
         unused.sort_unstable_by_key(|known| known.asked);
-        if let Some(excess) = unused.len().checked_sub(MOST_UNUSED + 1) {
+        if let Some(excess) = unused.len().checked_sub(self.most_unused + 1) {
             let last = unused[excess].asked;
             self.known
                 .retain(|_, known| known.asked > last || Arc::strong_count(&known.pipeline) > 1);
@@ -66,13 +65,15 @@ impl<P> Pipelines<P> {
 mod tests {
     use super::*;
 
+    const MOST_UNUSED: usize = 64;
+
     fn key(index: usize) -> PipelineKey {
         (index, Constants::new().with(0, 7), 0)
     }
 
     #[test]
     fn what_was_not_asked_for_the_longest_goes_unless_it_is_used() {
-        let mut pipelines = Pipelines::new();
+        let mut pipelines = Pipelines::new(MOST_UNUSED);
         let used = pipelines.add(key(0), 0);
         for index in 1..=MOST_UNUSED {
             pipelines.add(key(index), index);
@@ -96,7 +97,7 @@ mod tests {
 
     #[test]
     fn the_first_of_two_that_are_made_at_once_stays() {
-        let mut pipelines = Pipelines::new();
+        let mut pipelines = Pipelines::new(MOST_UNUSED);
         let first = pipelines.add(key(0), "first");
         assert!(Arc::ptr_eq(&first, &pipelines.add(key(0), "second")));
     }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 /// The pass that reads what [`Resolve`] wrote, beside the colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Then {
+pub enum ResolveTarget {
     /// None.
     Nothing,
     /// [`Detect`](super::Detect), which compares the resolved colours.
@@ -21,7 +21,7 @@ pub struct Resolve {
 }
 
 impl Resolve {
-    /// Makes a pipeline for each list of `sample`; `then` is what a pass after it needs, `output` are the colour constants of
+    /// Makes a pipeline for each list of `sample`; `target` is what a pass after it needs, `output` are the colour constants of
     /// `shaders/include/color.glsl`.
     ///
     /// # Errors
@@ -30,7 +30,7 @@ impl Resolve {
         layout: &FrameLayout,
         sample: &Sample,
         has_blend: bool,
-        then: Then,
+        target: ResolveTarget,
         output: &ColorConstants,
     ) -> Result<Self, VulkanError> {
         let cells = sample.options().cells;
@@ -47,7 +47,7 @@ impl Resolve {
                         layered,
                         sample.options().probes()
                             && matches!(list, TileList::Plain | TileList::Masked),
-                        then,
+                        target,
                         (cells, output),
                     )?,
                 ))
@@ -63,7 +63,7 @@ impl Resolve {
     pub fn for_multisample(
         layout: &FrameLayout,
         samples: u32,
-        then: Then,
+        target: ResolveTarget,
         output: &ColorConstants,
     ) -> Result<Self, VulkanError> {
         let pipeline = Self::pipeline(
@@ -72,7 +72,7 @@ impl Resolve {
             samples,
             false,
             false,
-            then,
+            target,
             (Cells::Pixels, output),
         )?;
         Ok(Self {
@@ -86,7 +86,7 @@ impl Resolve {
         block: u32,
         layered: bool,
         probed: bool,
-        then: Then,
+        target: ResolveTarget,
         (cells, output): (Cells, &ColorConstants),
     ) -> Result<Arc<Pipeline>, VulkanError> {
         let lanes = layout.gpu.limits().lanes;
@@ -96,9 +96,9 @@ impl Resolve {
             block,
             layered,
             list: list as u32,
-            display_codes: then == Then::Detect,
+            display_codes: target == ResolveTarget::Detect,
             probed,
-            grows: then == Then::Grow,
+            grows: target == ResolveTarget::Grow,
             tinted: output.tinted,
             locations: cells.are_locations(),
             unsure: layout.is_unsure(lanes),

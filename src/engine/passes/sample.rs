@@ -319,7 +319,11 @@ impl Sample {
 impl SampleOptions {
     /// Most triangles that are tried in a cell, whose loops end after so many trips. Cells of longer lists are left, and counted.
     pub(crate) fn longest_list(&self) -> u32 {
-        if self.apart { 350_000 } else { 40_000 }
+        if self.apart {
+            spirv::LONGEST_LIST_APART
+        } else {
+            spirv::LONGEST_LIST
+        }
     }
 
     /// Whether a run measures areas: where it takes all samples of a cell at once. What masks leave sees more triangles
@@ -366,31 +370,5 @@ impl SampleOptions {
             && self.exact_areas
             && self.records != RecordRate::Sample
             && self.samples > Sample::PROBES
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_longest_list_is_the_shaders() {
-        let of = |apart| {
-            let options = SampleOptions {
-                cells: Cells::Pixels,
-                samples: 64,
-                records: RecordRate::Triangle,
-                exact_areas: false,
-                can_settle: false,
-                apart,
-                unlisted: true,
-                has_mask: false,
-                has_blend: false,
-                always_blends: false,
-            };
-            options.longest_list()
-        };
-        let constant = format!("LONGEST_LIST = APART ? {}u : {}u;", of(true), of(false));
-        assert!(include_str!("../../../shaders/sample.comp").contains(&constant));
     }
 }

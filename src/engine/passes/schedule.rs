@@ -16,8 +16,8 @@ pub struct Schedule {
     pushed: spirv::SchedulePush,
 }
 
-/// Trials of a triangle in a cell that a round takes where tiles have no list, as in `shaders/include/load.glsl`.
-const MOST_TRIALS: u64 = 1 << 31;
+/// Trials of a triangle in a cell that a round takes where tiles have no list.
+const MOST_TRIALS: u64 = spirv::MOST_TRIALS as u64;
 
 impl Schedule {
     /// Makes the pipelines for what `sample` writes. Tiles are admitted with `layers` BLEND layers a list and twice as

@@ -1128,6 +1128,49 @@ impl Compiled for Multisample {
     }
 }
 
+/// Constants of `shaders/neighbours.comp`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Neighbours {
+    pub tonemap: bool,
+    pub tonemap_codes: bool,
+}
+
+impl Default for Neighbours {
+    fn default() -> Self {
+        Self {
+            tonemap: true,
+            tonemap_codes: true,
+        }
+    }
+}
+
+impl Specialized for Neighbours {
+    const INTERFACE: &'static Interface = &Interface {
+        name: "neighbours",
+        uses: &[
+            Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
+            Use { set: 0, binding: frame_set::DISPLAY, access: Access::Read },
+            Use { set: 0, binding: frame_set::COLOR, access: Access::Read },
+            Use { set: 0, binding: frame_set::MASKS, access: Access::Read },
+            Use { set: 0, binding: frame_set::MARKS, access: Access::ReadWrite },
+        ],
+        push_bytes: 0,
+        invocations: Invocations::Fixed(64),
+    };
+
+    fn constants(&self) -> Constants {
+        Constants::new()
+            .flag(30, self.tonemap)
+            .flag(31, self.tonemap_codes)
+    }
+}
+
+impl Compiled for Neighbours {
+    fn code() -> &'static [u8] {
+        NEIGHBOURS
+    }
+}
+
 /// Constants of `shaders/patch.frag`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PatchFragment {
@@ -2657,4 +2700,53 @@ pub enum Argument {
     Shade = 16,
 }
 
+impl Argument {
+    /// Their names, in their order.
+    pub const NAMES: &[&str] = &[
+        "cull",
+        "bin small",
+        "bin large",
+        "setup",
+        "sample plain",
+        "sample masked",
+        "sample blended",
+        "sample unlisted",
+        "sort",
+        "thin",
+        "groups",
+        "plain left",
+        "masked left",
+        "tally",
+        "enlist",
+        "thin long",
+        "shade",
+    ];
+}
+
+pub const AFTER_DETECT: u32 = 0;
+pub const AFTER_CULL: u32 = 1;
+pub const AFTER_SAMPLE: u32 = 2;
+pub const AFTER_RECORDS: u32 = 3;
+pub const AFTER_SPANS: u32 = 4;
+pub const AFTER_THIN: u32 = 5;
+pub const AFTER_GROUPS: u32 = 6;
+pub const AFTER_PROBE: u32 = 7;
+pub const AFTER_PAIRS: u32 = 8;
+pub const MATERIAL_BASE_COLOR: u32 = 0;
+pub const MATERIAL_EMISSIVE_METALLIC: u32 = 1;
+pub const MATERIAL_FACTORS: u32 = 2;
+pub const MATERIAL_ALPHA: u32 = 3;
+pub const MATERIAL_SPECULAR: u32 = 4;
+pub const MATERIAL_CLEARCOAT: u32 = 5;
+pub const MATERIAL_SHEEN: u32 = 6;
+pub const MATERIAL_ANISOTROPY: u32 = 7;
+pub const MATERIAL_IRIDESCENCE: u32 = 8;
+pub const MATERIAL_DIFFUSE_TRANSMISSION: u32 = 9;
+pub const MATERIAL_TRANSMISSION: u32 = 10;
+pub const MATERIAL_VOLUME: u32 = 11;
+pub const MATERIAL_SPECULAR_GLOSSINESS: u32 = 12;
+pub const MATERIAL_UV_ROWS: u32 = 13;
 pub const STRETCH: u32 = 256;
+pub const MOST_TRIALS: u32 = 2147483648;
+pub const LONGEST_LIST: u32 = 40000;
+pub const LONGEST_LIST_APART: u32 = 350000;

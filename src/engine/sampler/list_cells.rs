@@ -7,7 +7,7 @@ use crate::engine::sampler::plan::{
 use crate::engine::sampler::{RenderError, Settings};
 use crate::passes::{
     CellSizes, Cells, Content, Distribute, FrameLayout, LocationSizes, Points, Resolve,
-    ResourceSizes, Resources, Then,
+    ResolveTarget, ResourceSizes, Resources,
 };
 use ash::vk;
 
@@ -130,7 +130,7 @@ impl ListCells {
                     layout,
                     sample,
                     blend,
-                    Then::Nothing,
+                    ResolveTarget::Nothing,
                     output,
                 )?)),
             })

@@ -34,8 +34,8 @@ pub use settings::{
 pub use statistics::{PassTime, Statistics, TriangleCounts};
 
 use crate::passes::{
-    Bin, Cells, ColorConstants, Content, Counter, Cull, Detect, Distribute, FrameLayout,
-    FrameUniform, Groups, Grow, Kept, ListLength, ListRegion, Points, RecordRate, Resolve,
+    Bin, Cells, ColorConstants, Content, Counter, Cull, CullFilter, Detect, Distribute,
+    FrameLayout, FrameUniform, Groups, Grow, ListLength, ListRegion, Points, RecordRate, Resolve,
     ResourceSizes, Resources, Sample, SampleOptions, SampleSet, Schedule, Setup, Sort, Thin,
 };
 use crate::sampling::Pattern;
@@ -172,7 +172,7 @@ impl Sampler {
             let others = (|| {
                 Ok::<_, RenderError>((
                     source()?,
-                    Cull::new(layout, scene, Kept::Touching)?,
+                    Cull::new(layout, scene, CullFilter::Touching)?,
                     Bin::new(layout, scene)?,
                     Setup::new(layout, scene)?,
                     is_shaded.then(sort).transpose()?,
@@ -319,23 +319,23 @@ impl Sampler {
         });
     }
 
-    /// What the last recording could not finish, where its runs were over so many tiles, one after the other.
+    /// Adds what the last recording could not finish, whose runs were over so many tiles, one after the other.
     ///
     /// # Errors
     /// If what was counted can't be read.
-    pub fn shortfall(
+    pub fn add_shortfall(
         &self,
         tiles: impl IntoIterator<Item = u32>,
-    ) -> Result<Shortfall, VulkanError> {
-        let mut shortfall = Shortfall::default();
+        shortfall: &mut Shortfall,
+    ) -> Result<(), VulkanError> {
         for (tiles, counted) in tiles.into_iter().zip(self.counted()?) {
             for counters in counted {
-                shortfall.add_subgroups(counters);
                 let room = (tiles, self.triangle_capacity);
                 shortfall.add(counters, room, self.capacity.unlisted);
+                shortfall.add_subgroups(counters);
             }
         }
-        Ok(shortfall)
+        Ok(())
     }
 
     /// Adds the figures of the last recording, whose runs were over so many tiles, one after the other.

@@ -3,7 +3,7 @@
 use super::{Finish, Sampler, SamplerContext, Source};
 use crate::engine::sampler::{Detection, RenderError, Settings};
 use crate::passes::{
-    Cells, Detect, DetectMode, DetectOptions, Grow, Resolve, SampleOptions, Then, Thin,
+    Cells, Detect, DetectMode, DetectOptions, Grow, Resolve, ResolveTarget, SampleOptions, Thin,
 };
 
 /// Which pixels of an image are cells.
@@ -93,13 +93,13 @@ impl PixelCells {
                     .collect::<Result<_, _>>()?,
             })
         };
-        let then = match (self.growths > 0, self.detected) {
-            (true, _) => Then::Grow,
-            (false, true) => Then::Detect,
-            (false, false) => Then::Nothing,
+        let target = match (self.growths > 0, self.detected) {
+            (true, _) => ResolveTarget::Grow,
+            (false, true) => ResolveTarget::Detect,
+            (false, false) => ResolveTarget::Nothing,
         };
         Sampler::new(context, &options, source, |sample| {
-            let resolve = Resolve::new(layout, sample, scene.has_blend(), then, context.output)?;
+            let resolve = Resolve::new(layout, sample, scene.has_blend(), target, context.output)?;
             Ok(Some(Finish::Resolve(resolve)))
         })
     }

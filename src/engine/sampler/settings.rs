@@ -226,13 +226,6 @@ impl Settings {
         self.region.map_or(self.size, |region| region.size)
     }
 
-    /// Pixels of the whole image as it is drawn.
-    #[cfg(feature = "gltf")]
-    pub(crate) fn drawn_pixels(&self) -> u64 {
-        let drawn = self.size.map(|side| u64::from(side * self.side()));
-        drawn.into_iter().product()
-    }
-
     /// These, with superpixels that are shaded at every sample where it is asked which lights reach them.
     pub(crate) fn with_shadowed_samples(&self) -> Self {
         let settings = self.clone();

@@ -166,28 +166,9 @@ impl Shortfall {
         self.rooms = self.rooms.max(listed.div_ceil(room.max(1)));
     }
 
-    /// Adds what other runs could not finish.
-    #[cfg(feature = "gltf")]
-    pub fn append(&mut self, other: Self) {
-        self.waiting += other.waiting;
-        self.crowded += other.crowded;
-        self.stalled += other.stalled;
-        self.unlisted += other.unlisted;
-        self.dropped += other.dropped;
-        self.unshadowed += other.unshadowed;
-        self.rooms = self.rooms.max(other.rooms);
-        self.other_subgroups |= other.other_subgroups;
-    }
-
     /// Adds what kernels found of the subgroups that they were run in, as counters say at any later time.
     pub fn add_subgroups(&mut self, counters: &[u32]) {
         self.other_subgroups |= counters.get(Counter::Subgroups as usize) != Some(&0);
-    }
-
-    /// Whether cells one at a time might get further.
-    #[cfg(feature = "gltf")]
-    pub fn walks_too_far(&self) -> bool {
-        self.stalled + self.unshadowed > 0
     }
 
     /// Cells and tiles that are left.

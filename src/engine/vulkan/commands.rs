@@ -1,6 +1,7 @@
 //! Recording into a command buffer, and the time that each pass takes.
 
 use super::barriers::{Barriers, Commands};
+use super::trace::Dispatched;
 use super::{Buffer, Gpu, Image, Pipeline, VulkanError};
 use ash::vk;
 use std::cell::Cell;
@@ -22,6 +23,8 @@ pub struct Recorder<'a> {
     condition: vk::Buffer,
     begun: Cell<vk::Buffer>,
     timings: Option<&'a mut Timings>,
+    /// Whether what is recorded is kept for who asks.
+    traces: bool,
 }
 
 impl<'a> Recorder<'a> {
@@ -44,6 +47,7 @@ impl<'a> Recorder<'a> {
             condition: vk::Buffer::null(),
             begun: Cell::new(vk::Buffer::null()),
             timings,
+            traces: gpu.trace.is_asked(),
         }
     }
 
@@ -153,6 +157,9 @@ impl<'a> Recorder<'a> {
                 .device
                 .cmd_bind_pipeline(self.bindings(), pipeline.bind_point, pipeline.raw)
         };
+        if self.traces && pipeline.bind_point == vk::PipelineBindPoint::GRAPHICS {
+            self.gpu.trace(pipeline, Dispatched::Drawn);
+        }
     }
 
     /// Runs a pipeline over `groups` workgroups, folded into rows of 32,768.
@@ -163,15 +170,11 @@ impl<'a> Recorder<'a> {
 
     /// The same without a barrier after it, for dispatches that write different places.
     pub fn dispatch_unordered(&self, pipeline: &Pipeline, groups: u64) {
-        self.bind(pipeline);
         let rows = groups.div_ceil(32768) as u32;
-        let raw = self.dispatching();
-        // SAFETY: `new`'s contract; 32,768 is below every device's limit of 65,535.
-        unsafe {
-            self.gpu
-                .device
-                .cmd_dispatch(raw, groups.min(32768) as u32, rows, 1)
-        };
+        self.run(pipeline, Dispatched::Workgroups(groups), |device, raw| {
+            // SAFETY: `new`'s contract; 32,768 is below every device's limit of 65,535.
+            unsafe { device.cmd_dispatch(raw, groups.min(32768) as u32, rows, 1) };
+        });
     }
 
     /// Runs a pipeline over the workgroups that vector `index` of `arguments` names.
@@ -182,14 +185,37 @@ impl<'a> Recorder<'a> {
 
     /// The same without a barrier after it, for dispatches that write different places.
     pub fn dispatch_indirect_unordered(&self, pipeline: &Pipeline, arguments: &Buffer, index: u32) {
+        self.run(pipeline, Dispatched::Indirect(index), |device, raw| {
+            // SAFETY: `new`'s contract; the buffer is larger than the index and was created for indirect use.
+            unsafe { device.cmd_dispatch_indirect(raw, arguments.raw, u64::from(index) * 16) };
+        });
+    }
+
+    /// Records a dispatch of a pipeline, under its shader's name.
+    fn run(
+        &self,
+        pipeline: &Pipeline,
+        size: Dispatched,
+        record: impl FnOnce(&ash::Device, vk::CommandBuffer),
+    ) {
         self.bind(pipeline);
         let raw = self.dispatching();
-        // SAFETY: `new`'s contract; the buffer is larger than the index and was created for indirect use.
-        unsafe {
-            self.gpu
-                .device
-                .cmd_dispatch_indirect(raw, arguments.raw, u64::from(index) * 16)
-        };
+        let labels = self.gpu.debug_labels.as_ref();
+        let labelled = labels.zip(pipeline.interface());
+        if let Some((labels, interface)) = labelled {
+            let name = std::ffi::CString::new(interface.name).unwrap_or_default();
+            let label = vk::DebugUtilsLabelEXT::default().label_name(&name);
+            // SAFETY: `new`'s contract; the name is copied, and the label is ended below.
+            unsafe { labels.cmd_begin_debug_utils_label(raw, &label) };
+        }
+        record(&self.gpu.device, raw);
+        if let Some((labels, _)) = labelled {
+            // SAFETY: it was begun above.
+            unsafe { labels.cmd_end_debug_utils_label(raw) };
+        }
+        if self.traces {
+            self.gpu.trace(pipeline, size);
+        }
     }
 
     /// Sets the push constants of `layout`.
@@ -275,11 +301,13 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Records without marks: what takes time is booked by the next mark after it.
+    /// Records without marks and unseen by who asks: what takes time is booked by the next mark after it.
     pub(crate) fn untimed(&mut self, record: impl FnOnce(&mut Self)) {
         let timings = self.timings.take();
+        let traces = std::mem::replace(&mut self.traces, false);
         record(self);
         self.timings = timings;
+        self.traces = traces;
     }
 
     /// Begins timing.

@@ -1,6 +1,7 @@
 //! A device in use: its functions, limits and memory.
 
 use super::instance::Instance;
+use super::trace::Trace;
 use super::{Missing, Requirements, VulkanError};
 use ash::vk;
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
@@ -57,6 +58,9 @@ pub struct Limits {
     pub sample_counts: vk::SampleCountFlags,
     /// Whether commands can be skipped by a word in the device's memory.
     pub conditional_rendering: bool,
+    /// Most pipelines that are kept although no frame uses them: a frame has some 25, and a driver may keep a megabyte or
+    /// two for each.
+    pub max_unused_pipelines: usize,
 }
 
 /// A device in use.
@@ -64,6 +68,9 @@ pub struct Gpu {
     pub(crate) device: ash::Device,
     /// Functions that skip commands, where the device has them.
     pub(super) conditional_rendering: Option<ash::ext::conditional_rendering::Device>,
+    /// Functions that label commands, in an instance of our own that has them.
+    pub(super) debug_labels: Option<ash::ext::debug_utils::Device>,
+    pub(super) trace: Trace,
     pub(crate) queue_family: u32,
     /// `None` only while dropping.
     allocator: Option<SharedAllocator>,
@@ -143,9 +150,14 @@ impl Gpu {
                 })?,
             )),
         };
+        let has_labels = owner.as_ref().is_some_and(|owner| owner.has_debug_utils());
+        let debug_labels =
+            has_labels.then(|| ash::ext::debug_utils::Device::new(&instance, &device));
         let functions = || ash::ext::conditional_rendering::Device::new(&instance, &device);
         Ok(Arc::new(Self {
             conditional_rendering: limits.conditional_rendering.then(functions),
+            debug_labels,
+            trace: Trace::default(),
             device,
             queue_family,
             allocator: Some(allocator),
@@ -285,6 +297,7 @@ pub(super) unsafe fn limits(
             & basic.limits.sampled_image_color_sample_counts,
         // SAFETY: passed on to the caller.
         conditional_rendering: unsafe { Requirements::has_conditional_rendering(instance, device) },
+        max_unused_pipelines: 64,
     }
 }
 

@@ -29,6 +29,7 @@ pub struct Instance {
     _entry: ash::Entry,
     pub(crate) raw: ash::Instance,
     debug: Option<(ash::ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
+    has_debug_utils: bool,
     messages: Arc<Messages>,
 }
 
@@ -112,8 +113,19 @@ impl Instance {
                 return Err(VulkanError::NoValidation);
             }
             layers.push(VALIDATION.as_ptr());
-            extensions.push(ash::ext::debug_utils::NAME.as_ptr());
             extensions.push(ash::ext::validation_features::NAME.as_ptr());
+        }
+        // SAFETY: a global query.
+        let has = unsafe { entry.enumerate_instance_extension_properties(None) }
+            .map_err(VulkanError::of("vkEnumerateInstanceExtensionProperties"))?;
+        let name = ash::ext::debug_utils::NAME;
+        let listed = has
+            .iter()
+            .any(|extension| extension.extension_name_as_c_str() == Ok(name));
+        // The layer has it where no driver does.
+        let has_debug_utils = listed || options.validation;
+        if has_debug_utils {
+            extensions.push(name.as_ptr());
         }
         let mut info = vk::InstanceCreateInfo::default()
             .application_info(&application)
@@ -155,8 +167,14 @@ impl Instance {
             _entry: entry,
             raw,
             debug,
+            has_debug_utils,
             messages,
         }))
+    }
+
+    /// Whether commands can be labelled, for debuggers.
+    pub(super) fn has_debug_utils(&self) -> bool {
+        self.has_debug_utils
     }
 
     /// Everything the validation layer has said so far.

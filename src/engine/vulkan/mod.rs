@@ -12,6 +12,7 @@ mod interface;
 pub(crate) mod memory;
 pub(crate) mod pipeline;
 mod requirements;
+mod trace;
 
 pub(crate) use commands::{PUSH_STAGES, Recorder, Timings};
 pub(crate) use completion::Completion;
@@ -22,3 +23,4 @@ pub(crate) use interface::{Access, Binding, Compiled, Interface, Invocations, Sp
 pub(crate) use memory::{Buffer, BufferView, Image, Memory, MemoryUse, TexelView};
 pub(crate) use pipeline::{Constants, GraphicsPipeline, Pipeline, compute_pipeline};
 pub use requirements::{MISSING_DRIVER_HELP, Missing, Requirements};
+pub(crate) use trace::{Dispatch, Dispatched};

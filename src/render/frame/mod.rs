@@ -9,7 +9,7 @@ mod uniform;
 
 pub use target::Target;
 
-use super::shadows::{Casters, ShadowEngine};
+use super::shadows::{Casters, ShadowFinder};
 use super::{RenderError, Settings, Shadows};
 use crate::camera::Camera;
 use crate::engine::sampler::plan::{Capacity, Plan};
@@ -31,11 +31,11 @@ pub struct Frame {
     scene: Arc<GpuScene>,
     /// What casts shadows, and what finds these, where the settings ask for it.
     casters: Option<Arc<Casters>>,
-    shadows: Option<ShadowEngine>,
+    shadows: Option<ShadowFinder>,
     /// What is shown in the stead of the first pose.
     moment: Option<Arc<Moment>>,
     encoding: Option<Encoding>,
-    beside: u64,
+    reserved: u64,
     settings: Settings,
     plan: Plan,
     passes: Passes,
@@ -52,15 +52,21 @@ pub struct Frame {
     uploaded: bool,
 }
 
+/// Pixels of the whole image as it is drawn.
+fn drawn_pixels(settings: &Settings) -> u64 {
+    let drawn = settings.size.map(|side| u64::from(side * settings.side()));
+    drawn.into_iter().product()
+}
+
 impl Frame {
-    /// Of what the settings allow, `beside` bytes are kept free for others.
+    /// Of what the settings allow, `reserved` bytes are kept free for others.
     pub(super) fn new(
         layout: &Arc<FrameLayout>,
         (scene, casters): (&Arc<GpuScene>, Option<&Arc<Casters>>),
         settings: &Settings,
         encoding: Option<Encoding>,
         capacity: Capacity,
-        beside: u64,
+        reserved: u64,
     ) -> Result<Self, RenderError> {
         let settings = &settings.with_shadowed_samples();
         let casters = match settings.shadows {
@@ -68,12 +74,12 @@ impl Frame {
             Shadows::Exact => Some(casters.ok_or(RenderError::NoCasters)?),
         };
         let gpu = scene.memory().gpu().clone();
-        let taken = scene.memory_bytes() + beside;
+        let taken = scene.memory_bytes() + reserved;
         let beside_regions = taken + FrameGeometry::bytes(scene) + FrameLook::bytes(scene);
-        let pixels = settings.drawn_pixels();
+        let pixels = drawn_pixels(settings);
         let of_others = |sizes: &ResourceSizes| {
             let bytes =
-                |casters| ShadowEngine::bytes(layout, casters, settings, capacity, (pixels, sizes));
+                |casters| ShadowFinder::bytes(layout, casters, settings, capacity, (pixels, sizes));
             beside_regions + casters.map_or(0, |casters| bytes(casters))
         };
         let plan = Plan::new(
@@ -126,7 +132,7 @@ impl Frame {
         let passes = Passes::new(layout, &memory, scene, settings, &plan, encoding)?;
         let shadows = |casters| {
             let shading = (&**scene, Cells::Pixels, &resources);
-            ShadowEngine::new(
+            ShadowFinder::new(
                 layout, &memory, casters, settings, capacity, shading, pixels,
             )
         };
@@ -140,7 +146,7 @@ impl Frame {
             shadows,
             moment: None,
             encoding,
-            beside,
+            reserved,
             passes,
             targets,
             geometry,
@@ -197,8 +203,8 @@ impl Frame {
     }
 
     /// Bytes of what the settings allow that are others'.
-    pub(super) fn beside(&self) -> u64 {
-        self.beside
+    pub(super) fn reserved(&self) -> u64 {
+        self.reserved
     }
 
     /// What it was planned for.

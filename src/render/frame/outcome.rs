@@ -11,7 +11,7 @@ impl Frame {
         let mut shortfall = Shortfall::default();
         let samplers = [&self.passes.blended, &self.passes.superpixels];
         for sampler in samplers.into_iter().flatten() {
-            shortfall.append(sampler.shortfall(self.tiles())?);
+            sampler.add_shortfall(self.tiles(), &mut shortfall)?;
         }
         for counters in self.counters.read(1)?.flatten() {
             shortfall.add_subgroups(counters);

@@ -4,7 +4,7 @@ use crate::engine::sampler::plan::Plan;
 use crate::engine::sampler::{PixelCells, Sampler, SamplerContext, record_rate};
 use crate::passes::{
     Attributes, BoxFilter, Cells, Content, DetectMode, Encode, Encoding, FrameLayout, Multisample,
-    Raster, RecordRate, Resolve, Sort, Spans, Then,
+    Raster, RecordRate, Resolve, ResolveTarget, Sort, Spans,
 };
 use crate::render::passes::{GpuScene, Pose, Shade, ShadeSource, Stroke};
 use crate::render::{Detection, Method, RenderError, Settings};
@@ -115,7 +115,7 @@ impl Passes {
                 resolve: Resolve::for_multisample(
                     layout,
                     settings.samples,
-                    Then::Nothing,
+                    ResolveTarget::Nothing,
                     &output,
                 )?,
             })

@@ -10,7 +10,7 @@ use crate::engine::sampler::{CounterLog, RecordShading, SamplerRun, record_shadi
 use crate::passes::{ListLength, RasterTargets, Resources};
 use crate::render::Settings;
 use crate::render::passes::{FrameGeometry, GpuScene, Receiving, Shade, StrokeSizes};
-use crate::render::shadows::{LightView, ShadowEngine, Shadowed, Sight};
+use crate::render::shadows::{LightView, ShadowFinder, Shadowed, Sight};
 use crate::scene::Moment;
 use crate::vulkan::Recorder;
 use glam::DVec2;
@@ -29,7 +29,7 @@ pub(super) struct Recording<'a> {
     pub targets: &'a RasterTargets,
     pub geometry: &'a FrameGeometry,
     pub resources: &'a Resources,
-    pub shadows: Option<&'a ShadowEngine>,
+    pub shadows: Option<&'a ShadowFinder>,
     pub counters: &'a CounterLog,
     pub scene: &'a GpuScene,
     pub moment: Option<&'a Moment>,
@@ -42,7 +42,7 @@ pub(in crate::render) struct SceneShading<'a> {
     pub scene: &'a GpuScene,
     pub shade: Option<&'a Shade>,
     /// What tells which lights reach what.
-    pub shadows: Option<(&'a ShadowEngine, Shadowed<'a>)>,
+    pub shadows: Option<(&'a ShadowFinder, Shadowed<'a>)>,
 }
 
 impl RecordShading for SceneShading<'_> {
@@ -94,7 +94,7 @@ impl Recording<'_> {
             pinhole: Pinhole::from_camera(self.camera, self.settings.size).ok()?,
             whole: [DVec2::ZERO, place(self.settings.size)],
             part: [low, low + place(region.outer())],
-            places: self.settings.drawn_pixels(),
+            places: super::drawn_pixels(self.settings),
             origin: self.scene.origin(),
         }))
     }

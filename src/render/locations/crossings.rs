@@ -6,7 +6,7 @@ use crate::camera::Pinhole;
 use crate::engine::sampler::statistics::Shortfall;
 use crate::engine::sampler::{CounterLog, SamplerRun};
 use crate::passes::{
-    Bin, CellSizes, Cells, Counter, Cull, Distribute, FrameLayout, Kept, ListLength,
+    Bin, CellSizes, Cells, Counter, Cull, CullFilter, Distribute, FrameLayout, ListLength,
     ListedLocation, Offsets,
 };
 use crate::render::passes::{Crossings, MarkedOutput, SeenLocation};
@@ -17,7 +17,7 @@ use ash::vk;
 use std::sync::Arc;
 
 /// Pipelines and memory to look for thin triangles in runs of locations of one scene.
-pub(super) struct CrossingEngine {
+pub(super) struct CrossingFinder {
     distribute: Distribute,
     cull: Cull,
     bin: Bin,
@@ -27,7 +27,7 @@ pub(super) struct CrossingEngine {
     run: RunMemory,
 }
 
-impl CrossingEngine {
+impl CrossingFinder {
     /// Makes the pipelines, and memory for the runs of a plan; cells are marked in `marks`.
     ///
     /// # Safety
@@ -58,7 +58,7 @@ impl CrossingEngine {
         Ok(Self {
             // SAFETY: the list goes with the resources, and has room for as many locations.
             distribute: unsafe { Distribute::new(layout, cells, sizes, resources, locations) }?,
-            cull: Cull::new(layout, scene, Kept::Thin)?,
+            cull: Cull::new(layout, scene, CullFilter::Thin)?,
             bin: Bin::new(layout, scene)?,
             // SAFETY: what is seen goes with the engine and has room for all locations; of the marks as the caller says.
             crossings: unsafe { Crossings::new(layout, scene, resources, (&seen, marks)) }?,

@@ -49,7 +49,7 @@ impl Crossings {
         (seen, marks): (&Buffer, &Buffer),
     ) -> Result<Self, VulkanError> {
         let shown = [
-            (crossings_set::LOADS, whole(resources.tile_locations())),
+            (crossings_set::LOADS, whole(&resources.locations.loads)),
             (crossings_set::SEEN, whole(seen)),
             (crossings_set::CELL_MARKS, whole(marks)),
         ];

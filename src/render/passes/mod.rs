@@ -3,7 +3,8 @@
 mod beside_frame;
 mod crossings;
 mod geometry;
-mod output;
+mod neighbours;
+mod output_cells;
 mod pose;
 pub mod prefilter;
 mod receivers;
@@ -14,10 +15,11 @@ mod stroke;
 
 pub use crossings::{Crossings, MarkedOutput, SeenLocation};
 pub use geometry::FrameGeometry;
-pub use output::{Output, Shown};
+pub use neighbours::Neighbours;
+pub use output_cells::{OutputCells, OutputPlane};
 pub use pose::Pose;
 pub use receivers::{LightPlane, Receivers, Receiving};
 pub use scene::{FrameLook, GpuScene, SceneUploads};
 pub use shade::{Shade, ShadeSource};
-pub use shadow::{Found, Shadow};
+pub use shadow::{Shadow, ShadowTarget};
 pub use stroke::{Stroke, StrokeSizes};

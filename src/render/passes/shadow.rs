@@ -11,14 +11,14 @@ use std::sync::Arc;
 
 /// What is done with what was found between a light and receivers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Found {
+pub enum ShadowTarget {
     /// It is written down for places from one on.
-    Written {
+    Words {
         /// The first place.
         first_place: u32,
     },
     /// Pixels of a region of some width are marked where their centres' words say otherwise.
-    Marked {
+    Marks {
         /// In pixels.
         width: u32,
     },
@@ -81,13 +81,13 @@ impl Shadow {
         &self,
         recorder: &Recorder<'_>,
         (occluders, set): (&Resources, &SampleSet),
-        found: Found,
+        target: ShadowTarget,
         light: u32,
     ) {
         self.arguments.record(recorder);
-        let (first_place, width) = match found {
-            Found::Written { first_place } => (first_place, 0),
-            Found::Marked { width } => (0, width),
+        let (first_place, width) = match target {
+            ShadowTarget::Words { first_place } => (first_place, 0),
+            ShadowTarget::Marks { width } => (0, width),
         };
         let push = spirv::ShadowPush {
             first_place,

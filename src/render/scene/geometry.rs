@@ -254,8 +254,8 @@ pub enum InstanceFault {
 }
 
 impl Geometry {
-    /// Checks all that a renderer counts on, for a scene of so many materials. Positions that are not finite are none of
-    /// it: their triangles are not seen.
+    /// Checks everything that a renderer relies on, for a scene of `materials` materials. Positions that are not finite
+    /// are allowed: their triangles are not seen.
     ///
     /// # Errors
     /// The first contradiction found.

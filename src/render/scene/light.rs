@@ -13,7 +13,7 @@ pub enum LightKind {
     Spot {
         /// Half angle inside which the light is full.
         inner_angle: f32,
-        /// Half angle outside which there is none, above `inner_angle`, at most pi / 2.
+        /// Half angle outside of which the light is dark, above `inner_angle`, at most pi / 2.
         outer_angle: f32,
     },
 }

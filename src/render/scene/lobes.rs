@@ -28,7 +28,7 @@ pub struct Clearcoat {
     pub normal_scale: f32,
     /// The factor's, in red.
     pub texture: Option<TextureUse>,
-    /// The roughness', in green.
+    /// Texture of the roughness, in green.
     pub roughness_texture: Option<TextureUse>,
     /// Tangent-space normals of the coat, which otherwise has those of the mesh.
     pub normal_texture: Option<TextureUse>,
@@ -43,7 +43,7 @@ pub struct Sheen {
     pub roughness: f32,
     /// Texture of the colour, sRGB.
     pub color_texture: Option<TextureUse>,
-    /// The roughness', in alpha.
+    /// Texture of the roughness, in alpha.
     pub roughness_texture: Option<TextureUse>,
 }
 
@@ -69,7 +69,7 @@ pub struct Iridescence {
     pub thickness: [f32; 2],
     /// The factor's, in red.
     pub texture: Option<TextureUse>,
-    /// The thickness', in green.
+    /// Texture of the thickness, in green.
     pub thickness_texture: Option<TextureUse>,
 }
 
@@ -93,11 +93,11 @@ pub struct Transmission {
     pub factor: f32,
     /// The factor's, in red.
     pub texture: Option<TextureUse>,
-    /// Thickness of what lies behind the surface, in units of the mesh; 0 for a thin wall.
+    /// Thickness of the volume behind the surface, in units of the mesh; 0 for a thin wall.
     pub thickness: f32,
-    /// The thickness', in green.
+    /// Texture of the thickness, in green.
     pub thickness_texture: Option<TextureUse>,
-    /// Absorption of RGB, per unit of length: light goes down by `exp(-absorption * length)`.
+    /// Absorption of RGB per unit of length: light is reduced by `exp(-absorption * length)`.
     pub absorption: [f32; 3],
 }
 

@@ -97,7 +97,7 @@ impl StrokePart {
         }
     }
 
-    /// A disc's corner from its centre, x to the right and y down, in radii; otherwise nothing.
+    /// Offset of a disc's corner from its centre, x to the right and y down, in radii; zero for other corners.
     pub(crate) fn offset(self) -> [f32; 2] {
         let Self::Disc(index) = self else {
             return [0.0; 2];

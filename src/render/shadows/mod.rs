@@ -19,11 +19,11 @@
 //! ```
 
 mod casters;
-mod engine;
+mod finder;
 mod light;
 
 pub(super) use casters::Casters;
-pub(super) use engine::{ShadowEngine, Shadowed};
+pub(super) use finder::{ShadowFinder, Shadowed};
 pub(super) use light::{LightView, Rectangle, Sight};
 
 use super::{PreparedScene, RenderError, Renderer, SceneRequest, Shadows};

@@ -1,7 +1,7 @@
 //! Numbers from comma-separated values.
 
-/// Reads a header, one of those known, and a line of as many numbers for each row. Returns the number of columns, which
-/// tells the headers apart, and the numbers row by row.
+/// Reads a header, which must be one of `headers`, and lines with a number for each of its columns. Returns the number
+/// of columns, which tells the headers apart, and the numbers row by row.
 pub fn numbers(bytes: &[u8], headers: &[&[&str]]) -> Result<(usize, Vec<f64>), String> {
     let text = std::str::from_utf8(bytes)
         .map_err(|_| "it is no text in UTF-8, as a CSV must be".to_owned())?;

@@ -1,8 +1,9 @@
 //! `gpc info`.
 
-use super::{input, print};
+use super::{input, print, render};
 use clap::Args;
-use gpc::scene::SceneInfo;
+use gpc::render::{FramePass, Headless, HeadlessOptions, Settings, Shadows};
+use gpc::scene::{PoseRequest, Scene, SceneInfo};
 use serde::Serialize;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -12,10 +13,17 @@ use std::process::ExitCode;
 pub struct InfoArgs {
     /// A .glb or .gltf file, or - for standard input
     scene: PathBuf,
+    /// Say instead what passes a frame of it takes, in their order: shader, what tells the number of workgroups, and what the shader
+    /// may read and write
+    #[arg(long)]
+    passes: bool,
     /// Print one JSON object
     #[arg(long)]
     json: bool,
 }
+
+/// Size of the frame whose passes are listed: it has a single region.
+const SIZE: [u32; 2] = [256, 144];
 
 #[derive(Serialize)]
 struct Report<'a> {
@@ -29,6 +37,15 @@ pub fn run(args: &InfoArgs) -> anyhow::Result<ExitCode> {
     for warning in &loaded.warnings {
         log::warn!("{warning}");
     }
+    if args.passes {
+        let passes = passes(&loaded.scene)?;
+        if args.json {
+            print::json(&passes)?;
+        } else {
+            print::line(&table(&passes))?;
+        }
+        return Ok(ExitCode::SUCCESS);
+    }
     let info = loaded.scene.info();
     if args.json {
         print::json(&Report {
@@ -39,6 +56,34 @@ pub fn run(args: &InfoArgs) -> anyhow::Result<ExitCode> {
         print::line(&text(&info))?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// The passes of a frame with the default settings and, where the scene has lights, shadows.
+fn passes(scene: &Scene) -> anyhow::Result<Vec<FramePass>> {
+    let pose = scene.pose(&PoseRequest::default())?;
+    let mut settings = Settings::new(SIZE[0], SIZE[1]);
+    if !pose.lights.is_empty() {
+        settings.shadows = Shadows::Exact;
+    }
+    let aspect = f64::from(SIZE[0]) / f64::from(SIZE[1]);
+    let views = render::choose_views(&render::CameraArgs::default(), &pose, aspect)?;
+    let Some(view) = views.first() else {
+        anyhow::bail!("the scene has no camera");
+    };
+    let mut headless = Headless::new(&HeadlessOptions::default())?;
+    let prepared = render::upload(&mut headless, scene, (&pose, None), &settings)?;
+    let mut frame = headless.prepare(&prepared, &settings)?;
+    Ok(headless.passes(&mut frame, &view.camera)?)
+}
+
+/// A line a pass.
+fn table(passes: &[FramePass]) -> String {
+    let lines = passes.iter().map(|pass| {
+        let FramePass { name, dispatch, .. } = pass;
+        let (reads, writes) = (pass.reads.join(", "), pass.writes.join(", "));
+        format!("{name:<16}{dispatch:<18}reads {reads}; writes {writes}")
+    });
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 fn text(info: &SceneInfo) -> String {

@@ -79,7 +79,7 @@ impl Stage {
         })
     }
 
-    /// Figures of what was rendered to a file; `more` is what only the command can say.
+    /// Figures of what was rendered to a file; `more` adds the command's own.
     pub fn figures<T: Serialize>(
         &self,
         output: &Path,

@@ -100,7 +100,7 @@ impl Viewer {
         }
     }
 
-    /// Opens a file, or those of a folder, beside those that there are.
+    /// Opens a file, or the scene files of a folder, in addition to those that are open.
     fn open(&mut self, path: &Path) {
         match scenes_at(path) {
             Ok(scenes) => {
@@ -249,7 +249,7 @@ impl Viewer {
         self.restart();
     }
 
-    /// Goes on by so many scenes, round and round.
+    /// Goes on by `by` scenes; the first one follows the last.
     fn turn_to(&mut self, by: usize) {
         if self.scenes.len() > 1 {
             self.show_scene((self.scene + by) % self.scenes.len());
@@ -262,7 +262,7 @@ impl Viewer {
         usize::from(column.is_some_and(|column| self.pointer.place().x >= column))
     }
 
-    /// Changes the samples of the picture under the pointer, where its method and pattern can have so many.
+    /// Changes the number of samples of the picture under the pointer, if its method and pattern allow the new number.
     fn change_samples(&mut self, change: impl Fn(u32) -> u32) -> anyhow::Result<()> {
         let layer = self.layer_under_pointer();
         let look = &mut self.looks[layer];

@@ -48,7 +48,7 @@ pub struct Canvas {
     layers: Vec<Layer>,
     /// Pictures of the stage before, until there are layers.
     before: Vec<Picture>,
-    /// Seen in the stead of all pictures.
+    /// Picture that is shown instead of all others.
     cover: Option<Picture>,
     /// Whether pictures get more samples at rest.
     pub refines: bool,
@@ -187,7 +187,7 @@ impl Canvas {
         }
     }
 
-    /// Shows a picture in the stead of all others, or those again.
+    /// Shows a picture instead of all others, or these again.
     pub fn set_cover(&mut self, cover: Option<Picture>) {
         if let Some(before) = std::mem::replace(&mut self.cover, cover) {
             self.keep(Kept::Pictures(vec![before]));

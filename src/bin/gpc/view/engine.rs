@@ -5,9 +5,9 @@ use gpc::render::Renderer;
 use gpc::vulkan::VulkanError;
 use std::sync::Arc;
 
-/// The renderer, and the device that it works in. All that it prepares is kept beside an [`Arc`] of this.
+/// Renderer and its device. Everything that the renderer prepares is kept together with an [`Arc`] of the engine.
 pub struct Engine {
-    /// First, since it goes before the device.
+    /// Renderer; the first field, so that it is dropped before the device.
     pub renderer: Renderer,
     pub device: Arc<Device>,
 }

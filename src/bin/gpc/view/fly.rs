@@ -4,7 +4,7 @@ use glam::DVec3;
 use std::time::{Duration, Instant};
 use winit::keyboard::{KeyCode, PhysicalKey};
 
-/// The scene's diagonal is flown along in so many seconds, unless the wheel sets another speed.
+/// Seconds in which the eye flies along the scene's diagonal, unless the wheel sets another speed.
 const SECONDS_A_DIAGONAL: f64 = 10.0;
 /// Longest time by which one picture moves the eye, however long it takes.
 const LONGEST: Duration = Duration::from_millis(500);

@@ -34,9 +34,9 @@ pub struct Layer {
     waiting: Option<PictureWork>,
     /// Work to do again, in a frame that has more room.
     again: Option<(PictureWork, Frame, u32)>,
-    /// Counts pictures, so that the results of older ones are told apart.
+    /// Number of the picture, by which results of older pictures are recognised.
     version: u64,
-    /// Samples of what is seen, where all of it has as many.
+    /// Samples a pixel of the picture that is shown, if all of its pixels have the same number.
     pub shown: Option<u32>,
     /// Figures of the last work.
     pub statistics: Statistics,
@@ -62,7 +62,7 @@ pub struct Sight<'a> {
 }
 
 impl Layer {
-    /// A picture of which nothing is rendered.
+    /// Makes a layer of which nothing is rendered yet.
     pub fn new(engine: &Engine, look: Look, now: Instant) -> anyhow::Result<Self> {
         Ok(Self {
             picture: Picture::new(&engine.device, look.settings.size)?,
@@ -211,7 +211,7 @@ impl Layer {
         Weak::ptr_eq(&Arc::downgrade(&self.ticket), ticket)
     }
 
-    /// Takes a frame that was asked for, or why there is none.
+    /// Takes a frame that was asked for, or the error of preparing it.
     pub fn prepared(
         &mut self,
         settings: &Settings,

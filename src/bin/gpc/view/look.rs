@@ -16,7 +16,7 @@ pub struct Look {
 }
 
 impl Look {
-    /// Settings of a step with so many samples, of a part of the picture.
+    /// Settings of a step with `samples` samples, for a part of the picture.
     pub fn at(&self, samples: u32, region: Option<PixelRect>) -> Settings {
         Settings {
             samples,
@@ -48,7 +48,7 @@ impl Look {
         }
     }
 
-    /// Whether method and pattern can have so many samples.
+    /// Whether method and pattern allow `samples` samples.
     pub fn can_have(&self, samples: u32) -> bool {
         match self.settings.method {
             Method::None => samples == 1,

@@ -22,7 +22,7 @@ impl Losses {
     }
 }
 
-/// Whether an error says that the device is lost, or the window's surface, which goes with it.
+/// Whether an error says that the device is lost, or the window's surface, which is lost together with it.
 pub fn is_lost(error: &anyhow::Error) -> bool {
     error.chain().any(|cause| {
         let vulkan = match cause.downcast_ref::<RenderError>() {

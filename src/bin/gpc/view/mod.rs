@@ -68,7 +68,7 @@ pub struct Options {
     pub start: Start,
     /// Appearance of scenes beyond what their files say.
     pub appearance: Appearance,
-    /// The options of the command line that say the same, and what is behind the scene.
+    /// Options of the command line for this appearance and the background.
     pub appearance_options: Vec<String>,
     /// Antialiasing, and the size of the window.
     pub look: Look,

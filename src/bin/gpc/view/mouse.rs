@@ -19,7 +19,7 @@ const PIXELS_A_NOTCH: f64 = 40.0;
 /// Pixels of an ordinary display from the line of a split at which it is taken hold of.
 const GRIP: f64 = 6.0;
 
-/// The factor that fingers on a touchpad ask for: what they are farther apart than before, as a share of that.
+/// Zoom factor of a pinch; `delta` is the change of the fingers' distance as a share of that distance.
 pub fn pinched(delta: f64) -> f64 {
     // Some systems end a gesture with a number that is none.
     if delta.is_finite() {
@@ -66,7 +66,7 @@ impl Viewer {
         true
     }
 
-    /// The place of the picture under one of the window: in pixels of the photograph, where that is shown.
+    /// Place of the picture, in pixels of the photograph if one is shown, under a place of the window.
     pub fn plane_place(&self, pointer: DVec2) -> DVec2 {
         match &self.easel {
             Some(easel) => easel.framing.place(pointer),

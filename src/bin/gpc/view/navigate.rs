@@ -126,7 +126,7 @@ impl Turntable {
         }
     }
 
-    /// Sees all of a scene from the same direction.
+    /// Moves back or forth until all of a scene is seen, in the same direction.
     pub fn fit(&mut self, bounds: Bounds, aspect: f64) {
         let orbit = Orbit {
             fov: self.fov,
@@ -139,7 +139,7 @@ impl Turntable {
         }
     }
 
-    /// Looks at the same target from a side.
+    /// Turns to a side, around the same target.
     pub fn look_from(&mut self, side: Side) {
         (self.azimuth, self.elevation) = side.angles();
     }
@@ -168,7 +168,7 @@ impl Turntable {
         self.distance /= factor;
     }
 
-    /// Brings a point into the middle, from the same place.
+    /// Turns so that a point comes into the middle, from the same place.
     pub fn recentre(&mut self, point: DVec3) {
         let shift = point - self.target;
         // The eye moves along with the target, abreast; its distance to the point becomes the turntable's.
@@ -193,7 +193,7 @@ impl Turntable {
         self.target = eye - self.distance * self.backward();
     }
 
-    /// Half of what the image's height shows at the target's distance.
+    /// Half of the height that the image shows at the target's distance, in units of the scene.
     fn half_height(&self) -> f64 {
         self.distance * (0.5 * self.fov.to_radians()).tan()
     }

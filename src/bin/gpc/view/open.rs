@@ -150,7 +150,7 @@ impl Viewer {
         self.view_changed();
     }
 
-    /// Goes from scenes to photographs or back, whose lenses are not at the same places.
+    /// Switches between scenes and photographs, whose lenses are not at the same places.
     fn set_easel(&mut self, easel: Option<Easel>) {
         if easel.is_some() != self.easel.is_some() {
             self.cover = self.cover.cleared(easel.is_some());

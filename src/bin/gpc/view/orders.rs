@@ -41,7 +41,7 @@ impl Viewer {
         Ok(())
     }
 
-    /// Orders the first picture of what is wanted in the stead of the frames, if anything is.
+    /// Orders the first picture of the cover, if one is wanted.
     fn begin_cover(&mut self, view_changed: bool) {
         self.cover_figures = None;
         let look = &self.looks[self.layer_under_pointer()];
@@ -75,7 +75,7 @@ impl Viewer {
         }
     }
 
-    /// Asks the worker for a picture of what is seen of the scene, antialiased like that under the pointer.
+    /// Asks the worker for a picture of the visible scene, antialiased like the picture under the pointer.
     pub fn order(&mut self, number: u64, samples: u32, subject: Subject) {
         let Some(stage) = self.canvas.stage() else {
             return;

@@ -16,7 +16,7 @@ pub enum Overlay {
 
 /// Samples along a side of a pixel that triangles are counted at.
 pub const COUNT_SIDE: u32 = 4;
-/// The most triangles that the samples can tell apart, at the top of their scale.
+/// Largest number of triangles that the samples can tell apart, at the top of the scale.
 const MOST_TRIANGLES: u32 = COUNT_SIDE * COUNT_SIDE;
 /// Differences at the top of their scale, in 8-bit code values.
 const LARGEST_ERROR: u8 = 16;

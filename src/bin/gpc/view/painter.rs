@@ -99,7 +99,7 @@ impl Painter {
     }
 }
 
-/// An error of the panel's renderer, of which a lost device is told apart.
+/// Converts an error of the panel's renderer, so that a lost device is recognised.
 fn failure(error: RendererError) -> anyhow::Error {
     match error {
         RendererError::Vulkan(result) => VulkanError::of("drawing the panel")(result).into(),

@@ -66,7 +66,7 @@ pub struct SceneFacts<'a> {
 /// Facts about a picture.
 pub struct PictureFacts<'a> {
     pub look: &'a Look,
-    /// Samples of what is seen, where all of it has as many.
+    /// Samples a pixel of the picture that is shown, if all of its pixels have the same number.
     pub shown: Option<u32>,
     /// Whether the device has kernels for it.
     pub is_prepared: bool,

@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// Half of the side of the square that is unzoomed, as a share of the window's height.
 const LOUPE: f64 = 0.25;
-/// The most that a photograph is enlarged: so many pixels of the window for one of its.
+/// Largest enlargement of a photograph: pixels of the window for one of the photograph.
 const MOST: f64 = 64.0;
 
 /// A photograph from a file.

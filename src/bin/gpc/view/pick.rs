@@ -4,7 +4,7 @@ use glam::{DAffine3, DVec3};
 use gpc::camera::Ray;
 use gpc::scene::Geometry;
 
-/// The first point of a triangle that a ray meets, from either side and whatever its alpha.
+/// First point of a triangle that a ray meets, from either side and with any alpha.
 pub fn first_hit(geometry: &Geometry, ray: &Ray) -> Option<DVec3> {
     let start = ray.start - geometry.origin;
     let meet = |triangles: std::ops::Range<usize>, place: DAffine3| {

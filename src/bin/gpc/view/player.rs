@@ -59,7 +59,7 @@ impl Player {
         self.time = time.clamp(0.0, self.duration);
     }
 
-    /// Changes the speed by so many steps.
+    /// Changes the speed by a number of steps.
     pub fn change_speed(&mut self, steps: i32) {
         let found = SPEEDS.iter().position(|speed| *speed >= self.speed);
         let index = found.unwrap_or(SPEEDS.len() - 1) as i32 + steps;

@@ -10,12 +10,12 @@ use std::thread::JoinHandle;
 /// Tells whose frame it is. Nobody wants it any more once this is gone.
 pub type Ticket = Arc<()>;
 
-/// A frame, or why there is none.
+/// Prepared frame, or the error of preparing it.
 pub struct Prepared {
     pub ticket: Weak<()>,
     pub settings: Settings,
     pub frame: Result<Frame, RenderError>,
-    /// The frame's device goes after it.
+    /// Engine whose device the frame needs until it is dropped.
     _engine: Arc<Engine>,
 }
 

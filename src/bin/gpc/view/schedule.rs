@@ -61,7 +61,7 @@ impl Took {
         }
     }
 
-    /// Milliseconds of each of so many rows.
+    /// Milliseconds of one of `rows` rows, without the fixed ones.
     fn of_row(self, rows: u32) -> f64 {
         (self.ms - self.fixed_ms) / f64::from(rows.max(1))
     }
@@ -95,7 +95,7 @@ pub struct Schedule {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Phase {
     Draft,
-    /// Rendering with so many samples, from this row on.
+    /// Rendering with `samples` samples, from `row` on.
     Band {
         samples: u32,
         row: u32,
@@ -240,7 +240,7 @@ impl Schedule {
         }
     }
 
-    /// Whether the step at hand has so many samples.
+    /// Whether the present step renders with `samples` samples.
     fn is_rendering(&self, samples: u32) -> bool {
         matches!(self.step, Phase::Band { samples: at_hand, .. } if at_hand == samples)
     }
@@ -251,7 +251,7 @@ impl Schedule {
         self.drafts.get(self.draft).copied().unwrap_or(1)
     }
 
-    /// Step that follows a picture with so many samples.
+    /// Step that follows a picture of `done` samples.
     fn after(&self, done: u32) -> Phase {
         let next = self.steps.iter().find(|step| **step > done);
         next.map_or(Phase::Done, |samples| Phase::Band {
@@ -280,7 +280,7 @@ mod tests {
         start + Duration::from_millis(ms)
     }
 
-    /// Samples and rows of all bands until the picture is done, each of which takes `ms` a row.
+    /// Samples and rows of all bands until the picture is done, if each takes `ms` milliseconds a row.
     fn bands(schedule: &mut Schedule, ms: f64, now: Instant) -> Vec<(u32, Range<u32>)> {
         let mut bands = Vec::new();
         while let Some(work) = schedule.take(now) {

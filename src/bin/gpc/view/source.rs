@@ -51,7 +51,7 @@ pub struct Stage {
     pub bounds: Bounds,
     /// Warnings: parts of the file that can't be shown.
     pub warnings: Vec<String>,
-    /// The scene's device goes after it.
+    /// Engine whose device the scene needs until it is dropped.
     _engine: Arc<Engine>,
 }
 

@@ -13,7 +13,7 @@ pub struct Watch {
 }
 
 impl Watch {
-    /// Calls `changed`, in another thread, whenever the file or data beside it is written or replaced.
+    /// Calls `changed`, in another thread, whenever the file or data in its folder is written or replaced.
     ///
     /// # Errors
     /// If the system can't watch the file's folder.

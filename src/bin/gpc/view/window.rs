@@ -74,7 +74,7 @@ pub struct Viewer {
     pub looks: Vec<Look>,
     /// Appearance of scenes beyond what their files say.
     pub appearance: Arc<Appearance>,
-    /// The options of the command line that say the same, and what is behind the scene.
+    /// Options of the command line for this appearance and the background.
     pub appearance_options: Vec<String>,
     /// Column of the split, as a share of the width.
     pub split: f64,
@@ -546,7 +546,7 @@ fn canvas(
     Canvas::new(Arc::new(engine), window.inner_size().into(), preparer)
 }
 
-/// Lays out the panel, from nothing: the device has none of its textures.
+/// Lays out the panel from nothing, since a new device has none of its textures.
 fn interface(window: &Window) -> egui_winit::State {
     let context = egui::Context::default();
     context.set_visuals(egui::Visuals::dark());

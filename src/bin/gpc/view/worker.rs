@@ -30,10 +30,10 @@ use std::thread::JoinHandle;
 
 /// Rows of a picture that are made at once, where it takes long: in between it can be stopped.
 const BAND: u32 = 32;
-/// A picture of at most so many samples is soon done: it is shown though another one is asked for meanwhile, so that there
-/// is something to see while lenses move.
+/// Most samples of a picture that is soon done. Such a picture is shown even if another one has been asked for
+/// meanwhile, so that there is something to see while lenses move.
 const QUICK: u32 = 4;
-/// Brute force that pictures are compared with has at least so many samples.
+/// Least samples of the brute force that pictures are compared with.
 const REFERENCE_SAMPLES: u32 = 256;
 
 /// Kind of picture that is made of a scene.
@@ -45,7 +45,7 @@ pub enum Subject {
     Zoom(ZoomMap, bool),
     /// Values of pixels other than their colours, to look at.
     Overlay(Overlay),
-    /// A PNG file as `gpc render` writes it or, with regions enlarged, `gpc zoom`, to the same bytes.
+    /// PNG file with the same bytes that `gpc render` writes or, with regions enlarged, `gpc zoom`.
     File(PathBuf, Option<ZoomMap>),
 }
 
@@ -61,7 +61,7 @@ struct Order {
 pub enum Task {
     Scene(Box<SceneTask>),
     Photo(PhotoView),
-    /// A PNG file as `gpc zoom` and `gpc unzoom` write it, to the same bytes.
+    /// PNG file with the same bytes that `gpc zoom` or `gpc unzoom` writes.
     PhotoFile(PhotoView, PathBuf),
 }
 
@@ -79,7 +79,7 @@ pub struct SceneTask {
 }
 
 impl Task {
-    /// The file that it is for, which is made whatever else is asked for.
+    /// File that the task writes; such a task is done whatever else is asked for.
     fn file(&self) -> Option<&Path> {
         match self {
             Self::Scene(task) => match &task.subject {
@@ -263,7 +263,7 @@ impl Maker {
         }
     }
 
-    /// Makes a picture; where it is stopped, an error of which [`is_stopped`] holds.
+    /// Makes a picture. If it is stopped, the error is one that [`is_stopped`] recognises.
     fn make(&mut self, order: &Order) -> Made {
         let number = order.number;
         let task = match &order.task {
@@ -441,7 +441,7 @@ impl Maker {
         })
     }
 
-    /// Renders bands of so many rows from the top, and hands each to `take`.
+    /// Renders bands of `rows` rows from the top, and hands each to `take`.
     fn render_bands(
         &mut self,
         task: &SceneTask,

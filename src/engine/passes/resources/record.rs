@@ -113,7 +113,8 @@ impl Resources {
         recorder.barrier();
     }
 
-    /// Fills the first `pixels` pixels with the background, premultiplied as in the output, and its display code.
+    /// Fills the first `pixels` pixels or locations with the background, premultiplied as in the output, its display code and, of
+    /// locations that have them, its attributes.
     pub(crate) fn record_background(
         &self,
         recorder: &Recorder<'_>,
@@ -132,14 +133,10 @@ impl Resources {
             );
         }
         fill(recorder, &self.color.buffer, background, pixels);
-        recorder.barrier();
-    }
-
-    /// Fills the attributes of the first `locations` locations with those of the background, of which this is the display code.
-    #[cfg(feature = "gltf")]
-    pub(crate) fn record_unseen(&self, recorder: &Recorder<'_>, locations: u32, code: u32) {
-        let unseen = [[0, 0, 0, code], [0; 4]];
-        fill(recorder, &self.attributes, unseen, locations);
+        if self.sizes.attributes && self.sizes.locations.is_some() {
+            let unseen = [[0, 0, 0, code], [0; 4]];
+            fill(recorder, &self.attributes, unseen, pixels);
+        }
         recorder.barrier();
     }
 }

@@ -8,7 +8,7 @@ pub enum SetError {
     /// Set without locations.
     #[error("no sampling locations; give at least one")]
     Empty,
-    /// More than a 32-bit index can tell apart.
+    /// Number of locations that is too large for a 32-bit index.
     #[error("{0} sampling locations; at most {max} fit in one set", max = u32::MAX)]
     TooMany(usize),
     /// NaN or infinite.

@@ -329,8 +329,8 @@ impl SamplingSet {
         }
     }
 
-    /// An image by row and column from a colour for each sample: the mean of each cell of the output, transparent where
-    /// there is none. Colours are linear light with premultiplied alpha.
+    /// Makes an image by row and column from a colour for each sample: the mean of each cell of the output, transparent
+    /// for a cell without samples. Colours are linear light with premultiplied alpha.
     #[must_use]
     pub fn image(&self, colors: &[[f32; 4]]) -> Vec<[f32; 4]> {
         let count = self.size[0] as usize * self.size[1] as usize;

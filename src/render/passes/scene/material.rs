@@ -158,40 +158,32 @@ fn is_glossy(material: &Material) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::passes::spirv;
 
     #[test]
     fn the_material_is_the_shaders() {
-        let text = include_str!("../../../../shaders/include/material.glsl");
-        let vector = |name: &str| -> usize {
-            let line = text
-                .lines()
-                .find(|line| line.split_whitespace().nth(1) == Some(name))
-                .unwrap();
-            let value = line.split_whitespace().nth(2).unwrap();
-            value.trim_end_matches('u').parse().unwrap()
-        };
-        let offset = |name| 16 * vector(name);
+        let offset = |vector: u32| 16 * vector as usize;
         macro_rules! check {
-            ($($field:ident $name:literal,)*) => {
-                $(assert_eq!(std::mem::offset_of!(GpuMaterial, $field), offset($name), $name);)*
+            ($($field:ident $vector:ident,)*) => {
+                $(assert_eq!(std::mem::offset_of!(GpuMaterial, $field), offset(spirv::$vector));)*
             };
         }
         check! {
-            base_color "MATERIAL_BASE_COLOR",
-            emissive_metallic "MATERIAL_EMISSIVE_METALLIC",
-            roughness_normal_occlusion_cutoff "MATERIAL_FACTORS",
-            alpha "MATERIAL_ALPHA",
-            specular "MATERIAL_SPECULAR",
-            clearcoat "MATERIAL_CLEARCOAT",
-            sheen "MATERIAL_SHEEN",
-            anisotropy "MATERIAL_ANISOTROPY",
-            iridescence "MATERIAL_IRIDESCENCE",
-            diffuse_transmission "MATERIAL_DIFFUSE_TRANSMISSION",
-            transmission "MATERIAL_TRANSMISSION",
-            volume "MATERIAL_VOLUME",
-            specular_glossiness "MATERIAL_SPECULAR_GLOSSINESS",
+            base_color MATERIAL_BASE_COLOR,
+            emissive_metallic MATERIAL_EMISSIVE_METALLIC,
+            roughness_normal_occlusion_cutoff MATERIAL_FACTORS,
+            alpha MATERIAL_ALPHA,
+            specular MATERIAL_SPECULAR,
+            clearcoat MATERIAL_CLEARCOAT,
+            sheen MATERIAL_SHEEN,
+            anisotropy MATERIAL_ANISOTROPY,
+            iridescence MATERIAL_IRIDESCENCE,
+            diffuse_transmission MATERIAL_DIFFUSE_TRANSMISSION,
+            transmission MATERIAL_TRANSMISSION,
+            volume MATERIAL_VOLUME,
+            specular_glossiness MATERIAL_SPECULAR_GLOSSINESS,
         }
-        assert_eq!(size_of::<GpuMaterial>(), offset("MATERIAL_UV_ROWS"));
+        assert_eq!(size_of::<GpuMaterial>(), offset(spirv::MATERIAL_UV_ROWS));
         assert_eq!(size_of::<GpuMaterial>(), 16 * FIXED);
     }
 }

@@ -148,7 +148,7 @@ impl<'b> Accessor<'b> {
         })
     }
 
-    /// Values that were decoded in the place of the accessor at `place`.
+    /// Values of a stream that was decoded instead of the accessor at `place`.
     pub fn of_stream(stream: &'b Stream, normalized: bool, place: &str) -> Result<Self, Fault> {
         let size = stream.component.size() * stream.components;
         if stream.count == 0 || stream.bytes.len() != stream.count * size {
@@ -334,7 +334,7 @@ fn read_sparse<'b>(
     Ok(Sparse { indices, values })
 }
 
-/// Unsigned integers; what is not one is 0.
+/// Unsigned integers of a component type; 0 for numbers that are not unsigned integers.
 #[inline]
 fn integers<const N: usize>(component: ComponentType, bytes: &[u8]) -> [u32; N] {
     let mut integers = [0; N];

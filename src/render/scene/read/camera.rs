@@ -77,7 +77,7 @@ fn orthographic(item: &Orthographic) -> Result<SceneProjection, String> {
     })
 }
 
-/// The double that the file most likely had: the shortest decimal that names the same float.
+/// Double that the file most likely holds: the shortest decimal that is rounded to the float.
 fn wide(x: f32) -> f64 {
     x.to_string().parse().unwrap_or(f64::from(x))
 }

@@ -24,7 +24,7 @@ const TEXELS_PER_BYTE: u64 = 1024;
 /// Most bytes of an image file.
 const MAX_FILE: u64 = 1 << 30;
 
-/// The document's images, of which those asked for are decoded.
+/// Images of a document; only those asked for are decoded.
 #[derive(Default)]
 pub struct Images {
     /// Index into `decoded` of every image that was tried.
@@ -106,7 +106,7 @@ impl Images {
         })
     }
 
-    /// Decodes an image that is none of a document's; where it is among the decoded ones.
+    /// Decodes an image that is not a document's; returns its index among the decoded ones.
     pub fn add(&mut self, bytes: Cow<'_, [u8]>) -> Result<u32, String> {
         let image = self.admit(bytes)?.decode()?;
         self.decoded.push(image);

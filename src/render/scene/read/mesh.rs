@@ -56,7 +56,7 @@ pub fn read_all(
     Ok((meshes, copies))
 }
 
-/// Indices of materials, and of what they are copies of.
+/// Indices of materials that are unlit copies, and of their originals.
 pub type UnlitCopies = Vec<(usize, usize)>;
 
 /// Makes points and lines without normals unlit, by copies of their materials.

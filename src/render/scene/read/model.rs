@@ -129,7 +129,7 @@ impl Model {
         })
     }
 
-    /// A document of which some is left out, nothing of it broken.
+    /// Makes a model of a document from which parts were left out, but of which nothing is broken.
     pub fn of(root: Root, value: Value) -> Self {
         Self {
             root,

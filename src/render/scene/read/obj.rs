@@ -144,7 +144,8 @@ pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, Sce
     drawing.into_scene("OBJ", file, warnings)
 }
 
-/// Text as the parser takes it: of Unicode, where other bytes are none of a number, and each statement in a line of its own.
+/// Text that the parser can read: Unicode, with other bytes replaced so that no number contains them, and each
+/// statement in a line of its own.
 fn plain_text(bytes: &[u8]) -> Vec<u8> {
     let text = String::from_utf8_lossy(bytes);
     text.replace("\\\r\n", " ")

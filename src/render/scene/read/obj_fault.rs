@@ -9,7 +9,7 @@ use crate::scene::error::Fault;
 /// Elements that indices refer to, in the order in which a corner of a face has them.
 const NAMED: [&str; 3] = ["vertex", "texture coordinate", "normal"];
 
-/// An index that is out of the range of what there was when it was read.
+/// Index that is out of range at the line that holds it.
 struct OutOfRange {
     line: usize,
     /// Index into [`NAMED`].
@@ -95,7 +95,7 @@ fn parsed(statement: &str) -> Result<(), LoadError> {
     .map(|_| ())
 }
 
-/// The indices of a corner, as `vertex/texture coordinate/normal`, of which all may be left out.
+/// Indices of a corner, written `vertex/texture coordinate/normal`. Each may be left out.
 fn indices(corner: &str) -> Option<[Option<isize>; 3]> {
     let mut indices = [None; 3];
     for (place, word) in corner.split('/').enumerate() {

@@ -60,7 +60,7 @@ fn decode(bytes: &[u8], warnings: &mut Warnings) -> Result<Drawing, Fault> {
     Ok(draw(&vertices, triangles, &edges, &header))
 }
 
-/// Fails for an element that claims more than the file has, each of which takes a byte at least.
+/// Fails for an element with more entries than the file can have, since each takes a byte at least.
 fn check(element: &ElementDef, bytes: usize) -> Result<(), Fault> {
     let ElementDef {
         name,
@@ -226,7 +226,7 @@ impl PropertyAccess for Face {
     }
 }
 
-/// Strips of triangles in one list, each of which a negative index ends.
+/// Strips of triangles in one list; a negative index ends each strip.
 #[derive(Default)]
 struct Strip {
     parts: Vec<Vec<u32>>,
@@ -253,7 +253,7 @@ fn is_indices(name: &str) -> bool {
     matches!(name, "vertex_indices" | "vertex_index")
 }
 
-/// A line; an index that is no whole number of 32 bits is none of a vertex.
+/// Line between two vertices. An index that is not a whole number of 32 bits refers to no vertex.
 struct Edge {
     ends: [u32; 2],
 }

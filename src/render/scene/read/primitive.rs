@@ -227,7 +227,7 @@ pub fn gather<const N: usize>(accessor: &Accessor<'_>, sources: &[u32]) -> Vec<[
         .collect()
 }
 
-/// The indices of a primitive that has any, and how many vertices it goes through.
+/// Reads the indices of a primitive, if it has any, and the number of vertices that it goes through.
 fn read_indices<'a>(
     reader: &vertex::Reader<'a, '_>,
     positions: &Accessor<'_>,

@@ -141,7 +141,7 @@ impl<'r> Reader<'r, '_> {
             .collect()
     }
 
-    /// Vertex colours, opaque where they have no alpha; empty where there are none.
+    /// Vertex colours, opaque if the file gives no alpha; empty if it gives no colours.
     pub fn colors(&self, sources: &[u32], notes: &mut Vec<Fault>) -> Vec<[f32; 4]> {
         let Some(accessor) = self.attribute(Semantic::Colors(0), &[3, 4], &FRACTION, notes) else {
             return Vec::new();

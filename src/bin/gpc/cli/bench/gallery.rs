@@ -39,7 +39,7 @@ pub struct Part {
 }
 
 impl Gallery {
-    /// Draws the pictures; `ssaa` is supersampling of as many samples as the superpixels have.
+    /// Draws the pictures; `ssaa` is supersampling with as many samples as the superpixels.
     pub fn new(
         yardstick: &Yardstick,
         ssaa: Option<&DecodedImage>,

@@ -81,7 +81,7 @@ pub struct VariantRow {
     pub gpu_ns: f64,
     /// Nanoseconds a sample by the clock.
     pub wall_ns: f64,
-    /// Time of the device a sample over that of the raster pass.
+    /// Ratio of the device's time for a sample to that of the raster pass.
     pub gpu_ratio: f64,
     /// Time by the clock a sample over that of the raster pass.
     pub wall_ratio: f64,

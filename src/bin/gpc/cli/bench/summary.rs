@@ -47,7 +47,7 @@ pub struct Ratio {
     pub median: f64,
     /// Largest ratio.
     pub worst: f64,
-    /// The scene where that is.
+    /// Scene of the largest ratio.
     pub worst_scene: String,
 }
 
@@ -58,7 +58,7 @@ pub struct Reach {
     pub samples: u32,
     /// The median; `None` where at least half of the scenes never reach it.
     pub share: Option<f64>,
-    /// Each scene that was measured so, and its share; `None` where it never reaches it.
+    /// Scenes for which the share was measured, each with its share; `None` if superpixels never reach the error.
     pub scenes: Vec<(String, Option<f64>)>,
 }
 

@@ -191,7 +191,7 @@ fn compared(args: &CompareArgs, name: &str, bound: f64) -> anyhow::Result<Image>
     Ok(different(Some(comparison), reason))
 }
 
-/// Where the error map of an image goes: under its name, and `.png` after another ending.
+/// Path of the error map of an image: under the image's name, with `.png` added to another ending.
 fn difference_path(folder: &Path, name: &str) -> PathBuf {
     if name.to_lowercase().ends_with(".png") {
         folder.join(name)

@@ -64,12 +64,12 @@ impl<'a> Film<'a> {
         self.pose.environment(&self.loaded.scene)
     }
 
-    /// The cameras of what is shown.
+    /// Cameras of the scene that is shown.
     pub fn cameras(&self) -> &[SceneCamera] {
         &self.cameras
     }
 
-    /// The views of what is shown.
+    /// Views of the scene that is shown.
     pub fn views(&self, aspect: f64) -> Result<Vec<NamedView>, Usage> {
         view::choose_among(&self.image.camera, &self.cameras, self.bounds, aspect)
     }

@@ -167,7 +167,7 @@ fn steps(args: &RenderArgs, template: &Template) -> Result<(f64, Vec<SequenceFra
     Ok((first, sequence::share(steps, args.sequence.shard)))
 }
 
-/// Counts images on standard error where that is a terminal.
+/// Progress bar on standard error, if that is a terminal.
 fn progress(count: usize, quiet: bool) -> ProgressBar {
     if quiet || count < 2 {
         return ProgressBar::hidden();

@@ -15,7 +15,7 @@ pub struct Report {
     output: String,
     #[serde(flatten)]
     device: Device,
-    /// Width and height of what was rendered.
+    /// Width and height of the rendered image or part in pixels.
     size: [u32; 2],
     #[serde(skip_serializing_if = "Option::is_none")]
     region: Option<RegionReport>,

@@ -5,7 +5,8 @@ use gpc::output::{self, Aov, AovKind, Format, Picture};
 use gpc::render::Rendered;
 use std::path::{Path, PathBuf};
 
-/// Writes an image to a file, or to standard output for `-`; AOVs go beside it unless the format has layers.
+/// Writes an image to a file, or to standard output for `-`. Its AOVs become files in the same folder, unless the
+/// format has layers.
 pub fn save(
     path: &Path,
     format: Format,
@@ -16,7 +17,7 @@ pub fn save(
     write(path, &bytes)
 }
 
-/// The bytes of an image. AOVs that the format has no layers for are written beside it.
+/// Encodes an image. AOVs for which the format has no layers are written to files in the same folder.
 pub fn encode(
     path: &Path,
     format: Format,

@@ -110,7 +110,7 @@ impl Session {
         }
     }
 
-    /// Renders what is shown: once, or with `repeat` once unmeasured and then so many times.
+    /// Renders what is shown: once, or with `repeat` once unmeasured and then `repeat` times.
     pub fn shoot(&mut self, camera: &Camera, repeat: Option<u32>) -> anyhow::Result<Shot> {
         if repeat.is_some() {
             self.render(camera)?;

@@ -58,7 +58,7 @@ pub fn warning(
     Some(format!("camera {}: {found}; {ways}", view.label))
 }
 
-/// Whether a point lies within the sides of what a camera sees, and before it.
+/// Whether a point lies in front of a camera and within the sides of its image.
 fn sees(camera: &Camera, point: DVec3, aspect: f64) -> bool {
     let clip = camera.projection_matrix(aspect) * camera.view() * point.extend(1.0);
     clip.w > 0.0 && clip.x.abs() <= clip.w && clip.y.abs() <= clip.w

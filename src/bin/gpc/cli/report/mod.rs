@@ -25,7 +25,7 @@ pub struct ReportArgs {
 }
 
 impl ReportArgs {
-    /// Refuses to print figures where the image goes.
+    /// Refuses to print figures to the standard output that the image goes to.
     pub fn check(&self, output: &Path) -> Result<(), Usage> {
         if self.json && input::is_standard(output) {
             return Err(Usage(
@@ -69,7 +69,7 @@ pub struct Figures<T> {
     pub output: String,
     #[serde(flatten)]
     pub device: Device,
-    /// Width and height of the image; of samples without one, those of the image plane.
+    /// Width and height of the image, or of the image plane if samples make no image.
     pub size: [u32; 2],
     #[serde(flatten)]
     pub effort: Effort,

@@ -10,7 +10,7 @@ pub fn read(bytes: &[u8]) -> Result<Locations, String> {
     Ok(Locations::from_rows(width, &numbers))
 }
 
-/// Writes a header and a line for each row, with as many digits as tell each value from its neighbours.
+/// Writes a header, and a line for each row. Values have enough digits to be read back exactly.
 pub fn write(rows: &[Row]) -> Vec<u8> {
     let mut text = COLUMNS.join(",");
     for row in rows {

@@ -185,7 +185,7 @@ fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<Outco
     })
 }
 
-/// A rate for people; images of one row or column have none of their own.
+/// Rate in words. Images of one row or column have no rate.
 fn rate(rate: Option<f64>) -> String {
     match rate.unwrap_or(1.0) {
         rate if rate < 1e6 => format!("{rate:.2}"),

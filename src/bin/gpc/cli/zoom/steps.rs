@@ -46,7 +46,7 @@ const DRAWN: u32 = 96;
 /// Share of its light that the image keeps under the locations.
 const DIMMED: f32 = 0.15;
 
-/// Every so many locations, as dots over the dimmed image.
+/// Picture of some of the locations, as dots over the dimmed image.
 fn locations(size: [u32; 2], original: &[[f32; 4]], map: &ZoomMap) -> Pixels {
     let dim = |[r, g, b, _]: &[f32; 4]| [r * DIMMED, g * DIMMED, b * DIMMED, 1.0];
     let mut picture: Pixels = original.iter().map(dim).collect();

@@ -120,11 +120,11 @@ pub struct MotionPart {
     pub displacement_vectors: u32,
     matrix_count: u32,
     target_count: u32,
-    /// Whether normals are those of triangles, of which each has three vertices for itself.
+    /// Whether normals are those of triangles, each of which has three vertices to itself.
     pub is_flat: bool,
 }
 
-/// Matrices and weights of what moves, and the materials and lights that change, at one moment.
+/// Matrices and weights of moving parts, and the materials and lights that change, at one moment.
 #[derive(Clone, Debug)]
 pub struct Moment {
     /// Identity of the motion.

@@ -129,7 +129,7 @@ fn anchor(name: &str) -> String {
     name.chars().map(plain).collect()
 }
 
-/// A whole number with its thousands apart.
+/// Whole number with its thousands separated.
 fn thousands(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::new();

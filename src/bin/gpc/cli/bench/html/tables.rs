@@ -234,7 +234,7 @@ pub fn left(scene: &SceneResults) -> String {
     format!("<h3>What is left of the error</h3>\n{table}")
 }
 
-/// Errors of geometry alone; empty where that was not measured.
+/// Table of errors of geometry alone; empty if these were not measured.
 pub fn geometry(scene: &SceneResults) -> String {
     let rows: Vec<_> = scene
         .rows

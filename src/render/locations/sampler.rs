@@ -10,7 +10,7 @@ use crate::render::frame::recording::SceneShading;
 use crate::render::passes::{Shade, ShadeSource};
 use crate::render::plane::Window;
 use crate::render::renderer::PreparedScene;
-use crate::render::shadows::{ShadowEngine, Shadowed, Sight};
+use crate::render::shadows::{ShadowFinder, Shadowed, Sight};
 use crate::render::{RenderError, Settings, Statistics};
 use crate::vulkan::{Recorder, VulkanError};
 use ash::vk;
@@ -27,12 +27,12 @@ pub(super) fn list_cells(cells: Cells, shadow_words: u32) -> ListCells {
 }
 
 /// Pipelines and memory to sample runs of locations of one scene.
-pub(super) struct LocationEngine {
+pub(super) struct LocationSampler {
     cells: Cells,
     settings: Settings,
     sampler: Sampler,
     shade: Shade,
-    shadows: Option<ShadowEngine>,
+    shadows: Option<ShadowFinder>,
     run: RunMemory,
 }
 
@@ -43,7 +43,7 @@ pub(super) struct LocationValues<'a> {
     pub attributes: &'a [[[u32; 4]; 2]],
 }
 
-impl LocationEngine {
+impl LocationSampler {
     /// Makes the pipelines, and memory for the runs of a plan.
     pub fn new(
         layout: &Arc<FrameLayout>,
@@ -87,7 +87,7 @@ impl LocationEngine {
         let sampler = unsafe { listed.sampler(&context, (resources, resources.listed()?)) }?;
         let shadows = |casters| {
             let shading = (scene, *cells, resources);
-            ShadowEngine::new(
+            ShadowFinder::new(
                 layout,
                 &run.memory,
                 casters,
@@ -151,7 +151,6 @@ impl LocationEngine {
             if cells.0 == Cells::Points {
                 let code = settings.output_code(background);
                 resources.record_background(recorder, count as u32, background, code);
-                resources.record_unseen(recorder, count as u32, code);
                 recorder.mark("background");
             }
             let views = shadows.as_ref().map(|shadows| shadows.views(sight));
@@ -191,12 +190,20 @@ impl LocationEngine {
     }
 
     /// What the last run could not finish.
-    pub fn shortfall(&self, window: &Window) -> Result<Shortfall, VulkanError> {
-        let mut shortfall = self.sampler.shortfall([window.tile_count()])?;
+    fn shortfall(&self, window: &Window) -> Result<Shortfall, VulkanError> {
+        let mut shortfall = Shortfall::default();
+        self.sampler
+            .add_shortfall([window.tile_count()], &mut shortfall)?;
         if let Some(shadows) = &self.shadows {
             shadows.add_shortfall(&mut shortfall)?;
         }
         Ok(shortfall)
+    }
+
+    /// Whether cells of the last run, or tiles of a light, have longer lists than kernels walk that take several cells at a time.
+    pub fn has_long_lists(&self, window: &Window) -> Result<bool, VulkanError> {
+        let shortfall = self.shortfall(window)?;
+        Ok(shortfall.stalled + shortfall.unshadowed > 0)
     }
 
     /// Fails where records of the last run did not fit, or lists were too long.

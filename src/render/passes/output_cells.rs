@@ -4,9 +4,9 @@ use crate::passes::{IdViews, Resources};
 use crate::vulkan::{Buffer, Image, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 
-/// A word a cell, row by row.
+/// What cells show, row by row: a word each, but for marks and colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shown {
+pub enum OutputPlane {
     /// IDs of the nearest opaque or MASK triangles.
     Ids,
     /// IDs of the nearest BLEND triangles.
@@ -15,22 +15,35 @@ pub enum Shown {
     Codes,
     /// A bit for each light that something keeps from the place.
     Shadows,
+    /// Cells that become superpixels whatever the others show: a word a tile of 8 x 4 cells.
+    Marks,
+    /// Colours of superpixels: four words a cell.
+    Colors,
 }
 
-impl Shown {
-    const COUNT: usize = 4;
+impl OutputPlane {
+    /// Words a cell of all planes.
+    const WORDS: u64 = 9;
+
+    /// Where it begins, and how long it is, in words a cell.
+    fn range(self) -> [u64; 2] {
+        match self {
+            Self::Colors => [5, 4],
+            single => [single as u64, 1],
+        }
+    }
 }
 
 /// Some rows of an output, and images of their IDs.
-pub struct Output {
+pub struct OutputCells {
     size: [u32; 2],
-    /// All words of each [`Shown`], one after the other.
+    /// All words of each [`OutputPlane`], one after the other.
     words: Buffer,
     ids: Image,
     blend_ids: Image,
 }
 
-impl Output {
+impl OutputCells {
     /// Room for `width` x `height` cells.
     ///
     /// # Errors
@@ -55,7 +68,7 @@ impl Output {
             size: [width, height],
             words: memory.buffer(
                 "what cells show",
-                Self::bytes_of([width, height]) * Shown::COUNT as u64,
+                Self::bytes_of([width, height]) * OutputPlane::WORDS,
                 vk::BufferUsageFlags::TRANSFER_SRC,
                 MemoryUse::Upload,
             )?,
@@ -67,7 +80,7 @@ impl Output {
     /// Bytes that so many cells take.
     #[must_use]
     pub fn bytes([width, height]: [u32; 2]) -> u64 {
-        Self::bytes_of([width, height]) * (Shown::COUNT as u64 + 2)
+        Self::bytes_of([width, height]) * (OutputPlane::WORDS + 2)
     }
 
     fn bytes_of([width, height]: [u32; 2]) -> u64 {
@@ -85,25 +98,25 @@ impl Output {
         }
     }
 
-    /// The words of the first cells, to be written while the device is idle; nothing where the driver did not map the buffer.
-    pub fn words_mut(&mut self, shown: Shown) -> &mut [u32] {
-        let bytes = Self::bytes_of(self.size) as usize;
-        let words = self.words.bytes_mut().chunks_exact_mut(bytes);
-        words
-            .take(Shown::COUNT)
-            .nth(shown as usize)
-            .map_or(&mut [], bytemuck::cast_slice_mut)
+    /// The words of a plane, to be written while the device is idle; nothing where the driver did not map the buffer.
+    pub fn words_mut(&mut self, plane: OutputPlane) -> &mut [u32] {
+        let [first, bytes] = plane.range().map(|part| part * Self::bytes_of(self.size));
+        let range = first as usize..(first + bytes) as usize;
+        let words = self.words.bytes_mut().get_mut(range);
+        words.map_or(&mut [], bytemuck::cast_slice_mut)
     }
 
-    /// Records the way of the first `rows` rows to the images, and to the buffers of resources that have room for them.
+    /// Records the way of what the first `rows` rows show to the images, and to the buffers of resources that have room for it.
     pub fn record(&self, recorder: &Recorder<'_>, resources: &Resources, rows: u32) {
-        let plane = |shown: Shown| shown as u64 * Self::bytes_of(self.size);
-        let bytes = Self::bytes_of([self.size[0], rows]);
-        for (image, shown) in [(&self.ids, Shown::Ids), (&self.blend_ids, Shown::BlendIds)] {
+        let planes = [
+            (&self.ids, OutputPlane::Ids),
+            (&self.blend_ids, OutputPlane::BlendIds),
+        ];
+        for (image, plane) in planes {
             let written = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
             recorder.transition(image, vk::ImageLayout::UNDEFINED, written);
             let copies = [vk::BufferImageCopy::default()
-                .buffer_offset(plane(shown))
+                .buffer_offset(plane.range()[0] * Self::bytes_of(self.size))
                 .image_subresource(vk::ImageSubresourceLayers {
                     aspect_mask: vk::ImageAspectFlags::COLOR,
                     mip_level: 0,
@@ -128,18 +141,36 @@ impl Output {
             }
             recorder.transition(image, written, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
         }
-        for (buffer, shown) in [
-            (&resources.display.buffer, Shown::Codes),
-            (&resources.shadow_words.buffer, Shown::Shadows),
-        ] {
-            let read = shown == Shown::Codes || resources.sizes().shadow_words > 0;
-            if read {
-                // SAFETY: both buffers have as many bytes, were made for copies, and go with what executes.
-                unsafe {
-                    recorder.copy_raw((self.words.raw, plane(shown)), (buffer.raw, 0), bytes);
-                }
-            }
+        let bytes = Self::bytes_of([self.size[0], rows]);
+        self.record_copy(
+            recorder,
+            OutputPlane::Codes,
+            &resources.display.buffer,
+            bytes,
+        );
+        if resources.sizes().shadow_words > 0 {
+            let shadows = &resources.shadow_words.buffer;
+            self.record_copy(recorder, OutputPlane::Shadows, shadows, bytes);
         }
+        let tiles = u64::from(self.size[0].div_ceil(8) * rows.div_ceil(4));
+        recorder.clear(&resources.marks);
         recorder.barrier();
+        self.record_copy(recorder, OutputPlane::Marks, &resources.marks, 4 * tiles);
+        recorder.barrier();
+    }
+
+    /// Records the way of the colours of the first `rows` rows.
+    pub fn record_colors(&self, recorder: &Recorder<'_>, resources: &Resources, rows: u32) {
+        let bytes = 4 * Self::bytes_of([self.size[0], rows]);
+        let colors = &resources.color.buffer;
+        self.record_copy(recorder, OutputPlane::Colors, colors, bytes);
+        recorder.barrier();
+    }
+
+    /// Records a copy of the first bytes of a plane to a buffer of the same or larger size.
+    fn record_copy(&self, recorder: &Recorder<'_>, plane: OutputPlane, to: &Buffer, bytes: u64) {
+        let first = plane.range()[0] * Self::bytes_of(self.size);
+        // SAFETY: both buffers have as many bytes, were made for copies, and go with what executes.
+        unsafe { recorder.copy_raw((self.words.raw, first), (to.raw, 0), bytes) };
     }
 }

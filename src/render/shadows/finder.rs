@@ -11,8 +11,8 @@ use crate::passes::{
     Resources, SampleSet,
 };
 use crate::render::passes::{
-    Found, FrameGeometry, FrameLook, GpuScene, LightPlane, Pose, Receivers, Receiving, Shade,
-    ShadeSource, Shadow,
+    FrameGeometry, FrameLook, GpuScene, LightPlane, Pose, Receivers, Receiving, Shade, ShadeSource,
+    Shadow, ShadowTarget,
 };
 use crate::render::{RenderError, Settings};
 use crate::scene::Moment;
@@ -21,7 +21,7 @@ use ash::vk;
 use std::sync::Arc;
 
 /// Pipelines and memory to find what keeps lights from what a frame or a run of locations shades.
-pub(in crate::render) struct ShadowEngine {
+pub(in crate::render) struct ShadowFinder {
     casters: Arc<Casters>,
     lit: Lit,
     /// What is shown in the stead of the first pose.
@@ -53,9 +53,9 @@ pub(in crate::render) struct Shadowed<'a> {
 
 /// What the casters between a plane of a light and receivers are asked for.
 struct Occlusion<'a> {
-    engine: &'a ShadowEngine,
+    finder: &'a ShadowFinder,
     set: &'a SampleSet,
-    found: Found,
+    target: ShadowTarget,
     /// The light's bit.
     light: u32,
 }
@@ -69,15 +69,15 @@ impl Shadowed<'_> {
 impl RecordShading for Occlusion<'_> {
     /// Shades casters that may let light pass, for their opacities.
     fn record(&self, recorder: &mut Recorder<'_>, resources: &Resources) {
-        if let Some(shade) = &self.engine.shade {
-            shade.record(recorder, &self.engine.casters.scene, &resources.arguments);
+        if let Some(shade) = &self.finder.shade {
+            shade.record(recorder, &self.finder.casters.scene, &resources.arguments);
         }
     }
 
     fn record_round_end(&self, recorder: &mut Recorder<'_>) {
-        let occluders = (&self.engine.resources, self.set);
-        let shadow = &self.engine.shadow;
-        shadow.record(recorder, occluders, self.found, self.light);
+        let occluders = (&self.finder.resources, self.set);
+        let shadow = &self.finder.shadow;
+        shadow.record(recorder, occluders, self.target, self.light);
     }
 }
 
@@ -100,7 +100,7 @@ fn sizes(
     OCCLUDERS.sizes(layout, &*casters.scene, settings, room, capacity.lists)
 }
 
-impl ShadowEngine {
+impl ShadowFinder {
     /// About how many bytes it takes for an image or list of so many places, where the memory of those who shade is of these
     /// sizes.
     pub fn bytes(
@@ -259,9 +259,9 @@ impl ShadowEngine {
                 Receiving::Pixels(_) => 0,
                 Receiving::Records => shaded.pixels(),
             };
-            let found = Found::Written { first_place };
+            let target = ShadowTarget::Words { first_place };
             for view in shaded.views {
-                self.record_view(recorder, shaded, receiving, (view, &view.plane), found);
+                self.record_view(recorder, shaded, receiving, (view, &view.plane), target);
             }
             shaded.resources.record_bind(recorder, shaded.set);
         });
@@ -273,12 +273,12 @@ impl ShadowEngine {
     pub fn record_probes(&self, recorder: &mut Recorder<'_>, shaded: Shadowed<'_>) {
         recorder.untimed(|recorder| {
             let receiving = Receiving::Pixels(shaded.pixels());
-            let found = Found::Marked {
+            let target = ShadowTarget::Marks {
                 width: shaded.size[0],
             };
             for view in shaded.views {
                 for plane in view.plane.of_probes() {
-                    self.record_view(recorder, shaded, receiving, (view, &plane), found);
+                    self.record_view(recorder, shaded, receiving, (view, &plane), target);
                 }
             }
             shaded.resources.record_bind(recorder, shaded.set);
@@ -292,7 +292,7 @@ impl ShadowEngine {
         shaded: Shadowed<'_>,
         receiving: Receiving,
         (view, plane): (&LightView, &LightPlane),
-        found: Found,
+        target: ShadowTarget,
     ) {
         let (scene, resources, shading) = (&*self.casters.scene, &self.resources, shaded.resources);
         let Some(set) = resources.set(0) else {
@@ -319,9 +319,9 @@ impl ShadowEngine {
             index: 0,
         };
         let occlusion = Occlusion {
-            engine: self,
+            finder: self,
             set,
-            found,
+            target,
             light: view.bit,
         };
         self.sampler.record(recorder, &run, &occlusion);
