@@ -23,7 +23,8 @@ pub struct Recorder<'a> {
     condition: vk::Buffer,
     begun: Cell<vk::Buffer>,
     timings: Option<&'a mut Timings>,
-    /// Whether what is recorded is kept for who asks.
+    /// Whether dispatches are labelled, and kept for who asks.
+    labels: bool,
     traces: bool,
 }
 
@@ -47,6 +48,7 @@ impl<'a> Recorder<'a> {
             condition: vk::Buffer::null(),
             begun: Cell::new(vk::Buffer::null()),
             timings,
+            labels: gpu.debug_labels.is_some(),
             traces: gpu.trace.is_asked(),
         }
     }
@@ -200,7 +202,7 @@ impl<'a> Recorder<'a> {
     ) {
         self.bind(pipeline);
         let raw = self.dispatching();
-        let labels = self.gpu.debug_labels.as_ref();
+        let labels = self.gpu.debug_labels.as_ref().filter(|_| self.labels);
         let labelled = labels.zip(pipeline.interface());
         if let Some((labels, interface)) = labelled {
             let name = std::ffi::CString::new(interface.name).unwrap_or_default();
@@ -301,13 +303,15 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Records without marks and unseen by who asks: what takes time is booked by the next mark after it.
+    /// Records without marks and labels, which cost more than what is skipped, and unseen by who asks: what takes time is booked by
+    /// the next mark after it.
     pub(crate) fn untimed(&mut self, record: impl FnOnce(&mut Self)) {
         let timings = self.timings.take();
-        let traces = std::mem::replace(&mut self.traces, false);
+        let seen = (self.labels, self.traces);
+        (self.labels, self.traces) = (false, false);
         record(self);
         self.timings = timings;
-        self.traces = traces;
+        (self.labels, self.traces) = seen;
     }
 
     /// Begins timing.
