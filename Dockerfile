@@ -1,4 +1,4 @@
-# The command with Mesa's software driver: renders without a GPU. See docs/farm.md.
+# The command with Mesa's software driver: renders without a GPU. See docs/sequences.md.
 #   docker build -t gpc .
 #   docker run --rm -v "$PWD:/data" --user "$(id -u):$(id -g)" gpc render scene.glb -o image.png
 FROM rust:1-trixie AS build

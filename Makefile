@@ -19,7 +19,8 @@ SONAME = libgpc.so.$(basename $(VERSION))
 # What `make view` opens.
 SCENE ?= assets/letters.glb
 
-.PHONY: help demo view test test-view test-drivers bench lint shaders check-shaders header assets install
+.PHONY: help demo view test test-view test-drivers bench measure figures pictures lint shaders check-shaders header assets \
+	install dist test-dist
 
 help:
 	@echo "make demo           build, render a scene without and with antialiasing into out/"
@@ -28,11 +29,17 @@ help:
 	@echo "make test-view      run the tests of the window, on a display of their own"
 	@echo "make test-drivers   run the tests of the passes on every driver that can be had here"
 	@echo "make bench          measure cost and accuracy of all methods into out/bench; BENCH='...' are its options"
+	@echo "make measure        write docs/bench/*.csv of this machine's driver again (hours); KINDS='...' are some of them"
+	@echo "make figures        write the tables, plots and help texts of the documents from the data and the command"
+	@echo "make pictures       render the pictures of the documents again"
 	@echo "make lint           check formatting, clippy's advice for each set of features, and the documentation"
-	@echo "make shaders        compile shaders/ into shaders/spirv (builds shaderc: some 10 minutes once)"
-	@echo "make check-shaders  check that shaders/spirv is what shaders/ compiles to"
+	@echo "make shaders        compile shaders/ into shaders/spirv, and write their interfaces into src/engine/passes/spirv.rs"
+	@echo "                    (builds shaderc: some 10 minutes once)"
+	@echo "make check-shaders  check that both are what shaders/ compiles to"
 	@echo "make header         write include/gpc.h, the C header, again"
 	@echo "make install        build the C library and install it below PREFIX, which is $(PREFIX)"
+	@echo "make dist           write archives and packages of the command and the C library into out/dist"
+	@echo "make test-dist      install and run these in empty Debian systems (needs root and debootstrap)"
 	@echo "make assets         write the scenes in assets/ again"
 
 demo:
@@ -63,6 +70,18 @@ bench:
 	$(CARGO) build --release --bin gpc
 	@tools/bench.sh out/bench $(BENCH)
 
+measure:
+	@tools/setup.sh build vulkan
+	@tools/measure.sh $(KINDS)
+
+figures:
+	@tools/setup.sh build
+	GPC_FIGURES=write $(CARGO) test --release --test figures documents_agree
+
+pictures:
+	@tools/setup.sh build lavapipe
+	@tools/pictures.sh
+
 lint:
 	@tools/setup.sh build
 	$(CARGO) fmt --check
@@ -88,7 +107,7 @@ assets:
 
 header:
 	@tools/setup.sh build
-	GPC_HEADER=write $(CARGO) test --release --test capi header
+	GPC_HEADER=write $(CARGO) test --release --test hosts header
 
 # A crate type of this build alone: `cargo build` makes neither library.
 install:
@@ -96,3 +115,10 @@ install:
 	$(CARGO) rustc --release --lib --no-default-features --features capi --crate-type cdylib,staticlib -- \
 		-C link-arg=-Wl,-soname,$(SONAME)
 	@tools/install.sh $(or $(CARGO_TARGET_DIR),target)/release $(VERSION) $(SONAME) $(abspath $(PREFIX)) $(DESTDIR)
+
+dist:
+	@tools/setup.sh build window
+	@tools/dist.sh
+
+test-dist:
+	@tools/test-dist.sh out/dist

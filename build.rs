@@ -1,7 +1,12 @@
 //! SPIR-V for the crate: the checked-in `shaders/spirv`, verified to be made from the sources beside
 //! it, or, with the feature `compile-shaders`, compiled afresh.
 //!
-//! `GPC_SPIRV=write` (with the feature) replaces the checked-in files, `GPC_SPIRV=check` fails where they differ.
+//! `GPC_SPIRV=write` (with the feature) replaces the checked-in files, `GPC_SPIRV=check` fails where they differ. So it does
+//! with the Rust file that has the interfaces of the crate's shaders.
+
+#[cfg(feature = "compile-shaders")]
+#[path = "build/reflect.rs"]
+mod reflect;
 
 use std::fmt::Write as _;
 use std::fs;
@@ -61,6 +66,7 @@ const VARIANTS: &[Variant] = &[
         &[("MULTISAMPLED", "")],
     ),
     ("grow", "grow.comp", &[]),
+    ("neighbours", "neighbours.comp", &[]),
     ("cull", "cull.comp", &[]),
     ("bin", "bin.comp", &[]),
     ("setup", "setup.comp", &[]),
@@ -190,6 +196,7 @@ fn main() {
     println!("cargo:rerun-if-changed=examples/visibility/shaders");
     println!("cargo:rerun-if-changed=tests/gpu/host/shaders");
     println!("cargo:rerun-if-changed=build.rs");
+    println!("cargo:rerun-if-changed=build");
     println!("cargo:rerun-if-env-changed=GPC_SPIRV");
     let root =
         PathBuf::from(std::env::var("CARGO_MANIFEST_DIR").expect("cargo sets CARGO_MANIFEST_DIR"));
@@ -202,7 +209,10 @@ fn main() {
     spirv(&group("examples/forward/shaders", FORWARD), &out);
     spirv(&group("examples/visibility/shaders", VISIBILITY), &out);
     spirv(&group("tests/gpu/host/shaders", HOST), &out);
-    let folder = spirv(&group("shaders", VARIANTS), &out);
+    let own = group("shaders", VARIANTS);
+    let folder = spirv(&own, &out);
+    #[cfg(feature = "compile-shaders")]
+    interfaces(&own, &folder, &root.join("src/engine/passes/spirv.rs"));
     let mut code = String::new();
     // By variables, so that what was built stays right where the sources' folder moves.
     let (variable, beside) = if folder.starts_with(&out) {
@@ -221,6 +231,24 @@ fn main() {
         .expect("writing to a string");
     }
     fs::write(out.join("spirv.rs"), code).expect("OUT_DIR is writable");
+    shared_files(&root);
+}
+
+/// Sets the cfg `shared_files` where the tests' files in `../shared` are there, or where `CI` is set, so that their absence
+/// fails there. Elsewhere the tests that need them are ignored. Files that appear later are noticed by the next run of this
+/// script: a missing file that cargo watches would have everything built anew each time.
+fn shared_files(root: &Path) {
+    println!("cargo:rustc-check-cfg=cfg(shared_files)");
+    let index = root.join("../shared/scenes/index.json");
+    if index.is_file() {
+        println!("cargo:rerun-if-changed={}", index.display());
+    } else {
+        println!("cargo:rerun-if-env-changed=CI");
+        if std::env::var_os("CI").is_none() {
+            return;
+        }
+    }
+    println!("cargo:rustc-cfg=shared_files");
 }
 
 impl Group {
@@ -268,7 +296,7 @@ fn spirv(group: &Group, _out: &Path) -> PathBuf {
 
 #[cfg(feature = "compile-shaders")]
 fn spirv(group: &Group, out: &Path) -> PathBuf {
-    let compiled = compile(group);
+    let compiled = compile(group, shaderc::OptimizationLevel::Performance);
     let checked_in = group.checked_in();
     let mode = std::env::var("GPC_SPIRV").unwrap_or_default();
     let folder = out.join("spirv");
@@ -305,57 +333,123 @@ fn spirv(group: &Group, out: &Path) -> PathBuf {
     folder
 }
 
+/// Writes or checks the Rust file that has the interfaces of shaders, whose modules are in `folder`.
 #[cfg(feature = "compile-shaders")]
-fn compile(group: &Group) -> Vec<(&'static str, Vec<u8>)> {
-    let sources = &group.sources;
-    let compiler = shaderc::Compiler::new().expect("shaderc starts");
-    group
-        .variants
-        .iter()
-        .map(|(name, source, definitions)| {
-            let mut options = shaderc::CompileOptions::new().expect("shaderc options");
-            options.set_target_env(
-                shaderc::TargetEnv::Vulkan,
-                shaderc::EnvVersion::Vulkan1_3 as u32,
-            );
-            options.set_optimization_level(shaderc::OptimizationLevel::Performance);
-            options.set_include_callback(|requested, _, from, _| {
-                let nested = Path::new(from)
-                    .parent()
-                    .map(|folder| sources.join(folder).join(requested));
-                let beside = [sources, &group.includes].map(|folder| Some(folder.join(requested)));
-                let path = [nested]
-                    .into_iter()
-                    .chain(beside)
-                    .flatten()
-                    .find(|path| path.is_file())
-                    .ok_or_else(|| format!("{requested} is in no folder of includes"))?;
-                let content =
-                    fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
-                let resolved_name = path
-                    .strip_prefix(sources)
-                    .unwrap_or(&path)
-                    .display()
-                    .to_string();
-                Ok(shaderc::ResolvedInclude {
-                    resolved_name,
-                    content,
-                })
-            });
-            for (key, value) in *definitions {
-                options.add_macro_definition(key, Some(value));
+fn interfaces(group: &Group, folder: &Path, file: &Path) {
+    /// The include that hosts' shaders bind a set of.
+    const LENT: &str = "include/gpc_visibility.glsl";
+    let read = |path: &Path| {
+        fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+    };
+    // Only what is not optimised has names.
+    let named = compile(group, shaderc::OptimizationLevel::Zero);
+    let shaders = group.variants.iter().zip(named);
+    let mut all: Vec<_> = shaders
+        .map(|((name, source, _), (_, named))| {
+            let text = read(&group.sources.join(source));
+            reflect::Compiled {
+                name: (*name).to_owned(),
+                source: (*source).to_owned(),
+                in_frame: text.contains("#include \"include/frame.glsl\""),
+                lent: false,
+                optimised: fs::read(folder.join(format!("{name}.spv"))).expect("was written"),
+                named,
             }
-            let kind = match Path::new(source).extension().and_then(|e| e.to_str()) {
-                Some("vert") => shaderc::ShaderKind::Vertex,
-                Some("frag") => shaderc::ShaderKind::Fragment,
-                _ => shaderc::ShaderKind::Compute,
-            };
-            let text = fs::read_to_string(sources.join(source))
+        })
+        .collect();
+    let text = format!(
+        "#version 460\n#extension GL_GOOGLE_include_directive : require\n#include \"{LENT}\"\nlayout(local_size_x = 1) in;\nvoid main() {{}}\n"
+    );
+    let lent = compile_text(
+        group,
+        (LENT, "lent.comp", &text),
+        &[],
+        shaderc::OptimizationLevel::Zero,
+    );
+    all.push(reflect::Compiled {
+        name: "lent".to_owned(),
+        source: LENT.to_owned(),
+        in_frame: false,
+        lent: true,
+        optimised: lent.clone(),
+        named: lent,
+    });
+    let code = reflect::rust(&all, &read(&group.includes.join("interface.glsl")));
+    match std::env::var("GPC_SPIRV").unwrap_or_default().as_str() {
+        "write" => fs::write(file, code).expect("the sources' folder is writable"),
+        "check" => assert!(
+            read(file) == code,
+            "\n\n{} is not what the shaders say: run `make shaders`\n",
+            file.display()
+        ),
+        _ => {}
+    }
+}
+
+#[cfg(feature = "compile-shaders")]
+fn compile(
+    group: &Group,
+    optimization: shaderc::OptimizationLevel,
+) -> Vec<(&'static str, Vec<u8>)> {
+    let variants = group.variants.iter();
+    variants
+        .map(|(name, source, definitions)| {
+            let text = fs::read_to_string(group.sources.join(source))
                 .unwrap_or_else(|e| panic!("{source}: {e}"));
-            let artifact = compiler
-                .compile_into_spirv(&text, kind, source, "main", Some(&options))
-                .unwrap_or_else(|e| panic!("\n\n{source} as {name}:\n{e}\n"));
-            (*name, artifact.as_binary_u8().to_vec())
+            let words = compile_text(group, (name, source, &text), definitions, optimization);
+            (*name, words)
         })
         .collect()
+}
+
+/// A shader of some name, as from a file in the group's folder.
+#[cfg(feature = "compile-shaders")]
+fn compile_text(
+    group: &Group,
+    (name, source, text): (&str, &str, &str),
+    definitions: &[(&str, &str)],
+    optimization: shaderc::OptimizationLevel,
+) -> Vec<u8> {
+    let sources = &group.sources;
+    let compiler = shaderc::Compiler::new().expect("shaderc starts");
+    let mut options = shaderc::CompileOptions::new().expect("shaderc options");
+    options.set_target_env(
+        shaderc::TargetEnv::Vulkan,
+        shaderc::EnvVersion::Vulkan1_3 as u32,
+    );
+    options.set_optimization_level(optimization);
+    options.set_include_callback(|requested, _, from, _| {
+        let nested = Path::new(from)
+            .parent()
+            .map(|folder| sources.join(folder).join(requested));
+        let beside = [sources, &group.includes].map(|folder| Some(folder.join(requested)));
+        let path = [nested]
+            .into_iter()
+            .chain(beside)
+            .flatten()
+            .find(|path| path.is_file())
+            .ok_or_else(|| format!("{requested} is in no folder of includes"))?;
+        let content = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+        let resolved_name = path
+            .strip_prefix(sources)
+            .unwrap_or(&path)
+            .display()
+            .to_string();
+        Ok(shaderc::ResolvedInclude {
+            resolved_name,
+            content,
+        })
+    });
+    for (key, value) in definitions {
+        options.add_macro_definition(key, Some(value));
+    }
+    let kind = match Path::new(source).extension().and_then(|e| e.to_str()) {
+        Some("vert") => shaderc::ShaderKind::Vertex,
+        Some("frag") => shaderc::ShaderKind::Fragment,
+        _ => shaderc::ShaderKind::Compute,
+    };
+    let artifact = compiler
+        .compile_into_spirv(text, kind, source, "main", Some(&options))
+        .unwrap_or_else(|e| panic!("\n\n{source} as {name}:\n{e}\n"));
+    artifact.as_binary_u8().to_vec()
 }

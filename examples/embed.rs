@@ -14,8 +14,7 @@ mod arguments;
 use anyhow::{Context, anyhow, bail};
 use ash::vk;
 use gpc::camera::{Camera, Orbit};
-use gpc::passes::Encoding;
-use gpc::render::{ImageState, Renderer, Settings, Shadows, Target};
+use gpc::render::{Encoding, ImageState, Renderer, SceneRequest, Settings, Shadows, Target};
 use gpc::scene::{PoseRequest, Scene};
 use gpc::vulkan::{Host, Requirements, SharedAllocator};
 use gpu_allocator::MemoryLocation;
@@ -155,8 +154,10 @@ impl App {
             Some(camera) => Camera::from_scene(camera),
             None => Orbit::default().frame(low, high, f64::from(WIDTH) / f64::from(HEIGHT))?,
         };
-        let mut prepared = renderer.prepare_scene(scene, &pose, settings.max_memory)?;
-        renderer.prepare_shadows(&mut prepared, scene, &pose, settings.max_memory)?;
+        let request = SceneRequest::new(scene, &pose)
+            .shadowed(settings.shadows)
+            .within(settings.max_memory);
+        let prepared = renderer.prepare_scene(request)?;
         let mut frame = renderer.prepare(&prepared, &settings, Some(Encoding::Rgba8))?;
         let target = OwnImage::new(self)?;
 

@@ -20,9 +20,24 @@
 #include <stdint.h>
 #include <vulkan/vulkan_core.h>
 
+// The version of the header: gpc_version says that of the library.
+#define GPC_VERSION_MAJOR 0
+
+// See GPC_VERSION_MAJOR.
+#define GPC_VERSION_MINOR 2
+
+// See GPC_VERSION_MAJOR.
+#define GPC_VERSION_PATCH 0
+
+// The version of the header as one number, larger for later versions; packed as by VK_MAKE_API_VERSION.
+#define GPC_VERSION (((GPC_VERSION_MAJOR << 22) | (GPC_VERSION_MINOR << 12)) | GPC_VERSION_PATCH)
+
 // The version of Vulkan that instance and device are created for: 1.3, as in VkApplicationInfo.apiVersion. No extension is
 // needed; GpcDevice.conditional_rendering names one that saves time.
 #define GPC_VULKAN_API_VERSION ((1 << 22) | (3 << 12))
+
+// The value of GpcOptions.contrast for the threshold that suits the samples: 6, and 1 from 128 samples on.
+#define GPC_CONTRAST_OF_SAMPLES UINT32_MAX
 
 // What a function answers.
 enum GpcResult
@@ -51,6 +66,8 @@ enum GpcResult
     GPC_RESULT_VULKAN = 8,
     // A defect of the library. What took part in the call is to be destroyed and not used otherwise.
     GPC_RESULT_PANIC = 9,
+    // The commands of the last recording are not done, or there was none.
+    GPC_RESULT_NOT_READY = 10,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -325,7 +342,7 @@ typedef struct GpcOptions {
     uint32_t shading;
     // What makes a superpixel: a GpcDetection.
     uint32_t detection;
-    // Differences above this, in 8-bit sRGB code values of any channel, are a contrast: 0 to 255.
+    // Differences above this, in 8-bit sRGB code values of any channel, are a contrast: 0 to 255, or GPC_CONTRAST_OF_SAMPLES.
     uint32_t contrast;
     // VK_TRUE if triangles too thin for a pixel's centre to see make superpixels too; where IDs are lent, this needs depth,
     // too.
@@ -492,10 +509,15 @@ typedef struct GpcLocation {
 extern "C" {
 #endif // __cplusplus
 
-// Sets the features that the library needs to VK_TRUE, and leaves all else in the struct as it is: chain it to
-// VkDeviceCreateInfo.
+// The version of the library, packed as GPC_VERSION is.
 //
-// Threads: any. Errors: GPC_RESULT_NULL.
+// Threads: any.
+uint32_t gpc_version(void);
+
+// Sets the features that the library needs to VK_TRUE, and leaves all else in the struct as it is: chain it to
+// VkDeviceCreateInfo. Set its sType before.
+//
+// Threads: any. Errors: GPC_RESULT_NULL; GPC_RESULT_VALUE for another sType.
 GpcResult gpc_require_features(VkPhysicalDeviceVulkan13Features *features);
 
 // Whether a physical device has all that the library needs. `queue_family`, if not NULL, becomes the first family with
@@ -551,9 +573,8 @@ GpcResult gpc_frame_create(const struct GpcAntialiaser *antialiaser,
 // Makes a frame like this one, for the same buffers and images, with more of what its last recording lacked. Where it
 // lacked nothing, the new one has as much. The old one is still to be destroyed.
 //
-// Threads: no other call uses the frame at the time. Lifetime: the commands of its last recording are done, and the buffers
-// and views lent outlive the new frame too.
-// Errors: as gpc_frame_create. `*grown` is then NULL.
+// Threads: no other call uses the frame at the time. Lifetime: the buffers and views lent outlive the new frame too.
+// Errors: as gpc_frame_create; GPC_RESULT_NOT_READY before the commands of the last recording are done. `*grown` is then NULL.
 GpcResult gpc_frame_grow(const struct GpcFrame *frame,
                          struct GpcFrame **grown);
 
@@ -563,7 +584,7 @@ GpcResult gpc_frame_grow(const struct GpcFrame *frame,
 // no memory of the library but by gpc_store.
 //
 // Threads: no other call uses the frame or the command buffer at the time. Different frames may be recorded at once.
-// Lifetime: the commands of the frame's last recording are done. The frame, the buffers, the images and what `shade` records
+// Lifetime: the commands of the frame's last recording are done, or will never be executed. The frame, the buffers, the images and what `shade` records
 // outlive the execution of the commands.
 // Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_VALUE, GPC_RESULT_CAPACITY. Nothing is recorded then.
 GpcResult gpc_frame_record(struct GpcFrame *frame,
@@ -572,11 +593,13 @@ GpcResult gpc_frame_record(struct GpcFrame *frame,
                            GpcShade shade,
                            void *user);
 
-// What the last recording did. It waits for nothing: its commands are done.
+// What the last recording did, once its commands are done, until the next one. It waits for nothing: where they were not
+// submitted or still run, it answers GPC_RESULT_NOT_READY.
 //
 // Threads: no gpc_frame_record of the frame runs at the time.
-// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_DEVICE_LOST, GPC_RESULT_VULKAN.
-GpcResult gpc_frame_outcome(const struct GpcFrame *frame, struct GpcOutcome *outcome);
+// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_NOT_READY, GPC_RESULT_DEVICE_LOST, GPC_RESULT_VULKAN.
+GpcResult gpc_frame_outcome(const struct GpcFrame *frame,
+                            struct GpcOutcome *outcome);
 
 // Bytes of device memory that a frame takes, beside what the application lends; 0 for NULL.
 //
@@ -605,9 +628,8 @@ GpcResult gpc_list_create(const struct GpcAntialiaser *antialiaser,
 // Makes a list like this one, for the same buffers, with more of what its last recording lacked. Where it lacked nothing, the
 // new one has as much. The old one is still to be destroyed.
 //
-// Threads: no other call uses the list at the time. Lifetime: the commands of its last recording are done, and the buffers and
-// views lent outlive the new list too.
-// Errors: as gpc_list_create. `*grown` is then NULL.
+// Threads: no other call uses the list at the time. Lifetime: the buffers and views lent outlive the new list too.
+// Errors: as gpc_list_create; GPC_RESULT_NOT_READY before the commands of the last recording are done. `*grown` is then NULL.
 GpcResult gpc_list_grow(const struct GpcList *list,
                         struct GpcList **grown);
 
@@ -618,7 +640,7 @@ GpcResult gpc_list_grow(const struct GpcList *list,
 // is handed to `shade`, whose shaders write no memory of the library but by gpc_store.
 //
 // Threads: no other call uses the list or the command buffer at the time. Different lists may be recorded at once.
-// Lifetime: the commands of the list's last recording are done. The list, the buffers and what `shade` records outlive the
+// Lifetime: the commands of the list's last recording are done, or will never be executed. The list, the buffers and what `shade` records outlive the
 // execution of the commands.
 // Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_VALUE, GPC_RESULT_CAPACITY. Nothing is recorded then.
 GpcResult gpc_list_record(struct GpcList *list,
@@ -629,11 +651,13 @@ GpcResult gpc_list_record(struct GpcList *list,
                           GpcShade shade,
                           void *user);
 
-// What the last recording did. It waits for nothing: its commands are done.
+// What the last recording did, once its commands are done, until the next one. It waits for nothing: where they were not
+// submitted or still run, it answers GPC_RESULT_NOT_READY.
 //
 // Threads: no gpc_list_record of the list runs at the time.
-// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_DEVICE_LOST, GPC_RESULT_VULKAN.
-GpcResult gpc_list_outcome(const struct GpcList *list, struct GpcListOutcome *outcome);
+// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_NOT_READY, GPC_RESULT_DEVICE_LOST, GPC_RESULT_VULKAN.
+GpcResult gpc_list_outcome(const struct GpcList *list,
+                           struct GpcListOutcome *outcome);
 
 // Bytes of device memory that a list takes, beside what the application lends; 0 for NULL.
 //

@@ -3,13 +3,14 @@
 // they draw is wrong, and nothing else is.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "include/interface.glsl"
 #include "include/workgroup.glsl"
 #include "include/draws.glsl"
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const bool SHORT = false;       // indices have 16 bits
-layout(std430, set = 0, binding = 1) readonly buffer Indices { uint indices[]; };
-layout(std430, set = 0, binding = 2) writeonly buffer TrianglesOut { uvec4 triangles_out[]; };
-layout(std430, set = 0, binding = 3) writeonly buffer DrawOfOut { uint draw_of_out[]; };
+layout(constant_id = ADOPT_CONSTANT_SHORT) const bool SHORT = false;       // indices have 16 bits
+layout(std430, set = SET_OWN, binding = ADOPT_BINDING_INDICES) readonly buffer Indices { uint indices[]; };
+layout(std430, set = SET_OWN, binding = ADOPT_BINDING_TRIANGLES_OUT) writeonly buffer TrianglesOut { uvec4 triangles_out[]; };
+layout(std430, set = SET_OWN, binding = ADOPT_BINDING_DRAW_OF_OUT) writeonly buffer DrawOfOut { uint draw_of_out[]; };
 layout(push_constant) uniform Push {
     uint triangle_count;
     uint draw_count;

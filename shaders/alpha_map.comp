@@ -3,10 +3,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
+#include "include/interface.glsl"
 #include "include/workgroup.glsl"
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0) uniform texture2D map;
-layout(std430, set = 0, binding = 1) writeonly buffer Atlas { uint atlas[]; };
+layout(set = SET_OWN, binding = ALPHA_MAP_BINDING_MAP) uniform texture2D map;
+layout(std430, set = SET_OWN, binding = ALPHA_MAP_BINDING_ATLAS) writeonly buffer Atlas { uint atlas[]; };
 layout(push_constant) uniform Push {
     uvec2 size;         // of the level, in texels
     uint level;

@@ -9,31 +9,30 @@ layout(push_constant) uniform Push {
     uint subgroups_first;   // as in schedule.comp
     uint subgroups;
 } push;
-const uint DETECT = 0u, CULL = 1u, SAMPLE = 2u, RECORDS = 3u, SPANS = 4u, THIN = 5u, GROUPS = 6u, PROBE = 7u, PAIRS = 8u;
 
 void main() {
-    if (push.after == DETECT) {
+    if (push.after == AFTER_DETECT) {
         bool any_tile = counters[COUNTER_TILES] != 0u;
         counters[COUNTER_WAITING] = counters[COUNTER_TILES];
         arguments[ARGUMENT_CULL] = any_tile ? groups((frame.triangle_count + 511u) / 512u) : uvec4(0u);
         arguments[ARGUMENT_TALLY] = any_tile ? groups((frame.tiles.x * frame.tiles.y + STRETCH - 1u) / STRETCH) : uvec4(0u);
-    } else if (push.after == CULL) {
+    } else if (push.after == AFTER_CULL) {
         arguments[ARGUMENT_BIN_SMALL] = groups((counters[COUNTER_SURVIVORS] + 63u) / 64u);
         arguments[ARGUMENT_BIN_LARGE] = groups(counters[COUNTER_LARGE]);
-    } else if (push.after == SAMPLE) {
+    } else if (push.after == AFTER_SAMPLE) {
         uint n = min(counters[COUNTER_RECORDS], frame.record_capacity);
         counters[COUNTER_RECORDS_TOTAL] += n;
         arguments[ARGUMENT_SORT] = groups((n + 63u) / 64u);
-    } else if (push.after == GROUPS) {
+    } else if (push.after == AFTER_GROUPS) {
         for (uint list = 0u; list < 4u; list++)
             arguments[ARGUMENT_SAMPLE_PLAIN + list] = groups(counters[COUNTER_PLAIN_TILES + list] * (list < 2u ? push.subgroups_first : push.subgroups));
-    } else if (push.after == PROBE) {
+    } else if (push.after == AFTER_PROBE) {
         arguments[ARGUMENT_PLAIN_LEFT] = groups(counters[COUNTER_PLAIN_LEFT] * push.subgroups);
         arguments[ARGUMENT_MASKED_LEFT] = groups(counters[COUNTER_MASKED_LEFT] * push.subgroups);
-    } else if (push.after == THIN) {
+    } else if (push.after == AFTER_THIN) {
         arguments[ARGUMENT_THIN] = groups((counters[COUNTER_THIN] + 63u) / 64u);
         arguments[ARGUMENT_THIN_LONG] = groups(counters[COUNTER_THIN_LONG]);
-    } else if (push.after == PAIRS) {
+    } else if (push.after == AFTER_PAIRS) {
         uint in_workgroup = 64u / INVOCATIONS_OF_PAIR;
         arguments[ARGUMENT_THIN] = groups((min(counters[COUNTER_PAIRS], frame.pair_capacity) + in_workgroup - 1u) / in_workgroup);
     } else {
@@ -42,9 +41,9 @@ void main() {
         for (uint b = 0u; b < frame.bin_count; b++) {
             uint n = bins[b].x;
             bins[b] = uvec4(n, first, first, 0u);
-            arguments[ARGUMENT_SHADE + b] = groups(push.after == SPANS ? (n + 7u) / 8u : (n + 63u) / 64u);
+            arguments[ARGUMENT_SHADE + b] = groups(push.after == AFTER_SPANS ? (n + 7u) / 8u : (n + 63u) / 64u);
             first += n;
         }
-        if (push.after == RECORDS) counters[COUNTER_SHADED_TOTAL] += first;
+        if (push.after == AFTER_RECORDS) counters[COUNTER_SHADED_TOTAL] += first;
     }
 }

@@ -8,7 +8,7 @@
 #include "include/color.glsl"
 #include "include/place.glsl"
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const bool GATHER = false;
+layout(constant_id = CENTRES_CONSTANT_GATHER) const bool GATHER = false;
 layout(push_constant) uniform Push {
     uint first;         // pixel of the band
     uint count;

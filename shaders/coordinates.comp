@@ -3,12 +3,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define BY_POSITION
+#include "include/interface.glsl"
 #include "include/workgroup.glsl"
 #include "include/draws.glsl"
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const bool OBJECT = false;
-layout(std430, set = 0, binding = 1) readonly buffer Vertices { uint vertices[]; };
-layout(std430, set = 0, binding = 2) writeonly buffer CoordinatesOut { uvec2 coordinates_out[]; };
+layout(constant_id = COORDINATES_CONSTANT_OBJECT) const bool OBJECT = false;
+layout(std430, set = SET_OWN, binding = COORDINATES_BINDING_VERTICES) readonly buffer Vertices { uint vertices[]; };
+layout(std430, set = SET_OWN, binding = COORDINATES_BINDING_COORDINATES_OUT) writeonly buffer CoordinatesOut { uvec2 coordinates_out[]; };
 layout(push_constant) uniform Push {
     uint position_count;
     uint draw_count;

@@ -15,12 +15,12 @@
 #include "include/tiles.glsl"
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
-layout(constant_id = 1) const bool BLEND_IDS = false;
-layout(std430, set = 1, binding = 0) readonly buffer TileLocations { uint loads[]; };
+layout(constant_id = CROSSINGS_CONSTANT_BLEND_IDS) const bool BLEND_IDS = false;
+layout(std430, set = SET_BESIDE_FRAME, binding = CROSSINGS_BINDING_LOADS) readonly buffer TileLocations { uint loads[]; };
 // A location: distance along the view direction as a float's bits (0: background), ID, ID of the nearest BLEND triangle (0: none),
 // its cell of the output, row by row.
-layout(std430, set = 1, binding = 1) readonly buffer Seen { uvec4 seen[]; };
-layout(std430, set = 1, binding = 2) buffer CellMarks { uint cell_marks[]; };  // as `marks` of pixels
+layout(std430, set = SET_BESIDE_FRAME, binding = CROSSINGS_BINDING_SEEN) readonly buffer Seen { uvec4 seen[]; };
+layout(std430, set = SET_BESIDE_FRAME, binding = CROSSINGS_BINDING_CELL_MARKS) buffer CellMarks { uint cell_marks[]; };  // as `marks` of pixels
 layout(push_constant) uniform Push {
     uvec2 tiles;        // of the output
     uint width;         // of the output, in cells

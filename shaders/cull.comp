@@ -12,7 +12,7 @@
 #include "include/tiles.glsl"
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const bool THIN_ALONE = false;
+layout(constant_id = CULL_CONSTANT_THIN_ALONE) const bool THIN_ALONE = false;
 
 const int SMALL_TILES = 16;
 const uint PER_INVOCATION = 8u;

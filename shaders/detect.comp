@@ -13,12 +13,12 @@
 #include "include/shadows.glsl"
 layout(local_size_x = 64) in;
 
-layout(constant_id = 0) const uint MODE = 0u;
+layout(constant_id = DETECT_CONSTANT_MODE) const uint MODE = 0u;
 const uint CONTRAST = 0u, EDGES = 1u, EXACT = 2u, BLENDED = 3u, EVERY = 4u;
-layout(constant_id = 1) const bool BLEND_IDS = false;
-layout(constant_id = 2) const bool THIN = false;    // pixels that `thin` marked are superpixels too; some, if they lie amid a triangle
-layout(constant_id = 3) const bool TRANSPARENT = false;  // colours differ in alpha too
-layout(constant_id = 4) const uint BEYOND = 0u;     // pixels around the region's own that are superpixels too, for `grow`
+layout(constant_id = DETECT_CONSTANT_BLEND_IDS) const bool BLEND_IDS = false;
+layout(constant_id = DETECT_CONSTANT_THIN) const bool THIN = false;    // pixels that `thin` marked are superpixels too; some, if they lie amid a triangle
+layout(constant_id = DETECT_CONSTANT_TRANSPARENT) const bool TRANSPARENT = false;  // colours differ in alpha too
+layout(constant_id = DETECT_CONSTANT_BEYOND) const uint BEYOND = 0u;     // pixels around the region's own that are superpixels too, for `grow`
 
 // The nearest BLEND triangle at a pixel; multisampled, that of any of its samples.
 uint blend_at(ivec2 p) {

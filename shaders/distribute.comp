@@ -14,27 +14,27 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_samplerless_texture_functions : require
+#include "include/interface.glsl"
 #include "include/workgroup.glsl"
-#include "include/counters.glsl"
 #include "include/finite.glsl"
 #include "include/place_in_tile.glsl"
 #include "include/tile_locations.glsl"
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const uint STEP = 0u;
-layout(constant_id = 1) const bool POINTS = false;      // locations are sampled once each, and several share a cell
+layout(constant_id = DISTRIBUTE_CONSTANT_STEP) const uint STEP = 0u;
+layout(constant_id = DISTRIBUTE_CONSTANT_POINTS) const bool POINTS = false;      // locations are sampled once each, and several share a cell
 const uint NUMBER = 0u, LAY_OUT = 1u, ARRANGE = 2u, ENCLOSE = 3u;
 
-layout(std430, set = 0, binding = 0) buffer Loads { uint loads[]; };
-layout(std430, set = 0, binding = 1) buffer Ranks { uint ranks[]; };           // of a location in its pixel; ~0: left out
-layout(std430, set = 0, binding = 2) writeonly buffer OrderOut { uint order_out[]; };
-layout(std430, set = 0, binding = 3) buffer CellsOut { uvec4 cells_out[]; };
-layout(std430, set = 0, binding = 4) writeonly buffer GroupsOut { uvec4 groups_out[]; };
-layout(std430, set = 0, binding = 5) writeonly buffer TileLoads { uvec2 tile_loads[]; };
-layout(std430, set = 0, binding = 6) writeonly buffer Masks { uint masks[]; };
-layout(std430, set = 0, binding = 7) buffer Counters { uint counters[]; };
+layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_LOADS) buffer Loads { uint loads[]; };
+layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_RANKS) buffer Ranks { uint ranks[]; };           // of a location in its pixel; ~0: left out
+layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_ORDER_OUT) writeonly buffer OrderOut { uint order_out[]; };
+layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_CELLS_OUT) buffer CellsOut { uvec4 cells_out[]; };
+layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_GROUPS_OUT) writeonly buffer GroupsOut { uvec4 groups_out[]; };
+layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_TILE_LOADS) writeonly buffer TileLoads { uvec2 tile_loads[]; };
+layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_MASKS) writeonly buffer Masks { uint masks[]; };
+layout(std430, set = SET_OWN, binding = DISTRIBUTE_BINDING_COUNTERS) buffer Counters { uint counters[]; };
 // Quicker to read on CPU devices.
-layout(set = 0, binding = 8) uniform utextureBuffer locations;
-layout(set = 0, binding = 9) uniform utextureBuffer order;
+layout(set = SET_OWN, binding = DISTRIBUTE_BINDING_LOCATIONS) uniform utextureBuffer locations;
+layout(set = SET_OWN, binding = DISTRIBUTE_BINDING_ORDER) uniform utextureBuffer order;
 layout(push_constant) uniform Push {
     uvec2 tiles;            // of the region
     uint count;             // locations

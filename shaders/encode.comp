@@ -6,9 +6,9 @@
 #include "include/workgroup.glsl"
 #include "include/color.glsl"
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const uint FORMAT = 0u;
+layout(constant_id = ENCODE_CONSTANT_FORMAT) const uint FORMAT = 0u;
 const uint RGBA8_SRGB = 0u, RGBA16F = 1u;
-layout(std430, set = 0, binding = 37) writeonly buffer Encoded { uint encoded[]; };
+layout(std430, set = SET_FRAME, binding = BINDING_ENCODED) writeonly buffer Encoded { uint encoded[]; };
 
 void main() {
     uint i = invocation_number();

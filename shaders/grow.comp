@@ -9,7 +9,7 @@
 #include "include/workgroup.glsl"
 #include "include/interior.glsl"
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const uint BEYOND = 0u;     // pixels around the region's own that grow too, for a growth that follows
+layout(constant_id = GROW_CONSTANT_BEYOND) const uint BEYOND = 0u;     // pixels around the region's own that grow too, for a growth that follows
 
 void main() {
     uint tile = invocation_number();

@@ -4,12 +4,12 @@
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/color.glsl"
-layout(constant_id = 0) const bool ENCODED = false;
-layout(constant_id = 1) const bool GROWN = false;       // masks hold those that `grow` added alone
-layout(constant_id = 2) const bool ALL = false;
-layout(std430, set = 0, binding = 18) readonly buffer ColorIn { vec4 color_in[]; };
-layout(std430, set = 0, binding = 20) readonly buffer MasksIn { uint masks_in[]; };
-layout(std430, set = 0, binding = 41) readonly buffer MarksIn { uint marks_in[]; };
+layout(constant_id = PATCH_CONSTANT_ENCODED) const bool ENCODED = false;
+layout(constant_id = PATCH_CONSTANT_GROWN) const bool GROWN = false;       // masks hold those that `grow` added alone
+layout(constant_id = PATCH_CONSTANT_ALL) const bool ALL = false;
+layout(std430, set = SET_FRAME, binding = BINDING_COLOR) readonly buffer ColorIn { vec4 color_in[]; };
+layout(std430, set = SET_FRAME, binding = BINDING_MASKS) readonly buffer MasksIn { uint masks_in[]; };
+layout(std430, set = SET_FRAME, binding = BINDING_MARKS) readonly buffer MarksIn { uint marks_in[]; };
 layout(location = 0) out vec4 drawn;
 
 void main() {

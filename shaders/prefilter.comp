@@ -3,11 +3,12 @@
 // Reads: an environment's cube and ever coarser averages of it, directions. Writes: a cube. Twin: src/reference/prefilter.rs.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "include/interface.glsl"
 #include "include/workgroup.glsl"
 layout(local_size_x = 64) in;
 // Four half floats a texel; face by face in Vulkan's order, row by row.
-layout(std430, set = 0, binding = 0) buffer Texels { uvec2 texels[]; };
-layout(std430, set = 0, binding = 1) readonly buffer Rays { vec4 rays[]; };    // about +z, and the level to read
+layout(std430, set = SET_OWN, binding = PREFILTER_BINDING_TEXELS) buffer Texels { uvec2 texels[]; };
+layout(std430, set = SET_OWN, binding = PREFILTER_BINDING_RAYS) readonly buffer Rays { vec4 rays[]; };    // about +z, and the level to read
 layout(push_constant) uniform Push {
     uint finest;        // texels along the side of the finest cube that is read, a power of two
     uint side;          // the same of the cube that is written

@@ -15,10 +15,10 @@
 #include "include/shadows.glsl"
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const bool PIXELS = false;
-layout(constant_id = 37) const bool DIFFUSE_TRANSMISSION = false;   // of some materials
-layout(std430, set = 1, binding = 0) writeonly buffer LocationsOut { uvec4 locations_out[]; };   // as OCCLUDERS have them
-layout(std430, set = 1, binding = 1) buffer ShadowWords { uint words[]; };
+layout(constant_id = RECEIVERS_CONSTANT_PIXELS) const bool PIXELS = false;
+layout(constant_id = RECEIVERS_CONSTANT_DIFFUSE_TRANSMISSION) const bool DIFFUSE_TRANSMISSION = false;   // of some materials
+layout(std430, set = SET_BESIDE_FRAME, binding = RECEIVERS_BINDING_LOCATIONS_OUT) writeonly buffer LocationsOut { uvec4 locations_out[]; };   // as OCCLUDERS have them
+layout(std430, set = SET_BESIDE_FRAME, binding = RECEIVERS_BINDING_WORDS) buffer ShadowWords { uint words[]; };
 layout(push_constant) uniform Push {
     mat4 to_plane;      // position -> (pixel x * w, pixel y * w, z, w), pixels from the plane's middle
     vec4 light;         // xyz: unit direction to a distant light (w = 0) or position of a local one (w = 1)

@@ -12,13 +12,13 @@
 #include "include/composite.glsl"
 #include "include/work.glsl"
 #include "include/seen_beside.glsl"
-layout(local_size_x_id = 0) in;
-layout(constant_id = 2) const uint BLOCK = 256u;
-layout(constant_id = 3) const bool LAYERED = false;
-layout(constant_id = 4) const uint LIST = 0u;
-layout(constant_id = 5) const bool DISPLAY_CODES = false;
-layout(constant_id = 6) const bool PROBED = false;      // cells that are not marked have one block
-layout(constant_id = 7) const bool GROWS = false;       // `grow` follows
+layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
+layout(constant_id = RESOLVE_CONSTANT_BLOCK) const uint BLOCK = 256u;
+layout(constant_id = RESOLVE_CONSTANT_LAYERED) const bool LAYERED = false;
+layout(constant_id = RESOLVE_CONSTANT_LIST) const uint LIST = 0u;
+layout(constant_id = RESOLVE_CONSTANT_DISPLAY_CODES) const bool DISPLAY_CODES = false;
+layout(constant_id = RESOLVE_CONSTANT_PROBED) const bool PROBED = false;      // cells that are not marked have one block
+layout(constant_id = RESOLVE_CONSTANT_GROWS) const bool GROWS = false;       // `grow` follows
 
 void write(uvec2 pixel, vec4 c) {
     if (LOCATIONS) {

@@ -31,22 +31,22 @@
 #include "include/frame.glsl"
 #include "include/workgroup.glsl"
 #include "include/work.glsl"
-layout(local_size_x_id = 0) in;
-layout(constant_id = 2) const bool PER_SAMPLE = false;
-layout(constant_id = 3) const bool HAS_MASK = false;
-layout(constant_id = 4) const uint LIST = 0u;           // which of the tile lists
-layout(constant_id = 5) const uint RUN = 0u;
-layout(constant_id = 6) const bool BY_PART = false;     // records for each part of a block, to shade at
-layout(constant_id = 7) const bool EXACT_AREAS = false; // where a block has all samples of a cell
-layout(constant_id = 8) const uint PART = 8u;           // samples of a part
-layout(constant_id = 9) const bool APART = false;       // a subgroup takes one block of one cell, not some of several
+layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
+layout(constant_id = SAMPLE_CONSTANT_PER_SAMPLE) const bool PER_SAMPLE = false;
+layout(constant_id = SAMPLE_CONSTANT_HAS_MASK) const bool HAS_MASK = false;
+layout(constant_id = SAMPLE_CONSTANT_LIST) const uint LIST = 0u;           // which of the tile lists
+layout(constant_id = SAMPLE_CONSTANT_RUN) const uint RUN = 0u;
+layout(constant_id = SAMPLE_CONSTANT_BY_PART) const bool BY_PART = false;     // records for each part of a block, to shade at
+layout(constant_id = SAMPLE_CONSTANT_EXACT_AREAS) const bool EXACT_AREAS = false; // where a block has all samples of a cell
+layout(constant_id = SAMPLE_CONSTANT_PART) const uint PART = 8u;           // samples of a part
+layout(constant_id = SAMPLE_CONSTANT_APART) const bool APART = false;       // a subgroup takes one block of one cell, not some of several
 const uint WHOLE = 0u, PROBE = 1u, REST = 2u;           // RUN: all samples at once; few; all, in the cells that are left
 
 const float ROUNDING = 1.0 / 64.0;                      // of positions and edge functions in a tile, in pixels
 const uint BLOCKS_AT_ONCE = APART ? 1u : 4u, CELLS_AT_ONCE = APART ? 1u : LANES;
 const uint KEPT = APART ? 3072u : 96u;                  // room for candidates of a cell
 const uint PROBES = 64u;                                // samples of a PROBE, in one block; they follow the others
-const uint LONGEST_LIST = APART ? 350000u : 40000u;     // that MOST_TRIPS are enough for
+const uint LONGEST = APART ? LONGEST_LIST_APART : LONGEST_LIST;     // list that MOST_TRIPS are enough for
 
 shared uint kept[3072];                                 // by cell, then entry
 
@@ -94,7 +94,7 @@ void main() {
     uint count = header.w >> TILE_COUNT_SHIFT;
     cell.first = header.y;
 #endif
-    bool manageable = count <= LONGEST_LIST;
+    bool manageable = count <= LONGEST;
     if (!manageable && subgroupElect()) atomicAdd(counters[COUNTER_STALLED], group);
     count = manageable ? count : 0u;
 

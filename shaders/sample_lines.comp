@@ -18,17 +18,16 @@
 #include "include/frame.glsl"
 #include "include/workgroup.glsl"
 #include "include/work.glsl"
-layout(local_size_x_id = 0) in;
-layout(constant_id = 3) const bool HAS_MASK = false;    // as in sample.comp, like those that follow
-layout(constant_id = 4) const uint LIST = 0u;
-layout(constant_id = 6) const bool BY_PART = false;
-layout(constant_id = 8) const uint PART = 4u;
-layout(constant_id = 10) const uint HEADER = 64u;       // samples that a header of sample.comp stands for
+layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
+layout(constant_id = SAMPLE_CONSTANT_HAS_MASK) const bool HAS_MASK = false;    // as in sample.comp, like those that follow
+layout(constant_id = SAMPLE_CONSTANT_LIST) const uint LIST = 0u;
+layout(constant_id = SAMPLE_CONSTANT_BY_PART) const bool BY_PART = false;
+layout(constant_id = SAMPLE_CONSTANT_PART) const uint PART = 4u;
+layout(constant_id = SAMPLE_CONSTANT_HEADER) const uint HEADER = 64u;       // samples that a header of sample.comp stands for
 
 const float ROUNDING = 1.0 / 64.0;                      // as in sample.comp
 const uint SLOT_BITS = 4u, SLOTS = (1u << SLOT_BITS) - 1u;  // 0 is no owner
 const uint HELD = (SLOTS + LANES - 1u) / LANES;         // slots that an invocation keeps what is known of
-const uint MORE_RECORDS = 16u;                          // of a cell than samples, as in src/passes/sample.rs
 
 #include "include/alpha.glsl"
 #include "include/candidate.glsl"

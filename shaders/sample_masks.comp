@@ -13,12 +13,12 @@
 #include "include/frame.glsl"
 #include "include/workgroup.glsl"
 #include "include/work.glsl"
-layout(local_size_x_id = 0) in;
-layout(constant_id = 3) const bool HAS_MASK = false;    // as in sample.comp, like those that follow
-layout(constant_id = 4) const uint LIST = 0u;
-layout(constant_id = 6) const bool BY_PART = false;
-layout(constant_id = 7) const bool EXACT_AREAS = false;
-layout(constant_id = 8) const uint PART = 4u;
+layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
+layout(constant_id = SAMPLE_CONSTANT_HAS_MASK) const bool HAS_MASK = false;    // as in sample.comp, like those that follow
+layout(constant_id = SAMPLE_CONSTANT_LIST) const uint LIST = 0u;
+layout(constant_id = SAMPLE_CONSTANT_BY_PART) const bool BY_PART = false;
+layout(constant_id = SAMPLE_CONSTANT_EXACT_AREAS) const bool EXACT_AREAS = false;
+layout(constant_id = SAMPLE_CONSTANT_PART) const uint PART = 4u;
 
 const uint PROBES = 64u;            // offsets between those of a cell and the sums of runs of them
 const float ROUNDING = 1.0 / 64.0;  // as in sample.comp

@@ -7,7 +7,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/load.glsl"
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
 
 // Sums over the invocations up to this one.
 uvec4 sums_up_to(uvec4 needs) {

@@ -17,22 +17,22 @@
 #include "include/texture.glsl"
 layout(local_size_x = 64) in;
 
-layout(constant_id = 0) const bool PIXELS = false;
-layout(constant_id = 1) const bool ONE_BIN = false;
-layout(constant_id = 2) const bool DISPLAY_CODES = false;
-layout(constant_id = 8) const bool VERTEX_COLORS = false;
-layout(constant_id = 9) const bool UNLIT = false;
-layout(constant_id = 10) const bool PUNCTUAL = false;   // the scene has lights
-layout(constant_id = 11) const bool LOCAL_LIGHTS = false; // point or spot lights among them
-layout(constant_id = 12) const bool BLENDED = false;    // opacity is used
-layout(constant_id = 32) const bool SPECULAR = false;   // this and what follows: of the materials
-layout(constant_id = 33) const bool CLEARCOAT = false;
-layout(constant_id = 34) const bool SHEEN = false;
-layout(constant_id = 35) const bool ANISOTROPY = false;
-layout(constant_id = 36) const bool IRIDESCENCE = false;
-layout(constant_id = 37) const bool DIFFUSE_TRANSMISSION = false;
-layout(constant_id = 38) const bool TRANSMISSION = false;
-layout(constant_id = 39) const bool SPECULAR_GLOSSINESS = false;
+layout(constant_id = SHADE_CONSTANT_PIXELS) const bool PIXELS = false;
+layout(constant_id = SHADE_CONSTANT_ONE_BIN) const bool ONE_BIN = false;
+layout(constant_id = SHADE_CONSTANT_DISPLAY_CODES) const bool DISPLAY_CODES = false;
+layout(constant_id = SHADE_CONSTANT_VERTEX_COLORS) const bool VERTEX_COLORS = false;
+layout(constant_id = SHADE_CONSTANT_UNLIT) const bool UNLIT = false;
+layout(constant_id = SHADE_CONSTANT_PUNCTUAL) const bool PUNCTUAL = false;   // the scene has lights
+layout(constant_id = SHADE_CONSTANT_LOCAL_LIGHTS) const bool LOCAL_LIGHTS = false; // point or spot lights among them
+layout(constant_id = SHADE_CONSTANT_BLENDED) const bool BLENDED = false;    // opacity is used
+layout(constant_id = SHADE_CONSTANT_SPECULAR) const bool SPECULAR = false;   // this and what follows: of the materials
+layout(constant_id = SHADE_CONSTANT_CLEARCOAT) const bool CLEARCOAT = false;
+layout(constant_id = SHADE_CONSTANT_SHEEN) const bool SHEEN = false;
+layout(constant_id = SHADE_CONSTANT_ANISOTROPY) const bool ANISOTROPY = false;
+layout(constant_id = SHADE_CONSTANT_IRIDESCENCE) const bool IRIDESCENCE = false;
+layout(constant_id = SHADE_CONSTANT_DIFFUSE_TRANSMISSION) const bool DIFFUSE_TRANSMISSION = false;
+layout(constant_id = SHADE_CONSTANT_TRANSMISSION) const bool TRANSMISSION = false;
+layout(constant_id = SHADE_CONSTANT_SPECULAR_GLOSSINESS) const bool SPECULAR_GLOSSINESS = false;
 const bool TANGENTS = NORMAL_TEXTURE != 0u || CLEARCOAT_NORMAL_TEXTURE != 0u || ANISOTROPY;
 
 #include "include/brdf.glsl"

@@ -9,9 +9,9 @@
 #include "include/layer_list.glsl"
 #include "include/shadows.glsl"
 layout(local_size_x = 64) in;
-layout(std430, set = 1, binding = 0) buffer ShadowWords { uint words[]; };
-layout(std430, set = 1, binding = 1) buffer Left { uint left, other_subgroups; };
-layout(std430, set = 1, binding = 2) buffer MarksOfPixels { uint marks_of_pixels[]; };     // of the frame that is shaded
+layout(std430, set = SET_BESIDE_FRAME, binding = SHADOW_BINDING_WORDS) buffer ShadowWords { uint words[]; };
+layout(std430, set = SET_BESIDE_FRAME, binding = SHADOW_BINDING_LEFT) buffer Left { uint left, other_subgroups; };
+layout(std430, set = SET_BESIDE_FRAME, binding = SHADOW_BINDING_MARKS_OF_PIXELS) buffer MarksOfPixels { uint marks_of_pixels[]; };     // of the frame that is shaded
 layout(push_constant) uniform Push {
     uint first_place;   // of the receivers
     uint light;

@@ -11,7 +11,7 @@
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
 layout(push_constant) uniform Push { uint scatter; } push;
-layout(constant_id = 2) const bool ONE_BIN = false;
+layout(constant_id = SPANS_CONSTANT_ONE_BIN) const bool ONE_BIN = false;
 
 const uint NONE = ~0u;
 

@@ -6,8 +6,8 @@
 #include "include/workgroup.glsl"
 #include "include/color.glsl"
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const bool ENCODED = false;
-layout(set = 1, binding = 0) uniform texture2D host_image;
+layout(constant_id = TAKE_CONSTANT_ENCODED) const bool ENCODED = false;
+layout(set = SET_BESIDE_FRAME, binding = TAKE_BINDING_HOST_IMAGE) uniform texture2D host_image;
 
 vec3 srgb_decode(vec3 c) {
     return mix(pow((c + 0.055) / 1.055, vec3(2.4)), c / 12.92, lessThanEqual(c, vec3(0.04045)));

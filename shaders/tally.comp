@@ -6,7 +6,7 @@
 #include "include/frame.glsl"
 #include "include/workgroup.glsl"
 #include "include/load.glsl"
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
 
 void main() {
     if (in_other_subgroups(LANES)) return;

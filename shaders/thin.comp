@@ -18,11 +18,11 @@
 #include "include/tiles.glsl"
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const bool SELECT = false;
-layout(constant_id = 1) const bool BLEND_IDS = false;
-layout(constant_id = 2) const bool FARTHER_IS_LARGER = false;   // in raster's depth
+layout(constant_id = THIN_CONSTANT_SELECT) const bool SELECT = false;
+layout(constant_id = THIN_CONSTANT_BLEND_IDS) const bool BLEND_IDS = false;
+layout(constant_id = THIN_CONSTANT_FARTHER_IS_LARGER) const bool FARTHER_IS_LARGER = false;   // in raster's depth
 
-layout(set = 0, binding = 40) uniform texture2D raster_depth;
+layout(set = SET_FRAME, binding = BINDING_RASTER_DEPTH) uniform texture2D raster_depth;
 
 const uint PER_INVOCATION = 8u;
 const float LONG = 64.0;            // pixels: a longer one is walked by a workgroup, not an invocation

@@ -4,14 +4,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define BY_POSITION
+#include "include/interface.glsl"
 #include "include/workgroup.glsl"
 #include "include/draws.glsl"
 #include "include/gpc_position.glsl"
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const bool OBJECT = false;
-layout(std430, set = 0, binding = 1) readonly buffer Vertices { uint vertices[]; };
-layout(std430, set = 0, binding = 2) readonly buffer Matrices { mat4 matrices[]; };
-layout(std430, set = 0, binding = 3) writeonly buffer PositionsOut { uvec4 positions_out[]; };
+layout(constant_id = TRANSFORM_CONSTANT_OBJECT) const bool OBJECT = false;
+layout(std430, set = SET_OWN, binding = TRANSFORM_BINDING_VERTICES) readonly buffer Vertices { uint vertices[]; };
+layout(std430, set = SET_OWN, binding = TRANSFORM_BINDING_MATRICES) readonly buffer Matrices { mat4 matrices[]; };
+layout(std430, set = SET_OWN, binding = TRANSFORM_BINDING_POSITIONS_OUT) writeonly buffer PositionsOut { uvec4 positions_out[]; };
 layout(push_constant) uniform Push {
     uint position_count;
     uint draw_count;

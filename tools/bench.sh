@@ -10,26 +10,10 @@ cd "$(dirname "$0")/.."
 folder="${1:-out/bench}"
 shift || true
 
+source tools/scenes.sh
 scenes=(assets/*.glb)
-shared=../shared/scenes
-for scene in \
-    DutchShip/dutch_ship_medium_1k.gltf \
-    FlightHelmet/FlightHelmet.gltf \
-    LowpolyCity/scene.gltf \
-    ToyCar/ToyCar.gltf \
-    DeskFanAnimated/vintageFan_animated.gltf \
-    CesiumMan/CesiumMan.glb \
-    SpecularTest/SpecularTest.glb \
-    NormalTangentTest/NormalTangentTest.glb \
-    TextureSettingsTest/TextureSettingsTest.glb \
-    TennisRacquet/TennisRacquet.gltf \
-    Suzanne/Suzanne.gltf \
-    DiffuseTransmissionPlant/DiffuseTransmissionPlant.glb \
-    SauerbratenZdm2/zdm2.glb \
-    MetalRoughSpheresNoTextures/MetalRoughSpheresNoTextures.glb; do
-    if [ -f "$shared/$scene" ]; then
-        scenes+=("$shared/$scene")
-    fi
+for scene in "${quality_scenes[@]}"; do
+    [[ "$scene" == assets/* ]] || scenes+=("$scene")
 done
 
 cargo run --release --quiet --bin gpc -- bench "${scenes[@]}" --out "$folder" "$@"

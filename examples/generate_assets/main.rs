@@ -5,7 +5,7 @@
 //! ```
 //!
 //! Each scene holds something that aliases at one sample a pixel. The generator has no
-//! randomness of its own: the same sources write the same bytes, which `tests/assets.rs` checks.
+//! randomness of its own: the same sources write the same bytes, which `tests/scene/assets.rs` checks.
 
 #[path = "../common/arguments.rs"]
 mod arguments;

@@ -107,7 +107,7 @@ fn main() -> Result<(), Failure> {
     // As brute force does it: every sample is shaded, and next to no contrast is left.
     let each = Options {
         shading: Shading::Sample,
-        contrast: 2,
+        contrast: Some(2),
         ..placed.clone()
     };
     let last = |side: u32, options: Option<&Options>| -> Result<Image, Failure> {

@@ -1,4 +1,5 @@
 // Colour transforms; the twins are src/color/tonemap.rs and src/color/srgb.rs.
+#include "interface.glsl"
 
 // Khronos PBR Neutral tone mapping, in the form of its specification (2024): linear in, linear out.
 vec3 tonemap_neutral(vec3 c) {
@@ -24,8 +25,8 @@ vec4 tonemap(vec4 c) {
     return c.a >= 1.0 ? vec4(tonemap_neutral(c.rgb), c.a) : vec4(tonemap_neutral(c.rgb / max(c.a, 1e-6)) * c.a, c.a);
 }
 
-layout(constant_id = 30) const bool TONEMAP = true;         // the output is display-referred
-layout(constant_id = 31) const bool TONEMAP_CODES = true;   // detection compares tone-mapped colours
+layout(constant_id = CONSTANT_TONEMAP) const bool TONEMAP = true;         // the output is display-referred
+layout(constant_id = CONSTANT_TONEMAP_CODES) const bool TONEMAP_CODES = true;   // detection compares tone-mapped colours
 
 // Premultiplied radiance as it stands in the output.
 vec4 to_output(vec4 c) {

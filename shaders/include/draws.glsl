@@ -1,6 +1,7 @@
-// A host's draws, and which of them a triangle or a position is of. The host's twin is `src/passes/draws.rs`.
+// A host's draws, and which of them a triangle or a position is of.
 #ifndef DRAWS_GLSL
 #define DRAWS_GLSL
+#include "interface.glsl"
 
 struct Draw {
     uint first_triangle;    // among those of all draws
@@ -13,7 +14,7 @@ struct Draw {
     uint material;          // the host's number
 };
 
-layout(std430, set = 0, binding = 0) readonly buffer Draws { Draw draws[]; };
+layout(std430, set = SET_OWN, binding = BINDING_DRAWS) readonly buffer Draws { Draw draws[]; };
 
 // The last draw of `count` that begins at a triangle or before it; BY_POSITION: at a position.
 uint draw_of(uint at, uint count) {

@@ -1,10 +1,11 @@
 // Light from all around: the scene's environment map, or else the studio.
 #ifndef ENVIRONMENT_GLSL
 #define ENVIRONMENT_GLSL
+#include "interface.glsl"
 #include "studio.glsl"
 
-layout(constant_id = 17) const bool ENVIRONMENT = false;
-layout(set = 0, binding = 53) uniform samplerCube environment_map;   // a level for each roughness, see `Environment`
+layout(constant_id = CONSTANT_ENVIRONMENT) const bool ENVIRONMENT = false;
+layout(set = SET_FRAME, binding = BINDING_ENVIRONMENT_MAP) uniform samplerCube environment_map;   // a level for each roughness, see `Environment`
 
 // A world direction as the map has it.
 vec3 to_environment(vec3 d) {

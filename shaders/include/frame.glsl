@@ -1,5 +1,5 @@
 // What every pass of one frame reads and writes: one uniform block, one descriptor set.
-// The host's twin is `src/passes/frame.rs`; a test compares both sides.
+// Bindings have their numbers in interface.glsl, and the host its structure of the block by `make shaders`.
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_KHR_shader_subgroup_basic : require
@@ -7,10 +7,11 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_KHR_shader_subgroup_vote : require
+#include "interface.glsl"
 
 // Pixel positions are relative to the screen's centre, x right, y down. A region is the part of
 // the screen at hand; pixel (0, 0) is its upper left one.
-layout(set = 0, binding = 0) uniform Frame {
+layout(set = SET_FRAME, binding = BINDING_FRAME) uniform Frame {
     mat4 transform;         // position -> (pixel x * w, pixel y * w, z, w)
     vec4 eye;               // xyz relative to the geometry's origin
     vec4 view_direction;    // xyz unit; w = 1 for a parallel projection
@@ -51,52 +52,52 @@ layout(set = 0, binding = 0) uniform Frame {
 
 // On CPU devices a texel buffer is the quicker one to read and a storage buffer the quicker one to write, so that what
 // passes hand on is bound as both.
-layout(set = 0, binding = 1) uniform textureBuffer positions;
-layout(set = 0, binding = 2) uniform utextureBuffer triangles;   // vertex indices; material | bin << 16 | HIGH_FREQUENCY << 30 | double-sided << 31
-layout(set = 0, binding = 3) uniform textureBuffer normals;          // w: how much longer a length is than in the mesh
-layout(set = 0, binding = 4) uniform textureBuffer tangents;
-layout(set = 0, binding = 5) uniform textureBuffer uvs;
-layout(set = 0, binding = 6) uniform textureBuffer colors;
+layout(set = SET_FRAME, binding = BINDING_POSITIONS) uniform textureBuffer positions;
+layout(set = SET_FRAME, binding = BINDING_TRIANGLES) uniform utextureBuffer triangles;   // vertex indices; material | bin << 16 | HIGH_FREQUENCY << 30 | double-sided << 31
+layout(set = SET_FRAME, binding = BINDING_NORMALS) uniform textureBuffer normals;          // w: how much longer a length is than in the mesh
+layout(set = SET_FRAME, binding = BINDING_TANGENTS) uniform textureBuffer tangents;
+layout(set = SET_FRAME, binding = BINDING_UVS) uniform textureBuffer uvs;
+layout(set = SET_FRAME, binding = BINDING_COLORS) uniform textureBuffer colors;
 
-layout(set = 0, binding = 7) uniform utextureBuffer materials;      // see material.glsl
+layout(set = SET_FRAME, binding = BINDING_MATERIALS) uniform utextureBuffer materials;      // see material.glsl
 struct Light {
     vec4 position_range;    // xyz relative to the geometry's origin; w = 1 / range^2, 0 for none
     vec4 direction_kind;    // xyz unit; w = 0 directional, 1 point, 2 spot
     vec4 color_scale;       // rgb; w = spot angular scale
     vec4 offset;            // x = spot angular offset
 };
-layout(std430, set = 0, binding = 8) readonly buffer Lights { Light lights[]; };
-layout(set = 0, binding = 9) uniform utextureBuffer alpha_atlas;    // see alpha.glsl
+layout(std430, set = SET_FRAME, binding = BINDING_LIGHTS) readonly buffer Lights { Light lights[]; };
+layout(set = SET_FRAME, binding = BINDING_ALPHA_ATLAS) uniform utextureBuffer alpha_atlas;    // see alpha.glsl
 
-layout(set = 0, binding = 10) uniform utextureBuffer instance_of;   // of 64 indices each
-layout(set = 0, binding = 11) uniform utextureBuffer instances;     // see triangle.glsl
-layout(set = 0, binding = 12) uniform utexture2D ids;
-layout(set = 0, binding = 13) uniform utexture2D blend_ids;
-layout(set = 0, binding = 14) uniform texture2DMS ids_ms;
-layout(set = 0, binding = 15) uniform texture2DMS blend_ids_ms;
-layout(set = 0, binding = 16) uniform utextureBuffer display;
-layout(std430, set = 0, binding = 17) writeonly buffer DisplayOut { uint display_out[]; };
-layout(std430, set = 0, binding = 18) buffer Color { vec4 color[]; };
-layout(std430, set = 0, binding = 19) buffer Counters { uint counters[]; };
-layout(std430, set = 0, binding = 20) buffer Masks { uint masks[]; };
-layout(std430, set = 0, binding = 21) buffer Tiles { uvec4 tiles[]; };   // candidates, first, first header, flags; then stretches, see load.glsl
-layout(std430, set = 0, binding = 22) buffer TileLists { uint tile_lists[]; };
-layout(std430, set = 0, binding = 23) buffer Survivors { uint survivors[]; };
-layout(set = 0, binding = 24) uniform utextureBuffer candidates;  // 4 vectors each, floats as bits
-layout(std430, set = 0, binding = 25) writeonly buffer CandidatesOut { uvec4 candidates_out[]; };
-layout(std430, set = 0, binding = 26) buffer Headers { uvec2 headers[]; };  // first record, count
-layout(set = 0, binding = 27) uniform utextureBuffer records;
-layout(std430, set = 0, binding = 28) writeonly buffer RecordsOut { uvec4 records_out[]; };
-layout(set = 0, binding = 29) uniform textureBuffer shaded;
-layout(std430, set = 0, binding = 30) writeonly buffer ShadedOut { vec4 shaded_out[]; };
-layout(std430, set = 0, binding = 31) buffer ShadeOrder { uint shade_order[]; };
-layout(set = 0, binding = 32) uniform textureBuffer pattern_offsets;      // sub-sample offsets, pixels
-layout(std430, set = 0, binding = 33) buffer Bins { uvec4 bins[]; };        // count, first, cursor, 0
-layout(std430, set = 0, binding = 34) buffer Arguments { uvec4 arguments[]; }; // indirect dispatches
+layout(set = SET_FRAME, binding = BINDING_INSTANCE_OF) uniform utextureBuffer instance_of;   // of 64 indices each
+layout(set = SET_FRAME, binding = BINDING_INSTANCES) uniform utextureBuffer instances;     // see triangle.glsl
+layout(set = SET_FRAME, binding = BINDING_IDS) uniform utexture2D ids;
+layout(set = SET_FRAME, binding = BINDING_BLEND_IDS) uniform utexture2D blend_ids;
+layout(set = SET_FRAME, binding = BINDING_IDS_MS) uniform texture2DMS ids_ms;
+layout(set = SET_FRAME, binding = BINDING_BLEND_IDS_MS) uniform texture2DMS blend_ids_ms;
+layout(set = SET_FRAME, binding = BINDING_DISPLAY) uniform utextureBuffer display;
+layout(std430, set = SET_FRAME, binding = BINDING_DISPLAY_OUT) writeonly buffer DisplayOut { uint display_out[]; };
+layout(std430, set = SET_FRAME, binding = BINDING_COLOR) buffer Color { vec4 color[]; };
+layout(std430, set = SET_FRAME, binding = BINDING_COUNTERS) buffer Counters { uint counters[]; };
+layout(std430, set = SET_FRAME, binding = BINDING_MASKS) buffer Masks { uint masks[]; };
+layout(std430, set = SET_FRAME, binding = BINDING_TILES) buffer Tiles { uvec4 tiles[]; };   // candidates, first, first header, flags; then stretches, see load.glsl
+layout(std430, set = SET_FRAME, binding = BINDING_TILE_LISTS) buffer TileLists { uint tile_lists[]; };
+layout(std430, set = SET_FRAME, binding = BINDING_SURVIVORS) buffer Survivors { uint survivors[]; };
+layout(set = SET_FRAME, binding = BINDING_CANDIDATES) uniform utextureBuffer candidates;  // 4 vectors each, floats as bits
+layout(std430, set = SET_FRAME, binding = BINDING_CANDIDATES_OUT) writeonly buffer CandidatesOut { uvec4 candidates_out[]; };
+layout(std430, set = SET_FRAME, binding = BINDING_HEADERS) buffer Headers { uvec2 headers[]; };  // first record, count
+layout(set = SET_FRAME, binding = BINDING_RECORDS) uniform utextureBuffer records;
+layout(std430, set = SET_FRAME, binding = BINDING_RECORDS_OUT) writeonly buffer RecordsOut { uvec4 records_out[]; };
+layout(set = SET_FRAME, binding = BINDING_SHADED) uniform textureBuffer shaded;
+layout(std430, set = SET_FRAME, binding = BINDING_SHADED_OUT) writeonly buffer ShadedOut { vec4 shaded_out[]; };
+layout(std430, set = SET_FRAME, binding = BINDING_SHADE_ORDER) buffer ShadeOrder { uint shade_order[]; };
+layout(set = SET_FRAME, binding = BINDING_PATTERN_OFFSETS) uniform textureBuffer pattern_offsets;      // sub-sample offsets, pixels
+layout(std430, set = SET_FRAME, binding = BINDING_BINS) buffer Bins { uvec4 bins[]; };        // count, first, cursor, 0
+layout(std430, set = SET_FRAME, binding = BINDING_ARGUMENTS) buffer Arguments { uvec4 arguments[]; }; // indirect dispatches
 
-layout(set = 0, binding = 38) uniform utextureBuffer pairs;       // triangle, and its tile and rank there, see pairs.glsl
-layout(std430, set = 0, binding = 39) writeonly buffer PairsOut { uvec2 pairs_out[]; };
-layout(std430, set = 0, binding = 41) buffer Marks { uint marks[]; };       // like masks, three times: pixels that `thin` found unseen, later cells that a PROBE leaves; paint that it found, later pixels that contrast with a superpixel; superpixels before `grow`
+layout(set = SET_FRAME, binding = BINDING_PAIRS) uniform utextureBuffer pairs;       // triangle, and its tile and rank there, see pairs.glsl
+layout(std430, set = SET_FRAME, binding = BINDING_PAIRS_OUT) writeonly buffer PairsOut { uvec2 pairs_out[]; };
+layout(std430, set = SET_FRAME, binding = BINDING_MARKS) buffer Marks { uint marks[]; };       // like masks, three times: pixels that `thin` found unseen, later cells that a PROBE leaves; paint that it found, later pixels that contrast with a superpixel; superpixels before `grow`
 
 // (n % width, n / width). Integer division is a loop on CPU devices; a float quotient errs by one at the most for
 // quotients below 2^22, and is mended.
@@ -117,4 +118,4 @@ bool high_frequency(uint word) {
     return (word >> 30 & 1u) != 0u;
 }
 
-#include "counters.glsl"
+#include "groups.glsl"

@@ -2,11 +2,12 @@
 // a shuffle is almost free and a built-in reduction is a loop; large ones have it in hardware.
 #ifndef LANES_GLSL
 #define LANES_GLSL
+#include "interface.glsl"
 
-layout(constant_id = 1) const uint LANES = 8u;          // 4, 8, 16 or 32: where subgroups are larger, as many of them are used
+layout(constant_id = CONSTANT_LANES) const uint LANES = 8u;          // 4, 8, 16 or 32: where subgroups are larger, as many of them are used
 const bool BY_SHUFFLE = LANES <= 8u;
 
-layout(constant_id = 24) const bool UNSURE = false;     // of the subgroups: the device can't be asked for their size
+layout(constant_id = CONSTANT_UNSURE) const bool UNSURE = false;     // of the subgroups: the device can't be asked for their size
 
 // Whether the device runs a workgroup of so many invocations in other subgroups than it was made for. It is then counted,
 // and the host discards the frame.

@@ -3,7 +3,7 @@
 #ifndef LINES_GLSL
 #define LINES_GLSL
 
-layout(constant_id = 11) const uint LINES = 16u;            // 8 or 16
+layout(constant_id = SAMPLE_CONSTANT_LINES) const uint LINES = 16u;            // 8 or 16
 
 const uint BITS = 64u, ALL_BITS = LINES * BITS, WORDS = ALL_BITS / 32u / LANES;
 const uint HALVES = BITS / 32u;                             // words of a line

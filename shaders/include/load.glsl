@@ -25,10 +25,6 @@ struct Load {
 uint tile_count() { return frame.tiles.x * frame.tiles.y; }
 uint stretch_count() { return (tile_count() + STRETCH - 1u) / STRETCH; }
 
-// Trials of a triangle in a cell that a round takes where tiles have no list: some tenths of a second on small GPUs, well
-// below what systems let a dispatch take.
-#define MOST_TRIALS 0x80000000u
-
 uvec4 room;     // of a round, for needs
 uint blocks;    // of a cell
 

@@ -4,25 +4,26 @@
 // its index in the list.
 #ifndef LOCATIONS_GLSL
 #define LOCATIONS_GLSL
+#include "interface.glsl"
 #include "place_in_tile.glsl"
 
-layout(constant_id = 20) const bool LOCATIONS = false;
-layout(constant_id = 21) const bool POINTS = false;
-layout(constant_id = 22) const bool OCCLUDERS = false;  // POINTS on surfaces, seen by a light: which triangle lies before theirs
+layout(constant_id = CONSTANT_LOCATIONS) const bool LOCATIONS = false;
+layout(constant_id = CONSTANT_POINTS) const bool POINTS = false;
+layout(constant_id = CONSTANT_OCCLUDERS) const bool OCCLUDERS = false;  // POINTS on surfaces, seen by a light: which triangle lies before theirs
 
 // Two vectors each, floats as bits:
 // a location: (pixel x, y as signed integers, place in it x, y from 0 to 1), (its Jacobian: change of x and y a column, change
 //   a row of the output; OCCLUDERS: least depth of what lies before it, ID of the surface's triangle, 0, 0)
-layout(set = 0, binding = 42) uniform utextureBuffer locations;
+layout(set = SET_FRAME, binding = BINDING_LOCATIONS) uniform utextureBuffer locations;
 // a cell: (x, y of its middle from its tile's centre, half its width and height), (its location or, of POINTS, where in
 //   `location_order` its locations begin, how many it has, 0, 0)
-layout(set = 0, binding = 43) uniform utextureBuffer location_cells;
+layout(set = SET_FRAME, binding = BINDING_LOCATION_CELLS) uniform utextureBuffer location_cells;
 // One vector: tile, first cell, cells, number of the first cell within its tile
-layout(set = 0, binding = 44) uniform utextureBuffer location_groups;
-layout(std430, set = 0, binding = 45) readonly buffer TileLoads { uvec2 tile_loads[]; };     // cells, samples
+layout(set = SET_FRAME, binding = BINDING_LOCATION_GROUPS) uniform utextureBuffer location_groups;
+layout(std430, set = SET_FRAME, binding = BINDING_TILE_LOADS) readonly buffer TileLoads { uvec2 tile_loads[]; };     // cells, samples
 
 // Locations of POINTS tile by tile, those of a cell one after the other.
-layout(set = 0, binding = 57) uniform utextureBuffer location_order;
+layout(set = SET_FRAME, binding = BINDING_LOCATION_ORDER) uniform utextureBuffer location_order;
 
 // Set in the location of that record of POINTS that stands for all that it sees: its leaf, or its only one.
 #define POINT_VALUE 0x80000000u

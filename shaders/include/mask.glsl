@@ -1,9 +1,10 @@
 // Sets of a cell's samples as masks, a bit each in the pattern's order, and what is added up over them.
 #ifndef MASK_GLSL
 #define MASK_GLSL
+#include "interface.glsl"
 
 // Offsets of samples from the middle of their cell, two a vector.
-layout(std140, set = 0, binding = 54) uniform Pattern { vec4 pattern[32]; };
+layout(std140, set = SET_FRAME, binding = BINDING_PATTERN) uniform Pattern { vec4 pattern[32]; };
 
 vec2 offsets[SAMPLES];      // the same, read once
 

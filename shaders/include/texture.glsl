@@ -3,36 +3,37 @@
 // at several places along the longer side that it has in the texture.
 #ifndef TEXTURE_GLSL
 #define TEXTURE_GLSL
+#include "interface.glsl"
 #include "barycentric.glsl"
 #include "material.glsl"
 
-layout(constant_id = 3) const bool TEXTURED = false;            // any is used
-layout(constant_id = 14) const bool ONE_UV_TRANSFORM = false;   // and UV set, for all textures
-layout(constant_id = 15) const bool BOX_FILTER = false; // textures are filtered over what a place stands for, along both of its axes
+layout(constant_id = CONSTANT_TEXTURED) const bool TEXTURED = false;            // any is used
+layout(constant_id = CONSTANT_ONE_UV_TRANSFORM) const bool ONE_UV_TRANSFORM = false;   // and UV set, for all textures
+layout(constant_id = CONSTANT_BOX_FILTER) const bool BOX_FILTER = false; // textures are filtered over what a place stands for, along both of its axes
 
 // Which of `textures` a role reads, 16 added; 0 for none.
-layout(constant_id = 40) const uint BASE_COLOR_TEXTURE = 0u;
-layout(constant_id = 41) const uint METALLIC_ROUGHNESS_TEXTURE = 0u;
-layout(constant_id = 42) const uint NORMAL_TEXTURE = 0u;
-layout(constant_id = 43) const uint OCCLUSION_TEXTURE = 0u;
-layout(constant_id = 44) const uint EMISSIVE_TEXTURE = 0u;
-layout(constant_id = 45) const uint SPECULAR_TEXTURE = 0u;
-layout(constant_id = 46) const uint SPECULAR_COLOR_TEXTURE = 0u;
-layout(constant_id = 47) const uint CLEARCOAT_TEXTURE = 0u;
-layout(constant_id = 48) const uint CLEARCOAT_ROUGHNESS_TEXTURE = 0u;
-layout(constant_id = 49) const uint CLEARCOAT_NORMAL_TEXTURE = 0u;
-layout(constant_id = 50) const uint SHEEN_COLOR_TEXTURE = 0u;
-layout(constant_id = 51) const uint SHEEN_ROUGHNESS_TEXTURE = 0u;
-layout(constant_id = 52) const uint ANISOTROPY_TEXTURE = 0u;
-layout(constant_id = 53) const uint IRIDESCENCE_TEXTURE = 0u;
-layout(constant_id = 54) const uint IRIDESCENCE_THICKNESS_TEXTURE = 0u;
-layout(constant_id = 55) const uint DIFFUSE_TRANSMISSION_TEXTURE = 0u;
-layout(constant_id = 56) const uint DIFFUSE_TRANSMISSION_COLOR_TEXTURE = 0u;
-layout(constant_id = 57) const uint TRANSMISSION_TEXTURE = 0u;
-layout(constant_id = 58) const uint THICKNESS_TEXTURE = 0u;
-layout(constant_id = 59) const uint SPECULAR_GLOSSINESS_TEXTURE = 0u;
+layout(constant_id = CONSTANT_BASE_COLOR_TEXTURE) const uint BASE_COLOR_TEXTURE = 0u;
+layout(constant_id = CONSTANT_METALLIC_ROUGHNESS_TEXTURE) const uint METALLIC_ROUGHNESS_TEXTURE = 0u;
+layout(constant_id = CONSTANT_NORMAL_TEXTURE) const uint NORMAL_TEXTURE = 0u;
+layout(constant_id = CONSTANT_OCCLUSION_TEXTURE) const uint OCCLUSION_TEXTURE = 0u;
+layout(constant_id = CONSTANT_EMISSIVE_TEXTURE) const uint EMISSIVE_TEXTURE = 0u;
+layout(constant_id = CONSTANT_SPECULAR_TEXTURE) const uint SPECULAR_TEXTURE = 0u;
+layout(constant_id = CONSTANT_SPECULAR_COLOR_TEXTURE) const uint SPECULAR_COLOR_TEXTURE = 0u;
+layout(constant_id = CONSTANT_CLEARCOAT_TEXTURE) const uint CLEARCOAT_TEXTURE = 0u;
+layout(constant_id = CONSTANT_CLEARCOAT_ROUGHNESS_TEXTURE) const uint CLEARCOAT_ROUGHNESS_TEXTURE = 0u;
+layout(constant_id = CONSTANT_CLEARCOAT_NORMAL_TEXTURE) const uint CLEARCOAT_NORMAL_TEXTURE = 0u;
+layout(constant_id = CONSTANT_SHEEN_COLOR_TEXTURE) const uint SHEEN_COLOR_TEXTURE = 0u;
+layout(constant_id = CONSTANT_SHEEN_ROUGHNESS_TEXTURE) const uint SHEEN_ROUGHNESS_TEXTURE = 0u;
+layout(constant_id = CONSTANT_ANISOTROPY_TEXTURE) const uint ANISOTROPY_TEXTURE = 0u;
+layout(constant_id = CONSTANT_IRIDESCENCE_TEXTURE) const uint IRIDESCENCE_TEXTURE = 0u;
+layout(constant_id = CONSTANT_IRIDESCENCE_THICKNESS_TEXTURE) const uint IRIDESCENCE_THICKNESS_TEXTURE = 0u;
+layout(constant_id = CONSTANT_DIFFUSE_TRANSMISSION_TEXTURE) const uint DIFFUSE_TRANSMISSION_TEXTURE = 0u;
+layout(constant_id = CONSTANT_DIFFUSE_TRANSMISSION_COLOR_TEXTURE) const uint DIFFUSE_TRANSMISSION_COLOR_TEXTURE = 0u;
+layout(constant_id = CONSTANT_TRANSMISSION_TEXTURE) const uint TRANSMISSION_TEXTURE = 0u;
+layout(constant_id = CONSTANT_THICKNESS_TEXTURE) const uint THICKNESS_TEXTURE = 0u;
+layout(constant_id = CONSTANT_SPECULAR_GLOSSINESS_TEXTURE) const uint SPECULAR_GLOSSINESS_TEXTURE = 0u;
 
-layout(set = 1, binding = 0) uniform sampler2D textures[15];
+layout(set = SET_TEXTURES, binding = BINDING_TEXTURES) uniform sampler2D textures[15];
 
 // Where a material is read: at a place in a triangle.
 struct Place {

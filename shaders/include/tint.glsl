@@ -2,8 +2,9 @@
 // tints keep their colour.
 #ifndef TINT_GLSL
 #define TINT_GLSL
+#include "interface.glsl"
 
-layout(constant_id = 16) const bool TINTED = false;     // layers have tints in place of opacities, and their light is premultiplied
+layout(constant_id = CONSTANT_TINTED) const bool TINTED = false;     // layers have tints in place of opacities, and their light is premultiplied
 
 float pack_tint(vec3 through) {
     uvec3 q = uvec3(round(sqrt(clamp(through, vec3(0.0), vec3(1.0))) * 1023.0));

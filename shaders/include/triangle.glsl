@@ -7,8 +7,9 @@
 // that rounding; triangles of one instance meet exactly.
 #ifndef TRIANGLE_GLSL
 #define TRIANGLE_GLSL
+#include "interface.glsl"
 
-layout(constant_id = 23) const bool INSTANCED = false;  // indices are those of instances, not of records
+layout(constant_id = CONSTANT_INSTANCED) const bool INSTANCED = false;  // indices are those of instances, not of records
 
 const uint MIRRORED = 1u;
 // Vectors of an instance: (what leads from an index to a record, end of its indices, flags, 0), four columns to clip

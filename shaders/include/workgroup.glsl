@@ -1,5 +1,5 @@
 // Which workgroup and which invocation this is, of a dispatch that is folded into rows of 32,768 workgroups: see `groups` in
-// counters.glsl.
+// groups.glsl.
 #ifndef WORKGROUP_GLSL
 #define WORKGROUP_GLSL
 

@@ -7,6 +7,24 @@ use crate::vulkan::{Host, Requirements};
 use ash::vk;
 use std::ffi::{CStr, c_char};
 
+/// The version of the header: gpc_version says that of the library.
+pub const GPC_VERSION_MAJOR: u32 = 0;
+/// See GPC_VERSION_MAJOR.
+pub const GPC_VERSION_MINOR: u32 = 2;
+/// See GPC_VERSION_MAJOR.
+pub const GPC_VERSION_PATCH: u32 = 0;
+/// The version of the header as one number, larger for later versions; packed as by VK_MAKE_API_VERSION.
+pub const GPC_VERSION: u32 =
+    (GPC_VERSION_MAJOR << 22) | (GPC_VERSION_MINOR << 12) | GPC_VERSION_PATCH;
+
+/// The version of the library, packed as GPC_VERSION is.
+///
+/// Threads: any.
+#[unsafe(no_mangle)]
+pub extern "C" fn gpc_version() -> u32 {
+    GPC_VERSION
+}
+
 /// Vulkan's own type.
 ///
 /// cbindgen:ignore
@@ -50,9 +68,9 @@ pub struct GpcAntialiaser {
 }
 
 /// Sets the features that the library needs to VK_TRUE, and leaves all else in the struct as it is: chain it to
-/// VkDeviceCreateInfo.
+/// VkDeviceCreateInfo. Set its sType before.
 ///
-/// Threads: any. Errors: GPC_RESULT_NULL.
+/// Threads: any. Errors: GPC_RESULT_NULL; GPC_RESULT_VALUE for another sType.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_require_features(
     features: *mut vk::PhysicalDeviceVulkan13Features<'static>,
@@ -60,6 +78,9 @@ pub unsafe extern "C" fn gpc_require_features(
     answer(|| {
         // SAFETY: passed on to the caller.
         let features = unsafe { place(features, "features") }?;
+        if features.s_type != vk::StructureType::PHYSICAL_DEVICE_VULKAN_1_3_FEATURES {
+            return Err(Error::StructureType(features.s_type.as_raw()));
+        }
         let needed = Requirements::features13();
         for (feature, needed) in [
             (&mut features.dynamic_rendering, needed.dynamic_rendering),
@@ -98,14 +119,20 @@ pub unsafe extern "C" fn gpc_check_device(
         if physical_device == vk::PhysicalDevice::null() {
             return Err(Error::Null("physical_device"));
         }
-        let missing = Requirements::missing(&instance, physical_device);
+        // SAFETY: passed on to the caller.
+        let missing = unsafe { Requirements::missing(&instance, physical_device) };
         if !missing.is_empty() {
             return Err(Error::Missing(missing));
         }
         // SAFETY: passed on to the caller.
-        if let Some(answer) = unsafe { queue_family.as_mut() } {
-            *answer = Requirements::queue_family(&instance, physical_device)
-                .ok_or(Error::Missing(vec![crate::vulkan::Missing::Queue]))?;
+        let (answer, family) = unsafe {
+            (
+                queue_family.as_mut(),
+                Requirements::queue_family(&instance, physical_device),
+            )
+        };
+        if let Some(answer) = answer {
+            *answer = family.ok_or(Error::Missing(vec![crate::vulkan::Missing::Queue]))?;
         }
         Ok(())
     })
@@ -217,7 +244,9 @@ unsafe fn load_host(lent: &GpcDevice) -> Result<Host, Error> {
         for name in OF_CONDITIONAL_RENDERING {
             // SAFETY: passed on to the caller; the name ends with a zero.
             let found = unsafe { instance.get_device_proc_addr(lent.device, name.as_ptr()) };
-            found.ok_or(Error::Function(name.to_str().unwrap_or_default()))?;
+            found.ok_or(Error::ConditionalRendering(
+                name.to_str().unwrap_or_default(),
+            ))?;
         }
     }
     // SAFETY: passed on to the caller.

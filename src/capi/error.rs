@@ -1,8 +1,9 @@
 //! Answers of functions, and messages.
 
+use crate::engine::sampler::RenderError;
 use crate::host::HostError;
-use crate::render::RenderError;
 use crate::vulkan::{Missing, VulkanError};
+use ash::vk;
 use std::any::Any;
 use std::cell::RefCell;
 use std::ffi::{CString, c_char};
@@ -33,6 +34,8 @@ pub enum GpcResult {
     Vulkan = 8,
     /// A defect of the library. What took part in the call is to be destroyed and not used otherwise.
     Panic = 9,
+    /// The commands of the last recording are not done, or there was none.
+    NotReady = 10,
 }
 
 /// Why a function did not do what was asked.
@@ -55,15 +58,54 @@ pub(super) enum Error {
         possible: String,
     },
     #[error(
-        "vkGetInstanceProcAddr finds no {0}: create the instance for Vulkan 1.3, with a loader and a driver that have it"
+        "there is no {0}: create the instance for Vulkan 1.3 (VkApplicationInfo.apiVersion of GPC_VULKAN_API_VERSION), with a loader and a driver that have it"
     )]
     Function(&'static str),
+    #[error(
+        "GpcDevice.conditional_rendering is VK_TRUE and there is no {0}: create the device with VK_EXT_conditional_rendering and its feature conditionalRendering"
+    )]
+    ConditionalRendering(&'static str),
+    #[error(
+        "features->sType is {0}; it can be VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES ({expected})",
+        expected = vk::StructureType::PHYSICAL_DEVICE_VULKAN_1_3_FEATURES.as_raw()
+    )]
+    StructureType(i32),
     #[error("the device lacks {}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "))]
     Missing(Vec<Missing>),
-    #[error(transparent)]
+    #[error("{}", in_c(.0))]
     Host(#[from] HostError),
     #[error("a defect of the library: {0}")]
     Panic(String),
+}
+
+/// What the error says, with C's names for what C wrote.
+fn in_c(error: &HostError) -> String {
+    match error {
+        HostError::NoDepth => {
+            "thin triangles are found by depth: lend GpcImages.depth, the depth image, or set GpcOptions.thin to VK_FALSE".to_owned()
+        }
+        HostError::NoCoordinates => {
+            "there are alpha maps and no texture coordinates: lend GpcGeometry.coordinates".to_owned()
+        }
+        HostError::BlendedCentres => {
+            "GpcGeometry.blended with GpcOptions.shade_all: centres are shaded by the nearest surface alone; draw the colours yourself".to_owned()
+        }
+        HostError::NotBlended { draw } => {
+            format!("draw {draw} is blended; create the frame with GpcGeometry.blended")
+        }
+        HostError::AlphaMap { draw, map, maps } => {
+            let asked = u32::from(*map) + 1;
+            format!("GpcDraw.alpha_map of draw {draw} is {asked}; it can be 0 to {maps}")
+        }
+        HostError::FlatProjection => {
+            "GpcScenery.projection has a scale of 0 along y: it is projection[1][1], in columns".to_owned()
+        }
+        HostError::IndexType { found } => format!(
+            "GpcGeometry.index_type is {}; it can be VK_INDEX_TYPE_UINT16 (0) or VK_INDEX_TYPE_UINT32 (1)",
+            found.as_raw()
+        ),
+        other => other.to_string(),
+    }
 }
 
 impl From<VulkanError> for Error {
@@ -78,7 +120,10 @@ impl Error {
             Self::Null(_) => GpcResult::Null,
             Self::StructSize { .. } => GpcResult::StructSize,
             Self::Value { .. } => GpcResult::Value,
-            Self::Function(_) | Self::Missing(_) => GpcResult::Unsupported,
+            Self::StructureType(_) => GpcResult::Value,
+            Self::Function(_) | Self::ConditionalRendering(_) | Self::Missing(_) => {
+                GpcResult::Unsupported
+            }
             Self::Panic(_) => GpcResult::Panic,
             Self::Host(error) => match error {
                 HostError::NullHandle(_) => GpcResult::Null,
@@ -87,9 +132,11 @@ impl Error {
                 | HostError::Vertices { .. } => GpcResult::Capacity,
                 HostError::Render(RenderError::Vulkan(error)) => match error {
                     VulkanError::Missing { .. } => GpcResult::Unsupported,
+                    VulkanError::QueueFamily { .. } => GpcResult::Value,
                     VulkanError::OutOfMemory { .. } => GpcResult::OutOfMemory,
                     VulkanError::DeviceLost => GpcResult::DeviceLost,
                     VulkanError::TooLarge { .. } => GpcResult::Value,
+                    VulkanError::NotRecorded | VulkanError::NotDone => GpcResult::NotReady,
                     _ => GpcResult::Vulkan,
                 },
                 HostError::Render(RenderError::Memory { .. }) => GpcResult::OutOfMemory,

@@ -131,9 +131,14 @@ impl GpcGeometry {
             count => unsafe { std::slice::from_raw_parts(self.alpha_maps, count) },
         };
         let spaces = [
-            (GpcPositionSpace::Clip as u32, PositionSpace::Clip),
+            (
+                GpcPositionSpace::Clip as u32,
+                "GPC_POSITION_SPACE_CLIP",
+                PositionSpace::Clip,
+            ),
             (
                 GpcPositionSpace::Object as u32,
+                "GPC_POSITION_SPACE_OBJECT",
                 PositionSpace::Object {
                     capacity: self.position_capacity,
                 },

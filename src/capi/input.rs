@@ -95,24 +95,26 @@ pub(super) unsafe fn take_back<T>(object: *mut T) {
     });
 }
 
-/// A number of C's for one of a few values.
+/// A number of C's for one of a few values, which have names in C.
 pub(super) fn choice<T: Clone>(
     name: &'static str,
     found: u32,
-    values: &[(u32, T)],
+    values: &[(u32, &'static str, T)],
 ) -> Result<T, Error> {
-    let value = values.iter().find(|(number, _)| *number == found);
-    value.map(|(_, value)| value.clone()).ok_or_else(|| {
-        let numbers = values.iter().map(|(number, _)| number.to_string());
+    let value = values.iter().find(|(number, ..)| *number == found);
+    value.map(|(.., value)| value.clone()).ok_or_else(|| {
+        let possible = values
+            .iter()
+            .map(|(number, value, _)| format!("{value} ({number})"));
         Error::Value {
             name,
             found,
-            possible: numbers.collect::<Vec<_>>().join(", "),
+            possible: possible.collect::<Vec<_>>().join(", "),
         }
     })
 }
 
 /// VK_TRUE or VK_FALSE.
 pub(super) fn flag(name: &'static str, found: u32) -> Result<bool, Error> {
-    choice(name, found, &[(0, false), (1, true)])
+    choice(name, found, &[(0, "VK_FALSE", false), (1, "VK_TRUE", true)])
 }

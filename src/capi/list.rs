@@ -126,9 +126,8 @@ pub unsafe extern "C" fn gpc_list_create(
 /// Makes a list like this one, for the same buffers, with more of what its last recording lacked. Where it lacked nothing, the
 /// new one has as much. The old one is still to be destroyed.
 ///
-/// Threads: no other call uses the list at the time. Lifetime: the commands of its last recording are done, and the buffers and
-/// views lent outlive the new list too.
-/// Errors: as gpc_list_create. `*grown` is then NULL.
+/// Threads: no other call uses the list at the time. Lifetime: the buffers and views lent outlive the new list too.
+/// Errors: as gpc_list_create; GPC_RESULT_NOT_READY before the commands of the last recording are done. `*grown` is then NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_list_grow(
     list: *const GpcList,
@@ -150,7 +149,7 @@ pub unsafe extern "C" fn gpc_list_grow(
 /// is handed to `shade`, whose shaders write no memory of the library but by gpc_store.
 ///
 /// Threads: no other call uses the list or the command buffer at the time. Different lists may be recorded at once.
-/// Lifetime: the commands of the list's last recording are done. The list, the buffers and what `shade` records outlive the
+/// Lifetime: the commands of the list's last recording are done, or will never be executed. The list, the buffers and what `shade` records outlive the
 /// execution of the commands.
 /// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_VALUE, GPC_RESULT_CAPACITY. Nothing is recorded then.
 #[unsafe(no_mangle)]
@@ -182,10 +181,11 @@ pub unsafe extern "C" fn gpc_list_record(
     })
 }
 
-/// What the last recording did. It waits for nothing: its commands are done.
+/// What the last recording did, once its commands are done, until the next one. It waits for nothing: where they were not
+/// submitted or still run, it answers GPC_RESULT_NOT_READY.
 ///
 /// Threads: no gpc_list_record of the list runs at the time.
-/// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_DEVICE_LOST, GPC_RESULT_VULKAN.
+/// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_NOT_READY, GPC_RESULT_DEVICE_LOST, GPC_RESULT_VULKAN.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_list_outcome(
     list: *const GpcList,

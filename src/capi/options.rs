@@ -2,8 +2,8 @@
 
 use super::error::{Error, GpcResult, answer};
 use super::input::{Struct, check, choice, flag};
+use crate::engine::sampler::{Detection, Shading};
 use crate::host::Options;
-use crate::render::{Detection, Shading};
 use crate::sampling::Pattern;
 use ash::vk;
 
@@ -54,6 +54,9 @@ pub enum GpcDetection {
     Every = 3,
 }
 
+/// The value of GpcOptions.contrast for the threshold that suits the samples: 6, and 1 from 128 samples on.
+pub const GPC_CONTRAST_OF_SAMPLES: u32 = u32::MAX;
+
 /// How a frame is antialiased; gpc_options_init gives defaults.
 #[derive(Clone, Copy)]
 #[repr(C)]
@@ -72,7 +75,7 @@ pub struct GpcOptions {
     pub shading: u32,
     /// What makes a superpixel: a GpcDetection.
     pub detection: u32,
-    /// Differences above this, in 8-bit sRGB code values of any channel, are a contrast: 0 to 255.
+    /// Differences above this, in 8-bit sRGB code values of any channel, are a contrast: 0 to 255, or GPC_CONTRAST_OF_SAMPLES.
     pub contrast: u32,
     /// VK_TRUE if triangles too thin for a pixel's centre to see make superpixels too; where IDs are lent, this needs depth,
     /// too.
@@ -129,7 +132,7 @@ pub unsafe extern "C" fn gpc_options_init(
                 pattern: GpcPattern::Lines as u32,
                 shading: GpcShading::Part as u32,
                 detection: GpcDetection::Contrast as u32,
-                contrast: u32::from(defaults.contrast),
+                contrast: defaults.contrast.map_or(GPC_CONTRAST_OF_SAMPLES, u32::from),
                 thin: u32::from(defaults.thin),
                 high_dynamic_range: u32::from(defaults.high_dynamic_range),
                 sharp: u32::from(defaults.sharp),
@@ -151,15 +154,39 @@ impl GpcOptions {
     /// With `GpcPattern::List`, `locations` shows as many as are counted.
     pub(super) unsafe fn options(&self) -> Result<Options, Error> {
         let shadings = [
-            (GpcShading::Triangle as u32, Shading::Triangle),
-            (GpcShading::Part as u32, Shading::Part),
-            (GpcShading::Sample as u32, Shading::Sample),
+            (
+                GpcShading::Triangle as u32,
+                "GPC_SHADING_TRIANGLE",
+                Shading::Triangle,
+            ),
+            (GpcShading::Part as u32, "GPC_SHADING_PART", Shading::Part),
+            (
+                GpcShading::Sample as u32,
+                "GPC_SHADING_SAMPLE",
+                Shading::Sample,
+            ),
         ];
         let detections = [
-            (GpcDetection::Contrast as u32, Detection::Contrast),
-            (GpcDetection::Edges as u32, Detection::Edges),
-            (GpcDetection::Exact as u32, Detection::Exact),
-            (GpcDetection::Every as u32, Detection::Every),
+            (
+                GpcDetection::Contrast as u32,
+                "GPC_DETECTION_CONTRAST",
+                Detection::Contrast,
+            ),
+            (
+                GpcDetection::Edges as u32,
+                "GPC_DETECTION_EDGES",
+                Detection::Edges,
+            ),
+            (
+                GpcDetection::Exact as u32,
+                "GPC_DETECTION_EXACT",
+                Detection::Exact,
+            ),
+            (
+                GpcDetection::Every as u32,
+                "GPC_DETECTION_EVERY",
+                Detection::Every,
+            ),
         ];
         let has_background = flag("GpcOptions.has_background", self.has_background)?;
         Ok(Options {
@@ -169,11 +196,14 @@ impl GpcOptions {
             pattern: unsafe { self.sample_pattern() }?,
             shading: choice("GpcOptions.shading", self.shading, &shadings)?,
             detection: choice("GpcOptions.detection", self.detection, &detections)?,
-            contrast: u8::try_from(self.contrast).map_err(|_| Error::Value {
-                name: "GpcOptions.contrast",
-                found: self.contrast,
-                possible: "0 to 255".to_owned(),
-            })?,
+            contrast: match self.contrast {
+                GPC_CONTRAST_OF_SAMPLES => None,
+                asked => Some(u8::try_from(asked).map_err(|_| Error::Value {
+                    name: "GpcOptions.contrast",
+                    found: asked,
+                    possible: "0 to 255, or GPC_CONTRAST_OF_SAMPLES".to_owned(),
+                })?),
+            },
             thin: flag("GpcOptions.thin", self.thin)?,
             background: has_background.then_some(self.background),
             high_dynamic_range: flag("GpcOptions.high_dynamic_range", self.high_dynamic_range)?,
@@ -188,13 +218,37 @@ impl GpcOptions {
     /// As [`GpcOptions::options`].
     unsafe fn sample_pattern(&self) -> Result<Pattern, Error> {
         let patterns = [
-            (GpcPattern::Sobol as u32, Pattern::Sobol),
-            (GpcPattern::Lattice as u32, Pattern::Lattice),
-            (GpcPattern::Korobov as u32, Pattern::Korobov),
-            (GpcPattern::Grid as u32, Pattern::Grid),
-            (GpcPattern::Rotated as u32, Pattern::Rotated),
-            (GpcPattern::List as u32, Pattern::List(Vec::new())),
-            (GpcPattern::Lines as u32, Pattern::Lines),
+            (
+                GpcPattern::Sobol as u32,
+                "GPC_PATTERN_SOBOL",
+                Pattern::Sobol,
+            ),
+            (
+                GpcPattern::Lattice as u32,
+                "GPC_PATTERN_LATTICE",
+                Pattern::Lattice,
+            ),
+            (
+                GpcPattern::Korobov as u32,
+                "GPC_PATTERN_KOROBOV",
+                Pattern::Korobov,
+            ),
+            (GpcPattern::Grid as u32, "GPC_PATTERN_GRID", Pattern::Grid),
+            (
+                GpcPattern::Rotated as u32,
+                "GPC_PATTERN_ROTATED",
+                Pattern::Rotated,
+            ),
+            (
+                GpcPattern::List as u32,
+                "GPC_PATTERN_LIST",
+                Pattern::List(Vec::new()),
+            ),
+            (
+                GpcPattern::Lines as u32,
+                "GPC_PATTERN_LINES",
+                Pattern::Lines,
+            ),
         ];
         match choice("GpcOptions.pattern", self.pattern, &patterns)? {
             Pattern::List(_) if self.locations.is_null() => {

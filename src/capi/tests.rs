@@ -1,5 +1,6 @@
 //! What programs in C can't provoke.
 
+use super::device::{GPC_VERSION_MAJOR, GPC_VERSION_MINOR, GPC_VERSION_PATCH};
 use super::error::{Error, GpcResult, answer, last_error};
 use crate::host::{Antialiaser, Frame, List};
 
@@ -32,4 +33,10 @@ fn objects_can_be_used_from_threads_as_the_header_says() {
     shared::<Antialiaser>();
     shared::<Frame>();
     shared::<List>();
+}
+
+#[test]
+fn the_header_has_the_version_of_the_package() {
+    let version = format!("{GPC_VERSION_MAJOR}.{GPC_VERSION_MINOR}.{GPC_VERSION_PATCH}");
+    assert_eq!(version, env!("CARGO_PKG_VERSION"));
 }

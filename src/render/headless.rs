@@ -1,11 +1,10 @@
 //! A renderer with a device of its own, for images without a window.
 
-use super::plan::Capacity;
-use super::renderer::{PreparedScene, Renderer};
-use super::{Frame, RenderError, Settings, Statistics, Target};
+use super::renderer::{PreparedScene, Renderer, SceneRequest};
+use super::{Frame, RenderError, Settings, Shadows, Statistics, Target};
 use crate::camera::Camera;
-use crate::passes::GpuScene;
-use crate::scene::{Motion, Pose, Scene};
+use crate::engine::sampler::plan::Capacity;
+use crate::render::passes::GpuScene;
 use crate::vulkan::{
     Buffer, Gpu, Instance, InstanceOptions, Limits, Memory, MemoryUse, VulkanError,
 };
@@ -139,21 +138,27 @@ impl Headless {
     /// # Errors
     /// [`VulkanError`] if there is no suitable device, listing what is missing.
     pub fn new(options: &HeadlessOptions) -> Result<Self, VulkanError> {
-        Self::within(options, |_| ())
+        // SAFETY: limits stay as they are.
+        unsafe { Self::within(options, |_| ()) }
     }
 
-    /// As [`Headless::new`], in a device whose limits `lower` has lowered: so one device stands for others.
+    /// As [`Headless::new`], in a device whose limits `lower` has lowered: so one device stands for others in tests.
     ///
     /// # Errors
     /// As [`Headless::new`].
-    pub fn within(
+    ///
+    /// # Safety
+    /// `lower` gives the device nothing that it has not.
+    #[doc(hidden)]
+    pub unsafe fn within(
         options: &HeadlessOptions,
         lower: impl FnOnce(&mut Limits),
     ) -> Result<Self, VulkanError> {
         let instance = Instance::new(InstanceOptions {
             validation: options.validation,
         })?;
-        let gpu = instance.create_gpu_within(options.device.as_deref(), lower)?;
+        // SAFETY: passed on to the caller.
+        let gpu = unsafe { instance.create_gpu_within(options.device.as_deref(), lower) }?;
         let renderer = Renderer::in_gpu(gpu.clone())?;
         // SAFETY: the queue family is the one the device was created with; handles made before a failure are
         // destroyed by `Drop`.
@@ -219,40 +224,22 @@ impl Headless {
             .unwrap_or_default()
     }
 
-    /// Puts a posed scene on the device.
+    /// Puts a scene on the device, as [`Renderer::prepare_scene`] prepares it.
     ///
     /// # Errors
-    /// If memory runs out or the scene passes a limit of the device.
-    pub fn upload(
-        &mut self,
-        scene: &Scene,
-        pose: &Pose,
-        max_memory: Option<u64>,
-    ) -> Result<PreparedScene, RenderError> {
-        let mut prepared = self.renderer.prepare_scene(scene, pose, max_memory)?;
+    /// As [`Renderer::prepare_scene`]; [`RenderError::Stopped`] as [`Self::stop_when`] says.
+    pub fn upload(&mut self, request: SceneRequest<'_>) -> Result<PreparedScene, RenderError> {
+        let mut prepared = self.renderer.prepare_shown(request)?;
         self.put(&mut prepared)?;
+        // What the first upload needed is free for the second one.
+        if request.shadows != Shadows::None {
+            self.renderer.prepare_casters(&mut prepared, request)?;
+            self.put(&mut prepared)?;
+        }
         Ok(prepared)
     }
 
-    /// As [`Headless::upload`], for a scene that moves: its frames [show](Frame::show) other moments of the motion. Images
-    /// of locations are those of the first pose.
-    ///
-    /// # Errors
-    /// As [`Headless::upload`]; [`RenderError::OtherMotion`] for a pose and motion that were not made together.
-    pub fn upload_in_motion(
-        &mut self,
-        scene: &Scene,
-        pose: (&Pose, &Motion),
-        max_memory: Option<u64>,
-    ) -> Result<PreparedScene, RenderError> {
-        let mut prepared = self
-            .renderer
-            .prepare_scene_in_motion(scene, pose, max_memory)?;
-        self.put(&mut prepared)?;
-        Ok(prepared)
-    }
-
-    pub(super) fn put(&mut self, prepared: &mut PreparedScene) -> Result<(), RenderError> {
+    fn put(&mut self, prepared: &mut PreparedScene) -> Result<(), RenderError> {
         // SAFETY: the commands are submitted and waited for while the scene is alive.
         self.submit(|commands| unsafe { prepared.record_upload(commands) })?;
         // SAFETY: the commands were waited for.
@@ -270,10 +257,10 @@ impl Headless {
         scene: &PreparedScene,
         settings: &Settings,
     ) -> Result<Frame, RenderError> {
-        let beside = ReadBack::bytes(settings);
+        let reserved = ReadBack::bytes(settings);
         self.check(&scene.gpu_scene)?;
         self.renderer
-            .prepare_with(scene, settings, None, Capacity::least(), beside)
+            .prepare_with(scene, settings, None, Capacity::least(), reserved)
     }
 
     /// Renders a frame and waits for it. Where what it lists outgrows its memory it is prepared again with more, so that the image
@@ -318,7 +305,11 @@ impl Headless {
         Ok(())
     }
 
-    fn render_once(&mut self, frame: &mut Frame, camera: &Camera) -> Result<Rendered, RenderError> {
+    pub(super) fn render_once(
+        &mut self,
+        frame: &mut Frame,
+        camera: &Camera,
+    ) -> Result<Rendered, RenderError> {
         self.check(frame.scene())?;
         let size = frame.settings().output_size();
         let output = ReadBack::for_frame(&self.gpu, frame, self.output.take())?;

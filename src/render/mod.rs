@@ -2,43 +2,26 @@
 //!
 //! [`Renderer`] works in a host's device and command buffers; [`Headless`] owns a device and is built on it.
 
-#[cfg(feature = "gltf")]
 mod backdrop;
-mod color;
-pub(crate) mod engine;
-mod error;
-pub(crate) mod footprint;
-#[cfg(feature = "gltf")]
+pub mod camera;
 mod frame;
-#[cfg(feature = "gltf")]
 mod headless;
-pub(crate) mod image_state;
-pub(crate) mod list;
-#[cfg(feature = "gltf")]
 mod locations;
-pub(crate) mod plan;
-#[cfg(feature = "gltf")]
+mod pass_list;
+pub(crate) mod passes;
 mod plane;
-#[cfg(feature = "gltf")]
 mod renderer;
-mod settings;
-#[cfg(feature = "gltf")]
+pub mod scene;
 mod shadows;
-pub(crate) mod statistics;
-#[cfg(feature = "gltf")]
-mod uniform;
+mod viewpoint;
 
-pub use error::RenderError;
-#[cfg(feature = "gltf")]
-pub use frame::{Frame, Target};
-#[cfg(feature = "gltf")]
-pub use headless::{Headless, HeadlessOptions, PixelAttributes, Rendered};
-pub use image_state::ImageState;
-#[cfg(feature = "gltf")]
-pub use locations::{LocationError, PointSample, Sampled};
-#[cfg(feature = "gltf")]
-pub use renderer::{PreparedScene, Renderer};
-pub use settings::{
-    Coverage, Detection, Footprint, Method, PixelRect, Reference, Settings, Shading, Shadows,
+pub use crate::engine::passes::Encoding;
+pub use crate::engine::sampler::{
+    Coverage, Detection, Footprint, ImageState, Method, PassTime, PixelRect, Reference,
+    RenderError, Settings, Shading, Shadows, Statistics, TriangleCounts,
 };
-pub use statistics::{PassTime, Statistics, TriangleCounts};
+pub use frame::{Frame, Target};
+pub use headless::{Headless, HeadlessOptions, PixelAttributes, Rendered};
+pub use locations::{LocationError, PointSample, Sampled};
+pub use pass_list::FramePass;
+pub use renderer::{PreparedScene, Renderer, SceneRequest};

@@ -1,10 +1,11 @@
 //! A rectangle of tiles of a pinhole's plane, as passes see it.
 
 use super::Settings;
-use super::footprint::Footprints;
-use super::uniform::{Looking, uniform};
 use crate::camera::Pinhole;
-use crate::passes::{Cells, FrameUniform, GpuScene, ListRegion, ResourceSizes};
+use crate::engine::sampler::footprint::Footprints;
+use crate::engine::sampler::uniform::{PlaneBlock, SceneBlock, frame_uniform};
+use crate::passes::{Cells, FrameUniform, ListRegion, ResourceSizes};
+use crate::render::passes::GpuScene;
 use glam::{DMat4, DVec2};
 
 /// Pixels of a tile.
@@ -61,23 +62,14 @@ impl Window {
         (cells, samples): (Cells, u32),
         sizes: &ResourceSizes,
     ) -> FrameUniform {
-        // Parallel rays need not be at right angles to the plane.
-        let looking = Looking {
-            eye: pinhole.eye(),
-            direction: pinhole
-                .parallel_direction()
-                .map_or(pinhole.direction(), |to_centre| -to_centre),
-            is_parallel: pinhole.is_parallel(),
-        };
         let footprints = Footprints::new(settings, if cells.are_points() { 1 } else { samples });
-        let to_clip = self.to_clip(scene, pinhole);
-        FrameUniform {
-            transform: to_clip.as_mat4().to_cols_array(),
-            origin: [0, 1].map(|axis| (self.low[axis] as f64 + 0.5 - self.middle[axis]) as f32),
+        let plane = PlaneBlock {
+            transform: self.to_clip(scene, pinhole).as_mat4().to_cols_array(),
+            corner: [0, 1].map(|axis| self.low[axis] as f64 - self.middle[axis]),
             size: self.size(),
-            tiles: self.tiles,
-            side: 1,
-            ..uniform(scene, settings, &looking, (samples, &footprints), sizes)
-        }
+            ..PlaneBlock::default()
+        };
+        let scene = SceneBlock::of(scene, &pinhole.into());
+        frame_uniform(&scene, &plane, settings, (samples, &footprints), sizes)
     }
 }

@@ -1,10 +1,11 @@
 //! The face of the renderer: what it needs of a device, and how scenes and frames are prepared.
 
 use super::frame::Frame;
-use super::plan::Capacity;
 use super::shadows::Casters;
-use super::{RenderError, Settings};
-use crate::passes::{Encoding, FrameLayout, GpuScene, SceneUploads};
+use super::{RenderError, Settings, Shadows};
+use crate::engine::sampler::plan::Capacity;
+use crate::passes::{Encoding, FrameLayout};
+use crate::render::passes::{GpuScene, SceneUploads};
 use crate::scene::{Motion, Pose, Scene};
 use crate::vulkan::{Gpu, Host, Memory, Recorder, VulkanError};
 use ash::vk;
@@ -19,12 +20,67 @@ pub struct Renderer {
     gpu: Arc<Gpu>,
 }
 
+/// What is to be put on a device of a scene, and how much memory that may take.
+#[derive(Clone, Copy)]
+#[non_exhaustive]
+pub struct SceneRequest<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// The moment that is shown unless a frame [shows](Frame::show) another one.
+    pub pose: &'a Pose,
+    /// The motion that the pose was made with, where frames show other moments of it, too. Images of locations are those of
+    /// the pose.
+    pub motion: Option<&'a Motion>,
+    /// The shadows that settings may ask for: with [`Shadows::Exact`] the scene's triangles are there twice, as what is seen and
+    /// as what casts shadows, for at most 32 lights.
+    pub shadows: Shadows,
+    /// Bound on device memory in bytes, for all of it.
+    pub max_memory: Option<u64>,
+}
+
+impl<'a> SceneRequest<'a> {
+    /// A scene that keeps still and has no shadows, in as much memory as it takes.
+    #[must_use]
+    pub fn new(scene: &'a Scene, pose: &'a Pose) -> Self {
+        Self {
+            scene,
+            pose,
+            motion: None,
+            shadows: Shadows::None,
+            max_memory: None,
+        }
+    }
+
+    /// The same with the motion that the pose was made with, if any.
+    #[must_use]
+    pub fn moving(self, motion: impl Into<Option<&'a Motion>>) -> Self {
+        Self {
+            motion: motion.into(),
+            ..self
+        }
+    }
+
+    /// The same with shadows.
+    #[must_use]
+    pub fn shadowed(self, shadows: Shadows) -> Self {
+        Self { shadows, ..self }
+    }
+
+    /// The same in at most so many bytes, if any.
+    #[must_use]
+    pub fn within(self, max_memory: impl Into<Option<u64>>) -> Self {
+        Self {
+            max_memory: max_memory.into(),
+            ..self
+        }
+    }
+}
+
 /// A scene on the device.
 pub struct PreparedScene {
     /// Shared with the frames that show it.
     pub(super) gpu_scene: Arc<GpuScene>,
     pub(super) uploads: SceneUploads,
-    /// For what the host looks for in images of locations.
     /// What casts shadows, where the scene was made ready for them.
     pub(super) casters: Option<Arc<Casters>>,
     pub(super) caster_uploads: SceneUploads,
@@ -49,7 +105,8 @@ impl PreparedScene {
         self.gpu_scene.triangle_count()
     }
 
-    /// Records the copies of the scene, and of what casts shadows, to the device. Once, before the first frame that shows it.
+    /// Records the copies of the scene, and of what casts shadows, to the device, to be executed before the first frame that
+    /// shows it. Where the commands were discarded, it records the same again; after [`Self::discard_uploads`], nothing.
     ///
     /// # Safety
     /// - `commands` is being recorded for the device and queue family of the renderer that prepared the scene.
@@ -57,9 +114,7 @@ impl PreparedScene {
     pub unsafe fn record_upload(&self, commands: vk::CommandBuffer) {
         // SAFETY: passed on to the caller.
         let recorder = unsafe { Recorder::new(self.gpu_scene.memory().gpu(), commands, None) };
-        if !self.gpu_scene.is_uploaded() {
-            self.uploads.record(&recorder, &self.gpu_scene);
-        }
+        self.uploads.record(&recorder, &self.gpu_scene);
         if let Some(casters) = &self.casters {
             self.caster_uploads.record(&recorder, casters.scene());
         }
@@ -68,8 +123,9 @@ impl PreparedScene {
     /// Frees the memory that the upload needed.
     ///
     /// # Safety
-    /// The commands of [`Self::record_upload`] are done.
+    /// The commands of [`Self::record_upload`] were executed and are done.
     pub unsafe fn discard_uploads(&mut self) {
+        self.gpu_scene.set_uploaded();
         self.uploads = SceneUploads::default();
         self.caster_uploads = SceneUploads::default();
     }
@@ -106,34 +162,34 @@ impl Renderer {
         &self.gpu
     }
 
-    /// Allocates a posed scene's memory on the device.
+    /// Allocates a scene's memory on the device, and that of what casts shadows where these are asked for.
     ///
     /// # Errors
-    /// If memory runs out, `max_memory` bytes are passed, or the scene passes a limit of the device;
-    /// [`RenderError::Geometry`] if the geometry contradicts itself.
-    pub fn prepare_scene(
-        &self,
-        scene: &Scene,
-        pose: &Pose,
-        max_memory: Option<u64>,
-    ) -> Result<PreparedScene, RenderError> {
-        self.prepare_moving(scene, (pose, None), max_memory)
+    /// If memory runs out, the bound on it is passed, or the scene passes a limit of the device; [`RenderError::Geometry`] if the
+    /// geometry contradicts itself; [`RenderError::OtherMotion`] for a pose and motion that were not made together;
+    /// [`RenderError::ShadowLights`] for shadows of more than 32 lights.
+    pub fn prepare_scene(&self, request: SceneRequest<'_>) -> Result<PreparedScene, RenderError> {
+        let mut prepared = self.prepare_shown(request)?;
+        self.prepare_casters(&mut prepared, request)?;
+        Ok(prepared)
     }
 
-    /// As [`Self::prepare_scene`], for a scene that moves: its frames [show](Frame::show) other moments of the motion.
-    ///
-    /// # Errors
-    /// As [`Self::prepare_scene`]; [`RenderError::OtherMotion`] for a pose and motion that were not made together.
-    pub fn prepare_scene_in_motion(
+    /// What is shown of a scene, without what casts shadows.
+    pub(super) fn prepare_shown(
         &self,
-        scene: &Scene,
-        (pose, motion): (&Pose, &Motion),
-        max_memory: Option<u64>,
+        request: SceneRequest<'_>,
     ) -> Result<PreparedScene, RenderError> {
-        if !motion.is_of(pose) {
+        let SceneRequest {
+            scene,
+            pose,
+            motion,
+            max_memory,
+            ..
+        } = request;
+        if motion.is_some_and(|motion| !motion.is_of(pose)) {
             return Err(RenderError::OtherMotion);
         }
-        self.prepare_moving(scene, (pose, Some(motion)), max_memory)
+        self.prepare_moving(scene, (pose, motion), max_memory)
     }
 
     pub(super) fn prepare_moving(
@@ -199,7 +255,7 @@ impl Renderer {
             frame.settings(),
             frame.encoding(),
             capacity,
-            frame.beside(),
+            frame.reserved(),
         )?;
         if let Some(moment) = frame.moment() {
             like.show(moment.clone())?;
@@ -207,19 +263,19 @@ impl Renderer {
         Ok(like)
     }
 
-    /// Of what the settings allow, `beside` bytes are kept free for others.
+    /// Of what the settings allow, `reserved` bytes are kept free for others.
     pub(super) fn prepare_with(
         &self,
         scene: &PreparedScene,
         settings: &Settings,
         encoding: Option<Encoding>,
         capacity: Capacity,
-        beside: u64,
+        reserved: u64,
     ) -> Result<Frame, RenderError> {
         self.check(&scene.gpu_scene)?;
         settings.check(self.gpu.limits())?;
         let shown = (&scene.gpu_scene, scene.casters.as_ref());
-        let beside = beside + scene.casters_bytes();
-        Frame::new(&self.layout, shown, settings, encoding, capacity, beside)
+        let reserved = reserved + scene.casters_bytes();
+        Frame::new(&self.layout, shown, settings, encoding, capacity, reserved)
     }
 }

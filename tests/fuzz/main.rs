@@ -6,12 +6,12 @@
 //! coverage, which needs a nightly toolchain.
 
 mod mutate;
-#[path = "../scene_builder/mod.rs"]
+#[path = "../common/scene_builder.rs"]
 mod scene_builder;
-#[path = "../scene_support/mod.rs"]
-#[allow(dead_code)]
-mod scene_support;
 mod seeds;
+#[path = "../common/shared.rs"]
+#[allow(dead_code, reason = "other tests use the rest")]
+mod shared;
 
 use std::{
     panic::catch_unwind,

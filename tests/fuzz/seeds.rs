@@ -1,9 +1,6 @@
 //! The files that mutations start from: one of each format and extension.
 
-use std::{
-    io::Cursor,
-    path::{Path, PathBuf},
-};
+use std::{io::Cursor, path::Path};
 
 use image::{ImageFormat, Rgb, Rgb32FImage};
 use serde_json::json;
@@ -12,7 +9,7 @@ use super::{
     Seed,
     mutate::glb,
     scene_builder::{Builder, TRIANGLE},
-    scene_support::shared,
+    shared::shared,
 };
 
 const OBJ: &str = "mtllib none.mtl\no quad\nv 0 0 0\nv 1 0 0 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\n\
@@ -30,7 +27,7 @@ const EDGES: &str = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\n
 const MTL: &str = "newmtl paint\nKa 0 0 0\nKd 0.5 0.25 1\nd 0.5\nNs 10\nillum 2\n\
     map_Kd -s 1 1 1 none.png\n";
 
-/// All seeds: those made here, of which OBJ lies in `folder`, and small shared scenes where they are.
+/// All seeds: those made here, of which OBJ lies in `folder`, and small scenes of `../shared` where that is.
 pub fn all(folder: &Path) -> Vec<Seed> {
     let mut seeds = vec![
         made("rich.glb", rich().glb()),
@@ -49,7 +46,7 @@ pub fn all(folder: &Path) -> Vec<Seed> {
         made("sky.exr", exr(folder)),
         made("edges.ply", EDGES.into()),
     ];
-    for name in [
+    let scenes = [
         "Box-Draco/Box.gltf",
         "BoxMeshopt/BoxMeshopt.glb",
         "CesiumBalloonKTX2/CesiumBalloonKTX2.glb",
@@ -57,8 +54,9 @@ pub fn all(folder: &Path) -> Vec<Seed> {
         "MorphPrimitivesTest/MorphPrimitivesTest.glb",
         "SimpleSparseAccessor/SimpleSparseAccessor.gltf",
         "WebpRequired/box-textured-separate.gltf",
-    ] {
-        seeds.extend(from_scene(name));
+    ];
+    if cfg!(shared_files) {
+        seeds.extend(scenes.map(from_scene));
     }
     seeds
 }
@@ -72,26 +70,25 @@ fn made(name: &str, bytes: Vec<u8>) -> Seed {
     }
 }
 
-/// A shared scene, if it is there. A buffer beside it becomes part of the file, so that mutations
-/// reach what is compressed.
-fn from_scene(name: &str) -> Option<Seed> {
-    let path = shared("scenes")?.join(name);
-    let mut bytes = std::fs::read(&path).ok()?;
-    let base: PathBuf = path.parent()?.to_owned();
+/// A scene of `../shared`. A buffer beside it becomes part of the file, so that mutations reach what is compressed.
+fn from_scene(name: &str) -> Seed {
+    let path = shared("scenes").join(name);
+    let mut bytes = std::fs::read(&path).unwrap();
+    let base = path.parent().unwrap().to_owned();
     if name.ends_with(".gltf") {
-        let mut json: serde_json::Value = serde_json::from_slice(&bytes).ok()?;
-        let uri = json["buffers"][0]["uri"].as_str()?.to_owned();
+        let mut json: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
+        let uri = json["buffers"][0]["uri"].as_str().unwrap().to_owned();
         if let Ok(binary) = std::fs::read(base.join(&uri)) {
-            json["buffers"][0].as_object_mut()?.remove("uri");
+            json["buffers"][0].as_object_mut().unwrap().remove("uri");
             bytes = glb(json.to_string().as_bytes(), &binary);
         }
     }
-    Some(Seed {
+    Seed {
         name: name.replace('/', "-"),
         bytes,
         base: Some(base),
         beside: None,
-    })
+    }
 }
 
 /// A scene of all parts that need no compression.

@@ -1,9 +1,11 @@
 //! Memory of passes that are run by themselves, without a scene.
 
 use ash::vk;
-use gpc::passes::{Content, FrameLayout, Offsets, RasterTargets, ResourceSizes, Resources};
 use gpc::render::Headless;
-use gpc::vulkan::{Buffer, Constants, Memory, MemoryUse};
+use gpc::testing::{
+    Buffer, Content, FrameLayout, Memory, MemoryUse, Offsets, RasterTargets, ResourceSizes,
+    Resources, frame_layout, memory,
+};
 use std::sync::Arc;
 
 /// A scene that no pass of these reads.
@@ -16,10 +18,6 @@ impl Content for Unread {
 
     fn is_instanced(&self) -> bool {
         false
-    }
-
-    fn constants(&self, constants: Constants) -> Constants {
-        constants
     }
 
     fn has_mask(&self) -> bool {
@@ -62,8 +60,9 @@ pub struct Bare {
 
 impl Bare {
     pub fn new(gpu: &Headless, sizes: ResourceSizes, samples: u32) -> Self {
-        let layout = FrameLayout::new(gpu.gpu()).unwrap();
-        let memory = Memory::new(gpu.gpu().clone(), None);
+        // SAFETY: passes have the sizes of these resources; tests wait for their commands.
+        let (layout, memory) =
+            unsafe { (frame_layout(gpu.gpu()).unwrap(), memory(gpu.gpu(), None)) };
         let targets =
             RasterTargets::new(&memory, 8, 4, vk::SampleCountFlags::TYPE_1, false).unwrap();
         let storage = vk::BufferUsageFlags::STORAGE_BUFFER;

@@ -38,7 +38,7 @@ fn found(
     let settings = Settings {
         method: Method::Superpixel,
         samples: 4,
-        contrast: CONTRAST,
+        contrast: Some(CONTRAST),
         detection,
         ..settings.clone()
     };
@@ -324,7 +324,7 @@ fn paint_makes_superpixels() {
         let with = |method, samples| Settings {
             method,
             samples,
-            contrast: CONTRAST,
+            contrast: Some(CONTRAST),
             footprint: Footprint::Pixel,
             ..once(size)
         };

@@ -1,7 +1,8 @@
 //! One device as if it were others: with larger and smaller subgroups, and with the limits that every device has.
 
 use gpc::render::{
-    Coverage, Headless, HeadlessOptions, Method, RenderError, Rendered, Settings, Shading,
+    Coverage, Headless, HeadlessOptions, Method, RenderError, Rendered, SceneRequest, Settings,
+    Shading,
 };
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Instance, Material};
@@ -16,7 +17,8 @@ pub fn within(lower: impl FnOnce(&mut Limits), test: impl FnOnce(&mut Headless))
         validation: true,
         ..HeadlessOptions::default()
     };
-    let mut gpu = Headless::within(&options, lower).unwrap();
+    // SAFETY: tests lower limits alone.
+    let mut gpu = unsafe { Headless::within(&options, lower) }.unwrap();
     test(&mut gpu);
     assert_eq!(gpu.validation_messages(), Vec::<String>::new());
 }
@@ -139,7 +141,7 @@ fn other_subgroups_are_an_error() {
                     ..Settings::new(64, 48)
                 };
                 let (scene, pose) = stage.build();
-                let prepared = gpu.upload(&scene, &pose, None).unwrap();
+                let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
                 let mut frame = gpu.prepare(&prepared, &settings).unwrap();
                 let failed = gpu.render(&mut frame, &camera());
                 assert!(
@@ -186,7 +188,7 @@ fn scenes_beyond_texel_buffers_are_refused() {
     }
     let (scene, pose) = stage.build();
     within(guaranteed, |gpu| {
-        let refused = gpu.upload(&scene, &pose, None).err();
+        let refused = gpu.upload(SceneRequest::new(&scene, &pose)).err();
         assert!(
             matches!(
                 refused,
@@ -227,7 +229,7 @@ fn the_last_of_many_triangles_is_sampled() {
     }
     pose.geometry.instances.push(instance(0, 1, first_index));
     on_gpu(|gpu| {
-        let prepared = gpu.upload(&scene, &pose, None).unwrap();
+        let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
         let mut frame = gpu.prepare(&prepared, &Settings::new(48, 32)).unwrap();
         let rendered = gpu.render(&mut frame, &camera()).unwrap();
         assert_eq!(rendered.statistics.triangles.drawn, 1);

@@ -1,13 +1,13 @@
 //! What tiles, cells and groups `distribute` makes of a list, against the CPU's.
 
 use gpc::bench::Random;
-use gpc::passes::{
+use gpc::reference::distribute::{Location, Region};
+use gpc::render::Headless;
+use gpc::testing::{Buffer, Recorder};
+use gpc::testing::{
     CellSizes, Cells, Counter, Distribute, FrameUniform, ListLength, ListRegion, ListedLocation,
     LocationSizes, ResourceSizes,
 };
-use gpc::reference::distribute::{Location, Region};
-use gpc::render::Headless;
-use gpc::vulkan::{Buffer, Recorder};
 
 use crate::bare::{Bare, copy};
 use crate::stage::on_gpu;

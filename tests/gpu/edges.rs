@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3, EulerRot};
 use gpc::camera::{Camera, Projection};
 use gpc::reference::stroke::{Edge, Eye, edge};
-use gpc::render::{Detection, Headless, Settings};
+use gpc::render::{Detection, Headless, SceneRequest, Settings};
 use gpc::sampling::Pattern;
 use gpc::scene::{Edges, PoseRequest};
 use serde_json::json;
@@ -188,7 +188,7 @@ impl Mesh {
             ..Edges::default()
         });
         let pose = scene.pose(&PoseRequest::default()).unwrap();
-        let prepared = gpu.upload(&scene, &pose, None).unwrap();
+        let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
         let mut frame = gpu.prepare(&prepared, settings).unwrap();
         let image = gpu.render(&mut frame, &look.camera).unwrap();
         image.colors.iter().map(|color| color[1]).collect()

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use gpc::color::srgb;
-use gpc::render::Headless;
+use gpc::render::{Headless, SceneRequest};
 use gpc::sampling::Pattern;
 use gpc::scene::{
     AlphaMode, Anisotropy, Clearcoat, DiffuseTransmission, Environment, Iridescence, Lobes,
@@ -33,7 +33,7 @@ fn seen(gpu: &mut Headless, material: &Material, sky: &Environment, degrees: f64
     scene.environment = Some(Arc::new(sky.clone()));
     let along = [cos as f32, 0.0, sin as f32, 1.0];
     pose.geometry.streams.tangents = vec![along; pose.geometry.positions.len()];
-    let prepared = gpu.upload(&scene, &pose, None).unwrap();
+    let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
     let settings = everywhere(SIZE, Pattern::Sobol, 1);
     let mut frame = gpu.prepare(&prepared, &settings).unwrap();
     let rendered = gpu.render(&mut frame, &camera()).unwrap();

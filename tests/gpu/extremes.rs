@@ -1,6 +1,6 @@
 //! Scenes and images at the ends of what there can be.
 
-use gpc::render::{Headless, HeadlessOptions, Method, Rendered, Settings};
+use gpc::render::{Headless, HeadlessOptions, Method, Rendered, SceneRequest, Settings};
 use gpc::sampling::Pattern;
 use gpc::scene::AlphaMode;
 
@@ -164,7 +164,7 @@ fn a_whole_life_is_valid() {
     let mut gpu = Headless::new(&options).unwrap();
     let instance = gpu.gpu().instance().unwrap().clone();
     let (scene, pose) = crate::scenes::ball_over_checker().build();
-    let prepared = gpu.upload(&scene, &pose, None).unwrap();
+    let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
     let mut frame = gpu.prepare(&prepared, &Settings::new(40, 30)).unwrap();
     let rendered: Rendered = gpu.render(&mut frame, &camera()).unwrap();
     assert!(rendered.statistics.superpixels > 0 && rendered.statistics.gpu_ms() > 0.0);

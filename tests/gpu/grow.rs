@@ -2,57 +2,109 @@
 
 use gpc::reference::detect::{Frame, Mode, superpixels};
 use gpc::reference::grow::grown;
-use gpc::render::{Detection, Method, Settings};
+use gpc::render::{Detection, Method, Rendered, Settings};
 use gpc::scene::AlphaMode;
 
 use crate::detect::{CONTRAST, codes, mosaic, near, pixels};
+use crate::locations::{pinhole, planar};
 use crate::stage::{Stage, flat, ids, on_gpu, once, seen_at};
 
-/// With as many samples as let superpixels grow once and twice. Pixels beside one whose code rounding may change are excused,
-/// and are few.
+const SIZE: [u32; 2] = [61, 43];
+
+/// Holds the superpixels of a mosaic against the twin's, with as many samples as let superpixels grow once and twice. Pixels beside one
+/// whose code rounding may change are excused, and are few.
+fn check_growths(mut render: impl FnMut(&Settings) -> Rendered) {
+    let base = render(&once(SIZE));
+    let (seen, _) = codes(&base);
+    let ids = ids(&base);
+    let blend = vec![0; ids.len()];
+    let frame = Frame::new(SIZE[0], SIZE[1], &ids, &blend, &seen).unwrap();
+    for (samples, growths) in [(4, 1), (144, 2)] {
+        let rendered = render(&Settings {
+            method: Method::Superpixel,
+            samples,
+            contrast: Some(CONTRAST),
+            ..once(SIZE)
+        });
+        let (resolved, doubtful) = codes(&rendered);
+        let mut expected = superpixels(&frame, Mode::Contrast(CONTRAST));
+        let first = pixels(SIZE, &expected);
+        for _ in 0..growths {
+            let grown = grown(SIZE[0], &seen, &resolved, &expected, CONTRAST);
+            for (word, grown) in expected.iter_mut().zip(grown) {
+                *word |= grown;
+            }
+        }
+        let expected = pixels(SIZE, &expected);
+        let count = |mask: &[bool]| mask.iter().filter(|&&superpixel| superpixel).count();
+        assert!(count(&expected) > count(&first) + 30, "{samples} samples");
+        assert!(count(&expected) < expected.len(), "{samples} samples");
+        let mut excused = 0;
+        for (pixel, attributes) in rendered.attributes.iter().enumerate() {
+            let same = (attributes.superpixel == 1) == expected[pixel];
+            assert!(
+                same || near(&doubtful, SIZE, pixel),
+                "{samples} samples, pixel {pixel}"
+            );
+            excused += u32::from(!same);
+        }
+        assert!(excused <= 4, "{samples} samples: {excused} pixels differ");
+    }
+}
+
 #[test]
 fn growths_are_the_twins() {
     on_gpu(|gpu| {
-        let size = [61, 43];
-        let stage = mosaic(7, size);
-        let base = stage.render(gpu, &once(size));
-        let (seen, _) = codes(&base);
-        let ids = ids(&base);
-        let blend = vec![0; ids.len()];
-        let frame = Frame::new(size[0], size[1], &ids, &blend, &seen).unwrap();
-        for (samples, growths) in [(4, 1), (144, 2)] {
-            let rendered = stage.render(
-                gpu,
-                &Settings {
-                    method: Method::Superpixel,
-                    samples,
-                    contrast: CONTRAST,
-                    ..once(size)
-                },
+        let stage = mosaic(7, SIZE);
+        check_growths(|settings| stage.render(gpu, settings));
+    });
+}
+
+#[test]
+fn growths_of_locations_are_the_twins() {
+    on_gpu(|gpu| {
+        let prepared = mosaic(7, SIZE).upload(gpu);
+        let rig = [(pinhole(SIZE), planar(SIZE))];
+        check_growths(|settings| {
+            gpu.render_locations(&prepared, &rig, SIZE, settings)
+                .unwrap()
+        });
+    });
+}
+
+/// Superpixels grow over the borders of the bands in which the cells of an output are looked at where memory is short.
+#[test]
+fn growths_of_locations_do_not_depend_on_memory() {
+    on_gpu(|gpu| {
+        let size = [64, 512];
+        let prepared = mosaic(11, size).upload(gpu);
+        let rig = [(pinhole(size), planar(size))];
+        let mut render = |max_memory| {
+            let settings = Settings {
+                method: Method::Superpixel,
+                samples: 144,
+                contrast: Some(CONTRAST),
+                max_memory,
+                ..once(size)
+            };
+            gpu.render_locations(&prepared, &rig, size, &settings)
+        };
+        let whole = render(None).unwrap();
+        // A band of all cells takes more than a quarter of either bound.
+        for bound in [10 << 20, 8 << 20] {
+            let parts = render(Some(bound)).unwrap();
+            assert!(parts.attributes == whole.attributes, "{bound} bytes");
+            assert_eq!(parts.statistics.superpixels, whole.statistics.superpixels);
+            let pairs = parts
+                .colors
+                .iter()
+                .flatten()
+                .zip(whole.colors.iter().flatten());
+            let farthest = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+            assert!(
+                farthest < 1e-5,
+                "{bound} bytes: colours differ by {farthest}"
             );
-            let (resolved, doubtful) = codes(&rendered);
-            let mut expected = superpixels(&frame, Mode::Contrast(CONTRAST));
-            let first = pixels(size, &expected);
-            for _ in 0..growths {
-                let grown = grown(size[0], &seen, &resolved, &expected, CONTRAST);
-                for (word, grown) in expected.iter_mut().zip(grown) {
-                    *word |= grown;
-                }
-            }
-            let expected = pixels(size, &expected);
-            let count = |mask: &[bool]| mask.iter().filter(|&&superpixel| superpixel).count();
-            assert!(count(&expected) > count(&first) + 30, "{samples} samples");
-            assert!(count(&expected) < expected.len(), "{samples} samples");
-            let mut excused = 0;
-            for (pixel, attributes) in rendered.attributes.iter().enumerate() {
-                let same = (attributes.superpixel == 1) == expected[pixel];
-                assert!(
-                    same || near(&doubtful, size, pixel),
-                    "{samples} samples, pixel {pixel}"
-                );
-                excused += u32::from(!same);
-            }
-            assert!(excused <= 4, "{samples} samples: {excused} pixels differ");
         }
     });
 }

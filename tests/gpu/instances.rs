@@ -1,7 +1,7 @@
 //! Instances against the same triangles in world space.
 
 use glam::{DAffine3, DMat3, DQuat, DVec3, EulerRot};
-use gpc::render::{Headless, Method, Rendered, Settings};
+use gpc::render::{Headless, Method, Rendered, SceneRequest, Settings};
 use gpc::sampling::Pattern;
 use gpc::scene::{
     AlphaMode, Draw, DrawClass, GeometryError, Image, Instance, InstanceFault, Material, Pose,
@@ -95,7 +95,7 @@ fn in_world_space(pose: &Pose) -> Pose {
 }
 
 fn render(gpu: &mut Headless, (scene, pose): (&Scene, &Pose), settings: &Settings) -> Rendered {
-    let prepared = gpu.upload(scene, pose, None).unwrap();
+    let prepared = gpu.upload(SceneRequest::new(scene, pose)).unwrap();
     let mut frame = gpu.prepare(&prepared, settings).unwrap();
     gpu.render(&mut frame, &camera()).unwrap()
 }
@@ -254,7 +254,7 @@ fn locations_see_them() {
     on_gpu(|gpu| {
         let (scene, pose) = scene();
         let image = render(gpu, (&scene, &pose), &once(SIZE));
-        let prepared = gpu.upload(&scene, &pose, None).unwrap();
+        let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
         let locations = planar(SIZE);
         let sampled = gpu
             .sample_points(&prepared, &pinhole(SIZE), &locations, &once(SIZE))

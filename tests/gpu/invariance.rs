@@ -2,7 +2,7 @@
 
 use glam::DMat3;
 use gpc::camera::Camera;
-use gpc::render::{Detection, Headless, Rendered, Settings, Shading};
+use gpc::render::{Detection, Headless, Rendered, SceneRequest, Settings, Shading};
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Material};
 
@@ -73,7 +73,7 @@ fn runs_give_the_same_bytes() {
                 ..Settings::new(size[0], size[1])
             };
             let (scene, pose) = stage.build();
-            let prepared = gpu.upload(&scene, &pose, None).unwrap();
+            let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
             let mut frame = gpu.prepare(&prepared, &settings).unwrap();
             let first = gpu.render(&mut frame, &camera()).unwrap();
             assert!(first.statistics.superpixels > 500);
@@ -87,7 +87,7 @@ fn runs_give_the_same_bytes() {
     });
 }
 
-/// A frame expects others to take about as many rounds as the one before, and is made again where they take more.
+/// The same frame object shows the same image, which takes several rounds, whether or not it showed nothing before.
 #[test]
 fn earlier_frames_do_not_matter() {
     on_gpu(|gpu| {
@@ -97,7 +97,7 @@ fn earlier_frames_do_not_matter() {
             ..Settings::new(size[0], size[1])
         };
         let (scene, pose) = soup(3, size, 4000, 0).build();
-        let prepared = gpu.upload(&scene, &pose, None).unwrap();
+        let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
         let expected = {
             let mut frame = gpu.prepare(&prepared, &settings).unwrap();
             gpu.render(&mut frame, &camera()).unwrap()
@@ -110,7 +110,7 @@ fn earlier_frames_do_not_matter() {
         let nothing = gpu.render(&mut frame, &away).unwrap();
         assert_eq!(nothing.statistics.superpixels, 0);
         let found = gpu.render(&mut frame, &camera()).unwrap();
-        // One each is recorded for superpixels and for growth, where frames showed nothing.
+        // One round for the superpixels and one for their growth would be the least.
         assert!(found.statistics.rounds > 2, "{}", found.statistics.rounds);
         assert_same(&expected, &found, "after a frame of less");
     });
@@ -218,10 +218,12 @@ fn with_less(gpu: &mut Headless, stage: &Stage, settings: &Settings) -> Vec<Rend
             max_memory: limit,
             ..settings.clone()
         };
-        let rendered = gpu.upload(&scene, &pose, limit).and_then(|prepared| {
-            let mut frame = gpu.prepare(&prepared, &settings)?;
-            gpu.render(&mut frame, &camera())
-        });
+        let rendered = gpu
+            .upload(SceneRequest::new(&scene, &pose).within(limit))
+            .and_then(|prepared| {
+                let mut frame = gpu.prepare(&prepared, &settings)?;
+                gpu.render(&mut frame, &camera())
+            });
         match rendered {
             Ok(image) => {
                 let used = image.statistics.memory_bytes;

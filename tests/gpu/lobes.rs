@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 use gpc::reference::sheen;
-use gpc::render::{Headless, Settings};
+use gpc::render::{Headless, SceneRequest, Settings};
 use gpc::sampling::Pattern;
 use gpc::scene::{
     AlphaMode, Anisotropy, Clearcoat, DiffuseTransmission, Iridescence, Light, LightKind, Lobes,
@@ -49,7 +49,7 @@ fn render(gpu: &mut Headless, stage: &Stage, lights: &[Light], settings: &Settin
     let (scene, mut pose) = stage.build();
     pose.lights = lights.to_vec();
     pose.geometry.streams.tangents = vec![[1.0, 0.0, 0.0, 1.0]; pose.geometry.positions.len()];
-    let prepared = gpu.upload(&scene, &pose, None).unwrap();
+    let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
     let mut frame = gpu.prepare(&prepared, settings).unwrap();
     let rendered = gpu.render(&mut frame, &camera()).unwrap();
     rendered.colors[MIDDLE].map(f64::from)

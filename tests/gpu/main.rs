@@ -28,7 +28,7 @@ mod partition;
 mod pose;
 mod prefilter;
 mod region;
-#[path = "../scene_builder/mod.rs"]
+#[path = "../common/scene_builder.rs"]
 mod scene_builder;
 mod scenes;
 mod schedule;

@@ -1,7 +1,7 @@
 //! The methods against each other: with the same samples they show the same image.
 
 use gpc::color::srgb::encode;
-use gpc::render::{Detection, Method, Rendered, Settings, Shading};
+use gpc::render::{Detection, Method, Rendered, SceneRequest, Settings, Shading};
 use gpc::sampling::Pattern;
 
 use crate::scenes::ball_over_checker;
@@ -113,7 +113,7 @@ fn multisampling_is_four_samples_at_the_standard_locations() {
 fn impossible_counts_are_usage_errors() {
     on_gpu(|gpu| {
         let (scene, pose) = ball_over_checker().build();
-        let prepared = gpu.upload(&scene, &pose, None).unwrap();
+        let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
         for (method, samples, named) in [
             (Method::Superpixel, 0, "1 to 1024"),
             (Method::Superpixel, 1025, "1 to 1024"),

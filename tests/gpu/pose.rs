@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 use gpc::camera::{Camera, Orbit};
-use gpc::render::{Frame, Headless, Method, RenderError, Rendered, Settings, Shadows};
+use gpc::render::{
+    Frame, Headless, Method, RenderError, Rendered, SceneRequest, Settings, Shadows,
+};
 use gpc::scene::{Instance, Loaded, Motion, Pose, PoseRequest};
 use serde_json::json;
 
@@ -238,7 +240,7 @@ fn shown(gpu: &mut Headless, settings: &Settings) -> Shown {
 fn shown_of(gpu: &mut Headless, loaded: Loaded, settings: &Settings) -> Shown {
     let (pose, motion) = loaded.scene.pose_in_motion(&at(0.0)).unwrap();
     let prepared = gpu
-        .upload_in_motion(&loaded.scene, (&pose, &motion), None)
+        .upload(SceneRequest::new(&loaded.scene, &pose).moving(&motion))
         .unwrap();
     let frame = gpu.prepare(&prepared, settings).unwrap();
     Shown {
@@ -264,7 +266,9 @@ impl Shown {
 
     fn posed(&self, gpu: &mut Headless, time: f64) -> Rendered {
         let pose = self.loaded.scene.pose(&at(time)).unwrap();
-        let prepared = gpu.upload(&self.loaded.scene, &pose, None).unwrap();
+        let prepared = gpu
+            .upload(SceneRequest::new(&self.loaded.scene, &pose))
+            .unwrap();
         let mut frame = gpu.prepare(&prepared, self.frame.settings()).unwrap();
         gpu.render(&mut frame, &self.camera).unwrap()
     }
@@ -385,7 +389,7 @@ fn thickness_grows_with_the_mesh() {
                     first_index: 0,
                     transform,
                 }));
-            let prepared = gpu.upload(&scene, &pose, None).unwrap();
+            let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
             let mut frame = gpu.prepare(&prepared, &settings).unwrap();
             gpu.render(&mut frame, &camera).unwrap().colors
         };
@@ -423,8 +427,11 @@ fn what_does_not_belong_together_is_refused() {
             "{refused:?}"
         );
         let other = crate::blend::panes().build();
-        let refused = gpu.upload_in_motion(&other.0, (&other.1, &first.motion), None);
-        assert!(matches!(refused, Err(RenderError::OtherMotion)));
+        for shadows in [Shadows::None, Shadows::Exact] {
+            let request = SceneRequest::new(&other.0, &other.1).moving(&first.motion);
+            let refused = gpu.upload(request.shadowed(shadows));
+            assert!(matches!(refused, Err(RenderError::OtherMotion)));
+        }
     });
 }
 
@@ -504,11 +511,10 @@ fn shadows_follow_the_moment() {
         };
         let (pose, motion) = scene.pose_in_motion(&at(0.0)).unwrap();
         let camera = camera(&pose);
-        let mut prepared = gpu
-            .upload_in_motion(&scene, (&pose, &motion), None)
-            .unwrap();
-        gpu.prepare_shadows_in_motion(&mut prepared, &scene, (&pose, &motion), None)
-            .unwrap();
+        let request = SceneRequest::new(&scene, &pose)
+            .moving(&motion)
+            .shadowed(Shadows::Exact);
+        let prepared = gpu.upload(request).unwrap();
         let mut frame = gpu.prepare(&prepared, &settings).unwrap();
         for time in TIMES {
             frame
@@ -517,9 +523,8 @@ fn shadows_follow_the_moment() {
             let found = gpu.render(&mut frame, &camera).unwrap().colors;
             let posed = |shadows, gpu: &mut Headless| {
                 let pose = scene.pose(&at(time)).unwrap();
-                let mut prepared = gpu.upload(&scene, &pose, None).unwrap();
-                gpu.prepare_shadows(&mut prepared, &scene, &pose, None)
-                    .unwrap();
+                let request = SceneRequest::new(&scene, &pose).shadowed(Shadows::Exact);
+                let prepared = gpu.upload(request).unwrap();
                 let mut frame = gpu
                     .prepare(
                         &prepared,
@@ -545,37 +550,5 @@ fn shadows_follow_the_moment() {
             assert!(shade > 0.015, "{shade}: hardly a shadow at {time}");
             assert!(error < 1e-4, "{error} at {time}");
         }
-    });
-}
-
-/// Shadows that were made ready for one pose can't follow.
-#[test]
-fn shadows_of_one_pose_show_no_other_moment() {
-    on_gpu(|gpu| {
-        let scene = film().scene;
-        let (pose, motion) = scene.pose_in_motion(&at(0.0)).unwrap();
-        let mut prepared = gpu
-            .upload_in_motion(&scene, (&pose, &motion), None)
-            .unwrap();
-        gpu.prepare_shadows(&mut prepared, &scene, &pose, None)
-            .unwrap();
-        let settings = Settings {
-            shadows: Shadows::Exact,
-            ..once(SIZE)
-        };
-        let mut frame = gpu.prepare(&prepared, &settings).unwrap();
-        let moment = motion.at(&scene, 0.5).unwrap().unwrap();
-        let refused = frame.show(Arc::new(moment));
-        assert!(
-            matches!(refused, Err(RenderError::MovingShadows)),
-            "{refused:?}"
-        );
-        let other = crate::blend::panes().build();
-        let refused =
-            gpu.prepare_shadows_in_motion(&mut prepared, &other.0, (&other.1, &motion), None);
-        assert!(
-            matches!(refused, Err(RenderError::OtherMotion)),
-            "{refused:?}"
-        );
     });
 }

@@ -1,10 +1,10 @@
 //! What surfaces reflect of an environment: `prefilter` against its twin, and where the average has a closed form.
 
 use glam::DVec3;
-use gpc::passes::prefilter::{Prefilter, levels, lobe};
 use gpc::reference::prefilter::{Cube, average};
 use gpc::render::Headless;
-use gpc::vulkan::{Memory, MemoryUse, Recorder};
+use gpc::testing::prefilter::{Prefilter, levels, lobe};
+use gpc::testing::{MemoryUse, Recorder, memory};
 use half::f16;
 
 use crate::stage::on_gpu;
@@ -61,7 +61,8 @@ fn filtered(gpu: &Headless, cubes: &[Cube]) -> Vec<Cube> {
     let levels: Vec<_> = levels(SIDE).collect();
     let (side, first) = levels[levels.len() - 1];
     texels.resize((first + 6 * side * side) as usize, [f16::ZERO; 4]);
-    let memory = Memory::new(gpu.gpu().clone(), None);
+    // SAFETY: the buffer holds all levels, and is read when the commands are done.
+    let memory = unsafe { memory(gpu.gpu(), None) };
     let bytes: &[u8] = bytemuck::cast_slice(&texels);
     let usage = ash::vk::BufferUsageFlags::STORAGE_BUFFER;
     let mut buffer = memory

@@ -1,6 +1,8 @@
 //! A region of an image holds the numbers of the whole image.
 
-use gpc::render::{Headless, Method, PixelRect, RenderError, Rendered, Settings, Shading};
+use gpc::render::{
+    Headless, Method, PixelRect, RenderError, Rendered, SceneRequest, Settings, Shading,
+};
 use gpc::scene::{AlphaMode, Material};
 
 use crate::scenes::ball_over_checker;
@@ -44,7 +46,7 @@ fn behind_glass() -> Stage {
 
 fn render(gpu: &mut Headless, stage: &Stage, settings: &Settings) -> Rendered {
     let (scene, pose) = stage.build();
-    let prepared = gpu.upload(&scene, &pose, None).unwrap();
+    let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
     let mut frame = gpu.prepare(&prepared, settings).unwrap();
     gpu.render(&mut frame, &camera()).unwrap()
 }

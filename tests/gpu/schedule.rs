@@ -1,13 +1,13 @@
 //! What `tally`, `schedule` and `enlist` take into rounds, against the CPU's.
 
 use gpc::bench::Random;
-use gpc::passes::{
+use gpc::reference::schedule::{List, Placed, Round, Rounds, Tile};
+use gpc::render::Headless;
+use gpc::testing::{
     Argument, Cells, Counter, FrameUniform, RecordRate, ResourceSizes, Sample, SampleOptions,
     Schedule,
 };
-use gpc::reference::schedule::{List, Placed, Round, Rounds, Tile};
-use gpc::render::Headless;
-use gpc::vulkan::{Buffer, Recorder};
+use gpc::testing::{Buffer, Recorder};
 
 use crate::bare::{Bare, Unread, copy};
 use crate::stage::on_gpu;

@@ -1,6 +1,6 @@
 //! Shading with what a material leaves out left out, against shading that leaves nothing out.
 
-use gpc::render::{Method, Settings};
+use gpc::render::{Method, SceneRequest, Settings};
 use gpc::scene::{AlphaMode, Image, Material, Sampler, Texture, TextureTransform, TextureUse};
 
 use crate::meshes::Random;
@@ -60,7 +60,7 @@ fn packed_occlusion_is_occlusion() {
                 image: 1,
                 sampler: Sampler::default(),
             });
-            let prepared = gpu.upload(&scene, &pose, None).unwrap();
+            let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
             let settings = Settings {
                 method: Method::None,
                 ..once(SIZE)

@@ -1,9 +1,13 @@
 //! What safe code can't do: outlive, mix up or contradict.
 
 use crate::stage::{Stage, camera, flat, on_gpu, once, textured};
-use gpc::render::{Headless, HeadlessOptions, RenderError, Renderer, Settings};
+use crate::submit::{discard, submit};
+use gpc::render::{
+    Frame, Headless, HeadlessOptions, RenderError, Renderer, SceneRequest, Settings, Target,
+};
 use gpc::scene::{AlphaMode, DrawClass, Geometry, GeometryError, Image, Sampler};
-use gpc::vulkan::{Memory, MemoryUse};
+use gpc::testing::{MemoryUse, memory};
+use gpc::vulkan::VulkanError;
 
 const SIZE: [u32; 2] = [40, 30];
 
@@ -45,9 +49,62 @@ fn a_scene_is_uploaded_before_it_is_shown() {
     on_gpu(|gpu| {
         let (scene, pose) = stage().build();
         let renderer = Renderer::in_gpu(gpu.gpu().clone()).unwrap();
-        let prepared = renderer.prepare_scene(&scene, &pose, None).unwrap();
+        let prepared = renderer
+            .prepare_scene(SceneRequest::new(&scene, &pose))
+            .unwrap();
         let refused = gpu.prepare(&prepared, &once(SIZE)).err();
         assert!(matches!(refused, Some(RenderError::NotUploaded)));
+    });
+}
+
+/// Copies to the device that were recorded and never submitted are recorded again, and nothing is read of such a recording.
+#[test]
+fn discarded_recordings_change_nothing() {
+    on_gpu(|gpu| {
+        let settings = Settings::new(SIZE[0], SIZE[1]);
+        let uploaded = stage().upload(gpu);
+        let mut frame = gpu.prepare(&uploaded, &settings).unwrap();
+        let expected = gpu.render(&mut frame, &camera()).unwrap();
+
+        let device = gpu.gpu().clone();
+        let renderer = Renderer::in_gpu(device.clone()).unwrap();
+        let (scene, pose) = stage().build();
+        let prepared = renderer
+            .prepare_scene(SceneRequest::new(&scene, &pose))
+            .unwrap();
+        let mut frame = renderer.prepare(&prepared, &settings, None).unwrap();
+        // SAFETY: what is made with it is read when the commands are done.
+        let memory = unsafe { memory(&device, None) };
+        let usage = ash::vk::BufferUsageFlags::TRANSFER_DST;
+        let pixels = (SIZE[0] * SIZE[1]) as usize;
+        let colors = memory
+            .buffer("colours", 16 * pixels as u64, usage, MemoryUse::Readback)
+            .unwrap();
+        let target = Target::Buffer {
+            colors: colors.handle(),
+            attributes: None,
+        };
+        let refusal = |frame: &Frame| match frame.statistics() {
+            Err(RenderError::Vulkan(error)) => error,
+            other => panic!("{other:?}"),
+        };
+        let is_not_done = |error: &_| matches!(error, VulkanError::NotDone);
+        assert!(matches!(refusal(&frame), VulkanError::NotRecorded));
+        let record = |frame: &mut Frame, commands| {
+            // SAFETY: the commands are discarded, or submitted and waited for while all that they use lives.
+            unsafe {
+                prepared.record_upload(commands);
+                frame.record(&camera(), commands, &target);
+            }
+        };
+        discard(&device, |commands| record(&mut frame, commands));
+        assert!(is_not_done(&refusal(&frame)));
+        let again = renderer.prepare_again(&frame).err();
+        assert!(matches!(&again, Some(RenderError::Vulkan(error)) if is_not_done(error)));
+        submit(&device, |commands| record(&mut frame, commands));
+        assert_eq!(colors.read::<[f32; 4]>(pixels).unwrap(), expected.colors);
+        let found = frame.statistics().unwrap();
+        assert_eq!(found.superpixels, expected.statistics.superpixels);
     });
 }
 
@@ -60,7 +117,7 @@ fn geometry_that_contradicts_itself_is_refused() {
         let mut refused = |spoil: &dyn Fn(&mut Geometry)| {
             let mut pose = pose.clone();
             spoil(&mut pose.geometry);
-            match gpu.upload(&scene, &pose, None) {
+            match gpu.upload(SceneRequest::new(&scene, &pose)) {
                 Err(RenderError::Geometry(error)) => error,
                 Err(other) => panic!("{other}"),
                 Ok(_) => panic!("it was taken"),
@@ -123,7 +180,8 @@ fn geometry_that_contradicts_itself_is_refused() {
 #[test]
 fn memory_is_counted_while_it_is_held() {
     on_gpu(|gpu| {
-        let memory = Memory::new(gpu.gpu().clone(), Some(1 << 20));
+        // SAFETY: no commands use what is made with it.
+        let memory = unsafe { memory(gpu.gpu(), Some(1 << 20)) };
         let usage = ash::vk::BufferUsageFlags::TRANSFER_DST;
         let make = || memory.buffer("half", 1 << 19, usage, MemoryUse::Readback);
         let first = make().unwrap();

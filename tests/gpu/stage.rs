@@ -1,37 +1,41 @@
 //! Stages on one device, and the CPU's view of them.
 
 use std::ops::{Deref, DerefMut};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use glam::{DVec3, Vec3};
 use gpc::bench::stress::stage;
-use gpc::render::{Headless, HeadlessOptions, PreparedScene, Rendered, Settings};
+use gpc::render::{Headless, HeadlessOptions, PreparedScene, Rendered, SceneRequest, Settings};
 use gpc::scene::Material;
+use gpc::vulkan::Limits;
 
 pub use gpc::bench::stress::stage::{camera, code, everywhere, flat, once, seen_at, textured};
 
-/// One device for all tests; they take turns.
-static GPU: Mutex<Option<Headless>> = Mutex::new(None);
+/// Devices that no test is using. They are kept, since a new device compiles all its pipelines anew. Each has an instance,
+/// and so the messages of the validation layer, to itself.
+static IDLE: Mutex<Vec<Headless>> = Mutex::new(Vec::new());
 
-/// Runs a test on the device; fails if the validation layer has anything to say about it.
+fn idle() -> MutexGuard<'static, Vec<Headless>> {
+    IDLE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Runs a test on a device that no other test is using. Fails if the validation layer has anything to say about it; a
+/// device on which a test failed is not used again.
 pub fn on_gpu(test: impl FnOnce(&mut Headless)) {
-    let mut gpu = GPU.lock().unwrap_or_else(PoisonError::into_inner);
-    let gpu = gpu.get_or_insert_with(|| {
-        Headless::new(&HeadlessOptions {
+    let known = idle().pop();
+    let mut gpu = known.unwrap_or_else(|| {
+        let options = HeadlessOptions {
             device: None,
             validation: true,
-        })
-        .unwrap()
+        };
+        // Most of the tests' time goes to pipelines, and many tests have the same ones.
+        let keep = |limits: &mut Limits| limits.max_unused_pipelines = 256;
+        // SAFETY: keeping more pipelines takes memory alone.
+        unsafe { Headless::within(&options, keep) }.unwrap()
     });
-    let before = gpu.validation_messages().len();
-    test(gpu);
-    let messages = gpu.validation_messages().split_off(before);
-    assert!(
-        messages.is_empty(),
-        "{} messages of the validation layer, first: {}",
-        messages.len(),
-        messages[0]
-    );
+    test(&mut gpu);
+    assert_eq!(gpu.validation_messages(), Vec::<String>::new());
+    idle().push(gpu);
 }
 
 /// A stage that fails the test where it can't be rendered.
@@ -47,7 +51,7 @@ impl Stage {
     /// Puts it on the device.
     pub fn upload(&self, gpu: &mut Headless) -> PreparedScene {
         let (scene, pose) = self.build();
-        gpu.upload(&scene, &pose, None).unwrap()
+        gpu.upload(SceneRequest::new(&scene, &pose)).unwrap()
     }
 
     /// Renders it.

@@ -5,7 +5,7 @@ use gpc::camera::{Camera, Projection};
 use gpc::reference::area::in_pixel;
 use gpc::reference::stroke::{Clip, disc, joint, segment};
 use gpc::render::{
-    Coverage, Detection, Headless, Method, PixelRect, RenderError, Rendered, Settings,
+    Coverage, Detection, Headless, Method, PixelRect, RenderError, Rendered, SceneRequest, Settings,
 };
 use gpc::sampling::Pattern;
 use gpc::scene::{Loaded, PoseRequest};
@@ -40,7 +40,7 @@ fn drawn(mode: u32, positions: &[[f32; 3]]) -> Loaded {
 
 fn rendered(gpu: &mut Headless, loaded: &Loaded, settings: &Settings, camera: &Camera) -> Rendered {
     let pose = loaded.scene.pose(&PoseRequest::default()).unwrap();
-    let prepared = gpu.upload(&loaded.scene, &pose, None).unwrap();
+    let prepared = gpu.upload(SceneRequest::new(&loaded.scene, &pose)).unwrap();
     let mut frame = gpu.prepare(&prepared, settings).unwrap();
     gpu.render(&mut frame, camera).unwrap()
 }
@@ -377,7 +377,7 @@ fn lines_move_with_their_nodes() {
         };
         let (pose, motion) = loaded.scene.pose_in_motion(&start).unwrap();
         let prepared = gpu
-            .upload_in_motion(&loaded.scene, (&pose, &motion), None)
+            .upload(SceneRequest::new(&loaded.scene, &pose).moving(&motion))
             .unwrap();
         let mut frame = gpu.prepare(&prepared, &by_area(1.0)).unwrap();
         let first = gpu.render(&mut frame, &camera()).unwrap().colors;
@@ -385,7 +385,9 @@ fn lines_move_with_their_nodes() {
         frame.show(moment.into()).unwrap();
         let moved = gpu.render(&mut frame, &camera()).unwrap().colors;
         let posed = loaded.scene.pose(&later).unwrap();
-        let prepared = gpu.upload(&loaded.scene, &posed, None).unwrap();
+        let prepared = gpu
+            .upload(SceneRequest::new(&loaded.scene, &posed))
+            .unwrap();
         let mut frame = gpu.prepare(&prepared, &by_area(1.0)).unwrap();
         let expected = gpu.render(&mut frame, &camera()).unwrap().colors;
         let apart = |a: &[[f32; 4]], b: &[[f32; 4]]| {
@@ -404,7 +406,7 @@ fn locations_see_lines_as_wide() {
         let ends: Vec<_> = segments().into_iter().flatten().collect();
         let loaded = drawn(LINES, &ends);
         let pose = loaded.scene.pose(&PoseRequest::default()).unwrap();
-        let prepared = gpu.upload(&loaded.scene, &pose, None).unwrap();
+        let prepared = gpu.upload(SceneRequest::new(&loaded.scene, &pose)).unwrap();
         for width in [0.5, 2.0] {
             let settings = by_area(width);
             let image = rendered(gpu, &loaded, &settings, &camera());
@@ -423,7 +425,7 @@ fn impossible_sizes_are_refused() {
     on_gpu(|gpu| {
         let loaded = drawn(LINES, &[[-1.0, 0.0, -2.0], [1.0, 0.0, -2.0]]);
         let pose = loaded.scene.pose(&PoseRequest::default()).unwrap();
-        let prepared = gpu.upload(&loaded.scene, &pose, None).unwrap();
+        let prepared = gpu.upload(SceneRequest::new(&loaded.scene, &pose)).unwrap();
         for line_width in [0.0, -1.0, f32::NAN, 1e4] {
             let refused = gpu.prepare(&prepared, &by_area(line_width));
             assert!(

@@ -4,10 +4,55 @@ use ash::vk;
 use gpc::vulkan::Gpu;
 use std::sync::Arc;
 
+/// Records commands and submits them; `meanwhile` is done before they are waited for.
+pub fn submit_and(
+    gpu: &Arc<Gpu>,
+    record: impl FnOnce(vk::CommandBuffer),
+    meanwhile: impl FnOnce(),
+) {
+    let device = gpu.device();
+    with_commands(gpu, |commands| {
+        record(commands);
+        let to_host = [vk::MemoryBarrier2::default()
+            .src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
+            .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
+            .dst_stage_mask(vk::PipelineStageFlags2::HOST)
+            .dst_access_mask(vk::AccessFlags2::HOST_READ)];
+        let info = vk::DependencyInfo::default().memory_barriers(&to_host);
+        let all = [commands];
+        let submits = [vk::SubmitInfo::default().command_buffers(&all)];
+        // SAFETY: the commands are being recorded, and are waited for before their pool goes.
+        unsafe {
+            device.cmd_pipeline_barrier2(commands, &info);
+            device.end_command_buffer(commands).unwrap();
+            let queue = device.get_device_queue(gpu.queue_family(), 0);
+            device
+                .queue_submit(queue, &submits, vk::Fence::null())
+                .unwrap();
+            meanwhile();
+            device.queue_wait_idle(queue).unwrap();
+        }
+    });
+}
+
 /// Records commands, submits them and waits for them.
 pub fn submit(gpu: &Arc<Gpu>, record: impl FnOnce(vk::CommandBuffer)) {
+    submit_and(gpu, record, || ());
+}
+
+/// Records commands that are never submitted.
+pub fn discard(gpu: &Arc<Gpu>, record: impl FnOnce(vk::CommandBuffer)) {
+    with_commands(gpu, |commands| {
+        record(commands);
+        // SAFETY: the commands are being recorded.
+        unsafe { gpu.device().end_command_buffer(commands) }.unwrap();
+    });
+}
+
+/// Lends a command buffer that is being recorded, and frees it.
+fn with_commands(gpu: &Arc<Gpu>, lend: impl FnOnce(vk::CommandBuffer)) {
     let device = gpu.device();
-    // SAFETY: the commands are waited for before their pool goes.
+    // SAFETY: whoever submits the commands waits for them.
     unsafe {
         let info = vk::CommandPoolCreateInfo::default().queue_family_index(gpu.queue_family());
         let pool = device.create_command_pool(&info, None).unwrap();
@@ -17,21 +62,7 @@ pub fn submit(gpu: &Arc<Gpu>, record: impl FnOnce(vk::CommandBuffer)) {
         let commands = device.allocate_command_buffers(&info).unwrap();
         let info = vk::CommandBufferBeginInfo::default();
         device.begin_command_buffer(commands[0], &info).unwrap();
-        record(commands[0]);
-        let to_host = [vk::MemoryBarrier2::default()
-            .src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
-            .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
-            .dst_stage_mask(vk::PipelineStageFlags2::HOST)
-            .dst_access_mask(vk::AccessFlags2::HOST_READ)];
-        let info = vk::DependencyInfo::default().memory_barriers(&to_host);
-        device.cmd_pipeline_barrier2(commands[0], &info);
-        device.end_command_buffer(commands[0]).unwrap();
-        let submits = [vk::SubmitInfo::default().command_buffers(&commands)];
-        let queue = device.get_device_queue(gpu.queue_family(), 0);
-        device
-            .queue_submit(queue, &submits, vk::Fence::null())
-            .unwrap();
-        device.queue_wait_idle(queue).unwrap();
+        lend(commands[0]);
         device.destroy_command_pool(pool, None);
     }
 }

@@ -1,6 +1,7 @@
 //! The time of each pass is booked to that pass.
 
 use glam::DVec3;
+use gpc::render::SceneRequest;
 use gpc::scene::{AlphaMode, Light, LightKind, Material};
 
 use crate::stage::{Stage, camera, flat, on_gpu, once};
@@ -27,7 +28,7 @@ fn a_long_pass_is_long_and_its_neighbours_are_not() {
         LIGHTS
     ];
     on_gpu(|gpu| {
-        let prepared = gpu.upload(&scene, &pose, None).unwrap();
+        let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
         let mut frame = gpu.prepare(&prepared, &once([192, 128])).unwrap();
         // Drivers may compile shaders during the first.
         gpu.render(&mut frame, &camera()).unwrap();

@@ -103,7 +103,7 @@ fn places_are_as_many_as_the_twin_says() {
                     method: Method::Superpixel,
                     detection: Detection::Every,
                     coverage: Coverage::Samples,
-                    contrast: CONTRAST,
+                    contrast: Some(CONTRAST),
                     shading,
                     samples,
                     ..once(size)

@@ -2,7 +2,7 @@
 
 use super::recording::Recording;
 use super::target::{COPIED_TO, Target};
-use crate::render::plan::Region;
+use crate::engine::sampler::plan::Region;
 use crate::vulkan::Recorder;
 use ash::vk;
 

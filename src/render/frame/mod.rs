@@ -9,20 +9,20 @@ mod uniform;
 
 pub use target::Target;
 
-use super::plan::{Capacity, Plan};
-use super::shadows::{Casters, ShadowEngine};
+use super::shadows::{Casters, ShadowFinder};
 use super::{RenderError, Settings, Shadows};
 use crate::camera::Camera;
+use crate::engine::sampler::plan::{Capacity, Plan};
+use crate::engine::sampler::{CounterLog, with_probes};
 use crate::passes::{
-    Cells, Content, Counter, Encoding, FrameGeometry, FrameLayout, FrameLook, GpuScene, Offsets,
-    RasterTargets, ResourceSizes, Resources,
+    Cells, Content, Encoding, FrameLayout, Offsets, RasterTargets, ResourceSizes, Resources,
 };
-use crate::render::engine::with_probes;
+use crate::render::passes::{FrameGeometry, FrameLook, GpuScene};
 use crate::scene::Moment;
-use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings};
+use crate::vulkan::{Completion, Memory, Recorder, Timings};
 use ash::vk;
 use passes::{Passes, raster_samples};
-use recording::{Recording, Run};
+use recording::Recording;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -31,11 +31,11 @@ pub struct Frame {
     scene: Arc<GpuScene>,
     /// What casts shadows, and what finds these, where the settings ask for it.
     casters: Option<Arc<Casters>>,
-    shadows: Option<ShadowEngine>,
+    shadows: Option<ShadowFinder>,
     /// What is shown in the stead of the first pose.
     moment: Option<Arc<Moment>>,
     encoding: Option<Encoding>,
-    beside: u64,
+    reserved: u64,
     settings: Settings,
     plan: Plan,
     passes: Passes,
@@ -43,21 +43,30 @@ pub struct Frame {
     geometry: FrameGeometry,
     look: FrameLook,
     resources: Resources,
-    counters: Buffer,
+    /// What the whole frame counted.
+    counters: CounterLog,
     timings: Timings,
     memory: Memory,
+    completion: Completion,
+    /// Whether a recording with the uploads was executed.
     uploaded: bool,
 }
 
+/// Pixels of the whole image as it is drawn.
+fn drawn_pixels(settings: &Settings) -> u64 {
+    let drawn = settings.size.map(|side| u64::from(side * settings.side()));
+    drawn.into_iter().product()
+}
+
 impl Frame {
-    /// Of what the settings allow, `beside` bytes are kept free for others.
+    /// Of what the settings allow, `reserved` bytes are kept free for others.
     pub(super) fn new(
         layout: &Arc<FrameLayout>,
         (scene, casters): (&Arc<GpuScene>, Option<&Arc<Casters>>),
         settings: &Settings,
         encoding: Option<Encoding>,
         capacity: Capacity,
-        beside: u64,
+        reserved: u64,
     ) -> Result<Self, RenderError> {
         let settings = &settings.with_shadowed_samples();
         let casters = match settings.shadows {
@@ -65,12 +74,12 @@ impl Frame {
             Shadows::Exact => Some(casters.ok_or(RenderError::NoCasters)?),
         };
         let gpu = scene.memory().gpu().clone();
-        let taken = scene.memory_bytes() + beside;
+        let taken = scene.memory_bytes() + reserved;
         let beside_regions = taken + FrameGeometry::bytes(scene) + FrameLook::bytes(scene);
-        let pixels = settings.drawn_pixels();
+        let pixels = drawn_pixels(settings);
         let of_others = |sizes: &ResourceSizes| {
             let bytes =
-                |casters| ShadowEngine::bytes(layout, casters, settings, capacity, (pixels, sizes));
+                |casters| ShadowFinder::bytes(layout, casters, settings, capacity, (pixels, sizes));
             beside_regions + casters.map_or(0, |casters| bytes(casters))
         };
         let plan = Plan::new(
@@ -120,37 +129,34 @@ impl Frame {
             plan.sizes,
             &[centre, offsets],
         )?;
-        let passes = Passes::new(layout, scene, settings, &plan, encoding)?;
+        let passes = Passes::new(layout, &memory, scene, settings, &plan, encoding)?;
         let shadows = |casters| {
             let shading = (&**scene, Cells::Pixels, &resources);
-            ShadowEngine::new(
+            ShadowFinder::new(
                 layout, &memory, casters, settings, capacity, shading, pixels,
             )
         };
         let shadows = casters.map(shadows).transpose()?;
         let regions = plan.regions.len() as u64;
-        let marks = regions as u32 * (18 + Run::ALL.len() as u32 * 14) + 8;
+        let runs = 2 + settings.growths();
+        let marks = regions as u32 * (18 + runs * 14) + 8;
         Ok(Self {
             scene: scene.clone(),
             casters: casters.cloned(),
             shadows,
             moment: None,
             encoding,
-            beside,
+            reserved,
             passes,
             targets,
             geometry,
             look,
             resources,
-            counters: memory.buffer(
-                "counter read-back",
-                Run::slots(plan.regions.len()) as u64 * Counter::BYTES,
-                vk::BufferUsageFlags::TRANSFER_DST,
-                MemoryUse::Readback,
-            )?,
+            counters: CounterLog::new(&memory, 1)?,
             timings: Timings::new(&gpu, marks)?,
             settings: settings.clone(),
             plan,
+            completion: Completion::new(&gpu)?,
             memory,
             uploaded: false,
         })
@@ -167,16 +173,12 @@ impl Frame {
     /// the device.
     ///
     /// # Errors
-    /// [`RenderError::OtherMotion`] if the moment is one of another motion, [`RenderError::MovingShadows`] if the frame has
-    /// shadows that were made ready for one pose.
+    /// [`RenderError::OtherMotion`] if the moment is one of another motion.
     pub fn show(&mut self, moment: Arc<Moment>) -> Result<(), RenderError> {
         if !self.scene.has_moment(&moment) {
             return Err(RenderError::OtherMotion);
         }
-        if let (Some(casters), Some(shadows)) = (&self.casters, &mut self.shadows) {
-            if !casters.scene().has_moment(&moment) {
-                return Err(RenderError::MovingShadows);
-            }
+        if let Some(shadows) = &mut self.shadows {
             shadows.show(&moment);
         }
         self.look.show(&self.scene, &moment);
@@ -201,8 +203,8 @@ impl Frame {
     }
 
     /// Bytes of what the settings allow that are others'.
-    pub(super) fn beside(&self) -> u64 {
-        self.beside
+    pub(super) fn reserved(&self) -> u64 {
+        self.reserved
     }
 
     /// What it was planned for.
@@ -226,7 +228,7 @@ impl Frame {
     /// # Safety
     /// - `commands` is being recorded, outside of a render pass and of conditional rendering, for the device and queue family of the renderer.
     /// - The upload of the frame's scene was recorded before, and is executed before these commands.
-    /// - The commands of this frame's last recording are done: its memory is used again.
+    /// - The commands of this frame's last recording are done, or will never be executed: its memory is used again.
     /// - The frame, which keeps its scene alive, outlives the execution of the commands; so do the target's handles.
     /// - The target's handles are of the settings' output size, and as [`Target`] says.
     pub unsafe fn record(&mut self, camera: &Camera, commands: vk::CommandBuffer, target: &Target) {
@@ -254,16 +256,17 @@ impl Frame {
         let gpu = self.memory.gpu().clone();
         // SAFETY: passed on to the caller.
         let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
-        if !self.uploaded {
-            self.geometry.record_upload(&recorder, &self.scene);
-            self.look.record_upload(&recorder, &self.scene);
-            self.resources.record_upload(&recorder);
-            if let Some(shadows) = &self.shadows {
-                shadows.record_upload(&recorder);
-            }
-            self.uploaded = true;
-        }
+        let is_last = regions.end == self.plan.regions.len();
         if regions.start == 0 {
+            self.uploaded |= self.completion.begin(&recorder);
+            if !self.uploaded {
+                self.geometry.record_upload(&recorder, &self.scene);
+                self.look.record_upload(&recorder, &self.scene);
+                self.resources.record_upload(&recorder);
+                if let Some(shadows) = &self.shadows {
+                    shadows.record_upload(&recorder);
+                }
+            }
             if let Some(shadows) = &mut self.shadows {
                 shadows.record_begin(&recorder);
             }
@@ -291,5 +294,8 @@ impl Frame {
             target,
         };
         recording.record(&mut recorder, regions);
+        if is_last {
+            self.completion.end(&recorder);
+        }
     }
 }

@@ -1,12 +1,14 @@
 //! The passes that a frame's settings ask for.
 
+use crate::engine::sampler::plan::Plan;
+use crate::engine::sampler::{PixelCells, Sampler, SamplerContext, record_rate};
 use crate::passes::{
-    Attributes, BoxFilter, Cells, Content, DetectMode, Encode, Encoding, FrameLayout, GpuScene,
-    Multisample, Pose, Raster, RecordRate, Resolve, Shade, ShadeSource, Sort, Spans, Stroke, Then,
+    Attributes, BoxFilter, Cells, Content, DetectMode, Encode, Encoding, FrameLayout, Multisample,
+    Raster, RecordRate, Resolve, ResolveTarget, Sort, Spans,
 };
-use crate::render::engine::{Engine, EngineKind, record_rate};
-use crate::render::plan::Plan;
+use crate::render::passes::{GpuScene, Pose, Shade, ShadeSource, Stroke};
 use crate::render::{Detection, Method, RenderError, Settings};
+use crate::vulkan::Memory;
 use ash::vk;
 use std::sync::Arc;
 
@@ -30,10 +32,10 @@ pub(super) struct Passes {
     pub raster: Raster,
     pub pixels: Option<PixelShading>,
     pub multisampling: Option<Multisampling>,
-    /// Of records; what engines and multisampling share.
+    /// Of records; what samplers and multisampling share.
     pub shade: Option<Arc<Shade>>,
-    pub blended: Option<Engine>,
-    pub superpixels: Option<Engine>,
+    pub blended: Option<Sampler>,
+    pub superpixels: Option<Sampler>,
     pub attributes: Option<Attributes>,
     pub box_filter: Option<BoxFilter>,
     pub encode: Option<Encode>,
@@ -55,6 +57,7 @@ impl Passes {
     /// If the driver refuses one.
     pub fn new(
         layout: &Arc<FrameLayout>,
+        memory: &Memory,
         scene: &GpuScene,
         settings: &Settings,
         plan: &Plan,
@@ -84,25 +87,27 @@ impl Passes {
             || shades_records.then(shading).transpose(),
         );
         let (pixels, shading) = (pixels?, shading?.map(Arc::new));
-        let engine = |wanted: bool, kind: EngineKind| {
-            wanted
-                .then(|| Engine::new(layout, scene, settings, plan, &output, &kind))
-                .transpose()
+        let context = SamplerContext {
+            layout,
+            memory,
+            scene,
+            settings,
+            output: &output,
+            sizes: &plan.sizes,
+            capacity: plan.capacity,
+            runs: plan.regions.len(),
         };
-        let blended = engine(
-            scene.has_blend(),
-            EngineKind {
-                mode: DetectMode::Blended,
-                thin: false,
-                farther_is_larger: false,
-                blend_ids: true,
-                multisampled,
-                samples: if multisampled { settings.samples } else { 1 },
-                growths: 0,
-                detected: display_codes,
-            },
-        )?;
-        let superpixels = engine(antialiased, EngineKind::superpixels(settings))?;
+        let blended = PixelCells {
+            mode: DetectMode::Blended,
+            thin: false,
+            multisampled,
+            samples: if multisampled { settings.samples } else { 1 },
+            growths: 0,
+            detected: display_codes,
+            ..PixelCells::superpixels(settings)
+        };
+        let blended = || blended.sampler(&context);
+        let superpixels = || PixelCells::superpixels(settings).sampler(&context);
         let multisampling = || -> Result<_, RenderError> {
             Ok(Multisampling {
                 multisample: Multisample::new(layout)?,
@@ -110,7 +115,7 @@ impl Passes {
                 resolve: Resolve::for_multisample(
                     layout,
                     settings.samples,
-                    Then::Nothing,
+                    ResolveTarget::Nothing,
                     &output,
                 )?,
             })
@@ -125,8 +130,8 @@ impl Passes {
             pixels,
             multisampling: multisampled.then(multisampling).transpose()?,
             shade: shading,
-            blended,
-            superpixels,
+            blended: scene.has_blend().then(blended).transpose()?,
+            superpixels: antialiased.then(superpixels).transpose()?,
             attributes: settings
                 .attributes
                 .then(|| Attributes::new(layout, scene, antialiased, settings.growths() > 0))

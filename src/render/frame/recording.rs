@@ -4,16 +4,15 @@ use super::passes::{Multisampling, Passes, PixelShading};
 use super::target::Target;
 use super::uniform::to_clip;
 use crate::camera::{Camera, Pinhole};
-use crate::passes::{
-    Content, FrameGeometry, GpuScene, RasterTargets, Receiving, Resources, Shade, StrokeSizes,
-};
+use crate::engine::sampler::color::display_code;
+use crate::engine::sampler::plan::{Plan, Region};
+use crate::engine::sampler::{CounterLog, RecordShading, SamplerRun, record_shading};
+use crate::passes::{ListLength, RasterTargets, Resources};
 use crate::render::Settings;
-use crate::render::color::display_code;
-use crate::render::engine::{Engine, Growing, RecordShading, Work, record_shading};
-use crate::render::plan::{Plan, Region};
-use crate::render::shadows::{LightView, ShadowEngine, Shadowed, Sight};
+use crate::render::passes::{FrameGeometry, GpuScene, Receiving, Shade, StrokeSizes};
+use crate::render::shadows::{LightView, ShadowFinder, Shadowed, Sight};
 use crate::scene::Moment;
-use crate::vulkan::{Buffer, Recorder};
+use crate::vulkan::Recorder;
 use glam::DVec2;
 use std::ops::Range;
 
@@ -21,34 +20,6 @@ use std::ops::Range;
 const CENTRE: usize = 0;
 /// Descriptor set with the method's sample offsets.
 const OFFSETS: usize = 1;
-
-/// The runs of the sampling engine over a region, each of which counts for itself.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Run {
-    Blended,
-    Superpixels,
-    Grown,
-    GrownAgain,
-}
-
-impl Run {
-    /// All of them, in the order in which their counters are kept.
-    pub const ALL: [Self; 4] = [
-        Self::Blended,
-        Self::Superpixels,
-        Self::Grown,
-        Self::GrownAgain,
-    ];
-    /// Where the counters of a region's run are kept.
-    fn slot(self, region: usize) -> u64 {
-        (Self::ALL.len() * region + self as usize) as u64
-    }
-
-    /// Slots for the counters of so many regions; the last one is for those that the frame ends with.
-    pub fn slots(regions: usize) -> usize {
-        Self::ALL.len() * regions + 1
-    }
-}
 
 /// One recording of a frame: the frame's parts, borrowed apart from its timings, and what it shows where.
 pub(super) struct Recording<'a> {
@@ -58,8 +29,8 @@ pub(super) struct Recording<'a> {
     pub targets: &'a RasterTargets,
     pub geometry: &'a FrameGeometry,
     pub resources: &'a Resources,
-    pub shadows: Option<&'a ShadowEngine>,
-    pub counters: &'a Buffer,
+    pub shadows: Option<&'a ShadowFinder>,
+    pub counters: &'a CounterLog,
     pub scene: &'a GpuScene,
     pub moment: Option<&'a Moment>,
     pub camera: &'a Camera,
@@ -71,7 +42,7 @@ pub(in crate::render) struct SceneShading<'a> {
     pub scene: &'a GpuScene,
     pub shade: Option<&'a Shade>,
     /// What tells which lights reach what.
-    pub shadows: Option<(&'a ShadowEngine, Shadowed<'a>)>,
+    pub shadows: Option<(&'a ShadowFinder, Shadowed<'a>)>,
 }
 
 impl RecordShading for SceneShading<'_> {
@@ -106,9 +77,7 @@ impl Recording<'_> {
             self.record_region(recorder, index, region);
         }
         if regions.end == count {
-            let last = Run::slots(count) as u64 - 1;
-            self.resources
-                .record_keep_counters(recorder, self.counters, last);
+            self.counters.record(recorder, self.resources, 0);
             if let Some(shadows) = self.shadows {
                 shadows.record_end(recorder);
             }
@@ -125,7 +94,7 @@ impl Recording<'_> {
             pinhole: Pinhole::from_camera(self.camera, self.settings.size).ok()?,
             whole: [DVec2::ZERO, place(self.settings.size)],
             part: [low, low + place(region.outer())],
-            places: self.settings.drawn_pixels(),
+            places: super::drawn_pixels(self.settings),
             origin: self.scene.origin(),
         }))
     }
@@ -146,12 +115,6 @@ impl Recording<'_> {
         let side = self.settings.side();
         let filtered = pixels / (side * side);
         let tiles = whole.tiles[0] * whole.tiles[1];
-        let triangles = scene.index_count();
-        let work = |engine: &Engine| Work {
-            triangles,
-            tiles,
-            rounds: engine.most_rounds(&self.plan.sizes, triangles),
-        };
         let views = self.light_views(region).unwrap_or_default();
         let shadowed = |set| Shadowed {
             resources,
@@ -217,27 +180,21 @@ impl Recording<'_> {
             resolve.record(recorder, &resources.arguments);
             recorder.mark("resolve");
         }
-        if let Some(engine) = &passes.blended {
+        let run = |set, uniform| SamplerRun {
+            resources,
+            set,
+            uniform,
+            list: (0, ListLength::Known),
+            index,
+        };
+        if let Some(sampler) = &passes.blended {
             resources.record_begin(recorder, main, &whole);
-            engine.record(recorder, resources, &shading, &work(engine));
-            resources.record_keep_counters(recorder, self.counters, Run::Blended.slot(index));
+            sampler.record(recorder, &run(main, &whole), &shading);
         }
-        if let Some(engine) = &passes.superpixels {
+        if let Some(sampler) = &passes.superpixels {
             let owned = self.uniform(region, offsets.count(), true);
             resources.record_begin(recorder, offsets, &owned);
-            let shading = shading_of(offsets);
-            let work = work(engine);
-            engine.record(recorder, resources, &shading, &work);
-            resources.record_keep_counters(recorder, self.counters, Run::Superpixels.slot(index));
-            let growing = Growing {
-                resources,
-                set: offsets,
-                uniform: owned,
-                work,
-                counters: self.counters,
-                first_slot: Run::Grown.slot(index),
-            };
-            engine.record_growths(recorder, &shading, &growing);
+            sampler.record(recorder, &run(offsets, &owned), &shading_of(offsets));
         }
         if let Some(attributes) = &passes.attributes {
             attributes.record(recorder, filtered);

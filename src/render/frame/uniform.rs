@@ -2,11 +2,12 @@
 
 use super::recording::Recording;
 use crate::camera::{Camera, Projection};
-use crate::passes::{FrameUniform, GpuScene};
+use crate::engine::sampler::footprint::Footprints;
+use crate::engine::sampler::plan::Region;
+use crate::engine::sampler::uniform::{PlaneBlock, SceneBlock, frame_uniform};
+use crate::passes::FrameUniform;
 use crate::render::Settings;
-use crate::render::footprint::Footprints;
-use crate::render::plan::Region;
-use crate::render::uniform::{Looking, uniform};
+use crate::render::passes::GpuScene;
 use glam::DMat4;
 
 impl Recording<'_> {
@@ -15,53 +16,35 @@ impl Recording<'_> {
     pub(super) fn uniform(&self, region: &Region, samples: u32, owned: bool) -> FrameUniform {
         let (scene, camera) = (self.scene, self.camera);
         let side = self.settings.side();
-        let scale = f64::from(side);
-        let [image_width, image_height] =
-            self.settings.size.map(|pixels| f64::from(pixels) * scale);
-        let [width, height] = region.outer().map(|pixels| pixels * side);
-        let corner = region.corner().map(|pixel| f64::from(pixel) * scale);
-        let left_top = [
-            corner[0] - 0.5 * image_width,
-            corner[1] - 0.5 * image_height,
-        ];
-        let to_device = [2.0 / f64::from(width), 2.0 / f64::from(height)];
+        let image = self.settings.size.map(|pixels| f64::from(pixels * side));
+        let corner = region.corner().map(|pixel| f64::from(pixel * side));
+        let size = region.outer().map(|pixels| pixels * side);
         let low = region.first_wanted().map(|place| place * side);
-        let [own_width, own_height] = region.size().map(|pixels| pixels * side);
-        let (interior_low, interior_high) = if owned {
-            (low, [low[0] + own_width, low[1] + own_height])
-        } else {
-            ([0, 0], [width, height])
-        };
-        let looking = Looking {
-            eye: camera.eye,
-            direction: camera.direction(),
-            is_parallel: camera.is_orthographic(),
-        };
-        let footprints = Footprints::new(self.settings, samples);
-        FrameUniform {
+        let wanted = region.size().map(|pixels| pixels * side);
+        let plane = PlaneBlock {
             transform: to_clip(scene, camera, self.settings)
                 .as_mat4()
                 .to_cols_array(),
-            raster_scale: to_device.map(|scale| scale as f32),
-            raster_offset: [0, 1].map(|axis| (-left_top[axis] * to_device[axis] - 1.0) as f32),
-            origin: left_top.map(|position| (position + 0.5) as f32),
-            size: [width, height],
-            tiles: [width.div_ceil(8), height.div_ceil(4)],
-            interior_low,
-            interior_high,
-            gap: gap(camera, image_height),
-            contrast: u32::from(self.settings.contrast),
-            alike: u32::from(self.settings.contrast),
+            corner: [0, 1].map(|axis| corner[axis] - 0.5 * image[axis]),
+            size,
+            interior: if owned {
+                [low, [0, 1].map(|axis| low[axis] + wanted[axis])]
+            } else {
+                [[0, 0], size]
+            },
+            gap: gap(camera, image[1]),
+            alike: u32::from(self.settings.threshold()),
             side,
-            reach: 0.5,
-            ..uniform(
-                scene,
-                self.settings,
-                &looking,
-                (samples, &footprints),
-                &self.plan.sizes,
-            )
-        }
+            ..PlaneBlock::default()
+        };
+        let footprints = Footprints::new(self.settings, samples);
+        frame_uniform(
+            &SceneBlock::of(scene, &camera.into()),
+            &plane,
+            self.settings,
+            (samples, &footprints),
+            &self.plan.sizes,
+        )
     }
 }
 

@@ -3,28 +3,31 @@
 use super::plan::LocationPlan;
 use super::run::RunMemory;
 use crate::camera::Pinhole;
+use crate::engine::sampler::statistics::Shortfall;
+use crate::engine::sampler::{CounterLog, SamplerRun};
 use crate::passes::{
-    Bin, CellSizes, Cells, Counter, Crossings, Cull, Distribute, FrameLayout, Kept, ListLength,
-    ListedLocation, MarkedOutput, Offsets, Resources, SampleSet, SeenLocation,
+    Bin, CellSizes, Cells, Counter, Cull, CullFilter, Distribute, FrameLayout, ListLength,
+    ListedLocation, Offsets,
 };
+use crate::render::passes::{Crossings, MarkedOutput, SeenLocation};
 use crate::render::plane::Window;
-use crate::render::statistics::Shortfall;
 use crate::render::{PreparedScene, RenderError, Settings, Statistics};
 use crate::vulkan::{Buffer, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
 /// Pipelines and memory to look for thin triangles in runs of locations of one scene.
-pub(super) struct CrossingEngine {
+pub(super) struct CrossingFinder {
     distribute: Distribute,
     cull: Cull,
     bin: Bin,
     crossings: Crossings,
     seen: Buffer,
+    counters: CounterLog,
     run: RunMemory,
 }
 
-impl CrossingEngine {
+impl CrossingFinder {
     /// Makes the pipelines, and memory for the runs of a plan; cells are marked in `marks`.
     ///
     /// # Safety
@@ -55,11 +58,12 @@ impl CrossingEngine {
         Ok(Self {
             // SAFETY: the list goes with the resources, and has room for as many locations.
             distribute: unsafe { Distribute::new(layout, cells, sizes, resources, locations) }?,
-            cull: Cull::new(layout, scene, Kept::Thin)?,
+            cull: Cull::new(layout, scene, CullFilter::Thin)?,
             bin: Bin::new(layout, scene)?,
             // SAFETY: what is seen goes with the engine and has room for all locations; of the marks as the caller says.
             crossings: unsafe { Crossings::new(layout, scene, resources, (&seen, marks)) }?,
             seen,
+            counters: CounterLog::new(&run.memory, 1)?,
             run,
         })
     }
@@ -90,24 +94,26 @@ impl CrossingEngine {
             cull,
             bin,
             crossings,
+            counters,
             run,
             ..
         } = self;
-        let record =
-            |recorder: &mut Recorder<'_>, (resources, set): (&Resources, &SampleSet), _| {
-                let region = window.region(count);
-                resources.record_locations(recorder, (set, distribute), &region, ListLength::Known);
-                recorder.mark("distribute");
-                cull.record(recorder, &resources.arguments);
-                recorder.mark("cull");
-                bin.record(recorder, &resources.arguments);
-                recorder.mark("bin");
-                crossings.record(recorder, (resources, set), output);
-                recorder.mark("crossings");
-            };
-        let looking = (pinhole, window);
+        let record = |recorder: &mut Recorder<'_>, list: &SamplerRun<'_>, _| {
+            let SamplerRun { resources, set, .. } = *list;
+            let region = window.region(count);
+            resources.record_locations(recorder, (set, distribute), &region, ListLength::Known);
+            recorder.mark("distribute");
+            cull.record(recorder, &resources.arguments);
+            recorder.mark("cull");
+            bin.record(recorder, &resources.arguments);
+            recorder.mark("bin");
+            crossings.record(recorder, (resources, set), output);
+            recorder.mark("crossings");
+            counters.record(recorder, resources, 0);
+        };
+        let (looking, cells) = ((pinhole, window), (Cells::Superpixels, 1));
         // SAFETY: passed on to the caller.
-        unsafe { run.record(scene, looking, (Cells::Superpixels, 1), commands, record) };
+        unsafe { run.record(scene, looking, (cells, count), commands, record) };
     }
 
     /// Fails where pairs of triangles and tiles of the last run did not fit.
@@ -116,16 +122,15 @@ impl CrossingEngine {
     /// [`RenderError::Unfinished`], or [`RenderError::Vulkan`] if what was counted can't be read.
     pub fn check(&self) -> Result<(), RenderError> {
         let sizes = self.run.resources.sizes();
-        let counted = self.run.counted()?;
-        let get = |counter: Counter| counted.get(counter as usize).copied().unwrap_or(0);
-        let survivors = get(Counter::Survivors).saturating_add(get(Counter::Large));
-        let dropped = survivors.saturating_sub(sizes.survivor_capacity);
-        let unpaired = get(Counter::Pairs).saturating_sub(sizes.pair_capacity);
-        let mut shortfall = Shortfall {
-            dropped: u64::from(dropped) + u64::from(unpaired),
-            ..Shortfall::default()
-        };
-        shortfall.add_subgroups(counted);
+        let mut shortfall = Shortfall::default();
+        for counters in self.counters.read(1)?.flatten() {
+            let get = |counter: Counter| counter.of(counters);
+            let survivors = get(Counter::Survivors).saturating_add(get(Counter::Large));
+            let dropped = survivors.saturating_sub(sizes.survivor_capacity);
+            let unpaired = get(Counter::Pairs).saturating_sub(sizes.pair_capacity);
+            shortfall.dropped += u64::from(dropped) + u64::from(unpaired);
+            shortfall.add_subgroups(counters);
+        }
         shortfall.check(sizes.lanes)
     }
 

@@ -1,16 +1,21 @@
-//! Which cells of an output alias: beside another triangle or the border of a shadow, or crossed by a thin triangle unseen.
-//! Passes find them, band by band of the output; the host copies.
+//! Superpixels of an image of locations: the cells that alias, and those beside them that contrast with what these were found to show.
+//! Passes find them, band by band of the output, by the same rules as pixels of frames; the host copies.
 
-use super::crossings::CrossingEngine;
-use super::image::Cells;
+use super::crossings::CrossingFinder;
+use super::image::{OutputImage, chosen};
 use super::partition::Partition;
 use super::plan::LocationPlan;
+use super::{PinholeLists, PointSample};
 use crate::camera::{Pinhole, SampleLocation};
+use crate::engine::sampler::footprint::Footprints;
+use crate::engine::sampler::uniform::{PlaneBlock, SceneBlock, frame_uniform};
 use crate::passes::{
-    Cells as CellKind, Content, Detect, DetectOptions, FrameLayout, FrameLook, FrameUniform,
-    MarkedOutput, Offsets, Output, ResourceSizes, Resources, SeenLocation, Shown,
+    Cells, Content, Detect, DetectMode, DetectOptions, FrameLayout, Grow, Offsets, ResourceSizes,
+    Resources,
 };
-use crate::render::engine::EngineKind;
+use crate::render::passes::{
+    FrameLook, LightPlane, MarkedOutput, Neighbours, OutputCells, OutputPlane,
+};
 use crate::render::{
     Headless, PassTime, PreparedScene, RenderError, Settings, Shadows, Statistics,
 };
@@ -22,22 +27,33 @@ use std::sync::Arc;
 
 /// Most cells of a band, with the rows around it.
 const MOST_CELLS: u64 = 1 << 20;
-/// Rows around a band on each side: neighbours of its cells.
-const HALO: u32 = 1;
 
 /// Rows of an output that are looked at together.
 struct Band {
     rows: Range<u32>,
-    /// With the rows around them.
+    /// With the rows around them that superpixels may grow from.
+    sampled: Range<u32>,
+    /// With the neighbours of these.
     seen: Range<u32>,
 }
 
+/// What superpixels are looked for.
+#[derive(Clone, Copy)]
+enum Search {
+    /// Those that what cells show tells.
+    Aliasing,
+    /// Those that contrast with what superpixels beside them were found to show, for the first time or another one.
+    Growth(usize),
+}
+
 /// Pipelines and memory to look at bands of an output.
-struct DetectionEngine {
-    width: u32,
-    uniform: FrameUniform,
-    shown: Output,
+struct BandDetector {
+    settings: Settings,
+    cells: OutputCells,
     detect: Detect,
+    neighbours: Neighbours,
+    /// In the order in which they run.
+    growths: Vec<Grow>,
     resources: Resources,
     masks: Buffer,
     timings: Timings,
@@ -45,41 +61,102 @@ struct DetectionEngine {
 }
 
 impl Headless {
-    /// Whether each cell of an output aliases.
-    pub(super) fn find_aliasing(
+    /// Samples the cells of an output that alias as superpixels.
+    pub(super) fn sample_aliasing(
         &mut self,
         scene: &PreparedScene,
-        rig: &[(Pinhole, Vec<SampleLocation>)],
+        rig: PinholeLists<'_>,
         settings: &Settings,
-        cells: &Cells,
-    ) -> Result<(Vec<bool>, Statistics), RenderError> {
-        let layout = self.renderer.layout.clone();
-        let mut engine = DetectionEngine::new(&layout, scene, settings)?;
+        image: &mut OutputImage,
+    ) -> Result<Statistics, RenderError> {
         let mut statistics = Statistics::default();
-        let [width, height] = settings.size;
-        let mut marked = Vec::with_capacity(width as usize * height as usize);
-        for band in bands(height, engine.rows() - 2 * HALO) {
-            engine.show(&band, cells);
-            // SAFETY: the last submission was waited for; the engine outlives this one, which is waited for.
-            self.submit(|commands| unsafe { engine.record_begin(&band, commands) })?;
+        let looks_for_shadows = settings.thin && settings.shadows == Shadows::Exact;
+        let mut shadowed = vec![false; if looks_for_shadows { image.len() } else { 0 }];
+        if looks_for_shadows {
+            statistics.append(self.mark_shadows(scene, rig, settings, image, &mut shadowed)?);
+        }
+        let layout = self.renderer.layout.clone();
+        let mut detector = BandDetector::new(&layout, scene, settings)?;
+        for band in detector.bands() {
+            detector.show(&band, image, &shadowed);
+            // SAFETY: the last submission was waited for; the detector outlives this one, which is waited for.
+            self.submit(|commands| unsafe { detector.record_begin(&band, commands) })?;
             if settings.thin {
                 for (pinhole, locations) in rig {
-                    let taken = band.locations(locations, width);
+                    let taken = band.locations(locations, settings.size[0]);
                     if !taken.is_empty() {
                         let pinhole = (pinhole, &*taken);
-                        let mut found =
-                            self.find_crossings(scene, pinhole, settings, (&engine, &band), cells)?;
-                        found.memory_bytes += engine.memory.used();
+                        let shown = (&detector, &band);
+                        let mut found = self.find_crossings(scene, pinhole, shown, image)?;
+                        found.memory_bytes += detector.memory.used();
                         statistics.append(found);
                     }
                 }
             }
-            // SAFETY: as above.
-            self.submit(|commands| unsafe { engine.record(&band, commands) })?;
-            engine.read(&band, &mut marked)?;
-            engine.add_statistics(&mut statistics)?;
+            let growths = (0..detector.growths.len()).map(Search::Growth);
+            for search in std::iter::once(Search::Aliasing).chain(growths) {
+                if let Search::Growth(_) = search {
+                    detector.show_colors(&band, image);
+                }
+                // SAFETY: as above.
+                self.submit(|commands| unsafe { detector.record(&band, search, commands) })?;
+                detector.add_statistics(&mut statistics)?;
+                statistics.append(self.sample_found(scene, rig, (&detector, &band), image)?);
+            }
         }
-        Ok((marked, statistics))
+        Ok(statistics)
+    }
+
+    /// Samples the superpixels that a detector found last, but for those that a band before had.
+    fn sample_found(
+        &mut self,
+        scene: &PreparedScene,
+        rig: PinholeLists<'_>,
+        (detector, band): (&BandDetector, &Band),
+        image: &mut OutputImage,
+    ) -> Result<Statistics, RenderError> {
+        let settings = detector.settings_beside();
+        let width = settings.size[0];
+        let masks = detector.masks(band)?;
+        let columns = band.tiles(width)[0];
+        let is_found = |cell: u32| {
+            let (x, row) = (cell % width, cell / width);
+            band.seen.contains(&row) && !image.is_superpixel(cell) && {
+                let y = row - band.seen.start;
+                masks[(y / 4 * columns + x / 8) as usize] >> (y % 4 * 8 + x % 8) & 1 != 0
+            }
+        };
+        let chosen = chosen(rig, is_found);
+        self.sample_cells(scene, &chosen, &settings, image)
+    }
+
+    /// Marks the cells that lights reach elsewhere than at their locations: what is narrower than a cell casts shadows there.
+    fn mark_shadows(
+        &mut self,
+        scene: &PreparedScene,
+        rig: PinholeLists<'_>,
+        settings: &Settings,
+        image: &OutputImage,
+        shadowed: &mut [bool],
+    ) -> Result<Statistics, RenderError> {
+        let mut statistics = Statistics::default();
+        for (pinhole, locations) in rig.iter().filter(|(_, locations)| !locations.is_empty()) {
+            for probe in LightPlane::PROBES {
+                let probes: Vec<SampleLocation> = locations
+                    .iter()
+                    .map(|location| location.at(probe))
+                    .collect();
+                let seen = self.sample_points(scene, pinhole, &probes, settings)?;
+                statistics.append(seen.statistics);
+                for (location, seen) in locations.iter().zip(&seen.values) {
+                    let PointSample { id, shadows, .. } = *seen;
+                    let cell = location.output as usize;
+                    shadowed[cell] |=
+                        image.attributes[cell].id == id && image.shadows[cell] != shadows;
+                }
+            }
+        }
+        Ok(statistics)
     }
 
     /// Marks the cells of a band that thin triangles cross unseen.
@@ -87,31 +164,28 @@ impl Headless {
         &mut self,
         scene: &PreparedScene,
         (pinhole, locations): (&Pinhole, &[SampleLocation]),
-        settings: &Settings,
-        (engine, band): (&DetectionEngine, &Band),
-        cells: &Cells,
+        (detector, band): (&BandDetector, &Band),
+        image: &OutputImage,
     ) -> Result<Statistics, RenderError> {
         let layout = self.renderer.layout.clone();
         let settings = Settings {
             samples: 1,
             shadows: Shadows::None,
-            max_memory: settings
-                .max_memory
-                .map(|limit| limit.saturating_sub(engine.memory.used())),
-            ..settings.clone()
+            ..detector.settings_beside()
         };
-        let partition = Partition::new(locations, CellKind::Superpixels)?;
+        let partition = Partition::new(locations, Cells::Superpixels)?;
         let plan = LocationPlan::new(&layout, scene, &settings, &partition, false)?;
-        let marks = &engine.resources.marks;
-        // SAFETY: the marks go with the engine, which outlives all submissions: each is waited for.
+        let marks = &detector.resources.marks;
+        // SAFETY: the marks go with the detector, which outlives all submissions: each is waited for.
         let mut crossings =
-            unsafe { CrossingEngine::new(&layout, scene, &settings, &plan, marks) }?;
+            unsafe { CrossingFinder::new(&layout, scene, &settings, &plan, marks) }?;
+        let width = settings.size[0];
         let output = MarkedOutput {
-            tiles: band.tiles(engine.width),
-            width: engine.width,
+            tiles: band.tiles(width),
+            width,
             pixel: pixel_width(pinhole) as f32,
         };
-        let first = band.seen.start * engine.width;
+        let first = band.seen.start * width;
         let mut statistics = Statistics::default();
         let mut waiting: Vec<_> = plan.runs.iter().rev().cloned().collect();
         while let Some(run) = waiting.pop() {
@@ -119,9 +193,9 @@ impl Headless {
             let (listed, seen) = crossings.listed_mut(run.len())?;
             partition.list((&run, &window), listed);
             for (seen, place) in seen.iter_mut().zip(run.clone()) {
-                *seen = cells.seen_at(partition.location(place).output, first);
+                *seen = image.seen_at(partition.location(place).output, first);
             }
-            // SAFETY: the last submission was waited for; scene and engine outlive this one, which is waited for. Cells are
+            // SAFETY: the last submission was waited for; scene and finder outlive this one, which is waited for. Cells are
             // those of the band.
             self.submit(|commands| unsafe {
                 crossings.record(scene, (pinhole, &window), (&output, run.len()), commands);
@@ -130,9 +204,7 @@ impl Headless {
                 Ok(()) => crossings.add_statistics(scene, &mut statistics)?,
                 // Half as many locations have fewer pairs; marks of cells stay as they are.
                 Err(RenderError::Unfinished { .. }) if run.len() > 1 => {
-                    let middle = run.start + run.len() / 2;
-                    waiting.push(middle..run.end);
-                    waiting.push(run.start..middle);
+                    waiting.extend(LocationPlan::halves(&run));
                 }
                 Err(error) => return Err(error),
             }
@@ -148,20 +220,21 @@ impl Band {
         cell(self.seen.start)..cell(self.seen.end)
     }
 
-    fn tiles(&self, width: u32) -> [u32; 2] {
-        [
-            width.div_ceil(8),
-            (self.seen.end - self.seen.start).div_ceil(4),
-        ]
+    fn height(&self) -> u32 {
+        self.seen.end - self.seen.start
     }
 
-    /// The locations whose cells are in it.
+    fn tiles(&self, width: u32) -> [u32; 2] {
+        [width.div_ceil(8), self.height().div_ceil(4)]
+    }
+
+    /// The locations whose cells may become superpixels.
     fn locations<'a>(
         &self,
         locations: &'a [SampleLocation],
         width: u32,
     ) -> Cow<'a, [SampleLocation]> {
-        let inside = |location: &&SampleLocation| self.rows.contains(&(location.output / width));
+        let inside = |location: &&SampleLocation| self.sampled.contains(&(location.output / width));
         if locations.iter().all(|location| inside(&location)) {
             Cow::Borrowed(locations)
         } else {
@@ -170,13 +243,15 @@ impl Band {
     }
 }
 
-/// Bands of at most so many rows.
-fn bands(height: u32, rows: u32) -> impl Iterator<Item = Band> {
+/// Bands of at most so many rows, whose superpixels grow so often.
+fn bands(height: u32, rows: u32, growths: u32) -> impl Iterator<Item = Band> {
     (0..height).step_by(rows as usize).map(move |first| {
         let end = height.min(first + rows);
+        let around = |beyond: u32| first.saturating_sub(beyond)..height.min(end + beyond);
         Band {
             rows: first..end,
-            seen: first.saturating_sub(HALO)..height.min(end + HALO),
+            sampled: around(growths),
+            seen: around(growths + 1),
         }
     })
 }
@@ -192,7 +267,7 @@ fn pixel_width(pinhole: &Pinhole) -> f64 {
     a.cross(b).length().sqrt() / to_plane
 }
 
-impl DetectionEngine {
+impl BandDetector {
     fn new(
         layout: &Arc<FrameLayout>,
         prepared: &PreparedScene,
@@ -204,7 +279,7 @@ impl DetectionEngine {
         let memory = Memory::new(layout.gpu.clone(), left);
         let sizes = band_sizes(layout.gpu.limits(), settings, left);
         sizes.check("a band of the output", layout.gpu.limits())?;
-        let shown = Output::new(&memory, sizes.region)?;
+        let cells = OutputCells::new(&memory, sizes.region)?;
         let look = FrameLook::default();
         let no_offsets = Offsets {
             all: &[[0.0; 2]],
@@ -215,26 +290,26 @@ impl DetectionEngine {
             &memory,
             scene,
             (&[], look.lights(scene)),
-            &shown.views(),
+            &cells.views(),
             sizes,
             &[no_offsets],
         )?;
+        let growths = settings.growths();
         let options = DetectOptions {
-            mode: EngineKind::superpixels(settings).mode,
+            mode: DetectMode::of(settings),
             blend_ids: scene.has_blend(),
             thin: settings.thin,
             transparent: true,
             multisampled: false,
             shadow_words: sizes.shadow_words,
-            beyond: 0,
+            beyond: growths,
         };
+        let grow = |beyond: u32| Grow::new(layout, beyond);
         Ok(Self {
-            width: settings.size[0],
-            uniform: FrameUniform {
-                contrast: u32::from(settings.contrast),
-                ..FrameUniform::with_room(&sizes)
-            },
+            settings: settings.clone(),
             detect: Detect::new(layout, &options)?,
+            neighbours: Neighbours::new(layout, &settings.color_constants(scene))?,
+            growths: (0..growths).rev().map(grow).collect::<Result<_, _>>()?,
             masks: memory.buffer(
                 "mask read-back",
                 4 * u64::from(sizes.tiles()),
@@ -242,45 +317,70 @@ impl DetectionEngine {
                 MemoryUse::Readback,
             )?,
             timings: Timings::new(&layout.gpu, 4)?,
-            shown,
+            cells,
             resources,
             memory,
         })
     }
 
-    /// Rows that there is room for.
-    fn rows(&self) -> u32 {
-        self.resources.sizes().region[1]
+    /// The settings, with as much memory as this leaves of what they allow.
+    fn settings_beside(&self) -> Settings {
+        let allowed = self.settings.max_memory;
+        Settings {
+            max_memory: allowed.map(|limit| limit.saturating_sub(self.memory.used())),
+            ..self.settings.clone()
+        }
     }
 
-    /// Writes what the cells of a band show, while the device is idle.
-    fn show(&mut self, band: &Band, cells: &Cells) {
-        let range = band.cells(self.width);
-        let Cells {
-            attributes,
-            blend_ids,
-            codes,
-            shadows,
-            ..
-        } = cells;
-        let ids = self.shown.words_mut(Shown::Ids);
-        for (word, attributes) in ids.iter_mut().zip(&attributes[range.clone()]) {
+    /// The bands of the output.
+    fn bands(&self) -> impl Iterator<Item = Band> + use<> {
+        let growths = self.growths.len() as u32;
+        let rows = self.resources.sizes().region[1] - 2 * (growths + 1);
+        bands(self.settings.size[1], rows, growths)
+    }
+
+    /// Writes what the cells of a band show and which of them have shadows narrower than a cell, if any, while the device is idle.
+    fn show(&mut self, band: &Band, image: &OutputImage, shadowed: &[bool]) {
+        let width = self.settings.size[0];
+        let range = band.cells(width);
+        let ids = self.cells.words_mut(OutputPlane::Ids);
+        for (word, attributes) in ids.iter_mut().zip(&image.attributes[range.clone()]) {
             *word = attributes.id;
         }
-        for (shown, plane) in [
-            (Shown::BlendIds, blend_ids),
-            (Shown::Codes, codes),
-            (Shown::Shadows, shadows),
+        for (plane, values) in [
+            (OutputPlane::BlendIds, &image.blend_ids),
+            (OutputPlane::Codes, &image.codes),
+            (OutputPlane::Shadows, &image.shadows),
         ] {
-            let plane = &plane[range.clone()];
-            let words = self.shown.words_mut(shown);
-            if let Some(words) = words.get_mut(..plane.len()) {
-                words.copy_from_slice(plane);
+            let values = &values[range.clone()];
+            if let Some(words) = self.cells.words_mut(plane).get_mut(..values.len()) {
+                words.copy_from_slice(values);
+            }
+        }
+        let columns = width.div_ceil(8);
+        let marks = self.cells.words_mut(OutputPlane::Marks);
+        marks.fill(0);
+        for (cell, _) in (0_u32..)
+            .zip(shadowed.get(range).unwrap_or(&[]))
+            .filter(|(_, shadowed)| **shadowed)
+        {
+            let (x, y) = (cell % width, cell / width);
+            if let Some(word) = marks.get_mut((y / 4 * columns + x / 8) as usize) {
+                *word |= 1 << (y % 4 * 8 + x % 8);
             }
         }
     }
 
-    /// Records the way of what was shown to the device, and that nothing is marked yet.
+    /// Writes the colours of the cells of a band, while the device is idle.
+    fn show_colors(&mut self, band: &Band, image: &OutputImage) {
+        let colors = &image.colors[band.cells(self.settings.size[0])];
+        let words = self.cells.words_mut(OutputPlane::Colors);
+        if let Some(words) = words.get_mut(..4 * colors.len()) {
+            words.copy_from_slice(bytemuck::cast_slice(colors));
+        }
+    }
+
+    /// Records the way of what was shown to the device.
     ///
     /// # Safety
     /// - `commands` is being recorded, outside of a render pass, for the device and queue family of the renderer.
@@ -289,53 +389,71 @@ impl DetectionEngine {
         let gpu = self.memory.gpu().clone();
         // SAFETY: passed on to the caller.
         let recorder = unsafe { Recorder::new(&gpu, commands, None) };
-        let rows = band.seen.end - band.seen.start;
-        self.shown.record(&recorder, &self.resources, rows);
         self.resources.record_upload(&recorder);
-        recorder.clear(&self.resources.marks);
-        recorder.barrier();
+        self.cells.record(&recorder, &self.resources, band.height());
     }
 
-    /// Records detection.
+    /// Records a search for superpixels, and the way of their masks to the host.
     ///
     /// # Safety
-    /// As [`Self::record_begin`], after it.
-    unsafe fn record(&mut self, band: &Band, commands: vk::CommandBuffer) {
-        let gpu = self.memory.gpu().clone();
-        let resources = &self.resources;
-        let Some(set) = resources.set(0) else {
+    /// As [`Self::record_begin`], after it; the last search of the band was the one before.
+    unsafe fn record(&mut self, band: &Band, search: Search, commands: vk::CommandBuffer) {
+        let width = self.settings.size[0];
+        let Self {
+            settings,
+            cells,
+            detect,
+            neighbours,
+            growths,
+            resources,
+            masks,
+            timings,
+            memory,
+        } = self;
+        let (gpu, Some(set)) = (memory.gpu().clone(), resources.set(0)) else {
             return;
         };
-        let tiles = band.tiles(self.width);
-        let uniform = FrameUniform {
-            size: [self.width, band.seen.end - band.seen.start],
-            tiles,
-            interior_low: [0, band.rows.start - band.seen.start],
-            interior_high: [self.width, band.rows.end - band.seen.start],
-            ..self.uniform
+        let row = |row: u32| row - band.seen.start;
+        let plane = PlaneBlock {
+            size: [width, band.height()],
+            interior: [[0, row(band.rows.start)], [width, row(band.rows.end)]],
+            ..PlaneBlock::default()
         };
+        let uniform = frame_uniform(
+            &SceneBlock::default(),
+            &plane,
+            settings,
+            (1, &Footprints::new(settings, 1)),
+            resources.sizes(),
+        );
+        let [columns, rows] = uniform.tiles;
+        let tiles = columns * rows;
         // SAFETY: passed on to the caller.
-        let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
+        let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(timings)) };
         recorder.begin();
         resources.record_begin(&recorder, set, &uniform);
-        let count = tiles[0] * tiles[1];
-        self.detect.record(&recorder, count);
-        recorder.mark("detect");
-        recorder.copy(&resources.masks, 4 * u64::from(count), &self.masks, 0);
+        match search {
+            Search::Aliasing => {
+                detect.record(&recorder, tiles);
+                recorder.mark("detect");
+                recorder.clear(&resources.marks);
+            }
+            Search::Growth(growth) => {
+                cells.record_colors(&recorder, resources, band.height());
+                neighbours.record(&recorder, width * band.height());
+                recorder.mark("neighbours");
+                growths[growth].record(&recorder, tiles);
+                recorder.mark("grow");
+            }
+        }
+        recorder.copy(&resources.masks, 4 * u64::from(tiles), masks, 0);
         recorder.barrier();
     }
 
-    /// Appends whether each cell of the band's rows aliases.
-    fn read(&self, band: &Band, marked: &mut Vec<bool>) -> Result<(), VulkanError> {
-        let [columns, rows] = band.tiles(self.width);
-        let masks: &[u32] = self.masks.read((columns * rows) as usize)?;
-        for row in band.rows.clone() {
-            let y = row - band.seen.start;
-            let tiles = &masks[(y / 4 * columns) as usize..];
-            let bit = |x: u32| tiles[x as usize / 8] >> (y % 4 * 8 + x % 8) & 1 != 0;
-            marked.extend((0..self.width).map(bit));
-        }
-        Ok(())
+    /// The masks of the superpixels of a band that were found last.
+    fn masks(&self, band: &Band) -> Result<&[u32], VulkanError> {
+        let [columns, rows] = band.tiles(self.settings.size[0]);
+        self.masks.read((columns * rows) as usize)
     }
 
     fn add_statistics(&self, total: &mut Statistics) -> Result<(), VulkanError> {
@@ -349,6 +467,7 @@ impl DetectionEngine {
 /// Room for as many rows as suit the device, and a quarter of the memory that is left.
 fn band_sizes(limits: &Limits, settings: &Settings, left: Option<u64>) -> ResourceSizes {
     let [width, height] = settings.size;
+    let halo = 2 * (settings.growths() + 1);
     let sizes_of = |rows: u32| ResourceSizes {
         region: [width, rows],
         lanes: limits.lanes,
@@ -366,30 +485,17 @@ fn band_sizes(limits: &Limits, settings: &Settings, left: Option<u64>) -> Resour
         encoded: 0,
     };
     let fits = |sizes: &ResourceSizes| {
-        let bytes = sizes.bytes() + Output::bytes(sizes.region);
+        let bytes = sizes.bytes() + OutputCells::bytes(sizes.region);
         u64::from(sizes.pixels()) <= MOST_CELLS
             && sizes.largest_texels() <= limits.max_texel_elements
             && sizes.largest_storage() <= limits.max_storage_bytes
             && left.is_none_or(|left| 4 * bytes <= left)
     };
     let mut rows = height;
-    while rows > 1 && !fits(&sizes_of(rows + 2 * HALO)) {
+    while rows > 1 && !fits(&sizes_of(rows + halo)) {
         rows = rows.div_ceil(2);
     }
-    sizes_of(rows + 2 * HALO)
-}
-
-impl Cells {
-    /// What the location of a cell sees, with cells counted from `first` on.
-    fn seen_at(&self, cell: u32, first: u32) -> SeenLocation {
-        let at = cell as usize;
-        SeenLocation {
-            distance: self.attributes[at].depth,
-            id: self.attributes[at].id,
-            blend_id: self.blend_ids[at],
-            output: cell - first,
-        }
-    }
+    sizes_of(rows + halo)
 }
 
 #[cfg(test)]
@@ -397,15 +503,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bands_have_every_row_once_and_its_neighbours() {
-        for (height, rows) in [(1, 1), (7, 3), (8, 4), (9, 20)] {
+    fn bands_have_every_row_once_and_the_rows_that_superpixels_grow_from() {
+        for (height, rows, growths) in [(1, 1, 0), (7, 3, 1), (8, 4, 2), (9, 20, 2)] {
             let mut next = 0;
-            for band in bands(height, rows) {
+            for band in bands(height, rows, growths) {
                 assert_eq!(band.rows.start, next);
                 assert!(band.rows.len() <= rows as usize);
-                assert_eq!(band.seen.start, next.saturating_sub(1));
                 next = band.rows.end;
-                assert_eq!(band.seen.end, height.min(next + 1));
+                for (around, beyond) in [(band.sampled, growths), (band.seen, growths + 1)] {
+                    assert_eq!(around.start, band.rows.start.saturating_sub(beyond));
+                    assert_eq!(around.end, height.min(next + beyond));
+                }
             }
             assert_eq!(next, height);
         }

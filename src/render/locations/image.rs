@@ -1,20 +1,21 @@
 //! An image whose pixels look where locations say: sampled once, then as superpixels where that aliases.
 
-use super::LocationError;
+use super::{LocationError, PinholeLists, PointSample};
 use crate::camera::{Pinhole, SampleLocation};
-use crate::passes::LightPlane;
-use crate::render::color::display_code;
+use crate::engine::sampler::color::display_code;
+use crate::render::passes::SeenLocation;
 use crate::render::{
     Coverage, Detection, Headless, Method, PixelAttributes, PreparedScene, RenderError, Rendered,
-    Settings, Shading, Shadows, Statistics,
+    Settings, Shading, Statistics,
 };
 use crate::sampling::Pattern;
 
-/// One value for each output cell, as detection compares them.
-pub(super) struct Cells {
-    colors: Vec<[f32; 4]>,
+/// What each cell of an output shows, row by row.
+pub(super) struct OutputImage {
+    pub colors: Vec<[f32; 4]>,
     pub attributes: Vec<PixelAttributes>,
     pub blend_ids: Vec<u32>,
+    /// Display codes of what locations see that are sampled once.
     pub codes: Vec<u32>,
     /// What lights each lies in the shadow of.
     pub shadows: Vec<u32>,
@@ -75,38 +76,26 @@ impl Headless {
         let samples_cells = settings.method != Method::None;
         let every = samples_cells && settings.detection == Detection::Every;
         let mut statistics = Statistics::default();
-        let mut cells = Cells::new(count as usize, &settings);
+        let mut image = OutputImage::new(count as usize, &settings);
         if !every || settings.attributes {
             for (pinhole, locations) in rig.iter().filter(|(_, locations)| !locations.is_empty()) {
                 let seen = self.sample_points(scene, pinhole, locations, &settings)?;
                 statistics.append(seen.statistics);
                 for (location, seen) in locations.iter().zip(&seen.values) {
-                    cells.put(location.output as usize, seen);
+                    image.put(location.output as usize, seen);
                 }
             }
         }
-        if samples_cells {
-            let mut marked = if every {
-                vec![true; count as usize]
-            } else {
-                let (aliasing, found) = self.find_aliasing(scene, rig, &settings, &cells)?;
-                statistics.append(found);
-                aliasing
-            };
-            if settings.thin && !every && settings.shadows == Shadows::Exact {
-                statistics.append(self.mark_shadows(scene, rig, &settings, &cells, &mut marked)?);
-            }
-            statistics.append(self.sample_marked(scene, rig, &marked, &settings, &mut cells)?);
-            for _ in 0..settings.growths() {
-                marked = cells.beside(&marked, &settings);
-                statistics.append(self.sample_marked(scene, rig, &marked, &settings, &mut cells)?);
-            }
+        if every {
+            statistics.append(self.sample_cells(scene, rig, &settings, &mut image)?);
+        } else if samples_cells {
+            statistics.append(self.sample_aliasing(scene, rig, &settings, &mut image)?);
         }
         Ok(Rendered {
             size,
-            colors: cells.colors,
+            colors: image.colors,
             attributes: if settings.attributes {
-                cells.attributes
+                image.attributes
             } else {
                 Vec::new()
             },
@@ -114,69 +103,41 @@ impl Headless {
         })
     }
 
-    /// Marks the cells that lights reach elsewhere than at their locations: what is narrower than a cell casts shadows there.
-    fn mark_shadows(
+    /// Samples locations as superpixels.
+    pub(super) fn sample_cells(
         &mut self,
         scene: &PreparedScene,
-        rig: &[(Pinhole, Vec<SampleLocation>)],
+        rig: PinholeLists<'_>,
         settings: &Settings,
-        cells: &Cells,
-        marked: &mut [bool],
+        image: &mut OutputImage,
     ) -> Result<Statistics, RenderError> {
         let mut statistics = Statistics::default();
         for (pinhole, locations) in rig.iter().filter(|(_, locations)| !locations.is_empty()) {
-            for probe in LightPlane::PROBES {
-                let probes: Vec<SampleLocation> = locations
-                    .iter()
-                    .map(|location| location.at(probe))
-                    .collect();
-                let seen = self.sample_points(scene, pinhole, &probes, settings)?;
-                statistics.append(seen.statistics);
-                for (location, seen) in locations.iter().zip(&seen.values) {
-                    let cell = location.output as usize;
-                    marked[cell] |=
-                        cells.attributes[cell].id == seen.id && cells.shadows[cell] != seen.shadows;
-                }
-            }
-        }
-        Ok(statistics)
-    }
-
-    /// Samples the locations of marked cells as superpixels.
-    fn sample_marked(
-        &mut self,
-        scene: &PreparedScene,
-        rig: &[(Pinhole, Vec<SampleLocation>)],
-        marked: &[bool],
-        settings: &Settings,
-        cells: &mut Cells,
-    ) -> Result<Statistics, RenderError> {
-        let mut statistics = Statistics::default();
-        for (pinhole, locations) in rig {
-            let chosen: Vec<SampleLocation> = locations
-                .iter()
-                .filter(|location| {
-                    marked
-                        .get(location.output as usize)
-                        .copied()
-                        .unwrap_or(false)
-                })
-                .copied()
-                .collect();
-            if chosen.is_empty() {
-                continue;
-            }
-            let resolved = self.sample_superpixels(scene, pinhole, &chosen, settings)?;
+            let resolved = self.sample_superpixels(scene, pinhole, locations, settings)?;
             statistics.append(resolved.statistics);
-            for (location, color) in chosen.iter().zip(&resolved.values) {
-                cells.resolve(location.output as usize, *color, settings.samples);
+            for (location, color) in locations.iter().zip(&resolved.values) {
+                image.resolve(location.output as usize, *color, settings.samples);
             }
         }
         Ok(statistics)
     }
 }
 
-impl Cells {
+/// The locations of some cells of an output.
+pub(super) fn chosen(
+    rig: PinholeLists<'_>,
+    is_chosen: impl Fn(u32) -> bool,
+) -> Vec<(Pinhole, Vec<SampleLocation>)> {
+    let of = |locations: &[SampleLocation]| {
+        let all = locations.iter().copied();
+        all.filter(|location| is_chosen(location.output)).collect()
+    };
+    rig.iter()
+        .map(|(pinhole, locations)| (*pinhole, of(locations)))
+        .collect()
+}
+
+impl OutputImage {
     fn new(count: usize, settings: &Settings) -> Self {
         let background = settings.background_rgba();
         let unseen = PixelAttributes {
@@ -192,7 +153,7 @@ impl Cells {
         }
     }
 
-    fn put(&mut self, cell: usize, seen: &super::PointSample) {
+    fn put(&mut self, cell: usize, seen: &PointSample) {
         if let (Some(color), Some(attributes), Some(blend_id), Some(code), Some(shadows)) = (
             self.colors.get_mut(cell),
             self.attributes.get_mut(cell),
@@ -220,24 +181,25 @@ impl Cells {
         }
     }
 
-    /// Whether each cell grows beside others: it is no superpixel, and contrasts with what one of those `resolved` last was
-    /// found to show.
-    fn beside(&self, resolved: &[bool], settings: &Settings) -> Vec<bool> {
-        let [width, height] = settings.size.map(|side| side as usize);
-        let mut grows = vec![false; width * height];
-        for cell in (0..resolved.len()).filter(|cell| resolved[*cell]) {
-            let shown = settings.output_code(self.colors[cell]).to_le_bytes();
-            let (x, y) = (cell % width, cell / width);
-            for row in y.saturating_sub(1)..(y + 2).min(height) {
-                for column in x.saturating_sub(1)..(x + 2).min(width) {
-                    let near = row * width + column;
-                    let own = self.codes[near].to_le_bytes();
-                    let mut channels = own.into_iter().zip(shown);
-                    grows[near] |= self.attributes[near].superpixel == 0
-                        && channels.any(|(a, b)| a.abs_diff(b) > settings.contrast);
-                }
-            }
+    /// Number of cells.
+    pub fn len(&self) -> usize {
+        self.colors.len()
+    }
+
+    /// Whether a cell has been sampled as a superpixel.
+    pub fn is_superpixel(&self, cell: u32) -> bool {
+        let attributes = self.attributes.get(cell as usize);
+        attributes.is_some_and(|attributes| attributes.superpixel == 1)
+    }
+
+    /// What the location of a cell sees, with cells counted from `first` on.
+    pub fn seen_at(&self, cell: u32, first: u32) -> SeenLocation {
+        let at = cell as usize;
+        SeenLocation {
+            distance: self.attributes[at].depth,
+            id: self.attributes[at].id,
+            blend_id: self.blend_ids[at],
+            output: cell - first,
         }
-        grows
     }
 }

@@ -1,17 +1,17 @@
 //! Sampling at any set of locations on a pinhole's image plane.
 //!
 //! A scene is sampled where [`SampleLocation`]s lie, once each ([`Headless::sample_points`]) or as superpixels
-//! ([`Headless::sample_superpixels`]); [`Headless::render_locations`] makes an image of both. They run on the engine that
+//! ([`Headless::sample_superpixels`]); [`Headless::render_locations`] makes an image of both. They run on the sampler that
 //! antialiases images; no picture is resampled.
 
 mod crossings;
 mod detection;
-mod engine;
 mod error;
 mod image;
 mod partition;
 mod plan;
 mod run;
+mod sampler;
 
 pub use error::LocationError;
 
@@ -19,9 +19,9 @@ use super::shadows::Sight;
 use super::{Headless, PreparedScene, RenderError, Settings, Statistics};
 use crate::camera::{Pinhole, SampleLocation};
 use crate::passes::Cells;
-use engine::{LocationEngine, LocationValues};
 use partition::Partition;
 use plan::LocationPlan;
+use sampler::{LocationSampler, LocationValues};
 use std::ops::Range;
 
 /// What a sampling location sees.
@@ -44,8 +44,11 @@ pub struct PointSample {
     pub shadows: u32,
 }
 
+/// Pinholes, and the locations on the plane of each.
+type PinholeLists<'a> = &'a [(Pinhole, Vec<SampleLocation>)];
+
 /// What a run of locations saw.
-struct Run<'a> {
+struct RunValues<'a> {
     /// Its locations, as places in the order of the partition.
     places: Range<usize>,
     seen: LocationValues<'a>,
@@ -124,19 +127,19 @@ impl Headless {
         partition: &Partition<'_>,
         (scene, pinhole): (&PreparedScene, &Pinhole),
         settings: &Settings,
-        mut take: impl FnMut(&Run<'_>),
+        mut take: impl FnMut(&RunValues<'_>),
     ) -> Result<Statistics, RenderError> {
         self.check(&scene.gpu_scene)?;
         let layout = self.renderer.layout.clone();
         let plan = LocationPlan::new(&layout, scene, settings, partition, self.may_stop())?;
-        let make = |apart: bool| LocationEngine::new(&layout, scene, settings, &plan, apart);
-        let (mut engine, mut apart) = (make(false)?, false);
+        let make = |apart: bool| LocationSampler::new(&layout, scene, settings, &plan, apart);
+        let (mut sampler, mut apart) = (make(false)?, false);
         let mut statistics = Statistics::default();
         let ([low, high], beyond) = partition.reach();
         let mut waiting: Vec<_> = plan.runs.iter().rev().cloned().collect();
         while let Some(run) = waiting.pop() {
             let window = partition.window(&run);
-            partition.list((&run, &window), engine.listed_mut(run.len())?);
+            partition.list((&run, &window), sampler.listed_mut(run.len())?);
             let sight = Sight {
                 pinhole: *pinhole,
                 whole: [low - beyond, high + beyond],
@@ -144,18 +147,18 @@ impl Headless {
                 places: partition.places(),
                 origin: scene.gpu_scene.origin(),
             };
-            // SAFETY: the last submission was waited for; scene and engine outlive this one, which is waited for.
+            // SAFETY: the last submission was waited for; scene and sampler outlive this one, which is waited for.
             self.submit(|commands| unsafe {
-                engine.record(scene, &sight, &window, run.len(), commands);
+                sampler.record(scene, &sight, &window, run.len(), commands);
             })?;
-            match engine.check(&window) {
+            match sampler.check(&window) {
                 Ok(()) => {}
                 // One cell at a time gets through longer lists.
                 Err(RenderError::Unfinished { .. })
-                    if !apart && engine.shortfall(&window)?.walks_too_far() =>
+                    if !apart && sampler.has_long_lists(&window)? =>
                 {
                     apart = true;
-                    engine = make(apart)?;
+                    sampler = make(apart)?;
                     waiting.push(run);
                     continue;
                 }
@@ -165,16 +168,14 @@ impl Headless {
                         "{cells} cells or tiles of {} locations did not fit",
                         run.len()
                     );
-                    let middle = run.start + run.len() / 2;
-                    waiting.push(middle..run.end);
-                    waiting.push(run.start..middle);
+                    waiting.extend(LocationPlan::halves(&run));
                     continue;
                 }
                 Err(error) => return Err(error),
             }
-            engine.add_statistics(scene, &window, &mut statistics)?;
-            take(&Run {
-                seen: engine.values(run.len())?,
+            sampler.add_statistics(scene, &window, &mut statistics)?;
+            take(&RunValues {
+                seen: sampler.values(run.len())?,
                 places: run,
             });
         }

@@ -1,11 +1,12 @@
 //! How many locations are sampled at once: what memory and the device's limits allow.
 
-use super::engine::kind;
 use super::partition::Partition;
-use crate::passes::{Cells, FrameGeometry, FrameLayout, ResourceSizes};
-use crate::render::plan::Capacity;
+use super::sampler::list_cells;
+use crate::engine::sampler::plan::Capacity;
+use crate::passes::{Cells, FrameLayout, ResourceSizes};
+use crate::render::passes::FrameGeometry;
 use crate::render::plane::Window;
-use crate::render::shadows::{Casters, ShadowEngine};
+use crate::render::shadows::{Casters, ShadowFinder};
 use crate::render::{PreparedScene, RenderError, Settings, Shadows};
 use std::ops::Range;
 
@@ -60,10 +61,9 @@ impl LocationPlan {
             let most = runs.iter().map(ExactSizeIterator::len).max().unwrap_or(0);
             let room = (most as u32, region(windows));
             let words = casters.map_or(0, Casters::shadow_words);
-            let kind = kind(cells, words, false);
-            let sizes = kind.sizes(layout, scene, settings, room, 1);
+            let sizes = list_cells(cells, words).sizes(layout, scene, settings, room, 1);
             let of_shadows = casters.map_or(0, |casters| {
-                ShadowEngine::bytes(layout, casters, settings, capacity, (places, &sizes))
+                ShadowFinder::bytes(layout, casters, settings, capacity, (places, &sizes))
             });
             let held = sizes.bytes() + FrameGeometry::bytes(scene) + of_shadows;
             let needed = prepared.memory_bytes() + held;
@@ -85,6 +85,14 @@ impl LocationPlan {
             }
             longest /= 2;
         }
+    }
+}
+
+impl LocationPlan {
+    /// The halves of a run, the first one last: half as many locations have half as many records and pairs.
+    pub fn halves(run: &Range<usize>) -> [Range<usize>; 2] {
+        let middle = run.start + run.len() / 2;
+        [middle..run.end, run.start..middle]
     }
 }
 

@@ -1,14 +1,15 @@
 //! What runs over locations need, whatever they look for: the geometry as a window sees it, memory, counters and times.
 
 use crate::camera::Pinhole;
+use crate::engine::sampler::SamplerRun;
 use crate::passes::{
-    Cells, Content, Counter, FrameGeometry, FrameLayout, FrameLook, ListedLocation, Offsets,
-    RasterTargets, ResourceSizes, Resources, SampleSet, Stroke, StrokeSizes,
+    Cells, Content, FrameLayout, ListLength, ListedLocation, Offsets, RasterTargets, ResourceSizes,
+    Resources,
 };
+use crate::render::passes::{FrameGeometry, FrameLook, Stroke, StrokeSizes};
 use crate::render::plane::Window;
-use crate::render::statistics::Shortfall;
 use crate::render::{PassTime, PreparedScene, RenderError, Settings, Statistics};
-use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, Timings, VulkanError};
+use crate::vulkan::{Memory, Recorder, Timings, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
@@ -20,7 +21,6 @@ pub(super) struct RunMemory {
     stroke: Option<Stroke>,
     geometry: FrameGeometry,
     targets: RasterTargets,
-    counters: Buffer,
     timings: Timings,
     uploaded: bool,
 }
@@ -71,20 +71,14 @@ impl RunMemory {
                 .transpose()?,
             geometry,
             targets,
-            counters: memory.buffer(
-                "counter read-back",
-                Counter::BYTES,
-                vk::BufferUsageFlags::TRANSFER_DST,
-                MemoryUse::Readback,
-            )?,
             timings: Timings::new(&gpu, marks)?,
             memory,
             uploaded: false,
         })
     }
 
-    /// Records a run over such cells, each with so many samples, in a window of what a pinhole sees: what all runs begin and end
-    /// with, and between these what `record` does, which is told whether this is the first run.
+    /// Records a run over `count` locations, which are such cells of so many samples, in a window of what a pinhole sees: what all
+    /// runs begin and end with, and between these what `record` does, which is told whether this is the first run.
     ///
     /// # Safety
     /// - `commands` is being recorded, outside of a render pass, for the device and queue family of the renderer.
@@ -94,9 +88,9 @@ impl RunMemory {
         &mut self,
         scene: &PreparedScene,
         (pinhole, window): (&Pinhole, &Window),
-        cells: (Cells, u32),
+        (cells, count): ((Cells, u32), usize),
         commands: vk::CommandBuffer,
-        record: impl FnOnce(&mut Recorder<'_>, (&Resources, &SampleSet), bool),
+        record: impl FnOnce(&mut Recorder<'_>, &SamplerRun<'_>, bool),
     ) {
         let scene = &*scene.gpu_scene;
         let (settings, resources) = (&self.settings, &self.resources);
@@ -130,28 +124,20 @@ impl RunMemory {
             stroke.record(recorder, scene, &self.geometry, &to_clip, sizes);
             recorder.mark("stroke");
         }
-        record(recorder, (resources, set), is_first);
-        resources.record_keep_counters(recorder, &self.counters, 0);
+        let run = SamplerRun {
+            resources,
+            set,
+            uniform: &uniform,
+            list: (count as u32, ListLength::Known),
+            index: 0,
+        };
+        record(recorder, &run, is_first);
         recorder.barrier();
     }
 
     /// The list of a run of so many locations, to be written while the device is idle.
     pub fn listed_mut(&mut self, count: usize) -> Result<&mut [ListedLocation], VulkanError> {
         self.resources.listed_mut(count)
-    }
-
-    /// What the last run counted.
-    pub fn counted(&self) -> Result<&[u32], VulkanError> {
-        self.counters.read(Counter::COUNT)
-    }
-
-    /// What the last run could not finish.
-    pub fn shortfall(&self, window: &Window) -> Result<Shortfall, VulkanError> {
-        let mut shortfall = Shortfall::default();
-        let room = self.resources.sizes().survivor_capacity;
-        shortfall.add(self.counted()?, (window.tile_count(), room), true);
-        shortfall.add_subgroups(self.counted()?);
-        Ok(shortfall)
     }
 
     /// Adds the times of the last run's passes, and how much memory there is.

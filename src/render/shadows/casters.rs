@@ -1,6 +1,7 @@
 //! What casts shadows: the triangles of a pose, from both sides.
 
-use crate::passes::{Content, GpuScene};
+use crate::passes::Content;
+use crate::render::passes::GpuScene;
 use crate::scene::{
     AlphaMode, DrawClass, Image, Light, Material, Moment, Motion, MovingBounds, Pose, Scene,
     TextureUse,

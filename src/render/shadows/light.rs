@@ -10,7 +10,7 @@
 
 use super::casters::Lit;
 use crate::camera::{Pinhole, Rig};
-use crate::passes::LightPlane;
+use crate::render::passes::LightPlane;
 use crate::render::plane::{TILE, Window};
 use crate::scene::{Light, LightKind};
 use glam::{DMat3, DVec2, DVec3};

@@ -19,15 +19,14 @@
 //! ```
 
 mod casters;
-mod engine;
+mod finder;
 mod light;
 
 pub(super) use casters::Casters;
-pub(super) use engine::{ShadowEngine, Shadowed};
+pub(super) use finder::{ShadowFinder, Shadowed};
 pub(super) use light::{LightView, Rectangle, Sight};
 
-use super::{Headless, PreparedScene, RenderError, Renderer};
-use crate::scene::{Motion, Pose, Scene};
+use super::{PreparedScene, RenderError, Renderer, SceneRequest, Shadows};
 use casters::caster_scene;
 use std::sync::Arc;
 
@@ -35,91 +34,27 @@ use std::sync::Arc;
 const MOST_LIGHTS: usize = 32;
 
 impl Renderer {
-    /// Makes a scene ready for [`Shadows::Exact`](super::Shadows::Exact): puts what casts shadows beside it once more, seen from
-    /// both sides, for [`PreparedScene::record_upload`] to upload with the rest. `scene` and `pose` are those that `prepared` was
-    /// made of; `max_memory` bounds both together, in bytes.
-    ///
-    /// # Errors
-    /// [`RenderError::ShadowLights`] for more than 32 lights; otherwise as [`Renderer::prepare_scene`].
-    pub fn prepare_shadows(
+    /// Makes what casts shadows, if shadows are asked for, in what the scene leaves of the memory that both may take.
+    pub(super) fn prepare_casters(
         &self,
         prepared: &mut PreparedScene,
-        scene: &Scene,
-        pose: &Pose,
-        max_memory: Option<u64>,
+        request: SceneRequest<'_>,
     ) -> Result<(), RenderError> {
-        self.prepare_casters(prepared, scene, (pose, None), max_memory)
-    }
-
-    /// As [`Self::prepare_shadows`], for a scene that moves: its frames show the shadows of other moments of the motion, too.
-    ///
-    /// # Errors
-    /// As [`Self::prepare_shadows`]; [`RenderError::OtherMotion`] for a pose and motion that were not made together.
-    pub fn prepare_shadows_in_motion(
-        &self,
-        prepared: &mut PreparedScene,
-        scene: &Scene,
-        (pose, motion): (&Pose, &Motion),
-        max_memory: Option<u64>,
-    ) -> Result<(), RenderError> {
-        if !motion.is_of(pose) {
-            return Err(RenderError::OtherMotion);
+        let SceneRequest { pose, motion, .. } = request;
+        if request.shadows == Shadows::None {
+            return Ok(());
         }
-        self.prepare_casters(prepared, scene, (pose, Some(motion)), max_memory)
-    }
-
-    fn prepare_casters(
-        &self,
-        prepared: &mut PreparedScene,
-        scene: &Scene,
-        (pose, motion): (&Pose, Option<&Motion>),
-        max_memory: Option<u64>,
-    ) -> Result<(), RenderError> {
         let found = pose.lights.len();
         if found > MOST_LIGHTS {
             return Err(RenderError::ShadowLights { found });
         }
-        prepared.casters = None;
-        let left = max_memory.map(|most| most.saturating_sub(prepared.memory_bytes()));
-        let (scene, pose) = caster_scene(scene, pose);
-        let made = self.prepare_moving(&scene, (&pose, motion), left)?;
-        prepared.casters = Some(Arc::new(Casters::new(made.gpu_scene, &pose, motion)));
+        let used = prepared.memory_bytes();
+        let left = request.max_memory.map(|most| most.saturating_sub(used));
+        let (scene, caster_pose) = caster_scene(request.scene, pose);
+        let made = self.prepare_moving(&scene, (&caster_pose, motion), left)?;
+        let casters = Casters::new(made.gpu_scene, &caster_pose, motion);
+        prepared.casters = Some(Arc::new(casters));
         prepared.caster_uploads = made.uploads;
         Ok(())
-    }
-}
-
-impl Headless {
-    /// Makes an uploaded scene ready for [`Shadows::Exact`](super::Shadows::Exact), as [`Renderer::prepare_shadows`] does, and puts
-    /// what casts shadows on the device.
-    ///
-    /// # Errors
-    /// As [`Renderer::prepare_shadows`].
-    pub fn prepare_shadows(
-        &mut self,
-        prepared: &mut PreparedScene,
-        scene: &Scene,
-        pose: &Pose,
-        max_memory: Option<u64>,
-    ) -> Result<(), RenderError> {
-        self.renderer
-            .prepare_shadows(prepared, scene, pose, max_memory)?;
-        self.put(prepared)
-    }
-
-    /// As [`Headless::prepare_shadows`], for a scene that moves, as [`Renderer::prepare_shadows_in_motion`] does.
-    ///
-    /// # Errors
-    /// As [`Renderer::prepare_shadows_in_motion`].
-    pub fn prepare_shadows_in_motion(
-        &mut self,
-        prepared: &mut PreparedScene,
-        scene: &Scene,
-        pose: (&Pose, &Motion),
-        max_memory: Option<u64>,
-    ) -> Result<(), RenderError> {
-        self.renderer
-            .prepare_shadows_in_motion(prepared, scene, pose, max_memory)?;
-        self.put(prepared)
     }
 }

@@ -11,7 +11,7 @@ use gpc::render::{Detection, Shading};
 const SAMPLES: u32 = 16;
 
 /// The pixels of the picture, as locations.
-fn pixels() -> Vec<Location> {
+pub fn pixels() -> Vec<Location> {
     let rows = 0..SIZE[1] as i32;
     let pixels = rows.flat_map(|row| (0..SIZE[0] as i32).map(move |column| [column, row]));
     let location = |pixel| Location {
@@ -71,7 +71,7 @@ fn a_list_of_points_is_the_picture_of_one_sample() {
         assert_eq!((outcome.left_over, outcome.left_out), (0, 0));
         let once = Options {
             // No two codes differ by more.
-            contrast: u8::MAX,
+            contrast: Some(u8::MAX),
             thin: false,
             ..Options::new(SIZE[0], SIZE[1])
         };

@@ -1,16 +1,19 @@
 //! The host's Vulkan objects: what it makes, lends and reads back.
 
 use super::world::{Drawn, Lent, Map, SIZE, SKY, Way, World};
-use crate::submit::submit;
+use crate::submit::{discard, submit, submit_and};
 use ash::vk;
+use gpc::host::HostError;
 use gpc::host::{
     AlphaMap, Antialiaser, ClipSpace, ColorImage, Coordinates, Frame, Geometry, ImageState, Images,
     LentImage, ListOutcome, Location, LocationList, Options, Outcome, PositionSpace, Scenery,
     ShadeSamples, VisibilitySamples,
 };
-use gpc::render::Headless;
-use gpc::vulkan::{Buffer, Gpu, Image, Memory, MemoryUse, Recorder};
-use std::cell::Cell;
+use gpc::render::{Headless, RenderError};
+use gpc::testing::{Buffer, Image, Memory, MemoryUse, Recorder, memory};
+use gpc::vulkan::Gpu;
+use gpc::vulkan::VulkanError;
+use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 
 /// What images hold around the picture: more than any colour, and no triangle's ID.
@@ -81,6 +84,45 @@ impl ShadeSamples for Shading<'_> {
     }
 }
 
+/// Shades when the CPU sets an event.
+struct Gated<'a> {
+    inner: &'a Shading<'a>,
+    gate: vk::Event,
+}
+
+impl ShadeSamples for Gated<'_> {
+    fn record(&self, commands: vk::CommandBuffer, found: &VisibilitySamples) {
+        let gates = [self.gate];
+        let by_cpu = [vk::MemoryBarrier2::default()
+            .src_stage_mask(vk::PipelineStageFlags2::HOST)
+            .dst_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)];
+        let info = [vk::DependencyInfo::default().memory_barriers(&by_cpu)];
+        // SAFETY: the commands are being recorded; the event outlives their execution.
+        unsafe {
+            self.inner.device.cmd_wait_events2(commands, &gates, &info);
+        }
+        self.inner.record(commands, found);
+    }
+}
+
+/// Whether nothing was recorded yet.
+pub fn is_not_recorded(error: Option<HostError>) -> bool {
+    matches!(
+        error,
+        Some(HostError::Render(RenderError::Vulkan(
+            VulkanError::NotRecorded
+        )))
+    )
+}
+
+/// Whether what was recorded is not done.
+pub fn is_not_done(error: Option<HostError>) -> bool {
+    matches!(
+        error,
+        Some(HostError::Render(RenderError::Vulkan(VulkanError::NotDone)))
+    )
+}
+
 /// What a host has drawn before it calls the library.
 #[derive(Clone, Copy)]
 pub enum Base<'a> {
@@ -119,6 +161,8 @@ pub struct Machine<'a> {
     set_layout: vk::DescriptorSetLayout,
     layout: vk::PipelineLayout,
     pipelines: [vk::Pipeline; 2],
+    /// Whether it first records everything into commands that it never submits.
+    pub discards: bool,
     /// Whether its shading is skipped in rounds that have nothing to do, where the device can skip it.
     pub skips: bool,
 }
@@ -268,7 +312,8 @@ impl<'a> Machine<'a> {
             };
             let pipelines = [pipeline(spirv!("samples")), pipeline(spirv!("corners"))];
             Self {
-                memory: Memory::new(gpu.clone(), None),
+                // Tests wait for the commands that use what is made with it.
+                memory: memory(&gpu, None),
                 antialiaser,
                 world,
                 descriptors,
@@ -276,6 +321,7 @@ impl<'a> Machine<'a> {
                 layout,
                 pipelines,
                 gpu,
+                discards: false,
                 skips: true,
             }
         }
@@ -346,6 +392,17 @@ impl<'a> Machine<'a> {
             draws: &lent.draws,
             projection: self.world.projection,
         };
+        if self.discards {
+            assert!(is_not_recorded(frame.outcome().err()));
+            discard(&self.gpu, |commands| {
+                // SAFETY: the commands are never submitted.
+                unsafe { frame.record(commands, &scenery, &shading) }.unwrap();
+            });
+            assert!(is_not_done(frame.outcome().err()));
+            // SAFETY: what is lent outlives all frames.
+            assert!(is_not_done(unsafe { frame.grow() }.err()));
+            shading.calls.set(0);
+        }
         self.run(
             size,
             &mut frame,
@@ -396,11 +453,21 @@ impl<'a> Machine<'a> {
         let mut list = prepared(&lending.geometry);
         let dispatched = self.read_back(4 * CALLS);
         let shading = self.shading(&lending, (&corners, &dispatched), lent.triangle_count);
+        let count = locations.len() as u32;
+        if self.discards {
+            assert!(is_not_recorded(list.outcome().err()));
+            discard(&self.gpu, |commands| {
+                // SAFETY: the commands are never submitted.
+                unsafe { list.record(commands, &lent.draws, count, &shading) }.unwrap();
+            });
+            assert!(is_not_done(list.outcome().err()));
+            // SAFETY: what is lent outlives all lists.
+            assert!(is_not_done(unsafe { list.grow() }.err()));
+        }
         submit(&self.gpu, |commands| {
             // SAFETY: the commands are waited for; all handles outlive them.
             unsafe {
-                list.record(commands, &lent.draws, locations.len() as u32, &shading)
-                    .unwrap();
+                list.record(commands, &lent.draws, count, &shading).unwrap();
                 self.show_to_host(commands);
             }
         });
@@ -485,6 +552,63 @@ impl<'a> Machine<'a> {
             recorder.transition(&image, WRITTEN.layout, read);
         });
         image
+    }
+
+    /// What a list answers of its outcome while the device waits in the middle of its commands, and when they are done.
+    pub fn asked_early(
+        &self,
+        way: &Way,
+        locations: &[Location],
+        options: &Options,
+    ) -> [Result<ListOutcome, HostError>; 2] {
+        let lent = self.world.lent(way);
+        let lending = Lending::new(self, way, &lent);
+        let corners = self.read_back(48 * u64::from(lent.triangle_count));
+        let colors = self.read_back(16 * locations.len() as u64);
+        let listed = self.filled(bytemuck::cast_slice(locations));
+        let list = LocationList {
+            locations: listed.handle(),
+            offset: 0,
+            capacity: locations.len() as u32,
+            colors: colors.handle(),
+            colors_offset: 0,
+        };
+        let device = self.gpu.device();
+        // SAFETY: what is lent is as it says, and outlives the list.
+        let (list, gate) = unsafe {
+            (
+                self.antialiaser
+                    .prepare_list(&lending.geometry, &list, options)
+                    .unwrap(),
+                device.create_event(&vk::EventCreateInfo::default(), None),
+            )
+        };
+        let gate = gate.unwrap();
+        let dispatched = self.read_back(4 * CALLS);
+        let shading = self.shading(&lending, (&corners, &dispatched), lent.triangle_count);
+        let gated = Gated {
+            inner: &shading,
+            gate,
+        };
+        let list = RefCell::new(list);
+        let mut early = None;
+        submit_and(
+            &self.gpu,
+            |commands| {
+                let count = locations.len() as u32;
+                let mut list = list.borrow_mut();
+                // SAFETY: the commands are waited for; all handles outlive them.
+                unsafe { list.record(commands, &lent.draws, count, &gated) }.unwrap();
+            },
+            || {
+                early = Some(list.borrow().outcome());
+                // SAFETY: the event is the device's.
+                unsafe { device.set_event(gate) }.unwrap();
+            },
+        );
+        // SAFETY: the commands are done.
+        unsafe { device.destroy_event(gate, None) };
+        [early.unwrap(), list.borrow().outcome()]
     }
 
     /// Fills images, has them antialiased, and copies one of them.

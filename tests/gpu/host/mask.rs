@@ -100,7 +100,7 @@ fn address(wrap: Wrap) -> vk::SamplerAddressMode {
     }
 }
 
-fn world(sampler: &Sampler) -> World {
+pub fn world(sampler: &Sampler) -> World {
     let mut camera = [[0.0; 4]; 4];
     (camera[0][0], camera[1][1]) = (1.0, -1.0);
     (camera[2][3], camera[3][2]) = (-1.0, NEAR as f32);

@@ -2,6 +2,7 @@
 
 mod base;
 mod blend;
+mod completion;
 mod lent;
 mod list;
 mod machine;

@@ -245,7 +245,7 @@ fn cells_are_marked_as_the_twin_has_it() {
                 })
                 .collect();
             let settings = Settings {
-                contrast: 255,
+                contrast: Some(255),
                 ..settings(Detection::Contrast, true)
             };
             let rig = [(pinhole, locations)];

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use gpc::camera::SampleLocation;
-use gpc::render::RenderError;
+use gpc::render::{RenderError, SceneRequest, Shadows};
 use gpc::scene::{AlphaMode, Filter, Image, LightKind, Material, Sampler};
 
 use super::{FLOOR, SIZE, ask, exact, floor, light, lit, location, pinhole, sun};
@@ -101,22 +101,23 @@ fn what_can_not_be_shadowed_is_refused() {
     on_gpu(|gpu| {
         let stage = floor(vec![lit(AlphaMode::Opaque)]);
         let (scene, mut pose) = stage.build();
-        let mut prepared = gpu.upload(&scene, &pose, None).unwrap();
+        let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
         let locations = [location([1.5, 2.5], 0)];
         let asked = gpu.sample_points(&prepared, &pinhole(SIZE), &locations, &exact());
         assert!(matches!(asked, Err(RenderError::NoCasters)), "{asked:?}");
         let frame = gpu.prepare(&prepared, &exact()).map(|_| ());
         assert!(matches!(frame, Err(RenderError::NoCasters)), "{frame:?}");
         pose.lights = vec![sun(); 33];
-        let many = gpu.prepare_shadows(&mut prepared, &scene, &pose, None);
+        let request = SceneRequest::new(&scene, &pose).shadowed(Shadows::Exact);
+        let many = gpu.upload(request).map(|_| ());
         assert!(
             matches!(many, Err(RenderError::ShadowLights { found: 33 })),
             "{many:?}"
         );
         // 32 lights, of which the last has the highest bit.
         pose.lights.truncate(32);
-        gpu.prepare_shadows(&mut prepared, &scene, &pose, None)
-            .unwrap();
+        let request = SceneRequest::new(&scene, &pose).shadowed(Shadows::Exact);
+        let prepared = gpu.upload(request).unwrap();
         let seen = gpu.sample_points(&prepared, &pinhole(SIZE), &locations, &exact());
         assert_eq!(seen.unwrap().values[0].shadows, 0);
     });

@@ -4,6 +4,7 @@ mod casters;
 mod edges;
 mod facing;
 mod parts;
+mod probes;
 mod rays;
 mod shading;
 mod superpixels;
@@ -11,7 +12,9 @@ mod wires;
 
 use glam::{DVec2, DVec3};
 use gpc::camera::{Pinhole, SampleLocation};
-use gpc::render::{Headless, PointSample, PreparedScene, Rendered, Settings, Shadows};
+use gpc::render::{
+    Headless, PointSample, PreparedScene, Rendered, SceneRequest, Settings, Shadows,
+};
 use gpc::scene::{AlphaMode, Light, LightKind, Material};
 
 use super::{location, pinhole};
@@ -77,10 +80,8 @@ fn spot(outer_degrees: f32) -> LightKind {
 fn upload(gpu: &mut Headless, stage: &Stage, lights: &[Light]) -> PreparedScene {
     let (scene, mut pose) = stage.build();
     pose.lights = lights.to_vec();
-    let mut prepared = gpu.upload(&scene, &pose, None).unwrap();
-    gpu.prepare_shadows(&mut prepared, &scene, &pose, None)
-        .unwrap();
-    prepared
+    let request = SceneRequest::new(&scene, &pose).shadowed(Shadows::Exact);
+    gpu.upload(request).unwrap()
 }
 
 fn render(gpu: &mut Headless, prepared: &PreparedScene, settings: &Settings) -> Rendered {

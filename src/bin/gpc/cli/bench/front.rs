@@ -1,0 +1,89 @@
+//! The best that was measured: which points none beats, and what an error costs along them.
+
+use super::results::{Row, SceneResults};
+use gpc::render::Method;
+
+/// Numbers of samples whose error under supersampling superpixels are to reach.
+pub const TARGETS: [u32; 2] = [64, 256];
+
+/// Milliseconds of a row's frame on the device.
+pub fn time(row: &Row) -> f64 {
+    row.cost.gpu_ms.median
+}
+
+/// A row's RMSE against the truth, as a display shows it.
+pub fn error(row: &Row) -> f64 {
+    row.accuracy.rmse
+}
+
+/// The rows that none beats in both time and an error, by time: their Pareto front.
+pub fn front<'a>(
+    rows: impl IntoIterator<Item = &'a Row>,
+    error: impl Fn(&Row) -> f64,
+) -> Vec<&'a Row> {
+    let mut sorted: Vec<_> = rows.into_iter().collect();
+    sorted.sort_by(|a, b| {
+        time(a)
+            .total_cmp(&time(b))
+            .then(error(a).total_cmp(&error(b)))
+    });
+    let mut least = f64::INFINITY;
+    sorted.retain(|row| {
+        let better = error(row) < least;
+        least = least.min(error(row));
+        better
+    });
+    sorted
+}
+
+/// The share of supersampling's time at `samples` samples in which superpixels reach its error; `Some(None)` if they
+/// never do, and `None` where either was not measured.
+pub fn time_to_error(scene: &SceneResults, samples: u32) -> Option<Option<f64>> {
+    let goal = scene.row(Method::Ssaa, samples)?;
+    let rows = scene.rows.iter();
+    let superpixels = rows.filter(|row| row.method == Method::Superpixel);
+    let points: Vec<_> = front(superpixels, error)
+        .into_iter()
+        .map(|row| [time(row), error(row)])
+        .collect();
+    if points.is_empty() || time(goal) <= 0.0 {
+        return None;
+    }
+    Some(reached(&points, error(goal)).map(|ms| ms / time(goal)))
+}
+
+/// Time at which a front of times and falling errors reaches an error: at its first point, or along straight lines
+/// between points on logarithmic axes, but never beyond its last.
+fn reached(front: &[[f64; 2]], goal: f64) -> Option<f64> {
+    let after = front.iter().position(|[_, error]| *error <= goal)?;
+    let [late, low] = *front.get(after)?;
+    let before = after.checked_sub(1).and_then(|index| front.get(index));
+    Some(match before {
+        // A line on logarithmic axes never comes to an error of zero.
+        Some([early, high]) if low > 0.0 && *early > 0.0 => {
+            let share = (high / goal).ln() / (high / low).ln();
+            early * (late / early).powf(share)
+        }
+        _ => late,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_is_reached_along_the_front() {
+        let front = [[1.0, 0.1], [100.0, 0.001]];
+        let near = |goal: f64, expected: f64| {
+            let found = reached(&front, goal).unwrap();
+            assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+        };
+        near(0.01, 10.0);
+        near(0.001, 100.0);
+        // What the first point has already costs no less than that point.
+        near(0.2, 1.0);
+        assert_eq!(reached(&front, 0.0005), None);
+        assert_eq!(reached(&[[1.0, 0.1], [5.0, 0.0]], 0.05), Some(5.0));
+    }
+}

@@ -1,0 +1,211 @@
+//! Measurement of one scene: the cost of every method, and its distance from the truth.
+
+use super::gallery::{Gallery, GalleryImage};
+use super::results::{Row, SceneResults};
+use super::split::Splitter;
+use super::subject::{self, Bench, Subject};
+use gpc::bench::{self, Accuracy, Contender, Yardstick};
+use gpc::output::{DecodedImage, Picture};
+use gpc::render::{Footprint, Method, RenderError, Settings};
+use std::path::Path;
+
+/// A method that takes part, with what is known of it before it is timed.
+struct Entry {
+    contender: Contender,
+    row: Row,
+}
+
+impl Bench<'_> {
+    /// Measures the scene of a file.
+    pub fn measure(&mut self, path: &Path) -> anyhow::Result<(SceneResults, Gallery)> {
+        let name = subject::name(path);
+        self.progress.begin(&name);
+        let subject = self.upload(path, self.args.size)?;
+        let settings = self.settings(Method::None, 1);
+        let wanted = subject.wanted(&settings, self.args.reference, "its truth");
+        let (truth, reference_seconds) = self.reference(&wanted)?;
+        let (_, one_sample) = self.warm_up(&subject, &settings)?;
+        let triangles = one_sample.statistics.triangles.total;
+        let one_sample = Picture::new(settings.size, &one_sample.colors)?;
+        let truth = Picture::new(settings.size, &truth)?;
+        let yardstick = Yardstick::new(&truth, &one_sample)?;
+        let geometry = self.geometry_yardstick(&subject, &one_sample)?;
+        let shown = self.shown_samples();
+        let splitter = match shown {
+            Some(shown) => Some(Splitter::new(self, &subject, shown)?),
+            None => None,
+        };
+
+        let mut notes = Notes::default();
+        let mut entries = Vec::new();
+        let mut ssaa = None;
+        let mut superpixels = None;
+        for (method, samples) in self.args.cells() {
+            self.progress
+                .say(&format!("{method} {samples}, warming up"));
+            let (contender, rendered) =
+                match self.warm_up(&subject, &self.settings(method, samples)) {
+                    Err(RenderError::Samples { possible, .. }) => {
+                        notes.leave_out(method, samples, possible);
+                        continue;
+                    }
+                    done => done?,
+                };
+            let picture = Picture::new(rendered.size, &rendered.colors)?;
+            let pieces = match &splitter {
+                Some(splitter) => {
+                    self.progress
+                        .say(&format!("{method} {samples}, whose fault its errors are"));
+                    Some(splitter.split(self, &subject, &yardstick, &picture, method, samples)?)
+                }
+                None => None,
+            };
+            let statistics = &rendered.statistics;
+            entries.push(Entry {
+                row: Row {
+                    method,
+                    samples,
+                    cost: contender.cost(),
+                    memory_bytes: statistics.memory_bytes,
+                    superpixel_fraction: statistics.superpixels as f64
+                        / rendered.colors.len() as f64,
+                    candidates: statistics.candidates,
+                    accuracy: yardstick.measure(&picture)?,
+                    geometry: match &geometry {
+                        Some(geometry) => Some(self.geometry(&subject, geometry, method, samples)?),
+                        None => None,
+                    },
+                    left: pieces.as_ref().map(|pieces| pieces.split),
+                    left_within: pieces.as_ref().and_then(|pieces| pieces.within),
+                },
+                contender,
+            });
+            if (method, Some(samples)) == (Method::Ssaa, shown) {
+                ssaa = Some(DecodedImage::from(&picture));
+            }
+            if let Some(pieces) = pieces
+                && (method, Some(samples)) == (Method::Superpixel, shown)
+            {
+                superpixels = Some(GalleryImage {
+                    samples,
+                    image: DecodedImage::from(&picture),
+                    causes: pieces.causes,
+                    faults: pieces.faults,
+                });
+            }
+        }
+        let scene = SceneResults {
+            name,
+            file: path.display().to_string(),
+            triangles,
+            textured: subject.is_textured(),
+            reference_seconds,
+            notes: notes.lines(),
+            rows: self.time(&subject, entries)?,
+        };
+        let gallery = Gallery::new(&yardstick, ssaa.as_ref(), superpixels.as_ref())?;
+        Ok((scene, gallery))
+    }
+
+    /// Samples of the superpixels that the report shows: the default number, or else the most there are.
+    fn shown_samples(&self) -> Option<u32> {
+        let cells = self.args.cells();
+        let counts = cells
+            .iter()
+            .filter(|(method, _)| *method == Method::Superpixel)
+            .map(|(_, samples)| *samples);
+        counts.max_by_key(|samples| (*samples == Settings::DEFAULT_SAMPLES, *samples))
+    }
+
+    /// Yardstick of geometry alone, if it is wanted. One sample a pixel is the same image with either footprint.
+    fn geometry_yardstick(
+        &mut self,
+        subject: &Subject,
+        one_sample: &Picture<'_>,
+    ) -> anyhow::Result<Option<Yardstick>> {
+        if !self.args.geometry {
+            return Ok(None);
+        }
+        let settings = for_whole_pixels(self.settings(Method::None, 1));
+        let name = "its reference for geometry alone";
+        let (reference, _) =
+            self.reference(&subject.wanted(&settings, self.args.reference, name))?;
+        let reference = Picture::new(settings.size, &reference)?;
+        Ok(Some(Yardstick::new(&reference, one_sample)?))
+    }
+
+    /// Accuracy of a method by geometry alone.
+    fn geometry(
+        &mut self,
+        subject: &Subject,
+        yardstick: &Yardstick,
+        method: Method,
+        samples: u32,
+    ) -> anyhow::Result<Accuracy> {
+        let settings = for_whole_pixels(self.settings(method, samples));
+        let (_, rendered) = self.warm_up(subject, &settings)?;
+        Ok(yardstick.measure(&Picture::new(rendered.size, &rendered.colors)?)?)
+    }
+
+    fn time(
+        &mut self,
+        subject: &Subject,
+        mut entries: Vec<Entry>,
+    ) -> Result<Vec<Row>, RenderError> {
+        let progress = &self.progress;
+        bench::take_turns(
+            &mut self.headless,
+            &subject.view.camera,
+            entries.iter_mut().map(|entry| &mut entry.contender),
+            self.args.repeat,
+            self.args.budget(),
+            |contender| {
+                let settings = contender.settings();
+                progress.say(&format!("{:?} {}", settings.method, settings.samples));
+            },
+        )?;
+        Ok(entries
+            .into_iter()
+            .map(|Entry { contender, row }| Row {
+                cost: contender.cost(),
+                ..row
+            })
+            .collect())
+    }
+}
+
+/// Settings with textures read for a whole pixel, whatever the number of samples.
+fn for_whole_pixels(settings: Settings) -> Settings {
+    Settings {
+        footprint: Footprint::Pixel,
+        ..settings
+    }
+}
+
+/// Notes of what is left out: a line for each method and reason.
+#[derive(Default)]
+struct Notes(Vec<(Method, String, Vec<u32>)>);
+
+impl Notes {
+    fn leave_out(&mut self, method: Method, samples: u32, possible: String) {
+        match self
+            .0
+            .iter_mut()
+            .find(|(known, reason, _)| *known == method && *reason == possible)
+        {
+            Some((_, _, counts)) => counts.push(samples),
+            None => self.0.push((method, possible, vec![samples])),
+        }
+    }
+
+    fn lines(&self) -> Vec<String> {
+        let line = |(method, possible, counts): &(Method, String, Vec<u32>)| {
+            let counts: Vec<_> = counts.iter().map(ToString::to_string).collect();
+            format!(
+                "{method} left out at {} samples: it can have {possible}",
+                counts.join(", ")
+            )
+        };
+        self.0.iter().map(line).collect()
+    }
+}

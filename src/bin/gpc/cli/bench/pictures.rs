@@ -1,0 +1,189 @@
+//! Small pictures, enlarged parts, and error maps.
+
+use anyhow::Context;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use gpc::compare::heat_color;
+use gpc::output::{self, DecodedImage};
+use image::ExtendedColorType;
+use image::codecs::jpeg::JpegEncoder;
+use std::ops::Range;
+
+/// Width of small pictures in pixels, at most.
+const SMALL: usize = 480;
+const JPEG_QUALITY: u8 = 80;
+/// Width and height of a window in pixels, at most.
+const WINDOW: [usize; 2] = [48, 30];
+/// Distance between the places at which a window is tried.
+const STRIDE: usize = 6;
+/// The error that maps show brightest, of sRGB-encoded values of 0 to 1.
+pub const BRIGHTEST: f32 = 0.25;
+
+/// The root of each pixel's mean squared error, of sRGB-encoded values of 0 to 1.
+pub struct ErrorMap {
+    size: [usize; 2],
+    errors: Vec<f32>,
+}
+
+/// A part of an image, in pixels.
+#[derive(Clone, Copy)]
+pub struct Window {
+    /// Upper left pixel.
+    pub low: [usize; 2],
+    pub size: [usize; 2],
+}
+
+/// An image's colours, RGB of 0 to 1.
+pub fn colors(image: &DecodedImage) -> Vec<[f32; 3]> {
+    image
+        .pixels
+        .iter()
+        .map(|[r, g, b, _]| [*r, *g, *b])
+        .collect()
+}
+
+impl ErrorMap {
+    /// The errors of an image of the reference's size.
+    pub fn new(reference: &DecodedImage, image: &DecodedImage) -> Self {
+        let error = |(a, b): (&[f32; 4], &[f32; 4])| {
+            let squares = a.iter().zip(b).take(3).map(|(a, b)| (a - b).powi(2));
+            (squares.sum::<f32>() / 3.0).sqrt()
+        };
+        Self {
+            size: reference.size.map(|side| side as usize),
+            errors: reference
+                .pixels
+                .iter()
+                .zip(&image.pixels)
+                .map(error)
+                .collect(),
+        }
+    }
+
+    /// Colours of the errors, from black (none) through purple and orange to light yellow ([`BRIGHTEST`] and above).
+    /// The scale is that of the error's root, since most errors are small.
+    pub fn colors(&self) -> Vec<[f32; 3]> {
+        let color = |error: &f32| {
+            let share = (error / BRIGHTEST).clamp(0.0, 1.0).sqrt();
+            heat_color(share).map(|code| f32::from(code) / 255.0)
+        };
+        self.errors.iter().map(color).collect()
+    }
+
+    /// The pixels of a window by index, and their squared errors.
+    pub fn squares(&self, window: Window) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let pixels = window.rows(self.size[0]).flatten();
+        pixels.filter_map(|pixel| Some((pixel, f64::from(*self.errors.get(pixel)?).powi(2))))
+    }
+
+    /// The window with the largest squared error.
+    pub fn worst_window(&self) -> Window {
+        let [width, height] = self.size;
+        let size = [WINDOW[0].min(width), WINDOW[1].min(height)];
+        let mut worst = (f32::NEG_INFINITY, [0, 0]);
+        for y in (0..=height - size[1]).step_by(STRIDE) {
+            for x in (0..=width - size[0]).step_by(STRIDE) {
+                let window = Window { low: [x, y], size };
+                let sum: f32 = window
+                    .rows(width)
+                    .filter_map(|row| self.errors.get(row))
+                    .flatten()
+                    .map(|error| error * error)
+                    .sum();
+                if sum > worst.0 {
+                    worst = (sum, [x, y]);
+                }
+            }
+        }
+        Window { low: worst.1, size }
+    }
+}
+
+impl Window {
+    /// The window's rows in an image of a width.
+    fn rows(self, width: usize) -> impl Iterator<Item = Range<usize>> {
+        let [x, y] = self.low;
+        (y..y + self.size[1]).map(move |y| y * width + x..y * width + x + self.size[0])
+    }
+
+    /// The window of an image as a PNG.
+    pub fn png(self, size: [u32; 2], colors: &[[f32; 3]]) -> anyhow::Result<String> {
+        let pixels: Vec<_> = self
+            .rows(size[0] as usize)
+            .filter_map(|row| colors.get(row))
+            .flatten()
+            .map(|color| codes(*color))
+            .collect();
+        let bytes = output::encode_rgb(self.size.map(|side| side as u32), &pixels)?;
+        Ok(data_uri("png", &bytes))
+    }
+}
+
+/// A JPEG of an image, made smaller by means of whole pixels.
+pub fn small_jpeg(size: [u32; 2], colors: &[[f32; 3]]) -> anyhow::Result<String> {
+    let [width, height] = size.map(|side| side as usize);
+    let step = width.div_ceil(SMALL).min(height).max(1);
+    let [columns, rows] = [width / step, height / step];
+    let mut bytes = Vec::with_capacity(3 * columns * rows);
+    for y in 0..rows {
+        for x in 0..columns {
+            let block = Window {
+                low: [x * step, y * step],
+                size: [step, step],
+            };
+            let pixels = block
+                .rows(width)
+                .filter_map(|row| colors.get(row))
+                .flatten();
+            let sum = pixels.fold([0.0; 3], |[r, g, b], color| {
+                [r + color[0], g + color[1], b + color[2]]
+            });
+            bytes.extend(codes(sum.map(|value| value / (step * step) as f32)));
+        }
+    }
+    let mut file = Vec::new();
+    JpegEncoder::new_with_quality(&mut file, JPEG_QUALITY)
+        .encode(&bytes, columns as u32, rows as u32, ExtendedColorType::Rgb8)
+        .context("a picture of the report can't be encoded")?;
+    Ok(data_uri("jpeg", &file))
+}
+
+fn codes(color: [f32; 3]) -> [u8; 3] {
+    color.map(|value| (255.0 * value).round() as u8)
+}
+
+fn data_uri(format: &str, bytes: &[u8]) -> String {
+    format!("data:image/{format};base64,{}", STANDARD.encode(bytes))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_worst_window_holds_the_worst_pixels() {
+        let size = [200, 100];
+        let black = DecodedImage {
+            size,
+            pixels: vec![[0.0, 0.0, 0.0, 1.0]; 20_000],
+        };
+        let mut image = black.clone();
+        for (x, y) in [(10, 10), (150, 70), (151, 71)] {
+            image.pixels[y * 200 + x] = [0.5; 4];
+        }
+        let Window { low, size } = ErrorMap::new(&black, &image).worst_window();
+        assert!((low[0]..low[0] + size[0]).contains(&150), "{low:?}");
+        assert!((low[1]..low[1] + size[1]).contains(&71), "{low:?}");
+    }
+
+    #[test]
+    fn a_window_is_no_larger_than_its_image() {
+        let tiny = DecodedImage {
+            size: [7, 1],
+            pixels: vec![[0.0; 4]; 7],
+        };
+        let window = ErrorMap::new(&tiny, &tiny).worst_window();
+        assert_eq!((window.low, window.size), ([0, 0], [7, 1]));
+        assert!(small_jpeg([7, 1], &colors(&tiny)).is_ok());
+    }
+}

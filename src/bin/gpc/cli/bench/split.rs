@@ -1,0 +1,152 @@
+//! Split of an image's error by place and fault.
+
+use super::subject::{Bench, Subject, Wanted};
+use gpc::bench::{self, Cause, Fault, Half, Looks, Split, Stripped, Suspects, Within, Yardstick};
+use gpc::output::{DecodedImage, Picture};
+use gpc::render::{Method, PreparedScene, SceneRequest};
+
+/// Most samples a pixel of the truths of stripped scenes, which only have to tell which of two errors is the larger.
+const MOST_SAMPLES: u32 = 1024;
+
+/// Images and scenes by which errors are split.
+pub(super) struct Splitter {
+    looks: Looks,
+    /// Paint alone and light alone, and their truths.
+    halves: [(PreparedScene, DecodedImage); 2],
+    /// Samples of the superpixels that split the images of other methods.
+    shown: u32,
+}
+
+/// An image's error in pieces.
+pub(super) struct Pieces {
+    pub split: Split,
+    /// Split of the error in superpixels and inside of one triangle, for superpixel antialiasing alone.
+    pub within: Option<Within>,
+    /// Pixel by pixel.
+    pub causes: Vec<Cause>,
+    /// Pixel by pixel; empty for other methods than superpixels.
+    pub faults: Vec<Option<Fault>>,
+}
+
+impl Splitter {
+    /// Looks into the scene's pixels, and renders the truths of its paint and of its light alone.
+    pub fn new(bench: &mut Bench<'_>, subject: &Subject, shown: u32) -> anyhow::Result<Self> {
+        let settings = bench.settings(Method::None, 1);
+        let progress = &bench.progress;
+        let mut looks = 0;
+        let found = Looks::new(
+            &mut bench.headless,
+            &subject.prepared,
+            &subject.view.camera,
+            &settings,
+            || {
+                looks += 1;
+                progress.say(&format!("what pixels hold, {looks} of {}", bench::LOOKS));
+            },
+        )?;
+        let mut half = |stripped: Stripped, name: &str| -> anyhow::Result<_> {
+            let scene = stripped.of(&subject.scene);
+            let prepared = bench
+                .headless
+                .upload(SceneRequest::new(&scene, &subject.pose))?;
+            let (truth, _) = bench.reference(&Wanted {
+                prepared: &prepared,
+                ..subject.wanted(&settings, bench.args.reference.min(MOST_SAMPLES), name)
+            })?;
+            let truth = DecodedImage::from(&Picture::new(settings.size, &truth)?);
+            Ok((prepared, truth))
+        };
+        Ok(Self {
+            looks: found,
+            halves: [
+                half(Stripped::Paint, "the truth of its paint")?,
+                half(Stripped::Light, "the truth of its light")?,
+            ],
+            shown,
+        })
+    }
+
+    /// Splits the error of a method's image. Images without superpixels are split by those that the report shows.
+    pub fn split(
+        &self,
+        bench: &mut Bench<'_>,
+        subject: &Subject,
+        yardstick: &Yardstick,
+        picture: &Picture<'_>,
+        method: Method,
+        samples: u32,
+    ) -> anyhow::Result<Pieces> {
+        let superpixels = method == Method::Superpixel;
+        let samples = if superpixels { samples } else { self.shown };
+        let settings = bench.settings(Method::Superpixel, samples);
+        let camera = &subject.view.camera;
+        let scene = &subject.prepared;
+        let causes = self
+            .looks
+            .causes(&mut bench.headless, scene, camera, &settings)?;
+        let faults = if superpixels {
+            let suspects = Suspects {
+                scene,
+                halves: self
+                    .halves
+                    .each_ref()
+                    .map(|(scene, truth)| Half { scene, truth }),
+                camera,
+                looks: &self.looks,
+            };
+            suspects.faults(&mut bench.headless, &settings, yardstick, picture, &causes)?
+        } else {
+            Vec::new()
+        };
+        Ok(Pieces {
+            split: yardstick.split(picture, &causes)?,
+            within: if superpixels {
+                Some(yardstick.split_within(picture, &causes, &faults)?)
+            } else {
+                None
+            },
+            causes,
+            faults,
+        })
+    }
+}
+
+/// A cause and a fault in words.
+pub fn reason(cause: Option<Cause>, fault: Option<Fault>) -> &'static str {
+    match (cause, fault) {
+        (Some(Cause::Superpixel), Some(Fault::Edges)) => "edges in superpixels",
+        (Some(Cause::Superpixel), Some(Fault::Texture)) => "texture in superpixels",
+        (Some(Cause::Superpixel), Some(Fault::Light)) => "light in superpixels",
+        (Some(Cause::Inside), Some(Fault::Light)) => "light amid one triangle",
+        (Some(Cause::Inside), Some(_)) => "texture amid one triangle",
+        (Some(Cause::BelowThreshold), _) => "edges below the threshold",
+        (Some(Cause::Unseen), _) => "features no centre saw",
+        (Some(Cause::Superpixel | Cause::Inside) | None, _) => "unknown",
+    }
+}
+
+/// Parts of the error that superpixels leave, in words and as shares of the squared error of one sample a pixel.
+pub fn shares(left: &Split, within: &Within) -> [(&'static str, f64); 7] {
+    [
+        (
+            Cause::Superpixel,
+            Some(Fault::Edges),
+            within.superpixel_edges,
+        ),
+        (
+            Cause::Superpixel,
+            Some(Fault::Texture),
+            within.superpixel_texture,
+        ),
+        (
+            Cause::Superpixel,
+            Some(Fault::Light),
+            within.superpixel_light,
+        ),
+        (Cause::BelowThreshold, None, left.below_threshold),
+        (Cause::Unseen, None, left.unseen),
+        (Cause::Inside, Some(Fault::Texture), within.inside_texture),
+        (Cause::Inside, Some(Fault::Light), within.inside_light),
+    ]
+    .map(|(cause, fault, share)| (reason(Some(cause), fault), share))
+}

@@ -1,0 +1,178 @@
+//! A scene on the device, and its references.
+
+use super::BenchArgs;
+use super::progress::Progress;
+use crate::cli::input;
+use crate::cli::render::{CameraArgs, NamedView, choose_views};
+use gpc::bench::{self, Cache, Contender, Fingerprint};
+use gpc::camera::Camera;
+use gpc::color::srgb;
+use gpc::output::Picture;
+use gpc::render::{Headless, Method, PreparedScene, RenderError, Rendered, SceneRequest, Settings};
+use gpc::scene::{Geometry, Pose, PoseRequest, Scene};
+use std::path::Path;
+use std::time::Instant;
+
+/// Background colour in sRGB: opaque, so that colours alone tell images apart.
+const BACKGROUND: [f64; 3] = [0.87, 0.89, 0.91];
+
+/// Device and options that scene after scene is measured with.
+pub struct Bench<'a> {
+    pub headless: Headless,
+    pub cache: Cache,
+    pub args: &'a BenchArgs,
+    pub progress: Progress,
+}
+
+/// A scene on the device, and what it was made from.
+pub(super) struct Subject {
+    pub prepared: PreparedScene,
+    pub scene: Scene,
+    pub pose: Pose,
+    pub view: NamedView,
+}
+
+/// A reference in the making.
+pub(super) struct Wanted<'a> {
+    pub prepared: &'a PreparedScene,
+    pub geometry: &'a Geometry,
+    pub camera: &'a Camera,
+    pub settings: &'a Settings,
+    /// Samples a pixel.
+    pub samples: u32,
+    /// Name of the scene for the bar of progress.
+    pub name: &'a str,
+}
+
+impl Bench<'_> {
+    /// Puts the scene of a file on the device, to be seen in images of that size.
+    pub(super) fn upload(&mut self, path: &Path, size: [u32; 2]) -> anyhow::Result<Subject> {
+        let loaded = input::load(path)?;
+        let pose = loaded.scene.pose(&PoseRequest::default())?;
+        let [width, height] = size.map(f64::from);
+        let views = choose_views(&CameraArgs::default(), &pose, width / height)?;
+        let Some(view) = views.into_iter().next() else {
+            anyhow::bail!("{}: there is no camera to see it with", path.display());
+        };
+        Ok(Subject {
+            prepared: self
+                .headless
+                .upload(SceneRequest::new(&loaded.scene, &pose))?,
+            scene: loaded.scene,
+            pose,
+            view,
+        })
+    }
+
+    pub(super) fn settings(&self, method: Method, samples: u32) -> Settings {
+        settings(method, samples, self.args.size)
+    }
+
+    /// A reference, and how many seconds it took unless it was there already.
+    pub(super) fn reference(
+        &mut self,
+        wanted: &Wanted<'_>,
+    ) -> anyhow::Result<(Vec<[f32; 4]>, Option<f64>)> {
+        let Wanted {
+            prepared,
+            geometry,
+            camera,
+            settings,
+            samples,
+            name,
+        } = *wanted;
+        self.progress.say(&format!("looking for {name}"));
+        let fingerprint = Fingerprint::new(
+            &mut self.headless,
+            prepared,
+            geometry,
+            camera,
+            settings,
+            samples,
+        )?;
+        if let Some(known) = self.cache.get(fingerprint, settings.size) {
+            return Ok((known, None));
+        }
+        let start = Instant::now();
+        let parts = samples / bench::GRID_SAMPLES;
+        let mut done = 0;
+        let progress = &self.progress;
+        let mut count = || {
+            progress.say(&format!("{name}, {done} of {parts} renderings"));
+            done += 1;
+        };
+        count();
+        let reference = bench::brute_force(
+            &mut self.headless,
+            prepared,
+            camera,
+            settings,
+            samples,
+            count,
+        )?;
+        let seconds = start.elapsed().as_secs_f64();
+        let picture = Picture::new(settings.size, &reference)?;
+        self.cache.put(fingerprint, &picture)?;
+        Ok((reference, Some(seconds)))
+    }
+
+    pub(super) fn warm_up(
+        &mut self,
+        subject: &Subject,
+        settings: &Settings,
+    ) -> Result<(Contender, Rendered), RenderError> {
+        Contender::warm_up(
+            &mut self.headless,
+            &subject.prepared,
+            &subject.view.camera,
+            settings,
+        )
+    }
+}
+
+impl Subject {
+    pub fn triangles(&self) -> u64 {
+        self.pose.geometry.triangle_count()
+    }
+
+    /// Whether a material of something drawn has a texture.
+    pub fn is_textured(&self) -> bool {
+        let draws = self.pose.geometry.draws.iter();
+        draws
+            .filter_map(|draw| self.scene.materials.get(draw.material as usize))
+            .any(|material| material.textures().next().is_some())
+    }
+
+    /// A reference of the whole scene.
+    pub fn wanted<'a>(&'a self, settings: &'a Settings, samples: u32, name: &'a str) -> Wanted<'a> {
+        Wanted {
+            prepared: &self.prepared,
+            geometry: &self.pose.geometry,
+            camera: &self.view.camera,
+            settings,
+            samples,
+            name,
+        }
+    }
+}
+
+/// Settings of a method.
+pub fn settings(method: Method, samples: u32, [width, height]: [u32; 2]) -> Settings {
+    Settings {
+        method,
+        samples,
+        background: Some(BACKGROUND.map(|value| srgb::decode(value) as f32)),
+        ..Settings::new(width, height)
+    }
+}
+
+/// A file's name without its ending, or its folder's where files of all scenes are called `scene`, as Sketchfab's are.
+pub(super) fn name(path: &Path) -> String {
+    let stem = input::stem(path);
+    let folder = || Some(path.parent()?.file_name()?.to_string_lossy().into_owned());
+    if stem == "scene" {
+        folder().unwrap_or(stem)
+    } else {
+        stem
+    }
+}

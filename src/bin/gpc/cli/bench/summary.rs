@@ -1,0 +1,302 @@
+//! Ratios over all scenes, those with textures and those without apart.
+
+use super::front::{TARGETS, time_to_error};
+use super::results::{Row, SceneResults};
+use super::split::shares;
+use gpc::bench::Spread;
+use gpc::render::{Method, Settings};
+use serde::Serialize;
+
+/// Summary of the scenes with textures, or of those without.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// Whether a material of something drawn has a texture.
+    pub textured: bool,
+    /// Number of scenes.
+    pub scenes: usize,
+    /// A line for each number of samples that superpixels were measured with.
+    pub at: Vec<AtSamples>,
+    /// A line for each error to be reached.
+    pub reach: Vec<Reach>,
+}
+
+/// Cost of superpixels, and error that they remove, at one number of samples. Medians are over the scenes that have
+/// both rows.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AtSamples {
+    pub samples: u32,
+    /// Scenes with superpixels at this number of samples.
+    pub scenes: usize,
+    /// Median time of the device under supersampling over that with superpixels.
+    pub speedup: Option<f64>,
+    /// Median time with superpixels over that of one sample a pixel.
+    pub over_none: Option<f64>,
+    /// RMSE with superpixels over that of supersampling, against the truth and as a display shows it.
+    pub rmse_ratio: Option<Ratio>,
+    /// Ratio of the FLIP errors.
+    pub flip_ratio: Option<Ratio>,
+    /// RMSE over that of supersampling, of geometry alone.
+    pub geometry_ratio: Option<Ratio>,
+    /// Median share of the aliasing error removed.
+    pub removed: Option<f64>,
+}
+
+/// A ratio over all scenes.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Ratio {
+    pub median: f64,
+    /// Largest ratio.
+    pub worst: f64,
+    /// Scene of the largest ratio.
+    pub worst_scene: String,
+}
+
+/// Share of supersampling's time in which superpixels reach its error.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Reach {
+    /// Samples a pixel of supersampling.
+    pub samples: u32,
+    /// The median; `None` where at least half of the scenes never reach it.
+    pub share: Option<f64>,
+    /// Scenes for which the share was measured, each with its share; `None` if superpixels never reach the error.
+    pub scenes: Vec<(String, Option<f64>)>,
+}
+
+/// Sums up the scenes, those with textures first.
+pub fn summarize(scenes: &[SceneResults]) -> Vec<Summary> {
+    [true, false]
+        .into_iter()
+        .filter_map(|textured| {
+            let mine: Vec<_> = scenes.iter().filter(|s| s.textured == textured).collect();
+            let counts = counts(mine.iter().copied());
+            (!counts.is_empty()).then(|| Summary {
+                textured,
+                scenes: mine.len(),
+                at: counts.iter().map(|count| at(&mine, *count)).collect(),
+                reach: TARGETS
+                    .into_iter()
+                    .filter_map(|samples| reach(&mine, samples))
+                    .collect(),
+            })
+        })
+        .collect()
+}
+
+/// Numbers of samples that superpixels were measured with.
+pub fn counts<'a>(scenes: impl IntoIterator<Item = &'a SceneResults>) -> Vec<u32> {
+    let rows = scenes.into_iter().flat_map(|scene| &scene.rows);
+    let superpixels = rows.filter(|row: &&Row| row.method == Method::Superpixel);
+    let mut counts: Vec<_> = superpixels.map(|row| row.samples).collect();
+    counts.sort_unstable();
+    counts.dedup();
+    counts
+}
+
+impl Summary {
+    /// The scenes that it is of, in a few words.
+    pub fn about(&self) -> String {
+        let kind = if self.textured {
+            "textured"
+        } else {
+            "untextured"
+        };
+        let scenes = if self.scenes == 1 { "scene" } else { "scenes" };
+        format!("{} {kind} {scenes}", self.scenes)
+    }
+}
+
+fn at(scenes: &[&SceneResults], samples: u32) -> AtSamples {
+    let each = |ratio: &dyn Fn(&SceneResults) -> Option<f64>| {
+        median(scenes.iter().filter_map(|s| ratio(s)))
+    };
+    let row = |scene: &SceneResults| {
+        let row = scene.row(Method::Superpixel, samples)?;
+        Some(row.accuracy.removed)
+    };
+    AtSamples {
+        samples,
+        scenes: scenes.iter().filter(|scene| row(scene).is_some()).count(),
+        speedup: each(&|scene| speedup(scene, samples)),
+        over_none: each(&|scene| over_none(scene, samples)),
+        rmse_ratio: Ratio::over(scenes, |scene| rmse_ratio(scene, samples)),
+        flip_ratio: Ratio::over(scenes, |scene| flip_ratio(scene, samples)),
+        geometry_ratio: Ratio::over(scenes, |scene| geometry_ratio(scene, samples)),
+        removed: each(&row),
+    }
+}
+
+fn reach(scenes: &[&SceneResults], samples: u32) -> Option<Reach> {
+    let scenes: Vec<_> = scenes
+        .iter()
+        .filter_map(|scene| Some((scene.name.clone(), time_to_error(scene, samples)?)))
+        .collect();
+    let shares = scenes
+        .iter()
+        .map(|(_, share)| share.unwrap_or(f64::INFINITY));
+    let share = median(shares)?;
+    Some(Reach {
+        samples,
+        share: share.is_finite().then_some(share),
+        scenes,
+    })
+}
+
+impl Ratio {
+    fn over(
+        scenes: &[&SceneResults],
+        ratio: impl Fn(&SceneResults) -> Option<f64>,
+    ) -> Option<Self> {
+        Self::of(
+            scenes
+                .iter()
+                .filter_map(|scene| Some((scene.name.clone(), ratio(scene)?, 1.0))),
+        )
+    }
+
+    /// Ratios of named pairs of an error above and one below; pairs with 0 below are left out.
+    pub fn of(pairs: impl IntoIterator<Item = (String, f64, f64)>) -> Option<Self> {
+        let ratios: Vec<_> = pairs
+            .into_iter()
+            .filter_map(|(name, above, below)| Some((ratio(above, below)?, name)))
+            .collect();
+        let (worst, worst_scene) = ratios.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some(Self {
+            median: median(ratios.iter().map(|(ratio, _)| *ratio))?,
+            worst: *worst,
+            worst_scene: worst_scene.clone(),
+        })
+    }
+}
+
+/// Time under supersampling over that with superpixels.
+pub fn speedup(scene: &SceneResults, samples: u32) -> Option<f64> {
+    let ssaa = scene.row(Method::Ssaa, samples)?;
+    let superpixel = scene.row(Method::Superpixel, samples)?;
+    ratio(ssaa.cost.gpu_ms.median, superpixel.cost.gpu_ms.median)
+}
+
+/// Time with superpixels over that of one sample a pixel.
+pub fn over_none(scene: &SceneResults, samples: u32) -> Option<f64> {
+    let superpixel = scene.row(Method::Superpixel, samples)?;
+    let none = scene.row(Method::None, 1)?;
+    ratio(superpixel.cost.gpu_ms.median, none.cost.gpu_ms.median)
+}
+
+/// RMSE with superpixels over that of supersampling.
+pub fn rmse_ratio(scene: &SceneResults, samples: u32) -> Option<f64> {
+    let superpixel = scene.row(Method::Superpixel, samples)?;
+    let ssaa = scene.row(Method::Ssaa, samples)?;
+    ratio(superpixel.accuracy.rmse, ssaa.accuracy.rmse)
+}
+
+/// FLIP with superpixels over that of supersampling.
+fn flip_ratio(scene: &SceneResults, samples: u32) -> Option<f64> {
+    let superpixel = scene.row(Method::Superpixel, samples)?;
+    let ssaa = scene.row(Method::Ssaa, samples)?;
+    ratio(superpixel.accuracy.flip, ssaa.accuracy.flip)
+}
+
+/// Largest part of the squared error that superpixels leave, at the default number of samples or else at the most that
+/// were measured, and its share.
+pub fn most_of_what_is_left(scene: &SceneResults) -> Option<(&'static str, f64)> {
+    let superpixels = |row: &&Row| row.method == Method::Superpixel;
+    let row = scene
+        .rows
+        .iter()
+        .filter(superpixels)
+        .max_by_key(|row| (row.samples == Settings::DEFAULT_SAMPLES, row.samples))?;
+    let (left, within) = (row.left?, row.left_within?);
+    let causes = shares(&left, &within);
+    let whole: f64 = causes.iter().map(|(_, share)| share).sum();
+    let (name, share) = causes.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some((name, ratio(share, whole)?))
+}
+
+/// RMSE over that of supersampling, of geometry alone.
+pub fn geometry_ratio(scene: &SceneResults, samples: u32) -> Option<f64> {
+    let superpixel = scene.row(Method::Superpixel, samples)?;
+    let ssaa = scene.row(Method::Ssaa, samples)?;
+    ratio(superpixel.geometry?.rmse, ssaa.geometry?.rmse)
+}
+
+fn ratio(above: f64, below: f64) -> Option<f64> {
+    (below > 0.0).then(|| above / below)
+}
+
+fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let spread = Spread::of(values);
+    (spread.count > 0).then_some(spread.median)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use gpc::bench::{Accuracy, Cost};
+
+    fn scene(name: &str, textured: bool, rows: &[(Method, u32, f64, f64)]) -> SceneResults {
+        let row = |&(method, samples, ms, rmse): &(Method, u32, f64, f64)| Row {
+            method,
+            samples,
+            cost: Cost {
+                gpu_ms: Spread::of([ms]),
+                wall_ms: Spread::of([ms]),
+                passes: Vec::new(),
+            },
+            memory_bytes: 1,
+            superpixel_fraction: 0.5,
+            candidates: 1,
+            accuracy: Accuracy {
+                rmse,
+                ..Accuracy::default()
+            },
+            geometry: None,
+            left: None,
+            left_within: None,
+        };
+        SceneResults {
+            name: name.to_owned(),
+            file: name.to_owned(),
+            triangles: 1,
+            textured,
+            reference_seconds: None,
+            notes: Vec::new(),
+            rows: rows.iter().map(row).collect(),
+        }
+    }
+
+    #[test]
+    fn untextured_scenes_do_not_flatter() {
+        use Method::{Ssaa, Superpixel};
+        let scenes = [
+            scene(
+                "paint",
+                true,
+                &[(Ssaa, 64, 100.0, 0.01), (Superpixel, 64, 10.0, 0.04)],
+            ),
+            scene(
+                "cloth",
+                true,
+                &[(Ssaa, 64, 100.0, 0.01), (Superpixel, 64, 20.0, 0.02)],
+            ),
+            scene(
+                "metal",
+                false,
+                &[(Ssaa, 64, 90.0, 0.01), (Superpixel, 64, 9.0, 0.01)],
+            ),
+        ];
+        let [textured, untextured] = summarize(&scenes).try_into().unwrap();
+        assert!(textured.textured && textured.scenes == 2 && untextured.scenes == 1);
+        let expected = Ratio {
+            median: 3.0,
+            worst: 4.0,
+            worst_scene: "paint".to_owned(),
+        };
+        assert_eq!(textured.at[0].rmse_ratio.as_ref(), Some(&expected));
+        assert_eq!(textured.at[0].speedup, Some(7.5));
+        assert_eq!(textured.at[0].geometry_ratio, None);
+        // Neither reaches the error of supersampling, and the untextured one does at its own price.
+        assert_eq!(textured.reach[0].share, None);
+        assert_eq!(untextured.reach[0].share, Some(0.1));
+        assert_eq!(untextured.reach.len(), 1, "256 samples were not measured");
+    }
+}

@@ -1,0 +1,209 @@
+//! `gpc compare` of two folders of images.
+
+use super::{CompareArgs, junit};
+use crate::cli::{exit, print};
+use anyhow::Context;
+use gpc::compare::{self, Comparison};
+use gpc::output;
+use serde::Serialize;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// What became of an image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Status {
+    /// Within the bound.
+    Equal,
+    /// Beyond the bound, or not comparable.
+    Different,
+    /// In the reference's folder alone.
+    Missing,
+    /// In the other folder alone.
+    New,
+}
+
+impl Status {
+    const ALL: [Self; 4] = [Self::Equal, Self::Different, Self::Missing, Self::New];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Equal => "equal",
+            Self::Different => "different",
+            Self::Missing => "missing",
+            Self::New => "new",
+        }
+    }
+}
+
+/// An image of either folder.
+#[derive(Serialize)]
+pub struct Image {
+    /// Its path below the folder, with `/` between folders.
+    pub name: String,
+    pub status: Status,
+    #[serde(flatten)]
+    pub comparison: Option<Comparison>,
+    /// Why it is not equal.
+    pub reason: Option<String>,
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Report<'a> {
+    equal: usize,
+    different: usize,
+    missing: usize,
+    new: usize,
+    images: &'a [Image],
+}
+
+pub fn run(args: &CompareArgs) -> anyhow::Result<ExitCode> {
+    let bound = args.max_rmse.unwrap_or(0.0);
+    let [expected, found] = [names(&args.a)?, names(&args.b)?];
+    if expected.is_empty() && found.is_empty() {
+        anyhow::bail!(
+            "neither {} nor {} has a .png, .jpg, .jpeg or .exr file",
+            args.a.display(),
+            args.b.display()
+        );
+    }
+    let mut images = Vec::new();
+    for name in expected.union(&found) {
+        images.push(match (expected.contains(name), found.contains(name)) {
+            (true, false) => alone(name, Status::Missing, &args.b),
+            (false, _) => alone(name, Status::New, &args.a),
+            (true, true) => compared(args, name, bound)?,
+        });
+    }
+    if let Some(path) = &args.junit {
+        let suite = args.a.display().to_string();
+        output::write_atomically(path, junit::report(&suite, &images)?.as_bytes())?;
+    }
+    let count = |status| images.iter().filter(|image| image.status == status).count();
+    let [equal, different, missing, new] = Status::ALL.map(count);
+    if args.json {
+        print::json(&Report {
+            equal,
+            different,
+            missing,
+            new,
+            images: &images,
+        })?;
+    } else {
+        for image in &images {
+            print::line(&line(image))?;
+        }
+        print::line(&format!(
+            "{equal} equal, {different} different, {missing} missing, {new} new"
+        ))?;
+    }
+    if equal == images.len() {
+        return Ok(ExitCode::SUCCESS);
+    }
+    log::error!(
+        "{} of {} images are not equal within an rmse of {bound}",
+        images.len() - equal,
+        images.len()
+    );
+    Ok(ExitCode::from(exit::OVER_BOUND))
+}
+
+/// The images below a folder, as paths relative to it.
+fn names(folder: &Path) -> anyhow::Result<BTreeSet<String>> {
+    let mut names = BTreeSet::new();
+    let mut others = 0;
+    let mut waiting = vec![(folder.to_owned(), String::new())];
+    while let Some((folder, prefix)) = waiting.pop() {
+        let unreadable = || format!("{}: the folder can't be read", folder.display());
+        for entry in std::fs::read_dir(&folder).with_context(unreadable)? {
+            let entry = entry.with_context(unreadable)?;
+            let path = entry.path();
+            let Ok(name) = entry.file_name().into_string() else {
+                anyhow::bail!("{}: the name is not UTF-8", path.display());
+            };
+            let name = format!("{prefix}{name}");
+            if path.is_dir() {
+                waiting.push((path, name + "/"));
+            } else if is_image(&path) {
+                names.insert(name);
+            } else {
+                others += 1;
+            }
+        }
+    }
+    if others > 0 {
+        log::info!("{}: {others} files are no images", folder.display());
+    }
+    Ok(names)
+}
+
+fn is_image(path: &Path) -> bool {
+    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    extension.is_some_and(|e| ["png", "jpg", "jpeg", "exr"].contains(&e.as_str()))
+}
+
+fn alone(name: &str, status: Status, absent_from: &Path) -> Image {
+    Image {
+        name: name.to_owned(),
+        status,
+        comparison: None,
+        reason: Some(format!("it is not in {}", absent_from.display())),
+    }
+}
+
+/// Compares the images of a name, and writes where they differ.
+fn compared(args: &CompareArgs, name: &str, bound: f64) -> anyhow::Result<Image> {
+    let different = |comparison, reason| Image {
+        name: name.to_owned(),
+        status: Status::Different,
+        comparison,
+        reason: Some(reason),
+    };
+    let read = |folder: &Path| output::read(&folder.join(name));
+    let (a, b) = match read(&args.a).and_then(|a| Ok((a, read(&args.b)?))) {
+        Ok(pair) => pair,
+        Err(error) => return Ok(different(None, error.to_string())),
+    };
+    let comparison = match compare::compare(&a, &b) {
+        Ok(comparison) => comparison,
+        Err(error) => return Ok(different(None, error.to_string())),
+    };
+    if comparison.rmse <= bound {
+        return Ok(Image {
+            name: name.to_owned(),
+            status: Status::Equal,
+            comparison: Some(comparison),
+            reason: None,
+        });
+    }
+    if let Some(folder) = &args.heatmap {
+        let path = difference_path(folder, name);
+        if let Some(parent) = path.parent() {
+            std::fs::create_dir_all(parent)
+                .with_context(|| format!("{}: the folder can't be made", parent.display()))?;
+        }
+        let pixels = compare::heatmap(&a, &b)?;
+        output::write_atomically(&path, &output::encode_rgb(a.size, &pixels)?)?;
+    }
+    let reason = format!("its rmse is {:.6}, above {bound}", comparison.rmse);
+    Ok(different(Some(comparison), reason))
+}
+
+/// Path of the error map of an image: under the image's name, with `.png` added to another ending.
+fn difference_path(folder: &Path, name: &str) -> PathBuf {
+    if name.to_lowercase().ends_with(".png") {
+        folder.join(name)
+    } else {
+        folder.join(format!("{name}.png"))
+    }
+}
+
+fn line(image: &Image) -> String {
+    let status = image.status.name();
+    match &image.reason {
+        Some(reason) => format!("{status:<9}  {}: {reason}", image.name),
+        None => format!("{status:<9}  {}", image.name),
+    }
+}

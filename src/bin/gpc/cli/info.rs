@@ -1,0 +1,165 @@
+//! `gpc info`.
+
+use super::{input, print, render};
+use clap::Args;
+use gpc::render::{FramePass, Headless, HeadlessOptions, Settings, Shadows};
+use gpc::scene::{PoseRequest, Scene, SceneInfo};
+use serde::Serialize;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Says what a scene holds.
+#[derive(Args)]
+pub struct InfoArgs {
+    /// A .glb or .gltf file, or - for standard input
+    scene: PathBuf,
+    /// Say instead what passes a frame of it takes, in their order: shader, what tells the number of workgroups, and what the shader
+    /// may read and write
+    #[arg(long)]
+    passes: bool,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+/// Size of the frame whose passes are listed: it has a single region.
+const SIZE: [u32; 2] = [256, 144];
+
+#[derive(Serialize)]
+struct Report<'a> {
+    #[serde(flatten)]
+    info: &'a SceneInfo,
+    warnings: &'a [String],
+}
+
+pub fn run(args: &InfoArgs) -> anyhow::Result<ExitCode> {
+    let loaded = input::load(&args.scene)?;
+    for warning in &loaded.warnings {
+        log::warn!("{warning}");
+    }
+    if args.passes {
+        let passes = passes(&loaded.scene)?;
+        if args.json {
+            print::json(&passes)?;
+        } else {
+            print::line(&table(&passes))?;
+        }
+        return Ok(ExitCode::SUCCESS);
+    }
+    let info = loaded.scene.info();
+    if args.json {
+        print::json(&Report {
+            info: &info,
+            warnings: &loaded.warnings,
+        })?;
+    } else {
+        print::line(&text(&info))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The passes of a frame with the default settings and, where the scene has lights, shadows.
+fn passes(scene: &Scene) -> anyhow::Result<Vec<FramePass>> {
+    let pose = scene.pose(&PoseRequest::default())?;
+    let mut settings = Settings::new(SIZE[0], SIZE[1]);
+    if !pose.lights.is_empty() {
+        settings.shadows = Shadows::Exact;
+    }
+    let aspect = f64::from(SIZE[0]) / f64::from(SIZE[1]);
+    let views = render::choose_views(&render::CameraArgs::default(), &pose, aspect)?;
+    let Some(view) = views.first() else {
+        anyhow::bail!("the scene has no camera");
+    };
+    let mut headless = Headless::new(&HeadlessOptions::default())?;
+    let prepared = render::upload(&mut headless, scene, (&pose, None), &settings)?;
+    let mut frame = headless.prepare(&prepared, &settings)?;
+    Ok(headless.passes(&mut frame, &view.camera)?)
+}
+
+/// A line a pass.
+fn table(passes: &[FramePass]) -> String {
+    let lines = passes.iter().map(|pass| {
+        let FramePass { name, dispatch, .. } = pass;
+        let (reads, writes) = (pass.reads.join(", "), pass.writes.join(", "));
+        format!("{name:<16}{dispatch:<18}reads {reads}; writes {writes}")
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+fn text(info: &SceneInfo) -> String {
+    let name = |name: &Option<String>| name.clone().unwrap_or_else(|| "(unnamed)".to_owned());
+    let list = |items: Vec<String>| {
+        if items.is_empty() {
+            "none".to_owned()
+        } else {
+            items.join(", ")
+        }
+    };
+    let numbered = |items: Vec<String>| {
+        let items = items.iter().enumerate();
+        list(items.map(|(i, item)| format!("{i} {item}")).collect())
+    };
+    // Other formats have neither a version nor a generator.
+    let origin = match (info.version.as_str(), info.generator.as_deref()) {
+        ("", _) => info.format.to_owned(),
+        (version, generator) => {
+            let generator = generator.unwrap_or("an unnamed program");
+            format!("{} {version} by {generator}", info.format)
+        }
+    };
+    let cameras = info.cameras.iter();
+    let animations = info.animations.iter();
+    let images = info.images.iter();
+    [
+        origin,
+        format!(
+            "scenes      {}",
+            numbered(info.scenes.names.iter().map(name).collect())
+        ),
+        format!(
+            "geometry    {} triangles, {} lines and {} points in {} primitives, {} meshes, {} nodes",
+            info.triangles, info.lines, info.points, info.primitives, info.meshes, info.nodes
+        ),
+        format!(
+            "variants    {}",
+            numbered(info.variants.iter().map(|v| format!("\"{v}\"")).collect())
+        ),
+        format!(
+            "materials   {} opaque, {} mask, {} blend",
+            info.materials.opaque, info.materials.mask, info.materials.blend
+        ),
+        format!(
+            "images      {}",
+            list(
+                images
+                    .map(|image| format!("{}x{}", image.width, image.height))
+                    .collect()
+            )
+        ),
+        format!(
+            "cameras     {}",
+            numbered(
+                cameras
+                    .map(|camera| format!("{} ({})", name(&camera.name), camera.kind))
+                    .collect()
+            )
+        ),
+        format!(
+            "animations  {}",
+            numbered(
+                animations
+                    .map(|a| format!("{} ({:.3} s: {})", name(&a.name), a.duration, a.changes.join(", ")))
+                    .collect()
+            )
+        ),
+        format!(
+            "lights      {}{}",
+            info.lights,
+            if info.environment { ", and light from all around" } else { "" }
+        ),
+        format!("skins       {}", info.skins),
+        format!("extensions  {}", list(info.extensions_used.clone())),
+        format!("required    {}", list(info.extensions_required.clone())),
+    ]
+    .join("\n")
+}

@@ -1,0 +1,91 @@
+//! `gpc panorama`.
+
+use super::exit::Usage;
+use super::render::{self, ImageArgs};
+use super::report::ReportArgs;
+use super::stage::Stage;
+use clap::Args;
+use gpc::camera::panorama::{Panorama, PanoramaError, PanoramaProjection};
+use gpc::render::{PixelAttributes, Rendered};
+use serde::Serialize;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Renders what is around the camera, up to 360 x 180 degrees.
+///
+/// Every pixel is sampled exactly where it looks and antialiased, on the planes of up to six pinholes that share the
+/// camera's eye; no picture is resampled. The camera looks at the middle of the image.
+#[derive(Args)]
+#[command(
+    mut_arg("size", |arg| arg.default_value("1280x640")),
+    mut_arg("fov", |arg| arg
+        .help("Field of view in degrees along the width of the image, at most 360; of a fisheye across its circle [default: 360; fisheye 180]")
+        .value_parser(super::values::positive))
+)]
+pub struct PanoramaArgs {
+    /// A .glb or .gltf file, or - for standard input
+    #[arg(id = "file", value_name = "SCENE")]
+    scene: PathBuf,
+    /// Image to write: .png, .16.png, .jpg or .exr, or - for a PNG on standard output
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+    /// How directions are laid out: longitude and latitude, a cylinder unrolled, angles from the axis, or the six faces
+    /// of a cube as the largest cross of 4 x 3 squares that fits
+    #[arg(long)]
+    projection: PanoramaProjection,
+
+    #[command(flatten)]
+    image: ImageArgs,
+    #[command(flatten)]
+    pub report: ReportArgs,
+}
+
+/// Fields of `--json` for a panorama, besides those of every image.
+#[derive(Serialize)]
+struct Around {
+    /// Pinholes that were sampled.
+    pinholes: usize,
+}
+
+pub fn run(args: &PanoramaArgs) -> anyhow::Result<ExitCode> {
+    args.report.check(&args.output)?;
+    let format = args.image.format(&args.output)?;
+    let widest = match args.projection {
+        PanoramaProjection::Fisheye => 180.0,
+        _ => 360.0,
+    };
+    // The camera's own field of view does not matter, and may be less than what is asked for here.
+    let mut image = args.image.clone();
+    let fov = image.camera.fov.take().unwrap_or(widest);
+    let refuse = |error: PanoramaError| Usage(error.to_string());
+    let panorama = Panorama::new(args.projection, fov, image.size).map_err(refuse)?;
+    let mut stage = Stage::open(&args.scene, &image, image.settings(format))?;
+    let locations = panorama.locations(&stage.camera).map_err(refuse)?;
+    let shot = stage.render(locations.size(), locations.rig())?;
+    stage.finish()?;
+    let effort = stage.effort(&shot);
+    let rendered = shot.rendered;
+    let background = stage.settings.background;
+    let empty = background.map_or([0.0; 4], |[r, g, b]| [r, g, b, 1.0]);
+    let rendered = Rendered {
+        size: panorama.size(),
+        colors: locations.crop(&rendered.colors, empty),
+        attributes: locations.crop(&rendered.attributes, PixelAttributes::default()),
+        statistics: rendered.statistics,
+    };
+    log::info!(
+        "{}: {}x{}, pinholes in use: {}, {} superpixels",
+        args.output.display(),
+        rendered.size[0],
+        rendered.size[1],
+        locations.rig().len(),
+        rendered.statistics.superpixels
+    );
+    render::save(&args.output, format, &rendered, &image.aovs())?;
+    let around = Around {
+        pinholes: locations.rig().len(),
+    };
+    let figures = stage.figures(&args.output, rendered.size, effort, around);
+    args.report.print(&figures)?;
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,98 @@
+//! Projectors from files.
+
+use super::ProjectArgs;
+use crate::cli::csv;
+use crate::cli::exit::Usage;
+use anyhow::Context;
+use gpc::camera::projector::{Correspondence, Homography, Projector};
+use gpc::output::{self, OutputError};
+use serde::Serialize;
+use std::path::Path;
+
+/// A projector and what its correspondences were worth.
+pub struct Calibrated {
+    pub projector: Projector,
+    pub fit: Option<Fit>,
+}
+
+/// Numbers of the correspondences that a homography was fitted to.
+#[derive(Clone, Copy, Serialize)]
+pub struct Fit {
+    correspondences: usize,
+    agreeing: usize,
+}
+
+/// The projectors that the options name.
+pub fn read(args: &ProjectArgs) -> anyhow::Result<Vec<Calibrated>> {
+    let count = args.projector.len();
+    let sizes = match args.projector_size.as_slice() {
+        [size] => vec![*size; count],
+        sizes if sizes.len() == count => sizes.to_vec(),
+        sizes => {
+            return Err(Usage(format!(
+                "{count} --projector and {} --projector-size; give one for all or one for each",
+                sizes.len()
+            ))
+            .into());
+        }
+    };
+    let projectors = args.projector.iter().zip(sizes);
+    projectors
+        .map(|(path, size)| {
+            let name = path.display().to_string();
+            let bytes = std::fs::read(path).map_err(|source| OutputError::Read {
+                path: path.clone(),
+                source,
+            })?;
+            match path.extension() {
+                Some(ending) if ending.eq_ignore_ascii_case("exr") => dense(&bytes, &name),
+                _ => planar(args, &bytes, size, path).with_context(|| name),
+            }
+        })
+        .collect()
+}
+
+/// Calibration by a location for each pixel.
+fn dense(bytes: &[u8], name: &str) -> anyhow::Result<Calibrated> {
+    let (size, pixels) = output::decode_linear(bytes, name)?;
+    let location = |[u, v, _, alpha]: [f32; 4]| match alpha {
+        0.0 => [f64::NAN; 2],
+        _ => [f64::from(u), f64::from(v)],
+    };
+    let locations = pixels.into_iter().map(location).collect();
+    Ok(Calibrated {
+        projector: Projector::dense(size, locations).with_context(|| name.to_owned())?,
+        fit: None,
+    })
+}
+
+/// Calibration by correspondences.
+fn planar(
+    args: &ProjectArgs,
+    bytes: &[u8],
+    size: [u32; 2],
+    path: &Path,
+) -> anyhow::Result<Calibrated> {
+    let (_, numbers) =
+        csv::numbers(bytes, &[&["x", "y", "u", "v"]]).map_err(|reason| anyhow::anyhow!(reason))?;
+    let (rows, _) = numbers.as_chunks::<4>();
+    let pair = |[x, y, u, v]: &[f64; 4]| Correspondence {
+        place: [*x, *y],
+        location: [*u, *v],
+    };
+    let pairs: Vec<_> = rows.iter().map(pair).collect();
+    let (homography, agree) = Homography::fit_robust(&pairs, args.tolerance, args.seed)?;
+    let agreeing = agree.iter().filter(|agrees| **agrees).count();
+    log::info!(
+        "{}: {agreeing} of {} correspondences agree",
+        path.display(),
+        pairs.len()
+    );
+    Ok(Calibrated {
+        projector: Projector::planar(size, homography)?,
+        fit: Some(Fit {
+            correspondences: pairs.len(),
+            agreeing,
+        }),
+    })
+}

@@ -1,0 +1,174 @@
+//! `gpc project`.
+
+mod calibration;
+
+use super::exit::{Usage, usage};
+use super::render::{self, ImageArgs, Shot};
+use super::report::{Figures, ReportArgs};
+use super::stage::Stage;
+use super::{input, values};
+use anyhow::Context;
+use calibration::Fit;
+use clap::Args;
+use gpc::camera::projector::{Projector, blend_weights};
+use gpc::output::{self, Format, Picture};
+use gpc::resample::{Photograph, light_on_wall};
+use serde::Serialize;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Renders the frames of projectors that together show one picture of a scene on a wall.
+///
+/// A projector is given by a CSV of correspondences (header x,y,u,v: a place in its pixels and the location that it
+/// lights) for a plane wall, or by an EXR with a pixel for each of its pixels: u in red, v in green, and NaN or an alpha
+/// of 0 where it lights nothing. Locations are in pixels of the picture, which has --size; (0, 0) is the upper left
+/// corner everywhere. The scene is sampled where each projector's pixels shine, and dimmed where projectors overlap, so
+/// that their light adds up to the picture.
+#[derive(Args)]
+pub struct ProjectArgs {
+    /// A .glb or .gltf file, or - for standard input
+    #[arg(id = "file", value_name = "SCENE")]
+    scene: PathBuf,
+    /// Frames to write: .png, .16.png, .jpg or .exr; {projector} stands for the projector's number, from 0
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+    /// A projector's correspondences (.csv) or dense map (.exr); repeat it for each
+    #[arg(long, value_name = "FILE", required = true)]
+    projector: Vec<PathBuf>,
+    /// Width and height of projectors with correspondences, in pixels; once for all, or once for each
+    #[arg(long, value_name = "WxH", default_value = "1920x1080", value_parser = values::size)]
+    projector_size: Vec<[u32; 2]>,
+    /// Correspondences that are further than this from the homography of the others, in pixels of the picture, do not
+    /// count
+    #[arg(long, value_name = "PX", default_value_t = 2.0, allow_negative_numbers = true, value_parser = values::positive)]
+    tolerance: f64,
+    /// Chooses the random fits to correspondences; the same seed gives the same frames
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+
+    /// Write each projector's blend weights too, as a PNG beside its frame named like it with .weights: grey of 16 bits,
+    /// 65535 where it shines alone
+    #[arg(long)]
+    weights: bool,
+    /// Also write what lands on the wall, seen as the picture: the sum of all frames
+    #[arg(long, value_name = "OUT")]
+    wall: Option<PathBuf>,
+
+    #[command(flatten)]
+    image: ImageArgs,
+    #[command(flatten)]
+    pub report: ReportArgs,
+}
+
+/// Fields of `--json` for a projector's frame, besides those of every image.
+#[derive(Serialize)]
+struct Frame {
+    /// Quality of the correspondences; `null` for a dense map.
+    calibration: Option<Fit>,
+    /// Mean of its blend weights.
+    mean_weight: f64,
+    weights: Option<String>,
+}
+
+/// Output of `--json`.
+#[derive(Serialize)]
+struct Report {
+    images: Vec<Figures<Frame>>,
+    wall: Option<String>,
+}
+
+const FIELD: &str = "{projector}";
+
+pub fn run(args: &ProjectArgs) -> anyhow::Result<ExitCode> {
+    args.report.check(&args.output)?;
+    let format = args.image.format(&args.output)?;
+    if !args.image.aov.is_empty() {
+        usage!("--aov: frames are for projectors, which show nothing but colours");
+    }
+    if args.weights && input::is_standard(&args.output) {
+        usage!("--weights writes files named after OUT, and -o - has no name");
+    }
+    let wall_format = match &args.wall {
+        Some(path) => Some(Format::of(path).map_err(|error| Usage(format!("--wall {error}")))?),
+        None => None,
+    };
+    let count = args.projector.len();
+    let Some(name) = args.output.to_str() else {
+        usage!("-o {}: it is not UTF-8", args.output.display());
+    };
+    if count > 1 && (input::is_standard(&args.output) || !name.contains(FIELD)) {
+        usage!("-o {name}: add {FIELD} to it, for there are {count} projectors");
+    }
+    if name.replace(FIELD, "").contains(['{', '}']) {
+        usage!("-o {name}: {FIELD} is all that it can hold in braces");
+    }
+    let (projectors, fits): (Vec<_>, Vec<_>) = calibration::read(args)?
+        .into_iter()
+        .map(|calibrated| (calibrated.projector, calibrated.fit))
+        .unzip();
+    let weights = blend_weights(&projectors);
+    let mut stage = Stage::open(&args.scene, &args.image, args.image.settings(format))?;
+    let mut images = Vec::new();
+    let mut frames = Vec::new();
+    for (index, (projector, weights)) in projectors.iter().zip(&weights).enumerate() {
+        let size = projector.size();
+        let shot = shoot(&mut stage, projector).with_context(|| format!("projector {index}"))?;
+        let colors = dim(&shot.rendered.colors, weights);
+        let path = PathBuf::from(name.replace(FIELD, &index.to_string()));
+        let picture = Picture::new(size, &colors)?;
+        render::write(&path, &output::encode(format, &picture, &[])?)?;
+        let weights_path = args
+            .weights
+            .then(|| render::beside(&path, format, "weights"));
+        if let Some(path) = &weights_path {
+            render::write(path, &output::encode_shares(size, weights)?)?;
+        }
+        if args.wall.is_some() {
+            frames.push(Photograph::from(&picture));
+        }
+        let sum: f64 = weights.iter().copied().map(f64::from).sum();
+        let frame = Frame {
+            calibration: fits.get(index).copied().flatten(),
+            mean_weight: sum / weights.len().max(1) as f64,
+            weights: weights_path.map(|path| path.display().to_string()),
+        };
+        let effort = stage.effort(&shot);
+        log::info!(
+            "{}: {}x{}, {} superpixels, mean weight {:.3}",
+            path.display(),
+            size[0],
+            size[1],
+            effort.superpixels.count,
+            frame.mean_weight
+        );
+        images.push(stage.figures(&path, size, effort, frame));
+    }
+    stage.finish()?;
+    if let (Some(path), Some(format)) = (&args.wall, wall_format) {
+        let lit: Vec<_> = projectors.iter().zip(&frames).collect();
+        let light = light_on_wall(args.image.size, &lit);
+        let picture = Picture::new(args.image.size, &light)?;
+        render::write(path, &output::encode(format, &picture, &[])?)?;
+    }
+    args.report.print(&Report {
+        images,
+        wall: args.wall.as_ref().map(|path| path.display().to_string()),
+    })?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The picture where a projector's pixels shine.
+fn shoot(stage: &mut Stage, projector: &Projector) -> anyhow::Result<Shot> {
+    let pinhole = stage.pinhole()?;
+    let locations = projector.set()?.locations();
+    stage.render(projector.size(), &[(pinhole, locations)])
+}
+
+/// Light of a projector, dimmed by weights: opaque, and black where the projector lights nothing.
+fn dim(colors: &[[f32; 4]], weights: &[f32]) -> Vec<[f32; 4]> {
+    let dim = |([r, g, b, _], weight): (&[f32; 4], &f32)| {
+        let [r, g, b] = [r, g, b].map(|light| light * weight);
+        [r, g, b, 1.0]
+    };
+    colors.iter().zip(weights).map(dim).collect()
+}

@@ -1,0 +1,186 @@
+//! The options of `gpc render`.
+
+use super::image::ImageArgs;
+use crate::cli::report::ReportArgs;
+use crate::cli::values::{self, Shard};
+use clap::{Args, ValueEnum};
+use glam::DVec3;
+use gpc::output::VideoFormat;
+use gpc::render::{Coverage, Detection, Footprint, Method, PixelRect, Settings, Shading};
+use gpc::sampling::Pattern;
+use std::ops::RangeInclusive;
+use std::path::PathBuf;
+
+/// Renders a scene to image files.
+///
+/// OUT's ending decides the format: .png (8 bits a channel), .16.png (16 bits), .jpg or .jpeg (over black where
+/// there is no background, quality 95) and .exr (scene-linear, premultiplied, not tone-mapped, 32-bit floats). It may
+/// hold {stem} (the scene's name), {camera} (the camera's name, or its index) and {frame} (four digits or more).
+/// Files are written under a temporary name and renamed.
+#[derive(Args)]
+pub struct RenderArgs {
+    /// A glTF, OBJ, STL or PLY file, or - for standard input
+    #[arg(id = "file", value_name = "SCENE")]
+    pub scene: PathBuf,
+    /// Image to write, or - for a PNG on standard output
+    #[arg(short, long, value_name = "OUT")]
+    pub output: PathBuf,
+    /// What -o - writes instead of a PNG: frames one after the other, for an encoder
+    ///
+    /// y4m is YUV4MPEG2, BT.709 in limited range, 4:4:4, over black where there is no background; raw is RGBA of 8 bits, sRGB
+    /// with straight alpha.
+    #[arg(long, value_name = "F", hide_short_help = true)]
+    pub format: Option<VideoFormat>,
+
+    #[command(flatten)]
+    pub image: ImageArgs,
+    /// Render this part of the image alone, from column X and row Y on, to the same numbers as in the whole image
+    #[arg(long, value_name = "X,Y,WxH", value_parser = values::region, hide_short_help = true)]
+    pub region: Option<PixelRect>,
+    #[command(flatten)]
+    pub sequence: SequenceArgs,
+
+    /// Render once to warm up and then R times, and report medians
+    #[arg(long, value_name = "R", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Report", hide_short_help = true)]
+    pub repeat: Option<u32>,
+    #[command(flatten)]
+    pub report: ReportArgs,
+}
+
+/// How edges are antialiased.
+#[derive(Args, Clone)]
+#[command(next_help_heading = "Antialiasing")]
+pub struct SamplingArgs {
+    /// Method
+    #[arg(long, value_name = "METHOD", default_value = "superpixel")]
+    pub aa: Method,
+    /// Samples a pixel [default: 64; 4 for msaa]
+    ///
+    /// 1 to 1024 for superpixel, a square for ssaa, what the device has for msaa.
+    #[arg(long, value_name = "N")]
+    samples: Option<u32>,
+    /// Differences of neighbours above this are a contrast, in 8-bit sRGB code values
+    /// [default: 6; 1 from 128 samples on]
+    #[arg(long, value_name = "T", hide_short_help = true)]
+    pub contrast: Option<u8>,
+    /// What makes a pixel a superpixel: a neighbour in a contrasting colour; one that also shows another triangle; or
+    /// any neighbour that shows another triangle
+    #[arg(long, default_value = "contrast", hide_short_help = true)]
+    pub detect: Detection,
+    /// Where a superpixel's samples lie: lines, or as points: sobol, lattice, korobov, grid or rotated
+    #[arg(
+        long,
+        value_name = "P",
+        default_value = "lines",
+        hide_short_help = true
+    )]
+    pub pattern: Pattern,
+    /// How samples become coverage: the exact area of triangles that are seen whole, or counts of samples alone
+    #[arg(long, default_value = "area", hide_short_help = true)]
+    pub coverage: Coverage,
+    /// What texture levels are chosen for: the part of a pixel that a shading place stands for, or the whole pixel. none
+    /// and msaa have the pixel's at either
+    #[arg(long, default_value = "sample", hide_short_help = true)]
+    pub footprint: Footprint,
+    /// Shade a superpixel once for each visible triangle, in up to 256 parts where colours vary, or once a sample
+    #[arg(long, default_value = "part", hide_short_help = true)]
+    pub shading: Shading,
+}
+
+impl SamplingArgs {
+    /// The number of samples asked for, if any.
+    #[cfg(feature = "view")]
+    pub fn asked_samples(&self) -> Option<u32> {
+        self.samples
+    }
+
+    /// The number of samples asked for, or the method's default.
+    pub fn samples(&self) -> u32 {
+        self.samples.unwrap_or(match self.aa {
+            Method::None => 1,
+            Method::Msaa => 4,
+            Method::Superpixel | Method::Ssaa => Settings::DEFAULT_SAMPLES,
+        })
+    }
+}
+
+/// Where the scene is seen from, and when.
+#[derive(Args, Clone, Default)]
+#[command(next_help_heading = "View")]
+pub struct CameraArgs {
+    /// A camera of the scene, or all [default: the first, or else a view of the whole scene]
+    #[arg(long, value_name = "INDEX|NAME", conflicts_with_all = ["eye", "azimuth", "elevation", "zoom"])]
+    pub camera: Option<String>,
+    /// Stand here
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector, hide_short_help = true,
+        conflicts_with_all = ["azimuth", "elevation", "zoom"])]
+    pub eye: Option<DVec3>,
+    /// Look there [default: the scene's centre]
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector, requires = "eye", hide_short_help = true)]
+    pub target: Option<DVec3>,
+    /// This direction is up [default: 0,1,0]
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector, requires = "eye", hide_short_help = true)]
+    pub up: Option<DVec3>,
+    /// Vertical field of view in degrees [default: the camera's, or else 40]
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = values::field_of_view, hide_short_help = true)]
+    pub fov: Option<f64>,
+    /// See the whole scene from this angle around it [default: 35]
+    ///
+    /// 0 looks along -z, 90 along -x.
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = values::finite)]
+    pub azimuth: Option<f64>,
+    /// See the whole scene from this angle above the horizon [default: 20]
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = values::finite)]
+    pub elevation: Option<f64>,
+    /// See the whole scene this much larger than fits [default: 1]
+    #[arg(long, value_name = "F", value_parser = values::positive)]
+    pub zoom: Option<f64>,
+    /// Scene of the file by index [default: the file's own]
+    #[arg(long, value_name = "N", hide_short_help = true)]
+    pub scene: Option<usize>,
+    /// Variant of the materials by name [default: none]
+    #[arg(long, value_name = "NAME", hide_short_help = true)]
+    pub variant: Option<String>,
+    /// Moment of the animation in seconds
+    #[arg(long, value_name = "S", default_value_t = 0.0, value_parser = values::not_negative)]
+    pub time: f64,
+    /// Animation by name or index [default: the first, where a time is given]
+    #[arg(long, value_name = "NAME", hide_short_help = true)]
+    pub animation: Option<String>,
+}
+
+/// Several images in one go.
+#[derive(Args)]
+#[command(next_help_heading = "Sequences")]
+pub struct SequenceArgs {
+    /// Frames of the animation, both ends included
+    #[arg(long, value_name = "A..B", value_parser = values::frames, conflicts_with_all = ["turntable", "time"])]
+    pub frames: Option<RangeInclusive<u32>>,
+    /// Frames a second [default: 24]
+    #[arg(long, value_name = "F", value_parser = values::rate, hide_short_help = true)]
+    pub fps: Option<f64>,
+    /// N images from all around
+    ///
+    /// The camera turns about the vertical axis through what it looks at.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub turntable: Option<u32>,
+    /// Render the I-th of N equal shares of the sequence alone: every N-th image from the I-th on, I from 1 to N
+    #[arg(long, value_name = "I/N", value_parser = values::shard, hide_short_help = true)]
+    pub shard: Option<Shard>,
+}
+
+impl SequenceArgs {
+    const DEFAULT_FPS: f64 = 24.0;
+
+    /// Frames a second.
+    pub fn fps(&self) -> f64 {
+        self.fps.unwrap_or(Self::DEFAULT_FPS)
+    }
+}
+
+/// Values of `--tonemap`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Tonemap {
+    Neutral,
+    None,
+}

@@ -1,0 +1,193 @@
+//! `gpc render`.
+
+mod args;
+mod film;
+mod image;
+mod report;
+mod save;
+mod sequence;
+mod session;
+mod startup;
+mod template;
+mod unseen;
+mod view;
+
+#[cfg(feature = "view")]
+pub use args::SamplingArgs;
+pub use args::{CameraArgs, RenderArgs, Tonemap};
+pub use image::ImageArgs;
+#[cfg(feature = "view")]
+pub use image::{AppearanceArgs, DeviceArgs};
+pub use save::{beside, encode, save, write};
+pub use session::{Shot, open_beside, upload};
+pub use view::{NamedView, choose as choose_views};
+
+use super::exit::{Usage, usage};
+use super::input;
+use super::values::Background;
+use film::Film;
+use gpc::output::{Format, Picture, VideoWriter};
+use gpc::render::Settings;
+use indicatif::{ProgressBar, ProgressStyle};
+use report::{Origin, Report};
+use sequence::SequenceFrame;
+use serde::Serialize;
+use session::Session;
+use startup::Clock;
+use std::process::ExitCode;
+use template::{Fields, Template};
+
+/// Output of `--json` for several images.
+#[derive(Serialize)]
+struct Sequence {
+    images: Vec<Report>,
+}
+
+pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
+    let mut clock = Clock::start();
+    let template = Template::new(&args.output)?;
+    let (format, settings) = settings(args)?;
+    let (first, steps) = steps(args, &template)?;
+    let image = &args.image;
+    if steps.is_empty() {
+        log::info!("there are fewer images than shares: none are left for this one");
+        let images = Vec::new();
+        args.report.print(&Sequence { images })?;
+        return Ok(ExitCode::SUCCESS);
+    };
+    let aspect = f64::from(settings.size[0]) / f64::from(settings.size[1]);
+    let aovs = image.aovs();
+    let stem = input::stem(&args.scene);
+
+    let mut warnings = Warnings::default();
+    let (headless, (mut film, cameras)) = session::open_beside(image.device.name.clone(), || {
+        let loaded = image.load(&args.scene)?;
+        clock.lap("load");
+        warnings.add(&loaded.warnings);
+        let film = Film::new(image, loaded, first, &steps)?;
+        warnings.add(&film.pose.warnings);
+        if image.background == Background::Environment && film.environment().is_none() {
+            usage!("--background environment: there is none; name one by --environment FILE");
+        }
+        let cameras = film.views(aspect)?.len();
+        template.require("camera", "cameras", cameras)?;
+        clock.lap("pose");
+        Ok((film, cameras))
+    })?;
+    clock.lap("device");
+    let mut session = Session::new(headless, settings.clone());
+    let device = session.device();
+    let mut video = args
+        .format
+        .map(|stream| {
+            let (format, size) = (stream, settings.output_size());
+            VideoWriter::new(std::io::stdout(), format, size, args.sequence.fps())
+        })
+        .transpose()?;
+    let progress = progress(steps.len() * cameras, args.report.quiet);
+    let mut images = Vec::new();
+    for step in &steps {
+        warnings.add(&film.show(step.time, &mut session, &mut clock)?);
+        for view in film.views(aspect)? {
+            let camera = view.turned(step.turn);
+            let mut shot = session.shoot(&camera, args.repeat)?;
+            // A part of an image may well be empty.
+            if args.region.is_none() {
+                let colors = &shot.rendered.colors;
+                let warning = unseen::warning(colors, &view, &film.pose, film.cameras(), aspect);
+                warnings.add(warning.as_slice());
+            }
+            if let (Background::Environment, Some(environment)) =
+                (image.background, film.environment())
+            {
+                shot.rendered.show_behind(environment, &camera, &settings)?;
+            }
+            clock.lap("frame");
+            let path = template.fill(&Fields {
+                stem: &stem,
+                camera: &view.label,
+                frame: step.frame,
+            });
+            match &mut video {
+                Some(video) => {
+                    video.write(&Picture::new(shot.rendered.size, &shot.rendered.colors)?)?;
+                }
+                None => save::save(&path, format, &shot.rendered, &aovs)?,
+            }
+            clock.lap("write");
+            let origin = Origin {
+                output: path.display().to_string(),
+                device: &device,
+                settings: &settings,
+                view: &view,
+                camera: &camera,
+                startup: clock.finish().filter(|_| args.repeat.is_none()),
+                warnings: warnings.0.clone(),
+            };
+            let report = Report::new(origin, &shot);
+            progress.suspend(|| log::info!("{}", report.line()));
+            progress.inc(1);
+            images.push(report);
+        }
+    }
+    progress.finish_and_clear();
+    if let Some(message) = session.validation_messages().first() {
+        anyhow::bail!("the validation layer says: {message}");
+    }
+    match images.as_slice() {
+        [image] if args.sequence.shard.is_none() => args.report.print(image)?,
+        _ => args.report.print(&Sequence { images })?,
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Settings and format of the images; an error if these contradict each other.
+fn settings(args: &RenderArgs) -> anyhow::Result<(Format, Settings)> {
+    args.report.check(&args.output)?;
+    let format = args.image.format(&args.output)?;
+    let settings = Settings {
+        region: args.region,
+        ..args.image.settings(format)
+    };
+    if let Some(region) = args.region {
+        region.end(settings.size)?;
+    }
+    Ok((format, settings))
+}
+
+/// The images of the sequence, or of the share of it that is asked for.
+fn steps(args: &RenderArgs, template: &Template) -> Result<(f64, Vec<SequenceFrame>), Usage> {
+    sequence::check(args)?;
+    let steps = sequence::steps(args)?;
+    if args.format.is_none() {
+        template.require("frame", "frames", steps.len())?;
+    }
+    // What all shares start from, so that none shows.
+    let first = steps.first().map_or(0.0, |step| step.time);
+    Ok((first, sequence::share(steps, args.sequence.shard)))
+}
+
+/// Progress bar on standard error, if that is a terminal.
+fn progress(count: usize, quiet: bool) -> ProgressBar {
+    if quiet || count < 2 {
+        return ProgressBar::hidden();
+    }
+    let style = ProgressStyle::with_template("{wide_bar} {pos}/{len} images, {eta} left")
+        .unwrap_or_else(|_| ProgressStyle::default_bar());
+    ProgressBar::new(count as u64).with_style(style)
+}
+
+/// Every warning once.
+#[derive(Default)]
+struct Warnings(Vec<String>);
+
+impl Warnings {
+    fn add(&mut self, found: &[String]) {
+        for warning in found {
+            if !self.0.contains(warning) {
+                log::warn!("{warning}");
+                self.0.push(warning.clone());
+            }
+        }
+    }
+}

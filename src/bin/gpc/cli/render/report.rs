@@ -1,0 +1,125 @@
+//! Report on an image.
+
+use super::session::Shot;
+use super::startup::StartUp;
+use super::view::NamedView;
+use crate::cli::report::{Device, Effort, RenderWork};
+use gpc::camera::{Camera, Projection};
+use gpc::render::Settings;
+use serde::Serialize;
+
+/// Figures of one image.
+#[derive(Serialize)]
+pub struct Report {
+    /// The file, or `-`.
+    output: String,
+    #[serde(flatten)]
+    device: Device,
+    /// Width and height of the rendered image or part in pixels.
+    size: [u32; 2],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    region: Option<RegionReport>,
+    camera: CameraReport,
+    #[serde(flatten)]
+    effort: Effort,
+    /// Times of starting, for the first image unless renderings are repeated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    startup_ms: Option<StartUp>,
+    warnings: Vec<String>,
+}
+
+/// Part of an image that was rendered.
+#[derive(Serialize)]
+struct RegionReport {
+    /// Column and row of its upper left pixel.
+    corner: [u32; 2],
+    /// Width and height of the whole image.
+    image: [u32; 2],
+}
+
+#[derive(Serialize)]
+struct CameraReport {
+    /// Column by column.
+    view: [f64; 16],
+    projection: [f64; 16],
+    eye: [f64; 3],
+    target: [f64; 3],
+    up: [f64; 3],
+    /// Vertical, in degrees; `null` for an orthographic camera.
+    fov: Option<f64>,
+}
+
+/// Source and destination of an image.
+pub struct Origin<'a> {
+    pub output: String,
+    pub device: &'a Device,
+    pub settings: &'a Settings,
+    pub view: &'a NamedView,
+    /// The view's camera as it was turned.
+    pub camera: &'a Camera,
+    pub startup: Option<StartUp>,
+    pub warnings: Vec<String>,
+}
+
+impl Report {
+    pub fn new(origin: Origin<'_>, shot: &Shot) -> Self {
+        let size = origin.settings.output_size();
+        let [width, height] = origin.settings.size.map(f64::from);
+        Self {
+            output: origin.output,
+            device: origin.device.clone(),
+            size,
+            region: origin.settings.region.map(|region| RegionReport {
+                corner: region.corner,
+                image: origin.settings.size,
+            }),
+            camera: describe(origin.camera, origin.view, width / height),
+            effort: Effort::new(
+                origin.settings,
+                &RenderWork {
+                    statistics: &shot.rendered.statistics,
+                    cells: u64::from(size[0]) * u64::from(size[1]),
+                    passes: &shot.passes,
+                    wall_ms: &shot.wall_ms,
+                },
+            ),
+            startup_ms: origin.startup,
+            warnings: origin.warnings,
+        }
+    }
+
+    /// Report as one line for people.
+    pub fn line(&self) -> String {
+        let [width, height] = self.size;
+        let Effort {
+            samples,
+            superpixels,
+            triangles,
+            ..
+        } = &self.effort;
+        format!(
+            "{}: {width}x{height}, {} triangles, {} superpixels ({:.1} %) of {samples} samples, GPU {:.1} ms, {}",
+            self.output,
+            triangles.total,
+            superpixels.count,
+            100.0 * superpixels.fraction,
+            self.effort.total_gpu_ms(),
+            self.device.device
+        )
+    }
+}
+
+fn describe(camera: &Camera, view: &NamedView, aspect: f64) -> CameraReport {
+    let distance = (view.target - view.camera.eye).length();
+    CameraReport {
+        view: camera.view().to_cols_array(),
+        projection: camera.projection_matrix(aspect).to_cols_array(),
+        eye: camera.eye.to_array(),
+        target: (camera.eye + camera.direction() * distance).to_array(),
+        up: camera.axes.y_axis.to_array(),
+        fov: match camera.projection {
+            Projection::Perspective { fov, .. } => Some(fov.to_degrees()),
+            Projection::Orthographic { .. } => None,
+        },
+    }
+}

@@ -1,0 +1,75 @@
+//! An image and its AOVs into files.
+
+use crate::cli::{input, print};
+use gpc::output::{self, Aov, AovKind, Format, Picture};
+use gpc::render::Rendered;
+use std::path::{Path, PathBuf};
+
+/// Writes an image to a file, or to standard output for `-`. Its AOVs become files in the same folder, unless the
+/// format has layers.
+pub fn save(
+    path: &Path,
+    format: Format,
+    rendered: &Rendered,
+    kinds: &[AovKind],
+) -> anyhow::Result<()> {
+    let bytes = encode(path, format, rendered, kinds)?;
+    write(path, &bytes)
+}
+
+/// Encodes an image. AOVs for which the format has no layers are written to files in the same folder.
+pub fn encode(
+    path: &Path,
+    format: Format,
+    rendered: &Rendered,
+    kinds: &[AovKind],
+) -> anyhow::Result<Vec<u8>> {
+    let picture = Picture::new(rendered.size, &rendered.colors)?;
+    let aovs: Vec<_> = kinds
+        .iter()
+        .map(|kind| Aov::from_attributes(*kind, &rendered.attributes))
+        .collect();
+    let bytes = output::encode(format, &picture, &aovs)?;
+    if format != Format::Exr {
+        for aov in &aovs {
+            let bytes = output::encode_aov(rendered.size, aov)?;
+            output::write_atomically(&beside(path, format, aov.kind().name()), &bytes)?;
+        }
+    }
+    Ok(bytes)
+}
+
+/// Writes a file, or to standard output for `-`.
+pub fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
+    if input::is_standard(path) {
+        return print::bytes(bytes);
+    }
+    Ok(output::write_atomically(path, bytes)?)
+}
+
+/// `a.depth.png` for `a.png`, `a.16.png` and `a.jpg`, where what the file holds is depth.
+pub fn beside(path: &Path, format: Format, holds: &str) -> PathBuf {
+    let mut stem = path.with_extension("");
+    if format == Format::Png16 {
+        stem.set_extension("");
+    }
+    let mut name = stem.into_os_string();
+    name.push(format!(".{holds}.png"));
+    PathBuf::from(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn aovs_are_named_after_the_image() {
+        let name = |path: &str| {
+            let path = Path::new(path);
+            beside(path, Format::of(path).unwrap(), "id")
+        };
+        assert_eq!(name("o/a.b.png"), Path::new("o/a.b.id.png"));
+        assert_eq!(name("a.16.png"), Path::new("a.id.png"));
+        assert_eq!(name("a.jpeg"), Path::new("a.id.png"));
+    }
+}

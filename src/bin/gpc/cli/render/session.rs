@@ -1,0 +1,146 @@
+//! A device with one scene on it, rendering image after image.
+
+use super::startup::Clock;
+use crate::cli::report::Device;
+use gpc::camera::Camera;
+use gpc::render::{
+    Frame, Headless, HeadlessOptions, PassTime, PreparedScene, RenderError, Rendered, SceneRequest,
+    Settings, Shadows,
+};
+use gpc::scene::{Moment, Motion, Pose, Scene};
+use gpc::vulkan::VulkanError;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Renders with the same settings until it is dropped.
+pub struct Session {
+    headless: Headless,
+    settings: Settings,
+    shown: Option<Frame>,
+}
+
+/// An image, and the times of all renderings that it took.
+pub struct Shot {
+    pub rendered: Rendered,
+    /// Times of the passes, a list for each rendering.
+    pub passes: Vec<Vec<PassTime>>,
+    /// Wall-clock milliseconds of each rendering, from recording to the image in host memory.
+    pub wall_ms: Vec<f64>,
+}
+
+/// Opens a device by part of its name, or the best one; under the validation layer where the environment says so.
+fn open(device: Option<String>) -> Result<Headless, VulkanError> {
+    let validation = std::env::var_os("GPC_VALIDATION").is_some_and(|value| !value.is_empty());
+    Headless::new(&HeadlessOptions { device, validation })
+}
+
+/// Opens a device as [`open`] does while `load` reads what is to be shown. Where both fail, the error is that of `load`.
+pub fn open_beside<T>(
+    device: Option<String>,
+    load: impl FnOnce() -> anyhow::Result<T>,
+) -> anyhow::Result<(Headless, T)> {
+    std::thread::scope(|threads| {
+        let headless = threads.spawn(|| open(device));
+        let loaded = load();
+        let headless = headless
+            .join()
+            .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        let loaded = loaded?;
+        Ok((headless?, loaded))
+    })
+}
+
+/// Puts a pose on the device, to be moved where a motion says so, and ready for the shadows that the settings ask for.
+pub fn upload(
+    headless: &mut Headless,
+    scene: &Scene,
+    (pose, motion): (&Pose, Option<&Motion>),
+    settings: &Settings,
+) -> Result<PreparedScene, RenderError> {
+    if settings.shadows == Shadows::Exact && pose.lights.is_empty() {
+        log::warn!("--shadows: the scene has no lights of its own, and so no shadows");
+    }
+    headless.upload(
+        SceneRequest::new(scene, pose)
+            .moving(motion)
+            .shadowed(settings.shadows)
+            .within(settings.max_memory),
+    )
+}
+
+impl Session {
+    /// Opens a session on a device.
+    pub fn new(headless: Headless, settings: Settings) -> Self {
+        Self {
+            headless,
+            settings,
+            shown: None,
+        }
+    }
+
+    /// The device.
+    pub fn device(&self) -> Device {
+        Device::of(&self.headless)
+    }
+
+    /// Puts a pose on the device in place of the one before, to be moved where a motion says so, and makes pipelines for
+    /// it.
+    pub fn show(
+        &mut self,
+        scene: &Scene,
+        pose: &Pose,
+        motion: Option<&Motion>,
+        clock: &mut Clock,
+    ) -> Result<(), RenderError> {
+        // The memory of the pose before is free for this one.
+        self.shown = None;
+        let scene = upload(&mut self.headless, scene, (pose, motion), &self.settings)?;
+        clock.lap("upload");
+        let frame = self.headless.prepare(&scene, &self.settings)?;
+        clock.lap("pipelines");
+        self.shown = Some(frame);
+        Ok(())
+    }
+
+    /// Moves what is shown.
+    pub fn show_moment(&mut self, moment: Moment) -> Result<(), RenderError> {
+        match &mut self.shown {
+            Some(frame) => frame.show(Arc::new(moment)),
+            None => Err(RenderError::OtherMotion),
+        }
+    }
+
+    /// Renders what is shown: once, or with `repeat` once unmeasured and then `repeat` times.
+    pub fn shoot(&mut self, camera: &Camera, repeat: Option<u32>) -> anyhow::Result<Shot> {
+        if repeat.is_some() {
+            self.render(camera)?;
+        }
+        let mut passes = Vec::new();
+        let mut wall_ms = Vec::new();
+        loop {
+            let start = Instant::now();
+            let rendered = self.render(camera)?;
+            wall_ms.push(1e3 * start.elapsed().as_secs_f64());
+            passes.push(rendered.statistics.passes.clone());
+            if passes.len() >= repeat.unwrap_or(1) as usize {
+                return Ok(Shot {
+                    rendered,
+                    passes,
+                    wall_ms,
+                });
+            }
+        }
+    }
+
+    fn render(&mut self, camera: &Camera) -> anyhow::Result<Rendered> {
+        let Some(frame) = &mut self.shown else {
+            anyhow::bail!("nothing was put on the device to render");
+        };
+        Ok(self.headless.render(frame, camera)?)
+    }
+
+    /// Messages of the validation layer, if it runs.
+    pub fn validation_messages(&self) -> Vec<String> {
+        self.headless.validation_messages()
+    }
+}

@@ -1,0 +1,152 @@
+//! Output names with fields.
+
+use crate::cli::exit::Usage;
+use std::path::{Path, PathBuf};
+
+/// Values of `{stem}`, `{camera}` and `{frame}`.
+pub struct Fields<'a> {
+    pub stem: &'a str,
+    pub camera: &'a str,
+    pub frame: u32,
+}
+
+const KNOWN: [&str; 3] = ["stem", "camera", "frame"];
+
+/// OUT, checked.
+pub struct Template(String);
+
+impl Template {
+    /// Checks the fields of a name.
+    pub fn new(path: &Path) -> Result<Self, Usage> {
+        let Some(text) = path.to_str() else {
+            return Err(Usage(format!("-o {}: it is not UTF-8", path.display())));
+        };
+        let mut rest = text;
+        while let Some((_, after)) = rest.split_once('{') {
+            let Some((field, after)) = after.split_once('}') else {
+                return Err(Usage(format!("-o {text}: a {{ without a }}")));
+            };
+            if !KNOWN.contains(&field) {
+                return Err(Usage(format!(
+                    "-o {text}: there is no field {{{field}}}; there are {{stem}}, {{camera}} and {{frame}}"
+                )));
+            }
+            rest = after;
+        }
+        Ok(Self(text.to_owned()))
+    }
+
+    /// Refuses to write several images under one name.
+    pub fn require(&self, field: &str, what: &str, count: usize) -> Result<(), Usage> {
+        let placeholder = format!("{{{field}}}");
+        if count <= 1 || self.0.contains(&placeholder) {
+            return Ok(());
+        }
+        Err(Usage(if self.0 == "-" {
+            format!(
+                "-o -: standard output takes one image, not {count} {what}; with --format y4m or raw it takes frames"
+            )
+        } else {
+            format!(
+                "-o {}: add {placeholder} to it, for there are {count} {what}",
+                self.0
+            )
+        }))
+    }
+
+    /// The name of one image. Values are put in as they are, braces in them included.
+    pub fn fill(&self, fields: &Fields<'_>) -> PathBuf {
+        let frame = format!("{:04}", fields.frame);
+        let mut name = String::new();
+        let mut rest = self.0.as_str();
+        while let Some((before, after)) = rest.split_once('{') {
+            name.push_str(before);
+            let (field, after) = after.split_once('}').unwrap_or((after, ""));
+            name.push_str(match field {
+                "stem" => fields.stem,
+                "camera" => fields.camera,
+                _ => &frame,
+            });
+            rest = after;
+        }
+        name.push_str(rest);
+        PathBuf::from(name)
+    }
+}
+
+/// A name from a scene as part of a file name: what folders, drives and shells give a meaning becomes `_`.
+pub fn file_name_part(name: &str) -> String {
+    let safe = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | '.' | ' ' | '+');
+    let part: String = name
+        .chars()
+        .map(|c| if safe(c) { c } else { '_' })
+        .collect();
+    match part.trim_matches(['.', ' ']) {
+        "" => "_".to_owned(),
+        trimmed => trimmed.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn template(text: &str) -> Result<Template, String> {
+        Template::new(Path::new(text)).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn fields_are_filled_in() {
+        let fields = Fields {
+            stem: "a{frame}",
+            camera: "top",
+            frame: 7,
+        };
+        let name = template("o/{stem}-{camera}.{frame}.png")
+            .unwrap()
+            .fill(&fields);
+        assert_eq!(name, Path::new("o/a{frame}-top.0007.png"));
+        let frame = 12_345;
+        let name = template("{frame}")
+            .unwrap()
+            .fill(&Fields { frame, ..fields });
+        assert_eq!(name, Path::new("12345"));
+    }
+
+    #[test]
+    fn unknown_fields_are_told_the_known_ones() {
+        let message = template("{name}.png").err().unwrap();
+        assert!(
+            message.contains("{name}") && message.contains("{stem}"),
+            "{message}"
+        );
+        assert!(template("{stem.png").is_err());
+    }
+
+    #[test]
+    fn several_images_need_a_field() {
+        let plain = template("a.png").unwrap();
+        assert!(plain.require("frame", "frames", 1).is_ok());
+        let message = plain.require("frame", "frames", 2).unwrap_err().to_string();
+        assert!(message.contains("add {frame}"), "{message}");
+        assert!(
+            template("{frame}.png")
+                .unwrap()
+                .require("frame", "frames", 2)
+                .is_ok()
+        );
+        assert!(
+            template("-")
+                .unwrap()
+                .require("camera", "cameras", 2)
+                .is_err()
+        );
+    }
+
+    #[test]
+    fn names_stay_in_their_folder() {
+        assert_eq!(file_name_part("../../etc/passwd"), "_.._etc_passwd");
+        assert_eq!(file_name_part(".."), "_");
+        assert_eq!(file_name_part("Kamera 1 süd"), "Kamera 1 süd");
+    }
+}

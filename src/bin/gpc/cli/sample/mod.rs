@@ -1,0 +1,221 @@
+//! `gpc sample`.
+
+mod csv;
+mod npy;
+mod table;
+
+use super::exit::{Usage, usage};
+use super::render::{ImageArgs, Tonemap};
+use super::report::{Effort, RenderWork, ReportArgs};
+use super::stage::Stage;
+use super::{input, render};
+use anyhow::Context;
+use clap::Args;
+use gpc::camera::Pinhole;
+use gpc::camera::set::SamplingSet;
+use gpc::output::{self, Format, OutputError, Picture};
+use gpc::render::{Method, PointSample, Sampled};
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+use table::Locations;
+
+/// Samples a scene at any locations.
+///
+/// A file of samples is a CSV with the header u,v or u,v,row,col, or a NPY array of N x 2 or N x 4 numbers
+/// (float32 or float64). Locations are in pixels of an image of --size, (0, 0) at its upper left corner; they may lie
+/// outside of it. Rows and columns tell which locations are neighbours, so that textures are filtered over what lies
+/// between them; without them a sample stands for a pixel.
+///
+/// A row of the result belongs to a sample, in the order given: u, v, the colour r, g, b, a (linear light, premultiplied,
+/// not tone-mapped unless asked), depth (distance along the direction of view; 0 where nothing is hit), id (index of the
+/// triangle plus 1), hit (1 or 0) and the normal x, y, z. A CSV has a header; a NPY is an array of N x 12 float64.
+/// An image (.png, .16.png, .jpg, .exr) has the mean colour of the samples of each row and column, tone-mapped as those
+/// of gpc render are.
+/// Samples are points; with --aa superpixel or ssaa the colour is the mean of --supersamples
+/// points around each.
+#[derive(Args)]
+#[command(
+    mut_arg("aa", |arg| arg.default_value("none")),
+    mut_arg("samples", |arg| arg.long("supersamples"))
+)]
+pub struct SampleArgs {
+    /// A .glb or .gltf file, or - for standard input
+    #[arg(id = "file", value_name = "SCENE")]
+    scene: PathBuf,
+    /// Where to sample: .csv or .npy
+    #[arg(long = "samples", value_name = "FILE")]
+    locations: PathBuf,
+    /// File to write: .csv, .npy or an image, or - for a CSV on standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+
+    #[command(flatten)]
+    image: ImageArgs,
+    #[command(flatten)]
+    pub report: ReportArgs,
+}
+
+/// Fields of `--json` for samples, besides those of every image.
+#[derive(Serialize)]
+struct Seen {
+    /// Sampling locations.
+    locations: usize,
+    /// Number of samples that see a triangle.
+    hits: usize,
+}
+
+/// Format of the output.
+#[derive(Clone, Copy)]
+enum Kind {
+    Csv,
+    Npy,
+    /// An image by row and column.
+    Image(Format),
+}
+
+pub fn run(args: &SampleArgs) -> anyhow::Result<ExitCode> {
+    args.report.check(&args.output)?;
+    let kind = kind(args)?;
+    let locations = read(&args.locations)?;
+    if matches!(kind, Kind::Image(_)) && locations.cells.is_none() {
+        let name = args.locations.display();
+        usage!("{name}: an image takes rows and columns; give u,v,row,col");
+    }
+    let set = set(&locations).with_context(|| args.locations.display().to_string())?;
+    let format = match (kind, args.image.tonemap) {
+        (Kind::Image(format), _) => format,
+        // Without a tone map, colours are those of a scene-linear image.
+        (_, Some(Tonemap::Neutral)) => Format::Png8,
+        _ => Format::Exr,
+    };
+    let mut stage = Stage::open(&args.scene, &args.image, args.image.settings(format))?;
+    let pinhole = stage.pinhole()?;
+    let start = Instant::now();
+    let Sampled {
+        values: samples,
+        statistics,
+    } = sample(&mut stage, &pinhole, &set, args.image.sampling.aa)?;
+    let work = RenderWork {
+        statistics: &statistics,
+        cells: samples.len() as u64,
+        passes: std::slice::from_ref(&statistics.passes),
+        wall_ms: &[1e3 * start.elapsed().as_secs_f64()],
+    };
+    stage.finish()?;
+    let rows = || {
+        let pairs = locations.uv.iter().zip(&samples);
+        pairs
+            .map(|(uv, sample)| table::row(*uv, sample))
+            .collect::<Vec<_>>()
+    };
+    let bytes = match kind {
+        Kind::Csv => csv::write(&rows()),
+        Kind::Npy => npy::write(&rows()),
+        Kind::Image(format) => {
+            let colors: Vec<_> = samples.iter().map(|sample| sample.color).collect();
+            let pixels = set.image(&colors);
+            output::encode(format, &Picture::new(set.size(), &pixels)?, &[])?
+        }
+    };
+    render::write(&args.output, &bytes)?;
+    let seen = Seen {
+        locations: samples.len(),
+        hits: samples
+            .iter()
+            .filter(|sample| table::is_hit(sample))
+            .count(),
+    };
+    log::info!(
+        "{}: {} samples, {} of them see a triangle",
+        args.output.display(),
+        seen.locations,
+        seen.hits
+    );
+    let size = match kind {
+        Kind::Image(_) => set.size(),
+        Kind::Csv | Kind::Npy => args.image.size,
+    };
+    let effort = Effort::new(&stage.settings, &work);
+    args.report
+        .print(&stage.figures(&args.output, size, effort, seen))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Values of each sample; with antialiasing their colours are means.
+fn sample(
+    stage: &mut Stage,
+    pinhole: &Pinhole,
+    set: &SamplingSet,
+    aa: Method,
+) -> anyhow::Result<Sampled<PointSample>> {
+    let locations = set.locations();
+    let Stage {
+        headless,
+        scene,
+        settings,
+        ..
+    } = stage;
+    let mut samples = headless.sample_points(scene, pinhole, &locations, settings)?;
+    match aa {
+        Method::None => {}
+        Method::Superpixel | Method::Ssaa => {
+            let means = headless.sample_superpixels(scene, pinhole, &locations, settings)?;
+            for (sample, color) in samples.values.iter_mut().zip(means.values) {
+                sample.color = color;
+            }
+            samples.statistics.append(means.statistics);
+        }
+        Method::Msaa => usage!("--aa msaa: the device's own samples lie in pixels only"),
+    }
+    Ok(samples)
+}
+
+/// The sampling set of a file. Samples without rows and columns are all in one cell, so that they have no neighbours.
+fn set(locations: &Locations) -> anyhow::Result<SamplingSet> {
+    const LEAF_SAMPLES: usize = 32;
+    let samples = locations.samples()?;
+    let size = samples.iter().fold([1, 1], |[columns, rows], sample| {
+        [
+            columns.max(sample.col.saturating_add(1)),
+            rows.max(sample.row.saturating_add(1)),
+        ]
+    });
+    Ok(SamplingSet::no_pattern(size, samples, None, LEAF_SAMPLES)?)
+}
+
+fn read(path: &Path) -> anyhow::Result<Locations> {
+    let bytes = std::fs::read(path).map_err(|source| OutputError::Read {
+        path: path.to_path_buf(),
+        source,
+    })?;
+    let read = if ends_with(path, "npy") {
+        npy::read(&bytes)
+    } else {
+        csv::read(&bytes)
+    };
+    read.map_err(|reason| anyhow::anyhow!("{}: {reason}", path.display()))
+}
+
+fn kind(args: &SampleArgs) -> anyhow::Result<Kind> {
+    args.image.check_samples()?;
+    if !args.image.aov.is_empty() {
+        usage!("--aov: a CSV or NPY of samples has all that there is");
+    }
+    let path = &args.output;
+    if input::is_standard(path) || ends_with(path, "csv") {
+        Ok(Kind::Csv)
+    } else if ends_with(path, "npy") {
+        Ok(Kind::Npy)
+    } else {
+        let known = |error| Usage(format!("-o {error}; for numbers in .csv or .npy"));
+        Format::of(path).map_err(known)?;
+        Ok(Kind::Image(args.image.format(path)?))
+    }
+}
+
+fn ends_with(path: &Path, ending: &str) -> bool {
+    path.extension()
+        .is_some_and(|found| found.eq_ignore_ascii_case(ending))
+}

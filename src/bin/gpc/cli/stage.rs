@@ -1,0 +1,120 @@
+//! A scene on a device and one camera, for the commands that choose their own sampling locations.
+
+use super::exit::usage;
+use super::render::{self, ImageArgs, Shot};
+use super::report::{Device, Effort, Figures, RenderWork};
+use super::values::Background;
+use gpc::camera::{Camera, Pinhole, SampleLocation};
+use gpc::render::{Headless, PreparedScene, Settings};
+use serde::Serialize;
+use std::path::Path;
+use std::time::Instant;
+
+/// Scene on a device, the cameras that sample it, and the settings.
+pub struct Stage {
+    pub headless: Headless,
+    pub scene: PreparedScene,
+    pub camera: Camera,
+    pub settings: Settings,
+    /// Warnings: parts of the scene that could not be shown.
+    warnings: Vec<String>,
+}
+
+impl Stage {
+    /// Loads a scene, poses it and puts it on the device.
+    pub fn open(path: &Path, image: &ImageArgs, settings: Settings) -> anyhow::Result<Self> {
+        if image.background == Background::Environment {
+            usage!("--background environment: this command shows none; `gpc render` does");
+        }
+        let (mut headless, (loaded, pose, warnings, camera)) =
+            render::open_beside(image.device.name.clone(), || {
+                let loaded = image.load(path)?;
+                let pose = image.pose(&loaded, image.camera.time)?;
+                let warnings: Vec<_> = loaded
+                    .warnings
+                    .iter()
+                    .chain(&pose.warnings)
+                    .cloned()
+                    .collect();
+                for warning in &warnings {
+                    log::warn!("{warning}");
+                }
+                let [width, height] = image.size.map(f64::from);
+                let views = render::choose_views(&image.camera, &pose, width / height)?;
+                let [view] = views.as_slice() else {
+                    usage!("--camera all: this command takes one camera");
+                };
+                let camera = view.camera;
+                Ok((loaded, pose, warnings, camera))
+            })?;
+        let scene = render::upload(&mut headless, &loaded.scene, (&pose, None), &settings)?;
+        Ok(Self {
+            headless,
+            scene,
+            camera,
+            settings,
+            warnings,
+        })
+    }
+
+    /// The camera's pinhole for an image of the size asked for.
+    pub fn pinhole(&self) -> anyhow::Result<Pinhole> {
+        Ok(Pinhole::from_camera(&self.camera, self.settings.size)?)
+    }
+
+    /// Renders an image of `size` pixels that look where the locations of pinholes say.
+    pub fn render(
+        &mut self,
+        size: [u32; 2],
+        rig: &[(Pinhole, Vec<SampleLocation>)],
+    ) -> anyhow::Result<Shot> {
+        let start = Instant::now();
+        let rendered = self
+            .headless
+            .render_locations(&self.scene, rig, size, &self.settings)?;
+        Ok(Shot {
+            passes: vec![rendered.statistics.passes.clone()],
+            wall_ms: vec![1e3 * start.elapsed().as_secs_f64()],
+            rendered,
+        })
+    }
+
+    /// Figures of what was rendered to a file; `more` adds the command's own.
+    pub fn figures<T: Serialize>(
+        &self,
+        output: &Path,
+        size: [u32; 2],
+        effort: Effort,
+        more: T,
+    ) -> Figures<T> {
+        Figures {
+            output: output.display().to_string(),
+            device: Device::of(&self.headless),
+            size,
+            effort,
+            more,
+            warnings: self.warnings.clone(),
+        }
+    }
+
+    /// Effort of making an image.
+    pub fn effort(&self, shot: &Shot) -> Effort {
+        Effort::new(
+            &self.settings,
+            &RenderWork {
+                statistics: &shot.rendered.statistics,
+                cells: shot.rendered.colors.len() as u64,
+                passes: &shot.passes,
+                wall_ms: &shot.wall_ms,
+            },
+        )
+    }
+
+    /// Fails if the validation layer was asked, and has said anything.
+    pub fn finish(&self) -> anyhow::Result<()> {
+        match self.headless.validation_messages().first() {
+            Some(message) => anyhow::bail!("the validation layer says: {message}"),
+            None => Ok(()),
+        }
+    }
+}

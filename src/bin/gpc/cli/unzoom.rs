@@ -1,0 +1,134 @@
+//! `gpc unzoom`.
+
+use super::exit::{Usage, usage};
+use super::report::ReportArgs;
+use super::zoom::check_window;
+use super::{compare as text, input, print};
+use clap::Args;
+use gpc::camera::LocationMap;
+use gpc::camera::zoom::{Window, ZoomRegion};
+use gpc::compare::Comparison;
+use gpc::output::{self, DecodedImage, Format, Picture};
+use gpc::resample::Zoomed;
+use gpc::{compare, output::OutputError};
+use serde::Serialize;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::Instant;
+
+/// Turns an image of gpc zoom back into an ordinary view, without the scene.
+///
+/// The map is found in the image, so that it must be a PNG as gpc zoom wrote it. The view is that of a region: the
+/// rectangle around it, with a pixel for each of its pixels, as if the camera had looked at nothing else.
+#[derive(Args)]
+pub struct UnzoomArgs {
+    /// A PNG of gpc zoom
+    image: PathBuf,
+    /// Image to write: .png, .16.png, .jpg or .exr, or - for a PNG on standard output
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+    /// Which region, in the order in which they were given to gpc zoom, from 0
+    #[arg(long, value_name = "N", default_value_t = 0, conflicts_with = "whole")]
+    region: usize,
+    /// All that the image shows, at the rate of its surroundings, in place of one region
+    #[arg(long)]
+    whole: bool,
+    /// Compare with this image of the same view, and print rmse, psnr, max and flip as gpc compare does
+    #[arg(long, value_name = "IMAGE")]
+    reference: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub report: ReportArgs,
+}
+
+/// Output of `--json`.
+#[derive(Serialize)]
+struct Unzoomed {
+    /// The file.
+    output: String,
+    /// Width and height of the image.
+    size: [u32; 2],
+    /// The regions that the zoomed image holds.
+    regions: Vec<ZoomRegion>,
+    /// Index of the region that is shown; `null` if the whole image is.
+    region: Option<usize>,
+    /// Wall-clock milliseconds of resampling.
+    wall_ms: f64,
+    /// Difference of the image from that of `--reference`.
+    comparison: Option<Comparison>,
+}
+
+pub fn run(args: &UnzoomArgs) -> anyhow::Result<ExitCode> {
+    args.report.check(&args.output)?;
+    let format = if input::is_standard(&args.output) {
+        if args.reference.is_some() {
+            usage!("-o - and --reference both want standard output");
+        }
+        Format::Png8
+    } else {
+        Format::of(&args.output).map_err(|error| Usage(format!("-o {error}")))?
+    };
+    let name = args.image.display().to_string();
+    let bytes = std::fs::read(&args.image).map_err(|source| OutputError::Read {
+        path: args.image.clone(),
+        source,
+    })?;
+    let zoomed = Zoomed::decode(&bytes, &name)?;
+    let regions = zoomed.map().regions();
+    let window = window(args, zoomed.photograph().size(), regions)?;
+    let start = Instant::now();
+    let pixels = zoomed.photograph().resample(window.size, |place| {
+        zoomed.place(window.location(place), window.jacobian(place))
+    });
+    let wall_ms = 1e3 * start.elapsed().as_secs_f64();
+    let picture = Picture::new(window.size, &pixels)?;
+    let bytes = output::encode(format, &picture, &[])?;
+    if input::is_standard(&args.output) {
+        print::bytes(&bytes)?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    output::write_atomically(&args.output, &bytes)?;
+    let comparison = match &args.reference {
+        Some(reference) => {
+            let reference = output::read(reference)?;
+            Some(compare::compare(&reference, &DecodedImage::from(&picture))?)
+        }
+        None => None,
+    };
+    if let Some(comparison) = &comparison
+        && !args.report.json
+        && !args.report.quiet
+    {
+        text::print_lines(comparison)?;
+    }
+    args.report.print(&Unzoomed {
+        output: args.output.display().to_string(),
+        size: window.size,
+        region: (!args.whole).then_some(args.region),
+        regions: regions.to_vec(),
+        wall_ms,
+        comparison,
+    })?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The part of the plane that is asked for.
+fn window(args: &UnzoomArgs, size: [u32; 2], regions: &[ZoomRegion]) -> Result<Window, Usage> {
+    if args.whole {
+        return Ok(Window {
+            size,
+            corner: [0.0, 0.0],
+            step: 1.0,
+        });
+    }
+    let Some(region) = regions.get(args.region) else {
+        return Err(Usage(format!(
+            "--region {}: regions are counted from 0, and the image has {}",
+            args.region,
+            regions.len()
+        )));
+    };
+    let window = region.window();
+    check_window(args.region, &window)?;
+    Ok(window)
+}

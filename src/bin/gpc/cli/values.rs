@@ -1,0 +1,332 @@
+//! Values of options, from text.
+
+use glam::DVec3;
+use gpc::color::srgb;
+use gpc::render::{PixelRect, Settings};
+use std::ops::RangeInclusive;
+
+/// A number that is neither infinite nor NaN.
+pub fn finite(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() => Ok(number),
+        _ => Err("expected a number, such as 1.5".to_owned()),
+    }
+}
+
+/// A number of 0 or more.
+pub fn not_negative(text: &str) -> Result<f64, String> {
+    match finite(text) {
+        Ok(number) if number >= 0.0 => Ok(number),
+        _ => Err("expected a number of 0 or more".to_owned()),
+    }
+}
+
+/// A number above 0.
+pub fn positive(text: &str) -> Result<f64, String> {
+    match finite(text) {
+        Ok(number) if number > 0.0 => Ok(number),
+        _ => Err("expected a number above 0".to_owned()),
+    }
+}
+
+/// Width of lines or size of points in pixels.
+pub fn stroke(text: &str) -> Result<f64, String> {
+    let largest = Settings::LARGEST_STROKE;
+    positive(text)
+        .ok()
+        .filter(|size| *size <= f64::from(largest))
+        .ok_or_else(|| format!("expected pixels above 0 and at most {largest}, such as 1.5"))
+}
+
+/// Frames a second.
+pub fn rate(text: &str) -> Result<f64, String> {
+    positive(text)
+        .ok()
+        .filter(|rate| (0.001..=1000.0).contains(rate))
+        .ok_or_else(|| "expected a number from 0.001 to 1000, such as 23.976".to_owned())
+}
+
+/// A share of a sequence.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    /// Number of the part, from 1 to `count`.
+    pub number: u32,
+    pub count: u32,
+}
+
+/// The I-th of N shares: `I/N`.
+pub fn shard(text: &str) -> Result<Shard, String> {
+    text.split_once('/')
+        .and_then(|(number, count)| {
+            Some(Shard {
+                number: number.parse().ok()?,
+                count: count.parse().ok()?,
+            })
+        })
+        .filter(|shard| (1..=shard.count).contains(&shard.number))
+        .ok_or_else(|| "expected I/N with I from 1 to N, such as 1/4".to_owned())
+}
+
+/// A field of view in degrees.
+pub fn field_of_view(text: &str) -> Result<f64, String> {
+    match finite(text) {
+        Ok(number) if number > 0.0 && number < 180.0 => Ok(number),
+        _ => Err("expected degrees above 0 and below 180".to_owned()),
+    }
+}
+
+/// Width and height in pixels: `1280x720`.
+pub fn size(text: &str) -> Result<[u32; 2], String> {
+    let side = |text: &str| text.parse().ok().filter(|side| (1..=65_535).contains(side));
+    text.split_once(['x', 'X'])
+        .and_then(|(width, height)| Some([side(width)?, side(height)?]))
+        .ok_or_else(|| {
+            "expected width x height in pixels, each 1 to 65535, such as 1280x720".to_owned()
+        })
+}
+
+/// A part of an image in pixels, from its upper left corner: `640,360,320x180`.
+pub fn region(text: &str) -> Result<PixelRect, String> {
+    let region = || {
+        let mut parts = text.splitn(3, ',');
+        let mut corner = || parts.next()?.parse().ok();
+        Some(PixelRect {
+            corner: [corner()?, corner()?],
+            size: size(parts.next()?).ok()?,
+        })
+    };
+    region().ok_or_else(|| {
+        "expected column, row, width x height in pixels of the image, such as 640,360,320x180"
+            .to_owned()
+    })
+}
+
+/// A point or direction: `X,Y,Z`.
+pub fn vector(text: &str) -> Result<DVec3, String> {
+    numbers(text)
+        .map(DVec3::from_array)
+        .ok_or_else(|| "expected three numbers X,Y,Z, such as 0,1.5,-4".to_owned())
+}
+
+fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
+    let numbers: Option<Vec<_>> = text.split(',').map(|t| finite(t.trim()).ok()).collect();
+    numbers?.try_into().ok()
+}
+
+/// A place: `X,Y`.
+pub fn place(text: &str) -> Result<[f64; 2], String> {
+    numbers(text).ok_or_else(|| "expected two numbers X,Y, such as 320,240".to_owned())
+}
+
+/// Parses radii above 0: `R` for both axes, or `RX,RY`.
+pub fn radii(text: &str) -> Result<[f64; 2], String> {
+    let radii = match numbers(text) {
+        Some([radius]) => Some([radius; 2]),
+        None => numbers(text),
+    };
+    radii
+        .filter(|radii| radii.iter().all(|radius| *radius > 0.0))
+        .ok_or_else(|| "expected a radius R or RX,RY above 0, such as 80 or 120,60".to_owned())
+}
+
+/// Background behind the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Background {
+    /// No background: the image is transparent there.
+    Transparent,
+    /// An sRGB-encoded colour, each component 0 to 1.
+    Color([f64; 3]),
+    /// The environment that lights the scene.
+    Environment,
+}
+
+/// `none`, `environment`, `R,G,B` with sRGB components of 0 to 1, or `#rrggbb`.
+pub fn background(text: &str) -> Result<Background, String> {
+    if text == "none" {
+        return Ok(Background::Transparent);
+    }
+    if text == "environment" {
+        return Ok(Background::Environment);
+    }
+    color(text).map(Background::Color).ok_or_else(|| {
+        "expected none, environment, an sRGB colour R,G,B of 0 to 1, such as 0.8,0.9,1, or #rrggbb"
+            .to_owned()
+    })
+}
+
+/// An sRGB-encoded colour as linear light.
+pub fn linear(color: [f64; 3]) -> [f32; 3] {
+    color.map(|v| srgb::decode(v) as f32)
+}
+
+/// `R,G,B` with sRGB components of 0 to 1, or `#rrggbb`.
+fn color(text: &str) -> Option<[f64; 3]> {
+    match text.strip_prefix('#') {
+        Some(digits) => hexadecimal(digits),
+        None => {
+            numbers(text).filter(|color: &[f64; 3]| color.iter().all(|v| (0.0..=1.0).contains(v)))
+        }
+    }
+}
+
+/// Width and colour of the edges of meshes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EdgeLines {
+    /// Width in pixels.
+    pub width: f64,
+    /// An sRGB-encoded colour, each component 0 to 1.
+    pub color: [f64; 3],
+}
+
+/// A width in pixels, and a colour or else black: `1.5` or `1.5,#204060`.
+pub fn edges(text: &str) -> Result<EdgeLines, String> {
+    let (width, colour) = match text.split_once(',') {
+        Some((width, colour)) => (width, color(colour)),
+        None => (text, Some([0.0; 3])),
+    };
+    let lines = stroke(width).ok().zip(colour);
+    lines
+        .map(|(width, color)| EdgeLines { width, color })
+        .ok_or_else(|| {
+            let largest = Settings::LARGEST_STROKE;
+            format!(
+                "expected pixels above 0 and at most {largest}, and an sRGB colour, such as 1.5 or 1.5,#204060"
+            )
+        })
+}
+
+fn hexadecimal(digits: &str) -> Option<[f64; 3]> {
+    if digits.len() != 6 || !digits.bytes().all(|digit| digit.is_ascii_hexdigit()) {
+        return None;
+    }
+    let code = u32::from_str_radix(digits, 16).ok()?;
+    Some([16, 8, 0].map(|shift| f64::from(code >> shift & 0xff) / 255.0))
+}
+
+/// A number of bytes, with K, M, G or T for powers of 1,024.
+pub fn bytes(text: &str) -> Result<u64, String> {
+    let upper = text.to_ascii_uppercase();
+    let upper = upper.strip_suffix("IB").unwrap_or(&upper);
+    let (digits, shift) = [('K', 10), ('M', 20), ('G', 30), ('T', 40)]
+        .into_iter()
+        .find_map(|(unit, shift)| Some((upper.strip_suffix(unit)?, shift)))
+        .unwrap_or((upper, 0));
+    digits
+        .parse::<u64>()
+        .ok()
+        .and_then(|number| number.checked_mul(1 << shift))
+        .filter(|bytes| *bytes > 0)
+        .ok_or_else(|| "expected a number of bytes, such as 512M or 2G".to_owned())
+}
+
+/// Frame numbers, both ends included: `0..47`.
+pub fn frames(text: &str) -> Result<RangeInclusive<u32>, String> {
+    text.split_once("..")
+        .and_then(|(first, last)| Some(first.parse().ok()?..=last.parse().ok()?))
+        .filter(|range: &RangeInclusive<u32>| !range.is_empty())
+        .ok_or_else(|| "expected the first and last frame, such as 0..47".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes() {
+        assert_eq!(size("1280x720"), Ok([1280, 720]));
+        for wrong in ["1280", "0x5", "5x", "-1x5", "70000x1", "1x2x3", "1.5x2"] {
+            assert!(size(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn rates_and_shards() {
+        assert_eq!(rate("29.97"), Ok(29.97));
+        let expected = Shard {
+            number: 4,
+            count: 4,
+        };
+        assert_eq!(shard("4/4"), Ok(expected));
+        for wrong in ["", "0/4", "5/4", "4", "-1/4", "1/0", "1/4/4", "a/b"] {
+            assert!(shard(wrong).is_err(), "{wrong}");
+        }
+        for wrong in ["0", "0.0001", "1001", "24/1"] {
+            assert!(rate(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn regions() {
+        let expected = PixelRect {
+            corner: [3, 0],
+            size: [20, 10],
+        };
+        assert_eq!(region("3,0,20x10"), Ok(expected));
+        for wrong in ["", "3,0", "3,0,20", "3,0,0x10", "-3,0,20x10", "3,0,20x10,1"] {
+            assert!(region(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn vectors() {
+        assert_eq!(vector("-1,2.5,3e1"), Ok(DVec3::new(-1.0, 2.5, 30.0)));
+        for wrong in ["1,2", "1,2,3,4", "a,b,c", "nan,0,0", "1,,2", ""] {
+            assert!(vector(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn places_and_radii() {
+        assert_eq!(place("3,-4.5"), Ok([3.0, -4.5]));
+        assert_eq!(radii("3"), Ok([3.0, 3.0]));
+        assert_eq!(radii("3,4"), Ok([3.0, 4.0]));
+        for wrong in ["0", "1,0", "-1", "1,2,3", "nan", ""] {
+            assert!(
+                radii(wrong).is_err() && place(wrong).is_err() || wrong == "1,0",
+                "{wrong}"
+            );
+        }
+    }
+
+    #[test]
+    fn backgrounds() {
+        assert_eq!(background("none"), Ok(Background::Transparent));
+        assert_eq!(
+            background("0,0.5,1"),
+            Ok(Background::Color([0.0, 0.5, 1.0]))
+        );
+        assert_eq!(
+            background("#ff0033"),
+            Ok(Background::Color([1.0, 0.0, 0.2]))
+        );
+        for wrong in ["", "#ff", "#+f0033", "1,2,3", "red", "#ff003é"] {
+            assert!(background(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn byte_counts() {
+        assert_eq!(bytes("1000"), Ok(1000));
+        assert_eq!(bytes("512M"), Ok(512 << 20));
+        assert_eq!(bytes("2gib"), Ok(2 << 30));
+        for wrong in ["", "M", "-1", "1.5G", "0", "99999999T"] {
+            assert!(bytes(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn frame_ranges() {
+        assert_eq!(frames("3..5"), Ok(3..=5));
+        assert_eq!(frames("3..3"), Ok(3..=3));
+        for wrong in ["5..3", "3", "..", "a..b", "0..4294967296"] {
+            assert!(frames(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn numbers() {
+        assert!(finite("inf").is_err() && finite("1e999").is_err());
+        assert!(positive("0").is_err() && not_negative("-0.1").is_err());
+        assert!(field_of_view("180").is_err() && field_of_view("90").is_ok());
+    }
+}

@@ -1,0 +1,174 @@
+//! `gpc view`.
+
+use super::exit::{self, Usage, usage};
+use super::render::{AppearanceArgs, CameraArgs, DeviceArgs, SamplingArgs};
+use super::values::{self, Background};
+use crate::view::{self, Appearance, Look, Options, Source, Start};
+use clap::Args;
+use gpc::camera::Orbit;
+use gpc::render::{HeadlessOptions, Method, Settings, Shadows};
+use gpc::scene::PoseRequest;
+use std::fmt::Display;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Opens a window in which scenes and photographs are looked at; H lists the keys.
+///
+/// While anything moves few samples are taken, and at rest more and more, up to those asked for.
+#[derive(Args)]
+pub struct ViewArgs {
+    /// Scenes, folders of scenes, photographs (PNG or JPEG) and images of gpc zoom; the arrow keys go from one to the next
+    #[arg(id = "file", value_name = "SCENE|FOLDER|IMAGE", required = true)]
+    scenes: Vec<PathBuf>,
+    /// Width and height of the window in pixels
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = values::size)]
+    size: [u32; 2],
+    /// Colour behind the scene: none (black in the window, transparent in files), sRGB R,G,B of 0 to 1, #rrggbb, or
+    /// environment for the light around it (at rest; black while something moves, and with lenses)
+    #[arg(long, value_name = "COLOUR", default_value = "#2b2f36")]
+    background: String,
+    #[command(flatten)]
+    appearance: AppearanceArgs,
+    #[command(flatten)]
+    sampling: SamplingArgs,
+    #[command(flatten)]
+    camera: CameraArgs,
+    #[command(flatten)]
+    device: DeviceArgs,
+}
+
+pub fn run(args: ViewArgs) -> anyhow::Result<ExitCode> {
+    let background = match values::background(&args.background) {
+        Ok(background) => background,
+        Err(expected) => usage!("--background {}: {expected}", args.background),
+    };
+    let look = look(&args, background)?;
+    let start = start(&args.camera)?;
+    let appearance = Appearance {
+        environment: args.appearance.environment()?,
+        edges: args.appearance.edges(),
+    };
+    let appearance_options = appearance_options(&args, &look);
+    let validation = std::env::var_os("GPC_VALIDATION").is_some_and(|value| !value.is_empty());
+    let mut scenes = args.scenes.into_iter();
+    let Some(path) = scenes.next() else {
+        usage!("a scene is needed");
+    };
+    view::run(Options {
+        source: Source {
+            path,
+            variant: args.camera.variant,
+            request: PoseRequest {
+                scene: args.camera.scene,
+                animation: args.camera.animation,
+                time: args.camera.time,
+            },
+        },
+        others: scenes.collect(),
+        start,
+        appearance,
+        appearance_options,
+        look,
+        shows_environment: background == Background::Environment,
+        device: HeadlessOptions {
+            device: args.device.name,
+            validation,
+        },
+        describe: exit::message,
+    })?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Viewpoint from which the first scene is seen at first.
+fn start(args: &CameraArgs) -> Result<Start, Usage> {
+    let default = Orbit::default();
+    let fov = args.fov.unwrap_or(default.fov);
+    if args.up.is_some() {
+        return Err(Usage(
+            "--up: the window keeps the y axis upright; `gpc render` takes it".to_owned(),
+        ));
+    }
+    if let Some(eye) = args.eye {
+        let target = args.target;
+        return Ok(Start::Place { eye, target, fov });
+    }
+    if args.azimuth.is_some() || args.elevation.is_some() || args.zoom.is_some() {
+        return Ok(Start::Around(Orbit {
+            azimuth: args.azimuth.unwrap_or(default.azimuth),
+            elevation: args.elevation.unwrap_or(default.elevation),
+            zoom: args.zoom.unwrap_or(default.zoom),
+            fov,
+        }));
+    }
+    if args.fov.is_some() {
+        return Err(Usage(
+            "--fov: the window shows cameras of the scene as they are; give --eye or --azimuth too"
+                .to_owned(),
+        ));
+    }
+    match args.camera.as_deref() {
+        None => Ok(Start::First),
+        Some("all") => Err(Usage(
+            "--camera all: the window begins with one; the key C goes on to the next".to_owned(),
+        )),
+        Some(camera) => Ok(Start::Camera(camera.to_owned())),
+    }
+}
+
+/// Antialiasing of the pictures, and size of the window.
+fn look(args: &ViewArgs, background: Background) -> anyhow::Result<Look> {
+    let background = match background {
+        Background::Transparent | Background::Environment => None,
+        Background::Color(color) => Some(values::linear(color)),
+    };
+    let [width, height] = args.size;
+    let sampling = &args.sampling;
+    let method = sampling.aa;
+    let settings = args.appearance.settings(Settings {
+        method,
+        samples: sampling
+            .asked_samples()
+            .unwrap_or_else(|| view::default_samples(method)),
+        pattern: sampling.pattern.clone(),
+        coverage: sampling.coverage,
+        shading: sampling.shading,
+        detection: sampling.detect,
+        footprint: sampling.footprint,
+        contrast: sampling.contrast,
+        background,
+        max_memory: args.device.max_memory,
+        ..Settings::new(width, height)
+    });
+    if sampling.aa == Method::None && settings.samples != 1 {
+        usage!(
+            "none can't have {} samples a pixel; it can have 1",
+            settings.samples
+        );
+    }
+    Ok(Look { settings })
+}
+
+/// The options that say how scenes look, but for numbers that the settings hold.
+fn appearance_options(args: &ViewArgs, look: &Look) -> Vec<String> {
+    let appearance = &args.appearance;
+    let mut options = Vec::new();
+    // One word each: a value that begins with a minus is no option then.
+    let mut add = |option: &str, value: &dyn Display| options.push(format!("{option}={value}"));
+    if look.settings.background.is_some() {
+        add("--background", &args.background);
+    }
+    if let Some(file) = &appearance.environment {
+        add("--environment", &file.display());
+        if appearance.environment_rotation != 0.0 {
+            add("--environment-rotation", &appearance.environment_rotation);
+        }
+    }
+    if let Some(edges) = appearance.edges {
+        let [r, g, b] = edges.color;
+        add("--edges", &format_args!("{},{r},{g},{b}", edges.width));
+    }
+    if look.settings.shadows == Shadows::Exact {
+        add("--shadows", &"exact");
+    }
+    options
+}

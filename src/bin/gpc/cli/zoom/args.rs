@@ -1,0 +1,103 @@
+//! The options of `gpc zoom`.
+
+use crate::cli::exit::Usage;
+use crate::cli::render::ImageArgs;
+use crate::cli::report::ReportArgs;
+use crate::cli::values;
+use clap::Args;
+use gpc::camera::zoom::{Shape, Transition, ZoomMap, ZoomRegion};
+use std::path::PathBuf;
+
+/// Enlarges regions of an image, and joins them continuously to the rest: focus plus context.
+///
+/// Of a scene each pixel is sampled exactly where it looks, and antialiased. Of a photograph (PNG or JPEG) the samples
+/// are reconstructed; size, view and sampling options are those of scenes and do not matter then. Positions are in
+/// pixels of the output, (0, 0) at its upper left corner. Several regions are given by repeating --center, --radius and
+/// --multiplicity; each map starts from what the maps before it have found. PNGs hold the map's parameters, for
+/// gpc unzoom.
+#[derive(Args)]
+pub struct ZoomArgs {
+    /// A .glb or .gltf file, - for one on standard input, or a PNG or JPEG
+    #[arg(id = "file", value_name = "SCENE|IMAGE")]
+    pub input: PathBuf,
+    /// Image to write: .png, .16.png, .jpg or .exr, or - for a PNG on standard output
+    #[arg(short, long, value_name = "OUT")]
+    pub output: PathBuf,
+    /// Write the steps too, as PNG files named like OUT: original (regular locations), locations (every so many),
+    /// resampled (regions without transitions), transition (that alone) and, of scenes, direct (an ordinary image of
+    /// what each region shows)
+    #[arg(long)]
+    pub steps: bool,
+
+    #[command(flatten)]
+    pub regions: RegionArgs,
+    #[command(flatten)]
+    pub image: ImageArgs,
+    #[command(flatten)]
+    pub report: ReportArgs,
+}
+
+/// Which regions are enlarged, and how.
+#[derive(Args)]
+#[command(next_help_heading = "Regions")]
+pub struct RegionArgs {
+    /// Centre of a region
+    #[arg(long, value_name = "X,Y", required = true, allow_hyphen_values = true, value_parser = values::place)]
+    center: Vec<[f64; 2]>,
+    /// Its radius, or radii along x and y: half sides of a rectangle
+    #[arg(long, value_name = "R|RX,RY", required = true, allow_hyphen_values = true, value_parser = values::radii)]
+    radius: Vec<[f64; 2]>,
+    /// Its multiplicity, above 0 and at most 1: the region is enlarged by one over it
+    #[arg(long, value_name = "M", required = true, allow_negative_numbers = true, value_parser = values::finite)]
+    multiplicity: Vec<f64>,
+    /// Its outline; once for all regions, or once for each
+    #[arg(long, default_value = "circle")]
+    shape: Vec<Shape>,
+    /// What joins it to the rest: displacements that fade linearly, or a rate of sampling without jumps; once for all
+    /// regions, or once for each
+    #[arg(long, default_value = "linear")]
+    transition: Vec<Transition>,
+}
+
+impl RegionArgs {
+    /// The map that the options describe.
+    pub fn map(&self) -> Result<ZoomMap, Usage> {
+        let count = self.center.len();
+        let counts = [
+            ("radius", self.radius.len()),
+            ("multiplicity", self.multiplicity.len()),
+        ];
+        for (option, found) in counts {
+            if found != count {
+                return Err(Usage(format!(
+                    "{count} --center and {found} --{option}; give one for each region"
+                )));
+            }
+        }
+        let shapes = each("shape", &self.shape, count)?;
+        let transitions = each("transition", &self.transition, count)?;
+        let places = self.center.iter().zip(&self.radius).zip(&self.multiplicity);
+        let regions = places.zip(shapes.into_iter().zip(transitions)).map(
+            |(((center, radius), multiplicity), (shape, transition))| ZoomRegion {
+                center: *center,
+                radius: *radius,
+                multiplicity: *multiplicity,
+                shape,
+                transition,
+            },
+        );
+        ZoomMap::new(regions.collect()).map_err(|error| Usage(error.to_string()))
+    }
+}
+
+/// A value for each of `count` regions, from one for all or one for each.
+fn each<T: Copy>(option: &str, values: &[T], count: usize) -> Result<Vec<T>, Usage> {
+    match values {
+        [value] => Ok(vec![*value; count]),
+        _ if values.len() == count => Ok(values.to_vec()),
+        _ => Err(Usage(format!(
+            "{count} --center and {} --{option}; give one for all or one for each",
+            values.len()
+        ))),
+    }
+}

@@ -1,0 +1,198 @@
+//! `gpc zoom`.
+
+mod args;
+mod steps;
+
+pub use args::ZoomArgs;
+
+use super::exit::{Usage, usage};
+use super::render::Shot;
+use super::report::Figures;
+use super::stage::Stage;
+use super::{input, render};
+use gpc::camera::set::{MOST_CELLS, SamplingSet, SetStatistics};
+use gpc::camera::zoom::{Window, ZoomMap, ZoomRegion};
+use gpc::camera::{LocationMap, Pinhole};
+use gpc::output::{self, Format, Picture};
+use gpc::render::{Rendered, Statistics};
+use gpc::resample::{Photograph, Zoomed};
+use serde::Serialize;
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::Instant;
+use steps::StepPicture;
+
+/// An image, the steps to it, and what is said of it.
+struct Outcome {
+    result: Rendered,
+    steps: Vec<StepPicture>,
+    figures: Report,
+}
+
+/// Output of `--json`.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Report {
+    Scene(Box<Figures<About>>),
+    Photograph {
+        output: String,
+        size: [u32; 2],
+        regions: Vec<ZoomRegion>,
+        /// Wall-clock milliseconds of resampling.
+        wall_ms: f64,
+    },
+}
+
+/// Fields of `--json` for the zoom of a scene, besides those of every image.
+#[derive(Serialize)]
+struct About {
+    regions: Vec<ZoomRegion>,
+    /// Local rates of sampling, and folds of the map.
+    locations: SetStatistics,
+}
+
+pub fn run(args: &ZoomArgs) -> anyhow::Result<ExitCode> {
+    args.report.check(&args.output)?;
+    let map = args.regions.map()?;
+    let format = args.image.format(&args.output)?;
+    if args.steps && input::is_standard(&args.output) {
+        usage!("--steps writes files named after OUT, and -o - has no name");
+    }
+    let Outcome {
+        result,
+        steps,
+        figures,
+    } = if is_picture(&args.input) {
+        photograph(args, &map)?
+    } else {
+        scene(args, format, &map)?
+    };
+    for step in &steps {
+        let picture = Picture::new(step.size, &step.pixels)?;
+        let path = render::beside(&args.output, format, &step.name);
+        render::write(&path, &output::encode(Format::Png8, &picture, &[])?)?;
+    }
+    let mut bytes = render::encode(&args.output, format, &result, &args.image.aovs())?;
+    if matches!(format, Format::Png8 | Format::Png16) {
+        bytes = Zoomed::add_map(&bytes, result.size, &map)?;
+    }
+    render::write(&args.output, &bytes)?;
+    args.report.print(&figures)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Refuses the ordinary image of a region that is too large for one.
+pub fn check_window(index: usize, window: &Window) -> Result<(), Usage> {
+    let [width, height] = window.size;
+    if u64::from(width) * u64::from(height) <= MOST_CELLS {
+        return Ok(());
+    }
+    Err(Usage(format!(
+        "region {index} would be an ordinary image of {width} x {height} pixels; at most {MOST_CELLS} are possible"
+    )))
+}
+
+/// Whether a file starts like a PNG or a JPEG. What can't be read is left to the loader of scenes to complain about.
+fn is_picture(path: &Path) -> bool {
+    !input::is_standard(path) && output::is_image(path)
+}
+
+/// Zooms into a photograph.
+fn photograph(args: &ZoomArgs, map: &ZoomMap) -> anyhow::Result<Outcome> {
+    if !args.image.aov.is_empty() {
+        usage!("--aov: a photograph holds nothing but colours");
+    }
+    let photograph = Photograph::from(&output::read(&args.input)?);
+    let size = photograph.size();
+    let start = Instant::now();
+    let colors = photograph.resample(size, |place| (map.location(place), map.jacobian(place)));
+    let wall_ms = 1e3 * start.elapsed().as_secs_f64();
+    let steps = if args.steps {
+        steps::common(size, photograph.pixels(), &colors, map)
+    } else {
+        Vec::new()
+    };
+    let result = Rendered {
+        size,
+        colors,
+        attributes: Vec::new(),
+        statistics: Statistics::default(),
+    };
+    let figures = Report::Photograph {
+        output: args.output.display().to_string(),
+        size,
+        regions: map.regions().to_vec(),
+        wall_ms,
+    };
+    Ok(Outcome {
+        result,
+        steps,
+        figures,
+    })
+}
+
+/// Samples a scene where the pixels look.
+fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<Outcome> {
+    let size = args.image.size;
+    if args.steps {
+        for (index, region) in map.regions().iter().enumerate() {
+            check_window(index, &region.window())?;
+        }
+    }
+    let mut stage = Stage::open(&args.input, &args.image, args.image.settings(format))?;
+    let pinhole = stage.pinhole()?;
+    let set = SamplingSet::mapped(size, map)?;
+    let statistics = set.statistics();
+    let shot = render_set(&mut stage, pinhole, &set)?;
+    let about = About {
+        regions: map.regions().to_vec(),
+        locations: statistics,
+    };
+    let figures = stage.figures(&args.output, size, stage.effort(&shot), about);
+    let result = shot.rendered;
+    log::info!(
+        "{}: {}x{}, {} to {} samples for a pixel of the plane, {} superpixels",
+        args.output.display(),
+        size[0],
+        size[1],
+        rate(statistics.lowest_rate),
+        rate(statistics.highest_rate),
+        result.statistics.superpixels
+    );
+    let mut steps = Vec::new();
+    if args.steps {
+        let original = render_set(&mut stage, pinhole, &SamplingSet::planar(size)?)?.rendered;
+        steps = steps::common(size, &original.colors, &result.colors, map);
+        for (index, region) in map.regions().iter().enumerate() {
+            let window = region.window();
+            let direct = render_set(
+                &mut stage,
+                pinhole,
+                &SamplingSet::mapped(window.size, &window)?,
+            )?;
+            let name = match map.regions() {
+                [_] => "direct".to_owned(),
+                _ => format!("direct-{index}"),
+            };
+            steps.push(StepPicture::new(&name, window.size, direct.rendered.colors));
+        }
+    }
+    stage.finish()?;
+    Ok(Outcome {
+        result,
+        steps,
+        figures: Report::Scene(Box::new(figures)),
+    })
+}
+
+/// Rate in words. Images of one row or column have no rate.
+fn rate(rate: Option<f64>) -> String {
+    match rate.unwrap_or(1.0) {
+        rate if rate < 1e6 => format!("{rate:.2}"),
+        rate => format!("{rate:.1e}"),
+    }
+}
+
+fn render_set(stage: &mut Stage, pinhole: Pinhole, set: &SamplingSet) -> anyhow::Result<Shot> {
+    stage.render(set.size(), &[(pinhole, set.locations())])
+}

@@ -1,0 +1,100 @@
+//! Pictures of the steps of a zoom.
+
+use glam::DVec2;
+use gpc::camera::LocationMap;
+use gpc::camera::zoom::ZoomMap;
+
+/// A picture, rows from the top.
+type Pixels = Vec<[f32; 4]>;
+
+/// A picture on the way to the result.
+pub struct StepPicture {
+    /// Name of the step's file.
+    pub name: String,
+    pub size: [u32; 2],
+    pub pixels: Pixels,
+}
+
+impl StepPicture {
+    pub fn new(name: &str, size: [u32; 2], pixels: Pixels) -> Self {
+        Self {
+            name: name.to_owned(),
+            size,
+            pixels,
+        }
+    }
+}
+
+/// The steps that scenes and photographs share.
+pub fn common(
+    size: [u32; 2],
+    original: &[[f32; 4]],
+    result: &[[f32; 4]],
+    map: &ZoomMap,
+) -> Vec<StepPicture> {
+    vec![
+        StepPicture::new("original", size, original.to_vec()),
+        StepPicture::new("locations", size, locations(size, original, map)),
+        StepPicture::new("resampled", size, resampled(size, result, map)),
+        StepPicture::new("transition", size, transition(size, result, map)),
+    ]
+}
+
+/// Locations along the wider side that are drawn.
+const DRAWN: u32 = 96;
+
+/// Share of its light that the image keeps under the locations.
+const DIMMED: f32 = 0.15;
+
+/// Picture of some of the locations, as dots over the dimmed image.
+fn locations(size: [u32; 2], original: &[[f32; 4]], map: &ZoomMap) -> Pixels {
+    let dim = |[r, g, b, _]: &[f32; 4]| [r * DIMMED, g * DIMMED, b * DIMMED, 1.0];
+    let mut picture: Pixels = original.iter().map(dim).collect();
+    let [width, height] = size;
+    let step = (width.max(height) / DRAWN).max(1);
+    let middles = |side: u32| (step / 2..side).step_by(step as usize);
+    for (row, col) in middles(height).flat_map(|row| middles(width).map(move |col| (row, col))) {
+        let at = map.location(DVec2::new(f64::from(col) + 0.5, f64::from(row) + 0.5));
+        // A dot of 2 x 2 pixels, about the location.
+        for (dx, dy) in [(-0.5, -0.5), (0.5, -0.5), (-0.5, 0.5), (0.5, 0.5)] {
+            let pixel = (at + DVec2::new(dx, dy)).floor();
+            let inside = pixel.cmpge(DVec2::ZERO).all()
+                && pixel.x < f64::from(width)
+                && pixel.y < f64::from(height);
+            let index = pixel.y as usize * width as usize + pixel.x as usize;
+            if let Some(dot) = picture.get_mut(index).filter(|_| inside) {
+                *dot = [1.0; 4];
+            }
+        }
+    }
+    picture
+}
+
+/// The result without the transitions.
+fn resampled(size: [u32; 2], result: &[[f32; 4]], map: &ZoomMap) -> Pixels {
+    keep(size, result, |place| !in_transition(map, place))
+}
+
+/// The transitions alone.
+fn transition(size: [u32; 2], result: &[[f32; 4]], map: &ZoomMap) -> Pixels {
+    keep(size, result, |place| in_transition(map, place))
+}
+
+fn in_transition(map: &ZoomMap, place: DVec2) -> bool {
+    map.regions()
+        .iter()
+        .any(|region| region.in_transition(place))
+}
+
+/// The pixels for which `kept` holds; the others are transparent.
+fn keep(size: [u32; 2], pixels: &[[f32; 4]], kept: impl Fn(DVec2) -> bool) -> Pixels {
+    let places = (0..size[1]).flat_map(|row| (0..size[0]).map(move |col| (col, row)));
+    let pixel = |(pixel, (col, row)): (&[f32; 4], (u32, u32))| {
+        if kept(DVec2::new(f64::from(col) + 0.5, f64::from(row) + 0.5)) {
+            *pixel
+        } else {
+            [0.0; 4]
+        }
+    };
+    pixels.iter().zip(places).map(pixel).collect()
+}

@@ -1,0 +1,485 @@
+//! Canvas of the window: pictures of the scene, and the panel over them.
+
+use super::compose::Piece;
+use super::engine::Engine;
+use super::layer::{Layer, Sight};
+use super::look::Look;
+use super::painter::{Painter, Painting};
+use super::picture::{self, DESTINATION, LAYERS, Picture, SOURCE, UNUSED};
+use super::preparer::{Prepared, Preparer};
+use super::presenter::{Fit, Presenter};
+use super::slot::{Kept, SLOTS, Slot};
+use super::source::Stage;
+use super::swapchain::{Acquired, Swapchain, Turn};
+use anyhow::bail;
+use ash::vk;
+use gpc::camera::Camera;
+use gpc::render::ImageState;
+use gpc::scene::Moment;
+use std::rc::Rc;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// State of the window's image while the panel is drawn.
+const DRAWN: ImageState = ImageState {
+    layout: vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
+    stage: vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
+    access: vk::AccessFlags2::from_raw(
+        vk::AccessFlags2::COLOR_ATTACHMENT_READ.as_raw()
+            | vk::AccessFlags2::COLOR_ATTACHMENT_WRITE.as_raw(),
+    ),
+};
+
+/// State of the window's image when the window system takes it over, after a semaphore.
+const PRESENTED: ImageState = ImageState {
+    layout: vk::ImageLayout::PRESENT_SRC_KHR,
+    stage: vk::PipelineStageFlags2::NONE,
+    access: vk::AccessFlags2::NONE,
+};
+
+/// Pictures, panel, and what shows them.
+///
+/// Fields are dropped in their order: what the device uses goes before it.
+pub struct Canvas {
+    slots: [Slot; SLOTS],
+    /// Index of the slot whose turn it is.
+    turn: usize,
+    /// The picture, or the two of a split, left first.
+    layers: Vec<Layer>,
+    /// Pictures of the stage before, until there are layers.
+    before: Vec<Picture>,
+    /// Picture that is shown instead of all others.
+    cover: Option<Picture>,
+    /// Whether pictures get more samples at rest.
+    pub refines: bool,
+    stage: Option<Stage>,
+    is_uploaded: bool,
+    /// Whether memory is left that the upload needed.
+    has_uploads: bool,
+    painter: Painter,
+    preparer: Preparer,
+    presenter: Presenter,
+    /// Whether the window's images have to be made anew.
+    is_stale: bool,
+    /// `None` while the window has no pixels.
+    swapchain: Option<Swapchain>,
+    pub engine: Arc<Engine>,
+}
+
+/// Contents of the window that are to be drawn.
+pub struct Seen<'a> {
+    pub camera: Option<&'a Camera>,
+    pub moment: Option<&'a Arc<Moment>>,
+    pub pieces: &'a [Piece],
+    /// Over the others.
+    pub magnified: &'a [Piece],
+}
+
+impl Canvas {
+    /// Makes the canvas of a window of `size` = [width, height]. The caller hands what the preparer delivers to
+    /// [`Self::prepared`].
+    pub fn new(engine: Arc<Engine>, size: [u32; 2], preparer: Preparer) -> anyhow::Result<Self> {
+        let device = &engine.device;
+        let swapchain = Swapchain::new(device, size, None)?;
+        Ok(Self {
+            slots: [Slot::new(device)?, Slot::new(device)?],
+            turn: 0,
+            layers: Vec::new(),
+            before: Vec::new(),
+            cover: None,
+            refines: true,
+            stage: None,
+            is_uploaded: false,
+            has_uploads: false,
+            painter: Painter::new(device, swapchain.format)?,
+            preparer,
+            presenter: Presenter::new(device),
+            is_stale: false,
+            swapchain: Some(swapchain),
+            engine,
+        })
+    }
+
+    /// Width and height in pixels; `None` while the window has none.
+    pub fn size(&self) -> Option<[u32; 2]> {
+        let extent = self.swapchain.as_ref()?.extent;
+        Some([extent.width, extent.height])
+    }
+
+    /// Fits the window's images to its size.
+    pub fn resize(&mut self, size: [u32; 2]) -> anyhow::Result<()> {
+        self.wait()?;
+        self.is_stale = false;
+        let older = self.swapchain.take();
+        if size.contains(&0) {
+            return Ok(());
+        }
+        let format = older.as_ref().map(|older| older.format);
+        let swapchain = Swapchain::new(&self.engine.device, size, older)?;
+        if format.is_some_and(|format| format != swapchain.format) {
+            bail!("the window changed the format of its images");
+        }
+        self.swapchain = Some(swapchain);
+        Ok(())
+    }
+
+    /// Scene that is shown.
+    pub fn stage(&self) -> Option<&Stage> {
+        self.stage.as_ref()
+    }
+
+    /// Shows another scene, or none.
+    pub fn set_stage(&mut self, stage: Option<Stage>) {
+        let seen = self.take_pictures();
+        let before = std::mem::replace(&mut self.before, seen);
+        self.keep(Kept::Pictures(before));
+        if let Some(stage) = std::mem::replace(&mut self.stage, stage) {
+            self.keep(Kept::Stage(Box::new(stage)));
+        }
+        (self.is_uploaded, self.has_uploads) = (false, false);
+        for slot in &mut self.slots {
+            slot.uploads = false;
+        }
+    }
+
+    /// The pictures.
+    pub fn layers(&self) -> &[Layer] {
+        &self.layers
+    }
+
+    /// Shows pictures with other looks, and those before until there is something to see.
+    pub fn set_looks(&mut self, looks: &[Look], now: Instant) -> anyhow::Result<()> {
+        let layer = |look: &Look| Layer::new(&self.engine, look.clone(), now);
+        let layers = looks.iter().map(layer).collect::<anyhow::Result<_>>()?;
+        let mut before = std::mem::take(&mut self.before);
+        before.extend(self.take_pictures());
+        self.layers = layers;
+        let mut before = before.into_iter();
+        for (layer, picture) in self.layers.iter_mut().zip(before.by_ref()) {
+            layer.set_before(picture);
+        }
+        self.keep(Kept::Pictures(before.collect()));
+        Ok(())
+    }
+
+    /// Takes the pictures that are seen away from the layers, which end.
+    fn take_pictures(&mut self) -> Vec<Picture> {
+        let layers = std::mem::take(&mut self.layers);
+        let (seen, others): (_, Vec<_>) = layers.into_iter().map(Layer::into_pictures).unzip();
+        self.keep(Kept::Pictures(others.into_iter().flatten().collect()));
+        seen
+    }
+
+    /// Keeps something until no commands use it.
+    fn keep(&mut self, kept: Kept) {
+        let kept = Rc::new(kept);
+        for slot in self.slots.iter_mut().filter(|slot| slot.is_busy()) {
+            slot.kept.push(kept.clone());
+        }
+    }
+
+    /// Takes a frame that the preparer delivers.
+    pub fn prepared(&mut self, prepared: Prepared) -> anyhow::Result<()> {
+        let is_meant = |layer: &&mut Layer| layer.is_meant(&prepared.ticket);
+        match self.layers.iter_mut().find(is_meant) {
+            Some(layer) => Ok(layer.prepared(&prepared.settings, prepared.frame)?),
+            None => Ok(()),
+        }
+    }
+
+    /// Shows a picture instead of all others, or these again.
+    pub fn set_cover(&mut self, cover: Option<Picture>) {
+        if let Some(before) = std::mem::replace(&mut self.cover, cover) {
+            self.keep(Kept::Pictures(vec![before]));
+        }
+    }
+
+    /// Restarts all pictures, since something moved.
+    pub fn restart(&mut self, now: Instant) {
+        for layer in &mut self.layers {
+            layer.restart(now);
+        }
+    }
+
+    /// Takes back what the device has done. Says whether pictures were part of it.
+    ///
+    /// # Errors
+    /// If the device is lost, or a picture can't be finished.
+    pub fn collect(&mut self) -> anyhow::Result<bool> {
+        let mut any = false;
+        let mut outcome = Ok(());
+        if let Some(shown) = self.presenter.poll() {
+            self.is_stale |= shown? == Fit::Stale;
+        }
+        for index in 0..SLOTS {
+            if self.slots[index].poll()? {
+                any |= !self.slots[index].jobs.is_empty();
+                // What fails of one picture keeps the others from nothing.
+                outcome = outcome.and(self.finish(index));
+            }
+        }
+        self.discard_uploads();
+        outcome.map(|()| any)
+    }
+
+    /// Whether the device still has something to do.
+    pub fn is_busy(&self) -> bool {
+        self.presenter.is_busy() || self.slots.iter().any(Slot::is_busy)
+    }
+
+    /// Whether the pictures have work that is due, or will be.
+    pub fn due(&self) -> Option<Instant> {
+        self.stage.as_ref()?;
+        self.layers
+            .iter()
+            .filter(|layer| self.refines || layer.schedule.is_draft())
+            .filter_map(Layer::due)
+            .min()
+    }
+
+    /// Whether there is work to do again.
+    pub fn has_again(&self) -> bool {
+        self.layers.iter().any(Layer::has_again)
+    }
+
+    /// Whether every picture has all its samples.
+    pub fn rests(&self) -> bool {
+        let is_done = |layer: &Layer| {
+            let is_finished = if self.refines {
+                layer.schedule.is_done()
+            } else {
+                !layer.schedule.is_draft()
+            };
+            is_finished && !layer.has_again() && !layer.is_waiting()
+        };
+        !self.layers.is_empty()
+            && self.layers.iter().all(is_done)
+            && self.slots.iter().all(|slot| slot.jobs.is_empty())
+    }
+
+    /// An image of the window to draw. `None` where none is free now.
+    pub fn acquire(&mut self) -> anyhow::Result<Option<Acquired>> {
+        let slot = &self.slots[self.turn];
+        let is_busy = slot.is_busy() || self.presenter.is_busy();
+        let Some(swapchain) = self.swapchain.as_ref().filter(|_| !is_busy) else {
+            return Ok(None);
+        };
+        let turn = if self.is_stale {
+            Turn::Stale
+        } else {
+            swapchain.acquire(slot.free)?
+        };
+        match turn {
+            Turn::Ready(acquired) => Ok(Some(acquired)),
+            Turn::Busy => Ok(None),
+            Turn::Stale => {
+                let size = [swapchain.extent.width, swapchain.extent.height];
+                self.resize(size)?;
+                Ok(None)
+            }
+        }
+    }
+
+    /// Renders what is due, draws an image of the window and shows it.
+    ///
+    /// # Errors
+    /// If memory runs out, settings are impossible or the device is lost. An image that can't be rendered is shown without
+    /// it all the same.
+    pub fn draw(
+        &mut self,
+        acquired: Acquired,
+        seen: &Seen<'_>,
+        painting: Painting,
+        now: Instant,
+    ) -> anyhow::Result<()> {
+        self.painter.upload(&painting)?;
+        let commands = self.slots[self.turn].begin()?;
+        // SAFETY: the commands are being recorded, and the slot keeps what they use until they are done.
+        let (rendered, painted) = unsafe {
+            let rendered = self.record_work(commands, seen, now);
+            self.record_pieces(commands, &acquired, seen);
+            let device = &self.engine.device;
+            picture::change(device, commands, acquired.image, DESTINATION, DRAWN);
+            let extent = self
+                .swapchain
+                .as_ref()
+                .map_or_else(Default::default, |s| s.extent);
+            let painted = self
+                .painter
+                .record(commands, (acquired.view, extent), &painting);
+            let device = &self.engine.device;
+            picture::change(device, commands, acquired.image, DRAWN, PRESENTED);
+            (rendered, painted)
+        };
+        let slot = &mut self.slots[self.turn];
+        slot.textures = painting.textures.free;
+        slot.submit(acquired.drawn)?;
+        self.turn = (self.turn + 1) % SLOTS;
+        self.presenter.show(acquired);
+        rendered.and(painted)
+    }
+
+    /// # Safety
+    /// `commands` is being recorded in the slot whose turn it is.
+    unsafe fn record_work(
+        &mut self,
+        commands: vk::CommandBuffer,
+        seen: &Seen<'_>,
+        now: Instant,
+    ) -> anyhow::Result<()> {
+        if let Some(cover) = &mut self.cover {
+            // SAFETY: passed on to the caller; a cover that is replaced is kept until its commands are done.
+            unsafe { cover.record_pixels(commands) };
+        }
+        let (Some(stage), Some(camera)) = (&self.stage, seen.camera) else {
+            return Ok(());
+        };
+        let slot = &mut self.slots[self.turn];
+        if !self.is_uploaded {
+            // SAFETY: passed on to the caller; the stage is kept until the commands are done.
+            unsafe { stage.prepared.record_upload(commands) };
+            self.is_uploaded = true;
+            slot.uploads = true;
+        }
+        let sight = Sight {
+            scene: &stage.prepared,
+            camera,
+            moment: seen.moment,
+        };
+        for layer in &mut self.layers {
+            let is_begun = layer.has_again() || layer.is_waiting();
+            if !self.refines && !layer.schedule.is_draft() && !is_begun {
+                continue;
+            }
+            let makers = (&self.engine, &self.preparer);
+            // SAFETY: passed on to the caller; the slot keeps the job.
+            let job = unsafe { layer.record(makers, commands, &sight, now) }?;
+            slot.jobs.extend(job);
+        }
+        Ok(())
+    }
+
+    /// Copies the pictures to the window's image, which is then in [`DESTINATION`].
+    ///
+    /// # Safety
+    /// As for [`Self::record_work`].
+    unsafe fn record_pieces(
+        &self,
+        commands: vk::CommandBuffer,
+        acquired: &Acquired,
+        seen: &Seen<'_>,
+    ) {
+        let device = &self.engine.device;
+        let black = vk::ClearColorValue {
+            float32: [0.0, 0.0, 0.0, 1.0],
+        };
+        // SAFETY: passed on to the caller.
+        unsafe {
+            picture::change(device, commands, acquired.image, UNUSED, DESTINATION);
+            // What no picture covers: there is none yet, or one of a smaller window.
+            device.handle.cmd_clear_color_image(
+                commands,
+                acquired.image,
+                DESTINATION.layout,
+                &black,
+                &[picture::COLOR],
+            );
+            for pieces in [seen.pieces, seen.magnified] {
+                // Each group is written over what was written before.
+                picture::change(device, commands, acquired.image, DESTINATION, DESTINATION);
+                for piece in pieces {
+                    self.record_piece(commands, acquired.image, piece);
+                }
+            }
+        }
+    }
+
+    /// # Safety
+    /// As for [`Self::record_work`]; the window's image is in [`DESTINATION`].
+    unsafe fn record_piece(&self, commands: vk::CommandBuffer, image: vk::Image, piece: &Piece) {
+        let layer = self.layers.get(piece.layer).map(Layer::picture);
+        let Some(picture) = self.cover.as_ref().or(layer) else {
+            return;
+        };
+        let Some(piece) = piece
+            .within(picture.size())
+            .filter(|_| picture.is_written())
+        else {
+            return;
+        };
+        let offsets = |rect: &super::compose::Rect| {
+            let corner = |add: [u32; 2]| vk::Offset3D {
+                x: (rect.corner[0] + add[0]) as i32,
+                y: (rect.corner[1] + add[1]) as i32,
+                z: i32::from(add[0] > 0),
+            };
+            [corner([0, 0]), corner(rect.size)]
+        };
+        let blit = [vk::ImageBlit::default()
+            .src_subresource(LAYERS)
+            .src_offsets(offsets(&piece.from))
+            .dst_subresource(LAYERS)
+            .dst_offsets(offsets(&piece.to))];
+        // SAFETY: passed on to the caller; both rectangles lie in their images.
+        unsafe {
+            self.engine.device.handle.cmd_blit_image(
+                commands,
+                picture.image(),
+                SOURCE.layout,
+                image,
+                DESTINATION.layout,
+                &blit,
+                vk::Filter::NEAREST,
+            );
+        }
+    }
+
+    /// Takes back what a slot's commands used.
+    fn finish(&mut self, index: usize) -> anyhow::Result<()> {
+        let slot = &mut self.slots[index];
+        let textures = std::mem::take(&mut slot.textures);
+        let jobs = std::mem::take(&mut slot.jobs);
+        slot.kept.clear();
+        self.has_uploads |= std::mem::take(&mut slot.uploads);
+        self.painter.free(&textures)?;
+        let mut outcome = Ok(());
+        for job in jobs {
+            let is_meant = |layer: &&mut Layer| layer.is_meant(&job.ticket);
+            if let Some(layer) = self.layers.iter_mut().find(is_meant) {
+                outcome = outcome.and(layer.finish(&self.engine, job));
+            }
+        }
+        Ok(outcome?)
+    }
+
+    /// Frees the memory that the upload needed, once no frame is being prepared.
+    fn discard_uploads(&mut self) {
+        let stage = self.stage.as_mut().filter(|_| self.has_uploads);
+        if let Some(prepared) = stage.and_then(|stage| Arc::get_mut(&mut stage.prepared)) {
+            // SAFETY: the commands that uploaded it are done: those of stages before are not counted.
+            unsafe { prepared.discard_uploads() };
+            self.has_uploads = false;
+        }
+    }
+
+    /// Waits until nothing is in flight.
+    fn wait(&mut self) -> anyhow::Result<()> {
+        self.engine.device.wait();
+        if let Some(shown) = self.presenter.wait() {
+            self.is_stale |= shown? == Fit::Stale;
+        }
+        // A picture that could not be finished is about to go.
+        let _ = self.collect();
+        if self.is_busy() {
+            bail!(gpc::vulkan::VulkanError::DeviceLost);
+        }
+        Ok(())
+    }
+}
+
+impl Drop for Canvas {
+    fn drop(&mut self) {
+        // What is lost needs not be waited for.
+        let _ = self.wait();
+    }
+}

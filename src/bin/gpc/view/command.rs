@@ -1,0 +1,334 @@
+//! The `gpc render` or `gpc zoom` command that makes the picture which is seen.
+
+use super::look::Look;
+use super::source::Source;
+use super::standpoint::Standpoint;
+use glam::DVec3;
+use gpc::camera::zoom::{Shape, Transition, ZoomRegion};
+use gpc::names::name;
+use gpc::render::{Footprint, Method, Settings};
+use gpc::sampling::Pattern;
+use std::path::Path;
+
+/// A picture to be made.
+pub struct Shot<'a> {
+    pub source: &'a Source,
+    pub standpoint: &'a Standpoint,
+    pub look: &'a Look,
+    /// Options that say how scenes look.
+    pub appearance: &'a [String],
+    /// Whether the scene's environment is seen behind it.
+    pub shows_environment: bool,
+    /// Moment of the animation in seconds.
+    pub time: f64,
+    /// Regions that are enlarged.
+    pub lenses: &'a [ZoomRegion],
+}
+
+impl Shot<'_> {
+    /// The command's arguments, `gpc` itself left out, to write a file.
+    pub fn arguments(&self, output: &Path) -> Vec<String> {
+        let mut arguments = Arguments(vec![
+            if self.lenses.is_empty() {
+                "render"
+            } else {
+                "zoom"
+            }
+            .to_owned(),
+            self.source.path.display().to_string(),
+        ]);
+        let settings = self.look.at(self.look.settings.samples, None);
+        arguments.add("-o", output.display());
+        arguments.lenses(self.lenses);
+        let [width, height] = settings.size;
+        arguments.add("--size", format_args!("{width}x{height}"));
+        arguments.settings(&settings);
+        // Which zoomed pictures have not.
+        if self.shows_environment && self.lenses.is_empty() {
+            arguments.0.push("--background=environment".to_owned());
+        }
+        arguments.0.extend_from_slice(self.appearance);
+        arguments.view(self);
+        arguments.0
+    }
+}
+
+/// The arguments that make the picture of a photograph, `gpc` itself left out.
+pub fn zoom_photo(photo: &Path, lenses: &[ZoomRegion], output: &Path) -> Vec<String> {
+    let mut arguments = Arguments(vec!["zoom".to_owned(), photo.display().to_string()]);
+    arguments.add("-o", output.display());
+    arguments.lenses(lenses);
+    arguments.0
+}
+
+/// The arguments that unzoom a region of an image, or all of it, `gpc` itself left out.
+pub fn unzoom_photo(photo: &Path, region: Option<usize>, output: &Path) -> Vec<String> {
+    let mut arguments = Arguments(vec!["unzoom".to_owned(), photo.display().to_string()]);
+    arguments.add("-o", output.display());
+    match region {
+        Some(region) => arguments.add("--region", region),
+        None => arguments.0.push("--whole".to_owned()),
+    }
+    arguments.0
+}
+
+struct Arguments(Vec<String>);
+
+impl Arguments {
+    fn add(&mut self, option: &str, value: impl std::fmt::Display) {
+        self.0.extend([option.to_owned(), value.to_string()]);
+    }
+
+    /// Adds a vector, exactly.
+    fn add_vector(&mut self, option: &str, vector: DVec3) {
+        let DVec3 { x, y, z } = vector;
+        // With an equals sign, a first number below 0 is no option.
+        self.0.push(format!("{option}={x},{y},{z}"));
+    }
+
+    fn lenses(&mut self, lenses: &[ZoomRegion]) {
+        for lens in lenses {
+            let [x, y] = lens.center;
+            self.0.push(format!("--center={x},{y}"));
+            let [rx, ry] = lens.radius;
+            self.add("--radius", format_args!("{rx},{ry}"));
+            self.add("--multiplicity", lens.multiplicity);
+        }
+        // Where one differs from the default, all are said.
+        if lenses.iter().any(|lens| lens.shape != Shape::default()) {
+            for lens in lenses {
+                self.add("--shape", name(&lens.shape));
+            }
+        }
+        let is_smooth = |lens: &ZoomRegion| lens.transition == Transition::Smooth;
+        if lenses.iter().any(is_smooth) {
+            for lens in lenses {
+                self.add("--transition", name(&lens.transition));
+            }
+        }
+    }
+
+    /// Settings that differ from the command's defaults.
+    fn settings(&mut self, settings: &Settings) {
+        let default = Settings::new(settings.size[0], settings.size[1]);
+        if settings.method != default.method {
+            self.add("--aa", settings.method);
+        }
+        if settings.method != Method::None {
+            self.add("--samples", settings.samples);
+        }
+        if let Some(contrast) = settings.contrast {
+            self.add("--contrast", contrast);
+        }
+        if settings.detection != default.detection {
+            self.add("--detect", name(&settings.detection));
+        }
+        if settings.pattern != default.pattern {
+            self.add("--pattern", pattern_name(&settings.pattern));
+        }
+        if settings.coverage != default.coverage {
+            self.add("--coverage", name(&settings.coverage));
+        }
+        if settings.footprint == Footprint::Pixel {
+            self.add("--footprint", "pixel");
+        }
+        if settings.shading != default.shading {
+            self.add("--shading", name(&settings.shading));
+        }
+        if settings.exposure != default.exposure {
+            self.0.push(format!("--exposure={}", settings.exposure));
+        }
+        if settings.line_width != default.line_width {
+            self.add("--line-width", settings.line_width);
+        }
+        if settings.point_size != default.point_size {
+            self.add("--point-size", settings.point_size);
+        }
+    }
+
+    /// Adds the options that select the visible part of the scene and the standpoint.
+    fn view(&mut self, shot: &Shot<'_>) {
+        let request = &shot.source.request;
+        if let Some(scene) = request.scene {
+            self.add("--scene", scene);
+        }
+        if let Some(variant) = &shot.source.variant {
+            self.add("--variant", variant);
+        }
+        if let Some(animation) = &request.animation {
+            self.add("--animation", animation);
+        }
+        if shot.time > 0.0 {
+            self.add("--time", shot.time);
+        }
+        match shot.standpoint {
+            Standpoint::Camera(index) => self.add("--camera", index),
+            Standpoint::Free(turntable) => {
+                let viewpoint = turntable.viewpoint();
+                self.add_vector("--eye", viewpoint.eye);
+                self.add_vector("--target", viewpoint.target);
+                self.add("--fov", viewpoint.fov);
+            }
+        }
+    }
+}
+
+/// A pattern, as `--pattern` has it.
+pub fn pattern_name(pattern: &Pattern) -> &'static str {
+    match pattern {
+        Pattern::Lines => "lines",
+        Pattern::Sobol | Pattern::List(_) => "sobol",
+        Pattern::Lattice => "lattice",
+        Pattern::Korobov => "korobov",
+        Pattern::Grid => "grid",
+        Pattern::Rotated => "rotated",
+    }
+}
+
+/// A command line for a shell.
+pub fn line(arguments: &[String]) -> String {
+    let quoted = arguments.iter().map(|argument| quote(argument));
+    std::iter::once("gpc".to_owned())
+        .chain(quoted)
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+/// A word as a POSIX shell reads it back.
+fn quote(word: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./,=:+@%".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', r"'\''"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::navigate::Turntable;
+    use super::*;
+    use gpc::render::{Detection, Shading};
+
+    fn source(path: &str) -> Source {
+        Source::new(path.into())
+    }
+
+    fn turntable() -> Turntable {
+        Turntable {
+            target: DVec3::new(-1.5, 0.1, 2.0),
+            azimuth: 0.0,
+            elevation: 0.0,
+            distance: 1.0,
+            fov: 40.0,
+        }
+    }
+
+    #[test]
+    fn defaults_are_left_out() {
+        let look = Look {
+            settings: Settings::new(640, 480),
+        };
+        let shot = Shot {
+            source: &source("a b.glb"),
+            standpoint: &Standpoint::Camera(2),
+            look: &look,
+            appearance: &[],
+            shows_environment: false,
+            time: 0.0,
+            lenses: &[],
+        };
+        let found = line(&shot.arguments(Path::new("a.png")));
+        let expected = "gpc render 'a b.glb' -o a.png --size 640x480 --samples 64 --camera 2";
+        assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn everything_else_is_said() {
+        let settings = Settings {
+            method: Method::Superpixel,
+            samples: 1024,
+            contrast: Some(5),
+            pattern: Pattern::Lattice,
+            detection: Detection::Edges,
+            shading: Shading::Sample,
+            exposure: -0.5,
+            line_width: 2.5,
+            background: Some([0.0; 3]),
+            ..Settings::new(64, 48)
+        };
+        let look = Look { settings };
+        let mut source = source("a.glb");
+        source.request.animation = Some("run".to_owned());
+        let shot = Shot {
+            source: &source,
+            standpoint: &Standpoint::Free(turntable()),
+            look: &look,
+            appearance: &["--background", "#000000"].map(str::to_owned),
+            shows_environment: false,
+            time: 0.25,
+            lenses: &[],
+        };
+        let found = line(&shot.arguments(Path::new("a.png")));
+        let expected = "gpc render a.glb -o a.png --size 64x48 --samples 1024 --contrast 5 --detect edges \
+             --pattern lattice --shading sample --exposure=-0.5 --line-width 2.5 --background '#000000' --animation run --time 0.25 \
+             --eye=-1.5,0.1,3 --target=-1.5,0.1,2 --fov 40";
+        assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn a_lens_is_a_zoom() {
+        let look = Look {
+            settings: Settings::new(64, 48),
+        };
+        let lens = ZoomRegion {
+            center: [20.0, 30.0],
+            radius: [9.0, 9.0],
+            multiplicity: 0.25,
+            shape: Shape::Rectangle,
+            transition: Transition::Smooth,
+        };
+        let shot = Shot {
+            source: &source("a.glb"),
+            standpoint: &Standpoint::Camera(0),
+            look: &look,
+            appearance: &[],
+            shows_environment: false,
+            time: 0.0,
+            lenses: &[lens],
+        };
+        let found = line(&shot.arguments(Path::new("a.png")));
+        let expected = "gpc zoom a.glb -o a.png --center=20,30 --radius 9,9 --multiplicity 0.25 --shape rectangle \
+             --transition smooth --size 64x48 --samples 64 --camera 0";
+        assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn photographs_have_lenses_and_are_unzoomed() {
+        let lens = |x: f64, transition: Transition| ZoomRegion {
+            center: [x, 30.0],
+            radius: [9.0, 9.0],
+            multiplicity: 0.25,
+            shape: Shape::Circle,
+            transition,
+        };
+        let lenses = [
+            lens(-1.0, Transition::Linear),
+            lens(5.0, Transition::Smooth),
+        ];
+        let (photo, output) = (Path::new("a.jpg"), Path::new("b.png"));
+        assert_eq!(
+            line(&zoom_photo(photo, &lenses, output)),
+            "gpc zoom a.jpg -o b.png --center=-1,30 --radius 9,9 --multiplicity 0.25 \
+             --center=5,30 --radius 9,9 --multiplicity 0.25 --transition linear --transition smooth"
+        );
+        let unzoom = |region| line(&unzoom_photo(photo, region, output));
+        assert_eq!(unzoom(Some(1)), "gpc unzoom a.jpg -o b.png --region 1");
+        assert_eq!(unzoom(None), "gpc unzoom a.jpg -o b.png --whole");
+    }
+
+    #[test]
+    fn quotes_are_quoted() {
+        assert_eq!(quote("it's"), r"'it'\''s'");
+        assert_eq!(quote(""), "''");
+    }
+}

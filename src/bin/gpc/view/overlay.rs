@@ -1,0 +1,140 @@
+//! Overlays: values of pixels that are shown instead of their colours.
+
+use gpc::compare::heat_color;
+use gpc::output::AovKind;
+
+/// Values that are shown instead of colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Overlay {
+    /// Values of an AOV, as `gpc render --aov` writes them.
+    Stored(AovKind),
+    /// Number of triangles in a pixel.
+    Triangles,
+    /// Distance of a pixel's colour from that of brute force.
+    Error,
+}
+
+/// Samples along a side of a pixel that triangles are counted at.
+pub const COUNT_SIDE: u32 = 4;
+/// Largest number of triangles that the samples can tell apart, at the top of the scale.
+const MOST_TRIANGLES: u32 = COUNT_SIDE * COUNT_SIDE;
+/// Differences at the top of their scale, in 8-bit code values.
+const LARGEST_ERROR: u8 = 16;
+
+impl Overlay {
+    pub const ALL: [Self; 7] = [
+        Self::Stored(AovKind::Depth),
+        Self::Stored(AovKind::Id),
+        Self::Stored(AovKind::Normal),
+        Self::Stored(AovKind::Superpixels),
+        Self::Stored(AovKind::Samples),
+        Self::Triangles,
+        Self::Error,
+    ];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Stored(kind) => kind.name(),
+            Self::Triangles => "triangles",
+            Self::Error => "error",
+        }
+    }
+
+    /// The one after this, and none after the last; the first after none.
+    pub fn next(current: Option<Self>) -> Option<Self> {
+        let index = current.and_then(|current| Self::ALL.iter().position(|one| *one == current));
+        Self::ALL.get(index.map_or(0, |index| index + 1)).copied()
+    }
+
+    /// Whether the overlay makes sense only with all samples.
+    pub fn needs_all_samples(self) -> bool {
+        matches!(self, Self::Triangles | Self::Error)
+    }
+
+    /// Legend of the colours: places on the scale, 0 to 1, and their labels.
+    pub fn scale(self) -> &'static [(f64, &'static str)] {
+        match self {
+            Self::Stored(_) => &[],
+            Self::Triangles => &[
+                (0.0, "1"),
+                (0.25, "2"),
+                (0.5, "4"),
+                (0.75, "8"),
+                (1.0, "16"),
+            ],
+            Self::Error => &[
+                (0.0, "0"),
+                (0.25, "4"),
+                (0.5, "8"),
+                (0.75, "12"),
+                (1.0, "16"),
+            ],
+        }
+    }
+}
+
+/// The colour of a pixel whose samples see triangles of these IDs, 0 none.
+pub fn triangles(ids: &mut [u32]) -> [u8; 4] {
+    ids.sort_unstable();
+    let mut distinct = 0;
+    let mut last = 0;
+    for id in ids {
+        if *id != last {
+            distinct += 1;
+            last = *id;
+        }
+    }
+    let doublings = f64::from(distinct.max(1)).log2();
+    opaque(heat_color(
+        (doublings / f64::from(MOST_TRIANGLES).log2()) as f32,
+    ))
+}
+
+/// The colour of the largest difference of two pixels' channels.
+pub fn error(first: [u8; 4], second: [u8; 4]) -> [u8; 4] {
+    let differences = first.iter().zip(second).map(|(a, b)| a.abs_diff(b));
+    let largest = differences.max().unwrap_or(0);
+    opaque(heat_color(f32::from(largest) / f32::from(LARGEST_ERROR)))
+}
+
+fn opaque([r, g, b]: [u8; 3]) -> [u8; 4] {
+    [r, g, b, 255]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn overlays_go_round() {
+        let mut overlay = None;
+        for expected in Overlay::ALL {
+            overlay = Overlay::next(overlay);
+            assert_eq!(overlay, Some(expected));
+        }
+        assert_eq!(Overlay::next(overlay), None);
+    }
+
+    #[test]
+    fn triangles_are_counted_once_and_nothing_is_none() {
+        let count = |mut ids: Vec<u32>| triangles(&mut ids);
+        assert_eq!(count(vec![0, 0, 0]), opaque(heat_color(0.0)));
+        assert_eq!(count(vec![7, 7, 0]), opaque(heat_color(0.0)));
+        assert_eq!(count(vec![7, 9, 7, 9, 0]), opaque(heat_color(0.25)));
+        assert_eq!(count((1..=16).collect()), opaque(heat_color(1.0)));
+    }
+
+    #[test]
+    fn the_largest_channel_is_the_error() {
+        let error = error([10, 20, 30, 255], [10, 12, 32, 255]);
+        assert_eq!(error, opaque(heat_color(0.5)));
+    }
+
+    #[test]
+    fn scales_say_what_colours_are() {
+        for overlay in [Overlay::Triangles, Overlay::Error] {
+            let shares: Vec<_> = overlay.scale().iter().map(|(share, _)| *share).collect();
+            assert_eq!(shares, [0.0, 0.25, 0.5, 0.75, 1.0]);
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! Opening of files in a thread of its own: reading a scene, posing it and making room for it on the device.
+
+use super::engine::Engine;
+use super::navigate::Bounds;
+use super::photo::Photo;
+use super::progress::{LoadStep, Progress};
+use glam::DVec3;
+use gpc::render::{PreparedScene, SceneRequest};
+use gpc::scene::{
+    AnimationInfo, Edges, Environment, Geometry, Motion, Pose, PoseRequest, Scene, SceneCamera,
+};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Selection of a file, a scene in it and a moment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Source {
+    pub path: PathBuf,
+    /// Variant of the materials by name.
+    pub variant: Option<String>,
+    /// Scene of the file by index, animation by name or index, and time.
+    pub request: PoseRequest,
+}
+
+/// Appearance of scenes beyond what their files say.
+#[derive(Clone, Debug, Default)]
+pub struct Appearance {
+    /// Light from all around in place of the studio.
+    pub environment: Option<Arc<Environment>>,
+    /// Edges of meshes that are drawn; `None` for none.
+    pub edges: Option<Edges>,
+}
+
+/// Contents of an opened file.
+pub enum Opened {
+    Scene(Box<Stage>),
+    Photo(Photo),
+}
+
+/// A scene on the device.
+pub struct Stage {
+    pub source: Source,
+    pub scene: Arc<Scene>,
+    pub prepared: Arc<PreparedScene>,
+    /// Motion of the scene, if it has animations.
+    pub motion: Option<Motion>,
+    pub animations: Vec<AnimationInfo>,
+    pub cameras: Vec<SceneCamera>,
+    /// Triangles among which the one under the pointer is found.
+    pub geometry: Geometry,
+    pub bounds: Bounds,
+    /// Warnings: parts of the file that can't be shown.
+    pub warnings: Vec<String>,
+    /// Engine whose device the scene needs until it is dropped.
+    _engine: Arc<Engine>,
+}
+
+impl Stage {
+    /// Index of the animation that is played.
+    pub fn animation(&self) -> usize {
+        let Some(asked) = &self.source.request.animation else {
+            return 0;
+        };
+        let named = |animation: &AnimationInfo| animation.name.as_ref() == Some(asked);
+        let index = self.animations.iter().position(named);
+        index.or_else(|| asked.parse().ok()).unwrap_or(0)
+    }
+}
+
+impl Source {
+    /// The file's own scene, as it is at first.
+    pub fn new(path: PathBuf) -> Self {
+        Self {
+            path,
+            variant: None,
+            request: PoseRequest::default(),
+        }
+    }
+
+    /// Reads a scene and prepares it for the device, or reads a photograph.
+    pub fn open(
+        &self,
+        engine: Arc<Engine>,
+        appearance: &Appearance,
+        max_memory: Option<u64>,
+        progress: &Progress,
+    ) -> anyhow::Result<Opened> {
+        let is_photo = gpc::output::is_image(&self.path);
+        progress.begin(LoadStep::Read)?;
+        if is_photo {
+            return Ok(Opened::Photo(Photo::open(&self.path)?));
+        }
+        let mut loaded = match &self.variant {
+            Some(variant) => Scene::load_variant(&self.path, variant)?,
+            None => Scene::load(&self.path)?,
+        };
+        if appearance.environment.is_some() {
+            loaded.scene.environment = appearance.environment.clone();
+        }
+        if let Some(edges) = &appearance.edges {
+            loaded.scene.add_edges(edges);
+        }
+        progress.begin(LoadStep::Pose)?;
+        let animations = loaded.scene.info().animations;
+        let renderer = &engine.renderer;
+        let (pose, motion) = if animations.is_empty() {
+            (loaded.scene.pose(&self.request)?, None)
+        } else {
+            let (pose, motion) = loaded.scene.pose_in_motion(&self.request)?;
+            (pose, Some(motion))
+        };
+        progress.begin(LoadStep::Prepare)?;
+        let request = SceneRequest::new(&loaded.scene, &pose)
+            .moving(motion.as_ref())
+            .within(max_memory);
+        let prepared = renderer.prepare_scene(request)?;
+        let warnings = loaded.warnings.iter().chain(&pose.warnings);
+        let warnings: Vec<_> = warnings.map(ToString::to_string).collect();
+        Ok(Opened::Scene(Box::new(Stage {
+            source: self.clone(),
+            scene: Arc::new(loaded.scene),
+            bounds: bounds(&pose),
+            cameras: pose.cameras,
+            geometry: pose.geometry,
+            motion,
+            animations,
+            prepared: Arc::new(prepared),
+            warnings,
+            _engine: engine,
+        })))
+    }
+
+    /// The file's name.
+    pub fn name(&self) -> String {
+        let name = self.path.file_name().unwrap_or(self.path.as_os_str());
+        name.to_string_lossy().into_owned()
+    }
+
+    /// File name without its extension, for names of files made of the scene.
+    pub fn stem(&self) -> String {
+        let stem = self.path.file_stem().unwrap_or(self.path.as_os_str());
+        stem.to_string_lossy().into_owned()
+    }
+}
+
+/// The box around a pose; around the origin where it is empty.
+pub fn bounds(pose: &Pose) -> Bounds {
+    let bounds = pose.geometry.bounds();
+    bounds.unwrap_or((DVec3::splat(-1.0), DVec3::ONE))
+}

@@ -1,0 +1,81 @@
+//! Files that change on the disk.
+
+use notify::{EventKind, RecommendedWatcher, RecursiveMode, Watcher};
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+
+/// Endings of the files that scene files refer to. No other program of interest writes such files.
+const BESIDE: [&str; 2] = ["bin", "mtl"];
+
+/// Watches a scene file until it is dropped.
+pub struct Watch {
+    _watcher: RecommendedWatcher,
+}
+
+impl Watch {
+    /// Calls `changed`, in another thread, whenever the file or data in its folder is written or replaced.
+    ///
+    /// # Errors
+    /// If the system can't watch the file's folder.
+    pub fn new(path: &Path, changed: impl Fn() + Send + 'static) -> notify::Result<Self> {
+        let folder = match path.parent() {
+            Some(folder) if folder != Path::new("") => folder.to_owned(),
+            _ => PathBuf::from("."),
+        };
+        let name = path.file_name().map(OsStr::to_owned);
+        let mut watcher =
+            notify::recommended_watcher(move |event: notify::Result<notify::Event>| {
+                let Ok(event) = event else {
+                    return;
+                };
+                let is_ours = |path: &PathBuf| {
+                    let beside = path.extension().is_some_and(|extension| {
+                        BESIDE
+                            .iter()
+                            .any(|known| extension.eq_ignore_ascii_case(known))
+                    });
+                    path.file_name() == name.as_deref() || beside
+                };
+                if matches!(event.kind, EventKind::Create(_) | EventKind::Modify(_))
+                    && event.paths.iter().any(is_ours)
+                {
+                    changed();
+                }
+            })?;
+        // The folder: editors replace files by others.
+        watcher.watch(&folder, RecursiveMode::NonRecursive)?;
+        Ok(Self { _watcher: watcher })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::mpsc::channel;
+    use std::time::Duration;
+
+    #[test]
+    fn writing_and_replacing_is_seen_and_other_files_are_not() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.gltf");
+        std::fs::write(&path, "1").unwrap();
+        let (sender, changes) = channel();
+        let _watch = Watch::new(&path, move || {
+            let _ = sender.send(());
+        })
+        .unwrap();
+        let long = Duration::from_secs(20);
+        std::fs::write(&path, "2").unwrap();
+        changes.recv_timeout(long).unwrap();
+        let other = folder.path().join("b.tmp");
+        std::fs::write(&other, "3").unwrap();
+        while changes.recv_timeout(Duration::from_millis(300)).is_ok() {}
+        std::fs::write(&other, "4").unwrap();
+        assert!(changes.recv_timeout(Duration::from_millis(300)).is_err());
+        std::fs::rename(&other, &path).unwrap();
+        changes.recv_timeout(long).unwrap();
+        while changes.recv_timeout(Duration::from_millis(300)).is_ok() {}
+        std::fs::write(folder.path().join("a.bin"), "5").unwrap();
+        changes.recv_timeout(long).unwrap();
+    }
+}

@@ -1,0 +1,561 @@
+//! The window: loading scenes, and drawing what is due.
+
+use super::app::Event;
+use super::canvas::{Canvas, Seen};
+use super::compose::{self, Magnifier};
+use super::cover::Cover;
+use super::device::Device;
+use super::engine::Engine;
+use super::files::scenes_at;
+use super::fly::Flight;
+use super::look::Look;
+use super::losses::is_lost;
+use super::notes::Notes;
+use super::open::Loading;
+use super::painter::Painting;
+use super::panel::{self, Facts, LoadingFacts, PhotoFacts, PictureFacts, SceneFacts, Wishes};
+use super::photo::Easel;
+use super::player::Player;
+use super::pointer::Pointer;
+use super::preparer::Preparer;
+use super::source::{Appearance, Source};
+use super::standpoint::{Standpoint, Start};
+use super::watch::Watch;
+use super::worker::{Made, PictureWorker};
+use super::{NoDisplay, Options, ending};
+use gpc::render::{HeadlessOptions, Shadows};
+use gpc::scene::{Moment, SceneCamera};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+use winit::dpi::PhysicalSize;
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
+use winit::keyboard::ModifiersState;
+use winit::window::Window;
+
+/// Time to wait before asking again whether the device is done.
+const POLL: Duration = Duration::from_millis(3);
+/// Time for which a file has to stay unchanged before it is loaded again: programs may write it in parts.
+const SETTLE: Duration = Duration::from_millis(300);
+
+/// The window with all that is in it.
+pub struct Viewer {
+    pub proxy: EventLoopProxy<Event>,
+    pub canvas: Canvas,
+    pub interface: egui_winit::State,
+    pub window: Arc<Window>,
+
+    /// Files that the arrow keys go through, and which of them was asked for.
+    pub scenes: Vec<PathBuf>,
+    pub scene: usize,
+    /// Source that was asked for.
+    pub source: Source,
+    pub loading: Option<Loading>,
+    /// Loads that were begun, and the threads of those that have not ended.
+    pub loads: u64,
+    pub loaders: Vec<JoinHandle<()>>,
+    /// Tells when the scene's file changes.
+    pub watch: Option<Watch>,
+    /// Time to load the scene again.
+    pub reload: Option<Instant>,
+
+    /// Player of the animation, if the scene has one.
+    pub player: Option<Player>,
+    /// Moment of the animation that is shown, unless it is the first pose.
+    pub moment: Option<Arc<Moment>>,
+
+    pub standpoint: Standpoint,
+    /// Standpoint in the first scene at the start.
+    pub start: Option<Start>,
+    /// While keys move the eye.
+    pub flight: Option<Flight>,
+    /// Antialiasing of the pictures, the left one first.
+    pub looks: Vec<Look>,
+    /// Appearance of scenes beyond what their files say.
+    pub appearance: Arc<Appearance>,
+    /// Options of the command line for this appearance and the background.
+    pub appearance_options: Vec<String>,
+    /// Column of the split, as a share of the width.
+    pub split: f64,
+    /// Enlargement of the magnifier, where it is on.
+    pub magnifier: Option<u32>,
+
+    pub pointer: Pointer,
+    pub modifiers: ModifiersState,
+    /// Cover: a picture that is shown instead of the frames.
+    pub cover: Cover,
+    pub cover_figures: Option<String>,
+    /// Photograph that is shown instead of a scene.
+    pub easel: Option<Easel>,
+    /// Makes it, and files.
+    pub worker: PictureWorker,
+    pub notes: Notes,
+    pub shows_keys: bool,
+    pub shows_panel: bool,
+    /// Whether the window has to be drawn again.
+    pub is_dirty: bool,
+    /// Time to draw the panel again.
+    pub repaint: Option<Instant>,
+    /// Whether the picture was said to be at rest.
+    pub rests: bool,
+    pub wants_to_quit: bool,
+
+    /// Options for opening devices.
+    device: HeadlessOptions,
+    /// Messages of the validation layer about devices that were lost.
+    messages: Vec<String>,
+}
+
+impl Viewer {
+    pub fn new(
+        events: &ActiveEventLoop,
+        options: Options,
+        proxy: EventLoopProxy<Event>,
+    ) -> anyhow::Result<Self> {
+        let [width, height] = options.look.settings.size;
+        let attributes = Window::default_attributes()
+            .with_title("gpc")
+            .with_inner_size(PhysicalSize::new(width, height));
+        let window = events
+            .create_window(attributes)
+            .map_err(|error| NoDisplay::new(&error))?;
+        let window = Arc::new(window);
+        let canvas = canvas(&window, &options.device, &proxy)?;
+        let interface = interface(&window);
+        let deliver = proxy.clone();
+        let worker = PictureWorker::new(options.device.clone(), move |made| {
+            // Nobody waits for it once the window is closed.
+            let _ = deliver.send_event(Event::Made(made));
+        });
+        let has_shadows = options.look.settings.shadows == Shadows::Exact;
+        let cover = Cover::new(has_shadows, options.shows_environment);
+        let (mut scenes, mut notes) = (Vec::new(), Notes::new(options.describe));
+        let mut source = options.source;
+        for path in std::iter::once(&source.path).chain(&options.others) {
+            match scenes_at(path) {
+                Ok(found) => scenes.extend(found),
+                Err(error) => notes.fail(&error),
+            }
+        }
+        if let Some(first) = scenes.first() {
+            source.path.clone_from(first);
+        }
+        let mut view = Self {
+            scenes,
+            looks: vec![options.look],
+            standpoint: Standpoint::Camera(0),
+            start: Some(options.start),
+            source,
+            appearance: Arc::new(options.appearance),
+            appearance_options: options.appearance_options,
+            device: options.device,
+            proxy,
+            canvas,
+            interface,
+            window,
+            scene: 0,
+            loading: None,
+            loads: 0,
+            loaders: Vec::new(),
+            watch: None,
+            reload: None,
+            player: None,
+            moment: None,
+            flight: None,
+            split: 0.5,
+            magnifier: None,
+            pointer: Pointer::default(),
+            modifiers: ModifiersState::empty(),
+            cover,
+            cover_figures: None,
+            easel: None,
+            worker,
+            notes,
+            shows_keys: false,
+            shows_panel: true,
+            is_dirty: true,
+            repaint: None,
+            rests: false,
+            wants_to_quit: false,
+            messages: Vec::new(),
+        };
+        view.canvas.refines = !view.cover.is_wanted();
+        if !view.scenes.is_empty() {
+            view.load(false);
+        }
+        Ok(view)
+    }
+
+    /// Opens a device again after the one before was lost, for the same view.
+    pub fn reopened(mut self) -> anyhow::Result<Self> {
+        let mut messages = std::mem::take(&mut self.messages);
+        messages.extend(self.canvas.engine.device.validation_messages());
+        let keeps_view = match &self.loading {
+            Some(loading) => loading.keeps_view,
+            None => self.shows_source(),
+        };
+        // The window's images go before it has others.
+        drop(self.canvas);
+        let mut view = Self {
+            canvas: canvas(&self.window, &self.device, &self.proxy)?,
+            interface: interface(&self.window),
+            messages,
+            moment: None,
+            ..self
+        };
+        view.canvas.refines = !view.cover.is_wanted();
+        view.source.request.time = view.time();
+        view.notes
+            .say("the device was lost; everything is made again");
+        view.load(keeps_view);
+        Ok(view)
+    }
+
+    /// Ends everything, and hands over what the validation layer said. Files that are not written yet are given up. Threads
+    /// are waited for, for a moment, or, where the validation layer is asked, until it has heard all.
+    pub fn close(mut self) -> Vec<String> {
+        self.window.set_visible(false);
+        for path in self.worker.stop_files() {
+            log::warn!("closed before {} was written", path.display());
+        }
+        self.loading = None;
+        if !self.device.validation {
+            ending::end_soon();
+        }
+        let device = self.canvas.engine.device.clone();
+        let loaders = std::mem::take(&mut self.loaders);
+        let mut messages = std::mem::take(&mut self.messages);
+        drop(self);
+        for loader in loaders {
+            // A panic has been reported by the thread itself.
+            let _ = loader.join();
+        }
+        messages.extend(device.validation_messages());
+        messages
+    }
+
+    /// Takes what another thread has done.
+    pub fn on_done(&mut self, event: Event) -> anyhow::Result<()> {
+        self.is_dirty = true;
+        match event {
+            Event::Opened(number, opened) => self.opened(number, *opened)?,
+            Event::Changed => self.reload = Some(Instant::now() + SETTLE),
+            Event::Prepared(prepared) => {
+                if let Err(error) = self.canvas.prepared(*prepared) {
+                    self.report(error)?;
+                }
+            }
+            Event::Made(Made::File(path, written)) => {
+                self.worker.delivered(&path);
+                match written {
+                    Ok(()) => self.notes.say(format!("wrote {}", path.display())),
+                    Err(error) => self.notes.fail(&error),
+                }
+            }
+            Event::Made(Made::Pixels(number, Ok(pixels))) => self.show_made(number, &pixels)?,
+            Event::Made(Made::Pixels(_, Err(error))) => self.notes.fail(&error),
+        }
+        Ok(())
+    }
+
+    /// Makes pictures of the window's size anew.
+    pub fn renew_layers(&mut self) -> anyhow::Result<()> {
+        self.is_dirty = true;
+        self.rests = false;
+        let Some(size) = self.canvas.size() else {
+            return Ok(());
+        };
+        let now = Instant::now();
+        for look in &mut self.looks {
+            look.settings.size = size;
+        }
+        self.canvas.set_looks(&self.looks, now)?;
+        self.view_changed();
+        Ok(())
+    }
+
+    /// Width / height of the picture.
+    pub fn aspect(&self) -> f64 {
+        let [width, height] = self.size();
+        width / height
+    }
+
+    /// Width and height of the picture in pixels.
+    pub fn size(&self) -> [f64; 2] {
+        self.pixels().map(f64::from)
+    }
+
+    /// Size of the window in whole pixels; a window without a size has one pixel.
+    pub fn pixels(&self) -> [u32; 2] {
+        self.canvas.size().unwrap_or([1, 1])
+    }
+
+    /// Column of the split, where there is one.
+    pub fn split_column(&self) -> Option<u32> {
+        (self.looks.len() > 1).then(|| (self.split * self.size()[0]).round() as u32)
+    }
+
+    /// Does what is due, and says when to be asked again.
+    ///
+    /// # Errors
+    /// If the device is lost or memory runs out.
+    pub fn advance(&mut self, now: Instant) -> anyhow::Result<ControlFlow> {
+        match self.canvas.collect() {
+            Ok(any) => self.is_dirty |= any,
+            Err(error) => self.report(error)?,
+        }
+        let due = self.canvas.due();
+        let is_due = |at: Option<Instant>| at.is_some_and(|at| at <= now);
+        if is_due(self.reload) {
+            self.source.request.time = self.time();
+            self.load(self.shows_source());
+        }
+        self.is_dirty |= self.player.as_ref().is_some_and(Player::is_playing);
+        self.is_dirty |= self.flight.as_ref().is_some_and(Flight::is_moving);
+        self.is_dirty |= is_due(due) || is_due(self.repaint) || self.canvas.has_again();
+        self.is_dirty |= is_due(self.notes.next_change());
+        if is_due(self.cover.due()) {
+            self.refine_cover();
+        }
+        if self.is_dirty {
+            self.draw(now)?;
+        }
+        self.note_rest();
+        if self.is_dirty || self.canvas.is_busy() {
+            return Ok(ControlFlow::WaitUntil(now + POLL));
+        }
+        let next = [
+            self.canvas.due(),
+            self.repaint,
+            self.reload,
+            self.cover.due(),
+            self.notes.next_change(),
+        ];
+        Ok(next
+            .into_iter()
+            .flatten()
+            .min()
+            .map_or(ControlFlow::Wait, ControlFlow::WaitUntil))
+    }
+
+    /// Draws the window, if one of its images is free.
+    fn draw(&mut self, now: Instant) -> anyhow::Result<()> {
+        let Some(acquired) = self.canvas.acquire()? else {
+            return Ok(());
+        };
+        self.is_dirty = false;
+        if let Some(player) = &mut self.player
+            && player.is_playing()
+        {
+            player.advance(now);
+            self.show_time();
+        }
+        self.fly(now);
+        let (painting, wishes) = self.lay_out(now);
+        let aspect = self.aspect();
+        let camera = match self.canvas.stage() {
+            Some(stage) => Some(
+                self.standpoint
+                    .camera(self.cameras(), stage.bounds, aspect)?,
+            ),
+            None => None,
+        };
+        let size = self.pixels();
+        let split = self.split_column();
+        let magnified = self.magnifier.map_or_else(Vec::new, |factor| {
+            let place = self.pointer.place().max(glam::DVec2::ZERO);
+            let magnifier = Magnifier {
+                centre: [
+                    (place.x as u32).min(size[0].saturating_sub(1)),
+                    (place.y as u32).min(size[1].saturating_sub(1)),
+                ],
+                factor,
+            };
+            compose::magnified(size, split, magnifier)
+        });
+        let seen = Seen {
+            camera: camera.as_ref(),
+            moment: self.moment.as_ref(),
+            pieces: &compose::pictures(size, split),
+            magnified: &magnified,
+        };
+        if let Err(error) = self.canvas.draw(acquired, &seen, painting, now) {
+            self.report(error)?;
+        }
+        self.fulfil(wishes)
+    }
+
+    /// Lays out the panel.
+    fn lay_out(&mut self, now: Instant) -> (Painting, Wishes) {
+        let input = self.interface.take_egui_input(&self.window);
+        let context = self.interface.egui_ctx().clone();
+        let names = self.loading.as_ref().map(|loading| {
+            let since = now.saturating_duration_since(loading.since);
+            (loading.source.name(), since, loading.progress.step())
+        });
+        let split = self.split_column();
+        let facts = Facts {
+            notes: self.notes.seen(now),
+            loading: names
+                .as_ref()
+                .map(|(name, since, (step, share))| LoadingFacts {
+                    name,
+                    since: *since,
+                    step: step.name(),
+                    share: *share,
+                }),
+            shows_keys: self.shows_keys,
+            shows_panel: self.shows_panel,
+            split,
+            lenses: &self.cover.lenses,
+            tints: self.cover.tints,
+            overlay: self.cover.overlay,
+            figures: self.cover_figures.as_deref(),
+            is_refining: !self.cover.is_done(),
+            photo: self.easel.as_ref().map(|easel| PhotoFacts {
+                name: self.source.name(),
+                size: easel.photo.photograph().size(),
+                is_zoomed: easel.photo.zoomed().is_some(),
+            }),
+            scene: self.canvas.stage().map(|stage| SceneFacts {
+                name: stage.source.name(),
+                warnings: &stage.warnings,
+                triangles: stage.prepared.triangle_count(),
+                motion: self
+                    .player
+                    .as_ref()
+                    .map(|player| (stage.animations.as_slice(), stage.animation(), player)),
+            }),
+            pictures: self
+                .canvas
+                .layers()
+                .iter()
+                .map(|layer| PictureFacts {
+                    look: &layer.look,
+                    shown: layer.shown,
+                    is_prepared: !layer.is_waiting(),
+                    statistics: &layer.statistics,
+                })
+                .collect(),
+        };
+        let mut wishes = Wishes::default();
+        let output = context.run(input, |context| wishes = panel::show(context, &facts));
+        self.interface
+            .handle_platform_output(&self.window, output.platform_output);
+        let again = output
+            .viewport_output
+            .get(&egui::ViewportId::ROOT)
+            .and_then(|viewport| now.checked_add(viewport.repaint_delay));
+        self.repaint = again;
+        let painting = Painting {
+            textures: output.textures_delta,
+            primitives: context.tessellate(output.shapes, output.pixels_per_point),
+            pixels_per_point: output.pixels_per_point,
+        };
+        (painting, wishes)
+    }
+
+    /// The cameras of the scene, where they are now.
+    pub fn cameras(&self) -> &[SceneCamera] {
+        match (&self.moment, self.canvas.stage()) {
+            (Some(moment), _) => &moment.cameras,
+            (None, Some(stage)) => &stage.cameras,
+            (None, None) => &[],
+        }
+    }
+
+    /// Moment of the animation in seconds.
+    pub fn time(&self) -> f64 {
+        self.player
+            .as_ref()
+            .map_or(self.source.request.time, Player::time)
+    }
+
+    /// Shows the scene at the player's time.
+    pub fn show_time(&mut self) {
+        let time = self.time();
+        let Some((stage, motion)) = self
+            .canvas
+            .stage()
+            .and_then(|stage| Some((stage, stage.motion.as_ref()?)))
+        else {
+            return;
+        };
+        match motion.at(&stage.scene, time) {
+            Ok(Some(moment)) => {
+                self.moment = Some(Arc::new(moment));
+                self.restart();
+            }
+            // A mesh turns inside out, or something comes or goes: the scene is posed anew, which takes a while.
+            Ok(None) => {
+                if let Some(player) = &mut self.player
+                    && player.is_playing()
+                {
+                    player.toggle(Instant::now());
+                    self.notes.say(
+                        "this animation turns meshes inside out, or has something come and go: it can't be played; choose its times by hand",
+                    );
+                }
+                self.source.request.time = time;
+                self.load(true);
+            }
+            Err(error) => self.notes.fail(&error.into()),
+        }
+    }
+
+    /// Says what went wrong in the window. What nothing can go on after is handed back.
+    fn report(&mut self, error: anyhow::Error) -> anyhow::Result<()> {
+        if is_lost(&error) {
+            return Err(error);
+        }
+        self.notes.fail(&error);
+        self.is_dirty = true;
+        Ok(())
+    }
+
+    /// Says when the picture that is seen has all samples.
+    fn note_rest(&mut self) {
+        let is_drawn = self.easel.is_some() || self.canvas.rests();
+        if !(is_drawn && self.cover.is_done()) {
+            self.rests = false;
+        } else if !self.rests && !self.is_dirty && !self.canvas.is_busy() {
+            self.rests = true;
+            log::debug!("at rest");
+        }
+    }
+}
+
+/// Opens a device that shows pictures in the window.
+fn canvas(
+    window: &Arc<Window>,
+    options: &HeadlessOptions,
+    proxy: &EventLoopProxy<Event>,
+) -> anyhow::Result<Canvas> {
+    let device = Device::new(
+        window.clone(),
+        options.device.as_deref(),
+        options.validation,
+    )?;
+    let engine = Engine::new(Arc::new(device))?;
+    let deliver = proxy.clone();
+    let preparer = Preparer::new(move |prepared| {
+        // Nobody waits for it once the window is closed.
+        let _ = deliver.send_event(Event::Prepared(Box::new(prepared)));
+    });
+    Canvas::new(Arc::new(engine), window.inner_size().into(), preparer)
+}
+
+/// Lays out the panel from nothing, since a new device has none of its textures.
+fn interface(window: &Window) -> egui_winit::State {
+    let context = egui::Context::default();
+    context.set_visuals(egui::Visuals::dark());
+    egui_winit::State::new(
+        context,
+        egui::ViewportId::ROOT,
+        window,
+        Some(window.scale_factor() as f32),
+        window.theme(),
+        None,
+    )
+}

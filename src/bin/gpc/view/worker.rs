@@ -1,0 +1,608 @@
+//! Pictures that the window's frames can't make: of other sampling locations than the centres of pixels, of what pixels hold
+//! beside their colours, of photographs, and for files. They are made in a thread and a device of their own, so that the
+//! window never waits for them.
+
+use super::losses::is_lost;
+use super::overlay::{self, COUNT_SIDE, Overlay};
+use super::photo::PhotoView;
+use super::source::{Source, bounds};
+use super::standpoint::Standpoint;
+use super::stop::Stop;
+use super::tint::tinted;
+use anyhow::{Context, bail};
+use glam::DVec2;
+use gpc::camera::Pinhole;
+use gpc::camera::set::SamplingSet;
+use gpc::camera::zoom::ZoomMap;
+use gpc::color::srgb;
+use gpc::compare;
+use gpc::output::{self, Aov, AovKind, DecodedImage, Format, Picture};
+use gpc::render::{
+    Headless, HeadlessOptions, Method, PixelRect, PreparedScene, RenderError, Rendered,
+    SceneRequest, Settings, Shadows, Statistics,
+};
+use gpc::resample::Zoomed;
+use gpc::scene::{Pose, PoseRequest, Scene};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread::JoinHandle;
+
+/// Rows of a picture that are made at once, where it takes long: in between it can be stopped.
+const BAND: u32 = 32;
+/// Most samples of a picture that is soon done. Such a picture is shown even if another one has been asked for
+/// meanwhile, so that there is something to see while lenses move.
+const QUICK: u32 = 4;
+/// Least samples of the brute force that pictures are compared with.
+const REFERENCE_SAMPLES: u32 = 256;
+
+/// Kind of picture that is made of a scene.
+#[derive(Clone, Debug)]
+pub enum Subject {
+    /// The scene, to look at.
+    Still,
+    /// The scene with regions enlarged, to look at, with or without colours over the transitions.
+    Zoom(ZoomMap, bool),
+    /// Values of pixels other than their colours, to look at.
+    Overlay(Overlay),
+    /// PNG file with the same bytes that `gpc render` writes or, with regions enlarged, `gpc zoom`.
+    File(PathBuf, Option<ZoomMap>),
+}
+
+/// A picture to be made.
+struct Order {
+    /// Tells what is made from what was asked for since.
+    number: u64,
+    task: Task,
+    stop: Stop,
+}
+
+/// Contents of an order.
+pub enum Task {
+    Scene(Box<SceneTask>),
+    Photo(PhotoView),
+    /// PNG file with the same bytes that `gpc zoom` or `gpc unzoom` writes.
+    PhotoFile(PhotoView, PathBuf),
+}
+
+/// Order for a picture of a scene: the scene, the standpoint and the settings.
+pub struct SceneTask {
+    pub source: Source,
+    pub scene: Arc<Scene>,
+    /// Moment of the animation in seconds.
+    pub time: f64,
+    pub standpoint: Standpoint,
+    pub settings: Settings,
+    /// Whether its environment is seen behind it, but where regions are enlarged.
+    pub shows_environment: bool,
+    pub subject: Subject,
+}
+
+impl Task {
+    /// File that the task writes; such a task is done whatever else is asked for.
+    fn file(&self) -> Option<&Path> {
+        match self {
+            Self::Scene(task) => match &task.subject {
+                Subject::File(path, _) => Some(path),
+                _ => None,
+            },
+            Self::Photo(_) => None,
+            Self::PhotoFile(_, path) => Some(path),
+        }
+    }
+}
+
+impl SceneTask {
+    fn is_quick(&self) -> bool {
+        let needs_all =
+            matches!(self.subject, Subject::Overlay(overlay) if overlay.needs_all_samples());
+        self.settings.samples <= QUICK && !needs_all
+    }
+}
+
+/// A picture to look at.
+pub struct Pixels {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Rows of RGBA from the top: sRGB codes, premultiplied.
+    pub codes: Vec<[u8; 4]>,
+    /// Figures about the picture, in words.
+    pub figures: Option<String>,
+}
+
+impl Pixels {
+    /// Codes of linear light.
+    fn new(size: [u32; 2], colors: &[[f32; 4]]) -> Self {
+        let code = |[r, g, b, a]: &[f32; 4]| {
+            let [r, g, b] = [*r, *g, *b].map(|v| srgb::encode_u8(f64::from(v)));
+            [r, g, b, (a.clamp(0.0, 1.0) * 255.0).round() as u8]
+        };
+        Self {
+            size,
+            codes: colors.iter().map(code).collect(),
+            figures: None,
+        }
+    }
+
+    /// Replaces each code by one made of it and of the pixel's centre.
+    fn map(mut self, change: impl Fn([u8; 4], DVec2) -> [u8; 4]) -> Self {
+        let width = self.size[0].max(1);
+        for (index, code) in self.codes.iter_mut().enumerate() {
+            let (x, y) = (index as u32 % width, index as u32 / width);
+            *code = change(*code, DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5));
+        }
+        self
+    }
+}
+
+/// Result of an order.
+pub enum Made {
+    Pixels(u64, anyhow::Result<Pixels>),
+    File(PathBuf, anyhow::Result<()>),
+}
+
+impl Made {
+    /// Error for which there is no result.
+    fn error(&self) -> Option<&anyhow::Error> {
+        match self {
+            Self::Pixels(_, made) => made.as_ref().err(),
+            Self::File(_, made) => made.as_ref().err(),
+        }
+    }
+}
+
+/// Takes orders until it is dropped, which stops what it is at.
+pub struct PictureWorker {
+    /// `None` only while dropping.
+    orders: Option<Sender<Order>>,
+    thread: Option<JoinHandle<()>>,
+    /// The last picture to look at.
+    picture: Stop,
+    /// Files that were asked for and are not written.
+    files: Vec<(PathBuf, Stop)>,
+}
+
+impl PictureWorker {
+    /// Starts a thread that opens a device with the first order of a scene, and delivers what it makes.
+    pub fn new(options: HeadlessOptions, deliver: impl Fn(Made) + Send + 'static) -> Self {
+        let (orders, received) = channel();
+        let thread = std::thread::spawn(move || {
+            Maker {
+                shown: None,
+                headless: None,
+                options,
+            }
+            .run(&received, deliver);
+        });
+        Self {
+            orders: Some(orders),
+            thread: Some(thread),
+            picture: Stop::default(),
+            files: Vec::new(),
+        }
+    }
+
+    /// Asks for a picture. Of those to look at the last alone is made.
+    pub fn ask(&mut self, number: u64, task: Task) {
+        let stop = Stop::default();
+        match task.file() {
+            Some(path) => self.files.push((path.to_owned(), stop.clone())),
+            None => std::mem::replace(&mut self.picture, stop.clone()).supersede(),
+        }
+        let order = Order { number, task, stop };
+        if let Some(orders) = &self.orders {
+            // The thread ends with this sender, and not before.
+            let _ = orders.send(order);
+        }
+    }
+
+    /// The last picture to look at is of no use any more.
+    pub fn supersede(&mut self) {
+        self.picture.supersede();
+    }
+
+    /// A file is written, or can't be.
+    pub fn delivered(&mut self, path: &Path) {
+        self.files.retain(|(asked, _)| asked != path);
+    }
+
+    /// Stops all files, and says which.
+    pub fn stop_files(&mut self) -> Vec<PathBuf> {
+        let stopped = |(path, stop): (PathBuf, Stop)| {
+            stop.stop();
+            path
+        };
+        self.files.drain(..).map(stopped).collect()
+    }
+}
+
+impl Drop for PictureWorker {
+    fn drop(&mut self) {
+        self.orders = None;
+        self.picture.stop();
+        self.stop_files();
+        if let Some(thread) = self.thread.take() {
+            // A panic has been reported by the thread itself.
+            let _ = thread.join();
+        }
+    }
+}
+
+/// The thread's own.
+struct Maker {
+    /// First, since it goes before the device.
+    shown: Option<OpenScene>,
+    headless: Option<Headless>,
+    options: HeadlessOptions,
+}
+
+/// A pose on the device.
+struct OpenScene {
+    scene: Arc<Scene>,
+    time: f64,
+    pose: Pose,
+    prepared: PreparedScene,
+}
+
+impl Maker {
+    fn run(&mut self, orders: &Receiver<Order>, deliver: impl Fn(Made)) {
+        for order in orders {
+            if order.stop.is_superseded() {
+                continue;
+            }
+            let made = self.make(&order);
+            if made.error().is_some_and(is_stopped) {
+                continue;
+            }
+            if made.error().is_some_and(is_lost) {
+                // The next order opens another device.
+                self.shown = None;
+                self.headless = None;
+            }
+            deliver(made);
+        }
+    }
+
+    /// Makes a picture. If it is stopped, the error is one that [`is_stopped`] recognises.
+    fn make(&mut self, order: &Order) -> Made {
+        let number = order.number;
+        let task = match &order.task {
+            Task::Scene(task) => task,
+            Task::Photo(view) => {
+                let pixels = Pixels::new(view.window.size, &view.pixels());
+                let pixels = pixels.map(|code, place| view.covered(code, place));
+                return Made::Pixels(number, Ok(pixels));
+            }
+            Task::PhotoFile(view, path) => {
+                return Made::File(path.clone(), write_photo(view, path));
+            }
+        };
+        if let Err(error) = self.listen(task, &order.stop) {
+            return Made::Pixels(number, Err(error));
+        }
+        let pixels = match &task.subject {
+            Subject::File(path, map) => {
+                return Made::File(path.clone(), self.write(task, path, map.as_ref()));
+            }
+            Subject::Still => self.still(task),
+            Subject::Zoom(map, tints) => self.zoom(task, map, *tints),
+            Subject::Overlay(Overlay::Stored(kind)) => self.stored(task, *kind),
+            Subject::Overlay(Overlay::Triangles) => self.triangles(task),
+            Subject::Overlay(Overlay::Error) => self.error(task),
+        };
+        Made::Pixels(number, pixels)
+    }
+
+    /// Opens the device, and has it ask whether the task is still wanted.
+    fn listen(&mut self, task: &SceneTask, stop: &Stop) -> anyhow::Result<()> {
+        let headless = match &mut self.headless {
+            Some(headless) => headless,
+            none => none.insert(Headless::new(&self.options)?),
+        };
+        let (stop, is_quick) = (stop.clone(), task.is_quick());
+        headless.stop_when(move || stop.is_unwanted() || (!is_quick && stop.is_superseded()));
+        Ok(())
+    }
+
+    fn write(
+        &mut self,
+        task: &SceneTask,
+        path: &Path,
+        map: Option<&ZoomMap>,
+    ) -> anyhow::Result<()> {
+        let rendered = match map {
+            Some(map) => self.enlarged(task, map)?,
+            None => self.scenery(task)?,
+        };
+        write_png(path, rendered.size, &rendered.colors, map)
+    }
+
+    fn still(&mut self, task: &SceneTask) -> anyhow::Result<Pixels> {
+        let rendered = self.scenery(task)?;
+        Ok(Pixels::new(rendered.size, &rendered.colors))
+    }
+
+    /// The scene and what is behind it.
+    fn scenery(&mut self, task: &SceneTask) -> anyhow::Result<Rendered> {
+        let mut rendered = self.render(task, &task.settings)?;
+        if task.shows_environment {
+            let (_, shown) = self.show(task)?;
+            let environment = shown.pose.environment(&task.scene).context(
+                "--background environment: there is none; name one by --environment FILE",
+            )?;
+            rendered.show_behind(environment, &camera(task, shown)?, &task.settings)?;
+        }
+        Ok(rendered)
+    }
+
+    /// The scene with regions enlarged.
+    fn enlarged(&mut self, task: &SceneTask, map: &ZoomMap) -> anyhow::Result<Rendered> {
+        let size = task.settings.size;
+        let (headless, shown) = self.show(task)?;
+        let camera = camera(task, shown)?;
+        let set = SamplingSet::mapped(size, map)?;
+        let rig = [(Pinhole::from_camera(&camera, size)?, set.locations())];
+        let rendered = headless.render_locations(&shown.prepared, &rig, size, &task.settings)?;
+        check(headless)?;
+        Ok(rendered)
+    }
+
+    fn zoom(&mut self, task: &SceneTask, map: &ZoomMap, tints: bool) -> anyhow::Result<Pixels> {
+        let rendered = self.enlarged(task, map)?;
+        let pixels = Pixels::new(rendered.size, &rendered.colors);
+        Ok(if tints {
+            pixels.map(|code, place| tinted(code, place, map.regions()))
+        } else {
+            pixels
+        })
+    }
+
+    fn stored(&mut self, task: &SceneTask, kind: AovKind) -> anyhow::Result<Pixels> {
+        let settings = Settings {
+            attributes: true,
+            shadows: Shadows::None,
+            ..task.settings.clone()
+        };
+        let rendered = self.render(task, &settings)?;
+        let aov = Aov::from_attributes(kind, &rendered.attributes);
+        // The same colours as in files.
+        let file = output::encode_aov(rendered.size, &aov)?;
+        let image = image::load_from_memory(&file)?.to_rgba8();
+        Ok(Pixels {
+            size: rendered.size,
+            codes: image.pixels().map(|pixel| pixel.0).collect(),
+            figures: None,
+        })
+    }
+
+    /// Counts triangles at a grid of samples in every pixel.
+    fn triangles(&mut self, task: &SceneTask) -> anyhow::Result<Pixels> {
+        let size = task.settings.size;
+        let finer = Settings {
+            method: Method::None,
+            samples: 1,
+            size: size.map(|side| side * COUNT_SIDE),
+            attributes: true,
+            shadows: Shadows::None,
+            ..task.settings.clone()
+        };
+        let side = COUNT_SIDE as usize;
+        let width = size[0] as usize * side;
+        let mut codes = Vec::new();
+        self.render_bands(task, &finer, BAND * COUNT_SIDE, |band| {
+            for row in band.attributes.chunks_exact(width * side) {
+                for column in 0..size[0] as usize {
+                    let ids = (0..side * side).map(|sample| {
+                        let at = sample / side * width + column * side + sample % side;
+                        row.get(at).map_or(0, |pixel| pixel.id)
+                    });
+                    codes.push(overlay::triangles(&mut ids.collect::<Vec<_>>()));
+                }
+            }
+        })?;
+        Ok(Pixels {
+            size,
+            codes,
+            figures: None,
+        })
+    }
+
+    /// Compares with brute force.
+    fn error(&mut self, task: &SceneTask) -> anyhow::Result<Pixels> {
+        let side = task.settings.samples.max(REFERENCE_SAMPLES).isqrt();
+        let brute = Settings {
+            method: Method::Ssaa,
+            samples: side * side,
+            shadows: Shadows::None,
+            ..task.settings.clone()
+        };
+        let reference = self.render(task, &brute)?.colors;
+        let rendered = Settings {
+            shadows: Shadows::None,
+            ..task.settings.clone()
+        };
+        let rendered = self.render(task, &rendered)?;
+        let size = rendered.size;
+        let [first, second] = [&reference, &rendered.colors]
+            .map(|colors| Picture::new(size, colors).map(|picture| DecodedImage::from(&picture)));
+        let found = compare::compare(&first?, &second?)?;
+        let reference = Pixels::new(size, &reference).codes;
+        let rendered = Pixels::new(size, &rendered.colors).codes;
+        let pairs = reference.iter().zip(&rendered);
+        Ok(Pixels {
+            size,
+            codes: pairs.map(|(a, b)| overlay::error(*a, *b)).collect(),
+            figures: Some(format!(
+                "against {} samples everywhere: RMSE {:.5}, FLIP {:.5}",
+                side * side,
+                found.rmse,
+                found.flip
+            )),
+        })
+    }
+
+    /// Renders bands of `rows` rows from the top, and hands each to `take`.
+    fn render_bands(
+        &mut self,
+        task: &SceneTask,
+        settings: &Settings,
+        rows: u32,
+        mut take: impl FnMut(Rendered),
+    ) -> anyhow::Result<()> {
+        let [width, height] = settings.size;
+        for first in (0..height).step_by(rows as usize) {
+            let region = PixelRect {
+                corner: [0, first],
+                size: [width, rows.min(height - first)],
+            };
+            let band = Settings {
+                region: Some(region),
+                ..settings.clone()
+            };
+            let (headless, shown) = self.show(task)?;
+            let camera = camera(task, shown)?;
+            let mut frame = headless.prepare(&shown.prepared, &band)?;
+            take(headless.render(&mut frame, &camera)?);
+            check(headless)?;
+        }
+        Ok(())
+    }
+
+    fn render(&mut self, task: &SceneTask, settings: &Settings) -> anyhow::Result<Rendered> {
+        let mut whole = Rendered {
+            size: settings.size,
+            colors: Vec::new(),
+            attributes: Vec::new(),
+            statistics: Statistics::default(),
+        };
+        let rows = if settings.samples <= QUICK {
+            settings.size[1]
+        } else {
+            BAND
+        };
+        self.render_bands(task, settings, rows, |band| {
+            whole.colors.extend(band.colors);
+            whole.attributes.extend(band.attributes);
+            whole.statistics.append(band.statistics);
+        })?;
+        Ok(whole)
+    }
+
+    /// Puts what the task is of on the device, unless it is there.
+    fn show(&mut self, task: &SceneTask) -> anyhow::Result<(&mut Headless, &OpenScene)> {
+        let headless = self.headless.as_mut().context("there is no device")?;
+        let is_shown =
+            |shown: &OpenScene| Arc::ptr_eq(&shown.scene, &task.scene) && shown.time == task.time;
+        if !self.shown.as_ref().is_some_and(is_shown) {
+            // The memory of the pose before is free for this one.
+            self.shown = None;
+            let pose = task.scene.pose(&PoseRequest {
+                time: task.time,
+                ..task.source.request.clone()
+            })?;
+            let request = SceneRequest::new(&task.scene, &pose)
+                .shadowed(task.settings.shadows)
+                .within(task.settings.max_memory);
+            let prepared = headless.upload(request)?;
+            self.shown = Some(OpenScene {
+                scene: task.scene.clone(),
+                time: task.time,
+                pose,
+                prepared,
+            });
+        }
+        let shown = self.shown.as_ref().context("there is no scene")?;
+        Ok((headless, shown))
+    }
+}
+
+fn write_photo(view: &PhotoView, path: &Path) -> anyhow::Result<()> {
+    write_png(path, view.window.size, &view.pixels(), view.map.as_ref())
+}
+
+/// Writes a file that tells which regions of it are enlarged.
+fn write_png(
+    path: &Path,
+    size: [u32; 2],
+    colors: &[[f32; 4]],
+    map: Option<&ZoomMap>,
+) -> anyhow::Result<()> {
+    let mut bytes = output::encode(Format::Png8, &Picture::new(size, colors)?, &[])?;
+    if let Some(map) = map {
+        bytes = Zoomed::add_map(&bytes, size, map)?;
+    }
+    Ok(output::write_atomically(path, &bytes)?)
+}
+
+fn camera(task: &SceneTask, shown: &OpenScene) -> anyhow::Result<gpc::camera::Camera> {
+    let [width, height] = task.settings.size.map(f64::from);
+    let pose = &shown.pose;
+    Ok(task
+        .standpoint
+        .camera(&pose.cameras, bounds(pose), width / height)?)
+}
+
+/// Whether an error says that nobody wants the picture any more.
+fn is_stopped(error: &anyhow::Error) -> bool {
+    matches!(
+        error.downcast_ref::<RenderError>(),
+        Some(RenderError::Stopped)
+    )
+}
+
+/// Fails if the validation layer was asked, and has said anything.
+fn check(headless: &Headless) -> anyhow::Result<()> {
+    match headless.validation_messages().first() {
+        Some(message) => bail!("the validation layer says: {message}"),
+        None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::photo::{Easel, Photo};
+    use super::*;
+    use std::time::Duration;
+
+    const LONG: Duration = Duration::from_secs(60);
+
+    #[test]
+    fn the_last_picture_and_every_file_is_made() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        let white = Picture::new([1, 1], &[[1.0; 4]]).unwrap();
+        let png = output::encode(Format::Png8, &white, &[]).unwrap();
+        std::fs::write(path("photo.png"), png).unwrap();
+        let easel = Easel::new(Photo::open(&path("photo.png")).unwrap(), [1, 1]);
+        let view = easel.view([1, 1], None, false, DVec2::ZERO);
+        let (sender, made) = channel();
+        let mut worker = PictureWorker::new(HeadlessOptions::default(), move |made| {
+            let _ = sender.send(made);
+        });
+        for number in 1..20 {
+            worker.ask(number, Task::Photo(view.clone()));
+        }
+        for name in ["a.png", "b.png"] {
+            worker.ask(0, Task::PhotoFile(view.clone(), path(name)));
+        }
+        worker.ask(20, Task::Photo(view.clone()));
+        let mut files = Vec::new();
+        loop {
+            match made.recv_timeout(LONG).unwrap() {
+                Made::Pixels(20, pixels) => {
+                    assert_eq!(pixels.unwrap().codes, [[255; 4]]);
+                    break;
+                }
+                Made::Pixels(_, pixels) => drop(pixels.unwrap()),
+                Made::File(path, written) => {
+                    written.unwrap();
+                    worker.delivered(&path);
+                    files.push(path);
+                }
+            }
+        }
+        assert_eq!(files, [path("a.png"), path("b.png")]);
+        assert!(files.iter().all(|file| file.exists()));
+        assert_eq!(worker.stop_files(), Vec::<PathBuf>::new());
+    }
+}

@@ -1,0 +1,323 @@
+//! Alpha maps that a host lends.
+
+use super::content::HostContent;
+use super::geometry::Geometry;
+use super::{HostError, Shared};
+use crate::passes::alpha_flags::{
+    CLAMP_TO_EDGE, MIRRORED_REPEAT, NEAREST_MAG, NEAREST_MIN, NEAREST_MIP, NO_MIP, REPEAT,
+    TEXTURED, beyond,
+};
+use crate::passes::{AlphaLevel, OwnSet, spirv};
+use crate::vulkan::{BufferView, Memory, MemoryUse, Recorder, VulkanError};
+use ash::vk;
+use std::sync::Arc;
+
+/// What a draw's alpha is tested by: a surface is there where the map's alpha is at least the cutoff. Filters and address
+/// modes are best those of the sampler that the host's own pass reads the map with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AlphaMap {
+    /// A two-dimensional view of an image made with `SAMPLED`, of floats or normalised numbers. Its fourth component is
+    /// alpha; that of a view may be any of the image.
+    pub view: vk::ImageView,
+    /// Width and height in texels, up to 65,535.
+    pub size: [u32; 2],
+    /// How many mipmap levels there are; 1 for none.
+    pub levels: u32,
+    /// How alpha lies between texels that are larger than pixels: `LINEAR` or `NEAREST`.
+    pub mag_filter: vk::Filter,
+    /// The same where texels are smaller.
+    pub min_filter: vk::Filter,
+    /// Whether alpha is that of two levels, blended (`LINEAR`), or of the nearest one (`NEAREST`).
+    pub mipmap_mode: vk::SamplerMipmapMode,
+    /// What is beyond the image along u and v: `REPEAT`, `MIRRORED_REPEAT` or `CLAMP_TO_EDGE`.
+    pub address: [vk::SamplerAddressMode; 2],
+    /// The least alpha that is there.
+    pub cutoff: f32,
+}
+
+/// Vectors of a row of the table that `shaders/include/material.glsl` describes, and those that the alpha test reads.
+pub(super) const ROW: usize = UV_ROWS + 2;
+const BASE_COLOR: usize = spirv::MATERIAL_BASE_COLOR as usize;
+const FACTORS: usize = spirv::MATERIAL_FACTORS as usize;
+const ALPHA: usize = spirv::MATERIAL_ALPHA as usize;
+const UV_ROWS: usize = spirv::MATERIAL_UV_ROWS as usize;
+/// Most alpha maps: triangles have 16 bits for theirs.
+pub(super) const MOST_MAPS: u32 = 1 << 16;
+/// Largest width and height: the table has 16 bits for each.
+const LONGEST: u32 = u16::MAX as u32;
+
+impl AlphaMap {
+    pub(super) fn check(&self, map: usize) -> Result<(), HostError> {
+        if self.view == vk::ImageView::null() {
+            return Err(HostError::NullHandle("the view of an alpha map"));
+        }
+        let [width, height] = self.size;
+        let most_levels = width.max(height).max(1).ilog2() + 1;
+        for (what, found, most) in [
+            ("the width of an alpha map", width, LONGEST),
+            ("the height of an alpha map", height, LONGEST),
+            ("levels of an alpha map", self.levels, most_levels),
+        ] {
+            if !(1..=most).contains(&found) {
+                return Err(HostError::Count { what, found, most });
+            }
+        }
+        let unknown = self.address.into_iter().find(|mode| wrap(*mode).is_none());
+        if let Some(found) = unknown {
+            return Err(HostError::Address { map, found });
+        }
+        for (name, filter) in [
+            ("mag_filter", self.mag_filter),
+            ("min_filter", self.min_filter),
+            (
+                "mipmap_mode",
+                vk::Filter::from_raw(self.mipmap_mode.as_raw()),
+            ),
+        ] {
+            if !matches!(filter, vk::Filter::LINEAR | vk::Filter::NEAREST) {
+                return Err(HostError::Filter {
+                    map,
+                    name,
+                    found: filter.as_raw(),
+                });
+            }
+        }
+        if !self.cutoff.is_finite() {
+            return Err(HostError::Cutoff { map });
+        }
+        Ok(())
+    }
+
+    fn modes(&self) -> [u32; 2] {
+        self.address.map(|mode| wrap(mode).unwrap_or_default())
+    }
+
+    fn flags(&self) -> u32 {
+        let optional = [
+            (NEAREST_MAG, self.mag_filter == vk::Filter::NEAREST),
+            (NEAREST_MIN, self.min_filter == vk::Filter::NEAREST),
+            (
+                NEAREST_MIP,
+                self.mipmap_mode == vk::SamplerMipmapMode::NEAREST,
+            ),
+            (NO_MIP, self.levels == 1),
+        ];
+        let set = optional.into_iter().filter(|(_, set)| *set);
+        set.fold(TEXTURED | beyond(self.modes()), |all, (flag, _)| all | flag)
+    }
+
+    /// Its row, if its table of levels is at `table`.
+    fn row(&self, table: u32) -> [[u32; 4]; ROW] {
+        let [width, height] = self.size;
+        let mut row = [[0; 4]; ROW];
+        row[BASE_COLOR] = [1.0_f32.to_bits(); 4];
+        row[FACTORS][3] = self.cutoff.to_bits();
+        row[ALPHA] = [table, width | height << 16, self.levels, self.flags()];
+        row[UV_ROWS][0] = 1.0_f32.to_bits();
+        row[UV_ROWS + 1][1] = 1.0_f32.to_bits();
+        row
+    }
+
+    fn level(&self, level: u32, first: u32) -> AlphaLevel {
+        let [u, v] = self.modes();
+        AlphaLevel {
+            size: self.size.map(|side| (side >> level).max(1)),
+            level,
+            first,
+            repeats: u32::from(u == REPEAT) | u32::from(v == REPEAT) << 1,
+        }
+    }
+}
+
+fn wrap(mode: vk::SamplerAddressMode) -> Option<u32> {
+    match mode {
+        vk::SamplerAddressMode::REPEAT => Some(REPEAT),
+        vk::SamplerAddressMode::MIRRORED_REPEAT => Some(MIRRORED_REPEAT),
+        vk::SamplerAddressMode::CLAMP_TO_EDGE => Some(CLAMP_TO_EDGE),
+        _ => None,
+    }
+}
+
+/// Where alpha maps lie in the atlas.
+#[derive(Default)]
+struct Places {
+    /// The tables of levels, which the atlas begins with.
+    tables: Vec<u32>,
+    /// Of each map, its row.
+    rows: Vec<[u32; 4]>,
+    /// Of each map, its levels.
+    levels: Vec<Vec<AlphaLevel>>,
+    words: u64,
+}
+
+impl Places {
+    fn new(maps: &[AlphaMap]) -> Self {
+        let mut places = Self {
+            words: maps.iter().map(|map| u64::from(map.levels)).sum(),
+            ..Self::default()
+        };
+        for map in maps {
+            let table = places.tables.len() as u32;
+            places.rows.extend(map.row(table));
+            let mut levels = Vec::new();
+            for number in 0..map.levels {
+                // What does not fit is refused before it is used.
+                let level = map.level(number, places.words as u32);
+                places.tables.push(level.first);
+                places.words += level.words();
+                levels.push(level);
+            }
+            places.levels.push(levels);
+        }
+        places
+    }
+}
+
+/// Alpha maps on the device.
+pub(super) struct Alpha {
+    pub atlas: BufferView,
+    pub rows: BufferView,
+    /// Of each position in clip space.
+    pub coordinates: BufferView,
+    places: Places,
+}
+
+impl Alpha {
+    pub fn new(memory: &Memory, geometry: &Geometry) -> Result<Self, VulkanError> {
+        let places = Places::new(&geometry.alpha_maps);
+        let usage = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER
+            | vk::BufferUsageFlags::STORAGE_BUFFER
+            | vk::BufferUsageFlags::TRANSFER_DST;
+        let texels = |name, elements, format| {
+            memory.texel_buffer(name, elements, format, usage, MemoryUse::Device)
+        };
+        let limit = memory.gpu().limits().max_storage_bytes;
+        VulkanError::check_limit("alpha maps", 4 * places.words, "bytes", limit)?;
+        let positions = u64::from(geometry.position_capacity());
+        Ok(Self {
+            atlas: texels("alpha maps", places.words, vk::Format::R32_UINT)?,
+            rows: texels(
+                "rows of alpha maps",
+                places.rows.len() as u64,
+                vk::Format::R32G32B32A32_UINT,
+            )?,
+            // Its fourth component is 1, as vertex colours have it that are not there.
+            coordinates: texels("texture coordinates", positions, vk::Format::R32G32_SFLOAT)?,
+            places,
+        })
+    }
+}
+
+/// What reads alpha maps, once.
+pub(super) struct AlphaReading {
+    sets: Vec<OwnSet>,
+    shared: Arc<Shared>,
+}
+
+impl AlphaReading {
+    /// # Safety
+    /// The views outlive this.
+    pub unsafe fn new(
+        shared: &Arc<Shared>,
+        geometry: &Geometry,
+        content: &HostContent,
+    ) -> Result<Self, VulkanError> {
+        let mut sets = Vec::new();
+        if let Some(alpha) = content.alpha() {
+            for map in &geometry.alpha_maps {
+                // SAFETY: passed on to the caller.
+                sets.push(unsafe { shared.alpha_maps.set(map.view, &alpha.atlas.buffer) }?);
+            }
+        }
+        Ok(Self {
+            sets,
+            shared: shared.clone(),
+        })
+    }
+
+    /// Records it, where there are alpha maps.
+    pub fn record(&self, recorder: &mut Recorder<'_>, content: &HostContent) {
+        let Some(alpha) = content.alpha() else {
+            return;
+        };
+        let places = &alpha.places;
+        recorder.barrier();
+        recorder.update(&alpha.rows.buffer, 0, bytemuck::cast_slice(&places.rows));
+        recorder.update(&alpha.atlas.buffer, 0, bytemuck::cast_slice(&places.tables));
+        recorder.barrier();
+        for (set, levels) in self.sets.iter().zip(&places.levels) {
+            for level in levels {
+                self.shared.alpha_maps.record(recorder, set, level);
+            }
+        }
+        recorder.barrier();
+        recorder.mark("alpha_map");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ash::vk::Handle;
+
+    fn map(size: [u32; 2], levels: u32) -> AlphaMap {
+        AlphaMap {
+            view: vk::ImageView::from_raw(1),
+            size,
+            levels,
+            mag_filter: vk::Filter::LINEAR,
+            min_filter: vk::Filter::LINEAR,
+            mipmap_mode: vk::SamplerMipmapMode::LINEAR,
+            address: [
+                vk::SamplerAddressMode::REPEAT,
+                vk::SamplerAddressMode::CLAMP_TO_EDGE,
+            ],
+            cutoff: 0.5,
+        }
+    }
+
+    #[test]
+    fn maps_follow_their_tables() {
+        let places = Places::new(&[map([4, 2], 3), map([1, 1], 1)]);
+        // 5 x 3, 3 x 2 and 2 x 2 words; 2 x 2.
+        assert_eq!(places.tables, [4, 19, 25, 29]);
+        assert_eq!(places.words, 33);
+        assert_eq!(places.rows.len(), 2 * ROW);
+        assert_eq!(places.rows[ALPHA], [0, 4 | 2 << 16, 3, 1 | 2 << 10]);
+        assert_eq!(places.rows[ROW + ALPHA], [3, 1 | 1 << 16, 1, 9 | 2 << 10]);
+        assert_eq!(places.levels[0][1].size, [2, 1]);
+        assert_eq!(places.levels[0][1].repeats, 1);
+    }
+
+    #[test]
+    fn maps_that_can_not_be_read_are_named() {
+        let refused = |map: AlphaMap| map.check(3).unwrap_err().to_string();
+        assert!(map([4, 4], 3).check(0).is_ok());
+        assert_eq!(
+            refused(map([0, 4], 1)),
+            "the width of an alpha map is 0; it can be 1 to 65535"
+        );
+        assert_eq!(
+            refused(map([4, 4], 4)),
+            "levels of an alpha map is 4; it can be 1 to 3"
+        );
+        let border = AlphaMap {
+            address: [vk::SamplerAddressMode::CLAMP_TO_BORDER; 2],
+            ..map([4, 4], 1)
+        };
+        assert!(refused(border).starts_with("alpha map 3 has the address mode CLAMP_TO_BORDER"));
+        let cubic = AlphaMap {
+            min_filter: vk::Filter::CUBIC_EXT,
+            ..map([4, 4], 1)
+        };
+        assert_eq!(
+            refused(cubic),
+            "alpha map 3 has the min_filter 1000015000; it can be NEAREST (0) or LINEAR (1)"
+        );
+        let broken = AlphaMap {
+            cutoff: f32::NAN,
+            ..map([4, 4], 1)
+        };
+        assert_eq!(refused(broken), "the cutoff of alpha map 3 is not finite");
+    }
+}

@@ -1,0 +1,137 @@
+//! One sample a pixel: what the host has drawn, and what is drawn in its stead.
+
+use super::draw::PlacedDraws;
+use super::{HostError, Images, Options, Shared};
+use crate::engine::sampler::{RecordShading, record_shading};
+use crate::passes::{
+    Centres, ColorConstants, Content, FrameUniform, HostDraw, OwnSet, Raster, RasterPush,
+    RasterRun, RasterTargets, Resources, SampleSet, Sort,
+};
+use crate::vulkan::{Pipeline, Recorder};
+use ash::vk;
+
+/// What fills triangle IDs, depth and colours of all pixels.
+pub(super) struct Base {
+    /// Of a host that has no IDs.
+    raster: Option<(Raster, RasterTargets)>,
+    colors: Colors,
+}
+
+enum Colors {
+    /// The host's image is read.
+    Drawn { take: Pipeline, set: OwnSet },
+    /// The host's shading makes them.
+    Shaded { centres: Centres, sort: Sort },
+}
+
+impl Base {
+    /// Makes the pipelines; `targets` are there where the host lends no IDs, `output` are the colour constants.
+    ///
+    /// # Safety
+    /// The images are as [`Images`] says and outlive this.
+    pub unsafe fn new(
+        shared: &Shared,
+        content: &dyn Content,
+        images: &Images,
+        options: &Options,
+        targets: Option<RasterTargets>,
+        output: &ColorConstants,
+    ) -> Result<Self, HostError> {
+        let layout = &shared.frame;
+        let single = vk::SampleCountFlags::TYPE_1;
+        let with_raster =
+            |targets| Ok::<_, HostError>((Raster::new(layout, single, content)?, targets));
+        let colors = if options.shade_all {
+            Colors::Shaded {
+                centres: Centres::new(layout, output)?,
+                sort: Sort::new(layout, content, false)?,
+            }
+        } else {
+            Colors::Drawn {
+                take: shared.take.pipeline(layout, images.color.encoded, output)?,
+                // SAFETY: passed on to the caller.
+                set: unsafe { shared.take.set(images.color.lent.view) }?,
+            }
+        };
+        Ok(Self {
+            raster: targets.map(with_raster).transpose()?,
+            colors,
+        })
+    }
+
+    /// How often an image of so many pixels is shaded, where there is room for so many records.
+    pub fn shadings(options: &Options, pixels: u32, room: u32) -> u32 {
+        if options.shade_all {
+            Centres::bands(pixels, room).len() as u32
+        } else {
+            0
+        }
+    }
+
+    /// Records it, for draws that the set's uniform block is of.
+    pub fn record(
+        &self,
+        recorder: &mut Recorder<'_>,
+        shared: &Shared,
+        (resources, set): (&Resources, &SampleSet),
+        (uniform, placed): (&FrameUniform, &PlacedDraws),
+        shading: &dyn RecordShading,
+    ) {
+        let [width, height] = uniform.size;
+        if let Some((raster, targets)) = &self.raster {
+            let runs = runs(placed, &uniform.transform);
+            let drawn = [[0, 0], uniform.size];
+            let set = set.descriptor();
+            raster.record(
+                recorder,
+                set,
+                runs.iter().copied(),
+                targets,
+                uniform.size,
+                drawn,
+            );
+            recorder.mark("raster");
+        }
+        match &self.colors {
+            Colors::Drawn { take, set: image } => {
+                let sets = [set.descriptor(), image.raw];
+                shared.take.record(recorder, take, sets, width * height);
+                resources.record_bind(recorder, set);
+                recorder.mark("take");
+            }
+            Colors::Shaded { centres, sort } => {
+                centres.record(recorder, resources, width * height, |recorder| {
+                    record_shading(recorder, resources, sort, shading);
+                });
+            }
+        }
+    }
+}
+
+/// Those that are not blended. Neighbouring draws that are alike in whether their back faces show, and whether they are opaque, are drawn at once.
+fn runs(placed: &PlacedDraws, transform: &[f32; 16]) -> Vec<RasterRun> {
+    let push = RasterPush {
+        matrix: *transform,
+        instance: [0, placed.triangles, 0, 0],
+    };
+    let mut runs: Vec<RasterRun> = Vec::new();
+    let solid = |draw: &HostDraw| draw.first_triangle < placed.solid;
+    for (draw, triangle_count) in placed.counted().filter(|(draw, _)| solid(draw)) {
+        let double_sided = draw.is_double_sided();
+        let masked = draw.first_triangle >= placed.opaque;
+        match runs.last_mut() {
+            Some(run) if (run.double_sided, run.masked) == (double_sided, masked) => {
+                run.triangle_count += triangle_count;
+            }
+            _ => runs.push(RasterRun {
+                push,
+                first_index: draw.first_triangle,
+                triangle_count,
+                double_sided,
+                masked,
+                blended: false,
+            }),
+        }
+    }
+    runs
+}

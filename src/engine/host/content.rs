@@ -1,0 +1,191 @@
+//! A host's triangles as passes read them.
+
+use super::Geometry;
+use super::alpha::Alpha;
+use crate::passes::BoundTexels;
+use crate::passes::Content;
+use crate::passes::spirv::frame_set;
+use crate::vulkan::{Buffer, BufferView, Gpu, Memory, MemoryUse, TexelView, VulkanError};
+use ash::vk;
+use std::sync::Arc;
+
+/// Positions in clip space.
+enum Positions {
+    /// The host's, where they are.
+    Lent {
+        texels: TexelView,
+        info: vk::DescriptorBufferInfo,
+    },
+    /// Those that `transform` makes.
+    Made(BufferView),
+}
+
+/// A host's triangles, and what stands for what a host has not.
+pub(super) struct HostContent {
+    triangles: BufferView,
+    draw_of: Buffer,
+    positions: Positions,
+    alpha: Option<Alpha>,
+    /// Stand for attributes and materials, which no pass reads of a host's triangles.
+    unread_floats: BufferView,
+    unread_words: BufferView,
+    unread: Buffer,
+    triangle_capacity: u32,
+    keys: u32,
+    blended: bool,
+}
+
+impl HostContent {
+    /// # Safety
+    /// The host's buffer of positions is as [`Geometry`] says and outlives this.
+    pub unsafe fn new(
+        gpu: &Arc<Gpu>,
+        memory: &Memory,
+        geometry: &Geometry,
+    ) -> Result<Self, VulkanError> {
+        let float4 = vk::Format::R32G32B32A32_SFLOAT;
+        let uint4 = vk::Format::R32G32B32A32_UINT;
+        let usage =
+            vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | vk::BufferUsageFlags::STORAGE_BUFFER;
+        let texels = |name, elements, format| {
+            memory.texel_buffer(name, elements, format, usage, MemoryUse::Device)
+        };
+        let triangles = u64::from(geometry.triangle_capacity);
+        let positions = if geometry.is_read_in_place(gpu.limits()) {
+            let info = geometry.lent_positions(gpu.limits()).info();
+            let (buffer, offset, bytes) = (info.buffer, info.offset, info.range);
+            Positions::Lent {
+                // SAFETY: passed on to the caller.
+                texels: unsafe { TexelView::new(gpu, buffer, float4, offset, bytes) }?,
+                info,
+            }
+        } else {
+            let positions = u64::from(geometry.position_capacity());
+            Positions::Made(texels("positions", positions, float4)?)
+        };
+        Ok(Self {
+            triangles: texels("triangles", triangles, uint4)?,
+            draw_of: memory.storage_buffer(
+                "draws of triangles",
+                4 * triangles,
+                usage,
+                MemoryUse::Device,
+            )?,
+            positions,
+            alpha: (!geometry.alpha_maps.is_empty())
+                .then(|| Alpha::new(memory, geometry))
+                .transpose()?,
+            unread_floats: texels("unread vectors", 1, float4)?,
+            unread_words: texels("unread words", 1, uint4)?,
+            unread: memory.storage_buffer("unread", 64, usage, MemoryUse::Device)?,
+            triangle_capacity: geometry.triangle_capacity,
+            keys: geometry.keys,
+            blended: geometry.blended,
+        })
+    }
+
+    pub fn triangles(&self) -> &Buffer {
+        &self.triangles.buffer
+    }
+
+    /// The draw of each triangle.
+    pub fn draw_of(&self) -> &Buffer {
+        &self.draw_of
+    }
+
+    /// Alpha maps, if there are any.
+    pub fn alpha(&self) -> Option<&Alpha> {
+        self.alpha.as_ref()
+    }
+
+    /// Positions in clip space.
+    pub fn positions_info(&self) -> vk::DescriptorBufferInfo {
+        match &self.positions {
+            Positions::Lent { info, .. } => *info,
+            Positions::Made(made) => vk::DescriptorBufferInfo::default()
+                .buffer(made.buffer.handle())
+                .range(vk::WHOLE_SIZE),
+        }
+    }
+
+    /// The positions that `transform` is to make, if any.
+    pub fn made_positions(&self) -> Option<&Buffer> {
+        match &self.positions {
+            Positions::Lent { .. } => None,
+            Positions::Made(made) => Some(&made.buffer),
+        }
+    }
+
+    /// Stands for lights, which the engine does not read.
+    pub fn lights(&self) -> &Buffer {
+        &self.unread
+    }
+
+    /// The texel buffers of `shaders/include/frame.glsl` that it has, by binding.
+    pub fn texels(&self) -> [BoundTexels; 10] {
+        let positions = match &self.positions {
+            Positions::Lent { texels, .. } => texels.raw,
+            Positions::Made(made) => made.view,
+        };
+        let (floats, words) = (self.unread_floats.view, self.unread_words.view);
+        let alpha = self.alpha.as_ref();
+        let coordinates = alpha.map_or(floats, |alpha| alpha.coordinates.view);
+        [
+            (frame_set::POSITIONS, positions),
+            (frame_set::TRIANGLES, self.triangles.view),
+            (frame_set::NORMALS, floats),
+            (frame_set::TANGENTS, floats),
+            (frame_set::UVS, coordinates),
+            (frame_set::COLORS, coordinates),
+            (
+                frame_set::MATERIALS,
+                alpha.map_or(words, |alpha| alpha.rows.view),
+            ),
+            (
+                frame_set::ALPHA_ATLAS,
+                alpha.map_or(words, |alpha| alpha.atlas.view),
+            ),
+            (frame_set::INSTANCE_OF, words),
+            (frame_set::INSTANCES, words),
+        ]
+    }
+}
+
+impl Content for HostContent {
+    fn index_count(&self) -> u32 {
+        self.triangle_capacity
+    }
+
+    fn is_instanced(&self) -> bool {
+        false
+    }
+
+    fn has_mask(&self) -> bool {
+        self.alpha.is_some()
+    }
+
+    fn has_blend(&self) -> bool {
+        self.blended
+    }
+
+    fn has_high_frequency(&self) -> bool {
+        true
+    }
+
+    fn is_mostly_high_frequency(&self) -> bool {
+        false
+    }
+
+    fn is_tinted(&self) -> bool {
+        false
+    }
+
+    /// One more than the host has, since samples of a single key would not be listed.
+    fn bin_count(&self) -> u32 {
+        self.keys + 1
+    }
+
+    fn environment_map(&self) -> Option<vk::DescriptorImageInfo> {
+        None
+    }
+}

@@ -1,0 +1,370 @@
+//! One of a host's frames in flight.
+
+use super::base::Base;
+use super::draw::PlacedDraws;
+use super::lending::Lending;
+use super::shading::ShadeSamples;
+use super::uniform::{check_size, plane_block, scene_block};
+use super::{Draw, Geometry, HostError, Images, LentImage, Options, Shared};
+use crate::engine::sampler::footprint::Footprints;
+use crate::engine::sampler::plan::{Capacity, Plan};
+use crate::engine::sampler::statistics::Shortfall;
+use crate::engine::sampler::uniform::{PlaneBlock, frame_uniform};
+use crate::engine::sampler::{PixelCells, Sampler, SamplerContext, SamplerRun, with_probes};
+use crate::engine::sampler::{Settings, Statistics};
+use crate::passes::{
+    FrameUniform, IdViews, ListLength, Offsets, OwnSet, Patch, Patched, RasterTargets, Resources,
+};
+use crate::vulkan::{Memory, Recorder, Timings};
+use ash::vk;
+use std::sync::Arc;
+
+/// What a recording shows.
+#[derive(Clone, Copy, Debug)]
+pub struct Scenery<'a> {
+    /// Runs of triangles. IDs count from 1 in their order.
+    pub draws: &'a [Draw],
+    /// The projection that positions in clip space were made with, in columns: from view space, in which distances are the world's, to
+    /// clip space. It tells how far apart two depths are.
+    pub projection: [[f32; 4]; 4],
+}
+
+/// What a recording did.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// Figures.
+    pub statistics: Statistics,
+    /// Superpixels and tiles that found no room. [`Frame::grow`] makes a frame with more.
+    pub left_over: u64,
+}
+
+/// Pipelines and memory to antialias one frame in flight of a host.
+pub struct Frame {
+    lending: Lending,
+    images: Images,
+    options: Options,
+    settings: Settings,
+    plan: Plan,
+    resources: Resources,
+    sampler: Sampler,
+    base: Base,
+    patch: Patch,
+    visibility_set: OwnSet,
+    timings: Timings,
+    memory: Memory,
+    /// Last: layouts go after what was made with them.
+    shared: Arc<Shared>,
+}
+
+impl Frame {
+    /// # Safety
+    /// As [`super::Antialiaser::prepare`].
+    pub(super) unsafe fn new(
+        shared: &Arc<Shared>,
+        geometry: &Geometry,
+        images: &Images,
+        options: &Options,
+    ) -> Result<Self, HostError> {
+        // SAFETY: passed on to the caller.
+        unsafe { Self::with_capacity(shared, geometry, images, options, Capacity::default()) }
+    }
+
+    unsafe fn with_capacity(
+        shared: &Arc<Shared>,
+        geometry: &Geometry,
+        images: &Images,
+        options: &Options,
+        capacity: Capacity,
+    ) -> Result<Self, HostError> {
+        let gpu = &shared.gpu;
+        let layout = &shared.frame;
+        let settings = options.settings();
+        settings.check(gpu.limits())?;
+        geometry.check(gpu)?;
+        if geometry.blended && options.shade_all {
+            return Err(HostError::BlendedCentres);
+        }
+        images.check(options, gpu.limits().max_image_side)?;
+        check_size(settings.size)?;
+        let [width, height] = settings.size;
+        let memory = Memory::new(gpu.clone(), settings.max_memory);
+        // SAFETY: passed on to the caller.
+        let lending = unsafe { Lending::new(shared, &memory, geometry) }?;
+        let content = &lending.content;
+        let taken = memory.used();
+        let plan = Plan::whole(&settings, content, gpu.limits(), capacity, taken)?;
+        let offsets = settings.offsets()?;
+        let count = offsets.len() as u32;
+        let offsets = with_probes(offsets)?;
+        let own_targets = || {
+            let single = vk::SampleCountFlags::TYPE_1;
+            RasterTargets::new(&memory, width, height, single, false)
+        };
+        let own = images.ids.is_none().then(own_targets).transpose()?;
+        let lent = |ids: LentImage| IdViews {
+            ids: ids.view,
+            blend_ids: None,
+            depth: images.depth.map(|depth| depth.view),
+            placeholder: None,
+        };
+        let own_views = own.as_ref().map(RasterTargets::views);
+        let Some(views) = images.ids.map(lent).or(own_views) else {
+            return Err(HostError::NoIds);
+        };
+        let resources = Resources::new(
+            layout,
+            &memory,
+            content,
+            (&content.texels(), content.lights()),
+            &views,
+            plan.sizes,
+            &[Offsets {
+                all: &offsets,
+                count,
+            }],
+        )?;
+        let output = settings.color_constants(content);
+        let cells = PixelCells {
+            farther_is_larger: own.is_none() && !geometry.clip.reversed_depth,
+            blend_ids: false,
+            ..PixelCells::superpixels(&settings)
+        };
+        let mut sampler = cells.sampler(&SamplerContext {
+            layout,
+            memory: &memory,
+            scene: content,
+            settings: &settings,
+            output: &output,
+            sizes: &plan.sizes,
+            capacity,
+            runs: 1,
+        })?;
+        if let Some(most) = options.max_rounds {
+            sampler.limit_rounds(most);
+        }
+        // SAFETY: of the host's handles, as the caller says; the rest goes with the frame.
+        let (base, visibility_set) = unsafe {
+            (
+                Base::new(shared, content, images, options, own, &output)?,
+                lending.visibility_set(shared, &resources, None)?,
+            )
+        };
+        let growths = sampler.growths() as u32;
+        let bands = Base::shadings(options, width * height, plan.sizes.record_capacity);
+        let patched = match (options.shade_all, growths) {
+            (true, _) => Patched::All,
+            (false, 0) => Patched::Superpixels,
+            (false, _) => Patched::Grown,
+        };
+        Ok(Self {
+            base,
+            patch: Patch::new(layout, images.color.format, images.color.encoded, patched)?,
+            timings: Timings::new(gpu, 32 + 14 * (1 + growths) + 8 * bands)?,
+            lending,
+            images: *images,
+            options: options.clone(),
+            settings,
+            plan,
+            resources,
+            sampler,
+            visibility_set,
+            memory,
+            shared: shared.clone(),
+        })
+    }
+
+    /// The options that it was prepared with.
+    #[must_use]
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+
+    /// Bytes of device memory that it takes, beside what the host lends.
+    #[must_use]
+    pub fn memory_bytes(&self) -> u64 {
+        self.memory.used()
+    }
+
+    /// A frame like this one, for the same buffers and images, with more of what the last recording lacked: memory for lists.
+    /// Where it lacked nothing, it is made with as much; [`Options::max_rounds`] stays what it is.
+    ///
+    /// # Errors
+    /// If memory runs out; as [`Self::outcome`] where the last recording is not done.
+    ///
+    /// # Safety
+    /// As [`super::Antialiaser::prepare`].
+    pub unsafe fn grow(&self) -> Result<Self, HostError> {
+        let capacity = self.sampler.capacity().more(self.shortfall()?);
+        // SAFETY: passed on to the caller.
+        unsafe {
+            Self::with_capacity(
+                &self.shared,
+                &self.lending.geometry,
+                &self.images,
+                &self.options,
+                capacity,
+            )
+        }
+    }
+
+    /// Records the antialiasing of a frame, of which the host has drawn what it lends. It submits nothing, waits for nothing,
+    /// allocates nothing on the device and updates no descriptor.
+    ///
+    /// # Errors
+    /// If the scenery does not fit what the frame was prepared for. Nothing is recorded then.
+    ///
+    /// # Safety
+    /// - `commands` is being recorded, outside of a render pass and of conditional rendering, for the device of the antialiaser and a queue family with
+    ///   graphics and compute. What was bound and pushed before has to be bound and pushed again.
+    /// - The commands of this frame's last recording are done, or will never be executed: its memory is used again.
+    /// - Images are in the states named. Those of IDs and depth and, without [`Options::shade_all`], of colours hold what the
+    ///   host has drawn of the same draws and positions.
+    /// - In the frame's recordings, up to the first one that is executed, alpha maps are in `SHADER_READ_ONLY_OPTIMAL`, and were written before on the same queue
+    ///   or made visible to it.
+    /// - Writes to the lent buffers by the device were recorded into the same queue before, or made visible to it.
+    /// - The frame, the buffers, the images and what `shading` records outlive the execution of the commands.
+    /// - What `shading` records is valid, and writes no memory of the frame but by `gpc_store`.
+    pub unsafe fn record(
+        &mut self,
+        commands: vk::CommandBuffer,
+        scenery: &Scenery<'_>,
+        shading: &dyn ShadeSamples,
+    ) -> Result<(), HostError> {
+        let placed = PlacedDraws::new(&self.lending.geometry, scenery.draws)?;
+        if !scenery
+            .projection
+            .as_flattened()
+            .iter()
+            .all(|n| n.is_finite())
+        {
+            return Err(HostError::Projection);
+        }
+        if scenery.projection[1][1] == 0.0 {
+            return Err(HostError::FlatProjection);
+        }
+        let uniform = self.uniform(&placed, &scenery.projection);
+        let gpu = self.shared.gpu.clone();
+        let resources = &self.resources;
+        let Some(set) = resources.set(0) else {
+            return Ok(());
+        };
+        // SAFETY: passed on to the caller.
+        let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
+        let recorder = &mut recorder;
+        self.lending
+            .record_begin(recorder, placed.triangles, |recorder| {
+                resources.record_upload(recorder);
+            });
+        let lending = &self.lending;
+        self.images.record_begin(recorder);
+        lending.record_triangles(recorder, &placed);
+        let shading = lending.shading(shading, &self.visibility_set, (resources, set));
+        let footprints = Footprints::new(&self.settings, self.settings.samples);
+        let boxes = self.settings.filters_boxes();
+        let at_centres = lending.visible(&self.settings, footprints.centre, false);
+        let at_places = lending.visible(&self.settings, footprints.place, boxes);
+        let shades_all = self.options.shade_all;
+        let first = if shades_all { at_centres } else { at_places };
+        lending.record_visible(recorder, &first);
+        resources.record_begin(recorder, set, &uniform);
+        let seen = (&uniform, &placed);
+        self.base
+            .record(recorder, &self.shared, (resources, set), seen, &shading);
+        if shades_all {
+            lending.record_visible(recorder, &at_places);
+            // What the centres counted is not of superpixels.
+            resources.record_begin(recorder, set, &uniform);
+        }
+        let run = SamplerRun {
+            resources,
+            set,
+            uniform: &uniform,
+            list: (0, ListLength::Known),
+            index: 0,
+        };
+        self.sampler.record(recorder, &run, &shading);
+        recorder.barrier();
+        self.images.record_draw(recorder);
+        let view = self.images.color.lent.view;
+        let part = self.images.part(self.settings.size);
+        self.patch.record(recorder, set.descriptor(), view, part);
+        recorder.mark("patch");
+        self.images.record_end(recorder);
+        self.lending.record_end(recorder);
+        Ok(())
+    }
+
+    fn shortfall(&self) -> Result<Shortfall, HostError> {
+        self.lending.check_done()?;
+        let mut shortfall = Shortfall::default();
+        let tiles = self.plan.sizes.tiles();
+        self.sampler.add_shortfall([tiles], &mut shortfall)?;
+        Ok(shortfall)
+    }
+
+    /// What the last recording did, once its commands are done, until the next one. It waits for nothing.
+    ///
+    /// # Errors
+    /// [`VulkanError::NotDone`](crate::vulkan::VulkanError::NotDone) if the last recording was not submitted or still runs, and
+    /// [`VulkanError::NotRecorded`](crate::vulkan::VulkanError::NotRecorded) if there was none; if what was counted or timed can't be read, or the driver ran kernels in subgroups that they were not made for.
+    pub fn outcome(&self) -> Result<Outcome, HostError> {
+        let shortfall = self.shortfall()?;
+        let statistics = self.lending.statistics(
+            (&self.sampler, &self.plan.sizes),
+            (&self.timings, &self.memory),
+            &shortfall,
+        )?;
+        Ok(Outcome {
+            statistics,
+            left_over: shortfall.left(),
+        })
+    }
+
+    fn uniform(&self, placed: &PlacedDraws, projection: &[[f32; 4]; 4]) -> FrameUniform {
+        let (settings, geometry) = (&self.settings, &self.lending.geometry);
+        let plane = PlaneBlock {
+            gap: gap(projection, settings.size[1]),
+            // Materials that are filtered over their pixel vary within it by more than centres tell.
+            alike: u32::from(settings.threshold()).div_ceil(4),
+            seen_corner: self.images.ids.map_or([0, 0], |_| self.images.corner),
+            color_corner: self.images.corner,
+            ..plane_block(geometry, settings.size)
+        };
+        let footprints = Footprints::new(settings, settings.samples);
+        frame_uniform(
+            &scene_block(geometry, placed),
+            &plane,
+            settings,
+            (settings.samples, &footprints),
+            &self.plan.sizes,
+        )
+    }
+}
+
+/// Factor on a depth, and constant, by which a surface nearer by a pixel's width has a larger depth.
+fn gap(projection: &[[f32; 4]; 4], height: u32) -> [f32; 2] {
+    let pixel = 2.0 / (projection[1][1].abs().max(f32::MIN_POSITIVE) * height as f32);
+    // Depth is near / distance in perspective, up to a constant, and linear in distance without.
+    if projection[2][3] == 0.0 {
+        [0.0, projection[2][2].abs() * pixel]
+    } else {
+        [pixel, 0.0]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pixels_width_in_depth() {
+        let mut perspective = [[0.0; 4]; 4];
+        perspective[1][1] = 2.0;
+        perspective[2][3] = -1.0;
+        assert_eq!(gap(&perspective, 100), [0.01, 0.0]);
+        let mut parallel = [[0.0; 4]; 4];
+        parallel[1][1] = 2.0;
+        parallel[2][2] = -0.5;
+        assert_eq!(gap(&parallel, 100), [0.0, 0.005]);
+    }
+}

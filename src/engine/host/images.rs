@@ -1,0 +1,279 @@
+//! Images that a host lends.
+
+use super::{HostError, Options};
+use crate::engine::sampler::ImageState;
+use crate::vulkan::Recorder;
+use ash::vk;
+
+/// An image that is read: single-sampled, one level, one layer, of the size in [`Options`](super::Options) or larger.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LentImage {
+    /// The image.
+    pub image: vk::Image,
+    /// A two-dimensional view of it, of one aspect.
+    pub view: vk::ImageView,
+    /// The aspects of the image; of a format with stencil, that too, although it is not read.
+    pub aspects: vk::ImageAspectFlags,
+    /// Its state when the recording begins.
+    pub before: ImageState,
+    /// Its state when the recording is done.
+    pub after: ImageState,
+}
+
+/// The image that superpixels are drawn into.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ColorImage {
+    /// The image, made with `SAMPLED` and `COLOR_ATTACHMENT`.
+    pub lent: LentImage,
+    /// The view's format.
+    pub format: vk::Format,
+    /// Whether the host's shaders write sRGB codes into a format of plain numbers; otherwise the image holds linear light,
+    /// or encodes it itself.
+    pub encoded: bool,
+}
+
+/// What the host has drawn, one sample a pixel, and where its picture goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Images {
+    /// Triangle IDs, `R32_UINT`, made with `SAMPLED`: 1 + the index of the nearest triangle in the order of the frame's
+    /// draws, 0 where there is none. Without them, the library draws IDs and depth for itself.
+    pub ids: Option<LentImage>,
+    /// Depth of the nearest triangle, of any depth format, made with `SAMPLED`; the view shows depth alone.
+    pub depth: Option<LentImage>,
+    /// Colours.
+    pub color: ColorImage,
+    /// Upper left corner of the part of these images that the frame is of, in pixels. The part has the size in
+    /// [`Options`](super::Options); the library neither reads nor writes what lies around it.
+    pub corner: [u32; 2],
+}
+
+/// Formats of colour that shaders read as floats and draw.
+const FORMATS: [vk::Format; 12] = [
+    vk::Format::R8G8B8A8_UNORM,
+    vk::Format::R8G8B8A8_SRGB,
+    vk::Format::B8G8R8A8_UNORM,
+    vk::Format::B8G8R8A8_SRGB,
+    vk::Format::A8B8G8R8_UNORM_PACK32,
+    vk::Format::A8B8G8R8_SRGB_PACK32,
+    vk::Format::A2B10G10R10_UNORM_PACK32,
+    vk::Format::A2R10G10B10_UNORM_PACK32,
+    vk::Format::B10G11R11_UFLOAT_PACK32,
+    vk::Format::R16G16B16A16_UNORM,
+    vk::Format::R16G16B16A16_SFLOAT,
+    vk::Format::R32G32B32A32_SFLOAT,
+];
+const ENCODING: [vk::Format; 3] = [
+    vk::Format::R8G8B8A8_SRGB,
+    vk::Format::B8G8R8A8_SRGB,
+    vk::Format::A8B8G8R8_SRGB_PACK32,
+];
+
+/// Aspects that images may have, and how these are called; the last ones name all.
+const COLOR: [(vk::ImageAspectFlags, &str); 1] = [(vk::ImageAspectFlags::COLOR, "COLOR")];
+const DEPTH: [(vk::ImageAspectFlags, &str); 2] = [
+    (vk::ImageAspectFlags::DEPTH, "DEPTH"),
+    (
+        vk::ImageAspectFlags::from_raw(
+            vk::ImageAspectFlags::DEPTH.as_raw() | vk::ImageAspectFlags::STENCIL.as_raw(),
+        ),
+        "DEPTH, and STENCIL where its format has that too",
+    ),
+];
+
+impl LentImage {
+    /// Refuses an image without handles, of other aspects than `possible`, or that holds nothing before, where it is read then, or
+    /// afterwards.
+    fn check(
+        &self,
+        (image, view): (&'static str, &'static str),
+        is_read: bool,
+        possible: &[(vk::ImageAspectFlags, &'static str)],
+    ) -> Result<(), HostError> {
+        if self.image == vk::Image::null() {
+            return Err(HostError::NullHandle(image));
+        }
+        if self.view == vk::ImageView::null() {
+            return Err(HostError::NullHandle(view));
+        }
+        if !possible.iter().any(|(aspects, _)| *aspects == self.aspects) {
+            return Err(HostError::Aspects {
+                what: image,
+                found: self.aspects,
+                possible: possible.last().map_or("", |(_, names)| names),
+            });
+        }
+        let layout = |when, found| {
+            Err(HostError::Layout {
+                what: image,
+                when,
+                found,
+            })
+        };
+        let undefined = vk::ImageLayout::UNDEFINED;
+        match (self.before.layout, self.after.layout) {
+            (found, _) if is_read && found == undefined => layout("before", found),
+            (_, found) if found == undefined || found == vk::ImageLayout::PREINITIALIZED => {
+                layout("after", found)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn record(&self, recorder: &Recorder<'_>, from: ImageState, to: ImageState) {
+        from.change(recorder, self.image, self.aspects, to);
+    }
+}
+
+impl Images {
+    /// `most` is the largest side of an image on the device.
+    pub(super) fn check(&self, options: &Options, most: u32) -> Result<(), HostError> {
+        let (thin, size) = (options.thin, options.size);
+        let end = [0, 1].map(|axis| u64::from(self.corner[axis]) + u64::from(size[axis]));
+        if end.iter().any(|end| *end > u64::from(most)) {
+            return Err(HostError::Part { end, most });
+        }
+        if let Some(ids) = &self.ids {
+            ids.check(("the image of IDs", "the view of IDs"), true, &COLOR)?;
+        }
+        if let Some(depth) = &self.depth {
+            let names = ("the image of depth", "the view of depth");
+            depth.check(names, true, &DEPTH)?;
+        }
+        match (&self.ids, &self.depth) {
+            (Some(_), None) if thin => return Err(HostError::NoDepth),
+            (None, Some(_)) => return Err(HostError::NoIds),
+            _ => {}
+        }
+        let ColorImage {
+            lent,
+            format,
+            encoded,
+        } = &self.color;
+        let names = ("the image of colours", "the view of colours");
+        lent.check(names, !options.shade_all, &COLOR)?;
+        if !FORMATS.contains(format) {
+            return Err(HostError::Format(*format));
+        }
+        if *encoded && ENCODING.contains(format) {
+            return Err(HostError::Encoded(*format));
+        }
+        Ok(())
+    }
+
+    fn read(&self) -> impl Iterator<Item = &LentImage> {
+        self.ids.iter().chain(&self.depth)
+    }
+
+    /// Readies all of them for reading.
+    pub(super) fn record_begin(&self, recorder: &Recorder<'_>) {
+        for image in self.read().chain([&self.color.lent]) {
+            image.record(recorder, image.before, ImageState::READ);
+        }
+    }
+
+    /// The part that the frame is of, `width` x `height` pixels large.
+    pub(super) fn part(&self, [width, height]: [u32; 2]) -> vk::Rect2D {
+        let [x, y] = self.corner.map(|corner| corner as i32);
+        vk::Rect2D {
+            offset: vk::Offset2D { x, y },
+            extent: vk::Extent2D { width, height },
+        }
+    }
+
+    /// Readies the colours for drawing.
+    pub(super) fn record_draw(&self, recorder: &Recorder<'_>) {
+        let color = &self.color.lent;
+        color.record(recorder, ImageState::READ, ImageState::DRAWN);
+    }
+
+    /// Hands all of them back.
+    pub(super) fn record_end(&self, recorder: &Recorder<'_>) {
+        for image in self.read() {
+            image.record(recorder, ImageState::READ, image.after);
+        }
+        let color = &self.color.lent;
+        color.record(recorder, ImageState::DRAWN, color.after);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ash::vk::Handle;
+
+    fn images() -> Images {
+        let state = ImageState::READ;
+        let lent = LentImage {
+            image: vk::Image::from_raw(1),
+            view: vk::ImageView::from_raw(2),
+            aspects: vk::ImageAspectFlags::COLOR,
+            before: state,
+            after: state,
+        };
+        Images {
+            ids: Some(lent),
+            depth: Some(LentImage {
+                aspects: vk::ImageAspectFlags::DEPTH,
+                ..lent
+            }),
+            color: ColorImage {
+                lent,
+                format: vk::Format::B8G8R8A8_UNORM,
+                encoded: true,
+            },
+            corner: [0, 0],
+        }
+    }
+
+    #[test]
+    fn what_is_missing_or_does_not_fit_is_named() {
+        let check = |images: &Images| images.check(&Options::new(64, 32), 1024);
+        assert!(check(&images()).is_ok());
+        let refused = |spoil: &dyn Fn(&mut Images)| {
+            let mut images = images();
+            spoil(&mut images);
+            check(&images).unwrap_err().to_string()
+        };
+        let ids = refused(&|images| {
+            let ids = images.ids.as_mut();
+            ids.unwrap().image = vk::Image::null();
+        });
+        assert_eq!(ids, "the image of IDs is VK_NULL_HANDLE");
+        let view = refused(&|images| images.color.lent.view = vk::ImageView::null());
+        assert_eq!(view, "the view of colours is VK_NULL_HANDLE");
+        let depth = refused(&|images| images.depth = None);
+        assert!(depth.starts_with("thin triangles are found by depth"));
+        let alone = refused(&|images| images.ids = None);
+        assert!(alone.starts_with("depth is lent without IDs"));
+        let beyond = refused(&|images| images.corner = [961, 0]);
+        assert!(beyond.starts_with("the frame's part of the images ends at 1025 x 32 pixels"));
+        let integers = refused(&|images| images.color.format = vk::Format::R8G8B8A8_UINT);
+        assert!(integers.starts_with("a colour image of format R8G8B8A8_UINT"));
+        let twice = refused(&|images| images.color.format = vk::Format::B8G8R8A8_SRGB);
+        assert!(twice.ends_with("it can't be encoded as well"));
+        let lost = refused(&|images| images.color.lent.after.layout = vk::ImageLayout::UNDEFINED);
+        assert_eq!(
+            lost,
+            "the image of colours is in the layout UNDEFINED after the recording; it can be any that keeps what the image holds"
+        );
+        let empty = refused(&|images| images.color.lent.before.layout = vk::ImageLayout::UNDEFINED);
+        assert!(empty.starts_with("the image of colours is in the layout UNDEFINED before"));
+        let mut shaded = images();
+        shaded.color.lent.before.layout = vk::ImageLayout::UNDEFINED;
+        let options = Options {
+            shade_all: true,
+            ..Options::new(64, 32)
+        };
+        assert!(shaded.check(&options, 1024).is_ok());
+        let aspects = refused(&|images| images.color.lent.aspects = vk::ImageAspectFlags::DEPTH);
+        assert_eq!(
+            aspects,
+            "the image of colours has the aspects DEPTH; it can have COLOR"
+        );
+        let none = refused(&|images| {
+            let depth = images.depth.as_mut();
+            depth.unwrap().aspects = vk::ImageAspectFlags::empty();
+        });
+        assert!(none.starts_with("the image of depth has the aspects"));
+    }
+}

@@ -1,0 +1,387 @@
+//! Sample locations that a host lends, in the place of an image's pixels.
+
+use super::draw::PlacedDraws;
+use super::lending::Lending;
+use super::shading::ShadeSamples;
+use super::uniform::{check_size, plane_block, scene_block};
+use super::{Draw, Geometry, HostError, Options, Shared};
+use crate::engine::sampler::footprint::Footprints;
+use crate::engine::sampler::plan::Capacity;
+use crate::engine::sampler::statistics::Shortfall;
+use crate::engine::sampler::uniform::{PlaneBlock, frame_uniform};
+use crate::engine::sampler::{ListCells, Sampler, SamplerContext, SamplerRun};
+use crate::engine::sampler::{Settings, Statistics};
+use crate::passes::spirv::frame_set;
+use crate::passes::{
+    Cells, FrameUniform, ListLength, Offsets, OwnSet, RasterTargets, Resources, VisibilityUniform,
+};
+use crate::vulkan::{Memory, Recorder, TexelView, Timings};
+use ash::vk;
+use std::sync::Arc;
+
+/// Where a host's list of sample locations lies, and where what they see goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LocationList {
+    /// [`Location`]s, made with `STORAGE_BUFFER` and `UNIFORM_TEXEL_BUFFER`. They may change with every recording.
+    pub locations: vk::Buffer,
+    /// Where the first one is, in bytes: a multiple of 256, or of what the device's descriptors of buffers may begin at.
+    pub offset: u64,
+    /// Most locations of a recording.
+    pub capacity: u32,
+    /// What they see, made with `TRANSFER_DST`: four floats a location, in their order: linear light and opacity, by which the
+    /// light is multiplied.
+    pub colors: vk::Buffer,
+    /// Where that of the first location goes, in bytes: a multiple of 4.
+    pub colors_offset: u64,
+}
+
+/// A place on the image plane, as it lies in a [`LocationList`]: 32 bytes.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Location {
+    /// The pixel that it lies in: column and row from the upper left corner of the image that [`Options::size`] names.
+    pub pixel: [i32; 2],
+    /// Where it lies in the pixel, x and y down, from 0 to 1.
+    pub within: [f32; 2],
+    /// How far apart it lies from its neighbours, in pixels: the change of x and y to the next column and to the next row of
+    /// what the host makes of the list. Sub-samples and filters of textures spread over this parallelogram.
+    pub jacobian: [[f32; 2]; 2],
+}
+
+/// What the last recording of a [`List`] did.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ListOutcome {
+    /// Figures.
+    pub statistics: Statistics,
+    /// Cells and tiles that found no room, and show the background. [`List::grow`] makes a list with more.
+    pub left_over: u64,
+    /// Locations off the image, or that are no numbers. They show the background.
+    pub left_out: u32,
+}
+
+/// Pipelines and memory to sample a host's locations, of one of its frames in flight.
+pub struct List {
+    lending: Lending,
+    list: LocationList,
+    options: Options,
+    settings: Settings,
+    resources: Resources,
+    targets: RasterTargets,
+    sampler: Sampler,
+    visibility_set: OwnSet,
+    timings: Timings,
+    memory: Memory,
+    _locations: TexelView,
+    /// Last: layouts go after what was made with them.
+    shared: Arc<Shared>,
+}
+
+impl LocationList {
+    const LOCATION_BYTES: u64 = size_of::<Location>() as u64;
+    const COLOR_BYTES: u64 = 16;
+
+    fn check(&self, alignment: u64, most: u32) -> Result<(), HostError> {
+        if self.locations == vk::Buffer::null() {
+            return Err(HostError::NullHandle("the buffer of locations"));
+        }
+        if self.colors == vk::Buffer::null() {
+            return Err(HostError::NullHandle("the buffer of colours"));
+        }
+        if !(1..=most).contains(&self.capacity) {
+            return Err(HostError::Count {
+                what: "the capacity of locations",
+                found: self.capacity,
+                most,
+            });
+        }
+        let offsets = [
+            ("the offset of locations", self.offset, alignment),
+            ("the offset of colours", self.colors_offset, 4),
+        ];
+        for (what, offset, alignment) in offsets {
+            if offset % alignment != 0 {
+                return Err(HostError::Alignment {
+                    what,
+                    offset,
+                    alignment,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn bytes(&self) -> u64 {
+        u64::from(self.capacity) * Self::LOCATION_BYTES
+    }
+
+    fn info(&self) -> vk::DescriptorBufferInfo {
+        vk::DescriptorBufferInfo::default()
+            .buffer(self.locations)
+            .offset(self.offset)
+            .range(self.bytes())
+    }
+}
+
+impl List {
+    /// # Safety
+    /// As [`super::Antialiaser::prepare_list`].
+    pub(super) unsafe fn new(
+        shared: &Arc<Shared>,
+        geometry: &Geometry,
+        list: &LocationList,
+        options: &Options,
+    ) -> Result<Self, HostError> {
+        // SAFETY: passed on to the caller.
+        unsafe { Self::with_capacity(shared, geometry, list, options, Capacity::default()) }
+    }
+
+    unsafe fn with_capacity(
+        shared: &Arc<Shared>,
+        geometry: &Geometry,
+        list: &LocationList,
+        options: &Options,
+        capacity: Capacity,
+    ) -> Result<Self, HostError> {
+        let gpu = &shared.gpu;
+        let limits = gpu.limits();
+        let layout = &shared.frame;
+        let settings = options.settings();
+        settings.check(limits)?;
+        geometry.check(gpu)?;
+        check_size(settings.size)?;
+        let texels = limits.max_texel_elements / 2;
+        let most = texels.min(limits.max_storage_bytes / LocationList::LOCATION_BYTES);
+        list.check(limits.buffer_alignment.max(16), most.min(1 << 30) as u32)?;
+        let memory = Memory::new(gpu.clone(), settings.max_memory);
+        // SAFETY: passed on to the caller.
+        let lending = unsafe { Lending::new(shared, &memory, geometry) }?;
+        let content = &lending.content;
+        let cells = ListCells {
+            cells: if settings.samples == 1 {
+                Cells::Points
+            } else {
+                Cells::Superpixels
+            },
+            attributes: false,
+            shadow_words: 0,
+            lent: true,
+        };
+        let room = (list.capacity, padded(settings.size));
+        let sizes = cells.sizes(layout, content, &settings, room, capacity.lists);
+        sizes.check("the largest list of a recording", limits)?;
+        let (offsets, count) = cells.offsets(layout, &settings)?;
+        let single = vk::SampleCountFlags::TYPE_1;
+        let targets = RasterTargets::new(&memory, 1, 1, single, false)?;
+        let uint4 = vk::Format::R32G32B32A32_UINT;
+        // SAFETY: passed on to the caller.
+        let locations =
+            unsafe { TexelView::new(gpu, list.locations, uint4, list.offset, list.bytes()) }?;
+        let mut shown = content.texels().to_vec();
+        shown.push((frame_set::LOCATIONS, locations.raw));
+        let resources = Resources::new(
+            layout,
+            &memory,
+            content,
+            (&shown, content.lights()),
+            &targets.views(),
+            sizes,
+            &[Offsets {
+                all: &offsets,
+                count,
+            }],
+        )?;
+        let output = settings.color_constants(content);
+        let context = SamplerContext {
+            layout,
+            memory: &memory,
+            scene: content,
+            settings: &settings,
+            output: &output,
+            sizes: &sizes,
+            capacity,
+            runs: 1,
+        };
+        // SAFETY: of the list as the caller says; the rest goes with this.
+        let (mut sampler, visibility_set) = unsafe {
+            (
+                cells.sampler(&context, (&resources, locations.raw))?,
+                lending.visibility_set(shared, &resources, Some(list.info()))?,
+            )
+        };
+        if let Some(most) = options.max_rounds {
+            sampler.limit_rounds(most);
+        }
+        Ok(Self {
+            timings: Timings::new(gpu, 32)?,
+            lending,
+            list: *list,
+            options: options.clone(),
+            settings,
+            resources,
+            targets,
+            sampler,
+            visibility_set,
+            memory,
+            _locations: locations,
+            shared: shared.clone(),
+        })
+    }
+
+    /// The options that it was prepared with.
+    #[must_use]
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+
+    /// Bytes of device memory that it takes, beside what the host lends.
+    #[must_use]
+    pub fn memory_bytes(&self) -> u64 {
+        self.memory.used()
+    }
+
+    /// A list like this one, with more of what the last recording lacked: memory for lists of triangles. Where it lacked nothing, it
+    /// is made with as much; [`Options::max_rounds`] stays what it is.
+    ///
+    /// # Errors
+    /// If memory runs out; as [`Self::outcome`] where the last recording is not done.
+    ///
+    /// # Safety
+    /// As [`super::Antialiaser::prepare_list`].
+    pub unsafe fn grow(&self) -> Result<Self, HostError> {
+        let capacity = self.sampler.capacity().more(self.shortfall()?);
+        let (shared, geometry) = (&self.shared, &self.lending.geometry);
+        // SAFETY: passed on to the caller.
+        unsafe { Self::with_capacity(shared, geometry, &self.list, &self.options, capacity) }
+    }
+
+    /// Records the sampling of the first `count` locations. It submits nothing, waits for nothing, allocates nothing on the
+    /// device and updates no descriptor. `shading` is called once a round.
+    ///
+    /// # Errors
+    /// If draws or locations are more than there is room for, or a draw is impossible. Nothing is recorded then.
+    ///
+    /// # Safety
+    /// - `commands` is being recorded, outside of a render pass and of conditional rendering, for the device of the antialiaser and a queue family with
+    ///   compute. What was bound and pushed before has to be bound and pushed again.
+    /// - The commands of this list's last recording are done, or will never be executed: its memory is used again.
+    /// - In recordings up to the first one that is executed, alpha maps are in `SHADER_READ_ONLY_OPTIMAL`, and were written before on the same queue or
+    ///   made visible to it.
+    /// - Writes to the lent buffers by the device were recorded into the same queue before, or made visible to it; those to
+    ///   the buffer of colours are done. What this records is visible to all commands after it on the queue.
+    /// - The list, the buffers and what `shading` records outlive the execution of the commands.
+    /// - What `shading` records is valid, and writes no memory of the list but by `gpc_store`.
+    pub unsafe fn record(
+        &mut self,
+        commands: vk::CommandBuffer,
+        draws: &[Draw],
+        count: u32,
+        shading: &dyn ShadeSamples,
+    ) -> Result<(), HostError> {
+        let placed = PlacedDraws::new(&self.lending.geometry, draws)?;
+        if count > self.list.capacity {
+            return Err(HostError::Capacity {
+                what: "locations",
+                found: u64::from(count),
+                capacity: self.list.capacity,
+            });
+        }
+        let uniform = self.uniform(&placed);
+        let footprints = self.footprints();
+        let gpu = self.shared.gpu.clone();
+        let resources = &self.resources;
+        let Some(set) = resources.set(0) else {
+            return Ok(());
+        };
+        // SAFETY: passed on to the caller.
+        let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
+        let recorder = &mut recorder;
+        recorder.barrier();
+        self.lending
+            .record_begin(recorder, placed.triangles, |recorder| {
+                resources.record_upload(recorder);
+                self.targets.record_unused(recorder);
+            });
+        let lending = &self.lending;
+        lending.record_triangles(recorder, &placed);
+        let boxes = self.settings.filters_boxes();
+        let visible = VisibilityUniform {
+            list: 1,
+            ..lending.visible(&self.settings, footprints.place, boxes)
+        };
+        lending.record_visible(recorder, &visible);
+        if count > 0 {
+            resources.record_background(recorder, count, uniform.background, 0);
+        }
+        resources.record_begin(recorder, set, &uniform);
+        let shading = lending.shading(shading, &self.visibility_set, (resources, set));
+        let run = SamplerRun {
+            resources,
+            set,
+            uniform: &uniform,
+            list: (count, ListLength::Known),
+            index: 0,
+        };
+        self.sampler.record(recorder, &run, &shading);
+        let bytes = LocationList::COLOR_BYTES * u64::from(count);
+        // SAFETY: the buffer has room for the colours of as many locations as there can be, as the host says.
+        unsafe {
+            resources.record_keep_colors(recorder, self.list.colors, self.list.colors_offset, bytes)
+        };
+        lending.record_end(recorder);
+        Ok(())
+    }
+
+    /// What the last recording did, once its commands are done, until the next one. It waits for nothing.
+    ///
+    /// # Errors
+    /// [`VulkanError::NotDone`](crate::vulkan::VulkanError::NotDone) if the last recording was not submitted or still runs, and
+    /// [`VulkanError::NotRecorded`](crate::vulkan::VulkanError::NotRecorded) if there was none; if what was counted or timed can't be read, or the driver ran kernels in subgroups that they were not made for.
+    pub fn outcome(&self) -> Result<ListOutcome, HostError> {
+        let shortfall = self.shortfall()?;
+        let statistics = self.lending.statistics(
+            (&self.sampler, self.resources.sizes()),
+            (&self.timings, &self.memory),
+            &shortfall,
+        )?;
+        Ok(ListOutcome {
+            statistics,
+            left_over: shortfall.left(),
+            left_out: self.sampler.left_out()?,
+        })
+    }
+
+    fn shortfall(&self) -> Result<Shortfall, HostError> {
+        self.lending.check_done()?;
+        let mut shortfall = Shortfall::default();
+        let tiles = self.resources.sizes().tiles();
+        self.sampler.add_shortfall([tiles], &mut shortfall)?;
+        Ok(shortfall)
+    }
+
+    fn footprints(&self) -> Footprints {
+        Footprints::new(&self.settings, self.settings.samples)
+    }
+
+    fn uniform(&self, placed: &PlacedDraws) -> FrameUniform {
+        let (settings, geometry) = (&self.settings, &self.lending.geometry);
+        let sizes = self.resources.sizes();
+        let plane = PlaneBlock {
+            // Locations may lie anywhere in the tiles at the border.
+            size: sizes.region,
+            ..plane_block(geometry, settings.size)
+        };
+        let samples = self.sampler.samples();
+        frame_uniform(
+            &scene_block(geometry, placed),
+            &plane,
+            settings,
+            (samples, &self.footprints()),
+            sizes,
+        )
+    }
+}
+
+/// A size in whole tiles.
+fn padded([width, height]: [u32; 2]) -> [u32; 2] {
+    [width.next_multiple_of(8), height.next_multiple_of(4)]
+}

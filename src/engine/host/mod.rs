@@ -1,0 +1,153 @@
+//! Antialiasing of an application's own frames: its geometry, its images, its materials.
+//!
+//! The application draws its frame as ever, and one more attachment of triangle IDs, or leaves some or all of that to the
+//! library. [`Frame::record`] then finds the pixels that alias, samples the application's triangles there, has the
+//! application shade what the samples see ([`ShadeSamples`]), and draws the resolved pixels over the aliased ones.
+//!
+//! ```text
+//! application                colour, triangle IDs, depth      pipelines of its materials         colour
+//!                                     │                                 ▲    │                     ▲
+//! Frame::record  transform, adopt ─▶ take ─▶ detect ─▶ cull, bin ─▶ [ sample ─▶ sort ─▶ resolve ] ─▶ patch
+//!                                                                    └──────── rounds ──────────┘
+//! ```
+//!
+//! [`List`] samples locations that the application lends in a buffer, wherever they lie on the image plane, in the place of an
+//! image's pixels: `distribute` sorts them into tiles, and the rounds are the same.
+//!
+//! Nothing here knows a material, a light or a file. `docs/embedding.md` is the manual.
+
+mod adoption;
+mod alpha;
+mod base;
+mod content;
+mod draw;
+mod error;
+mod frame;
+mod geometry;
+mod images;
+mod lending;
+mod list;
+mod options;
+mod shading;
+mod uniform;
+
+pub use crate::engine::sampler::{ImageState, PassTime, Statistics, TriangleCounts};
+pub use alpha::AlphaMap;
+pub use draw::Draw;
+pub use error::HostError;
+pub use frame::{Frame, Outcome, Scenery};
+pub use geometry::{ClipSpace, Coordinates, Geometry, PositionSpace};
+pub use images::{ColorImage, Images, LentImage};
+pub use list::{List, ListOutcome, Location, LocationList};
+pub use options::Options;
+pub use shading::{SHADER_INCLUDES, ShadeSamples, VisibilitySamples};
+
+use crate::passes::{
+    self, Adopt, AlphaMaps, FrameLayout, SetLayout, Take, Transform, visibility_layout,
+};
+use crate::vulkan::{Gpu, Host, VulkanError};
+use ash::vk;
+use std::sync::Arc;
+
+/// What frames of one device share: layouts, and the pipelines made so far.
+pub struct Antialiaser {
+    shared: Arc<Shared>,
+}
+
+pub(crate) struct Shared {
+    gpu: Arc<Gpu>,
+    frame: Arc<FrameLayout>,
+    adopt: Adopt,
+    transform: Transform,
+    coordinates: passes::Coordinates,
+    alpha_maps: AlphaMaps,
+    take: Take,
+    visibility: SetLayout,
+}
+
+impl Antialiaser {
+    /// In a host's device. See [`crate::vulkan::Requirements`] for what the device needs.
+    ///
+    /// # Errors
+    /// [`VulkanError::Missing`] lists all that the device lacks.
+    ///
+    /// # Safety
+    /// - The host's handles are alive, belong together and outlive this and all that it prepares.
+    /// - The device was created with [`crate::vulkan::Requirements::features13`] enabled.
+    pub unsafe fn new(host: Host) -> Result<Self, VulkanError> {
+        // SAFETY: passed on to the caller.
+        Self::in_gpu(unsafe { Gpu::new(host) }?)
+    }
+
+    /// In a device that another part of the library works in.
+    ///
+    /// # Errors
+    /// If the driver refuses the layouts.
+    pub fn in_gpu(gpu: Arc<Gpu>) -> Result<Self, VulkanError> {
+        let frame = FrameLayout::new(&gpu)?;
+        Ok(Self {
+            shared: Arc::new(Shared {
+                adopt: Adopt::new(&gpu)?,
+                transform: Transform::new(&gpu)?,
+                coordinates: passes::Coordinates::new(&gpu)?,
+                alpha_maps: AlphaMaps::new(&gpu)?,
+                take: Take::new(&frame)?,
+                visibility: visibility_layout(&gpu)?,
+                frame,
+                gpu,
+            }),
+        })
+    }
+
+    /// The device.
+    #[must_use]
+    pub fn gpu(&self) -> &Arc<Gpu> {
+        &self.shared.gpu
+    }
+
+    /// The layout of the set that shaders read visibility samples from, for the layouts of the host's own pipelines. It
+    /// lives as long as this and all frames.
+    #[must_use]
+    pub fn samples_layout(&self) -> vk::DescriptorSetLayout {
+        self.shared.visibility.raw
+    }
+
+    /// Makes the pipelines and memory of a frame. An application has one for each frame that it has in flight, and makes
+    /// new ones where a size or a handle changes.
+    ///
+    /// # Errors
+    /// [`HostError`] names what can't be had; nothing is left behind.
+    ///
+    /// # Safety
+    /// - The buffers and views are alive, of this device, of the sizes and formats named, made with the usage flags that
+    ///   [`Geometry`] and [`Images`] name, and outlive the frame.
+    pub unsafe fn prepare(
+        &self,
+        geometry: &Geometry,
+        images: &Images,
+        options: &Options,
+    ) -> Result<Frame, HostError> {
+        // SAFETY: passed on to the caller.
+        unsafe { Frame::new(&self.shared, geometry, images, options) }
+    }
+
+    /// Makes the pipelines and memory to sample a list of locations, for each frame in flight that does. With one sample each
+    /// location is sampled where it is, with more as a superpixel around it. Of the options, detection, contrast, thin and
+    /// `shade_all` do not matter; the size is that of the image whose pixels locations count in.
+    ///
+    /// # Errors
+    /// [`HostError`] names what can't be had; nothing is left behind.
+    ///
+    /// # Safety
+    /// - The buffers are alive, of this device, of the sizes named, made with the usage flags that [`Geometry`] and
+    ///   [`LocationList`] name, and outlive the list.
+    pub unsafe fn prepare_list(
+        &self,
+        geometry: &Geometry,
+        list: &LocationList,
+        options: &Options,
+    ) -> Result<List, HostError> {
+        // SAFETY: passed on to the caller.
+        unsafe { List::new(&self.shared, geometry, list, options) }
+    }
+}

@@ -1,0 +1,39 @@
+//! bin: triangles into pairs with the tiles they touch.
+
+use super::arguments::{After, Arguments};
+use super::{Argument, Content, FrameLayout, spirv};
+use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
+use ash::vk;
+use std::sync::Arc;
+
+/// Lists the pairs and counts each tile's.
+pub struct Bin {
+    layout: vk::PipelineLayout,
+    arguments: Arguments,
+    pipeline: Arc<Pipeline>,
+}
+
+impl Bin {
+    /// Makes the pipelines.
+    ///
+    /// # Errors
+    /// If the driver refuses one.
+    pub fn new(layout: &FrameLayout, scene: &dyn Content) -> Result<Self, VulkanError> {
+        let instanced = scene.is_instanced();
+        Ok(Self {
+            layout: layout.pipeline,
+            arguments: Arguments::new(layout, After::Cull)?,
+            pipeline: layout.compute(&spirv::Bin { instanced }, None)?,
+        })
+    }
+
+    /// Records it: for small triangles, then for large ones.
+    pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
+        self.arguments.record(recorder);
+        for (large, argument) in [(0, Argument::BinSmall), (1, Argument::BinLarge)] {
+            recorder.push(self.layout, &spirv::BinPush { large });
+            recorder.dispatch_indirect_unordered(&self.pipeline, arguments, argument as u32);
+        }
+        recorder.barrier();
+    }
+}

@@ -1,0 +1,86 @@
+//! centres: the centres of pixels as visibility samples.
+
+use super::{ColorConstants, FrameLayout, Resources, spirv};
+use crate::vulkan::{Pipeline, Recorder, VulkanError};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Lists pixels to be shaded, and gathers their colours.
+pub(crate) struct Centres {
+    layout: Arc<FrameLayout>,
+    list: Arc<Pipeline>,
+    gather: Arc<Pipeline>,
+}
+
+impl Centres {
+    /// Makes the pipelines; `output` are the colour constants of `shaders/include/color.glsl`.
+    ///
+    /// # Errors
+    /// If the driver refuses one.
+    pub fn new(layout: &Arc<FrameLayout>, output: &ColorConstants) -> Result<Self, VulkanError> {
+        let make = |gather| {
+            let shader = spirv::Centres {
+                gather,
+                tonemap: output.tonemap,
+                tonemap_codes: output.tonemap_codes,
+            };
+            layout.compute(&shader, None)
+        };
+        Ok(Self {
+            list: make(false)?,
+            gather: make(true)?,
+            layout: layout.clone(),
+        })
+    }
+
+    /// Records bands of an image of so many pixels, each as large as there is room for records; `shade` records how these
+    /// are sorted and shaded, and leaves the frame's set bound.
+    pub fn record(
+        &self,
+        recorder: &mut Recorder<'_>,
+        resources: &Resources,
+        pixels: u32,
+        mut shade: impl FnMut(&mut Recorder<'_>),
+    ) {
+        for band in Self::bands(pixels, resources.sizes().record_capacity) {
+            self.record_half(recorder, &self.list, &band);
+            recorder.mark("centres");
+            shade(recorder);
+            self.record_half(recorder, &self.gather, &band);
+            recorder.mark("centres");
+        }
+    }
+
+    /// How often an image of so many pixels is shaded in bands, where there is room for so many records.
+    pub fn bands(pixels: u32, room: u32) -> impl ExactSizeIterator<Item = Range<u32>> {
+        let room = room.max(1);
+        (0..pixels.div_ceil(room)).map(move |n| n * room..pixels.min((n + 1).saturating_mul(room)))
+    }
+
+    fn record_half(&self, recorder: &Recorder<'_>, pipeline: &Pipeline, band: &Range<u32>) {
+        let count = band.end - band.start;
+        let push = spirv::CentresPush {
+            first: band.start,
+            count,
+        };
+        recorder.push(self.layout.pipeline, &push);
+        recorder.dispatch(pipeline, u64::from(count.div_ceil(64)));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bands_cover_all_pixels_once() {
+        let bands = |pixels, room| -> Vec<_> {
+            let bands = Centres::bands(pixels, room);
+            bands.map(|band| (band.start, band.end)).collect()
+        };
+        assert_eq!(bands(10, 20), [(0, 10)]);
+        assert_eq!(bands(10, 4), [(0, 4), (4, 8), (8, 10)]);
+        let half = 1 << 31;
+        assert_eq!(bands(u32::MAX, half), [(0, half), (half, u32::MAX)]);
+    }
+}

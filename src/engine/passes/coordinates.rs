@@ -1,0 +1,63 @@
+//! coordinates: texture coordinates of a host's vertices, one for each position in clip space.
+
+use super::VertexCounts;
+use super::draws::Draws;
+use super::lent_kernel::LentKernel;
+use super::own_layout::{OwnSet, whole};
+use super::spirv::{self, coordinates_set};
+use crate::vulkan::{Buffer, Gpu, Pipeline, Recorder, VulkanError};
+use ash::vk;
+use std::sync::Arc;
+
+/// Reads coordinates in the order of positions.
+pub(crate) struct Coordinates(LentKernel<spirv::Coordinates, VertexCounts>);
+
+impl Coordinates {
+    /// Makes the layouts.
+    ///
+    /// # Errors
+    /// If the driver refuses one.
+    pub fn new(gpu: &Arc<Gpu>) -> Result<Self, VulkanError> {
+        Ok(Self(LentKernel::new(gpu, &coordinates_set::ALL)?))
+    }
+
+    /// The pipeline: each draw has positions of its own if it has a matrix.
+    ///
+    /// # Errors
+    /// If the driver refuses it.
+    pub fn pipeline(&self, gpu: &Arc<Gpu>, draws: &Draws) -> Result<Pipeline, VulkanError> {
+        let object = draws.matrices.is_some();
+        self.0.pipeline(gpu, &spirv::Coordinates { object })
+    }
+
+    /// A set that shows draws, the host's vertices and coordinates.
+    ///
+    /// # Safety
+    /// The host's buffer outlives the set's use.
+    pub unsafe fn set(
+        &self,
+        draws: &Draws,
+        vertices: vk::DescriptorBufferInfo,
+        coordinates: &Buffer,
+    ) -> Result<OwnSet, VulkanError> {
+        let buffers = [
+            (coordinates_set::DRAWS, whole(&draws.table)),
+            (coordinates_set::VERTICES, vertices),
+            (coordinates_set::COORDINATES_OUT, whole(coordinates)),
+        ];
+        // SAFETY: of the host's buffer as the caller says; ours go with the frame.
+        unsafe { self.0.set(&buffers) }
+    }
+
+    /// Records it, where there are draws.
+    pub fn record(
+        &self,
+        recorder: &Recorder<'_>,
+        pipeline: &Pipeline,
+        set: &OwnSet,
+        counts: VertexCounts,
+    ) {
+        let invocations = counts.position_count;
+        self.0.record(recorder, pipeline, set, &counts, invocations);
+    }
+}

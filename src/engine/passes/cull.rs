@@ -1,0 +1,48 @@
+//! cull: the triangles that can touch a superpixel.
+
+use super::arguments::{After, Arguments};
+use super::{Argument, Content, FrameLayout, spirv};
+use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
+use std::sync::Arc;
+
+/// Which triangles are kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CullFilter {
+    /// All that may touch a cell.
+    Touching,
+    /// Of these, those that may be thin in some cell.
+    Thin,
+}
+
+/// Compacts triangles; runs over none where nothing was detected.
+pub struct Cull {
+    arguments: Arguments,
+    pipeline: Arc<Pipeline>,
+}
+
+impl Cull {
+    /// Makes the pipelines.
+    ///
+    /// # Errors
+    /// If the driver refuses one.
+    pub fn new(
+        layout: &FrameLayout,
+        scene: &dyn Content,
+        filter: CullFilter,
+    ) -> Result<Self, VulkanError> {
+        let shader = spirv::Cull {
+            thin_alone: filter == CullFilter::Thin,
+            instanced: scene.is_instanced(),
+        };
+        Ok(Self {
+            arguments: Arguments::new(layout, After::Detect)?,
+            pipeline: layout.compute(&shader, None)?,
+        })
+    }
+
+    /// Records it.
+    pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
+        self.arguments.record(recorder);
+        recorder.dispatch_indirect(&self.pipeline, arguments, Argument::Cull as u32);
+    }
+}

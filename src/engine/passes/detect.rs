@@ -1,0 +1,74 @@
+//! detect: which pixels are superpixels.
+
+use super::{FrameLayout, spirv};
+use crate::vulkan::{Pipeline, Recorder, VulkanError};
+use std::sync::Arc;
+
+/// What makes a pixel a superpixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DetectMode {
+    /// A neighbour with a contrasting colour.
+    Contrast,
+    /// A neighbour with another triangle and a contrasting colour.
+    Edges,
+    /// A neighbour with another triangle.
+    Exact,
+    /// A BLEND triangle at its centre.
+    Blended,
+    /// Every pixel is one.
+    Every,
+}
+
+/// What a [`Detect`] is made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DetectOptions {
+    /// What makes a superpixel.
+    pub mode: DetectMode,
+    /// Whether the nearest BLEND triangles are compared too.
+    pub blend_ids: bool,
+    /// Whether pixels that [`Thin`](super::Thin) marked are superpixels too.
+    pub thin: bool,
+    /// Whether alpha is compared too.
+    pub transparent: bool,
+    /// Whether the IDs of a multisampled raster are read, for [`DetectMode::Blended`].
+    pub multisampled: bool,
+    /// Words of each place that say which lights reach it; these are compared as triangles are.
+    pub shadow_words: u32,
+    /// Pixels around the region's own that become superpixels too, for [`Grow`](super::Grow).
+    pub beyond: u32,
+}
+
+/// Writes the mask of superpixels.
+pub struct Detect {
+    pipeline: Arc<Pipeline>,
+}
+
+impl Detect {
+    /// Makes the pipeline.
+    ///
+    /// # Errors
+    /// If the driver refuses it.
+    pub fn new(layout: &FrameLayout, options: &DetectOptions) -> Result<Self, VulkanError> {
+        let shader = spirv::Detect {
+            mode: options.mode as u32,
+            blend_ids: options.blend_ids,
+            thin: options.thin,
+            transparent: options.transparent,
+            beyond: options.beyond,
+            shadow_words: options.shadow_words,
+        };
+        let code = if options.multisampled {
+            spirv::DETECT_MULTISAMPLED
+        } else {
+            spirv::DETECT
+        };
+        Ok(Self {
+            pipeline: layout.compute_variant(code, &shader, None)?,
+        })
+    }
+
+    /// Records it for a region of `tiles` tiles.
+    pub fn record(&self, recorder: &Recorder<'_>, tiles: u32) {
+        recorder.dispatch(&self.pipeline, u64::from(tiles.div_ceil(64)));
+    }
+}

@@ -1,0 +1,69 @@
+//! Kernels that read a buffer that a host lends: their set shows storage buffers alone, and a count is pushed to them.
+
+use super::own_layout::{OwnSet, PipelineLayout, SetLayout};
+use crate::vulkan::{Binding, Compiled, Gpu, Pipeline, Recorder, VulkanError, compute_pipeline};
+use ash::vk;
+use std::marker::PhantomData;
+use std::sync::Arc;
+
+/// The layouts of a kernel of 64 invocations a workgroup; `S` is its shader, `C` what is pushed.
+pub(crate) struct LentKernel<S, C> {
+    layout: PipelineLayout,
+    set_layout: SetLayout,
+    pushed: PhantomData<(S, C)>,
+}
+
+impl<S: Compiled, C: bytemuck::NoUninit> LentKernel<S, C> {
+    /// Makes the layouts, for a set of these bindings.
+    ///
+    /// # Errors
+    /// If the driver refuses one.
+    pub fn new(gpu: &Arc<Gpu>, bindings: &'static [Binding]) -> Result<Self, VulkanError> {
+        let set_layout = SetLayout::new(gpu, bindings)?;
+        Ok(Self {
+            layout: PipelineLayout::new(gpu, &[set_layout.raw], size_of::<C>() as u32)?,
+            set_layout,
+            pushed: PhantomData,
+        })
+    }
+
+    /// The pipeline for the shader's constants.
+    ///
+    /// # Errors
+    /// If the driver refuses it.
+    pub fn pipeline(&self, gpu: &Arc<Gpu>, shader: &S) -> Result<Pipeline, VulkanError> {
+        let constants = shader.constants();
+        let made = compute_pipeline(gpu, self.layout.raw, S::code(), &constants, None)?;
+        Ok(made.of(S::INTERFACE))
+    }
+
+    /// A set that shows buffers at its bindings.
+    ///
+    /// # Errors
+    /// If the driver refuses it.
+    ///
+    /// # Safety
+    /// The buffers outlive the set's use.
+    pub unsafe fn set(
+        &self,
+        buffers: &[(Binding, vk::DescriptorBufferInfo)],
+    ) -> Result<OwnSet, VulkanError> {
+        let set = self.set_layout.allocate()?;
+        // SAFETY: the set is new; of the buffers as the caller says.
+        unsafe { set.write_buffers(buffers) };
+        Ok(set)
+    }
+
+    /// Records so many invocations.
+    pub fn record(
+        &self,
+        recorder: &Recorder<'_>,
+        pipeline: &Pipeline,
+        set: &OwnSet,
+        pushed: &C,
+        invocations: u32,
+    ) {
+        self.layout.bind(recorder, &[set.raw], pushed);
+        recorder.dispatch(pipeline, u64::from(invocations.div_ceil(64)));
+    }
+}

@@ -1,0 +1,218 @@
+//! Layouts of descriptor sets beside the frame's, and of pipelines that bind them.
+
+use super::FrameLayout;
+use super::pool::DescriptorPool;
+use crate::vulkan::{
+    Binding, Buffer, Compiled, Gpu, Pipeline, Recorder, VulkanError, compute_pipeline,
+};
+use ash::vk;
+use std::sync::Arc;
+
+/// The layout of a set of a compute shader's own.
+pub(crate) struct SetLayout {
+    gpu: Arc<Gpu>,
+    pub(crate) raw: vk::DescriptorSetLayout,
+    bindings: &'static [Binding],
+}
+
+impl SetLayout {
+    pub fn new(gpu: &Arc<Gpu>, bindings: &'static [Binding]) -> Result<Self, VulkanError> {
+        let layouts: Vec<_> = bindings
+            .iter()
+            .map(|binding| {
+                vk::DescriptorSetLayoutBinding::default()
+                    .binding(binding.number)
+                    .descriptor_type(binding.kind)
+                    .descriptor_count(binding.count)
+                    .stage_flags(vk::ShaderStageFlags::COMPUTE)
+            })
+            .collect();
+        let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&layouts);
+        // SAFETY: plain creation on a live device.
+        let raw = unsafe { gpu.device.create_descriptor_set_layout(&info, None) }
+            .map_err(VulkanError::of("vkCreateDescriptorSetLayout"))?;
+        Ok(Self {
+            gpu: gpu.clone(),
+            raw,
+            bindings,
+        })
+    }
+
+    /// A set of this layout in a pool of its own.
+    pub fn allocate(&self) -> Result<OwnSet, VulkanError> {
+        let sizes: Vec<_> = self
+            .bindings
+            .iter()
+            .map(|binding| vk::DescriptorPoolSize {
+                ty: binding.kind,
+                descriptor_count: binding.count,
+            })
+            .collect();
+        let pool = DescriptorPool::new(&self.gpu, 1, &sizes)?;
+        Ok(OwnSet {
+            gpu: self.gpu.clone(),
+            raw: pool.allocate(self.raw)?,
+            _pool: pool,
+        })
+    }
+}
+
+impl Drop for SetLayout {
+    fn drop(&mut self) {
+        // SAFETY: owners drop the layout after the pipelines and sets that were made with it.
+        unsafe {
+            self.gpu
+                .device
+                .destroy_descriptor_set_layout(self.raw, None)
+        };
+    }
+}
+
+/// A descriptor set and the pool that it is of.
+pub(crate) struct OwnSet {
+    gpu: Arc<Gpu>,
+    pub(crate) raw: vk::DescriptorSet,
+    _pool: DescriptorPool,
+}
+
+impl OwnSet {
+    /// Shows buffers.
+    ///
+    /// # Safety
+    /// The set is not in use, and its bindings are these, of buffers, which outlive its use.
+    pub unsafe fn write_buffers(&self, shown: &[(Binding, vk::DescriptorBufferInfo)]) {
+        let writes: Vec<_> = shown
+            .iter()
+            .map(|(binding, buffer)| {
+                self.write(binding)
+                    .buffer_info(std::slice::from_ref(buffer))
+            })
+            .collect();
+        // SAFETY: passed on to the caller.
+        unsafe { self.gpu.device.update_descriptor_sets(&writes, &[]) };
+    }
+
+    /// Shows texel buffers.
+    ///
+    /// # Safety
+    /// The set is not in use, and its bindings are these, of texel buffers, which outlive its use.
+    pub unsafe fn write_texels(&self, shown: &[(Binding, vk::BufferView)]) {
+        let writes: Vec<_> = shown
+            .iter()
+            .map(|(binding, view)| {
+                let view = std::slice::from_ref(view);
+                self.write(binding).texel_buffer_view(view)
+            })
+            .collect();
+        // SAFETY: passed on to the caller.
+        unsafe { self.gpu.device.update_descriptor_sets(&writes, &[]) };
+    }
+
+    /// Shows an image, in the layout `SHADER_READ_ONLY_OPTIMAL`.
+    ///
+    /// # Safety
+    /// The set is not in use, and its binding is that of an image, which outlives its use.
+    pub unsafe fn write_image(&self, binding: Binding, view: vk::ImageView) {
+        let info = [vk::DescriptorImageInfo::default()
+            .image_view(view)
+            .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)];
+        let writes = [self.write(&binding).image_info(&info)];
+        // SAFETY: passed on to the caller.
+        unsafe { self.gpu.device.update_descriptor_sets(&writes, &[]) };
+    }
+
+    fn write(&self, binding: &Binding) -> vk::WriteDescriptorSet<'static> {
+        vk::WriteDescriptorSet::default()
+            .dst_set(self.raw)
+            .dst_binding(binding.number)
+            .descriptor_type(binding.kind)
+    }
+}
+
+/// The layout of a pipeline.
+pub(crate) struct PipelineLayout {
+    gpu: Arc<Gpu>,
+    pub(crate) raw: vk::PipelineLayout,
+}
+
+impl PipelineLayout {
+    /// With these sets, and so many bytes of push constants for compute.
+    pub fn new(
+        gpu: &Arc<Gpu>,
+        sets: &[vk::DescriptorSetLayout],
+        push_bytes: u32,
+    ) -> Result<Self, VulkanError> {
+        let push = [vk::PushConstantRange {
+            stage_flags: vk::ShaderStageFlags::COMPUTE,
+            offset: 0,
+            size: push_bytes,
+        }];
+        let ranges = if push_bytes > 0 { &push[..] } else { &[] };
+        let info = vk::PipelineLayoutCreateInfo::default()
+            .set_layouts(sets)
+            .push_constant_ranges(ranges);
+        // SAFETY: plain creation on a live device.
+        let raw = unsafe { gpu.device.create_pipeline_layout(&info, None) }
+            .map_err(VulkanError::of("vkCreatePipelineLayout"))?;
+        Ok(Self {
+            gpu: gpu.clone(),
+            raw,
+        })
+    }
+}
+
+impl PipelineLayout {
+    /// A pipeline of this layout, of those that a frame's layout knows. Layouts that are made alike are one and the same to
+    /// pipelines.
+    pub fn compute<S: Compiled>(
+        &self,
+        frame: &FrameLayout,
+        shader: &S,
+    ) -> Result<Arc<Pipeline>, VulkanError> {
+        let constants = &shader.constants();
+        let made = || compute_pipeline(&self.gpu, self.raw, S::code(), constants, None);
+        frame.cached(S::code(), S::INTERFACE, constants, 0, made)
+    }
+
+    /// Binds sets and pushes constants; both are of this layout.
+    pub fn bind(
+        &self,
+        recorder: &Recorder<'_>,
+        sets: &[vk::DescriptorSet],
+        push: &impl bytemuck::NoUninit,
+    ) {
+        let (device, raw) = (recorder.device(), recorder.bindings());
+        // SAFETY: the recorder's contract; sets and constants are of this layout.
+        unsafe {
+            device.cmd_bind_descriptor_sets(
+                raw,
+                vk::PipelineBindPoint::COMPUTE,
+                self.raw,
+                0,
+                sets,
+                &[],
+            );
+            device.cmd_push_constants(
+                raw,
+                self.raw,
+                vk::ShaderStageFlags::COMPUTE,
+                0,
+                bytemuck::bytes_of(push),
+            );
+        }
+    }
+}
+
+impl Drop for PipelineLayout {
+    fn drop(&mut self) {
+        // SAFETY: owners drop the layout after the pipelines that were made with it are done.
+        unsafe { self.gpu.device.destroy_pipeline_layout(self.raw, None) };
+    }
+}
+
+/// All of a buffer, for a descriptor.
+pub(crate) fn whole(buffer: &Buffer) -> vk::DescriptorBufferInfo {
+    vk::DescriptorBufferInfo::default()
+        .buffer(buffer.handle())
+        .range(vk::WHOLE_SIZE)
+}

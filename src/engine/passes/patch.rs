@@ -1,0 +1,110 @@
+//! patch: the colours of superpixels, or of all pixels, drawn into a host's image.
+
+use super::{FrameLayout, spirv};
+use crate::vulkan::{Compiled, GraphicsPipeline, Pipeline, Recorder, Specialized, VulkanError};
+use ash::vk;
+use std::sync::Arc;
+
+/// Which pixels [`Patch`] draws; all others stay as they are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Patched {
+    /// Superpixels.
+    Superpixels,
+    /// Superpixels, of which [`Grow`](super::Grow) has added some.
+    Grown,
+    /// All.
+    All,
+}
+
+/// Draws colours into an image.
+pub(crate) struct Patch {
+    layout: Arc<FrameLayout>,
+    pipeline: Arc<Pipeline>,
+}
+
+impl Patch {
+    /// Makes the pipeline for images of a format that hold linear light or, `encoded`, sRGB codes as plain numbers.
+    ///
+    /// # Errors
+    /// If the driver refuses it.
+    pub fn new(
+        layout: &Arc<FrameLayout>,
+        format: vk::Format,
+        encoded: bool,
+        patched: Patched,
+    ) -> Result<Self, VulkanError> {
+        let shader = spirv::PatchFragment {
+            encoded,
+            grown: patched == Patched::Grown,
+            all: patched == Patched::All,
+        };
+        let (code, interface) = (
+            spirv::PatchFragment::code(),
+            spirv::PatchFragment::INTERFACE,
+        );
+        let constants = &shader.constants();
+        let variant = format.as_raw() as u32;
+        let pipeline = layout.cached(code, interface, constants, variant, || {
+            let pipeline = GraphicsPipeline {
+                vertex: spirv::PatchVertex::code(),
+                fragment: code,
+                constants,
+                samples: vk::SampleCountFlags::TYPE_1,
+                color: format,
+                depth: None,
+                dynamic: &[],
+            };
+            pipeline.make(&layout.gpu, layout.pipeline)
+        })?;
+        Ok(Self {
+            layout: layout.clone(),
+            pipeline,
+        })
+    }
+
+    /// Records it into a part of a view, which has the layout `COLOR_ATTACHMENT_OPTIMAL`.
+    pub fn record(
+        &self,
+        recorder: &Recorder<'_>,
+        set: vk::DescriptorSet,
+        view: vk::ImageView,
+        area: vk::Rect2D,
+    ) {
+        let (device, raw) = (recorder.device(), recorder.raw());
+        let color = [vk::RenderingAttachmentInfo::default()
+            .image_view(view)
+            .image_layout(vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL)
+            .load_op(vk::AttachmentLoadOp::LOAD)
+            .store_op(vk::AttachmentStoreOp::STORE)];
+        let info = vk::RenderingInfo::default()
+            .render_area(area)
+            .layer_count(1)
+            .color_attachments(&color);
+        let viewport = vk::Viewport {
+            x: area.offset.x as f32,
+            y: area.offset.y as f32,
+            width: area.extent.width as f32,
+            height: area.extent.height as f32,
+            min_depth: 0.0,
+            max_depth: 1.0,
+        };
+        // SAFETY: the recorder's contract; the view is in the layout named, the set of the pipeline's layout.
+        unsafe { device.cmd_begin_rendering(raw, &info) };
+        recorder.bind(&self.pipeline);
+        // SAFETY: as above.
+        unsafe {
+            device.cmd_set_viewport(raw, 0, &[viewport]);
+            device.cmd_set_scissor(raw, 0, &[area]);
+            device.cmd_bind_descriptor_sets(
+                raw,
+                vk::PipelineBindPoint::GRAPHICS,
+                self.layout.pipeline,
+                0,
+                &[set],
+                &[],
+            );
+            device.cmd_draw(raw, 3, 1, 0, 0);
+            device.cmd_end_rendering(raw);
+        }
+    }
+}

@@ -1,0 +1,320 @@
+//! raster: depth and triangle ID of every pixel, by the device's rasterizer.
+
+use super::{Content, FrameLayout, IdViews, spirv};
+use crate::vulkan::{
+    Compiled, GraphicsPipeline, Image, Memory, Pipeline, Recorder, Specialized, VulkanError,
+};
+use ash::vk;
+use std::sync::Arc;
+
+/// Format of the depth attachment: reversed, larger is nearer.
+const DEPTH: vk::Format = vk::Format::D32_SFLOAT;
+
+/// What `raster` draws into: IDs of the nearest opaque or MASK triangle and of the nearest BLEND triangle in front of it.
+pub struct RasterTargets {
+    pub(crate) depth: Image,
+    pub(crate) ids: Image,
+    pub(crate) blend_ids: Option<Image>,
+    /// Stands for the single-sampled IDs where these are multisampled.
+    pub(crate) placeholder: Option<Image>,
+}
+
+impl RasterTargets {
+    /// Images of `width` x `height` pixels.
+    ///
+    /// # Errors
+    /// If memory runs out.
+    pub fn new(
+        memory: &Memory,
+        width: u32,
+        height: u32,
+        samples: vk::SampleCountFlags,
+        has_blend: bool,
+    ) -> Result<Self, VulkanError> {
+        let make = |name, extent: [u32; 2], samples, format, usage, aspect| {
+            let info = vk::ImageCreateInfo::default()
+                .image_type(vk::ImageType::TYPE_2D)
+                .format(format)
+                .extent(vk::Extent3D {
+                    width: extent[0],
+                    height: extent[1],
+                    depth: 1,
+                })
+                .mip_levels(1)
+                .array_layers(1)
+                .samples(samples)
+                .usage(usage);
+            memory.image(name, &info, aspect)
+        };
+        let image = |name, format, usage, aspect| {
+            make(name, [width, height], samples, format, usage, aspect)
+        };
+        let color = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
+        let format = id_format(samples);
+        let single = vk::SampleCountFlags::TYPE_1;
+        Ok(Self {
+            depth: image(
+                "depth",
+                DEPTH,
+                vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT | vk::ImageUsageFlags::SAMPLED,
+                vk::ImageAspectFlags::DEPTH,
+            )?,
+            ids: image("triangle IDs", format, color, vk::ImageAspectFlags::COLOR)?,
+            blend_ids: has_blend
+                .then(|| {
+                    image(
+                        "BLEND triangle IDs",
+                        format,
+                        color,
+                        vk::ImageAspectFlags::COLOR,
+                    )
+                })
+                .transpose()?,
+            placeholder: (samples != single)
+                .then(|| {
+                    let format = id_format(single);
+                    let aspect = vk::ImageAspectFlags::COLOR;
+                    make("placeholder", [1, 1], single, format, color, aspect)
+                })
+                .transpose()?,
+        })
+    }
+
+    /// What passes see of them.
+    #[must_use]
+    pub fn views(&self) -> IdViews {
+        IdViews {
+            ids: self.ids.view,
+            blend_ids: self.blend_ids.as_ref().map(|image| image.view),
+            depth: Some(self.depth.view),
+            placeholder: self.placeholder.as_ref().map(|image| image.view),
+        }
+    }
+
+    /// Brings single-sampled images into the layout in which descriptor sets show them, where nothing is drawn.
+    pub fn record_unused(&self, recorder: &Recorder<'_>) {
+        for image in [Some(&self.depth), Some(&self.ids), self.blend_ids.as_ref()]
+            .into_iter()
+            .flatten()
+        {
+            recorder.transition(
+                image,
+                vk::ImageLayout::UNDEFINED,
+                vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
+            );
+        }
+    }
+}
+
+/// A multisampled attachment need not hold integers, but holds the four bytes of one.
+fn id_format(samples: vk::SampleCountFlags) -> vk::Format {
+    if samples == vk::SampleCountFlags::TYPE_1 {
+        vk::Format::R32_UINT
+    } else {
+        vk::Format::R8G8B8A8_UNORM
+    }
+}
+
+/// What leads to pixel-scaled clip space and, as `instance`, from an index to a triangle.
+pub(crate) use spirv::RasterVertexPush as RasterPush;
+
+/// Neighbouring triangles that are drawn at once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct RasterRun {
+    pub push: RasterPush,
+    pub first_index: u32,
+    pub triangle_count: u32,
+    pub double_sided: bool,
+    pub masked: bool,
+    /// Whether they are composited, and drawn behind all others.
+    pub blended: bool,
+}
+
+/// Draws runs of triangles.
+pub struct Raster {
+    layout: Arc<FrameLayout>,
+    opaque: Arc<Pipeline>,
+    masked: Option<Arc<Pipeline>>,
+}
+
+impl Raster {
+    /// Makes the pipelines that a scene needs.
+    ///
+    /// # Errors
+    /// If the driver refuses one.
+    pub fn new(
+        layout: &Arc<FrameLayout>,
+        samples: vk::SampleCountFlags,
+        scene: &dyn Content,
+    ) -> Result<Self, VulkanError> {
+        let bytes = samples != vk::SampleCountFlags::TYPE_1;
+        let (opaque, masked) = if bytes {
+            (spirv::RASTER_OPAQUE_BYTES, spirv::RASTER_MASKED_BYTES)
+        } else {
+            (spirv::RASTER_OPAQUE, spirv::RASTER_MASKED)
+        };
+        let instanced = scene.is_instanced();
+        let constants = &spirv::RasterFragment { instanced }.constants();
+        let interface = spirv::RasterFragment::INTERFACE;
+        let make = |code| {
+            layout.cached(code, interface, constants, samples.as_raw(), || {
+                let pipeline = GraphicsPipeline {
+                    vertex: spirv::RasterVertex::code(),
+                    fragment: code,
+                    constants,
+                    samples,
+                    color: id_format(samples),
+                    depth: Some(DEPTH),
+                    dynamic: &[vk::DynamicState::CULL_MODE],
+                };
+                pipeline.make(&layout.gpu, layout.pipeline)
+            })
+        };
+        Ok(Self {
+            layout: layout.clone(),
+            opaque: make(opaque)?,
+            masked: scene.has_mask().then(|| make(masked)).transpose()?,
+        })
+    }
+
+    /// Records it for the upper left `size` pixels, of which those from `drawn[0]` to before `drawn[1]` are drawn, and
+    /// the others stay empty; afterwards the IDs can be read by shaders.
+    pub(crate) fn record(
+        &self,
+        recorder: &Recorder<'_>,
+        set: vk::DescriptorSet,
+        runs: impl Iterator<Item = RasterRun> + Clone,
+        targets: &RasterTargets,
+        size: [u32; 2],
+        drawn: [[u32; 2]; 2],
+    ) {
+        let area = rectangle([0, 0], size);
+        let scissor = rectangle(drawn[0], drawn[1]);
+        let read = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
+        let draw = vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
+        recorder.transition(
+            &targets.depth,
+            vk::ImageLayout::UNDEFINED,
+            vk::ImageLayout::DEPTH_ATTACHMENT_OPTIMAL,
+        );
+        if let Some(placeholder) = &targets.placeholder {
+            recorder.transition(placeholder, vk::ImageLayout::UNDEFINED, read);
+        }
+        recorder.transition(&targets.ids, vk::ImageLayout::UNDEFINED, draw);
+        self.draw(
+            recorder,
+            set,
+            runs.clone().filter(|run| !run.blended),
+            targets,
+            &targets.ids,
+            [area, scissor],
+            vk::AttachmentLoadOp::CLEAR,
+        );
+        recorder.transition(&targets.ids, draw, read);
+        if let Some(blend_ids) = &targets.blend_ids {
+            recorder.barrier();
+            recorder.transition(blend_ids, vk::ImageLayout::UNDEFINED, draw);
+            self.draw(
+                recorder,
+                set,
+                runs.filter(|run| run.blended),
+                targets,
+                blend_ids,
+                [area, scissor],
+                vk::AttachmentLoadOp::LOAD,
+            );
+            recorder.transition(blend_ids, draw, read);
+        }
+        recorder.transition(
+            &targets.depth,
+            vk::ImageLayout::DEPTH_ATTACHMENT_OPTIMAL,
+            read,
+        );
+    }
+
+    #[allow(clippy::too_many_arguments)]
+    fn draw(
+        &self,
+        recorder: &Recorder<'_>,
+        set: vk::DescriptorSet,
+        runs: impl Iterator<Item = RasterRun>,
+        targets: &RasterTargets,
+        ids: &Image,
+        [area, scissor]: [vk::Rect2D; 2],
+        depth_load: vk::AttachmentLoadOp,
+    ) {
+        let (device, raw) = (recorder.device(), recorder.raw());
+        let color = [vk::RenderingAttachmentInfo::default()
+            .image_view(ids.view)
+            .image_layout(vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL)
+            .load_op(vk::AttachmentLoadOp::CLEAR)
+            .store_op(vk::AttachmentStoreOp::STORE)];
+        let depth = vk::RenderingAttachmentInfo::default()
+            .image_view(targets.depth.view)
+            .image_layout(vk::ImageLayout::DEPTH_ATTACHMENT_OPTIMAL)
+            .load_op(depth_load)
+            .store_op(vk::AttachmentStoreOp::STORE);
+        let info = vk::RenderingInfo::default()
+            .render_area(area)
+            .layer_count(1)
+            .color_attachments(&color)
+            .depth_attachment(&depth);
+        let viewport = vk::Viewport {
+            x: 0.0,
+            y: 0.0,
+            width: area.extent.width as f32,
+            height: area.extent.height as f32,
+            min_depth: 0.0,
+            max_depth: 1.0,
+        };
+        // SAFETY: the recorder's contract; the images are in the layouts named, the sets match the pipelines' layout.
+        unsafe {
+            device.cmd_begin_rendering(raw, &info);
+            device.cmd_set_viewport(raw, 0, &[viewport]);
+            device.cmd_set_scissor(raw, 0, &[scissor]);
+            device.cmd_bind_descriptor_sets(
+                raw,
+                vk::PipelineBindPoint::GRAPHICS,
+                self.layout.pipeline,
+                0,
+                &[set],
+                &[],
+            );
+        }
+        for run in runs {
+            recorder.bind(
+                self.masked
+                    .as_ref()
+                    .filter(|_| run.masked)
+                    .unwrap_or(&self.opaque),
+            );
+            let cull = if run.double_sided {
+                vk::CullModeFlags::NONE
+            } else {
+                vk::CullModeFlags::BACK
+            };
+            recorder.push(self.layout.pipeline, &run.push);
+            // SAFETY: as above; the shader reads 3 vertices a triangle of the run.
+            unsafe {
+                device.cmd_set_cull_mode(raw, cull);
+                device.cmd_draw(raw, 3 * run.triangle_count, 1, 3 * run.first_index, 0);
+            }
+        }
+        // SAFETY: as above.
+        unsafe { device.cmd_end_rendering(raw) };
+    }
+}
+
+/// The pixels from `low` to before `high`.
+fn rectangle(low: [u32; 2], high: [u32; 2]) -> vk::Rect2D {
+    vk::Rect2D {
+        offset: vk::Offset2D {
+            x: low[0] as i32,
+            y: low[1] as i32,
+        },
+        extent: vk::Extent2D {
+            width: high[0] - low[0],
+            height: high[1] - low[1],
+        },
+    }
+}

@@ -1,0 +1,164 @@
+//! tally, schedule, enlist: which tiles are in a round, and where their lists are.
+
+use super::{Argument, FrameLayout, RecordRate, ResourceSizes, Sample, SampleOptions, spirv};
+use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
+use ash::vk;
+use std::sync::Arc;
+
+/// Takes as many tiles into a round as fit.
+pub struct Schedule {
+    layout: vk::PipelineLayout,
+    tally: Arc<Pipeline>,
+    schedule: Arc<Pipeline>,
+    enlist: Arc<Pipeline>,
+    options: SampleOptions,
+    /// As `shaders/include/load.glsl` takes them.
+    pushed: spirv::SchedulePush,
+}
+
+/// Trials of a triangle in a cell that a round takes where tiles have no list.
+const MOST_TRIALS: u64 = spirv::MOST_TRIALS as u64;
+
+impl Schedule {
+    /// Makes the pipelines for what `sample` writes. Tiles are admitted with `layers` BLEND layers a list and twice as
+    /// many lists a block, or more where these are shaded by part.
+    ///
+    /// # Errors
+    /// If the driver refuses one.
+    pub fn new(layout: &FrameLayout, sample: &Sample, layers: u32) -> Result<Self, VulkanError> {
+        let lanes = layout.gpu.limits().lanes;
+        let options = sample.options();
+        let (locations, points) = (options.cells.are_locations(), options.cells.are_points());
+        let unsure = layout.is_unsure(lanes);
+        let tally = spirv::Tally {
+            local_size: lanes,
+            lanes,
+            locations,
+            points,
+            unsure,
+        };
+        let schedule = spirv::Schedule {
+            local_size: lanes,
+            lanes,
+            locations,
+            points,
+            unsure,
+        };
+        let enlist = spirv::Enlist {
+            local_size: lanes,
+            lanes,
+            locations,
+            unsure,
+        };
+        let [subgroups_first, subgroups] = sample.subgroups();
+        let per_sample = u32::from(options.records == RecordRate::Sample);
+        Ok(Self {
+            layout: layout.pipeline,
+            tally: layout.compute(&tally, layout.subgroup())?,
+            schedule: layout.compute(&schedule, layout.subgroup())?,
+            enlist: layout.compute(&enlist, layout.subgroup())?,
+            options: *options,
+            pushed: spirv::SchedulePush {
+                block: sample.block(),
+                per_sample,
+                layers,
+                parts: sample.parts(),
+                subgroups_first,
+                subgroups,
+                longest_list: options.longest_list(),
+                more_records: options.more_records(),
+            },
+        })
+    }
+
+    /// Rounds that take all tiles, whatever these show of a scene of at most so many triangles: as if each of their pixels were a
+    /// cell, or each of a list's locations lay in one tile, and each cell needed all the room that it may be given.
+    #[must_use]
+    pub fn most_rounds(&self, sizes: &ResourceSizes, triangles: u32) -> u32 {
+        let tiles = u64::from(sizes.tiles());
+        let samples = u64::from(self.options.samples);
+        let [pairs, candidates, records] = [
+            sizes.pair_capacity,
+            sizes.list_capacity,
+            sizes.record_capacity,
+        ]
+        .map(u64::from);
+        /// Pixels of a tile.
+        const PIXELS: u64 = 32;
+        let records_of_cell = samples + u64::from(self.pushed.more_records);
+        let (cells, all_samples) = match sizes.locations {
+            None => (PIXELS * tiles, PIXELS * tiles * records_of_cell),
+            Some(list) => {
+                let of_location = if self.options.cells.are_points() {
+                    1
+                } else {
+                    samples
+                };
+                (list.cells.into(), of_location * u64::from(list.locations))
+            }
+        };
+        let (cells_of_tile, samples_of_tile) = match sizes.locations {
+            None => (PIXELS, PIXELS * records_of_cell),
+            Some(_) => (cells, all_samples),
+        };
+        let headers = |cells: u64| cells * samples.div_ceil(self.pushed.block.into());
+        let listed = [
+            (pairs, candidates, candidates),
+            (
+                self.most_records(headers(cells), all_samples),
+                records,
+                self.most_records(headers(cells_of_tile), samples_of_tile),
+            ),
+            (headers(cells), records, headers(cells_of_tile)),
+        ];
+        // No triangle is tried where there are too many.
+        let tried = u64::from(triangles.clamp(1, self.pushed.longest_list));
+        let unlisted = (cells, MOST_TRIALS / tried, cells_of_tile);
+        let needs = listed.into_iter().chain([unlisted]);
+        let ended: u64 = needs
+            .map(|(all, room, most)| rounds_ended(all, room, most))
+            .sum();
+        (1 + ended).min(tiles).max(1) as u32
+    }
+
+    /// Records that blocks of so many headers and samples are admitted with, at the most.
+    fn most_records(&self, headers: u64, samples: u64) -> u64 {
+        if !self.options.has_blend {
+            return samples;
+        }
+        let [layers, parts] = [self.pushed.layers, self.pushed.parts].map(u64::from);
+        let lists_of_block = if parts > 8 {
+            layers * parts / 4
+        } else {
+            2 * layers
+        };
+        let lists = match self.pushed.per_sample {
+            0 => samples.min(headers * lists_of_block),
+            _ => samples,
+        };
+        samples.max(lists * (2 + layers))
+    }
+
+    /// Records what is done once for all rounds, after `bin`.
+    pub fn record_tally(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
+        recorder.push(self.layout, &self.pushed);
+        recorder.dispatch_indirect(&self.tally, arguments, Argument::Tally as u32);
+    }
+
+    /// Records what begins a round.
+    pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
+        recorder.push(self.layout, &self.pushed);
+        recorder.dispatch(&self.schedule, 1);
+        recorder.dispatch_indirect(&self.enlist, arguments, Argument::Enlist as u32);
+    }
+}
+
+/// How many rounds end at the most because the next tile finds no room in them, where all tiles need `all` together, and none
+/// more than `most`.
+fn rounds_ended(all: u64, room: u64, most: u64) -> u64 {
+    // A round and the tile after it need more than there is room for, and each tile is counted twice at the most.
+    let of_pairs = 2 * all / room.max(1);
+    // Where each tile fits, what a round leaves is less than one needs.
+    let filled = (room + 1).saturating_sub(most);
+    of_pairs.min(all.checked_div(filled).unwrap_or(of_pairs))
+}

@@ -1,0 +1,28 @@
+//! setup: triangles as edge functions around the tiles they touch.
+
+use super::{Argument, Content, FrameLayout, spirv};
+use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
+use std::sync::Arc;
+
+/// Fills the lists that `enlist` has placed.
+pub struct Setup {
+    pipeline: Arc<Pipeline>,
+}
+
+impl Setup {
+    /// Makes the pipeline.
+    ///
+    /// # Errors
+    /// If the driver refuses it.
+    pub fn new(layout: &FrameLayout, scene: &dyn Content) -> Result<Self, VulkanError> {
+        let instanced = scene.is_instanced();
+        Ok(Self {
+            pipeline: layout.compute(&spirv::Setup { instanced }, None)?,
+        })
+    }
+
+    /// Records it over the pairs.
+    pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
+        recorder.dispatch_indirect(&self.pipeline, arguments, Argument::Setup as u32);
+    }
+}

@@ -1,0 +1,64 @@
+//! thin: pixels that a thin triangle crosses unseen.
+
+use super::arguments::{After, Arguments};
+use super::{Argument, Content, FrameLayout, spirv};
+use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
+use ash::vk;
+use std::sync::Arc;
+
+/// Marks pixels for `detect`.
+pub struct Thin {
+    layout: vk::PipelineLayout,
+    select: Arc<Pipeline>,
+    arguments: Arguments,
+    walk: Arc<Pipeline>,
+}
+
+impl Thin {
+    /// Makes the pipelines; `blend_ids` looks for BLEND triangles among the nearest ones of these, `farther_is_larger` says how
+    /// the depth that was drawn runs.
+    ///
+    /// # Errors
+    /// If the driver refuses one.
+    pub fn new(
+        layout: &FrameLayout,
+        scene: &dyn Content,
+        blend_ids: bool,
+        farther_is_larger: bool,
+    ) -> Result<Self, VulkanError> {
+        let thin = |select| {
+            let shader = spirv::Thin {
+                select,
+                blend_ids,
+                farther_is_larger,
+                instanced: scene.is_instanced(),
+            };
+            layout.compute(&shader, None)
+        };
+        Ok(Self {
+            layout: layout.pipeline,
+            select: thin(true)?,
+            arguments: Arguments::new(layout, After::Thin)?,
+            walk: thin(false)?,
+        })
+    }
+
+    /// Records it for a scene of so many indices of triangles; `marks` is cleared first.
+    pub fn record(
+        &self,
+        recorder: &Recorder<'_>,
+        marks: &Buffer,
+        arguments: &Buffer,
+        indices: u32,
+    ) {
+        recorder.clear(marks);
+        recorder.barrier();
+        recorder.dispatch(&self.select, u64::from(indices.div_ceil(512)));
+        self.arguments.record(recorder);
+        for (long, argument) in [(0, Argument::Thin), (1, Argument::ThinLong)] {
+            recorder.push(self.layout, &spirv::ThinPush { long });
+            recorder.dispatch_indirect_unordered(&self.walk, arguments, argument as u32);
+        }
+        recorder.barrier();
+    }
+}

@@ -1,0 +1,50 @@
+//! Colours and their transforms as the shaders take them.
+
+use super::{Reference, Settings};
+use crate::color::{srgb, tonemap};
+use crate::passes::{ColorConstants, Content};
+
+impl Settings {
+    /// The background as linear, premultiplied RGBA.
+    pub(crate) fn background_rgba(&self) -> [f32; 4] {
+        self.background.map_or([0.0; 4], |[r, g, b]| [r, g, b, 1.0])
+    }
+
+    /// Whether colours of the image are tone-mapped.
+    pub(crate) fn tonemaps(&self) -> bool {
+        self.reference == Reference::Display && self.tonemapped_detection
+    }
+
+    /// How colours of a scene are made.
+    pub(crate) fn color_constants(&self, scene: &dyn Content) -> ColorConstants {
+        ColorConstants {
+            tonemap: self.tonemaps(),
+            tonemap_codes: self.tonemapped_detection,
+            box_filter: self.filters_boxes(),
+            tinted: scene.is_tinted(),
+        }
+    }
+}
+
+/// What detection compares of a background, as `display_code` of `shaders/include/color.glsl` packs it.
+pub(crate) fn display_code(color: [f32; 4]) -> u32 {
+    let [r, g, b, a] = color.map(f64::from);
+    let rgb = [r, g, b].map(srgb::encode_u8);
+    let alpha = (a.clamp(0.0, 1.0) * 255.0).round() as u8;
+    u32::from_le_bytes([rgb[0], rgb[1], rgb[2], alpha])
+}
+
+impl Settings {
+    /// What detection compares of a colour in the output, as the shaders' `display_code` does: scene-referred ones are
+    /// tone-mapped for it.
+    pub(crate) fn output_code(&self, color: [f32; 4]) -> u32 {
+        if self.reference == Reference::Display || !self.tonemapped_detection {
+            return display_code(color);
+        }
+        let alpha = f64::from(color[3]);
+        let opaque = color.map(|channel| f64::from(channel) / alpha.max(1e-6));
+        let [r, g, b] = tonemap::neutral([opaque[0], opaque[1], opaque[2]])
+            .map(|channel| (channel * alpha) as f32);
+        display_code([r, g, b, color[3]])
+    }
+}

@@ -1,0 +1,57 @@
+//! Counters of the passes, kept for the host.
+
+use crate::passes::{Counter, Resources};
+use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, VulkanError};
+use ash::vk;
+use std::slice::ChunksExact;
+
+/// Copies of the passes' counters, one slot for each time that they are copied in a recording.
+pub(crate) struct CounterLog {
+    /// Nothing without slots.
+    buffer: Option<Buffer>,
+    slots: usize,
+}
+
+impl CounterLog {
+    /// Makes one of so many slots.
+    ///
+    /// # Errors
+    /// If memory runs out.
+    pub fn new(memory: &Memory, slots: usize) -> Result<Self, VulkanError> {
+        let buffer = || {
+            memory.buffer(
+                "counter read-back",
+                slots as u64 * Counter::BYTES,
+                vk::BufferUsageFlags::TRANSFER_DST,
+                MemoryUse::Readback,
+            )
+        };
+        Ok(Self {
+            buffer: (slots > 0).then(buffer).transpose()?,
+            slots,
+        })
+    }
+
+    /// Records a copy of the counters to a slot; nothing without slots.
+    pub fn record(&self, recorder: &Recorder<'_>, resources: &Resources, slot: usize) {
+        if let Some(buffer) = &self.buffer {
+            resources.record_keep_counters(recorder, buffer, slot as u64);
+        }
+    }
+
+    /// The counters of the last recording, once its commands are done: for each run of so many slots the counters of each slot.
+    ///
+    /// # Errors
+    /// If they can't be read.
+    pub fn read(
+        &self,
+        slots_of_run: usize,
+    ) -> Result<impl Iterator<Item = ChunksExact<'_, u32>>, VulkanError> {
+        let words: &[u32] = match &self.buffer {
+            Some(buffer) => buffer.read(self.slots * Counter::COUNT)?,
+            None => &[],
+        };
+        let runs = words.chunks_exact(slots_of_run * Counter::COUNT);
+        Ok(runs.map(|run| run.chunks_exact(Counter::COUNT)))
+    }
+}

@@ -1,0 +1,139 @@
+//! Cells that are locations of a list.
+
+use super::{Finish, Sampler, SamplerContext, Source, with_probes};
+use crate::engine::sampler::plan::{
+    MOST_CANDIDATES, MOST_PAIRS, MOST_RECORDS, records_of_superpixel,
+};
+use crate::engine::sampler::{RenderError, Settings};
+use crate::passes::{
+    CellSizes, Cells, Content, Distribute, FrameLayout, LocationSizes, Points, Resolve,
+    ResolveTarget, ResourceSizes, Resources,
+};
+use ash::vk;
+
+/// What the cells of a list are, and what is asked of them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ListCells {
+    pub cells: Cells,
+    /// Whether locations that are sampled once have attributes.
+    pub attributes: bool,
+    /// Words of each place that say which lights reach it.
+    pub shadow_words: u32,
+    /// Whether an application lends the list and takes the colours on the device.
+    pub lent: bool,
+}
+
+impl ListCells {
+    /// Offsets of a cell's samples, and how many these are.
+    ///
+    /// # Errors
+    /// If the pattern has no such number.
+    pub fn offsets(
+        &self,
+        layout: &FrameLayout,
+        settings: &Settings,
+    ) -> Result<(Vec<[f32; 2]>, u32), RenderError> {
+        let (own, count) = if self.cells.are_points() {
+            (vec![[0.0; 2]], self.cell_sizes(layout, settings).in_cell)
+        } else {
+            let own = settings.pattern.offsets(settings.samples)?;
+            (own, settings.samples)
+        };
+        Ok((with_probes(own)?, count))
+    }
+
+    fn cell_sizes(&self, layout: &FrameLayout, settings: &Settings) -> CellSizes {
+        CellSizes::new(layout.gpu.limits().lanes, self.cells, settings.samples)
+    }
+
+    /// Room for `locations` locations in a region of so many pixels, whole tiles, and for `lists` times the usual candidates.
+    pub fn sizes(
+        &self,
+        layout: &FrameLayout,
+        scene: &dyn Content,
+        settings: &Settings,
+        (locations, region): (u32, [u32; 2]),
+        lists: u32,
+    ) -> ResourceSizes {
+        let limits = layout.gpu.limits();
+        let tiles = u64::from(region[0] / 8) * u64::from(region[1] / 4);
+        let most = u64::from(locations);
+        let records = match self.cells {
+            Cells::Points | Cells::Occluders if scene.has_blend() => 4 * most,
+            Cells::Points | Cells::Occluders => most,
+            Cells::Superpixels | Cells::Pixels => most * records_of_superpixel(settings, scene),
+        };
+        let triangles = u64::from(scene.index_count());
+        let pairs = (triangles * 4 + tiles * 16).clamp(1 << 14, MOST_PAIRS);
+        let candidates = (triangles * 3 + tiles * 8).clamp(1 << 14, MOST_CANDIDATES);
+        let cell_sizes = self.cell_sizes(layout, settings);
+        let at_most = |room: u64, most: u64| (room * u64::from(lists)).min(most) as u32;
+        ResourceSizes {
+            region,
+            lanes: limits.lanes,
+            locations: Some(LocationSizes {
+                lent: self.lent,
+                ..LocationSizes::new(locations, tiles as u32, &cell_sizes)
+            }),
+            survivor_capacity: scene.index_count(),
+            pair_capacity: at_most(pairs, ResourceSizes::most_pairs(limits)),
+            list_capacity: at_most(candidates, ResourceSizes::most_candidates(limits)),
+            record_capacity: records.clamp(1 << 16, MOST_RECORDS) as u32,
+            filtered: 0,
+            shadow_words: self.shadow_words,
+            attributes: self.attributes,
+            encoded: 0,
+        }
+    }
+
+    /// Makes a sampler of the locations that `locations` shows.
+    ///
+    /// # Errors
+    /// If the driver refuses a pipeline, or memory runs out.
+    ///
+    /// # Safety
+    /// The view of `locations` outlives the sampler, and shows as many as the resources have room for.
+    pub unsafe fn sampler(
+        &self,
+        context: &SamplerContext<'_>,
+        (resources, locations): (&Resources, vk::BufferView),
+    ) -> Result<Sampler, RenderError> {
+        let SamplerContext {
+            layout,
+            scene,
+            settings,
+            output,
+            ..
+        } = *context;
+        let sizes = self.cell_sizes(layout, settings);
+        let samples = if self.cells.are_points() {
+            sizes.in_cell
+        } else {
+            settings.samples
+        };
+        let options = context.sample_options(self.cells, samples);
+        let source = || {
+            // SAFETY: passed on to the caller.
+            let distribute =
+                unsafe { Distribute::new(layout, self.cells, sizes, resources, locations) }?;
+            Ok(Source::List(distribute))
+        };
+        Sampler::new(context, &options, source, |sample| {
+            let of_points = (self.attributes, self.shadow_words);
+            let blend = scene.has_blend();
+            Ok(match self.cells {
+                Cells::Occluders => None,
+                Cells::Points => Some(Finish::Points(Points::new(
+                    layout, scene, output, of_points,
+                )?)),
+                Cells::Superpixels | Cells::Pixels => Some(Finish::Resolve(Resolve::new(
+                    layout,
+                    sample,
+                    blend,
+                    ResolveTarget::Nothing,
+                    output,
+                )?)),
+            })
+        })
+    }
+}

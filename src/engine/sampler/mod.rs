@@ -1,0 +1,415 @@
+//! The sampler: from cells to their colours, in rounds.
+//!
+//! Cells come from one of three sources: the pixels of an image that [`Detect`] marks ([`PixelCells`]), a list of the caller's sample
+//! locations, or a list of places that a light may reach ([`ListCells`] both). All else is the same for them: which triangles may show in
+//! a tile, how many tiles a round takes, and what becomes of the visibility samples.
+//!
+//! ```text
+//! pixels   thin ─▶ detect ─┐                          ┌─────────────────── a round ──────────────────┐
+//! a list   distribute ─────┴▶ cull ─▶ bin ─▶ tally ─▶ schedule (─▶ groups) ─▶ setup ─▶ sample ─▶ sort ─▶ shade ─▶ resolve or points
+//!                              ▲                                                                                 │
+//! pixels                       └──────────────────────────────────── grow ◀──────────────────────────────────────┘
+//! ```
+
+pub(crate) mod color;
+mod counter_log;
+mod error;
+pub(crate) mod footprint;
+pub(crate) mod image_state;
+mod list_cells;
+mod pixel_cells;
+pub(crate) mod plan;
+mod settings;
+pub(crate) mod statistics;
+pub(crate) mod uniform;
+
+pub(crate) use counter_log::CounterLog;
+pub use error::RenderError;
+pub use image_state::ImageState;
+pub(crate) use list_cells::ListCells;
+pub(crate) use pixel_cells::PixelCells;
+pub use settings::{
+    Coverage, Detection, Footprint, Method, PixelRect, Reference, Settings, Shading, Shadows,
+};
+pub use statistics::{PassTime, Statistics, TriangleCounts};
+
+use crate::passes::{
+    Bin, Cells, ColorConstants, Content, Counter, Cull, CullFilter, Detect, Distribute,
+    FrameLayout, FrameUniform, Groups, Grow, ListLength, ListRegion, Points, RecordRate, Resolve,
+    ResourceSizes, Resources, Sample, SampleOptions, SampleSet, Schedule, Setup, Sort, Thin,
+};
+use crate::sampling::Pattern;
+use crate::vulkan::{Memory, Recorder, VulkanError};
+use plan::Capacity;
+use statistics::Shortfall;
+use std::slice::ChunksExact;
+use std::sync::Arc;
+
+/// The owner of the surfaces that a [`Sampler`] finds: it shades them. Set 0 is bound before each of these calls, and bound again after
+/// it.
+pub(crate) trait RecordShading {
+    /// Records the shading of a round's visibility samples, sorted by key: the radiance of each goes to its place in the buffer of
+    /// shaded records.
+    fn record(&self, recorder: &mut Recorder<'_>, resources: &Resources);
+
+    /// Records marks of pixels that show what their centres do not, beside those of [`Thin`].
+    fn record_marks(&self, _recorder: &mut Recorder<'_>) {}
+
+    /// Records what reads the visibility samples of a round after they were shaded.
+    fn record_round_end(&self, _recorder: &mut Recorder<'_>) {}
+}
+
+/// What a [`Sampler`] is made with.
+#[derive(Clone, Copy)]
+pub(crate) struct SamplerContext<'a> {
+    pub layout: &'a Arc<FrameLayout>,
+    pub memory: &'a Memory,
+    pub scene: &'a dyn Content,
+    pub settings: &'a Settings,
+    /// The colour constants of `shaders/include/color.glsl`.
+    pub output: &'a ColorConstants,
+    /// The sizes of the memory that it works in.
+    pub sizes: &'a ResourceSizes,
+    pub capacity: Capacity,
+    /// Number of runs of a recording whose counters the host reads; 0 where none of them are read.
+    pub runs: usize,
+}
+
+impl SamplerContext<'_> {
+    /// What `sample` does with cells of so many samples, or at most so many locations that are sampled once.
+    fn sample_options(&self, cells: Cells, samples: u32) -> SampleOptions {
+        let (settings, scene, points) = (self.settings, self.scene, cells.are_points());
+        SampleOptions {
+            cells,
+            samples,
+            lines: !cells.are_locations() && settings.pattern == Pattern::Lines,
+            records: if points {
+                RecordRate::Sample
+            } else {
+                record_rate(settings, scene)
+            },
+            exact_areas: settings.coverage == Coverage::Area && samples > 1 && !points,
+            // High-frequency triangles are shaded in many places.
+            can_settle: settings.shading != Shading::Part || !scene.is_mostly_high_frequency(),
+            apart: self.capacity.apart,
+            unlisted: self.capacity.unlisted,
+            has_mask: scene.has_mask(),
+            has_blend: scene.has_blend(),
+            always_blends: false,
+        }
+    }
+}
+
+/// Passes that sample the cells of one kind, the capacity that they were made with, and what they counted. They know triangles and shading
+/// keys, no materials.
+pub(crate) struct Sampler {
+    source: Source,
+    cull: Cull,
+    bin: Bin,
+    schedule: Schedule,
+    /// Of lists.
+    groups: Option<Groups>,
+    setup: Setup,
+    sample: Sample,
+    /// Nothing where only the triangles of records are asked for, not their colours.
+    sort: Option<Sort>,
+    /// Nothing where no colours are made of the records.
+    finish: Option<Finish>,
+    capacity: Capacity,
+    rounds: u32,
+    counters: CounterLog,
+    /// Triangles that [`Cull`] has room for.
+    triangle_capacity: u32,
+}
+
+/// The passes that find cells.
+enum Source {
+    Pixels {
+        thin: Option<Thin>,
+        detect: Detect,
+        /// In the order in which they run.
+        growths: Vec<Grow>,
+    },
+    List(Distribute),
+}
+
+/// The pass that makes colours of shaded records.
+enum Finish {
+    Points(Points),
+    Resolve(Resolve),
+}
+
+/// One run of a sampler: over a region of an image, or a list. [`Resources::record_begin`] was recorded with its set and uniform block.
+#[derive(Clone, Copy)]
+pub(crate) struct SamplerRun<'a> {
+    pub resources: &'a Resources,
+    pub set: &'a SampleSet,
+    pub uniform: &'a FrameUniform,
+    /// The number of locations of a list, or the most that there can be, and where it is known; without meaning for pixels.
+    pub list: (u32, ListLength<'a>),
+    /// Which of the recording's runs this is, from 0 on.
+    pub index: usize,
+}
+
+impl Sampler {
+    fn new(
+        context: &SamplerContext<'_>,
+        options: &SampleOptions,
+        source: impl FnOnce() -> Result<Source, RenderError>,
+        finish: impl FnOnce(&Sample) -> Result<Option<Finish>, RenderError>,
+    ) -> Result<Self, RenderError> {
+        let SamplerContext {
+            layout,
+            scene,
+            sizes,
+            capacity,
+            ..
+        } = *context;
+        let is_shaded = options.cells != Cells::Occluders || scene.has_blend();
+        let sort = || Sort::new(layout, scene, scene.bin_count() == 1);
+        // The kernels of `sample` take drivers the longest.
+        let (sample, others) = std::thread::scope(|scope| {
+            let sample = scope.spawn(|| Sample::new(layout, scene, options));
+            let others = (|| {
+                Ok::<_, RenderError>((
+                    source()?,
+                    Cull::new(layout, scene, CullFilter::Touching)?,
+                    Bin::new(layout, scene)?,
+                    Setup::new(layout, scene)?,
+                    is_shaded.then(sort).transpose()?,
+                ))
+            })();
+            let sample = sample.join();
+            let sample = sample.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+            (sample, others)
+        });
+        let (sample, (source, cull, bin, setup, sort)) = (sample?, others?);
+        let schedule = Schedule::new(layout, &sample, capacity.layers)?;
+        let groups = || Groups::new(layout, &sample);
+        let runs = context.runs * (1 + source.growths().len());
+        Ok(Self {
+            cull,
+            bin,
+            groups: matches!(source, Source::List(_)).then(groups).transpose()?,
+            setup,
+            sort,
+            finish: finish(&sample)?,
+            capacity,
+            rounds: schedule.most_rounds(sizes, scene.index_count()),
+            counters: CounterLog::new(context.memory, runs)?,
+            triangle_capacity: sizes.survivor_capacity,
+            source,
+            schedule,
+            sample,
+        })
+    }
+
+    /// Records at most so many rounds, of what is detected and of each growth of it.
+    pub fn limit_rounds(&mut self, most: u32) {
+        self.rounds = self.rounds.min(most);
+    }
+
+    /// The capacity that it was made with.
+    pub fn capacity(&self) -> Capacity {
+        self.capacity
+    }
+
+    /// Number of samples of a cell, or of locations of a cell that are sampled once.
+    pub fn samples(&self) -> u32 {
+        self.sample.options().samples
+    }
+
+    /// How often superpixels grow.
+    pub fn growths(&self) -> usize {
+        self.source.growths().len()
+    }
+
+    /// Records a run: which cells there are, their sampling and shading, and their growth.
+    pub fn record(
+        &self,
+        recorder: &mut Recorder<'_>,
+        run: &SamplerRun<'_>,
+        shading: &dyn RecordShading,
+    ) {
+        let SamplerRun {
+            resources,
+            set,
+            uniform,
+            ..
+        } = *run;
+        let tiles = uniform.tiles[0] * uniform.tiles[1];
+        match &self.source {
+            Source::Pixels { thin, detect, .. } => {
+                if let Some(thin) = thin {
+                    let (marks, arguments) = (&resources.marks, &resources.arguments);
+                    thin.record(recorder, marks, arguments, uniform.triangle_count);
+                    recorder.mark("thin");
+                    shading.record_marks(recorder);
+                }
+                detect.record(recorder, tiles);
+                recorder.mark("detect");
+            }
+            Source::List(distribute) => {
+                let (count, length) = run.list;
+                let region = ListRegion {
+                    tiles: uniform.tiles,
+                    count,
+                };
+                resources.record_locations(recorder, (set, distribute), &region, length);
+                recorder.mark("distribute");
+            }
+        }
+        let growths = self.source.growths();
+        if !growths.is_empty() || self.sample.options().leaves_cells() {
+            recorder.clear(&resources.marks);
+            recorder.barrier();
+        }
+        let slots = 1 + growths.len();
+        let first_slot = slots * run.index;
+        self.record_rounds(recorder, resources, shading);
+        self.counters.record(recorder, resources, first_slot);
+        let mut of_growth = *uniform;
+        // Centres whose colours are alike miss what superpixels beside them show.
+        of_growth.alike = 0;
+        for (slot, grow) in (first_slot + 1..).zip(growths) {
+            resources.record_begin(recorder, set, &of_growth);
+            grow.record(recorder, tiles);
+            recorder.mark("grow");
+            self.record_rounds(recorder, resources, shading);
+            self.counters.record(recorder, resources, slot);
+        }
+    }
+
+    fn record_rounds(
+        &self,
+        recorder: &mut Recorder<'_>,
+        resources: &Resources,
+        shading: &dyn RecordShading,
+    ) {
+        let arguments = &resources.arguments;
+        self.cull.record(recorder, arguments);
+        recorder.mark("cull");
+        self.bin.record(recorder, arguments);
+        recorder.mark("bin");
+        self.schedule.record_tally(recorder, arguments);
+        resources.record_rounds(recorder, self.rounds, |recorder| {
+            self.schedule.record(recorder, arguments);
+            if let Some(groups) = &self.groups {
+                groups.record(recorder, arguments);
+            }
+            recorder.mark("schedule");
+            self.setup.record(recorder, arguments);
+            recorder.mark("setup");
+            self.sample.record(recorder, arguments);
+            recorder.mark("sample");
+            if let Some(sort) = &self.sort {
+                record_shading(recorder, resources, sort, shading);
+            }
+            match &self.finish {
+                Some(Finish::Points(points)) => {
+                    points.record(recorder, arguments);
+                    recorder.mark("points");
+                }
+                Some(Finish::Resolve(resolve)) => {
+                    resolve.record(recorder, arguments);
+                    recorder.mark("resolve");
+                }
+                None => {}
+            }
+            shading.record_round_end(recorder);
+        });
+    }
+
+    /// Adds what the last recording could not finish, whose runs were over so many tiles, one after the other.
+    ///
+    /// # Errors
+    /// If what was counted can't be read.
+    pub fn add_shortfall(
+        &self,
+        tiles: impl IntoIterator<Item = u32>,
+        shortfall: &mut Shortfall,
+    ) -> Result<(), VulkanError> {
+        for (tiles, counted) in tiles.into_iter().zip(self.counted()?) {
+            for counters in counted {
+                let room = (tiles, self.triangle_capacity);
+                shortfall.add(counters, room, self.capacity.unlisted);
+                shortfall.add_subgroups(counters);
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the figures of the last recording, whose runs were over so many tiles, one after the other.
+    ///
+    /// # Errors
+    /// If what was counted can't be read.
+    pub fn add_statistics(
+        &self,
+        tiles: impl IntoIterator<Item = u32>,
+        statistics: &mut Statistics,
+    ) -> Result<(), VulkanError> {
+        for (tiles, counted) in tiles.into_iter().zip(self.counted()?) {
+            for (growth, counters) in counted.enumerate() {
+                statistics.add(counters);
+                match &self.source {
+                    Source::Pixels { .. } if growth == 0 => statistics.add_scene(counters),
+                    _ => {}
+                }
+            }
+            statistics.tiles += u64::from(tiles);
+        }
+        Ok(())
+    }
+
+    /// Locations of the lists of the last recording that did not lie in their region.
+    ///
+    /// # Errors
+    /// If what was counted can't be read.
+    pub fn left_out(&self) -> Result<u32, VulkanError> {
+        let counters = self.counted()?.flatten();
+        Ok(counters.map(|counters| Counter::LeftOut.of(counters)).sum())
+    }
+
+    /// For each run of the last recording: the counters of what was detected, and of each growth of it.
+    fn counted(&self) -> Result<impl Iterator<Item = ChunksExact<'_, u32>>, VulkanError> {
+        self.counters.read(1 + self.growths())
+    }
+}
+
+impl Source {
+    fn growths(&self) -> &[Grow] {
+        match self {
+            Self::Pixels { growths, .. } => growths,
+            Self::List(_) => &[],
+        }
+    }
+}
+
+/// Offsets of a cell's samples, followed by those of a first run.
+pub(crate) fn with_probes(mut offsets: Vec<[f32; 2]>) -> Result<Vec<[f32; 2]>, RenderError> {
+    offsets.extend(Pattern::Sobol.offsets(Sample::PROBES)?);
+    Ok(offsets)
+}
+
+/// How many records the settings' shading asks for.
+pub(crate) fn record_rate(settings: &Settings, scene: &dyn Content) -> RecordRate {
+    match settings.shading {
+        Shading::Part if scene.has_high_frequency() => RecordRate::Part,
+        Shading::Triangle | Shading::Part => RecordRate::Triangle,
+        Shading::Sample => RecordRate::Sample,
+    }
+}
+
+/// Sorts and shades the records of a round.
+pub(crate) fn record_shading(
+    recorder: &mut Recorder<'_>,
+    resources: &Resources,
+    sort: &Sort,
+    shading: &dyn RecordShading,
+) {
+    let arguments = &resources.arguments;
+    sort.record(recorder, &resources.bins, arguments);
+    recorder.mark("sort");
+    shading.record(recorder, resources);
+    recorder.mark("shade");
+}

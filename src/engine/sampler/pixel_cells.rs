@@ -1,0 +1,106 @@
+//! Cells that are pixels of an image.
+
+use super::{Finish, Sampler, SamplerContext, Source};
+use crate::engine::sampler::{Detection, RenderError, Settings};
+use crate::passes::{
+    Cells, Detect, DetectMode, DetectOptions, Grow, Resolve, ResolveTarget, SampleOptions, Thin,
+};
+
+/// Which pixels of an image are cells.
+pub(crate) struct PixelCells {
+    /// Which pixels are cells.
+    pub mode: DetectMode,
+    /// Whether thin triangles that no pixel centre saw make cells too.
+    pub thin: bool,
+    /// Whether the depth that was drawn grows with distance.
+    pub farther_is_larger: bool,
+    /// Whether there are IDs of the nearest BLEND triangles, where there are any.
+    pub blend_ids: bool,
+    /// Whether the triangle IDs are multisampled.
+    pub multisampled: bool,
+    /// Sub-samples of a cell.
+    pub samples: u32,
+    /// How often superpixels grow.
+    pub growths: u32,
+    /// Whether `detect` of another sampler compares the resolved colours.
+    pub detected: bool,
+}
+
+impl DetectMode {
+    /// What the settings' detection compares.
+    pub(crate) fn of(settings: &Settings) -> Self {
+        match settings.detection {
+            Detection::Contrast => Self::Contrast,
+            Detection::Edges => Self::Edges,
+            Detection::Exact => Self::Exact,
+            Detection::Every => Self::Every,
+        }
+    }
+}
+
+impl PixelCells {
+    /// The superpixels that settings ask for.
+    pub fn superpixels(settings: &Settings) -> Self {
+        Self {
+            mode: DetectMode::of(settings),
+            thin: settings.thin && settings.detection != Detection::Every,
+            farther_is_larger: false,
+            blend_ids: true,
+            multisampled: false,
+            samples: settings.samples,
+            growths: settings.growths(),
+            detected: false,
+        }
+    }
+
+    /// Makes a sampler of them.
+    ///
+    /// # Errors
+    /// If the driver refuses a pipeline, or memory runs out.
+    pub fn sampler(&self, context: &SamplerContext<'_>) -> Result<Sampler, RenderError> {
+        let SamplerContext {
+            layout,
+            scene,
+            settings,
+            sizes,
+            ..
+        } = *context;
+        let options = SampleOptions {
+            always_blends: self.mode == DetectMode::Blended,
+            ..context.sample_options(Cells::Pixels, self.samples)
+        };
+        let blend_ids = self.blend_ids && scene.has_blend();
+        let source = || {
+            let options = DetectOptions {
+                mode: self.mode,
+                blend_ids,
+                thin: self.thin,
+                transparent: settings.background.is_none(),
+                multisampled: self.multisampled,
+                shadow_words: match self.mode {
+                    DetectMode::Blended => 0,
+                    _ => sizes.shadow_words,
+                },
+                beyond: self.growths,
+            };
+            let thin = || Thin::new(layout, scene, blend_ids, self.farther_is_larger);
+            Ok(Source::Pixels {
+                thin: self.thin.then(thin).transpose()?,
+                detect: Detect::new(layout, &options)?,
+                growths: (0..self.growths)
+                    .rev()
+                    .map(|beyond| Grow::new(layout, beyond))
+                    .collect::<Result<_, _>>()?,
+            })
+        };
+        let target = match (self.growths > 0, self.detected) {
+            (true, _) => ResolveTarget::Grow,
+            (false, true) => ResolveTarget::Detect,
+            (false, false) => ResolveTarget::Nothing,
+        };
+        Sampler::new(context, &options, source, |sample| {
+            let resolve = Resolve::new(layout, sample, scene.has_blend(), target, context.output)?;
+            Ok(Some(Finish::Resolve(resolve)))
+        })
+    }
+}

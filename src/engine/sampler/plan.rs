@@ -1,0 +1,395 @@
+//! How an image is worked through in parts: each region fits the device's limits and the memory allowed.
+
+use super::statistics::Shortfall;
+use super::{Method, RenderError, Settings, Shading};
+use crate::passes::{Content, Encoding, ResourceSizes};
+use crate::vulkan::Limits;
+
+/// A part of the image, in output pixels. Where a part of the image is wanted alone, it is what is wanted of one of the
+/// regions that the whole image has, and drawn in that region's place: devices round vertices to a fraction of a pixel
+/// after they have been moved there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Region {
+    /// Upper left pixel that the region has in the whole image.
+    low: [u32; 2],
+    /// Lower right pixel, exclusive.
+    high: [u32; 2],
+    /// Upper left pixel that is wanted of it.
+    pub wanted_low: [u32; 2],
+    /// Lower right pixel, exclusive.
+    wanted_high: [u32; 2],
+    /// Pixels around it that detection compares with: left, top, right, bottom. It needs [`NEIGHBOURS`]; on the left and at
+    /// the top a whole tile keeps tiles, and with them the rounding of edge functions, those of the undivided image.
+    halo: [u32; 4],
+}
+
+impl Region {
+    /// Wants only what lies from `low` to before `high` in the image; false where that is nothing.
+    fn keep(&mut self, low: [u32; 2], high: [u32; 2]) -> bool {
+        self.wanted_low = [0, 1].map(|axis| self.low[axis].max(low[axis]));
+        self.wanted_high = [0, 1].map(|axis| self.high[axis].min(high[axis]));
+        (0..2).all(|axis| self.wanted_low[axis] < self.wanted_high[axis])
+    }
+
+    /// Width and height of what is wanted of it.
+    pub fn size(&self) -> [u32; 2] {
+        [0, 1].map(|axis| self.wanted_high[axis] - self.wanted_low[axis])
+    }
+
+    /// Width and height in memory: the whole region with its halo.
+    pub fn outer(&self) -> [u32; 2] {
+        [0, 1].map(|axis| self.high[axis] - self.low[axis] + self.halo[axis] + self.halo[axis + 2])
+    }
+
+    /// The image's pixel at the upper left in memory.
+    pub fn corner(&self) -> [u32; 2] {
+        [0, 1].map(|axis| self.low[axis] - self.halo[axis])
+    }
+
+    /// Place in memory of the upper left pixel that is wanted.
+    pub fn first_wanted(&self) -> [u32; 2] {
+        let corner = self.corner();
+        [0, 1].map(|axis| self.wanted_low[axis] - corner[axis])
+    }
+
+    /// Places in memory, from the first to beyond the last, that are to be drawn: what is wanted and the neighbours that
+    /// detection compares it with.
+    pub fn drawn(&self) -> [[u32; 2]; 2] {
+        let (first, size, outer) = (self.first_wanted(), self.size(), self.outer());
+        [
+            first.map(|place| place.saturating_sub(NEIGHBOURS)),
+            [0, 1].map(|axis| (first[axis] + size[axis] + NEIGHBOURS).min(outer[axis])),
+        ]
+    }
+}
+
+/// The regions of an image and the memory that the largest of them needs.
+#[derive(Clone, Debug)]
+pub(crate) struct Plan {
+    pub regions: Vec<Region>,
+    pub sizes: ResourceSizes,
+    /// What it was planned for.
+    pub capacity: Capacity,
+    /// Whether the device has room for longer lists.
+    pub lists_can_grow: bool,
+}
+
+/// What a frame was found to need more of than first planned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Capacity {
+    /// BLEND layers of a list, and half the lists of a block, that tiles are admitted with.
+    pub layers: u32,
+    /// Factor on the room for candidates.
+    pub lists: u32,
+    /// Whether a subgroup samples one cell at a time.
+    pub apart: bool,
+    /// Whether there is a kernel for tiles whose list outgrows its buffer.
+    pub unlisted: bool,
+}
+
+impl Capacity {
+    /// Twice the lists.
+    pub fn with_doubled_lists(self) -> Self {
+        Self {
+            lists: self.lists * 2,
+            ..self
+        }
+    }
+
+    /// With the kernels that most frames need alone: compiling one for tiles without a list may take longer than a frame.
+    pub fn least() -> Self {
+        Self {
+            unlisted: false,
+            ..Self::default()
+        }
+    }
+
+    /// Twice as much of what a frame lacked, or as much as it is known to need.
+    pub fn more(self, shortfall: Shortfall) -> Self {
+        let factor = |lacked: bool| if lacked { 2 } else { 1 };
+        let crowded = shortfall.crowded > 0;
+        let of_lights = shortfall.unshadowed > 0;
+        let short = shortfall.stalled + shortfall.unlisted + shortfall.dropped > 0;
+        let longer = crowded || of_lights || short;
+        Self {
+            layers: self.layers * factor(crowded),
+            lists: self.lists * factor(longer).max(shortfall.rooms.next_power_of_two()),
+            apart: self.apart || of_lights || shortfall.stalled > 0,
+            unlisted: self.unlisted || shortfall.unlisted > 0,
+        }
+    }
+}
+
+impl Default for Capacity {
+    fn default() -> Self {
+        Self {
+            layers: 4,
+            lists: 1,
+            apart: false,
+            unlisted: true,
+        }
+    }
+}
+
+/// How far away what a pixel shows can matter, in pixels: it is compared with neighbours, which may be superpixels that
+/// grew beside others, which grew beside others.
+const NEIGHBOURS: u32 = 3;
+/// Largest region in virtual pixels; larger images are rendered in parts, each of which is a submission of its own where
+/// the renderer has a device to itself.
+const REGION_PIXELS: u64 = 4 << 20;
+/// A region that is not made smaller for the sake of how long it takes.
+const SMALL_REGION_PIXELS: u64 = 1 << 12;
+/// Samples that one sample stands for where each is asked for lights: once more for each, on up to six planes.
+const SHADOWED: u64 = 8;
+/// Most visibility samples and candidates of a round.
+pub(crate) const MOST_RECORDS: u64 = 6 << 20;
+pub(crate) const MOST_CANDIDATES: u64 = 2 << 20;
+/// Visibility samples of a round, for each 64 samples of a superpixel, above which there is room for a third of them. That makes
+/// more rounds, which cost little.
+const LARGE_RECORDS: u64 = 1 << 20;
+/// Most pairs of a triangle and a tile, of all rounds, that a frame is first planned with.
+pub(crate) const MOST_PAIRS: u64 = 8 << 20;
+/// The same for each tile where there are instances: their triangles are many, and what they take of memory is to be in
+/// proportion to the image. Rounds of fewer candidates are more rounds, which cost little.
+const TILE_PAIRS: u64 = 160;
+const TILE_CANDIDATES: u64 = 10;
+
+/// Visibility samples that superpixels have room for, on average.
+pub(crate) fn records_of_superpixel(settings: &Settings, scene: &dyn Content) -> u64 {
+    let samples = u64::from(settings.samples);
+    let usual = if settings.shading == Shading::Sample || scene.has_blend() {
+        samples.min(64)
+    } else {
+        6 * samples.div_ceil(64)
+    };
+    usual.min(samples).max(2)
+}
+
+impl Plan {
+    /// Plans an image whose places have so many words of shadows; `taken` says how many bytes of what the settings allow others
+    /// take beside memory of some sizes.
+    ///
+    /// # Errors
+    /// [`RenderError::Memory`] if not even a region of 8 x 8 pixels fits.
+    pub fn new(
+        settings: &Settings,
+        scene: &dyn Content,
+        limits: &Limits,
+        (encoding, shadow_words): (Option<Encoding>, u32),
+        capacity: Capacity,
+        taken: &dyn Fn(&ResourceSizes) -> u64,
+    ) -> Result<Self, RenderError> {
+        let side = settings.side();
+        let [width, height] = settings.size;
+        let samples_a_pixel = match settings.method {
+            Method::Superpixel | Method::Msaa => u64::from(settings.samples),
+            Method::None | Method::Ssaa => 1,
+        };
+        let lights = if shadow_words > 0 { SHADOWED } else { 1 };
+        let most = REGION_PIXELS
+            .min(limits.max_submitted_samples / (samples_a_pixel * lights))
+            .max(SMALL_REGION_PIXELS);
+        let longest = limits.max_image_side.min(65_535) / side - 11;
+        let mut region = [width.min(longest), height.min(longest)];
+        let allowed = settings.max_memory;
+        loop {
+            let mut plan = Self::with_region(settings, scene, limits, encoding, capacity, region)?;
+            plan.sizes.shadow_words = shadow_words;
+            let pixels = u64::from(plan.sizes.pixels());
+            let needed = plan.shrink(scene, settings, taken);
+            let fits = pixels <= most
+                && plan.sizes.largest_storage() <= limits.max_storage_bytes
+                && plan.sizes.largest_texels() <= limits.max_texel_elements;
+            if fits && allowed.is_none_or(|allowed| needed <= allowed) {
+                return Ok(plan);
+            }
+            let longer = usize::from(region[1] > region[0]);
+            if region[longer] <= 8 {
+                return Err(RenderError::Memory {
+                    needed,
+                    allowed: allowed.unwrap_or(0),
+                });
+            }
+            // Whole tiles, so that a region's tiles are those of the image.
+            region[longer] = region[longer].div_ceil(2).next_multiple_of(8);
+        }
+    }
+
+    /// Plans an image in one region, whatever its size.
+    ///
+    /// # Errors
+    /// [`RenderError::Memory`] if it does not fit in what is allowed or in the device's buffers.
+    pub fn whole(
+        settings: &Settings,
+        scene: &dyn Content,
+        limits: &Limits,
+        capacity: Capacity,
+        taken: u64,
+    ) -> Result<Self, RenderError> {
+        let mut plan = Self::with_region(settings, scene, limits, None, capacity, settings.size)?;
+        let needed = plan.shrink(scene, settings, &|_| taken);
+        plan.sizes.check("the largest list of a frame", limits)?;
+        match settings.max_memory {
+            Some(allowed) if needed > allowed => Err(RenderError::Memory { needed, allowed }),
+            _ => Ok(plan),
+        }
+    }
+
+    /// Trades room for rounds until the plan takes what is allowed, if it can, with what others take. Returns what it takes.
+    fn shrink(
+        &mut self,
+        scene: &dyn Content,
+        settings: &Settings,
+        taken: &dyn Fn(&ResourceSizes) -> u64,
+    ) -> u64 {
+        let all = |plan: &Self| plan.bytes(scene, settings) + taken(&plan.sizes);
+        let mut needed = all(self);
+        // Fewer records mean more rounds, which cost less than more regions.
+        while settings.max_memory.is_some_and(|allowed| needed > allowed)
+            && self.sizes.record_capacity > 1 << 16
+        {
+            self.sizes.record_capacity /= 2;
+            self.sizes.list_capacity = (self.sizes.list_capacity / 2).max(1 << 12);
+            needed = all(self);
+        }
+        needed
+    }
+
+    fn with_region(
+        settings: &Settings,
+        scene: &dyn Content,
+        limits: &Limits,
+        encoding: Option<Encoding>,
+        capacity: Capacity,
+        region: [u32; 2],
+    ) -> Result<Self, RenderError> {
+        let [width, height] = settings.size;
+        let side = settings.side();
+        let detects = settings.method == Method::Superpixel;
+        let mut regions = Vec::new();
+        for y in (0..height).step_by(region[1] as usize) {
+            for x in (0..width).step_by(region[0] as usize) {
+                let high = [(x + region[0]).min(width), (y + region[1]).min(height)];
+                let halo = |inside: bool, pixels: u32| u32::from(detects && inside) * pixels;
+                regions.push(Region {
+                    low: [x, y],
+                    high,
+                    wanted_low: [x, y],
+                    wanted_high: high,
+                    halo: [
+                        halo(x > 0, 8),
+                        halo(y > 0, 4),
+                        halo(high[0] < width, NEIGHBOURS),
+                        halo(high[1] < height, NEIGHBOURS),
+                    ],
+                });
+            }
+        }
+        let outer = regions.iter().fold([0, 0], |most, r| {
+            let [w, h] = r.outer();
+            [most[0].max(w * side), most[1].max(h * side)]
+        });
+        if let Some(wanted) = settings.region {
+            let end = wanted.end(settings.size)?;
+            regions.retain_mut(|region| region.keep(wanted.corner, end));
+        }
+        let pixels = u64::from(outer[0]) * u64::from(outer[1]);
+        let tiles = u64::from(outer[0].div_ceil(8)) * u64::from(outer[1].div_ceil(4));
+        let samples = u64::from(settings.samples);
+        let records = match settings.method {
+            Method::Superpixel => {
+                (pixels * records_of_superpixel(settings, scene)).clamp(1 << 16, MOST_RECORDS)
+            }
+            Method::Msaa => tiles * 32 * samples * if scene.has_blend() { 2 } else { 1 },
+            Method::None | Method::Ssaa if scene.has_blend() => pixels * 3,
+            Method::None | Method::Ssaa => 0,
+        };
+        let large = LARGE_RECORDS * samples.div_ceil(64);
+        let records = if detects && records > large {
+            (records / 3).max(large)
+        } else {
+            records
+        };
+        let samples_cells = detects || scene.has_blend();
+        let at_most = |room: u64, most: u64| {
+            let room = if samples_cells { room } else { 0 };
+            (room * u64::from(capacity.lists)).min(most) as u32
+        };
+        let most_listed = ResourceSizes::most_pairs(limits);
+        let triangles = u64::from(scene.index_count());
+        let (most_pairs, most_candidates) = if scene.is_instanced() {
+            (tiles * TILE_PAIRS, tiles * TILE_CANDIDATES)
+        } else {
+            (MOST_PAIRS, MOST_CANDIDATES)
+        };
+        let room = |wanted: u64, most: u64| wanted.min(most).max(1 << 14);
+        let pairs = room(triangles * 4 + tiles * 16, most_pairs);
+        let candidates = room(triangles * 3 + tiles * 8, most_candidates);
+        let filtered = if side > 1 {
+            pixels / u64::from(side * side)
+        } else {
+            0
+        };
+        let sizes = ResourceSizes {
+            region: outer,
+            lanes: limits.lanes,
+            locations: None,
+            // What survives is in a pair at the least.
+            survivor_capacity: at_most(pairs, limits.max_storage_bytes / 4)
+                .min(scene.index_count()),
+            pair_capacity: at_most(pairs, most_listed),
+            list_capacity: at_most(candidates, ResourceSizes::most_candidates(limits)),
+            record_capacity: records as u32,
+            filtered: filtered as u32,
+            shadow_words: 0,
+            attributes: settings.attributes,
+            encoded: encoding
+                .filter(|e| *e != Encoding::Rgba32Float)
+                .map_or(0, |e| e.bytes() * pixels),
+        };
+        Ok(Self {
+            regions,
+            sizes,
+            capacity,
+            lists_can_grow: u64::from(sizes.pair_capacity) < most_listed,
+        })
+    }
+
+    fn bytes(&self, scene: &dyn Content, settings: &Settings) -> u64 {
+        let samples = if settings.method == Method::Msaa {
+            u64::from(settings.samples)
+        } else {
+            1
+        };
+        let images =
+            u64::from(self.sizes.pixels()) * samples * if scene.has_blend() { 12 } else { 8 };
+        self.sizes.bytes() + images
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::passes::Counter;
+
+    /// A frame that dropped triangles says how many there were: it is not made again and again for lists that can't hold them.
+    #[test]
+    fn lists_grow_to_what_they_are_known_to_need() {
+        const ROOM: u32 = 1 << 14;
+        let mut counters = [0; Counter::COUNT];
+        counters[Counter::Survivors as usize] = 70 * ROOM + 1;
+        let mut shortfall = Shortfall::default();
+        shortfall.add(&counters, (1, ROOM), false);
+        assert_eq!(Capacity::default().more(shortfall).lists, 128);
+        // What is short without saying by how much is doubled, and nothing else grows.
+        let unlisted = Shortfall {
+            unlisted: 1,
+            ..Shortfall::default()
+        };
+        assert_eq!(Capacity::least().more(unlisted).lists, 2);
+        assert_eq!(
+            Capacity::default().more(Shortfall::default()),
+            Capacity::default()
+        );
+    }
+}

@@ -1,0 +1,120 @@
+//! The uniform block of the sampling passes. All clients of these make it here.
+
+use super::Settings;
+use super::footprint::Footprints;
+use crate::passes::{FrameUniform, ResourceSizes};
+
+/// The triangles and materials that passes read, and who looks at them. A client whose passes read none leaves the default.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct SceneBlock {
+    /// The eye in the space of the geometry; the last component is 1.
+    pub eye: [f32; 4],
+    /// A unit vector; the last component is 1 where all rays are parallel to it, otherwise 0.
+    pub view_direction: [f32; 4],
+    /// The environment's diffuse light in spherical harmonics.
+    pub irradiance: [[f32; 4]; 9],
+    /// The axes of the environment map.
+    pub environment: [[f32; 4]; 3],
+    /// Number of triangles, or of indices that triangles may have.
+    pub triangle_count: u32,
+    /// Index of the first alpha-tested triangle.
+    pub first_mask: u32,
+    /// Index of the first BLEND triangle.
+    pub first_blend: u32,
+    /// Number of vectors of a material.
+    pub material_vectors: u32,
+    /// Number of shading keys.
+    pub bin_count: u32,
+    /// Number of lights.
+    pub light_count: u32,
+}
+
+/// The part of the image plane whose pixels or locations are sampled.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PlaneBlock {
+    /// From the space of positions to pixels of the plane, in columns.
+    pub transform: [f32; 16],
+    /// The upper left corner of the part, in pixels from the place that clip-space positions are relative to.
+    pub corner: [f64; 2],
+    /// Width and height of the part in pixels.
+    pub size: [u32; 2],
+    /// The pixels that may become cells: from the first to before the second one.
+    pub interior: [[u32; 2]; 2],
+    /// Factor on a depth, and constant, by which a surface nearer by a pixel's width has a larger depth.
+    pub gap: [f32; 2],
+    /// The least difference of code values for which a pixel is shaded in several parts.
+    pub alike: u32,
+    /// Pixels along a side of an output pixel's grid.
+    pub side: u32,
+    /// The pixel of a host's images of IDs and depth at which the part begins.
+    pub seen_corner: [u32; 2],
+    /// The pixel of a host's colour image at which the part begins.
+    pub color_corner: [u32; 2],
+}
+
+impl Default for PlaneBlock {
+    fn default() -> Self {
+        Self {
+            transform: [0.0; 16],
+            corner: [0.0; 2],
+            size: [1; 2],
+            interior: [[0; 2]; 2],
+            gap: [0.0; 2],
+            alike: 0,
+            side: 1,
+            seen_corner: [0; 2],
+            color_corner: [0; 2],
+        }
+    }
+}
+
+/// The uniform block of cells of `samples` samples, in memory of these sizes.
+pub(crate) fn frame_uniform(
+    scene: &SceneBlock,
+    plane: &PlaneBlock,
+    settings: &Settings,
+    (samples, footprints): (u32, &Footprints),
+    sizes: &ResourceSizes,
+) -> FrameUniform {
+    let [width, height] = plane.size;
+    let to_device = plane.size.map(|side| 2.0 / f64::from(side));
+    FrameUniform {
+        transform: plane.transform,
+        eye: scene.eye,
+        view_direction: scene.view_direction,
+        irradiance: scene.irradiance,
+        environment: scene.environment,
+        background: settings.background_rgba(),
+        raster_scale: to_device.map(|scale| scale as f32),
+        raster_offset: [0, 1].map(|axis| (-plane.corner[axis] * to_device[axis] - 1.0) as f32),
+        origin: plane.corner.map(|side| (side + 0.5) as f32),
+        size: plane.size,
+        tiles: [width.div_ceil(8), height.div_ceil(4)],
+        interior_low: plane.interior[0],
+        interior_high: plane.interior[1],
+        gap: plane.gap,
+        triangle_count: scene.triangle_count,
+        first_mask: scene.first_mask,
+        first_blend: scene.first_blend,
+        sample_count: samples,
+        survivor_capacity: sizes.survivor_capacity,
+        pair_capacity: sizes.pair_capacity,
+        list_capacity: sizes.list_capacity,
+        record_capacity: sizes.record_capacity,
+        bin_count: scene.bin_count,
+        light_count: scene.light_count,
+        material_vectors: scene.material_vectors,
+        contrast: u32::from(settings.threshold()),
+        alike: plane.alike,
+        exposure: settings.exposure.exp2(),
+        footprint: footprints.centre,
+        place_footprint: footprints.place,
+        sample_footprint: footprints.sample,
+        side: plane.side,
+        // Of a list, `distribute` measures it.
+        reach: 0.5,
+        group_count: sizes.locations.map_or(0, |locations| locations.groups),
+        seen_corner: plane.seen_corner,
+        color_corner: plane.color_corner,
+    }
+}

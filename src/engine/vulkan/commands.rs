@@ -1,0 +1,428 @@
+//! Recording into a command buffer, and the time that each pass takes.
+
+use super::barriers::{Barriers, Commands};
+use super::trace::Dispatched;
+use super::{Buffer, Gpu, Image, Pipeline, VulkanError};
+use ash::vk;
+use std::cell::Cell;
+use std::sync::Arc;
+
+/// The stages that push constants are for.
+pub(crate) const PUSH_STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::from_raw(
+    vk::ShaderStageFlags::VERTEX.as_raw() | vk::ShaderStageFlags::COMPUTE.as_raw(),
+);
+
+/// Writes commands of one frame into a caller's command buffer.
+pub struct Recorder<'a> {
+    gpu: &'a Gpu,
+    raw: vk::CommandBuffer,
+    /// A barrier that is asked for is recorded before the next command. A mark goes before it: some drivers take the time of
+    /// a timestamp no earlier than at the barrier that follows it.
+    barriers: Cell<Barriers>,
+    /// The word that dispatches depend on now, and that which the command buffer was last told of.
+    condition: vk::Buffer,
+    begun: Cell<vk::Buffer>,
+    timings: Option<&'a mut Timings>,
+    /// Whether dispatches are labelled, and kept for who asks.
+    labels: bool,
+    traces: bool,
+}
+
+impl<'a> Recorder<'a> {
+    /// # Safety
+    /// - `raw` was allocated from `gpu`'s device, for its queue family, and is in the recording state, outside of a render pass.
+    /// - All that is recorded with it is of that device, made for such commands, and bound before it is used; passes are recorded
+    ///   with resources of the sizes that they were made for.
+    /// - What is recorded is submitted only while everything it refers to is alive; and until it is done, the CPU neither reads
+    ///   what it writes nor writes what it reads.
+    #[must_use]
+    pub unsafe fn new(
+        gpu: &'a Gpu,
+        raw: vk::CommandBuffer,
+        timings: Option<&'a mut Timings>,
+    ) -> Self {
+        Self {
+            gpu,
+            raw,
+            barriers: Cell::new(Barriers::new()),
+            condition: vk::Buffer::null(),
+            begun: Cell::new(vk::Buffer::null()),
+            timings,
+            labels: gpu.debug_labels.is_some(),
+            traces: gpu.trace.is_asked(),
+        }
+    }
+
+    /// The command buffer, to record commands of any kind until the next [`Self::barrier`]. None of them is skipped.
+    pub(crate) fn raw(&self) -> vk::CommandBuffer {
+        self.depend_on(vk::Buffer::null());
+        self.before(Commands::Any)
+    }
+
+    /// Records dispatches that the device skips where the first word of a buffer is zero. What they are recorded with does not
+    /// write that word. Within them, others may depend on another word instead. Copies, and commands recorded with
+    /// [`Self::raw`], are not skipped.
+    ///
+    /// The device [can skip commands](super::Limits::conditional_rendering), and the buffer was made for it.
+    pub(crate) fn unless_zero(&mut self, word: &Buffer, record: impl FnOnce(&mut Self)) {
+        let outer = std::mem::replace(&mut self.condition, word.raw);
+        record(self);
+        self.condition = outer;
+    }
+
+    /// The word that [`Self::unless_zero`] has dispatches depend on now, if any: the first of a buffer.
+    pub(crate) fn condition(&self) -> Option<vk::Buffer> {
+        (self.condition != vk::Buffer::null()).then_some(self.condition)
+    }
+
+    /// Has the commands that follow depend on a word, or on none.
+    fn depend_on(&self, word: vk::Buffer) {
+        let begun = self.begun.replace(word);
+        let Some(functions) = &self.gpu.conditional_rendering else {
+            return;
+        };
+        if begun == word {
+            return;
+        }
+        // SAFETY: `new`'s contract; what was begun is ended before anything else is begun, and both happen outside of render
+        // passes, which are recorded with `raw`.
+        unsafe {
+            if begun != vk::Buffer::null() {
+                (functions.fp().cmd_end_conditional_rendering_ext)(self.raw);
+            }
+            if word != vk::Buffer::null() {
+                let info = vk::ConditionalRenderingBeginInfoEXT::default().buffer(word);
+                (functions.fp().cmd_begin_conditional_rendering_ext)(self.raw, &info);
+            }
+        }
+    }
+
+    /// The command buffer, to record a dispatch.
+    fn dispatching(&self) -> vk::CommandBuffer {
+        let raw = self.before(Commands::Dispatches);
+        self.depend_on(self.condition);
+        raw
+    }
+
+    /// The command buffer, to record what is bound and pushed: that waits for nothing.
+    pub(crate) fn bindings(&self) -> vk::CommandBuffer {
+        self.raw
+    }
+
+    /// The command buffer, after the barrier that commands of a kind need.
+    fn before(&self, next: Commands) -> vk::CommandBuffer {
+        let mut barriers = self.barriers.get();
+        if let Some(commands) = barriers.before(next) {
+            let can_skip = self.gpu.conditional_rendering.is_some();
+            let barriers = [commands.barrier(can_skip)];
+            let info = vk::DependencyInfo::default().memory_barriers(&barriers);
+            // SAFETY: `new`'s contract; synchronization2 is enabled.
+            unsafe { self.gpu.device.cmd_pipeline_barrier2(self.raw, &info) };
+        }
+        self.barriers.set(barriers);
+        self.raw
+    }
+
+    pub(crate) fn device(&self) -> &ash::Device {
+        &self.gpu.device
+    }
+
+    /// Everything before is visible to everything after.
+    pub fn barrier(&self) {
+        let mut barriers = self.barriers.get();
+        barriers.ask();
+        self.barriers.set(barriers);
+    }
+
+    /// Moves an image to another layout, after all before and ahead of all after.
+    pub fn transition(&self, image: &Image, from: vk::ImageLayout, to: vk::ImageLayout) {
+        let all = vk::PipelineStageFlags2::ALL_COMMANDS;
+        let barriers = [vk::ImageMemoryBarrier2::default()
+            .src_stage_mask(all)
+            .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
+            .dst_stage_mask(all)
+            .dst_access_mask(vk::AccessFlags2::MEMORY_READ | vk::AccessFlags2::MEMORY_WRITE)
+            .old_layout(from)
+            .new_layout(to)
+            .image(image.raw)
+            .subresource_range(image.range())];
+        let info = vk::DependencyInfo::default().image_memory_barriers(&barriers);
+        // SAFETY: `new`'s contract; synchronization2 is enabled.
+        unsafe { self.gpu.device.cmd_pipeline_barrier2(self.raw(), &info) };
+    }
+
+    /// Binds a pipeline.
+    pub fn bind(&self, pipeline: &Pipeline) {
+        // SAFETY: `new`'s contract.
+        unsafe {
+            self.gpu
+                .device
+                .cmd_bind_pipeline(self.bindings(), pipeline.bind_point, pipeline.raw)
+        };
+        if self.traces && pipeline.bind_point == vk::PipelineBindPoint::GRAPHICS {
+            self.gpu.trace(pipeline, Dispatched::Drawn);
+        }
+    }
+
+    /// Runs a pipeline over `groups` workgroups, folded into rows of 32,768.
+    pub fn dispatch(&self, pipeline: &Pipeline, groups: u64) {
+        self.dispatch_unordered(pipeline, groups);
+        self.barrier();
+    }
+
+    /// The same without a barrier after it, for dispatches that write different places.
+    pub fn dispatch_unordered(&self, pipeline: &Pipeline, groups: u64) {
+        let rows = groups.div_ceil(32768) as u32;
+        self.run(pipeline, Dispatched::Workgroups(groups), |device, raw| {
+            // SAFETY: `new`'s contract; 32,768 is below every device's limit of 65,535.
+            unsafe { device.cmd_dispatch(raw, groups.min(32768) as u32, rows, 1) };
+        });
+    }
+
+    /// Runs a pipeline over the workgroups that vector `index` of `arguments` names.
+    pub fn dispatch_indirect(&self, pipeline: &Pipeline, arguments: &Buffer, index: u32) {
+        self.dispatch_indirect_unordered(pipeline, arguments, index);
+        self.barrier();
+    }
+
+    /// The same without a barrier after it, for dispatches that write different places.
+    pub fn dispatch_indirect_unordered(&self, pipeline: &Pipeline, arguments: &Buffer, index: u32) {
+        self.run(pipeline, Dispatched::Indirect(index), |device, raw| {
+            // SAFETY: `new`'s contract; the buffer is larger than the index and was created for indirect use.
+            unsafe { device.cmd_dispatch_indirect(raw, arguments.raw, u64::from(index) * 16) };
+        });
+    }
+
+    /// Records a dispatch of a pipeline, under its shader's name.
+    fn run(
+        &self,
+        pipeline: &Pipeline,
+        size: Dispatched,
+        record: impl FnOnce(&ash::Device, vk::CommandBuffer),
+    ) {
+        self.bind(pipeline);
+        let raw = self.dispatching();
+        let labels = self.gpu.debug_labels.as_ref().filter(|_| self.labels);
+        let labelled = labels.zip(pipeline.interface());
+        if let Some((labels, interface)) = labelled {
+            let name = std::ffi::CString::new(interface.name).unwrap_or_default();
+            let label = vk::DebugUtilsLabelEXT::default().label_name(&name);
+            // SAFETY: `new`'s contract; the name is copied, and the label is ended below.
+            unsafe { labels.cmd_begin_debug_utils_label(raw, &label) };
+        }
+        record(&self.gpu.device, raw);
+        if let Some((labels, _)) = labelled {
+            // SAFETY: it was begun above.
+            unsafe { labels.cmd_end_debug_utils_label(raw) };
+        }
+        if self.traces {
+            self.gpu.trace(pipeline, size);
+        }
+    }
+
+    /// Sets the push constants of `layout`.
+    pub fn push(&self, layout: vk::PipelineLayout, pushed: &impl bytemuck::NoUninit) {
+        let bytes = bytemuck::bytes_of(pushed);
+        // SAFETY: `new`'s contract; layouts reserve room for what their passes push.
+        unsafe {
+            self.gpu
+                .device
+                .cmd_push_constants(self.bindings(), layout, PUSH_STAGES, 0, bytes)
+        };
+    }
+
+    /// Copies the first bytes of a buffer to another one, from a byte of that on. Both were created for copies, and callers
+    /// know their sizes.
+    pub(crate) fn copy(&self, from: &Buffer, bytes: u64, to: &Buffer, first_byte: u64) {
+        // SAFETY: as documented.
+        unsafe { self.copy_raw((from.raw, 0), (to.raw, first_byte), bytes) };
+    }
+
+    /// Copies bytes of a buffer to another one, from a byte of each on.
+    ///
+    /// # Safety
+    /// Both were created for copies, and the bytes lie in them, which outlive the execution of the commands.
+    pub(crate) unsafe fn copy_raw(
+        &self,
+        (from, from_byte): (vk::Buffer, u64),
+        (to, to_byte): (vk::Buffer, u64),
+        bytes: u64,
+    ) {
+        let region = [vk::BufferCopy::default()
+            .src_offset(from_byte)
+            .dst_offset(to_byte)
+            .size(bytes)];
+        let raw = self.before(Commands::Dispatches);
+        // SAFETY: `new`'s contract; the rest is passed on to the caller.
+        unsafe { self.gpu.device.cmd_copy_buffer(raw, from, to, &region) };
+    }
+
+    /// Writes bytes, a multiple of four, to a buffer from a byte on, another multiple.
+    pub(crate) fn update(&self, buffer: &Buffer, first_byte: u64, bytes: &[u8]) {
+        /// Bytes that an inline update can have.
+        const AT_ONCE: usize = 65_536;
+        let raw = self.before(Commands::Dispatches);
+        for (chunk, bytes) in (0..).zip(bytes.chunks(AT_ONCE)) {
+            let offset = first_byte + chunk * AT_ONCE as u64;
+            // SAFETY: `new`'s contract; the buffer was created as a transfer destination, and callers know its size.
+            unsafe {
+                self.gpu
+                    .device
+                    .cmd_update_buffer(raw, buffer.raw, offset, bytes)
+            };
+        }
+    }
+
+    /// Fills a buffer with zeros.
+    pub fn clear(&self, buffer: &Buffer) {
+        self.clear_first(buffer, vk::WHOLE_SIZE);
+    }
+
+    /// Fills the first `bytes` bytes of a buffer with zeros.
+    pub fn clear_first(&self, buffer: &Buffer, bytes: u64) {
+        let raw = self.before(Commands::Dispatches);
+        // SAFETY: `new`'s contract; the buffer was created as a transfer destination, and callers know its size.
+        unsafe {
+            self.gpu
+                .device
+                .cmd_fill_buffer(raw, buffer.raw, 0, bytes, 0)
+        };
+    }
+
+    /// Ends a named stretch of the frame: the time since the mark before is booked under `name`.
+    pub fn mark(&mut self, name: &'static str) {
+        if let Some(timings) = self.timings.as_deref_mut() {
+            timings.mark(self.gpu, self.raw, Some(name));
+        }
+    }
+
+    /// Goes on timing, in a command buffer that follows the one before.
+    pub fn go_on(&mut self) {
+        if let Some(timings) = self.timings.as_deref_mut() {
+            timings.mark(self.gpu, self.raw, None);
+        }
+    }
+
+    /// Records without marks and labels, which cost more than what is skipped, and unseen by who asks: what takes time is booked by
+    /// the next mark after it.
+    pub(crate) fn untimed(&mut self, record: impl FnOnce(&mut Self)) {
+        let timings = self.timings.take();
+        let seen = (self.labels, self.traces);
+        (self.labels, self.traces) = (false, false);
+        record(self);
+        self.timings = timings;
+        (self.labels, self.traces) = seen;
+    }
+
+    /// Begins timing.
+    pub fn begin(&mut self) {
+        if let Some(timings) = self.timings.as_deref_mut() {
+            timings.begin(self.gpu, self.raw);
+        }
+    }
+}
+
+impl Drop for Recorder<'_> {
+    fn drop(&mut self) {
+        // What the caller records next comes after the last barrier too.
+        self.raw();
+    }
+}
+
+/// Timestamps of one frame; names may repeat and are added up.
+pub struct Timings {
+    gpu: Arc<Gpu>,
+    pool: vk::QueryPool,
+    capacity: u32,
+    names: Vec<Option<&'static str>>,
+}
+
+impl Timings {
+    /// Room for `capacity` marks; later ones are not taken.
+    ///
+    /// # Errors
+    /// [`VulkanError::Call`] if the pool can't be made.
+    pub fn new(gpu: &Arc<Gpu>, capacity: u32) -> Result<Self, VulkanError> {
+        let info = vk::QueryPoolCreateInfo::default()
+            .query_type(vk::QueryType::TIMESTAMP)
+            .query_count(capacity);
+        // SAFETY: plain creation on a live device.
+        let pool = unsafe { gpu.device.create_query_pool(&info, None) }
+            .map_err(VulkanError::of("vkCreateQueryPool"))?;
+        Ok(Self {
+            gpu: gpu.clone(),
+            pool,
+            capacity,
+            names: Vec::new(),
+        })
+    }
+
+    fn begin(&mut self, gpu: &Gpu, raw: vk::CommandBuffer) {
+        self.names.clear();
+        // SAFETY: the recorder's contract; the pool is not in use, as the frame before is done.
+        unsafe {
+            gpu.device
+                .cmd_reset_query_pool(raw, self.pool, 0, self.capacity)
+        };
+        self.mark(gpu, raw, None);
+    }
+
+    fn mark(&mut self, gpu: &Gpu, raw: vk::CommandBuffer, name: Option<&'static str>) {
+        let index = self.names.len() as u32;
+        if gpu.limits().timestamp_period == 0.0 || index >= self.capacity {
+            return;
+        }
+        // SAFETY: the recorder's contract; the query was reset at the frame's begin.
+        unsafe {
+            gpu.device.cmd_write_timestamp2(
+                raw,
+                vk::PipelineStageFlags2::ALL_COMMANDS,
+                self.pool,
+                index,
+            )
+        };
+        self.names.push(name);
+    }
+
+    /// Milliseconds by name, in order of first appearance. It waits for nothing.
+    ///
+    /// # Errors
+    /// [`VulkanError::NotDone`] if the commands are not done, [`VulkanError::Call`] if results can't be had.
+    pub fn read(&self) -> Result<Vec<(&'static str, f64)>, VulkanError> {
+        let mut stamps = vec![0_u64; self.names.len()];
+        if !stamps.is_empty() {
+            let flags = vk::QueryResultFlags::TYPE_64;
+            // SAFETY: the pool is the device's, with at least as many queries; without waiting, their results may be asked for at
+            // any time after they were reset once, as they were where the names were recorded.
+            unsafe {
+                self.gpu
+                    .device
+                    .get_query_pool_results(self.pool, 0, &mut stamps, flags)
+            }
+            .map_err(|result| match result {
+                vk::Result::NOT_READY => VulkanError::NotDone,
+                result => VulkanError::of("vkGetQueryPoolResults")(result),
+            })?;
+        }
+        let period = f64::from(self.gpu.limits().timestamp_period) * 1e-6;
+        let mut times: Vec<(&'static str, f64)> = Vec::new();
+        for (pair, name) in stamps.windows(2).zip(self.names.iter().skip(1)) {
+            let (Some(name), &[before, after]) = (name, pair) else {
+                continue;
+            };
+            let ms = after.saturating_sub(before) as f64 * period;
+            match times.iter_mut().find(|(known, _)| known == name) {
+                Some((_, sum)) => *sum += ms,
+                None => times.push((name, ms)),
+            }
+        }
+        Ok(times)
+    }
+}
+
+impl Drop for Timings {
+    fn drop(&mut self) {
+        // SAFETY: owners drop timings only after the frames that use them are done.
+        unsafe { self.gpu.device.destroy_query_pool(self.pool, None) };
+    }
+}

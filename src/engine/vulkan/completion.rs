@@ -1,0 +1,98 @@
+//! Whether the device has executed what was recorded last.
+
+use super::{Gpu, Recorder, VulkanError};
+use ash::vk;
+use std::sync::Arc;
+
+/// Tells whether the device has executed a recording that is made again and again: an event that the device resets where the
+/// commands begin and sets where they end. Unlike memory that the device writes, the CPU may ask for it at any time.
+pub(crate) struct Completion {
+    gpu: Arc<Gpu>,
+    event: vk::Event,
+    is_recorded: bool,
+}
+
+impl Completion {
+    /// That of what was never recorded.
+    ///
+    /// # Errors
+    /// [`VulkanError::Call`] if the event can't be made.
+    pub fn new(gpu: &Arc<Gpu>) -> Result<Self, VulkanError> {
+        // SAFETY: plain creation on a live device.
+        let event = unsafe {
+            gpu.device
+                .create_event(&vk::EventCreateInfo::default(), None)
+        }
+        .map_err(VulkanError::of("vkCreateEvent"))?;
+        Ok(Self {
+            gpu: gpu.clone(),
+            event,
+            is_recorded: false,
+        })
+    }
+
+    /// Begins a recording. The commands of the one before are done, or will never be executed.
+    ///
+    /// Whether those were executed.
+    pub fn begin(&mut self, recorder: &Recorder<'_>) -> bool {
+        let was_done = self.check().is_ok();
+        self.is_recorded = true;
+        // SAFETY: by the recorder's contract no commands that use the event are pending, and the new ones are outside of a
+        // render pass; synchronization2 is enabled.
+        unsafe {
+            // An event that stays set because resetting it failed is still reset by the device.
+            let _ = self.gpu.device.reset_event(self.event);
+            self.gpu.device.cmd_reset_event2(
+                recorder.raw(),
+                self.event,
+                vk::PipelineStageFlags2::ALL_COMMANDS,
+            );
+        }
+        recorder.barrier();
+        was_done
+    }
+
+    /// Ends a recording, whose results the CPU may read once it is done.
+    pub fn end(&self, recorder: &Recorder<'_>) {
+        let all = vk::PipelineStageFlags2::ALL_COMMANDS;
+        let to_cpu = [vk::MemoryBarrier2::default()
+            .src_stage_mask(all)
+            .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
+            .dst_stage_mask(vk::PipelineStageFlags2::HOST)
+            .dst_access_mask(vk::AccessFlags2::HOST_READ)];
+        let visible = vk::DependencyInfo::default().memory_barriers(&to_cpu);
+        let after = [vk::MemoryBarrier2::default()
+            .src_stage_mask(all)
+            .dst_stage_mask(all)];
+        let set = vk::DependencyInfo::default().memory_barriers(&after);
+        let raw = recorder.raw();
+        // SAFETY: the recorder's contract; synchronization2 is enabled.
+        unsafe {
+            self.gpu.device.cmd_pipeline_barrier2(raw, &visible);
+            self.gpu.device.cmd_set_event2(raw, self.event, &set);
+        }
+    }
+
+    /// Refuses to go on before the device has executed what was recorded last. It waits for nothing.
+    ///
+    /// # Errors
+    /// [`VulkanError::NotRecorded`], [`VulkanError::NotDone`], or [`VulkanError::DeviceLost`].
+    pub fn check(&self) -> Result<(), VulkanError> {
+        if !self.is_recorded {
+            return Err(VulkanError::NotRecorded);
+        }
+        // SAFETY: the event is the device's, and may be asked at any time.
+        match unsafe { self.gpu.device.get_event_status(self.event) } {
+            Ok(true) => Ok(()),
+            Ok(false) => Err(VulkanError::NotDone),
+            Err(error) => Err(VulkanError::of("vkGetEventStatus")(error)),
+        }
+    }
+}
+
+impl Drop for Completion {
+    fn drop(&mut self) {
+        // SAFETY: owners drop it only after the commands that use it are done.
+        unsafe { self.gpu.device.destroy_event(self.event, None) };
+    }
+}

@@ -1,0 +1,321 @@
+//! A device in use: its functions, limits and memory.
+
+use super::instance::Instance;
+use super::trace::Trace;
+use super::{Missing, Requirements, VulkanError};
+use ash::vk;
+use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
+use std::sync::{Arc, Mutex};
+
+/// An allocator that several parts of a program share.
+pub type SharedAllocator = Arc<Mutex<Allocator>>;
+
+/// A host's Vulkan objects, in which the renderer works.
+pub struct Host {
+    /// The instance, created for Vulkan 1.3 or later.
+    pub instance: ash::Instance,
+    /// The physical device; see [`Requirements::missing`].
+    pub physical_device: vk::PhysicalDevice,
+    /// The device, with the features of [`Requirements::features13`] enabled.
+    pub device: ash::Device,
+    /// The family, with graphics and compute, of the queue that commands will be submitted to.
+    pub queue_family: u32,
+    /// The host's allocator to share, or `None` for one of our own.
+    pub allocator: Option<SharedAllocator>,
+    /// Whether the device was created with `VK_EXT_conditional_rendering` and its feature `conditionalRendering`, for which
+    /// [`Requirements::has_conditional_rendering`] says whether it can be. Without it, rounds of a frame that have nothing to do
+    /// take some time.
+    pub conditional_rendering: bool,
+}
+
+/// Properties of the device that decide how work is laid out.
+#[derive(Clone, Debug)]
+pub struct Limits {
+    /// The device's name.
+    pub device_name: String,
+    /// Name and version of the driver.
+    pub driver: String,
+    /// Invocations of a subgroup that kernels use: 4, 8, 16 or 32.
+    pub lanes: u32,
+    /// Invocations in a subgroup, as pipelines ask for; at least `lanes`. Where it is more, the others idle.
+    pub subgroup_size: u32,
+    /// Whether a compute pipeline can be told its subgroup size.
+    pub can_require_subgroup_size: bool,
+    /// Largest width or height of an image.
+    pub max_image_side: u32,
+    /// Most elements of a texel buffer.
+    pub max_texel_elements: u64,
+    /// What offsets of storage and texel buffers are multiples of, in bytes.
+    pub buffer_alignment: u64,
+    /// Most bytes of a storage buffer binding.
+    pub max_storage_bytes: u64,
+    /// Nanoseconds a timestamp step, 0 if the queue has no timestamps.
+    pub timestamp_period: f32,
+    /// Most samples, counted as if every pixel were a superpixel, of what is submitted at once where the renderer has the
+    /// device to itself: systems take a GPU away from what keeps it for seconds. Nothing takes a CPU away.
+    pub max_submitted_samples: u64,
+    /// Sample counts of multisampled 8-bit colour and float depth.
+    pub sample_counts: vk::SampleCountFlags,
+    /// Whether commands can be skipped by a word in the device's memory.
+    pub conditional_rendering: bool,
+    /// Most pipelines that are kept although no frame uses them: a frame has some 25, and a driver may keep a megabyte or
+    /// two for each.
+    pub max_unused_pipelines: usize,
+}
+
+/// A device in use.
+pub struct Gpu {
+    pub(crate) device: ash::Device,
+    /// Functions that skip commands, where the device has them.
+    pub(super) conditional_rendering: Option<ash::ext::conditional_rendering::Device>,
+    /// Functions that label commands, in an instance of our own that has them.
+    pub(super) debug_labels: Option<ash::ext::debug_utils::Device>,
+    pub(super) trace: Trace,
+    pub(crate) queue_family: u32,
+    /// `None` only while dropping.
+    allocator: Option<SharedAllocator>,
+    limits: Limits,
+    /// Set where we created the device: it is destroyed with the Gpu, before the instance.
+    owner: Option<Arc<Instance>>,
+}
+
+impl Gpu {
+    /// Works in a host's device.
+    ///
+    /// # Errors
+    /// [`VulkanError::Missing`] names all that the device lacks, [`VulkanError::QueueFamily`] a family that it has not.
+    ///
+    /// # Safety
+    /// - All handles are alive, belong together and outlive the returned value and all made with it.
+    /// - The device was created with the features of [`Requirements::features13`], and as [`Host::conditional_rendering`] says.
+    pub unsafe fn new(host: Host) -> Result<Arc<Self>, VulkanError> {
+        // SAFETY: passed on to the caller.
+        let mut limits = unsafe { limits(&host.instance, host.physical_device, host.queue_family) };
+        limits.conditional_rendering &= host.conditional_rendering;
+        // SAFETY: passed on to the caller.
+        unsafe { Self::owning(host, None, limits) }
+    }
+
+    /// # Safety
+    /// As [`Gpu::new`]; with an `owner`, the device is ours to destroy.
+    pub(super) unsafe fn owning(
+        host: Host,
+        owner: Option<Arc<Instance>>,
+        limits: Limits,
+    ) -> Result<Arc<Self>, VulkanError> {
+        let Host {
+            instance,
+            physical_device,
+            device,
+            queue_family,
+            allocator,
+            conditional_rendering: _,
+        } = host;
+        // SAFETY: passed on to the caller.
+        let missing: Vec<Missing> = unsafe { Requirements::missing(&instance, physical_device) };
+        if !missing.is_empty() {
+            return Err(VulkanError::Missing {
+                device: limits.device_name,
+                missing,
+            });
+        }
+        // SAFETY: passed on to the caller.
+        let (is_fit, possible) = unsafe {
+            (
+                Requirements::is_fit(&instance, physical_device, queue_family),
+                Requirements::queue_family(&instance, physical_device),
+            )
+        };
+        if !is_fit {
+            return Err(VulkanError::QueueFamily {
+                device: limits.device_name,
+                found: queue_family,
+                possible,
+            });
+        }
+        let allocator = match allocator {
+            Some(shared) => shared,
+            None => Arc::new(Mutex::new(
+                Allocator::new(&AllocatorCreateDesc {
+                    instance: instance.clone(),
+                    device: device.clone(),
+                    physical_device,
+                    debug_settings: gpu_allocator::AllocatorDebugSettings::default(),
+                    buffer_device_address: false,
+                    allocation_sizes: gpu_allocator::AllocationSizes::default(),
+                })
+                .map_err(|_| VulkanError::Call {
+                    call: "the allocator",
+                    result: vk::Result::ERROR_INITIALIZATION_FAILED,
+                })?,
+            )),
+        };
+        let has_labels = owner.as_ref().is_some_and(|owner| owner.has_debug_utils());
+        let debug_labels =
+            has_labels.then(|| ash::ext::debug_utils::Device::new(&instance, &device));
+        let functions = || ash::ext::conditional_rendering::Device::new(&instance, &device);
+        Ok(Arc::new(Self {
+            conditional_rendering: limits.conditional_rendering.then(functions),
+            debug_labels,
+            trace: Trace::default(),
+            device,
+            queue_family,
+            allocator: Some(allocator),
+            limits,
+            owner,
+        }))
+    }
+
+    /// The device's functions, for commands of one's own.
+    #[must_use]
+    pub fn device(&self) -> &ash::Device {
+        &self.device
+    }
+
+    /// The device's functions to skip commands by a word in its memory, where it [has](Limits::conditional_rendering) them.
+    #[must_use]
+    pub fn conditional_rendering(&self) -> Option<&ash::ext::conditional_rendering::Device> {
+        self.conditional_rendering.as_ref()
+    }
+
+    /// The family of the queue that commands are submitted to.
+    #[must_use]
+    pub fn queue_family(&self) -> u32 {
+        self.queue_family
+    }
+
+    /// Properties of the device.
+    #[must_use]
+    pub fn limits(&self) -> &Limits {
+        &self.limits
+    }
+
+    /// The instance, where it is our own.
+    #[must_use]
+    pub fn instance(&self) -> Option<&Arc<Instance>> {
+        self.owner.as_ref()
+    }
+
+    /// The allocator; a poisoned lock is taken over, as an allocation that panicked left nothing half made.
+    pub(super) fn with_allocator<R>(&self, f: impl FnOnce(&mut Allocator) -> R) -> Option<R> {
+        let allocator = self.allocator.as_ref()?;
+        let mut guard = allocator
+            .lock()
+            .unwrap_or_else(std::sync::PoisonError::into_inner);
+        Some(f(&mut guard))
+    }
+}
+
+impl Drop for Gpu {
+    fn drop(&mut self) {
+        // The allocator frees its blocks while the device is still alive.
+        self.allocator = None;
+        if self.owner.is_some() {
+            // SAFETY: the device is ours, everything made from it holds an `Arc` of this and is gone.
+            unsafe { self.device.destroy_device(None) };
+        }
+    }
+}
+
+/// How many invocations of a subgroup kernels use, and how many a subgroup has, where it usually has `usual` and from
+/// `least` to `most`.
+fn lanes_and_size(usual: u32, [least, most]: [u32; 2], can_require: bool) -> (u32, u32) {
+    if can_require {
+        let size = usual.clamp(4, 32).clamp(least, most);
+        (size.min(32), size)
+    } else {
+        // The least that may come fits in all others.
+        (least.clamp(4, 32), usual)
+    }
+}
+
+/// Those of a physical device.
+///
+/// # Safety
+/// The device belongs to the instance, which is alive.
+pub(super) unsafe fn limits(
+    instance: &ash::Instance,
+    device: vk::PhysicalDevice,
+    queue_family: u32,
+) -> Limits {
+    let mut driver = vk::PhysicalDeviceDriverProperties::default();
+    let mut subgroup = vk::PhysicalDeviceSubgroupProperties::default();
+    let mut control = vk::PhysicalDeviceSubgroupSizeControlProperties::default();
+    let mut properties = vk::PhysicalDeviceProperties2::default()
+        .push_next(&mut driver)
+        .push_next(&mut subgroup)
+        .push_next(&mut control);
+    // SAFETY: passed on to the caller.
+    let families = unsafe {
+        instance.get_physical_device_properties2(device, &mut properties);
+        instance.get_physical_device_queue_family_properties(device)
+    };
+    let basic = properties.properties;
+    let can_require_subgroup_size = control
+        .required_subgroup_size_stages
+        .contains(vk::ShaderStageFlags::COMPUTE);
+    let (lanes, subgroup_size) = lanes_and_size(
+        subgroup.subgroup_size,
+        [control.min_subgroup_size, control.max_subgroup_size],
+        can_require_subgroup_size,
+    );
+    let timestamps = families
+        .get(queue_family as usize)
+        .is_some_and(|family| family.timestamp_valid_bits > 0);
+    let text = |name: Result<&std::ffi::CStr, _>| {
+        name.map(|n: &std::ffi::CStr| n.to_string_lossy().into_owned())
+            .unwrap_or_default()
+    };
+    Limits {
+        device_name: text(basic.device_name_as_c_str()),
+        driver: format!(
+            "{} {}",
+            text(driver.driver_name_as_c_str()),
+            text(driver.driver_info_as_c_str())
+        ),
+        lanes,
+        subgroup_size,
+        can_require_subgroup_size,
+        max_image_side: basic.limits.max_image_dimension2_d,
+        max_texel_elements: u64::from(basic.limits.max_texel_buffer_elements),
+        buffer_alignment: basic
+            .limits
+            .min_storage_buffer_offset_alignment
+            .max(basic.limits.min_texel_buffer_offset_alignment),
+        max_storage_bytes: u64::from(basic.limits.max_storage_buffer_range),
+        timestamp_period: if timestamps {
+            basic.limits.timestamp_period
+        } else {
+            0.0
+        },
+        max_submitted_samples: match basic.device_type {
+            vk::PhysicalDeviceType::CPU => u64::MAX,
+            _ => 1 << 27,
+        },
+        sample_counts: basic.limits.framebuffer_color_sample_counts
+            & basic.limits.framebuffer_depth_sample_counts
+            & basic.limits.sampled_image_color_sample_counts,
+        // SAFETY: passed on to the caller.
+        conditional_rendering: unsafe { Requirements::has_conditional_rendering(instance, device) },
+        max_unused_pipelines: 64,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::lanes_and_size;
+
+    #[test]
+    fn lanes_fit_in_the_subgroups_that_come() {
+        let of = |usual, range, can_require| lanes_and_size(usual, range, can_require);
+        assert_eq!(of(8, [8, 8], true), (8, 8));
+        assert_eq!(of(4, [4, 4], true), (4, 4));
+        assert_eq!(of(32, [8, 32], true), (32, 32));
+        assert_eq!(of(64, [32, 64], true), (32, 32));
+        assert_eq!(of(64, [64, 64], true), (32, 64));
+        assert_eq!(of(128, [64, 128], true), (32, 64));
+        assert_eq!(of(32, [8, 32], false), (8, 32));
+        assert_eq!(of(64, [64, 64], false), (32, 64));
+        assert_eq!(of(4, [1, 4], false), (4, 4));
+    }
+}

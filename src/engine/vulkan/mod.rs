@@ -1,0 +1,26 @@
+//! A thin layer over Vulkan 1.3: devices, memory, pipelines, command recording. It knows nothing of rendering.
+//!
+//! Hosts see devices alone. Memory, pipelines and commands are the crate's own: their functions trust what they are given.
+
+mod barriers;
+pub(crate) mod commands;
+mod completion;
+mod error;
+mod gpu;
+mod instance;
+mod interface;
+pub(crate) mod memory;
+pub(crate) mod pipeline;
+mod requirements;
+mod trace;
+
+pub(crate) use commands::{PUSH_STAGES, Recorder, Timings};
+pub(crate) use completion::Completion;
+pub use error::VulkanError;
+pub use gpu::{Gpu, Host, Limits, SharedAllocator};
+pub use instance::{DeviceInfo, Instance, InstanceOptions};
+pub(crate) use interface::{Access, Binding, Compiled, Interface, Invocations, Specialized, Use};
+pub(crate) use memory::{Buffer, BufferView, Image, Memory, MemoryUse, TexelView};
+pub(crate) use pipeline::{Constants, GraphicsPipeline, Pipeline, compute_pipeline};
+pub use requirements::{MISSING_DRIVER_HELP, Missing, Requirements};
+pub(crate) use trace::{Dispatch, Dispatched};

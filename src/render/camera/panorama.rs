@@ -1,0 +1,369 @@
+//! Panoramas: images whose pixels look all around, each in its own direction.
+//!
+//! ```text
+//!  equirectangular         cylindrical            fisheye            cubemap
+//!  ┌──────────────┐      ┌──────────────┐      ┌─────────┐          ┌──┐
+//!  │ latitude     │      │ height over  │      │  ╭───╮  │          │up│
+//!  │   │          │      │ the ground   │      │ (  ·  ) │       ┌──┼──┼──┬──┐
+//!  │   └─ longitude      │   └─ longitude      │  ╰───╯  │       │le│fr│ri│ba│
+//!  └──────────────┘      └──────────────┘      └─────────┘       └──┼──┼──┴──┘
+//!  angles both ways      a cylinder unrolled   angle from axis      │do│
+//! ```
+//!
+//! Directions are in the camera's axes: x right, y up, and it looks along -z, which is the middle of the panorama (of
+//! the front face of a cubemap).
+
+use super::{Camera, Pinhole, Projection, Rig, RigError, SampleLocation};
+use glam::{DVec2, DVec3};
+use std::f64::consts::FRAC_PI_2;
+
+/// Layout of directions in a panorama.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PanoramaProjection {
+    /// Longitude along rows and latitude along columns, at the same number of pixels a degree.
+    Equirectangular,
+    /// Longitude along rows and, along columns, height on a cylinder around the camera; pixels are square at the
+    /// horizon.
+    Cylindrical,
+    /// Angle from the axis in proportion to the distance from the middle (equidistant). The circle of the field of view
+    /// touches the nearer sides of the image; outside of it the image is empty.
+    Fisheye,
+    /// Six squares in a cross, 4 wide and 3 high: left, front, right and back in the middle row, up and down above and
+    /// below of front.
+    Cubemap,
+}
+
+/// Panorama of an image size and a field of view.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Panorama {
+    projection: PanoramaProjection,
+    /// Field of view in degrees.
+    fov: f64,
+    size: [u32; 2],
+}
+
+/// Panorama that can't exist.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum PanoramaError {
+    /// Field of view that is not above 0, or more than all around.
+    #[error("a panorama of {0} degrees; it must be above 0 and at most 360")]
+    FieldOfView(f64),
+    /// Field of view of a cubemap, which always is all around.
+    #[error("a cubemap of {0} degrees; it shows all 360")]
+    CubemapFieldOfView(f64),
+    /// Image that is higher than from the zenith to the nadir.
+    #[error(
+        "{width} x {height} pixels over {fov} degrees are {latitudes} degrees high; there are 180: make the image lower or the field of view smaller"
+    )]
+    Latitudes {
+        /// Width in pixels.
+        width: u32,
+        /// Height in pixels.
+        height: u32,
+        /// Horizontal field of view in degrees.
+        fov: f64,
+        /// Vertical field of view in degrees.
+        latitudes: f64,
+    },
+    /// Image too small for its layout.
+    #[error("a panorama of {} x {} pixels has no room for its layout", .0[0], .0[1])]
+    Size([u32; 2]),
+    /// Orthographic camera: parallel rays have no centre to look around from.
+    #[error("an orthographic camera can't look around; choose a perspective one, or --eye")]
+    Orthographic,
+    /// Rig that can't be sampled.
+    #[error(transparent)]
+    Rig(#[from] RigError),
+}
+
+/// Face of a cubemap.
+struct Face {
+    forward: DVec3,
+    right: DVec3,
+    down: DVec3,
+    /// Column and row in the cross.
+    cross: [u32; 2],
+}
+
+impl Face {
+    /// Direction through a place of the face, 0 to 1 from its left and upper side.
+    fn toward(&self, place: DVec2) -> DVec3 {
+        let way = 2.0 * place - DVec2::ONE;
+        (self.forward + way.x * self.right + way.y * self.down).normalize()
+    }
+}
+
+const FACES: [Face; 6] = [
+    Face {
+        forward: DVec3::X,
+        right: DVec3::Z,
+        down: DVec3::NEG_Y,
+        cross: [2, 1],
+    },
+    Face {
+        forward: DVec3::NEG_X,
+        right: DVec3::NEG_Z,
+        down: DVec3::NEG_Y,
+        cross: [0, 1],
+    },
+    Face {
+        forward: DVec3::Y,
+        right: DVec3::X,
+        down: DVec3::NEG_Z,
+        cross: [1, 0],
+    },
+    Face {
+        forward: DVec3::NEG_Y,
+        right: DVec3::X,
+        down: DVec3::Z,
+        cross: [1, 2],
+    },
+    Face {
+        forward: DVec3::Z,
+        right: DVec3::NEG_X,
+        down: DVec3::NEG_Y,
+        cross: [3, 1],
+    },
+    Face {
+        forward: DVec3::NEG_Z,
+        right: DVec3::X,
+        down: DVec3::NEG_Y,
+        cross: [1, 1],
+    },
+];
+
+/// Radians by which a direction on the edge of the layout may be off.
+const ROUNDING: f64 = 1e-12;
+
+/// Longest side of a rig's planes in pixels.
+const LARGEST_PLANE: f64 = 65_536.0;
+
+impl Panorama {
+    /// Makes a panorama of `size` = [width, height] pixels, with a field of view of `fov` degrees along the width (for
+    /// a fisheye across its circle, for a cubemap 360). A cubemap takes the largest cross that fits.
+    ///
+    /// # Errors
+    /// [`PanoramaError`] if the field of view is not above 0 and at most 360, an equirectangular image is higher than
+    /// 180 degrees, or the image has no pixels.
+    pub fn new(
+        projection: PanoramaProjection,
+        fov: f64,
+        size: [u32; 2],
+    ) -> Result<Self, PanoramaError> {
+        if !(fov > 0.0 && fov <= 360.0) {
+            return Err(PanoramaError::FieldOfView(fov));
+        }
+        let [width, height] = size;
+        let mut size = size;
+        match projection {
+            PanoramaProjection::Equirectangular => {
+                let latitudes = fov * f64::from(height) / f64::from(width);
+                if latitudes > 180.0 {
+                    return Err(PanoramaError::Latitudes {
+                        width,
+                        height,
+                        fov,
+                        latitudes,
+                    });
+                }
+            }
+            PanoramaProjection::Cubemap => {
+                if fov != 360.0 {
+                    return Err(PanoramaError::CubemapFieldOfView(fov));
+                }
+                let side = (width / 4).min(height / 3);
+                size = [4 * side, 3 * side];
+            }
+            PanoramaProjection::Cylindrical | PanoramaProjection::Fisheye => {}
+        }
+        if size.contains(&0) {
+            return Err(PanoramaError::Size([width, height]));
+        }
+        Ok(Self {
+            projection,
+            fov,
+            size,
+        })
+    }
+
+    /// Width and height of the image in pixels.
+    #[must_use]
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// Direction, as a unit vector in the camera's axes, in which a place of the image in pixels looks; `None` where
+    /// the image is empty. Longitudes go on beyond the sides of the image.
+    #[must_use]
+    pub fn look(&self, place: DVec2) -> Option<DVec3> {
+        let size = DVec2::new(f64::from(self.size[0]), f64::from(self.size[1]));
+        let way = place - 0.5 * size;
+        let scale = self.radians_per_pixel();
+        let around = |longitude: f64| DVec3::new(longitude.sin(), 0.0, -longitude.cos());
+        match self.projection {
+            PanoramaProjection::Equirectangular => {
+                let (longitude, latitude) = (way.x * scale, -way.y * scale);
+                let up = DVec3::Y * latitude.sin();
+                (latitude.abs() <= FRAC_PI_2 + ROUNDING)
+                    .then(|| around(longitude) * latitude.cos() + up)
+            }
+            PanoramaProjection::Cylindrical => {
+                Some((around(way.x * scale) - DVec3::Y * (way.y * scale)).normalize())
+            }
+            PanoramaProjection::Fisheye => {
+                let angle = way.length() * scale;
+                let aside = DVec3::new(way.x, -way.y, 0.0).normalize_or_zero();
+                let inside = angle <= 0.5 * self.fov.to_radians() + ROUNDING;
+                inside.then(|| aside * angle.sin() - DVec3::Z * angle.cos())
+            }
+            PanoramaProjection::Cubemap => {
+                let side = 0.25 * size.x;
+                let cell = (place / side).floor();
+                let face = FACES
+                    .iter()
+                    .find(|face| face.cross.map(f64::from) == cell.to_array());
+                face.map(|face| face.toward(place / side - cell))
+            }
+        }
+    }
+
+    /// Makes the locations that a renderer samples for the panorama of a camera. Each pixel is sampled exactly in its
+    /// direction, on the one plane of a rig that the direction belongs to.
+    ///
+    /// # Errors
+    /// [`PanoramaError`] if the camera is orthographic or not finite.
+    pub fn locations(&self, camera: &Camera) -> Result<PanoramaLocations, PanoramaError> {
+        let Projection::Perspective { near, .. } = camera.projection else {
+            return Err(PanoramaError::Orthographic);
+        };
+        // On their axes the planes are as fine as the panorama is.
+        let side = (2.0 / self.radians_per_pixel()).ceil().min(LARGEST_PLANE);
+        let rig = Rig::cube(camera.eye, camera.axes, side as u32, near)?;
+        let layout = Layout::of(self);
+        let size = layout.size(self.size);
+        let sets = rig.sets(size, |place| {
+            let direction = match layout {
+                Layout::Plain => self.look(place),
+                Layout::Around => self.look(place - DVec2::X),
+                Layout::Faces { side } => {
+                    let pitch = f64::from(side + 2);
+                    let index = (place.x / pitch).floor();
+                    let local = DVec2::new(place.x - index * pitch, place.y) - DVec2::ONE;
+                    let face = FACES.get(index as usize);
+                    face.map(|face| face.toward(local / f64::from(side)))
+                }
+            };
+            direction.map(|direction| camera.axes * direction)
+        })?;
+        let rig = rig
+            .pinholes()
+            .iter()
+            .zip(sets)
+            .filter_map(|(pinhole, set)| Some((*pinhole, set?.locations())))
+            .collect();
+        Ok(PanoramaLocations {
+            panorama: *self,
+            layout,
+            size,
+            rig,
+        })
+    }
+
+    /// Radians per pixel at the middle of the image; for a cubemap in the middle of a face.
+    fn radians_per_pixel(&self) -> f64 {
+        let [width, height] = self.size.map(f64::from);
+        let fov = self.fov.to_radians();
+        match self.projection {
+            PanoramaProjection::Equirectangular | PanoramaProjection::Cylindrical => fov / width,
+            PanoramaProjection::Fisheye => fov / width.min(height),
+            PanoramaProjection::Cubemap => 8.0 / width,
+        }
+    }
+}
+
+/// Arrangement of sampled cells. It has a border of a pixel wherever the panorama goes on at another place of the
+/// image: so every pixel has its neighbours, and seams are antialiased like everything else.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Layout {
+    /// Cells as the image has its pixels.
+    Plain,
+    /// Columns of the image, with the last one again before the first, and the first one again after the last.
+    Around,
+    /// Faces side by side, of `side` pixels each way, each with a border.
+    Faces { side: u32 },
+}
+
+impl Layout {
+    fn of(panorama: &Panorama) -> Self {
+        match panorama.projection {
+            PanoramaProjection::Cubemap => Self::Faces {
+                side: panorama.size[0] / 4,
+            },
+            PanoramaProjection::Equirectangular | PanoramaProjection::Cylindrical
+                if panorama.fov == 360.0 =>
+            {
+                Self::Around
+            }
+            _ => Self::Plain,
+        }
+    }
+
+    fn size(self, [width, height]: [u32; 2]) -> [u32; 2] {
+        match self {
+            Self::Plain => [width, height],
+            Self::Around => [width + 2, height],
+            Self::Faces { side } => [6 * (side + 2), side + 2],
+        }
+    }
+
+    /// Sampled column and row of a pixel of the image.
+    fn sampled(self, col: u32, row: u32) -> Option<(u32, u32)> {
+        match self {
+            Self::Plain => Some((col, row)),
+            Self::Around => Some((col + 1, row)),
+            Self::Faces { side } => {
+                let cross = [col / side, row / side];
+                let index = FACES.iter().position(|face| face.cross == cross)? as u32;
+                Some((index * (side + 2) + col % side + 1, row % side + 1))
+            }
+        }
+    }
+}
+
+/// Locations of a panorama.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PanoramaLocations {
+    panorama: Panorama,
+    layout: Layout,
+    size: [u32; 2],
+    rig: Vec<(Pinhole, Vec<SampleLocation>)>,
+}
+
+impl PanoramaLocations {
+    /// Columns and rows that are sampled. There are more than the image has, and for a cubemap in another order, so
+    /// that every pixel has its neighbours beside it. [`PanoramaLocations::crop`] makes the image.
+    #[must_use]
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// Pinholes, and the locations that are sampled on each.
+    #[must_use]
+    pub fn rig(&self) -> &[(Pinhole, Vec<SampleLocation>)] {
+        &self.rig
+    }
+
+    /// Crops what was sampled to the image, row by row; `empty` fills pixels in which the image is empty.
+    #[must_use]
+    pub fn crop<T: Copy>(&self, sampled: &[T], empty: T) -> Vec<T> {
+        let [width, height] = self.panorama.size;
+        let places = (0..height).flat_map(|row| (0..width).map(move |col| (col, row)));
+        let value = |(col, row)| {
+            let (col, row) = self.layout.sampled(col, row)?;
+            sampled.get(row as usize * self.size[0] as usize + col as usize)
+        };
+        places
+            .map(|place| value(place).copied().unwrap_or(empty))
+            .collect()
+    }
+}

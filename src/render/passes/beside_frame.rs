@@ -1,0 +1,63 @@
+//! Kernels of 64 invocations that bind a set of their own beside the frame's.
+
+use crate::passes::own_layout::{OwnSet, PipelineLayout, SetLayout};
+use crate::passes::{FrameLayout, SampleSet};
+use crate::vulkan::{Binding, Compiled, Pipeline, Recorder, VulkanError};
+use ash::vk;
+use std::marker::PhantomData;
+use std::sync::Arc;
+
+/// A set of storage buffers, and the layouts of kernels that bind it as set 1; `C` is what is pushed.
+pub(super) struct BesideFrame<C> {
+    layout: PipelineLayout,
+    set: OwnSet,
+    _set_layout: SetLayout,
+    pushed: PhantomData<C>,
+}
+
+impl<C: bytemuck::NoUninit> BesideFrame<C> {
+    /// Makes the layouts, and a set of these bindings that shows buffers.
+    ///
+    /// # Errors
+    /// If the driver refuses one.
+    ///
+    /// # Safety
+    /// The buffers outlive the set's use.
+    pub unsafe fn new(
+        layout: &FrameLayout,
+        bindings: &'static [Binding],
+        buffers: &[(Binding, vk::DescriptorBufferInfo)],
+    ) -> Result<Self, VulkanError> {
+        let gpu = &layout.gpu;
+        let set_layout = SetLayout::new(gpu, bindings)?;
+        let sets = [layout.frame_set, set_layout.raw];
+        let own_layout = PipelineLayout::new(gpu, &sets, size_of::<C>() as u32)?;
+        let set = set_layout.allocate()?;
+        // SAFETY: the set is new; of the buffers as the caller says.
+        unsafe { set.write_buffers(buffers) };
+        Ok(Self {
+            layout: own_layout,
+            set,
+            _set_layout: set_layout,
+            pushed: PhantomData,
+        })
+    }
+
+    /// The pipeline of a shader.
+    ///
+    /// # Errors
+    /// If the driver refuses it.
+    pub fn pipeline<S: Compiled>(
+        &self,
+        layout: &FrameLayout,
+        shader: &S,
+    ) -> Result<Arc<Pipeline>, VulkanError> {
+        self.layout.compute(layout, shader)
+    }
+
+    /// Binds a frame's set and this one; afterwards the former is no longer bound as other passes bind it.
+    pub fn bind(&self, recorder: &Recorder<'_>, frame: &SampleSet, pushed: &C) {
+        let sets = [frame.descriptor(), self.set.raw];
+        self.layout.bind(recorder, &sets, pushed);
+    }
+}

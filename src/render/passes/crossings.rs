@@ -1,0 +1,82 @@
+//! crossings: cells of a list that a thin triangle crosses unseen.
+
+use super::beside_frame::BesideFrame;
+use crate::passes::arguments::{After, Arguments};
+use crate::passes::own_layout::whole;
+use crate::passes::spirv::{self, crossings_set};
+use crate::passes::{Argument, Content, FrameLayout, Resources, SampleSet};
+use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
+use std::sync::Arc;
+
+/// What a location sees and what it is of, as `shaders/crossings.comp` describes it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct SeenLocation {
+    /// Distance along the view direction in world units; 0 for background.
+    pub distance: f32,
+    /// ID of the nearest opaque or MASK triangle; 0 is background.
+    pub id: u32,
+    /// ID of the nearest BLEND triangle in front of it; 0 where there is none.
+    pub blend_id: u32,
+    /// Its cell of the output, row by row.
+    pub output: u32,
+}
+
+/// The output whose cells are marked: its size in tiles of 8 x 4 cells, its width in cells, and the width of a `pixel` of the plane in
+/// world units, at a distance of 1 or, where rays are parallel, at any.
+pub use crate::passes::spirv::CrossingsPush as MarkedOutput;
+
+/// Marks cells for `detect`.
+pub struct Crossings {
+    arguments: Arguments,
+    pipeline: Arc<Pipeline>,
+    beside: BesideFrame<MarkedOutput>,
+}
+
+impl Crossings {
+    /// Makes the pipelines for lists of a scene's locations, which see what `seen` has of each, a [`SeenLocation`], and mark cells in
+    /// `marks`: two words a tile of the output.
+    ///
+    /// # Errors
+    /// If the driver refuses one.
+    ///
+    /// # Safety
+    /// Both buffers outlive the execution of what is recorded, and have room for what `record` is told of.
+    pub unsafe fn new(
+        layout: &FrameLayout,
+        scene: &dyn Content,
+        resources: &Resources,
+        (seen, marks): (&Buffer, &Buffer),
+    ) -> Result<Self, VulkanError> {
+        let shown = [
+            (crossings_set::LOADS, whole(&resources.locations.loads)),
+            (crossings_set::SEEN, whole(seen)),
+            (crossings_set::CELL_MARKS, whole(marks)),
+        ];
+        // SAFETY: passed on to the caller; the first buffer goes with the resources.
+        let beside = unsafe { BesideFrame::new(layout, &crossings_set::ALL, &shown) }?;
+        let shader = spirv::Crossings {
+            blend_ids: scene.has_blend(),
+            occluders: false,
+            instanced: scene.is_instanced(),
+        };
+        Ok(Self {
+            arguments: Arguments::new(layout, After::Pairs)?,
+            pipeline: beside.pipeline(layout, &shader)?,
+            beside,
+        })
+    }
+
+    /// Records it after `bin`; afterwards the frame's set is no longer bound as other passes bind it.
+    pub fn record(
+        &self,
+        recorder: &Recorder<'_>,
+        (resources, set): (&Resources, &SampleSet),
+        output: &MarkedOutput,
+    ) {
+        self.arguments.record(recorder);
+        self.beside.bind(recorder, set, output);
+        let arguments = &resources.arguments;
+        recorder.dispatch_indirect(&self.pipeline, arguments, Argument::Thin as u32);
+    }
+}

@@ -1,0 +1,304 @@
+//! Triangles on the device: each mesh once, and the instances that draw it.
+//!
+//! A triangle's ID, less 1, is its index. Where nothing is instanced the index is that of the triangle's record. Otherwise
+//! instances own ranges of indices that start at multiples of 64, so that one look-up, of the index over 64, leads to the
+//! instance: `shaders/include/triangle.glsl` has the functions with which every pass reads triangles, and a
+//! specialisation constant leaves the look-up out for scenes without instances.
+//!
+//! What a camera makes of it belongs to a frame ([`FrameGeometry`]), so that several may be in flight.
+
+mod frame;
+mod moving;
+mod placed;
+
+pub use frame::FrameGeometry;
+pub(super) use moving::{GpuMotion, GpuStrokes, MovingVertices};
+pub(super) use placed::PlacedInstances;
+
+use crate::passes::upload::Uploader;
+use crate::scene::{AlphaMode, DrawClass, Geometry, Instance, Motion, Scene};
+use crate::vulkan::{BufferView, VulkanError};
+use ash::vk;
+use glam::{DAffine3, DVec3};
+use std::borrow::Cow;
+use std::collections::HashMap;
+
+/// Indices that share an instance.
+const BLOCK: u32 = Instance::ALIGNMENT;
+
+/// Neighbouring triangles of one class and one place, drawn at once.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Run {
+    pub(super) class: DrawClass,
+    pub(super) first_index: u32,
+    pub(super) triangle_count: u32,
+    /// Index of their place.
+    pub(super) place: u32,
+}
+
+/// Where some triangles are drawn.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    /// What leads from an index to a record, modulo 2^32; the first index that is not theirs; flags.
+    words: [u32; 4],
+    transform: DAffine3,
+    /// Lowest and highest corner of the box around their vertices, before the transform.
+    bounds: [DVec3; 2],
+}
+
+/// Set where a place mirrors its triangles.
+const MIRRORED: u32 = 1;
+
+impl Place {
+    fn of(instance: &Instance, bounds: [DVec3; 2]) -> Self {
+        let offset = instance.first_triangle.wrapping_sub(instance.first_index);
+        let end = instance.first_index + instance.triangle_count;
+        let flags = if instance.mirrored() { MIRRORED } else { 0 };
+        Self {
+            words: [offset, end, flags, 0],
+            transform: instance.transform,
+            bounds,
+        }
+    }
+}
+
+/// A scene's triangles on the device.
+pub(super) struct GpuGeometry {
+    pub(super) positions: BufferView,
+    /// Corners, and a word of material, bin and flags.
+    pub(super) triangles: BufferView,
+    pub(super) normals: BufferView,
+    pub(super) tangents: BufferView,
+    pub(super) uvs: BufferView,
+    pub(super) colors: BufferView,
+    /// The place of each block of indices.
+    pub(super) blocks: BufferView,
+    pub(super) runs: Vec<Run>,
+    places: Vec<Place>,
+    /// What moves of it.
+    pub(super) motion: Option<GpuMotion>,
+    /// Its points and lines.
+    pub(super) strokes: Option<GpuStrokes>,
+    pub(super) has_tangents: bool,
+    pub(super) is_instanced: bool,
+    /// Triangles that are drawn.
+    pub(super) triangle_count: u64,
+    /// Indices, of which some may stand for no triangle.
+    pub(super) index_count: u32,
+    pub(super) origin: DVec3,
+}
+
+/// A stream or, where it is empty, `count` vectors of one value.
+fn or_filled(stream: &[[f32; 4]], value: f32, count: usize) -> Cow<'_, [[f32; 4]]> {
+    if stream.is_empty() {
+        Cow::Owned(vec![[value; 4]; count])
+    } else {
+        Cow::Borrowed(stream)
+    }
+}
+
+impl GpuGeometry {
+    /// Allocates and fills buffers for a scene's geometry, whose triangles have these records.
+    pub(super) fn new(
+        uploader: &mut Uploader<'_>,
+        scene: &Scene,
+        (geometry, motion): (&Geometry, Option<&Motion>),
+        records: &[[u32; 4]],
+    ) -> Result<Self, VulkanError> {
+        // The alpha test reads both streams whether or not the scene has them.
+        let has_mask = scene
+            .materials
+            .iter()
+            .any(|m| matches!(m.alpha_mode, AlphaMode::Mask { .. }));
+        let filled = if has_mask {
+            geometry.positions.len()
+        } else {
+            0
+        };
+        let colors = or_filled(&geometry.streams.colors, 1.0, filled);
+        let uvs = or_filled(&geometry.streams.uvs, 0.0, filled);
+        let positions = geometry.positions.iter();
+        let positions: Vec<_> = positions.map(|&[x, y, z]| [x, y, z, 1.0]).collect();
+        let float4 = vk::Format::R32G32B32A32_SFLOAT;
+        let uint4 = vk::Format::R32G32B32A32_UINT;
+        let index_count = geometry
+            .instances
+            .last()
+            .map_or(records.len() as u32, |last| {
+                last.first_index + last.triangle_count
+            });
+        Ok(Self {
+            positions: uploader.texels("positions", float4, &positions)?,
+            triangles: uploader.texels("triangles", uint4, records)?,
+            normals: uploader.texels("normals", float4, &normals_and_scales(geometry))?,
+            tangents: uploader.texels("tangents", float4, &geometry.streams.tangents)?,
+            uvs: uploader.texels("texture coordinates", float4, &uvs)?,
+            colors: uploader.texels("vertex colours", float4, &colors)?,
+            blocks: uploader.texels(
+                "instances of blocks",
+                vk::Format::R32_UINT,
+                &blocks(geometry),
+            )?,
+            runs: runs(geometry),
+            places: places(geometry, motion.is_some()),
+            strokes: geometry
+                .has_strokes()
+                .then(|| GpuStrokes::new(uploader, &geometry.strokes, &geometry.edges))
+                .transpose()?,
+            motion: motion
+                .map(|motion| GpuMotion::new(uploader, motion))
+                .transpose()?,
+            has_tangents: !geometry.streams.tangents.is_empty(),
+            is_instanced: !geometry.instances.is_empty(),
+            triangle_count: geometry.triangle_count(),
+            index_count,
+            origin: geometry.origin,
+        })
+    }
+
+    /// Whether a motion moves vertices.
+    pub(super) fn is_posed(&self) -> bool {
+        let motion = self.motion.as_ref();
+        motion.is_some_and(|motion| !motion.parts.is_empty())
+    }
+
+    /// Whether vertices move, in the world or, points and lines, with the camera.
+    fn vertices_move(&self) -> bool {
+        self.is_posed() || self.strokes.is_some()
+    }
+
+    /// Index of the first triangle of a class or a later one; the number of indices where there is none.
+    pub(super) fn first_of(&self, class: DrawClass) -> u32 {
+        self.runs
+            .iter()
+            .find(|run| run.class >= class)
+            .map_or(self.index_count, |run| run.first_index)
+    }
+}
+
+/// Normals and, as fourth numbers, scales.
+fn normals_and_scales(geometry: &Geometry) -> Vec<[f32; 4]> {
+    let streams = &geometry.streams;
+    let scales = streams.scales.iter().copied().chain(std::iter::repeat(1.0));
+    let pairs = streams.normals.iter().zip(scales);
+    pairs.map(|(&[x, y, z], scale)| [x, y, z, scale]).collect()
+}
+
+/// The place of each block.
+fn blocks(geometry: &Geometry) -> Vec<u32> {
+    let mut blocks = Vec::new();
+    for (place, instance) in (0..).zip(&geometry.instances) {
+        let end = instance.first_index + instance.triangle_count;
+        blocks.resize(end.div_ceil(BLOCK) as usize, place);
+    }
+    blocks
+}
+
+/// All places; the world alone where nothing is instanced. Of what moves there, or has a size in pixels, the box is not known.
+fn places(geometry: &Geometry, moves: bool) -> Vec<Place> {
+    let everywhere = [DVec3::NEG_INFINITY, DVec3::INFINITY];
+    if geometry.instances.is_empty() {
+        return vec![Place {
+            words: [0, geometry.triangles.len() as u32, 0, 0],
+            transform: DAffine3::IDENTITY,
+            bounds: everywhere,
+        }];
+    }
+    // Instances of a mesh share its box.
+    let mut boxes: HashMap<(u32, u32), [DVec3; 2]> = HashMap::new();
+    let changes = moves || geometry.has_strokes();
+    let place = |instance: &Instance| {
+        if changes && instance.transform == DAffine3::IDENTITY {
+            return Place::of(instance, everywhere);
+        }
+        let bounds = boxes
+            .entry((instance.first_triangle, instance.triangle_count))
+            .or_insert_with(|| geometry.own_box(instance).unwrap_or(everywhere));
+        Place::of(instance, *bounds)
+    };
+    geometry.instances.iter().map(place).collect()
+}
+
+/// What is drawn at once.
+fn runs(geometry: &Geometry) -> Vec<Run> {
+    let mut runs: Vec<Run> = Vec::new();
+    if geometry.instances.is_empty() {
+        for draw in &geometry.draws {
+            match runs.last_mut() {
+                Some(run) if run.class == draw.class => run.triangle_count += draw.triangle_count,
+                _ => runs.push(Run {
+                    class: draw.class,
+                    first_index: draw.first_triangle,
+                    triangle_count: draw.triangle_count,
+                    place: 0,
+                }),
+            }
+        }
+        return runs;
+    }
+    for (place, instance) in (0..).zip(&geometry.instances) {
+        let after = geometry
+            .draws
+            .partition_point(|draw| draw.first_triangle <= instance.first_triangle);
+        if let Some(draw) = geometry.draws.get(after.wrapping_sub(1)) {
+            runs.push(Run {
+                class: draw.class,
+                first_index: instance.first_index,
+                triangle_count: instance.triangle_count,
+                place,
+            });
+        }
+    }
+    runs
+}
+
+/// Whether a class shows back faces.
+pub(super) fn double_sided(class: DrawClass) -> bool {
+    matches!(
+        class,
+        DrawClass::OpaqueDoubleSided | DrawClass::MaskDoubleSided | DrawClass::BlendDoubleSided
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Stroke, StrokePart};
+
+    #[test]
+    fn boxes_are_known_of_what_keeps_its_place_alone() {
+        let instance = |first_triangle, first_index, transform| Instance {
+            first_triangle,
+            triangle_count: 1,
+            first_index,
+            transform,
+        };
+        let mut geometry = Geometry {
+            positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+            triangles: vec![[0, 1, 2]; 2],
+            instances: vec![
+                instance(0, 0, DAffine3::IDENTITY),
+                instance(1, 64, DAffine3::from_translation(DVec3::X)),
+            ],
+            ..Geometry::default()
+        };
+        let known = |geometry: &Geometry, moves: bool| -> Vec<bool> {
+            let places = places(geometry, moves);
+            let corners = places.iter().map(|place| place.bounds);
+            corners
+                .map(|[low, high]| low.is_finite() && high.is_finite())
+                .collect()
+        };
+        assert_eq!(known(&geometry, false), [true, true]);
+        assert_eq!(known(&geometry, true), [false, true]);
+        geometry.strokes.push(Stroke {
+            part: StrokePart::Left,
+            vertex: 2,
+            at: 0,
+            other: 1,
+            beyond: 0,
+            faces_camera: true,
+        });
+        assert_eq!(known(&geometry, false), [false, true]);
+    }
+}

@@ -1,0 +1,31 @@
+//! neighbours: cells of an output that contrast with a superpixel beside them.
+
+use crate::passes::{ColorConstants, FrameLayout, spirv};
+use crate::vulkan::{Pipeline, Recorder, VulkanError};
+use std::sync::Arc;
+
+/// Marks cells for [`Grow`](crate::passes::Grow), where superpixels are locations of lists.
+pub struct Neighbours {
+    pipeline: Arc<Pipeline>,
+}
+
+impl Neighbours {
+    /// Makes the pipeline; `output` says how colours of the image are made.
+    ///
+    /// # Errors
+    /// If the driver refuses it.
+    pub fn new(layout: &FrameLayout, output: &ColorConstants) -> Result<Self, VulkanError> {
+        let shader = spirv::Neighbours {
+            tonemap: output.tonemap,
+            tonemap_codes: output.tonemap_codes,
+        };
+        Ok(Self {
+            pipeline: layout.compute(&shader, None)?,
+        })
+    }
+
+    /// Records it for an output of so many cells.
+    pub fn record(&self, recorder: &Recorder<'_>, cells: u32) {
+        recorder.dispatch(&self.pipeline, u64::from(cells.div_ceil(64)));
+    }
+}

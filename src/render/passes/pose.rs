@@ -1,0 +1,71 @@
+//! pose: vertices that move, at a moment.
+
+use super::{FrameGeometry, GpuScene};
+use crate::passes::{FrameLayout, spirv};
+use crate::scene::Moment;
+use crate::vulkan::{Pipeline, Recorder, VulkanError};
+use std::sync::Arc;
+
+/// As in `shaders/pose.comp`.
+const FLAT: u32 = 1;
+const INSIDE_OUT: u32 = 2;
+const TANGENTS: u32 = 4;
+
+/// Morphs, skins and places meshes.
+pub struct Pose {
+    layout: Arc<FrameLayout>,
+    pipeline: Arc<Pipeline>,
+}
+
+impl Pose {
+    /// Makes the pipeline.
+    ///
+    /// # Errors
+    /// If the driver refuses it.
+    pub fn new(layout: &Arc<FrameLayout>) -> Result<Self, VulkanError> {
+        Ok(Self {
+            layout: layout.clone(),
+            pipeline: layout.compute(&spirv::Pose, None)?,
+        })
+    }
+
+    /// Records it for a moment that the frame's memory holds.
+    pub fn record(
+        &self,
+        recorder: &Recorder<'_>,
+        scene: &GpuScene,
+        geometry: &FrameGeometry,
+        moment: &Moment,
+    ) {
+        let (Some(motion), Some(_)) = (&scene.geometry.motion, &geometry.moving) else {
+            return;
+        };
+        let tangents = if scene.geometry.has_tangents {
+            TANGENTS
+        } else {
+            0
+        };
+        for (part, at) in motion.parts.iter().zip(&moment.parts) {
+            let flag = |bit: u32, set: bool| if set { bit } else { 0 };
+            let flags = flag(FLAT, part.is_flat) | flag(INSIDE_OUT, part.mirrored) | tangents;
+            let push = spirv::PosePush {
+                count: part.vertex_count,
+                first_vertex: part.first_vertex,
+                first_resting: part.first_resting,
+                first_influence: part.first_influence,
+                sets: part.sets,
+                first_displacement: part.first_displacement,
+                displacement_vectors: part.displacement_vectors,
+                first_matrix: at.first_matrix,
+                first_weight: at.first_weight,
+                weight_count: at.weight_count,
+                flags,
+            };
+            recorder.push(self.layout.pipeline, &push);
+            let groups = u64::from(part.vertex_count.div_ceil(64));
+            // Parts have vertices of their own.
+            recorder.dispatch_unordered(&self.pipeline, groups);
+        }
+        recorder.barrier();
+    }
+}

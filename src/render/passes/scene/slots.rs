@@ -1,0 +1,63 @@
+//! Where shaders find a material's textures: what is read alike is read once.
+
+pub(super) use crate::passes::layout::SLOTS;
+use crate::scene::{Material, Scene, TextureRole, TextureUse};
+use crate::vulkan::VulkanError;
+
+/// The slot of each role, by its number.
+pub(in crate::render::passes) type RoleSlots = [Option<u8>; TextureRole::COUNT];
+
+/// The slots of a material. The base colour comes first.
+#[derive(Clone)]
+pub(super) struct Slots {
+    pub(super) of_role: RoleSlots,
+    /// What each slot reads, and whether it is in sRGB.
+    pub(super) uses: Vec<(TextureUse, bool)>,
+    is_animated: bool,
+}
+
+impl Slots {
+    /// An unlit material has a slot for its base colour alone. Textures that the scene does not have get none.
+    pub(super) fn of(scene: &Scene, material: &Material) -> Result<Self, VulkanError> {
+        let mut slots = Self {
+            of_role: [None; TextureRole::COUNT],
+            uses: Vec::new(),
+            is_animated: material.animated,
+        };
+        let wanted = |role| role == TextureRole::BaseColor || !material.unlit;
+        let exists = |used: &TextureUse| {
+            let texture = scene.textures.get(used.texture as usize);
+            texture.is_some_and(|texture| (texture.image as usize) < scene.images.len())
+        };
+        for (role, used) in material.textures() {
+            if !wanted(role) || !exists(&used) {
+                continue;
+            }
+            let read = (used, role.is_srgb());
+            // What is alike now may not stay so.
+            let shared = slots.uses.iter().position(|known| *known == read);
+            let slot = shared.filter(|_| !material.animated);
+            slots.of_role[role as usize] = Some(slot.unwrap_or(slots.uses.len()) as u8);
+            if slot.is_none() {
+                slots.uses.push(read);
+            }
+        }
+        VulkanError::check_limit(
+            "a material",
+            slots.uses.len() as u64,
+            "textures",
+            SLOTS as u64,
+        )?;
+        Ok(slots)
+    }
+
+    /// Whether all textures are read at the same coordinates.
+    pub(super) fn one_uv_transform(&self) -> bool {
+        let mut places = self
+            .uses
+            .iter()
+            .map(|(used, _)| (used.uv_set, used.transform));
+        let first = places.next();
+        places.all(|place| Some(place) == first && !self.is_animated)
+    }
+}

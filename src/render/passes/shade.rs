@@ -1,0 +1,125 @@
+//! shade: the radiance of what is seen, one dispatch a material bin.
+
+use super::GpuScene;
+use super::scene::ShadeFeatures;
+use crate::passes::{Argument, Cells, ColorConstants, Content, FrameLayout, spirv};
+use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
+use ash::vk;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// What is shaded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ShadeSource {
+    /// The centre of every pixel of a region, into its colours.
+    Pixels {
+        /// Write display codes for detection.
+        display_codes: bool,
+    },
+    /// Visibility samples.
+    Records {
+        /// Of such cells.
+        cells: Cells,
+    },
+}
+
+/// Shades each bin with a pipeline that has only what its materials and the scene's lights need.
+pub struct Shade {
+    layout: Arc<FrameLayout>,
+    source: ShadeSource,
+    pipelines: Vec<Arc<Pipeline>>,
+    /// Pipeline of each bin.
+    bins: Vec<usize>,
+}
+
+impl Shade {
+    /// Makes a pipeline for each set of features in the scene; places have so many words of shadows, and `output` are the colour
+    /// constants of `shaders/include/color.glsl`.
+    ///
+    /// # Errors
+    /// If the driver refuses one.
+    pub fn new(
+        layout: &Arc<FrameLayout>,
+        scene: &GpuScene,
+        (source, shadow_words): (ShadeSource, u32),
+        output: &ColorConstants,
+    ) -> Result<Self, VulkanError> {
+        let lights = scene.light_features();
+        let (pixels, cells) = match source {
+            ShadeSource::Pixels { .. } => (true, Cells::Pixels),
+            ShadeSource::Records { cells } => (false, cells),
+        };
+        let display_codes = source
+            == ShadeSource::Pixels {
+                display_codes: true,
+            };
+        let common = spirv::Shade {
+            pixels,
+            one_bin: scene.bins.len() <= 1,
+            display_codes,
+            punctual: lights.count > 0,
+            local_lights: lights.local,
+            blended: !pixels && scene.has_blend(),
+            box_filter: output.box_filter,
+            tinted: output.tinted,
+            environment: scene.has_environment(),
+            locations: cells.are_locations(),
+            occluders: cells.are_occluders(),
+            instanced: scene.is_instanced(),
+            shadow_words,
+            tonemap: output.tonemap,
+            tonemap_codes: output.tonemap_codes,
+            ..spirv::Shade::default()
+        };
+        let mut known: HashMap<ShadeFeatures, usize> = HashMap::new();
+        let mut pipelines = Vec::new();
+        let mut bins = Vec::new();
+        for bin in &scene.bins {
+            let features = bin.features;
+            if let Some(index) = known.get(&features) {
+                bins.push(*index);
+                continue;
+            }
+            pipelines.push(layout.compute(&features.shader(common), None)?);
+            known.insert(features, pipelines.len() - 1);
+            bins.push(pipelines.len() - 1);
+        }
+        Ok(Self {
+            layout: layout.clone(),
+            source,
+            pipelines,
+            bins,
+        })
+    }
+
+    /// Records it, over the spans of a region or the records of the round.
+    pub fn record(&self, recorder: &Recorder<'_>, scene: &GpuScene, arguments: &Buffer) {
+        for (bin, (material_bin, pipeline)) in scene.bins.iter().zip(&self.bins).enumerate() {
+            let Some(pipeline) = self.pipelines.get(*pipeline) else {
+                continue;
+            };
+            // SAFETY: the recorder's contract; the set matches the pipelines' layout.
+            unsafe {
+                recorder.device().cmd_bind_descriptor_sets(
+                    recorder.bindings(),
+                    vk::PipelineBindPoint::COMPUTE,
+                    self.layout.pipeline,
+                    1,
+                    &[material_bin.textures],
+                    &[],
+                );
+            }
+            recorder.push(self.layout.pipeline, &spirv::ShadePush { bin: bin as u32 });
+            let every_record =
+                matches!(self.source, ShadeSource::Records { .. }) && self.bins.len() == 1;
+            let argument = if every_record {
+                Argument::Sort as u32
+            } else {
+                Argument::Shade as u32 + bin as u32
+            };
+            // Bins write different places.
+            recorder.dispatch_indirect_unordered(pipeline, arguments, argument);
+        }
+        recorder.barrier();
+    }
+}

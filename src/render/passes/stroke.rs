@@ -1,0 +1,123 @@
+//! stroke: points and lines, for a camera.
+
+use super::{FrameGeometry, GpuScene};
+use crate::passes::{FrameLayout, spirv};
+use crate::scene::Edge;
+use crate::vulkan::{Pipeline, Recorder, VulkanError};
+use glam::{DMat4, DVec3, Vec4Swizzles};
+use std::sync::Arc;
+
+/// Least distance of edges from the surfaces that they border, towards the camera, in output pixels: enough for what is
+/// thinner than a pixel to be looked for.
+const APART: f32 = 2.0;
+
+/// Gives points and lines their size.
+pub struct Stroke {
+    layout: Arc<FrameLayout>,
+    pipeline: Arc<Pipeline>,
+}
+
+/// How large points and lines are, in output pixels.
+#[derive(Clone, Copy, Debug)]
+pub struct StrokeSizes {
+    /// Width of lines.
+    pub line_width: f32,
+    /// Diameter of points.
+    pub point_size: f32,
+    /// Width of edges of meshes.
+    pub edge_width: f32,
+    /// Pixels of the image that is rendered along an output pixel's side.
+    pub side: u32,
+}
+
+impl Stroke {
+    /// Makes the pipeline.
+    ///
+    /// # Errors
+    /// If the driver refuses it.
+    pub fn new(layout: &Arc<FrameLayout>) -> Result<Self, VulkanError> {
+        Ok(Self {
+            layout: layout.clone(),
+            pipeline: layout.compute(&spirv::Stroke, None)?,
+        })
+    }
+
+    /// Records it for a camera, whose matrix leads from the space of the scene's geometry to pixel-scaled clip space.
+    pub fn record(
+        &self,
+        recorder: &Recorder<'_>,
+        scene: &GpuScene,
+        geometry: &FrameGeometry,
+        to_clip: &DMat4,
+        sizes: StrokeSizes,
+    ) {
+        let (Some(strokes), Some(_)) = (&scene.geometry.strokes, &geometry.moving) else {
+            return;
+        };
+        let [right, down] = pixel_steps(to_clip);
+        let side = sizes.side as f32;
+        let half = |size: f32| 0.5 * side * size;
+        let vector = |step: DVec3, size: f32| {
+            let [x, y, z] = step.as_vec3().to_array();
+            [x, y, z, half(size)]
+        };
+        let push = spirv::StrokePush {
+            right: vector(right, sizes.line_width),
+            down: vector(down, sizes.point_size),
+            corners: strokes.corner_count,
+            half_edge: half(sizes.edge_width),
+            apart: APART * side,
+            edges: strokes.edge_count,
+        };
+        recorder.push(self.layout.pipeline, &push);
+        let corners = u64::from(strokes.corner_count)
+            + u64::from(Edge::CORNERS) * u64::from(strokes.edge_count);
+        recorder.dispatch(&self.pipeline, corners.div_ceil(64));
+    }
+}
+
+/// What leads one pixel to the right and one down in the image, in the plane parallel to it where w is 1.
+fn pixel_steps(to_clip: &DMat4) -> [DVec3; 2] {
+    let rows = to_clip.transpose();
+    let [x, y, z, w] = [rows.x_axis, rows.y_axis, rows.z_axis, rows.w_axis].map(|row| row.xyz());
+    // Planes parallel to the image are those of one w, or else of one depth.
+    let across = if w == DVec3::ZERO { z } else { w };
+    let (right, down) = (y.cross(across), across.cross(x));
+    [right / right.dot(x), down / down.dot(y)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::{Camera, Projection};
+    use glam::DVec2;
+
+    #[test]
+    fn steps_are_pixels_at_any_distance() {
+        let mut camera =
+            Camera::look_at(DVec3::new(3.0, 2.0, 5.0), DVec3::ZERO, DVec3::Y, 50.0, 0.1).unwrap();
+        let origin = DVec3::new(1.0, -2.0, 0.5);
+        for orthographic in [false, true] {
+            if orthographic {
+                camera.projection = Projection::Orthographic {
+                    half_height: 2.0,
+                    near: 0.5,
+                    far: 10.0,
+                };
+            }
+            camera.shift = DVec2::new(0.1, -0.2);
+            let to_clip = camera.pixel_matrix(origin, 300.0, 200.0);
+            let steps = pixel_steps(&to_clip);
+            for p in [DVec3::new(0.3, 0.2, 0.1), DVec3::new(-2.0, 1.0, -3.0)] {
+                let project = |p: DVec3| to_clip * p.extend(1.0);
+                let clip = project(p);
+                for (step, expected) in steps.into_iter().zip([DVec2::X, DVec2::Y]) {
+                    let moved = project(p + step * clip.w);
+                    let apart = moved.xy() / moved.w - clip.xy() / clip.w;
+                    assert!((apart - expected).length() < 1e-9, "{apart}");
+                    assert!((moved.zw() - clip.zw()).length() < 1e-9);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! The scene: what a file holds, and its triangles in the pose of one moment.
+//!
+//! Nothing here knows of Vulkan. [`Scene::load`] reads a file; [`Scene::pose`] makes one of its
+//! scenes [`Geometry`] that a renderer uploads: in world space, but for large meshes that are drawn often.
+//!
+//! ```no_run
+//! use gpc::scene::{PoseRequest, Scene};
+//!
+//! let loaded = Scene::load("ship.glb".as_ref())?;
+//! for warning in &loaded.warnings {
+//!     eprintln!("{warning}");
+//! }
+//! let pose = loaded.scene.pose(&PoseRequest::default())?;
+//! println!("{} triangles", pose.geometry.triangle_count());
+//! # Ok::<(), gpc::scene::SceneError>(())
+//! ```
+//!
+//! OBJ, STL and PLY files are read, too: their triangles, lines, points, normals and base colours. Those formats
+//! have no unit, no axis that is up and no light; what they have is taken as it is.
+//!
+//! Supported extensions: `KHR_animation_pointer` (into materials, lights and cameras, to the transforms, weights and
+//! visibility of nodes and the weights of meshes), `KHR_draco_mesh_compression` and `KHR_texture_basisu` (by the features
+//! `draco` and `basisu`, on by default), `KHR_meshopt_compression`, `KHR_lights_punctual`, `KHR_materials_emissive_strength`,
+//! `KHR_materials_anisotropy`, `KHR_materials_clearcoat`, `KHR_materials_diffuse_transmission`, `KHR_materials_ior`,
+//! `KHR_materials_iridescence`, `KHR_materials_pbrSpecularGlossiness`, `KHR_materials_sheen`, `KHR_materials_specular`,
+//! `KHR_materials_transmission` and `KHR_materials_volume` (a tinted layer, neither refracted nor blurred, with a warning),
+//! `KHR_materials_unlit`, `KHR_materials_variants`, `KHR_mesh_quantization`, `KHR_node_visibility`, `KHR_texture_transform`,
+//! `EXT_lights_image_based`, `EXT_mesh_gpu_instancing`, `EXT_meshopt_compression`, `EXT_texture_webp`. A file that requires
+//! another one is refused.
+
+mod document;
+mod edges;
+mod environment;
+mod error;
+mod geometry;
+mod info;
+mod light;
+mod lobes;
+mod material;
+mod pose;
+mod read;
+mod stroke;
+mod surface;
+mod view;
+
+use std::{path::Path, sync::Arc};
+
+pub use edges::Edges;
+pub use environment::{Environment, EnvironmentError};
+pub use error::SceneError;
+pub use geometry::{
+    Draw, DrawClass, Geometry, GeometryError, Instance, InstanceFault, VertexStreams,
+};
+pub use info::{AlphaModes, AnimationInfo, CameraInfo, ImageInfo, SceneInfo, SceneNames};
+pub use light::{Light, LightKind};
+pub use lobes::{
+    Anisotropy, Clearcoat, DiffuseTransmission, Iridescence, Lobes, Sheen, Specular,
+    SpecularGlossiness, Transmission,
+};
+pub use material::{
+    AlphaMode, Filter, Image, Material, Sampler, Texture, TextureRole, TextureTransform,
+    TextureUse, Wrap,
+};
+pub use pose::{Moment, Motion, Pose, PoseRequest};
+pub(crate) use pose::{MotionPart, MovingBounds};
+pub use stroke::{Edge, Stroke, StrokePart};
+pub use view::{SceneCamera, SceneProjection};
+
+/// A file's content, checked and decoded.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// Materials: the file's in its order, glTF's default material for primitives without one, and unlit copies for
+    /// points and lines without normals; never empty.
+    pub materials: Vec<Material>,
+    /// Textures that materials use.
+    pub textures: Vec<Texture>,
+    /// Images that textures use.
+    pub images: Vec<Image>,
+    /// Environment that replaces the file's own and the studio's: light from all around.
+    pub environment: Option<Arc<Environment>>,
+    document: document::Document,
+    /// Numbers that animations change.
+    descriptions: Arc<read::Descriptions>,
+}
+
+/// Scene and the warnings of loading it.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// Loaded scene.
+    pub scene: Scene,
+    /// Warnings. Each is one sentence that names the file and the place in it, and says what was left out or replaced,
+    /// and why.
+    pub warnings: Vec<String>,
+}
+
+impl Scene {
+    /// Reads a glTF, OBJ, STL or PLY file; the format is told by the content. Relative URIs start from the file's
+    /// folder.
+    ///
+    /// # Errors
+    /// If the file cannot be read, is none of these, is glTF other than 2.0, requires an extension that is not supported, or
+    /// if anything that has to be drawn is broken: see [`SceneError`].
+    pub fn load(path: &Path) -> Result<Loaded, SceneError> {
+        let file = path.display().to_string();
+        Self::from_slice(&read_file(path)?, &file, path.parent())
+    }
+
+    /// Reads a file as [`load`](Self::load) does, with the materials of the `variant` of that name
+    /// (`KHR_materials_variants`).
+    ///
+    /// # Errors
+    /// As [`load`](Self::load), and if the file has no such variant.
+    pub fn load_variant(path: &Path, variant: &str) -> Result<Loaded, SceneError> {
+        let file = path.display().to_string();
+        read::read(&read_file(path)?, &file, path.parent(), Some(variant))
+    }
+
+    /// Reads the bytes of a glTF, OBJ, STL or PLY file. `name` stands for the file in messages. Relative URIs start
+    /// from the folder `base`; without it they are errors where they are needed.
+    ///
+    /// # Errors
+    /// As [`load`](Self::load).
+    pub fn from_slice(bytes: &[u8], name: &str, base: Option<&Path>) -> Result<Loaded, SceneError> {
+        read::read(bytes, name, base, None)
+    }
+
+    /// Reads bytes as [`from_slice`](Self::from_slice) does, with the materials of the `variant` of that name
+    /// (`KHR_materials_variants`).
+    ///
+    /// # Errors
+    /// As [`load_variant`](Self::load_variant).
+    pub fn variant_from_slice(
+        bytes: &[u8],
+        name: &str,
+        base: Option<&Path>,
+        variant: &str,
+    ) -> Result<Loaded, SceneError> {
+        read::read(bytes, name, base, Some(variant))
+    }
+
+    /// Makes a scene without a file and without textures, for [`Geometry`] made by other means. glTF's default material
+    /// is appended.
+    #[must_use]
+    pub fn from_materials(mut materials: Vec<Material>) -> Self {
+        materials.push(Material::default());
+        Self {
+            materials,
+            textures: Vec::new(),
+            images: Vec::new(),
+            environment: None,
+            document: document::Document::default(),
+            descriptions: Arc::default(),
+        }
+    }
+
+    /// Adds lines along the edges of all meshes: creases, boundaries and, for each camera, silhouettes. They move as the
+    /// meshes do, but creases stay those of meshes at rest.
+    pub fn add_edges(&mut self, edges: &Edges) {
+        edges::add(self, edges);
+    }
+
+    /// Poses one scene at one moment: its triangles, lights and cameras.
+    ///
+    /// # Errors
+    /// If the file has no such scene or animation, or if repetition makes the scene too large.
+    pub fn pose(&self, request: &PoseRequest) -> Result<Pose, SceneError> {
+        pose::pose(self, request)
+    }
+
+    /// Poses a scene as [`pose`](Self::pose) does, and makes the [`Motion`] that shows other moments of its animation.
+    /// What moves is not drawn by instances.
+    ///
+    /// # Errors
+    /// As [`pose`](Self::pose).
+    pub fn pose_in_motion(&self, request: &PoseRequest) -> Result<(Pose, Motion), SceneError> {
+        pose::pose_in_motion(self, request)
+    }
+
+    /// Summarises the file.
+    #[must_use]
+    pub fn info(&self) -> SceneInfo {
+        info::summarize(self)
+    }
+}
+
+fn read_file(path: &Path) -> Result<Vec<u8>, SceneError> {
+    std::fs::read(path).map_err(|source| SceneError::Read {
+        file: path.display().to_string(),
+        source: Arc::new(source),
+    })
+}

@@ -1,0 +1,255 @@
+//! Placements: one primitive at one place, and the way of its vertices into the world.
+
+use std::sync::Arc;
+
+use glam::{DAffine3, DMat3, DVec3, Vec3};
+use gltf::json::Node;
+
+use super::{copies, hierarchy::State, motion::Moving, primitives_of};
+use crate::scene::{
+    document::{Document, Primitive, Target},
+    geometry::length_scale,
+};
+
+/// A primitive and its way into the world.
+#[derive(Clone, Debug)]
+pub struct Placement<'d> {
+    /// Index of the node, for messages.
+    pub node: usize,
+    pub primitive: &'d Primitive,
+    /// Morph targets that have an effect: weight, index, displacements.
+    pub targets: Arc<[(f64, usize, &'d Target)]>,
+    motion: Motion,
+    /// Whether the device moves the vertices.
+    pub moves: bool,
+    /// Whether the way into the world mirrors, so that the winding has to be mended.
+    pub mirrored: bool,
+}
+
+#[derive(Clone, Debug)]
+enum Motion {
+    Rigid(Frame),
+    /// Transform of every joint, from the space of the bound mesh to the world.
+    Skinned(Arc<[DAffine3]>),
+}
+
+/// Transform of one vertex.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame {
+    affine: DAffine3,
+    /// The inverse transpose up to a positive factor; exists also where the inverse does not.
+    normals: DMat3,
+    sign: f64,
+}
+
+impl Frame {
+    fn new(affine: DAffine3) -> Self {
+        let m = affine.matrix3;
+        let sign = 1.0_f64.copysign(m.determinant());
+        let cofactors = DMat3::from_cols(
+            m.y_axis.cross(m.z_axis),
+            m.z_axis.cross(m.x_axis),
+            m.x_axis.cross(m.y_axis),
+        );
+        Self {
+            affine,
+            normals: cofactors * sign,
+            sign,
+        }
+    }
+
+    /// Ratio by which lengths become longer.
+    pub fn scale(&self) -> f32 {
+        length_scale(&self.affine) as f32
+    }
+}
+
+impl<'d> Placement<'d> {
+    /// Placements of all primitives of a node, as often as it draws them.
+    pub fn of_node(
+        document: &'d Document,
+        index: usize,
+        node: &'d Node,
+        state: &State,
+        moving: &Moving,
+    ) -> Vec<Self> {
+        let primitives = primitives_of(document, node);
+        if primitives.is_empty() {
+            return Vec::new();
+        }
+        let animated = state.weights.get(index).cloned().flatten();
+        let weights = animated.unwrap_or_else(|| document.weights(index));
+        let targets: Vec<Arc<[_]>> = primitives
+            .iter()
+            .map(|primitive| {
+                let weighted = weights.iter().zip(primitive.targets.iter().enumerate());
+                weighted
+                    .filter(|(weight, _)| **weight != 0.0)
+                    .map(|(weight, (index, target))| (*weight, index, target))
+                    .collect()
+            })
+            .collect();
+        let world = state.world.get(index).copied().unwrap_or_default();
+        let skin = joint_matrices(document, node, state);
+
+        let mut placements = Vec::new();
+        for copy in 0..copies(document, index) {
+            let instance = document.nodes[index]
+                .instances
+                .as_ref()
+                .and_then(|i| i.get(copy));
+            let rigid = Frame::new(world * instance.copied().unwrap_or_default());
+            for (primitive, targets) in primitives.iter().zip(&targets) {
+                let (motion, mirrored) = match &skin {
+                    Some(joints) if !primitive.influences.is_empty() => {
+                        let mirrors = |joint: &DAffine3| joint.matrix3.determinant() < 0.0;
+                        (
+                            Motion::Skinned(Arc::clone(joints)),
+                            joints.iter().all(mirrors),
+                        )
+                    }
+                    _ => (Motion::Rigid(rigid), rigid.sign < 0.0),
+                };
+                placements.push(Self {
+                    moves: moving.has(document, index, node),
+                    node: index,
+                    primitive,
+                    targets: Arc::clone(targets),
+                    motion,
+                    mirrored,
+                });
+            }
+        }
+        placements
+    }
+
+    /// The mesh that it shares with others that differ in their [`rigid`](Self::rigid) transform alone.
+    pub fn mesh(&self) -> Option<&'d Primitive> {
+        let is_rigid =
+            matches!(self.motion, Motion::Rigid(_)) && self.targets.is_empty() && !self.moves;
+        is_rigid.then_some(self.primitive)
+    }
+
+    /// Transform from the mesh's space to the world, if all vertices have the same.
+    pub fn rigid(&self) -> Option<DAffine3> {
+        match &self.motion {
+            Motion::Rigid(frame) => Some(frame.affine),
+            Motion::Skinned(_) => None,
+        }
+    }
+
+    /// Transforms from the mesh's space to the world: those of all joints, or the one of the node.
+    pub fn matrices(&self) -> &[DAffine3] {
+        match &self.motion {
+            Motion::Rigid(frame) => std::slice::from_ref(&frame.affine),
+            Motion::Skinned(joints) => joints,
+        }
+    }
+
+    /// Whether its vertices follow joints.
+    pub fn is_skinned(&self) -> bool {
+        matches!(self.motion, Motion::Skinned(_))
+    }
+
+    /// Placement of the same mesh at another place.
+    pub fn at(&self, affine: DAffine3) -> Self {
+        let frame = Frame::new(affine);
+        Self {
+            motion: Motion::Rigid(frame),
+            mirrored: frame.sign < 0.0,
+            ..self.clone()
+        }
+    }
+
+    /// Transform of vertex `v`.
+    #[inline]
+    pub fn frame(&self, v: usize) -> Frame {
+        match &self.motion {
+            Motion::Rigid(frame) => *frame,
+            Motion::Skinned(joints) => Frame::new(self.blend(joints, v)),
+        }
+    }
+
+    /// The weighted sum of the matrices of a vertex's joints.
+    fn blend(&self, joints: &[DAffine3], v: usize) -> DAffine3 {
+        let mut blended = DAffine3::ZERO;
+        for set in &self.primitive.influences {
+            let (Some(indices), Some(weights)) = (set.joints.get(v), set.weights.get(v)) else {
+                continue;
+            };
+            for (&joint, &weight) in indices.iter().zip(weights) {
+                if weight != 0.0
+                    && let Some(joint) = joints.get(usize::from(joint))
+                {
+                    let weight = f64::from(weight);
+                    blended.matrix3 += joint.matrix3 * weight;
+                    blended.translation += joint.translation * weight;
+                }
+            }
+        }
+        blended
+    }
+
+    /// Position of vertex `v` in the world.
+    #[inline]
+    pub fn position(&self, v: usize) -> DVec3 {
+        let position = self.morph(v, self.primitive.positions[v], |t| &t.positions);
+        match &self.motion {
+            Motion::Rigid(frame) => frame.affine.transform_point3(position),
+            Motion::Skinned(joints) => self.blend(joints, v).transform_point3(position),
+        }
+    }
+
+    /// Unit normal of vertex `v` in the world.
+    #[inline]
+    pub fn normal(&self, v: usize, frame: &Frame) -> [f32; 3] {
+        let own = self.primitive.normals.get(v).copied();
+        let normal = self.morph(v, own.unwrap_or_default(), |t| &t.normals);
+        unit(frame.normals * normal, DVec3::Z)
+    }
+
+    /// Unit tangent of vertex `v` in the world. Where the way into the world mirrors, the bitangent's
+    /// sign changes, for cross products do not mirror.
+    #[inline]
+    pub fn tangent(&self, v: usize, frame: &Frame) -> [f32; 4] {
+        let [x, y, z, sign] = self.primitive.tangents[v];
+        let tangent = self.morph(v, [x, y, z], |t| &t.tangents);
+        let [x, y, z] = unit(frame.affine.transform_vector3(tangent), DVec3::X);
+        [x, y, z, sign * frame.sign as f32]
+    }
+
+    #[inline]
+    fn morph(&self, v: usize, base: [f32; 3], stream: fn(&Target) -> &Vec<[f32; 3]>) -> DVec3 {
+        let mut value = Vec3::from_array(base).as_dvec3();
+        for (weight, _, target) in self.targets.iter() {
+            if let Some(&displacement) = stream(target).get(v) {
+                value += Vec3::from_array(displacement).as_dvec3() * *weight;
+            }
+        }
+        value
+    }
+}
+
+/// The direction of `v`, also where its length is beyond what floats can square.
+#[inline]
+fn unit(v: DVec3, otherwise: DVec3) -> [f32; 3] {
+    let largest = v.abs().max_element();
+    let direction = if largest > 0.0 && largest.is_finite() {
+        (v / largest).normalize()
+    } else {
+        otherwise
+    };
+    direction.as_vec3().to_array()
+}
+
+/// Matrices of the joints of a node's skin. The node's own transform has no part in them, as the
+/// specification says.
+fn joint_matrices(document: &Document, node: &Node, state: &State) -> Option<Arc<[DAffine3]>> {
+    let skin = document.skins.get(node.skin?.value())?;
+    let joints = skin.joints.iter().zip(&skin.inverse_bind);
+    let matrices = joints.map(|(&joint, bind)| {
+        let world = state.world.get(joint).copied().unwrap_or_default();
+        world * *bind
+    });
+    Some(matrices.collect())
+}

@@ -1,0 +1,294 @@
+//! Animations (glTF 2.0, section 3.11) with pointers of `KHR_animation_pointer` to nodes, materials, lights and cameras. A
+//! channel that cannot be read is left out with a warning.
+
+use std::{collections::HashMap, sync::Arc};
+
+use gltf::json::{
+    self, Index,
+    accessor::ComponentType,
+    animation::{self, Interpolation, Property},
+    extensions::scene::khr_lights_punctual::Light,
+    validation::Checked,
+};
+
+use super::{
+    Context,
+    accessor::Accessor,
+    described::{Change, Descriptions},
+    model, pointer,
+};
+use crate::scene::{
+    document::{Animated, Channel, Described, Node, Transform},
+    error::Fault,
+    light,
+    material::Material,
+    view::SceneProjection,
+};
+
+/// Reads the channels of all animations, and what they have to read again at each moment.
+pub fn read_all(
+    context: &mut Context<'_>,
+    nodes: &[Node],
+    materials: &[Material],
+) -> (Vec<Vec<Channel>>, Descriptions) {
+    let model = context.model;
+    let mut reader = Reader {
+        descriptions: Descriptions::new(model),
+        context,
+        nodes,
+        cache: HashMap::new(),
+        materials,
+        examined: 0,
+    };
+    let mut animations = Vec::new();
+    for found in model.all::<json::Animation>() {
+        let mut channels: Vec<Channel> = Vec::new();
+        let found = reader
+            .context
+            .tolerate(found.map(Some), "the animation does nothing");
+        if let Some((item, place)) = found {
+            let all = item.channels.iter().enumerate();
+            for (i, channel) in all.filter(|(_, c)| !model::is_nothing(c.sampler)) {
+                let read = sampler_of(channel, i, item, &place).and_then(|(sampler, at)| {
+                    let target = format!("{place}/channels/{i}/target");
+                    read_channel(&channel.target, &target, sampler, &at, &mut reader)
+                });
+                let read = reader
+                    .context
+                    .tolerate(read.map(Some), "the channel is left out");
+                channels.extend(read.into_iter().flatten());
+            }
+        }
+        animations.push(channels);
+    }
+    (animations, reader.descriptions)
+}
+
+/// The sampler of channel `i`, and its place.
+fn sampler_of<'i>(
+    channel: &animation::Channel,
+    i: usize,
+    item: &'i json::Animation,
+    place: &str,
+) -> Result<(&'i animation::Sampler, String), Fault> {
+    let index = channel.sampler.value();
+    let sampler = item.samplers.get(index).ok_or_else(|| {
+        let reason = format!("the animation has no samplers/{index}");
+        Fault::new(format!("{place}/channels/{i}/sampler"), reason)
+    })?;
+    Ok((sampler, format!("{place}/samplers/{index}")))
+}
+
+/// No channel where it has no node, or animates something that no node has, both of which is valid; several where a pointer
+/// leads to what nodes share.
+fn read_channel(
+    target: &animation::Target,
+    target_place: &str,
+    sampler: &animation::Sampler,
+    place: &str,
+    reader: &mut Reader<'_, '_>,
+) -> Result<Vec<Channel>, Fault> {
+    let model = reader.context.model;
+    let (targets, at) = match (target.path, pointer::of(model, target_place)) {
+        (Checked::Invalid, Some((pointer, at))) => (pointer::targets(model, pointer, &at)?, at),
+        (Checked::Valid(path), _) if !model::is_nothing(target.node) => {
+            let at = format!("{target_place}/node");
+            model.check(&target.node, &at)?;
+            (vec![Animated::Node(target.node.value(), path)], at)
+        }
+        _ => return Ok(Vec::new()),
+    };
+    let Some(first) = targets.first() else {
+        return Ok(Vec::new());
+    };
+    if let Animated::Node(node, path) = *first
+        && path != Property::MorphTargetWeights
+        && matches!(reader.nodes[node].transform, Transform::Matrix(_))
+    {
+        let reason = format!("nodes/{node} has a matrix, so that its {path:?} cannot be animated");
+        return Err(Fault::new(target_place, reason));
+    }
+    let channel = read_keyframes(first.clone(), sampler, place, reader)?;
+    if let Animated::Description(described, pointer) = first {
+        reader.check_effect(*described, pointer, &channel, &at)?;
+    }
+    let of_target = |target| Channel {
+        target,
+        ..channel.clone()
+    };
+    Ok(targets.into_iter().map(of_target).collect())
+}
+
+/// The keyframes of the sampler at `place`.
+fn read_keyframes(
+    target: Animated,
+    sampler: &animation::Sampler,
+    place: &str,
+    reader: &mut Reader<'_, '_>,
+) -> Result<Channel, Fault> {
+    let (context, cache) = (&*reader.context, &mut reader.cache);
+    let interpolation_place = format!("{place}/interpolation");
+    let interpolation = context
+        .model
+        .valid(&sampler.interpolation, &interpolation_place)?;
+    let times = context
+        .accessor(sampler.input, &format!("{place}/input"))?
+        .expect_components(&[1])?
+        .expect_type(&[ComponentType::F32])?;
+    let times = numbers(times, cache)?;
+    if !times.is_sorted_by(|a, b| a < b) {
+        return Err(Fault::new(
+            place,
+            "the times of the keyframes do not ascend strictly",
+        ));
+    }
+
+    let components: &[usize] = match &target {
+        Animated::Node(_, Property::Translation | Property::Scale) => &[3],
+        Animated::Node(_, Property::Rotation) => &[4],
+        Animated::Node(_, Property::MorphTargetWeights)
+        | Animated::Weight(..)
+        | Animated::Visibility(_) => &[1],
+        Animated::Description(..) => &[1, 2, 3, 4],
+    };
+    if matches!(target, Animated::Visibility(_)) && interpolation != Interpolation::Step {
+        let reason = "there is nothing between visible and not: only STEP is possible";
+        return Err(Fault::new(interpolation_place, reason));
+    }
+    let output = context
+        .accessor(sampler.output, &format!("{place}/output"))?
+        .expect_components(components)?;
+    let keyframes = match interpolation {
+        Interpolation::CubicSpline => 3 * times.len(),
+        Interpolation::Step | Interpolation::Linear => times.len(),
+    };
+    let per_keyframe = output.count / keyframes;
+    let expected = match target {
+        Animated::Node(_, Property::MorphTargetWeights) => per_keyframe >= 1,
+        _ => per_keyframe == 1,
+    };
+    if !expected || output.count % keyframes != 0 {
+        return Err(output.fault(format!(
+            "{} elements do not fit {} keyframes of {interpolation:?} {target}",
+            output.count,
+            times.len()
+        )));
+    }
+    Ok(Channel {
+        target,
+        interpolation,
+        width: per_keyframe * output.components,
+        values: numbers(output.normalized(), cache)?,
+        times,
+    })
+}
+
+/// Reader of channels.
+struct Reader<'c, 'm> {
+    context: &'c mut Context<'m>,
+    nodes: &'c [Node],
+    /// Numbers of accessors that were read already: samplers like to share them.
+    cache: HashMap<String, Arc<[f32]>>,
+    descriptions: Descriptions,
+    materials: &'c [Material],
+    /// Keyframes whose effect was looked at.
+    examined: usize,
+}
+
+impl Reader<'_, '_> {
+    /// Refuses a channel whose values are none that the description can have where `pointer` leads to, and warns of one that
+    /// changes nothing.
+    fn check_effect(
+        &mut self,
+        described: Described,
+        pointer: &str,
+        channel: &Channel,
+        place: &str,
+    ) -> Result<(), Fault> {
+        /// Most keyframes that are looked at, of a channel and of all.
+        const MOST: usize = 64;
+        const MOST_OF_ALL: usize = 1 << 14;
+        let model = self.context.model;
+        let wrong = |fault: Fault| Fault::new(place, format!("{pointer} keeps its value: {fault}"));
+        let descriptions = &self.descriptions;
+        // Warnings of a value come when it is drawn.
+        let mut unheard = self.context.warnings.of_the_same_file();
+        let mut read = |changes: &[Change<'_>]| -> Result<Option<Looks>, Fault> {
+            Ok(match described {
+                Described::Material(index) => {
+                    let at_rest = &self.materials[index];
+                    descriptions.changed::<json::Material>(index, changes)?;
+                    let read = descriptions.material(index, changes, at_rest, &mut unheard);
+                    read.ok().map(Box::new).map(Looks::Material)
+                }
+                Described::Light(index) => {
+                    descriptions.changed::<Light>(index, changes)?;
+                    let read = descriptions.light(index, changes, &mut unheard);
+                    read.ok().map(Looks::Light)
+                }
+                Described::Camera(index) => {
+                    descriptions.changed::<json::Camera>(index, changes)?;
+                    let read = descriptions.camera(index, changes);
+                    read.ok().map(Looks::Camera)
+                }
+            })
+        };
+        match described {
+            Described::Material(i) => {
+                model.check(&Index::<json::Material>::new(i as u32), place)?
+            }
+            Described::Light(i) => model.check(&Index::<Light>::new(i as u32), place)?,
+            Described::Camera(i) => model.check(&Index::<json::Camera>::new(i as u32), place)?,
+        }
+        let at_rest = read(&[])?;
+        // The first one shows whether the type is right.
+        let most = MOST.min(MOST_OF_ALL.saturating_sub(self.examined)).max(1);
+        let step = channel.times.len().div_ceil(most);
+        for keyframe in (0..channel.times.len()).step_by(step) {
+            self.examined += 1;
+            let values = channel.keyframe(keyframe);
+            if read(&[(pointer, values)]).map_err(wrong)? != at_rest {
+                return Ok(());
+            }
+        }
+        if self.examined >= MOST_OF_ALL {
+            return Ok(());
+        }
+        let reason = format!("{pointer} by itself changes nothing that is drawn");
+        self.context.warn(&Fault::new(place, reason));
+        Ok(())
+    }
+}
+
+/// Relevance of a description's numbers for the image.
+#[derive(PartialEq)]
+enum Looks {
+    Material(Box<Material>),
+    Light(light::Light),
+    Camera(SceneProjection),
+}
+
+/// Numbers of an accessor of up to four components.
+fn numbers(
+    accessor: Accessor<'_>,
+    cache: &mut HashMap<String, Arc<[f32]>>,
+) -> Result<Arc<[f32]>, Fault> {
+    if let Some(known) = cache.get(accessor.place()) {
+        return Ok(Arc::clone(known));
+    }
+    accessor.check_justified()?;
+    let numbers: Arc<[f32]> = (0..accessor.count)
+        .flat_map(|i| {
+            accessor
+                .floats::<4>(i)
+                .into_iter()
+                .take(accessor.components)
+        })
+        .collect();
+    if let Some(broken) = numbers.iter().position(|x| !x.is_finite()) {
+        let element = broken / accessor.components;
+        return Err(accessor.fault(format!("element {element} is not finite")));
+    }
+    cache.insert(accessor.place().to_owned(), Arc::clone(&numbers));
+    Ok(numbers)
+}

@@ -1,0 +1,220 @@
+//! Images (glTF 2.0, section 3.8.2), decoded in parallel.
+
+use std::{
+    borrow::Cow,
+    collections::{BTreeMap, BTreeSet},
+    io::Cursor,
+};
+
+use gltf::json::{self, Index};
+use image::{DynamicImage, ImageFormat, ImageReader, Limits};
+use rayon::prelude::*;
+
+use super::{Context, buffer::Buffers, model::Model, uri};
+use crate::scene::{error::Fault, material::Image};
+
+/// Largest width and height.
+const MAX_SIDE: u32 = 16_384;
+/// Most texels of all images together: 4 GiB.
+const MAX_TEXELS: u64 = 1 << 30;
+/// An image of more texels than this has to have a byte for every [`TEXELS_PER_BYTE`] of them, for a
+/// header can claim any size.
+const FREE_TEXELS: u64 = 1 << 24;
+const TEXELS_PER_BYTE: u64 = 1024;
+/// Most bytes of an image file.
+const MAX_FILE: u64 = 1 << 30;
+
+/// Images of a document; only those asked for are decoded.
+#[derive(Default)]
+pub struct Images {
+    /// Index into `decoded` of every image that was tried.
+    places: BTreeMap<usize, Option<u32>>,
+    decoded: Vec<Image>,
+    texels: u64,
+}
+
+impl Images {
+    /// Decodes the images `wanted` that were not tried yet; failures become warnings.
+    pub fn decode(&mut self, context: &mut Context<'_>, wanted: impl IntoIterator<Item = usize>) {
+        let wanted: BTreeSet<usize> = wanted
+            .into_iter()
+            .filter(|index| !self.places.contains_key(index))
+            .collect();
+        let mut accepted = Vec::new();
+        let mut faults = Vec::new();
+        for index in wanted {
+            self.places.insert(index, None);
+            let encoded =
+                fetch(index, context.model, &context.buffers).and_then(|(bytes, place)| match self
+                    .admit(bytes)
+                {
+                    Ok(encoded) => Ok((index, encoded, place)),
+                    Err(reason) => Err(Fault::new(place, reason)),
+                });
+            match encoded {
+                Ok(encoded) => accepted.push(encoded),
+                Err(fault) => faults.push(fault),
+            }
+        }
+        let decoded: Vec<_> = accepted
+            .into_par_iter()
+            .map(|(index, encoded, place)| {
+                let fault = |reason| Fault::new(place, reason);
+                (index, encoded.decode().map_err(fault))
+            })
+            .collect();
+        for (index, result) in decoded {
+            match result {
+                Ok(image) => {
+                    self.places.insert(index, Some(self.decoded.len() as u32));
+                    self.decoded.push(image);
+                }
+                Err(fault) => faults.push(fault),
+            }
+        }
+        context.warnings.extend(faults);
+    }
+
+    /// Checks an image's header against the limits.
+    fn admit<'b>(&mut self, bytes: Cow<'b, [u8]>) -> Result<Encoded<'b>, String> {
+        let format = sniff(&bytes)?;
+        let (width, height) = match format {
+            Format::Picture(format) => ImageReader::with_format(Cursor::new(&bytes), format)
+                .into_dimensions()
+                .map_err(|error| format!("cannot be decoded: {error}"))?,
+            #[cfg(feature = "basisu")]
+            Format::Basis => super::basis::dimensions(&bytes)?,
+        };
+        let texels = u64::from(width) * u64::from(height);
+        let size = format!("{width} x {height} texels");
+        if texels == 0 || width > MAX_SIDE || height > MAX_SIDE {
+            return Err(format!("{size} are not within 1 to {MAX_SIDE} a side"));
+        }
+        if texels > FREE_TEXELS + TEXELS_PER_BYTE * bytes.len() as u64 {
+            return Err(format!("claims {size}, but has {} bytes", bytes.len()));
+        }
+        if self.texels + texels > MAX_TEXELS {
+            return Err(format!(
+                "{size} exceed the limit of {MAX_TEXELS} texels for all images together"
+            ));
+        }
+        self.texels += texels;
+        Ok(Encoded {
+            bytes,
+            format,
+            size: (width, height),
+        })
+    }
+
+    /// Decodes an image that is not a document's; returns its index among the decoded ones.
+    pub fn add(&mut self, bytes: Cow<'_, [u8]>) -> Result<u32, String> {
+        let image = self.admit(bytes)?.decode()?;
+        self.decoded.push(image);
+        Ok(self.decoded.len() as u32 - 1)
+    }
+
+    /// Index of image `index` among the decoded ones.
+    pub fn place(&self, index: usize) -> Option<u32> {
+        self.places.get(&index).copied().flatten()
+    }
+
+    pub fn into_decoded(self) -> Vec<Image> {
+        self.decoded
+    }
+}
+
+/// The encoded bytes of an image, and its place.
+fn fetch<'b>(
+    index: usize,
+    model: &Model,
+    buffers: &'b Buffers<'_>,
+) -> Result<(Cow<'b, [u8]>, String), Fault> {
+    let (item, place) = model.get::<json::Image>(Index::new(index as u32), "/images")?;
+    let bytes = match (&item.uri, item.buffer_view) {
+        (Some(uri), _) => uri::fetch(uri, buffers.base(), MAX_FILE)
+            .map(Cow::Owned)
+            .map_err(|reason| Fault::new(format!("{place}/uri"), reason))?,
+        (None, Some(view)) => {
+            Cow::Borrowed(buffers.view(view, &format!("{place}/bufferView"))?.bytes)
+        }
+        _ => return Err(Fault::new(place, "has neither a URI nor a buffer view")),
+    };
+    Ok((bytes, place))
+}
+
+/// Encoding of an image.
+#[derive(Clone, Copy)]
+enum Format {
+    /// PNG, JPEG or WebP.
+    Picture(ImageFormat),
+    /// KTX2 of Basis Universal.
+    #[cfg(feature = "basisu")]
+    Basis,
+}
+
+/// The format by content; the declared type and the file's extension are often wrong.
+fn sniff(bytes: &[u8]) -> Result<Format, String> {
+    match image::guess_format(bytes) {
+        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP)) => {
+            Ok(Format::Picture(format))
+        }
+        #[cfg(feature = "basisu")]
+        _ if bytes.starts_with(KTX2) => Ok(Format::Basis),
+        #[cfg(not(feature = "basisu"))]
+        _ if bytes.starts_with(KTX2) => Err(
+            "is a KTX2 image, for which the feature `basisu` is needed; convert it to PNG, JPEG or \
+             WebP"
+                .to_owned(),
+        ),
+        _ => Err("is neither PNG, JPEG, WebP nor KTX2".to_owned()),
+    }
+}
+
+/// First bytes of a KTX2 file.
+const KTX2: &[u8] = b"\xABKTX 20\xBB";
+
+/// An image whose header was found acceptable.
+struct Encoded<'b> {
+    bytes: Cow<'b, [u8]>,
+    format: Format,
+    size: (u32, u32),
+}
+
+impl Encoded<'_> {
+    fn decode(&self) -> Result<Image, String> {
+        let pixels = match self.format {
+            Format::Picture(format) => self.decode_picture(format)?,
+            #[cfg(feature = "basisu")]
+            Format::Basis => super::basis::decode(&self.bytes)?,
+        };
+        let (width, height) = self.size;
+        let image = Image {
+            width,
+            height,
+            pixels,
+        };
+        let levels = image.levels().count();
+        let bytes: usize = image.levels().map(<[u8]>::len).sum();
+        let complete = levels == 1 || levels == image.full_levels() as usize;
+        if bytes != image.pixels.len() || !complete {
+            return Err(format!(
+                "is not of the {width} x {height} texels that its header states"
+            ));
+        }
+        Ok(image)
+    }
+
+    fn decode_picture(&self, format: ImageFormat) -> Result<Vec<u8>, String> {
+        let failed = |error: image::ImageError| format!("cannot be decoded: {error}");
+        let mut reader = ImageReader::with_format(Cursor::new(&self.bytes), format);
+        let mut limits = Limits::default();
+        limits.max_image_width = Some(MAX_SIDE);
+        limits.max_image_height = Some(MAX_SIDE);
+        // 16 bits a channel, and as much again for the decoder itself.
+        limits.max_alloc = Some(16 * u64::from(MAX_SIDE) * u64::from(MAX_SIDE));
+        reader.limits(limits);
+        let decoder = reader.into_decoder().map_err(failed)?;
+        let pixels = DynamicImage::from_decoder(decoder).map_err(failed)?;
+        Ok(pixels.into_rgba8().into_raw())
+    }
+}

@@ -1,0 +1,330 @@
+//! OBJ: polygons, lines and points, with the base colours of its MTL files.
+
+use std::{
+    borrow::Cow,
+    cell::RefCell,
+    panic::{AssertUnwindSafe, catch_unwind},
+    path::Path,
+};
+
+use gltf::json::mesh::Mode;
+use tobj::{LoadError, LoadOptions};
+
+use super::{
+    image::Images,
+    obj_fault,
+    shape::{Drawing, Shape, linear, plain},
+    uri,
+};
+use crate::scene::{
+    Loaded, SceneError,
+    error::{Fault, Warnings},
+    material::{AlphaMode, Material, Sampler, Texture, TextureTransform, TextureUse},
+};
+
+/// Most bytes of an MTL file, and of an image that it names.
+const MAX_FILE: u64 = 1 << 30;
+
+/// The statements that OBJ files start with, comments aside.
+const STATEMENTS: [&[u8]; 12] = [
+    b"v", b"vt", b"vn", b"vp", b"o", b"g", b"s", b"f", b"l", b"p", b"mtllib", b"usemtl",
+];
+
+/// Whether `bytes` look like an OBJ file: the first statement is one, and the text has a vertex.
+pub fn is_obj(bytes: &[u8]) -> bool {
+    let word = |line: &[u8]| {
+        let mut words = line.split(u8::is_ascii_whitespace).map(<[u8]>::to_vec);
+        words.find(|word| !word.is_empty())
+    };
+    let mut words = bytes.split(|&byte| byte == b'\n').filter_map(word);
+    let first = words.find(|word| !word.starts_with(b"#"));
+    let Some(first) = first.filter(|word| STATEMENTS.contains(&word.as_slice())) else {
+        return false;
+    };
+    first == b"v" || words.any(|word| word == b"v")
+}
+
+/// Reads an OBJ file; what it names lies in the folder `base`.
+pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, SceneError> {
+    let options = LoadOptions {
+        triangulate: true,
+        single_index: true,
+        ignore_points: true,
+        ignore_lines: true,
+    };
+    let faults = RefCell::new(Vec::new());
+    let load_mtl = |path: &Path| {
+        let name = path.to_string_lossy();
+        let fetched = uri::fetch(&name, base, MAX_FILE);
+        let fetched = fetched.map_err(|reason| (reason, LoadError::OpenFileFailed));
+        let parsed = fetched.and_then(|bytes| {
+            tobj::load_mtl_buf(&mut complete_colours(&plain_text(&bytes)).as_slice())
+                .map_err(|error| (format!("the MTL file is broken: {error}"), error))
+        });
+        parsed.map_err(|(reason, error)| {
+            let fault = Fault::new(format!("mtllib {name}"), reason);
+            faults
+                .borrow_mut()
+                .push(fault.but("its materials are grey"));
+            error
+        })
+    };
+    let parse =
+        |text: &[u8], options: &LoadOptions, load_mtl: &dyn Fn(&Path) -> tobj::MTLLoadResult| {
+            // With checks of overflow, the parser panics at an index before the first vertex.
+            let parse = || tobj::load_obj_buf(&mut &*text, options, load_mtl);
+            let loaded = catch_unwind(AssertUnwindSafe(parse));
+            loaded
+                .unwrap_or(Err(LoadError::GenericFailure))
+                .map_err(|error| {
+                    let unplaced = || {
+                        let reason = format!("the OBJ file is broken: {error}; export it again");
+                        Fault::new("statements", reason)
+                    };
+                    let found = obj_fault::find(bytes);
+                    found.unwrap_or_else(unplaced).into_error(file)
+                })
+        };
+    let text = plain_text(bytes);
+    let (faces, strokes) = split(&text);
+    let (models, materials) = parse(&faces, &options, &load_mtl)?;
+    let mut warnings = Warnings::new(file);
+    warnings.extend(faults.take());
+    let strokes = match strokes {
+        Some(text) => {
+            let options = LoadOptions {
+                ignore_points: false,
+                ignore_lines: false,
+                ..options
+            };
+            // Finds the same faults with the MTL files.
+            let (mut models, _) = parse(&text, &options, &load_mtl)?;
+            models.retain(|model| !model.mesh.indices.is_empty());
+            models
+        }
+        None => Vec::new(),
+    };
+
+    let mut drawing = Drawing::default();
+    let mut images = Images::default();
+    for material in materials.unwrap_or_default() {
+        let read = read_material(
+            &material,
+            base,
+            &mut images,
+            &mut drawing.textures,
+            &mut warnings,
+        );
+        drawing.materials.push(read);
+    }
+    drawing.images = images.into_decoded();
+    // Of shapes without a material.
+    let grey = drawing.materials.len();
+    drawing.materials.push(plain());
+    let models = models.into_iter().map(|model| (model, false));
+    let strokes = strokes.into_iter().map(|model| (model, true));
+    for (tobj::Model { mesh, name }, is_strokes) in models.chain(strokes) {
+        let corners: &[[u32; 3]] = mesh.indices.as_chunks().0;
+        let triangles = if is_strokes { &[] } else { corners };
+        let pairs = corners.iter().map(|&[a, b, _]| [a, b]);
+        let (points, lines) = pairs.filter(|_| is_strokes).partition(|[a, b]| a == b);
+        let points: Vec<[u32; 2]> = points;
+        drawing.shapes.push(Shape {
+            name: Some(name),
+            material: mesh.material_id.unwrap_or(grey),
+            triangles: triangles.to_vec(),
+            lines,
+            points: points.into_iter().map(|[point, _]| point).collect(),
+            positions: mesh.positions.as_chunks().0.to_vec(),
+            normals: mesh.normals.as_chunks().0.to_vec(),
+            uvs: mesh.texcoords.as_chunks().0.to_vec(),
+            colors: opaque(&mesh.vertex_color),
+        });
+    }
+    drawing.into_scene("OBJ", file, warnings)
+}
+
+/// Text that the parser can read: Unicode, with other bytes replaced so that no number contains them, and each
+/// statement in a line of its own.
+fn plain_text(bytes: &[u8]) -> Vec<u8> {
+    let text = String::from_utf8_lossy(bytes);
+    text.replace("\\\r\n", " ")
+        .replace("\\\n", " ")
+        .into_bytes()
+}
+
+/// An OBJ file's text without lines and points; and the same without faces, where it has any: the parser takes a line of
+/// three vertices for a face, and knows no points. There each line is one of two vertices, and a point one of one.
+fn split(obj: &[u8]) -> (Cow<'_, [u8]>, Option<Vec<u8>>) {
+    let lines = || obj.split(|&byte| byte == b'\n');
+    let words = |line: &'_ [u8]| -> Vec<Vec<u8>> {
+        let words = line.split(u8::is_ascii_whitespace);
+        words
+            .filter(|word| !word.is_empty())
+            .map(<[u8]>::to_vec)
+            .collect()
+    };
+    let kind = |line: &[u8]| {
+        let mut words = line.split(u8::is_ascii_whitespace);
+        match words.find(|word| !word.is_empty()) {
+            Some(b"l") => Some(Mode::Lines),
+            Some(b"p") => Some(Mode::Points),
+            Some(b"f") => Some(Mode::Triangles),
+            _ => None,
+        }
+    };
+    let is_stroke = |line: &&[u8]| matches!(kind(line), Some(Mode::Lines | Mode::Points));
+    if !lines().any(|line| is_stroke(&line)) {
+        return (Cow::Borrowed(obj), None);
+    }
+    let faces: Vec<&[u8]> = lines().filter(|line| !is_stroke(line)).collect();
+    let mut strokes: Vec<Vec<u8>> = Vec::new();
+    for line in lines() {
+        let per_line = match kind(line) {
+            Some(Mode::Lines) => 2,
+            Some(Mode::Points) => 1,
+            Some(_) => continue,
+            None => {
+                strokes.push(line.to_vec());
+                continue;
+            }
+        };
+        let words = words(line);
+        let vertices = words.get(1..).unwrap_or(&[]).windows(per_line);
+        strokes.extend(vertices.map(|ends| [b"l ", ends.join(&b' ').as_slice()].concat()));
+    }
+    (Cow::Owned(faces.join(&b'\n')), Some(strokes.join(&b'\n')))
+}
+
+/// An MTL file whose colours have three components each, without which the parser panics. Where there
+/// are fewer, the last one stands for the others, as the format says.
+fn complete_colours(mtl: &[u8]) -> Vec<u8> {
+    let mut completed = Vec::with_capacity(mtl.len());
+    for line in mtl.split(|&byte| byte == b'\n') {
+        let words = line.split(u8::is_ascii_whitespace);
+        let words: Vec<&[u8]> = words.filter(|word| !word.is_empty()).collect();
+        match words.as_slice() {
+            [b"Ka" | b"Kd" | b"Ks" | b"Ke"] => continue,
+            [b"Ka" | b"Kd" | b"Ks" | b"Ke", components @ ..] if components.len() < 3 => {
+                completed.extend(words.join(&b' '));
+                for _ in components.len()..3 {
+                    completed.push(b' ');
+                    completed.extend(components[components.len() - 1]);
+                }
+            }
+            _ => completed.extend(line),
+        }
+        completed.push(b'\n');
+    }
+    completed
+}
+
+/// Colours of vertices, which the format knows without alpha.
+fn opaque(colors: &[f32]) -> Vec<[f32; 4]> {
+    let (colors, _) = colors.as_chunks();
+    let opaque = |color: &[f32; 3]| {
+        let [r, g, b] = color.map(|x| linear(x.into()));
+        [r, g, b, 1.0]
+    };
+    colors.iter().map(opaque).collect()
+}
+
+/// The file that a map names, and where its options place it: `-s` multiplies coordinates and `-o` adds to them. Others say
+/// nothing of a base colour that is drawn.
+fn placed(map: &str) -> (&str, TextureTransform) {
+    let (mut scale, mut offset) = ([1.0; 2], [0.0; 2]);
+    let mut rest = map.trim();
+    let next = |text: &'_ str| -> Option<(String, usize)> {
+        let word = text.split_ascii_whitespace().next()?;
+        let start = text.find(word)?;
+        Some((word.to_owned(), start + word.len()))
+    };
+    while rest.trim_start().starts_with('-') {
+        let Some((option, end)) = next(rest) else {
+            break;
+        };
+        rest = &rest[end..];
+        let (most, are_numbers) = match option.as_str() {
+            "-o" | "-s" | "-t" => (3, true),
+            "-mm" => (2, true),
+            _ => (1, false),
+        };
+        let mut numbers = Vec::new();
+        for _ in 0..most {
+            let Some((word, end)) = next(rest) else {
+                break;
+            };
+            match word.parse::<f32>() {
+                Ok(number) => numbers.push(number),
+                Err(_) if are_numbers => break,
+                Err(_) => {}
+            }
+            rest = &rest[end..];
+        }
+        let place = match option.as_str() {
+            "-s" => &mut scale,
+            "-o" => &mut offset,
+            _ => continue,
+        };
+        place.iter_mut().zip(numbers).for_each(|(to, x)| *to = x);
+    }
+    // The format's v points up.
+    let rows = [
+        [scale[0], 0.0, offset[0]],
+        [0.0, scale[1], 1.0 - scale[1] - offset[1]],
+    ];
+    let is_finite = rows.as_flattened().iter().all(|x| x.is_finite());
+    let transform = is_finite.then_some(TextureTransform(rows));
+    (rest.trim(), transform.unwrap_or_default())
+}
+
+fn read_material(
+    item: &tobj::Material,
+    base: Option<&Path>,
+    images: &mut Images,
+    textures: &mut Vec<Texture>,
+    warnings: &mut Warnings,
+) -> Material {
+    let unit = |x: f32| {
+        if x.is_finite() {
+            x.clamp(0.0, 1.0)
+        } else {
+            1.0
+        }
+    };
+    let [r, g, b] = item.diffuse.unwrap_or([0.8; 3]).map(unit);
+    let alpha = unit(item.dissolve.unwrap_or(1.0));
+    let mut material = Material {
+        name: Some(item.name.clone()),
+        base_color: [r, g, b, alpha],
+        ..plain()
+    };
+    if alpha < 1.0 {
+        material.alpha_mode = AlphaMode::Blend;
+    }
+    if let Some(name) = &item.diffuse_texture {
+        let (name, transform) = placed(name);
+        // Programs of Windows write its separators.
+        let uri = name.replace('\\', "/");
+        let image =
+            uri::fetch(&uri, base, MAX_FILE).and_then(|bytes| images.add(Cow::Owned(bytes)));
+        match image {
+            Ok(image) => {
+                material.base_color_texture = Some(TextureUse {
+                    texture: textures.len() as u32,
+                    uv_set: 0,
+                    transform,
+                });
+                textures.push(Texture {
+                    image,
+                    sampler: Sampler::default(),
+                });
+            }
+            Err(reason) => {
+                let place = format!("newmtl {}/map_Kd", item.name);
+                warnings.push(&Fault::new(place, reason).but("the texture is left out"));
+            }
+        }
+    }
+    material
+}

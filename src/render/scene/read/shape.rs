@@ -1,0 +1,284 @@
+//! Scenes of formats that know triangles, lines, points and colours, but neither nodes nor cameras nor lights.
+
+use gltf::json::{self, Index, mesh::Mode};
+
+use super::{limits::Budget, mesh::unlit_materials};
+use crate::scene::{
+    Loaded, Scene, SceneError,
+    document::{Document, Node, Parts, Primitive, Transform},
+    error::{Fault, Warnings},
+    material::{Image, Material, Texture},
+    surface::{
+        normals::{is_usable, mend_normals},
+        strokes, triangles,
+    },
+};
+use glam::DVec3;
+use std::sync::Arc;
+
+/// Object of a file. Streams other than the positions are empty or as long as these.
+#[derive(Debug, Default)]
+pub struct Shape {
+    pub name: Option<String>,
+    /// Index into the materials of the [`Drawing`]; past the end is glTF's default.
+    pub material: usize,
+    pub triangles: Vec<[u32; 3]>,
+    pub lines: Vec<[u32; 2]>,
+    pub points: Vec<u32>,
+    pub positions: Vec<[f32; 3]>,
+    pub normals: Vec<[f32; 3]>,
+    /// Upwards in the image, as in OBJ and PLY.
+    pub uvs: Vec<[f32; 2]>,
+    /// Linear.
+    pub colors: Vec<[f32; 4]>,
+}
+
+/// Contents of a file.
+#[derive(Debug, Default)]
+pub struct Drawing {
+    pub shapes: Vec<Shape>,
+    /// Origin that the positions of all shapes are relative to.
+    pub origin: DVec3,
+    pub materials: Vec<Material>,
+    pub textures: Vec<Texture>,
+    pub images: Vec<Image>,
+}
+
+/// The material of files that name none: grey, matt, and seen from both sides, since not every
+/// program that writes such files keeps to one winding.
+pub fn plain() -> Material {
+    Material {
+        base_color: [0.8, 0.8, 0.8, 1.0],
+        metallic: 0.0,
+        double_sided: true,
+        ..Material::default()
+    }
+}
+
+/// The linear value of a fraction of 1 in sRGB; white where it is not a number.
+pub fn linear(code: f64) -> f32 {
+    let code = if code.is_nan() {
+        1.0
+    } else {
+        code.clamp(0.0, 1.0)
+    };
+    let linear = if code <= 0.040_45 {
+        code / 12.92
+    } else {
+        ((code + 0.055) / 1.055).powf(2.4)
+    };
+    linear as f32
+}
+
+impl Drawing {
+    /// The scene of a file of this `format`.
+    pub fn into_scene(
+        mut self,
+        format: &'static str,
+        file: &str,
+        mut warnings: Warnings,
+    ) -> Result<Loaded, SceneError> {
+        let mut document = Document {
+            file: file.to_owned(),
+            format,
+            default_scene: Some(0),
+            ..Document::default()
+        };
+        let root = &mut document.root;
+        let mut roots = Vec::new();
+        let budget = Budget::default();
+        document.file_materials = self.materials.len();
+        self.materials.push(Material::default());
+        for (index, shape) in self.shapes.into_iter().enumerate() {
+            let place = format!("object {index}");
+            let strokes = strokes::number(Mode::Lines, 2 * shape.lines.len())
+                + strokes::number(Mode::Points, shape.points.len());
+            let surfaces = shape.positions.len().max(3 * shape.triangles.len());
+            let vertices = (surfaces + 4 * strokes) as u64;
+            budget
+                .add_vertices(vertices, &place)
+                .map_err(|fault| fault.into_error(file))?;
+            let material = shape.material.min(self.materials.len() - 1);
+            let name = shape.name.clone();
+            let uses_uvs = self.materials[material].textures().next().is_some();
+            let strokes = [
+                (Mode::Lines, shape.lines.as_flattened()),
+                (Mode::Points, shape.points.as_slice()),
+            ]
+            .map(|(mode, path)| {
+                shape.strokes(mode, path, (material, uses_uvs), &place, &mut warnings)
+            });
+            let surface = shape.into_primitive(material, uses_uvs, &place, &mut warnings);
+            let primitives = surface.into_iter().chain(strokes.into_iter().flatten());
+            document.meshes.push(primitives.collect());
+            let mesh = root.push(json::Mesh {
+                extensions: None,
+                extras: None,
+                name: name.clone(),
+                primitives: Vec::new(),
+                weights: None,
+            });
+            document.order.push(index);
+            document.nodes.push(Node {
+                parent: None,
+                transform: Transform::Parts(Parts {
+                    translation: self.origin,
+                    ..Parts::default()
+                }),
+                instances: None,
+                visible: true,
+            });
+            roots.push(root.push(json::Node {
+                mesh: Some(mesh),
+                name,
+                ..json::Node::default()
+            }));
+        }
+        unlit_materials(&mut self.materials, document.meshes.iter_mut().flatten());
+        let root = &mut document.root;
+        let _: Index<json::Scene> = root.push(json::Scene {
+            extensions: None,
+            extras: None,
+            name: None,
+            nodes: roots,
+        });
+        root.asset.version = String::new();
+        Ok(Loaded {
+            scene: Scene {
+                descriptions: Arc::default(),
+                materials: self.materials,
+                textures: self.textures,
+                images: self.images,
+                environment: None,
+                document,
+            },
+            warnings: warnings.into_vec(),
+        })
+    }
+}
+
+impl Shape {
+    /// Makes a primitive of the drawable parts of a shape, and warns of the others.
+    fn into_primitive(
+        mut self,
+        material: usize,
+        uses_uvs: bool,
+        place: &str,
+        warnings: &mut Warnings,
+    ) -> Option<Primitive> {
+        let all = self.triangles.len();
+        let usable = |v: u32| {
+            let position = self.positions.get(v as usize);
+            position.is_some_and(|p| p.iter().all(|x| x.is_finite()))
+        };
+        self.triangles
+            .retain(|triangle| triangle.iter().all(|&v| usable(v)));
+        if self.triangles.len() < all {
+            let lost = all - self.triangles.len();
+            let reason = format!(
+                "{lost} of {all} triangles have no position, or an infinite or undefined one, and \
+                 are left out"
+            );
+            warnings.push(&Fault::new(place, reason));
+        }
+        if self.triangles.is_empty() {
+            return None;
+        }
+        let count = self.positions.len();
+        let mut sources = triangles::compact(&mut self.triangles, count);
+        let mut positions = pick(&self.positions, &sources);
+        let mut normals = match self.normals.len() == count {
+            true => pick(&self.normals, &sources),
+            false => Vec::new(),
+        };
+        let mended = mend_normals(&self.triangles, &positions, &mut normals);
+        if mended > 0 {
+            let reason =
+                format!("{mended} of the normals are unusable and replaced by those of the faces");
+            warnings.push(&Fault::new(place, reason));
+        }
+        if normals.is_empty() {
+            let corners = self.triangles.as_flattened();
+            sources = corners.iter().map(|&v| sources[v as usize]).collect();
+            positions = pick(&self.positions, &sources);
+            let corners = 0..self.triangles.len() as u32;
+            self.triangles = corners.map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+        }
+        Some(Primitive {
+            material,
+            uvs: self.uvs_of(uses_uvs, &sources),
+            colors: self.colors_of(&sources),
+            triangles: self.triangles,
+            positions,
+            normals,
+            ..Primitive::default()
+        })
+    }
+
+    /// Makes strokes of the drawable lines or points of a shape, and warns of the others.
+    fn strokes(
+        &self,
+        mode: Mode,
+        path: &[u32],
+        (material, uses_uvs): (usize, bool),
+        place: &str,
+        warnings: &mut Warnings,
+    ) -> Option<Primitive> {
+        let position = |v: u32| self.positions.get(v as usize).copied();
+        let usable = |v: &u32| position(*v).is_some_and(|p| p.iter().all(|x| x.is_finite()));
+        let whole: Vec<Option<u32>> = path.iter().map(|v| Some(*v).filter(usable)).collect();
+        let lost = whole.iter().filter(|vertex| vertex.is_none()).count();
+        if lost > 0 {
+            let reason = format!(
+                "{lost} of {} points or ends of lines have no position, or an infinite or undefined one, and are left out",
+                path.len()
+            );
+            warnings.push(&Fault::new(place, reason));
+        }
+        let same = |a: u32, b: u32| position(a) == position(b);
+        let mut strokes = strokes::assemble(mode, &whole, same);
+        let count = self.positions.len();
+        let sources = strokes.compact(count);
+        let mut normals = match self.normals.len() == count {
+            true => pick(&self.normals, &sources),
+            false => Vec::new(),
+        };
+        if !normals.iter().all(is_usable) {
+            normals.clear();
+        }
+        (!strokes.corners.is_empty()).then(|| Primitive {
+            material,
+            positions: pick(&self.positions, &sources),
+            normals,
+            uvs: self.uvs_of(uses_uvs, &sources),
+            colors: self.colors_of(&sources),
+            triangles: strokes.triangles,
+            corners: strokes.corners,
+            ..Primitive::default()
+        })
+    }
+
+    fn uvs_of(&self, uses_uvs: bool, sources: &[u32]) -> Vec<[f32; 4]> {
+        if !uses_uvs {
+            return Vec::new();
+        }
+        if self.uvs.len() != self.positions.len() {
+            return vec![[0.0; 4]; sources.len()];
+        }
+        let uvs = pick(&self.uvs, sources).into_iter();
+        let uvs = uvs.map(|[u, v]| [u, 1.0 - v, 0.0, 0.0]);
+        uvs.map(|uv| uv.map(|x| if x.is_finite() { x } else { 0.0 }))
+            .collect()
+    }
+
+    fn colors_of(&self, sources: &[u32]) -> Vec<[f32; 4]> {
+        match self.colors.len() == self.positions.len() {
+            true => pick(&self.colors, sources),
+            false => Vec::new(),
+        }
+    }
+}
+
+fn pick<T: Copy>(stream: &[T], sources: &[u32]) -> Vec<T> {
+    sources.iter().map(|&v| stream[v as usize]).collect()
+}

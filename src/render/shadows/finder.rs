@@ -1,0 +1,341 @@
+//! The passes and memory that tell what lies in shadow.
+
+use super::casters::{Casters, Lit, caster_moment};
+use super::light::{LightView, Sight, views};
+use crate::engine::sampler::plan::Capacity;
+use crate::engine::sampler::statistics::Shortfall;
+use crate::engine::sampler::{ListCells, RecordShading, Sampler, SamplerContext, SamplerRun};
+use crate::passes::spirv::frame_set;
+use crate::passes::{
+    Argument, Cells, Content, FrameLayout, ListLength, Offsets, RasterTargets, ResourceSizes,
+    Resources, SampleSet,
+};
+use crate::render::passes::{
+    FrameGeometry, FrameLook, GpuScene, LightPlane, Pose, Receivers, Receiving, Shade, ShadeSource,
+    Shadow, ShadowTarget,
+};
+use crate::render::{RenderError, Settings};
+use crate::scene::Moment;
+use crate::vulkan::{BufferView, Memory, MemoryUse, Recorder, VulkanError};
+use ash::vk;
+use std::sync::Arc;
+
+/// Pipelines and memory to find what keeps lights from what a frame or a run of locations shades.
+pub(in crate::render) struct ShadowFinder {
+    casters: Arc<Casters>,
+    lit: Lit,
+    /// What is shown in the stead of the first pose.
+    moment: Option<Moment>,
+    settings: Settings,
+    receivers: Receivers,
+    sampler: Sampler,
+    /// Of casters that may let light pass.
+    shade: Option<Shade>,
+    shadow: Shadow,
+    pose: Option<Pose>,
+    geometry: FrameGeometry,
+    look: FrameLook,
+    resources: Resources,
+    targets: RasterTargets,
+    _locations: BufferView,
+}
+
+/// What is about to be shaded, by whom, and from where it is seen.
+#[derive(Clone, Copy)]
+pub(in crate::render) struct Shadowed<'a> {
+    pub resources: &'a Resources,
+    pub set: &'a SampleSet,
+    /// Of the region of an image, in pixels; 0 for a list of locations.
+    pub size: [u32; 2],
+    /// How lights see it.
+    pub views: &'a [LightView],
+}
+
+/// What the casters between a plane of a light and receivers are asked for.
+struct Occlusion<'a> {
+    finder: &'a ShadowFinder,
+    set: &'a SampleSet,
+    target: ShadowTarget,
+    /// The light's bit.
+    light: u32,
+}
+
+impl Shadowed<'_> {
+    fn pixels(&self) -> u32 {
+        self.size[0] * self.size[1]
+    }
+}
+
+impl RecordShading for Occlusion<'_> {
+    /// Shades casters that may let light pass, for their opacities.
+    fn record(&self, recorder: &mut Recorder<'_>, resources: &Resources) {
+        if let Some(shade) = &self.finder.shade {
+            shade.record(recorder, &self.finder.casters.scene, &resources.arguments);
+        }
+    }
+
+    fn record_round_end(&self, recorder: &mut Recorder<'_>) {
+        let occluders = (&self.finder.resources, self.set);
+        let shadow = &self.finder.shadow;
+        shadow.record(recorder, occluders, self.target, self.light);
+    }
+}
+
+/// The list that casters are sampled by.
+const OCCLUDERS: ListCells = ListCells {
+    cells: Cells::Occluders,
+    attributes: false,
+    shadow_words: 0,
+    lent: true,
+};
+
+fn sizes(
+    layout: &FrameLayout,
+    casters: &Casters,
+    settings: &Settings,
+    capacity: Capacity,
+    (places, shading): (u64, &ResourceSizes),
+) -> ResourceSizes {
+    let room = (shading.receivers(), [LightView::side(places); 2]);
+    OCCLUDERS.sizes(layout, &*casters.scene, settings, room, capacity.lists)
+}
+
+impl ShadowFinder {
+    /// About how many bytes it takes for an image or list of so many places, where the memory of those who shade is of these
+    /// sizes.
+    pub fn bytes(
+        layout: &FrameLayout,
+        casters: &Casters,
+        settings: &Settings,
+        capacity: Capacity,
+        (places, shading): (u64, &ResourceSizes),
+    ) -> u64 {
+        let sizes = sizes(layout, casters, settings, capacity, (places, shading));
+        let list = 32 * u64::from(shading.receivers());
+        let scene = &*casters.scene;
+        list + sizes.bytes() + FrameGeometry::bytes(scene) + FrameLook::bytes(scene)
+    }
+
+    /// Makes the pipelines and memory for cells of a scene that are shaded with these resources, in an image or list of so many
+    /// places.
+    ///
+    /// # Errors
+    /// If the driver refuses something, or memory runs out.
+    pub fn new(
+        layout: &Arc<FrameLayout>,
+        memory: &Memory,
+        casters: &Arc<Casters>,
+        settings: &Settings,
+        capacity: Capacity,
+        (scene, cells, shading): (&GpuScene, Cells, &Resources),
+        places: u64,
+    ) -> Result<Self, RenderError> {
+        let occluding = &*casters.scene;
+        let sizes = sizes(
+            layout,
+            casters,
+            settings,
+            capacity,
+            (places, shading.sizes()),
+        );
+        sizes.check("the largest list of shadows", layout.gpu.limits())?;
+        let (offsets, count) = OCCLUDERS.offsets(layout, settings)?;
+        let offsets = Offsets {
+            all: &offsets,
+            count,
+        };
+        let once = vk::SampleCountFlags::TYPE_1;
+        let targets = RasterTargets::new(memory, 1, 1, once, false)?;
+        let geometry = FrameGeometry::new(memory, occluding, true)?;
+        let look = FrameLook::new(memory, occluding)?;
+        let mut texels = geometry.texels(occluding);
+        texels.push(look.texels(occluding));
+        let locations = memory.texel_buffer(
+            "receivers of light",
+            2 * u64::from(shading.sizes().receivers()),
+            vk::Format::R32G32B32A32_UINT,
+            vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | vk::BufferUsageFlags::STORAGE_BUFFER,
+            MemoryUse::Device,
+        )?;
+        texels.push((frame_set::LOCATIONS, locations.view));
+        let resources = Resources::new(
+            layout,
+            memory,
+            occluding,
+            (&texels, look.lights(occluding)),
+            &targets.views(),
+            sizes,
+            &[offsets],
+        )?;
+        let output = settings.color_constants(occluding);
+        let context = SamplerContext {
+            layout,
+            memory,
+            scene: occluding,
+            settings,
+            output: &output,
+            sizes: &sizes,
+            capacity: Capacity {
+                unlisted: true,
+                ..capacity
+            },
+            // `shadow` counts on the device.
+            runs: 0,
+        };
+        // SAFETY: the list goes with this, and has room for as many locations.
+        let sampler = unsafe { OCCLUDERS.sampler(&context, (&resources, locations.view)) }?;
+        let opacities = || {
+            let source = ShadeSource::Records {
+                cells: Cells::Occluders,
+            };
+            Shade::new(layout, occluding, (source, 0), &output)
+        };
+        Ok(Self {
+            shade: occluding.has_blend().then(opacities).transpose()?,
+            receivers: Receivers::new(layout, scene, cells, shading, &locations.buffer)?,
+            shadow: Shadow::new(layout, memory, shading)?,
+            pose: occluding.moves().then(|| Pose::new(layout)).transpose()?,
+            lit: casters.lit.clone(),
+            moment: None,
+            casters: casters.clone(),
+            settings: settings.clone(),
+            sampler,
+            geometry,
+            look,
+            resources,
+            targets,
+            _locations: locations,
+        })
+    }
+
+    /// Records copies to the device, once.
+    pub fn record_upload(&self, recorder: &Recorder<'_>) {
+        self.geometry.record_upload(recorder, &self.casters.scene);
+        self.look.record_upload(recorder, &self.casters.scene);
+        self.resources.record_upload(recorder);
+        self.targets.record_unused(recorder);
+    }
+
+    /// How lights see what is seen.
+    pub fn views(&self, sight: &Sight) -> Vec<LightView> {
+        views(&self.lit, sight)
+    }
+
+    /// Shows another moment of the motion that the casters were made with, from the next recording on.
+    pub fn show(&mut self, moment: &Moment) {
+        let moment = caster_moment(moment);
+        self.look.show(&self.casters.scene, &moment);
+        self.lit = self.casters.at(&moment);
+        self.moment = Some(moment);
+    }
+
+    /// Records what begins a frame or run, while the device is done with the one before.
+    pub fn record_begin(&mut self, recorder: &Recorder<'_>) {
+        self.shadow.record_begin(recorder);
+        self.look.record(recorder);
+        if let (Some(moment), Some(pose), Some(set)) =
+            (&self.moment, &self.pose, self.resources.set(0))
+        {
+            self.geometry.write_moment(moment);
+            self.resources.record_bind(recorder, set);
+            pose.record(recorder, &self.casters.scene, &self.geometry, moment);
+        }
+    }
+
+    /// Records what ends a frame or run.
+    pub fn record_end(&self, recorder: &Recorder<'_>) {
+        self.shadow.record_end(recorder);
+    }
+
+    /// Records which lights reach what is shaded next, whose set is bound, and is bound again after it.
+    pub fn record(&self, recorder: &mut Recorder<'_>, shaded: Shadowed<'_>, receiving: Receiving) {
+        recorder.untimed(|recorder| {
+            if shaded.views.is_empty() {
+                recorder.clear(&shaded.resources.shadow_words.buffer);
+                recorder.barrier();
+                return;
+            }
+            let first_place = match receiving {
+                Receiving::Pixels(_) => 0,
+                Receiving::Records => shaded.pixels(),
+            };
+            let target = ShadowTarget::Words { first_place };
+            for view in shaded.views {
+                self.record_view(recorder, shaded, receiving, (view, &view.plane), target);
+            }
+            shaded.resources.record_bind(recorder, shaded.set);
+        });
+        recorder.mark("shadows");
+    }
+
+    /// Records marks of the pixels of a region that lights reach elsewhere than their centres say, which are known. The region's
+    /// set is bound, and bound again after it.
+    pub fn record_probes(&self, recorder: &mut Recorder<'_>, shaded: Shadowed<'_>) {
+        recorder.untimed(|recorder| {
+            let receiving = Receiving::Pixels(shaded.pixels());
+            let target = ShadowTarget::Marks {
+                width: shaded.size[0],
+            };
+            for view in shaded.views {
+                for plane in view.plane.of_probes() {
+                    self.record_view(recorder, shaded, receiving, (view, &plane), target);
+                }
+            }
+            shaded.resources.record_bind(recorder, shaded.set);
+        });
+        recorder.mark("shadows");
+    }
+
+    fn record_view(
+        &self,
+        recorder: &mut Recorder<'_>,
+        shaded: Shadowed<'_>,
+        receiving: Receiving,
+        (view, plane): (&LightView, &LightPlane),
+        target: ShadowTarget,
+    ) {
+        let (scene, resources, shading) = (&*self.casters.scene, &self.resources, shaded.resources);
+        let Some(set) = resources.set(0) else {
+            return;
+        };
+        let (most, length) = match receiving {
+            Receiving::Pixels(count) => (count, ListLength::Known),
+            Receiving::Records => {
+                let length = ListLength::Counted(&shading.arguments, Argument::Sort);
+                (shading.sizes().record_capacity, length)
+            }
+        };
+        let cells = (Cells::Occluders, self.sampler.samples());
+        let (pinhole, window) = (&view.pinhole, &view.window);
+        let uniform = window.uniform(scene, pinhole, &self.settings, cells, resources.sizes());
+        self.receivers
+            .record(recorder, (shading, shaded.set), receiving, plane);
+        resources.record_begin(recorder, set, &uniform);
+        let run = SamplerRun {
+            resources,
+            set,
+            uniform: &uniform,
+            list: (most, length),
+            index: 0,
+        };
+        let occlusion = Occlusion {
+            finder: self,
+            set,
+            target,
+            light: view.bit,
+        };
+        self.sampler.record(recorder, &run, &occlusion);
+        self.shadow.record_left(recorder, set);
+    }
+
+    /// Adds what the last recording could not finish.
+    ///
+    /// # Errors
+    /// If it can't be read.
+    pub fn add_shortfall(&self, shortfall: &mut Shortfall) -> Result<(), VulkanError> {
+        let (left, other_subgroups) = self.shadow.left()?;
+        shortfall.unshadowed += u64::from(left);
+        shortfall.other_subgroups |= other_subgroups;
+        Ok(())
+    }
+}

@@ -1,0 +1,58 @@
+//! From where a scene is seen, as passes are told of it.
+
+use crate::camera::{Camera, Pinhole};
+use crate::engine::sampler::uniform::SceneBlock;
+use crate::passes::Content;
+use crate::render::passes::GpuScene;
+use glam::DVec3;
+
+/// From where a scene is seen, and in which direction.
+pub(super) struct Viewpoint {
+    eye: DVec3,
+    direction: DVec3,
+    is_parallel: bool,
+}
+
+impl From<&Camera> for Viewpoint {
+    fn from(camera: &Camera) -> Self {
+        Self {
+            eye: camera.eye,
+            direction: camera.direction(),
+            is_parallel: camera.is_orthographic(),
+        }
+    }
+}
+
+impl From<&Pinhole> for Viewpoint {
+    fn from(pinhole: &Pinhole) -> Self {
+        // Parallel rays need not be at right angles to the plane.
+        let of_rays = pinhole.parallel_direction().map(|to_centre| -to_centre);
+        Self {
+            eye: pinhole.eye(),
+            direction: of_rays.unwrap_or(pinhole.direction()),
+            is_parallel: pinhole.is_parallel(),
+        }
+    }
+}
+
+impl SceneBlock {
+    /// That of a scene on the device, seen from a viewpoint.
+    pub(super) fn of(scene: &GpuScene, viewpoint: &Viewpoint) -> Self {
+        let parallel = if viewpoint.is_parallel { 1.0 } else { 0.0 };
+        Self {
+            eye: (viewpoint.eye - scene.origin())
+                .as_vec3()
+                .extend(1.0)
+                .to_array(),
+            view_direction: viewpoint.direction.as_vec3().extend(parallel).to_array(),
+            irradiance: scene.environment().irradiance,
+            environment: scene.environment().axes,
+            triangle_count: scene.index_count(),
+            first_mask: scene.first_mask(),
+            first_blend: scene.first_blend(),
+            material_vectors: scene.material_vectors(),
+            bin_count: scene.bin_count(),
+            light_count: scene.light_features().count,
+        }
+    }
+}

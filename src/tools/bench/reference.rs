@@ -1,0 +1,96 @@
+//! Reference images: brute force at thousands of samples a pixel.
+
+use crate::camera::Camera;
+use crate::render::{Footprint, Headless, Method, PreparedScene, RenderError, Settings};
+use crate::sampling::owen_sobol;
+use glam::DVec2;
+
+/// Side of the sample grid of one rendering.
+const SIDE: u32 = 16;
+
+/// Samples a pixel of one rendering.
+pub const GRID_SAMPLES: u32 = SIDE * SIDE;
+
+/// Most samples a pixel of a reference.
+pub const MAX_REFERENCE_SAMPLES: u32 = 1024 * GRID_SAMPLES;
+
+/// Side, in output pixels, of the square over which the truth reads textures: that of a sample's cell at 4,096 samples.
+pub const TRUTH_SIDE: f32 = 1.0 / 64.0;
+
+/// Scrambling seed of the grids' shifts. The superpixels' pattern has another one: a reference of its own samples would
+/// favour it.
+const SEED: u32 = 1;
+
+/// Renders an image at `samples` samples a pixel: 16 x 16 supersampling again and again, each time with the grid moved
+/// to another point of an Owen-scrambled Sobol set within its own cell, and the mean of all. A finer grid alone would
+/// err on edges along an axis and favour methods whose samples lie in grids.
+///
+/// Of `settings`, all that concerns sampling is replaced, and [`Footprint::Sample`] becomes a square of [`TRUTH_SIDE`]:
+/// textures and the alpha of MASK materials are read so sharply that the image is *the truth*, the mean over each pixel of
+/// the scene as it is. [`Footprint::Pixel`] stays: that reference filters textures as if every sample were a pixel, and
+/// against it methods at the same footprint differ by geometry alone.
+///
+/// `progress` is called after each rendering. The result holds rows from the top of what
+/// [`Rendered::colors`](crate::render::Rendered::colors) holds.
+///
+/// # Errors
+/// [`RenderError::Samples`] unless `samples` is a multiple of [`GRID_SAMPLES`] from it to [`MAX_REFERENCE_SAMPLES`];
+/// otherwise as [`Headless::render`].
+pub fn brute_force(
+    headless: &mut Headless,
+    scene: &PreparedScene,
+    camera: &Camera,
+    settings: &Settings,
+    samples: u32,
+    mut progress: impl FnMut(),
+) -> Result<Vec<[f32; 4]>, RenderError> {
+    if !(GRID_SAMPLES..=MAX_REFERENCE_SAMPLES).contains(&samples)
+        || !samples.is_multiple_of(GRID_SAMPLES)
+    {
+        return Err(RenderError::Samples {
+            method: "the reference",
+            asked: samples,
+            possible: format!("the multiples of {GRID_SAMPLES} up to {MAX_REFERENCE_SAMPLES}"),
+        });
+    }
+    let settings = of_reference(settings, GRID_SAMPLES);
+    let size = DVec2::from(settings.size.map(f64::from));
+    let mut frame = headless.prepare(scene, &settings)?;
+    let shifts = owen_sobol(samples / GRID_SAMPLES, SEED);
+    let mut sums: Vec<[f64; 4]> = Vec::new();
+    for shift in &shifts {
+        // From cells of the grid to pixels to images.
+        let moved = DVec2::from(shift.map(f64::from)) / f64::from(SIDE) / size;
+        let camera = Camera {
+            shift: camera.shift + moved,
+            ..*camera
+        };
+        let colors = headless.render(&mut frame, &camera)?.colors;
+        sums.resize(colors.len(), [0.0; 4]);
+        for (sum, color) in sums.iter_mut().zip(&colors) {
+            for (sum, value) in sum.iter_mut().zip(color) {
+                *sum += f64::from(*value);
+            }
+        }
+        progress();
+    }
+    let weight = 1.0 / shifts.len() as f64;
+    Ok(sums
+        .into_iter()
+        .map(|sum| sum.map(|value| (value * weight) as f32))
+        .collect())
+}
+
+/// Settings of one rendering, of `samples` samples a pixel, for a reference.
+pub(super) fn of_reference(settings: &Settings, samples: u32) -> Settings {
+    Settings {
+        method: Method::Ssaa,
+        samples,
+        attributes: false,
+        footprint: match settings.footprint {
+            Footprint::Sample => Footprint::Side(TRUTH_SIDE),
+            asked => asked,
+        },
+        ..settings.clone()
+    }
+}

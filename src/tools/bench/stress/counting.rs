@@ -1,0 +1,90 @@
+//! Counts of how often samples are hit.
+
+use super::stage::{Stage, flat};
+use crate::camera::Camera;
+use crate::render::{Headless, RenderError, Settings};
+use crate::scene::AlphaMode;
+
+/// Hits of samples.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Hits {
+    /// Samples that were checked.
+    pub samples: u64,
+    /// Samples that no opaque triangle covers.
+    pub holes: f64,
+    /// Difference of the hits of translucent triangles from the samples that opaque triangles cover.
+    pub excess: f64,
+}
+
+impl Hits {
+    pub fn add(&mut self, other: Self) {
+        self.samples += other.samples;
+        self.holes += other.holes;
+        self.excess += other.excess;
+    }
+}
+
+/// Counts the hits of a stage's triangles in the pixels that `counts` selects by column and row.
+///
+/// Opacity is coverage: where all triangles are opaque, a pixel's alpha is the share of samples hit. Where all let one
+/// half through, samples hit once weigh a half and those hit twice three quarters.
+pub(super) fn count(
+    headless: &mut Headless,
+    stage: &Stage,
+    settings: &Settings,
+    camera: &Camera,
+    counts: impl Fn([u32; 2]) -> bool,
+) -> Result<Hits, RenderError> {
+    let settings = Settings {
+        attributes: true,
+        ..settings.clone()
+    };
+    let mut alphas = |opacity: f32, mode: AlphaMode| {
+        let stage = Stage {
+            materials: vec![flat([1.0, 1.0, 1.0, opacity], mode)],
+            ..stage.clone()
+        };
+        stage.seen_by(headless, &settings, camera)
+    };
+    let opaque = alphas(1.0, AlphaMode::Opaque)?;
+    let halves = alphas(0.5, AlphaMode::Blend)?;
+    let mut hits = Hits::default();
+    let colors = opaque.colors.iter().zip(&halves.colors);
+    let pixels = opaque.attributes.iter().zip(&halves.attributes);
+    for (pixel, ((opaque, half), seen)) in (0..).zip(colors.zip(pixels)) {
+        let [width, _] = settings.size;
+        if !counts([pixel % width, pixel / width]) {
+            continue;
+        }
+        let [opaque, half] = [opaque, half].map(|color| f64::from(color[3]));
+        // Which pixels are superpixels may depend on the material.
+        let [samples, translucent] = [seen.0, seen.1].map(|seen| f64::from(seen.samples));
+        hits.samples += u64::from(seen.0.samples);
+        // Means that are not of a power of two are rounded, by far less than the weight of a sample.
+        hits.holes += (samples * (1.0 - opaque)).round().abs();
+        hits.excess += (translucent * (half - 0.5 * opaque) / 0.25).round().abs();
+    }
+    Ok(hits)
+}
+
+/// Greatest error of the coverage of the pixels that `counts` selects, each of which opaque triangles cover completely.
+pub(super) fn worst_cover(
+    headless: &mut Headless,
+    stage: &Stage,
+    settings: &Settings,
+    camera: &Camera,
+    counts: impl Fn([u32; 2]) -> bool,
+) -> Result<f64, RenderError> {
+    let stage = Stage {
+        materials: vec![flat([1.0; 4], AlphaMode::Opaque)],
+        ..stage.clone()
+    };
+    let image = stage.seen_by(headless, settings, camera)?;
+    let [width, _] = settings.size;
+    Ok((0..)
+        .zip(&image.colors)
+        .filter(|(pixel, _)| counts([pixel % width, pixel / width]))
+        .flat_map(|(_, color)| color)
+        .map(|value| f64::from((value - 1.0).abs()))
+        .fold(0.0, f64::max))
+}

@@ -1,0 +1,125 @@
+//! Stress suite: geometry that is hard on a rasterizer, and properties that its images must have.
+//!
+//! Every check is made from seeds and says what it found as [`Finding`]s, in numbers. Tests run them short, `gpc bench
+//! --stress` long.
+
+mod coincident;
+mod counting;
+mod difference;
+mod hostile;
+mod invariance;
+pub mod meshes;
+mod motion;
+mod near;
+mod partition;
+mod scale;
+mod slivers;
+mod soup;
+pub mod stage;
+
+pub use meshes::Mesh;
+pub use soup::soup;
+
+use super::Random;
+use crate::render::{Headless, RenderError};
+use serde::Serialize;
+
+/// Amount of work of a check.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Length {
+    /// Seconds on a CPU device.
+    Short,
+    /// Minutes: more than 10^8 samples in all.
+    Long,
+}
+
+impl Length {
+    /// Picks one of two values.
+    fn choose<T>(self, short: T, long: T) -> T {
+        match self {
+            Self::Short => short,
+            Self::Long => long,
+        }
+    }
+}
+
+/// Result of a check for one case.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Finding {
+    /// Scene, and the property that was checked.
+    pub case: String,
+    /// Number of samples, pixels or frames that were checked; `unit` names them.
+    pub checked: u64,
+    /// Unit of `checked` and `measured`.
+    pub unit: &'static str,
+    /// Count or measure.
+    pub measured: f64,
+    /// Most that `measured` may be; `None` if it is only measured for comparison.
+    pub allowed: Option<f64>,
+}
+
+impl Finding {
+    /// Whether the measure is at most what is allowed.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.allowed.is_none_or(|allowed| self.measured <= allowed)
+    }
+}
+
+/// Check of the suite.
+#[derive(Clone, Copy, Debug)]
+pub struct Check {
+    /// Name of the check.
+    pub name: &'static str,
+    run: fn(&mut Headless, Length) -> Result<Vec<Finding>, RenderError>,
+}
+
+impl Check {
+    /// All checks.
+    pub const ALL: [Self; 8] = [
+        Self {
+            name: "partition of unity",
+            run: partition::check,
+        },
+        Self {
+            name: "near plane and fields of view",
+            run: near::check,
+        },
+        Self {
+            name: "scale, origin and depth",
+            run: scale::check,
+        },
+        Self {
+            name: "coincident surfaces",
+            run: coincident::check,
+        },
+        Self {
+            name: "hostile vertices",
+            run: hostile::check,
+        },
+        Self {
+            name: "attributes of slivers",
+            run: slivers::check,
+        },
+        Self {
+            name: "invariance",
+            run: invariance::check,
+        },
+        Self {
+            name: "motion",
+            run: motion::check,
+        },
+    ];
+
+    /// Runs the check.
+    ///
+    /// # Errors
+    /// As [`Headless::render`].
+    pub fn run(
+        &self,
+        headless: &mut Headless,
+        length: Length,
+    ) -> Result<Vec<Finding>, RenderError> {
+        (self.run)(headless, length)
+    }
+}

@@ -1,0 +1,115 @@
+//! Stress check: each sample of a tiling is hit exactly once (partition of unity).
+
+use super::counting::{Hits, count, worst_cover};
+use super::meshes::{ground, tilings};
+use super::stage::{Stage, camera, everywhere};
+use super::{Finding, Length, Mesh};
+use crate::render::{Coverage, Detection, Headless, RenderError, Settings};
+use crate::sampling::Pattern;
+
+/// Samples a pixel of each run.
+const COUNTS: [u32; 6] = [1, 4, 16, 64, 256, 1024];
+
+/// Largest error of the sum of areas in a pixel.
+const AREA: f64 = 1e-4;
+
+/// Row below the image's centre from which [`ground`] covers it.
+const HORIZON: f64 = 2.0;
+
+pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Finding>, RenderError> {
+    let mut findings = Vec::new();
+    for samples in COUNTS {
+        // About as many samples in each image.
+        let side = length.choose(128, 1472) / samples.isqrt();
+        let settings = everywhere([side; 2], Pattern::Sobol, samples);
+        let mut hits = Hits::default();
+        for mesh in tilings(u64::from(samples), f64::from(side) / 2.0) {
+            hits.add(of_mesh(headless, &mesh, &settings, |_| true)?);
+        }
+        report(&mut findings, &format!("tilings, {samples} samples"), hits);
+    }
+    for samples in length.choose(&[4, 64][..], &COUNTS) {
+        let side = length.choose(96, 768) / samples.isqrt();
+        let settings = everywhere([side; 2], Pattern::Lattice, *samples);
+        let half = f64::from(side) / 2.0;
+        let mesh = ground(u64::from(*samples), half, HORIZON, length.choose(12, 48));
+        let below = |[_, row]: [u32; 2]| f64::from(row) >= half + HORIZON;
+        let hits = of_mesh(headless, &mesh, &settings, below)?;
+        let case = format!("plane through the eye, cut by the near plane, {samples} samples");
+        report(&mut findings, &case, hits);
+    }
+    for samples in [4, 64] {
+        // Triangles larger than pixels, so that both kinds of pixels lie side by side.
+        let settings = Settings {
+            detection: Detection::Exact,
+            ..everywhere([length.choose(96, 512); 2], Pattern::Sobol, samples)
+        };
+        let mut hits = Hits::default();
+        for mesh in tilings(1, f64::from(settings.size[0]) / 2.0) {
+            hits.add(of_mesh(headless, &mesh, &settings, |_| true)?);
+        }
+        let case = format!("across the borders of superpixels, {samples} samples");
+        report(&mut findings, &case, hits);
+    }
+    for samples in [16, 64, 1024] {
+        let settings = Settings {
+            coverage: Coverage::Area,
+            ..everywhere([length.choose(32, 256); 2], Pattern::Sobol, samples)
+        };
+        let half = f64::from(settings.size[0]) / 2.0;
+        let mut worst = 0.0_f64;
+        for mesh in tilings(u64::from(samples), half) {
+            let stage = stage(&mesh, &settings);
+            worst = worst.max(worst_cover(headless, &stage, &settings, &camera(), |_| {
+                true
+            })?);
+        }
+        findings.push(Finding {
+            case: format!("tilings by area, {samples} samples"),
+            checked: u64::from(settings.size[0]) * u64::from(settings.size[1]),
+            unit: "greatest error of a pixel's coverage",
+            measured: worst,
+            allowed: Some(AREA),
+        });
+    }
+    Ok(findings)
+}
+
+/// Counts the hits of a mesh's triangles.
+fn of_mesh(
+    headless: &mut Headless,
+    mesh: &Mesh,
+    settings: &Settings,
+    counts: impl Fn([u32; 2]) -> bool,
+) -> Result<Hits, RenderError> {
+    count(
+        headless,
+        &stage(mesh, settings),
+        settings,
+        &camera(),
+        counts,
+    )
+}
+
+/// Stage of a mesh's triangles with their vertices in all orders.
+fn stage(mesh: &Mesh, settings: &Settings) -> Stage {
+    let mut stage = Stage::default();
+    stage.add_mesh(0, mesh, settings.size[1], |triangle| triangle);
+    stage
+}
+
+/// Reports holes and double hits, neither of which may occur.
+pub(super) fn report(findings: &mut Vec<Finding>, case: &str, hits: Hits) {
+    for (unit, measured) in [
+        ("samples without a hit", hits.holes),
+        ("hits other than one", hits.excess),
+    ] {
+        findings.push(Finding {
+            case: case.to_owned(),
+            checked: hits.samples,
+            unit,
+            measured,
+            allowed: Some(0.0),
+        });
+    }
+}

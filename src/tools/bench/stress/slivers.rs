@@ -1,0 +1,74 @@
+//! Stress check: interpolated attributes stay within the range of a triangle's vertices, for slivers, for triangles
+//! with vertices behind the eye, and for those smaller than pixels.
+
+use super::meshes::{Depths, delaunay, fan, ground, slivers};
+use super::stage::{Stage, camera, everywhere, flat};
+use super::{Finding, Length, Random};
+use crate::render::{Headless, Method, RenderError, SceneRequest, Settings, Shading};
+use crate::sampling::Pattern;
+use crate::scene::AlphaMode;
+
+/// Range of the vertices' colours.
+const RANGE: [f32; 2] = [0.25, 0.75];
+/// Largest excess of a colour: rounding of 24 bits, over a sum of samples.
+const ROUNDING: f64 = 1e-5;
+
+pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Finding>, RenderError> {
+    let side = length.choose(40, 200);
+    let half = f64::from(side) / 2.0;
+    let meshes = [
+        fan(3, half, 48, Depths::Random),
+        slivers(3, half, 60, Depths::Random),
+        delaunay(3, half, length.choose(60, 400), Depths::Random),
+        ground(3, half, 2.0, 24),
+    ];
+    let sampled = |shading| Settings {
+        shading,
+        ..everywhere([side; 2], Pattern::Sobol, 16)
+    };
+    let one = Settings {
+        method: Method::None,
+        ..sampled(Shading::Triangle)
+    };
+    let methods = [
+        ("one sample", one),
+        ("shaded once a triangle", sampled(Shading::Triangle)),
+        ("shaded once a sample", sampled(Shading::Sample)),
+    ];
+    let mut findings = Vec::new();
+    for mesh in meshes {
+        let mut stage = Stage::new(vec![flat([1.0; 4], AlphaMode::Opaque)]);
+        stage.add_mesh(0, &mesh, side, |triangle| triangle);
+        let (scene, mut pose) = stage.build();
+        let mut random = Random::new(8);
+        let [low, high] = RANGE.map(f64::from);
+        pose.geometry.streams.colors = (pose.geometry.positions.iter())
+            .map(|_| [0; 3].map(|_| random.range(low, high) as f32))
+            .map(|[r, g, b]| [r, g, b, 1.0])
+            .collect();
+        let prepared = headless.upload(SceneRequest::new(&scene, &pose))?;
+        for (name, settings) in &methods {
+            let mut frame = headless.prepare(&prepared, settings)?;
+            let image = headless.render(&mut frame, &camera())?;
+            let excess = |[r, g, b, a]: &[f32; 4]| {
+                let worst = |v: &f32| (RANGE[0] * a - v).max(v - RANGE[1] * a);
+                // NaN is no number's maximum.
+                let parts = [r, g, b].map(worst);
+                let sum: f32 = parts.iter().sum();
+                if sum.is_nan() {
+                    f64::INFINITY
+                } else {
+                    f64::from(parts.into_iter().fold(0.0, f32::max))
+                }
+            };
+            findings.push(Finding {
+                case: format!("{}, {name}", mesh.name),
+                checked: image.colors.len() as u64,
+                unit: "colour out of range",
+                measured: image.colors.iter().map(excess).fold(0.0, f64::max),
+                allowed: Some(ROUNDING),
+            });
+        }
+    }
+    Ok(findings)
+}

@@ -1,0 +1,293 @@
+//! Stages: scenes of a few triangles before a camera whose transform a CPU repeats to the bit.
+//!
+//! The camera stands at the origin, looks along -z with a vertical field of view of 90 degrees and has its far plane at
+//! infinity. Each row of its matrix then has a single entry, so that a clip-space coordinate is one product (or the
+//! constant [`NEAR`]): however a device orders or contracts the sum, the rounding is the same.
+
+use super::{Mesh, Random};
+use crate::camera::{Camera, Projection};
+use crate::render::{
+    Coverage, Detection, Headless, Method, Reference, RenderError, Rendered, SceneRequest,
+    Settings, Shading,
+};
+use crate::sampling::Pattern;
+use crate::scene::{
+    AlphaMode, Draw, DrawClass, Geometry, Image, Material, Pose, Sampler, Scene, Texture,
+    TextureTransform, TextureUse, VertexStreams,
+};
+use glam::{DMat3, DVec2, DVec3, Vec3};
+
+/// Distance of the near plane, and the clip-space z of every vertex.
+pub const NEAR: f64 = 0.01;
+
+/// Camera of all stages.
+#[must_use]
+pub fn camera() -> Camera {
+    Camera {
+        eye: DVec3::ZERO,
+        axes: DMat3::IDENTITY,
+        projection: Projection::Perspective {
+            fov: std::f64::consts::FRAC_PI_2,
+            near: NEAR,
+            far: None,
+        },
+        shift: DVec2::ZERO,
+    }
+}
+
+/// Position that the camera sees at `distance` along the direction of view, at a place in pixels from the image's
+/// centre, y down. The image is `height` pixels high.
+#[must_use]
+pub fn seen_at([x, y]: [f64; 2], distance: f64, height: u32) -> [f32; 3] {
+    let scale = distance * 2.0 / f64::from(height);
+    [x * scale, -y * scale, -distance].map(|v| v as f32)
+}
+
+/// Triangle with vertices of its own.
+#[derive(Clone, Debug)]
+pub struct Triangle {
+    /// Index of its material.
+    pub material: usize,
+    /// Positions of its vertices.
+    pub corners: [[f32; 3]; 3],
+    /// Linear colour of its vertices.
+    pub color: [f32; 4],
+    /// Texture coordinates of its vertices.
+    pub uvs: [[f32; 2]; 3],
+}
+
+/// Stage in the making. Triangle `i` has the ID `i + 1`.
+#[derive(Clone, Debug, Default)]
+pub struct Stage {
+    /// Materials of the stage.
+    pub materials: Vec<Material>,
+    /// Triangles of the stage; those of opaque materials come first, then MASK, then BLEND.
+    pub triangles: Vec<Triangle>,
+    /// Texture of all materials made by [`textured`].
+    pub texture: Option<(Image, Sampler)>,
+}
+
+/// Unlit material, seen from both sides.
+#[must_use]
+pub fn flat(base_color: [f32; 4], alpha_mode: AlphaMode) -> Material {
+    Material {
+        base_color,
+        alpha_mode,
+        unlit: true,
+        double_sided: true,
+        ..Material::default()
+    }
+}
+
+/// Unlit material with the stage's texture.
+#[must_use]
+pub fn textured(alpha_mode: AlphaMode) -> Material {
+    Material {
+        base_color_texture: Some(TextureUse {
+            texture: 0,
+            uv_set: 0,
+            transform: TextureTransform::default(),
+        }),
+        ..flat([1.0; 4], alpha_mode)
+    }
+}
+
+impl Stage {
+    /// Makes a stage with these materials and without triangles.
+    pub fn new(materials: Vec<Material>) -> Self {
+        Self {
+            materials,
+            ..Self::default()
+        }
+    }
+
+    /// Adds a white triangle.
+    pub fn add(&mut self, material: usize, corners: [[f32; 3]; 3]) {
+        self.triangles.push(Triangle {
+            material,
+            corners,
+            color: [1.0; 4],
+            uvs: [[0.0; 2]; 3],
+        });
+    }
+
+    /// Adds the two triangles of a quadrilateral, whose corners are given in turn.
+    pub fn add_quad(&mut self, material: usize, [a, b, c, d]: [[f32; 3]; 4]) {
+        self.add(material, [a, b, c]);
+        self.add(material, [a, c, d]);
+    }
+
+    /// Adds a mesh as seen in an image `height` pixels high, at its vertices' pixels and w. `permutation` gives the
+    /// order of each triangle's corners, as [`Mesh::corners`] takes it.
+    pub fn add_mesh(
+        &mut self,
+        material: usize,
+        mesh: &Mesh,
+        height: u32,
+        permutation: impl Fn(usize) -> usize,
+    ) {
+        let half = height as f32 / 2.0;
+        for triangle in 0..mesh.triangles.len() {
+            let corners = mesh.corners(triangle, permutation(triangle));
+            self.add(
+                material,
+                corners.map(|[x, y, _, w]| [x / half, -y / half, -w]),
+            );
+        }
+    }
+
+    /// Colours every triangle with its three [codes](code).
+    pub fn color_by_code(&mut self) {
+        for (index, triangle) in self.triangles.iter_mut().enumerate() {
+            let [r, g, b] = code(index as u32 + 1);
+            triangle.color = [r, g, b, 1.0];
+        }
+    }
+
+    /// Makes the scene and pose that the renderer takes.
+    pub fn build(&self) -> (Scene, Pose) {
+        let mut scene = Scene::from_materials(self.materials.clone());
+        if let Some((image, sampler)) = &self.texture {
+            scene.images = vec![image.clone()];
+            scene.textures = vec![Texture {
+                image: 0,
+                sampler: *sampler,
+            }];
+        }
+        let mut draws: Vec<Draw> = Vec::new();
+        for (index, triangle) in self.triangles.iter().enumerate() {
+            let (material, class) = (
+                triangle.material as u32,
+                DrawClass::of(&self.materials[triangle.material]),
+            );
+            match draws.last_mut() {
+                Some(draw) if draw.material == material && draw.class == class => {
+                    draw.triangle_count += 1;
+                }
+                _ => draws.push(Draw {
+                    first_triangle: index as u32,
+                    triangle_count: 1,
+                    material,
+                    class,
+                }),
+            }
+        }
+        debug_assert!(
+            draws.is_sorted_by_key(|draw| draw.class),
+            "order of classes"
+        );
+        let each = |value: &dyn Fn(&Triangle, usize) -> [f32; 4]| -> Vec<[f32; 4]> {
+            let corners = |t| (0..3).map(move |corner| (t, corner));
+            let all = self.triangles.iter().flat_map(corners);
+            all.map(|(t, corner)| value(t, corner)).collect()
+        };
+        let white = self.triangles.iter().all(|t| t.color == [1.0; 4]);
+        let geometry = Geometry {
+            origin: DVec3::ZERO,
+            positions: self.triangles.iter().flat_map(|t| t.corners).collect(),
+            streams: VertexStreams {
+                normals: self.triangles.iter().flat_map(|t| [normal(t); 3]).collect(),
+                tangents: Vec::new(),
+                scales: Vec::new(),
+                uvs: match self.texture {
+                    Some(_) => each(&|t, corner| [t.uvs[corner][0], t.uvs[corner][1], 0.0, 0.0]),
+                    None => Vec::new(),
+                },
+                // Without the stream, white is exactly 1.
+                colors: if white {
+                    Vec::new()
+                } else {
+                    each(&|t, _| t.color)
+                },
+            },
+            triangles: (0..self.triangles.len() as u32)
+                .map(|t| [3 * t, 3 * t + 1, 3 * t + 2])
+                .collect(),
+            draws,
+            instances: Vec::new(),
+            strokes: Vec::new(),
+            edges: Vec::new(),
+        };
+        let pose = Pose {
+            geometry,
+            materials: Vec::new(),
+            environment: None,
+            lights: Vec::new(),
+            cameras: Vec::new(),
+            warnings: Vec::new(),
+        };
+        (scene, pose)
+    }
+
+    /// Renders the stage with [`camera`].
+    ///
+    /// # Errors
+    /// As [`Headless::upload`], [`Headless::prepare`] and [`Headless::render`].
+    pub fn render(
+        &self,
+        headless: &mut Headless,
+        settings: &Settings,
+    ) -> Result<Rendered, RenderError> {
+        self.seen_by(headless, settings, &camera())
+    }
+
+    /// Renders the stage with another camera.
+    ///
+    /// # Errors
+    /// As [`render`](Self::render).
+    pub fn seen_by(
+        &self,
+        headless: &mut Headless,
+        settings: &Settings,
+        camera: &Camera,
+    ) -> Result<Rendered, RenderError> {
+        let (scene, pose) = self.build();
+        let prepared =
+            headless.upload(SceneRequest::new(&scene, &pose).within(settings.max_memory))?;
+        let mut frame = headless.prepare(&prepared, settings)?;
+        headless.render(&mut frame, camera)
+    }
+}
+
+/// Unit normal of a triangle's front face; towards the camera if the triangle has no area.
+fn normal(triangle: &Triangle) -> [f32; 3] {
+    let [a, b, c] = triangle.corners.map(Vec3::from_array);
+    (b - a).cross(c - a).normalize_or(Vec3::Z).to_array()
+}
+
+/// Code of an ID as an unlit colour: three whole numbers from 1 to 4,095, chosen so that sums over up to 1,024 samples
+/// still tell triangles apart.
+#[must_use]
+pub fn code(id: u32) -> [f32; 3] {
+    let mut random = Random::new(u64::from(id));
+    [0; 3].map(|_| (1 + random.below(4095)) as f32)
+}
+
+/// Settings under which every pixel is sampled `samples` times; its colour is the plain average of radiances.
+#[must_use]
+pub fn everywhere(size: [u32; 2], pattern: Pattern, samples: u32) -> Settings {
+    Settings {
+        method: Method::Superpixel,
+        samples,
+        pattern,
+        coverage: Coverage::Samples,
+        shading: Shading::Triangle,
+        detection: Detection::Every,
+        reference: Reference::Scene,
+        tonemapped_detection: false,
+        ..Settings::new(size[0], size[1])
+    }
+}
+
+/// Settings for one sample at each pixel's centre, with attributes and radiances as they are.
+#[must_use]
+pub fn once(size: [u32; 2]) -> Settings {
+    Settings {
+        method: Method::None,
+        thin: false,
+        reference: Reference::Scene,
+        tonemapped_detection: false,
+        attributes: true,
+        ..Settings::new(size[0], size[1])
+    }
+}

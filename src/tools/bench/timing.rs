@@ -1,0 +1,142 @@
+//! Times of methods, measured by turns.
+
+use super::Spread;
+use crate::camera::Camera;
+use crate::render::{Frame, Headless, PassTime, PreparedScene, RenderError, Rendered, Settings};
+use serde::Serialize;
+use std::time::{Duration, Instant};
+
+/// Method that takes part in a measurement: warmed up, with the times of its frames.
+pub struct Contender {
+    frame: Frame,
+    frames: Vec<Timed>,
+    spent: Duration,
+}
+
+struct Timed {
+    wall_ms: f64,
+    passes: Vec<PassTime>,
+}
+
+/// Cost of a frame.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Cost {
+    /// Milliseconds on the device.
+    pub gpu_ms: Spread,
+    /// Milliseconds by the clock, from recording to the image in host memory.
+    pub wall_ms: Spread,
+    /// Cost on the device of each pass, in their order.
+    pub passes: Vec<PassCost>,
+}
+
+/// Cost of a pass.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PassCost {
+    /// Name of the pass.
+    pub pass: &'static str,
+    /// Milliseconds on the device.
+    #[serde(flatten)]
+    pub ms: Spread,
+}
+
+impl Contender {
+    /// Prepares a method and renders a frame that is not timed, since drivers compile shaders during the first one.
+    ///
+    /// # Errors
+    /// [`RenderError`] if the settings are impossible, memory runs out or the device is lost.
+    pub fn warm_up(
+        headless: &mut Headless,
+        scene: &PreparedScene,
+        camera: &Camera,
+        settings: &Settings,
+    ) -> Result<(Self, Rendered), RenderError> {
+        let mut frame = headless.prepare(scene, settings)?;
+        let rendered = headless.render(&mut frame, camera)?;
+        let contender = Self {
+            frame,
+            frames: Vec::new(),
+            spent: Duration::ZERO,
+        };
+        Ok((contender, rendered))
+    }
+
+    /// Settings of the method.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        self.frame.settings()
+    }
+
+    fn time_a_frame(
+        &mut self,
+        headless: &mut Headless,
+        camera: &Camera,
+    ) -> Result<(), RenderError> {
+        let start = Instant::now();
+        let rendered = headless.render(&mut self.frame, camera)?;
+        let wall = start.elapsed();
+        self.spent += wall;
+        self.frames.push(Timed {
+            wall_ms: 1e3 * wall.as_secs_f64(),
+            passes: rendered.statistics.passes,
+        });
+        Ok(())
+    }
+
+    /// Whether another frame is wanted and fits into the time allowed. The first frame always does.
+    fn goes_on(&self, repeat: u32, budget: Duration) -> bool {
+        let Some(last) = self.frames.last() else {
+            return true;
+        };
+        let expected = self.spent.as_secs_f64() + 1e-3 * last.wall_ms;
+        self.frames.len() < repeat as usize && expected <= budget.as_secs_f64()
+    }
+
+    /// Cost of the frames so far.
+    #[must_use]
+    pub fn cost(&self) -> Cost {
+        let of_pass = |pass: &str| {
+            Spread::of(self.frames.iter().map(|frame| {
+                let times = frame.passes.iter().filter(|time| time.pass == pass);
+                times.map(|time| time.ms).sum()
+            }))
+        };
+        let total = |frame: &Timed| frame.passes.iter().map(|time| time.ms).sum();
+        let passes = self.frames.first().map_or(&[][..], |frame| &frame.passes);
+        Cost {
+            gpu_ms: Spread::of(self.frames.iter().map(total)),
+            wall_ms: Spread::of(self.frames.iter().map(|frame| frame.wall_ms)),
+            passes: passes
+                .iter()
+                .map(|time| PassCost {
+                    pass: time.pass,
+                    ms: of_pass(time.pass),
+                })
+                .collect(),
+        }
+    }
+}
+
+/// Times every contender `repeat` times, by turns. A contender that would need more than `budget` drops out of later
+/// rounds, after at least one frame. `progress` is called before each frame.
+///
+/// # Errors
+/// As [`Headless::render`].
+pub fn take_turns<'a>(
+    headless: &mut Headless,
+    camera: &Camera,
+    contenders: impl IntoIterator<Item = &'a mut Contender>,
+    repeat: u32,
+    budget: Duration,
+    mut progress: impl FnMut(&Contender),
+) -> Result<(), RenderError> {
+    let mut contenders: Vec<_> = contenders.into_iter().collect();
+    for _ in 0..repeat.max(1) {
+        for contender in &mut contenders {
+            if contender.goes_on(repeat, budget) {
+                progress(contender);
+                contender.time_a_frame(headless, camera)?;
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,27 @@
+//! Errors of camera variants.
+
+use crate::camera::PinholeError;
+use crate::camera::panorama::PanoramaError;
+use crate::camera::set::SetError;
+use crate::camera::zoom::ZoomError;
+use crate::render::RenderError;
+
+/// Variant that a camera or a device can't have.
+#[derive(Debug, thiserror::Error)]
+pub enum VariantError {
+    /// Camera that is no pinhole.
+    #[error(transparent)]
+    Pinhole(#[from] PinholeError),
+    /// Locations that make no set.
+    #[error(transparent)]
+    Set(#[from] SetError),
+    /// Image without a middle to zoom.
+    #[error(transparent)]
+    Zoom(#[from] ZoomError),
+    /// Camera without a panorama.
+    #[error(transparent)]
+    Panorama(#[from] PanoramaError),
+    /// Sampling that failed.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+}

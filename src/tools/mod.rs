@@ -1,0 +1,7 @@
+//! Tools of the command: image files, comparisons of images, resampling of photographs, benchmarks.
+
+pub mod bench;
+pub mod compare;
+pub mod names;
+pub mod output;
+pub mod resample;

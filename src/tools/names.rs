@@ -1,0 +1,97 @@
+//! What the command calls values of the library: the names that its options take, its reports have and the viewer shows.
+
+use crate::camera::panorama::PanoramaProjection;
+use crate::camera::zoom::{Shape, Transition};
+use crate::output::VideoFormat;
+use crate::render::{Coverage, Detection, Footprint, Method, Shading, Shadows};
+use clap::ValueEnum;
+use clap::builder::PossibleValue;
+use serde::{Serialize, Serializer};
+use std::fmt;
+
+/// Names values, with a help text where the list of values doesn't speak for itself. Values without a name can't be asked for.
+macro_rules! names {
+    ($($type:ident { $($value:ident $name:literal $($help:literal)?,)* })*) => {
+        $(impl ValueEnum for $type {
+            fn value_variants<'a>() -> &'a [Self] {
+                &[$(Self::$value),*]
+            }
+
+            fn to_possible_value(&self) -> Option<PossibleValue> {
+                match self {
+                    $(Self::$value => Some(PossibleValue::new($name)$(.help($help))?),)*
+                    #[allow(unreachable_patterns)]
+                    _ => None,
+                }
+            }
+        })*
+    };
+}
+
+names! {
+    Method {
+        None "none" "One sample a pixel",
+        Superpixel "superpixel" "Many samples where the image aliases, one elsewhere",
+        Ssaa "ssaa" "Brute force: everything at k x k times the resolution",
+        Msaa "msaa" "The device's own multisampling",
+    }
+    Detection {
+        Contrast "contrast",
+        Edges "edges",
+        Exact "exact",
+    }
+    Coverage {
+        Area "area",
+        Samples "samples",
+    }
+    Footprint {
+        Sample "sample",
+        Pixel "pixel",
+    }
+    Shading {
+        Triangle "triangle",
+        Part "part",
+        Sample "sample",
+    }
+    Shadows {
+        None "none",
+        Exact "exact",
+    }
+    VideoFormat {
+        Y4m "y4m",
+        Raw "raw",
+    }
+    Shape {
+        Circle "circle",
+        Rectangle "rectangle",
+    }
+    Transition {
+        Linear "linear",
+        Smooth "smooth",
+    }
+    PanoramaProjection {
+        Equirectangular "equirectangular",
+        Cylindrical "cylindrical",
+        Fisheye "fisheye",
+        Cubemap "cubemap",
+    }
+}
+
+/// What an option calls a value; empty for one that can't be asked for.
+#[must_use]
+pub fn name(value: &impl ValueEnum) -> String {
+    let named = value.to_possible_value();
+    named.map_or_else(String::new, |value| value.get_name().to_owned())
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&name(self))
+    }
+}
+
+impl Serialize for Method {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}

@@ -1,0 +1,168 @@
+//! Decoding of image files, for comparisons and as inputs.
+
+use super::{OutputError, Picture, exr};
+use crate::color::srgb;
+use image::{ImageFormat, ImageReader};
+use rayon::prelude::*;
+use std::fs::File;
+use std::io::{Cursor, Read};
+use std::path::Path;
+
+/// Image as a display shows it: sRGB-encoded colours of 0 to 1 over black, and alpha.
+///
+/// A PNG's translucent colours are multiplied by alpha in linear light and encoded again, so that colour which
+/// no one sees does not count. An EXR's values are brought into 0 to 1 and encoded; they are not tone-mapped.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DecodedImage {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// RGBA of 0 to 1, rows from the top.
+    pub pixels: Vec<[f32; 4]>,
+}
+
+impl From<&Picture<'_>> for DecodedImage {
+    /// Converts a rendered image to what a display shows of it, without the rounding of a file.
+    fn from(picture: &Picture<'_>) -> Self {
+        Self {
+            size: picture.size(),
+            pixels: picture
+                .pixels()
+                .par_iter()
+                .copied()
+                .map(show_linear)
+                .collect(),
+        }
+    }
+}
+
+const EXR_MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
+
+/// Reads a PNG, JPEG or EXR file; the format is told by the content.
+///
+/// # Errors
+/// [`OutputError::Read`] if the file can't be read, otherwise as [`decode`].
+pub fn read(path: &Path) -> Result<DecodedImage, OutputError> {
+    let bytes = std::fs::read(path).map_err(|source| OutputError::Read {
+        path: path.to_path_buf(),
+        source,
+    })?;
+    decode(&bytes, &path.display().to_string())
+}
+
+/// Decodes a PNG, JPEG or EXR image; the format is told by the content. `name` stands for the file in messages.
+///
+/// # Errors
+/// [`OutputError::Decode`] if the bytes are in none of these formats or broken, [`OutputError::NotANumber`] for an EXR
+/// with NaN.
+pub fn decode(bytes: &[u8], name: &str) -> Result<DecodedImage, OutputError> {
+    let decoded = if bytes.starts_with(&EXR_MAGIC) {
+        exr::decode(bytes).map(|(size, pixels)| (size, pixels, true))
+    } else {
+        display_referred(bytes).map(|(size, pixels)| (size, pixels, false))
+    };
+    let (size, pixels, linear) = decoded.map_err(|reason| OutputError::Decode {
+        file: name.to_owned(),
+        reason,
+        expected: "a PNG, JPEG or EXR image",
+    })?;
+    if let Some(index) = pixels.iter().position(|p| p.iter().any(|v| v.is_nan())) {
+        let width = size[0] as usize;
+        return Err(OutputError::NotANumber {
+            file: name.to_owned(),
+            x: index % width,
+            y: index / width,
+        });
+    }
+    let show = if linear { show_linear } else { show_straight };
+    Ok(DecodedImage {
+        size,
+        pixels: pixels.into_par_iter().map(show).collect(),
+    })
+}
+
+/// Decodes an EXR or Radiance (.hdr) image to [width, height] and its values as they are: linear light, premultiplied
+/// alpha, rows from the top. `name` stands for the file in messages.
+///
+/// # Errors
+/// [`OutputError::Decode`] if the bytes are in neither format or broken.
+pub fn decode_linear(bytes: &[u8], name: &str) -> Result<([u32; 2], Vec<[f32; 4]>), OutputError> {
+    let opaque = |colors: Vec<[f32; 3]>| colors.into_iter().map(|[r, g, b]| [r, g, b, 1.0]);
+    let decoded = if bytes.starts_with(&EXR_MAGIC) {
+        exr::decode(bytes)
+    } else {
+        radiance(bytes).map(|(size, colors)| (size, opaque(colors).collect()))
+    };
+    decoded.map_err(|reason| not_linear(name, reason))
+}
+
+/// Decodes as [`decode_linear`] does, without alpha. A Radiance image's colours are not copied.
+///
+/// # Errors
+/// As [`decode_linear`].
+pub fn decode_light(bytes: &[u8], name: &str) -> Result<([u32; 2], Vec<[f32; 3]>), OutputError> {
+    let light = |pixels: Vec<[f32; 4]>| pixels.into_iter().map(|[r, g, b, _]| [r, g, b]);
+    let decoded = if bytes.starts_with(&EXR_MAGIC) {
+        exr::decode(bytes).map(|(size, pixels)| (size, light(pixels).collect()))
+    } else {
+        radiance(bytes)
+    };
+    decoded.map_err(|reason| not_linear(name, reason))
+}
+
+fn not_linear(name: &str, reason: String) -> OutputError {
+    OutputError::Decode {
+        file: name.to_owned(),
+        reason,
+        expected: "an EXR or Radiance (.hdr) image",
+    }
+}
+
+/// Size and straight sRGB-encoded pixels of a PNG or JPEG.
+fn display_referred(bytes: &[u8]) -> Result<([u32; 2], Vec<[f32; 4]>), String> {
+    // The reader's default limits bound what a header may claim.
+    let image = ImageReader::new(Cursor::new(bytes))
+        .with_guessed_format()
+        .map_err(|error| error.to_string())?
+        .decode()
+        .map_err(|error| error.to_string())?;
+    let size = [image.width(), image.height()];
+    let pixels = image.into_rgba32f().pixels().map(|p| p.0).collect();
+    Ok((size, pixels))
+}
+
+/// Size and linear colours of a Radiance image.
+fn radiance(bytes: &[u8]) -> Result<([u32; 2], Vec<[f32; 3]>), String> {
+    if !bytes.starts_with(b"#?") {
+        return Err("not of a known format".to_owned());
+    }
+    let image = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Hdr)
+        .decode()
+        .map_err(|error| error.to_string())?;
+    let size = [image.width(), image.height()];
+    let numbers = image.into_rgb32f().into_raw();
+    let colors = bytemuck::try_cast_vec(numbers)
+        .unwrap_or_else(|(_, numbers)| numbers.as_chunks().0.to_vec());
+    Ok((size, colors))
+}
+
+fn show_linear([r, g, b, a]: [f32; 4]) -> [f32; 4] {
+    let encode = |v: f32| srgb::encode(f64::from(v)) as f32;
+    [encode(r), encode(g), encode(b), a.clamp(0.0, 1.0)]
+}
+
+fn show_straight([r, g, b, a]: [f32; 4]) -> [f32; 4] {
+    // Encoding and decoding again would cost the last bit of every opaque colour.
+    if a >= 1.0 {
+        return [r, g, b, 1.0];
+    }
+    let over_black = |v: f32| srgb::encode(srgb::decode(f64::from(v)) * f64::from(a)) as f32;
+    [over_black(r), over_black(g), over_black(b), a]
+}
+
+/// Whether a file begins like a PNG or a JPEG; false if it can't be read.
+#[must_use]
+pub fn is_image(path: &Path) -> bool {
+    let mut start = [0; 3];
+    let read = File::open(path).and_then(|mut file| file.read_exact(&mut start));
+    read.is_ok() && (start == *b"\x89PN" || start == *b"\xff\xd8\xff")
+}

@@ -1,0 +1,21 @@
+//! The built command: what it writes, prints and refuses.
+
+mod camera;
+mod ci;
+#[path = "../common/command.rs"]
+mod command;
+mod compare;
+mod environment;
+mod info;
+mod locations;
+mod malformed;
+mod parts;
+mod render;
+#[path = "../common/scene_builder.rs"]
+mod scene_builder;
+mod shadows;
+#[path = "../common/shared.rs"]
+mod shared;
+mod usage;
+mod video;
+mod zoom;

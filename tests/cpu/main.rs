@@ -1,0 +1,6 @@
+//! Cameras, sample patterns and the CPU twins. No test here needs a device.
+
+mod camera;
+mod coverage_chart;
+mod reference;
+mod sampling;

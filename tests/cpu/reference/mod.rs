@@ -1,0 +1,9 @@
+//! The CPU twins against definitions, closed forms and each other.
+
+mod colour;
+mod coverage;
+mod detect;
+mod edge;
+#[path = "../../common/meshes.rs"]
+mod meshes;
+mod visibility;

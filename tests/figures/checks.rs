@@ -1,0 +1,172 @@
+//! What holds of the documents besides their figures.
+
+use crate::data::root;
+use crate::documents::{handwritten, markdown};
+use crate::help;
+use std::path::Path;
+
+fn read(path: impl AsRef<Path>) -> String {
+    std::fs::read_to_string(path).unwrap()
+}
+
+/// Texts of Markdown without fenced blocks.
+fn prose(text: &str) -> String {
+    let mut inside = false;
+    let mut kept = Vec::new();
+    for line in text.lines() {
+        if line.trim_start().starts_with("```") {
+            inside = !inside;
+        } else if !inside {
+            kept.push(line);
+        }
+    }
+    kept.join("\n")
+}
+
+/// Whether a text has a number before a unit that only a measurement can tell.
+fn measured(paragraph: &str) -> bool {
+    let words: Vec<&str> = paragraph.split_whitespace().collect();
+    words.windows(2).any(|pair| {
+        let number = pair[0]
+            .trim_start_matches(['(', '|'])
+            .ends_with(|c: char| c.is_ascii_digit());
+        let unit = pair[1].trim_end_matches(['.', ',', ';', ':', ')', '|']);
+        number && ["ms", "dB", "%", "fps"].contains(&unit)
+    })
+}
+
+#[test]
+fn the_readme_is_short() {
+    let words = read(root().join("README.md")).split_whitespace().count();
+    assert!(
+        words <= 1000,
+        "README.md has {words} words; 1,000 are the limit"
+    );
+}
+
+/// A figure in prose says where it comes from: by a link, a command or the name of a file.
+#[test]
+fn figures_in_prose_have_a_source() {
+    let mut without = Vec::new();
+    for path in markdown() {
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        // Entries of these are dated, and belong to the code of their day.
+        if [
+            "decisions.md",
+            "CHANGELOG.md",
+            "architecture.md",
+            "embedding.md",
+        ]
+        .contains(&name.as_str())
+        {
+            continue;
+        }
+        for paragraph in prose(&handwritten(&read(&path))).split("\n\n") {
+            let sourced = paragraph.contains("](") || paragraph.contains("`");
+            if measured(paragraph) && !sourced {
+                without.push(format!("{name}: {paragraph}"));
+            }
+        }
+    }
+    assert!(without.is_empty(), "{without:#?}");
+}
+
+#[test]
+fn a_figure_without_a_source_is_found() {
+    assert!(measured("A frame takes 12 ms."));
+    assert!(measured("Images agree to 68 dB, mostly."));
+    assert!(!measured("It takes 64 samples."));
+}
+
+/// Links to files and to headings of the repository lead somewhere.
+#[test]
+fn links_lead_somewhere() {
+    let mut broken = Vec::new();
+    for path in markdown() {
+        let text = prose(&read(&path));
+        let folder = path.parent().unwrap();
+        let links = text
+            .split("](")
+            .skip(1)
+            .filter_map(|rest| rest.split_once(')'));
+        for (link, _) in links.filter(|(link, _)| !link.contains("://")) {
+            let (file, heading) = link.split_once('#').unwrap_or((link, ""));
+            let target = if file.is_empty() {
+                path.clone()
+            } else {
+                folder.join(file)
+            };
+            let found = target.exists()
+                && (heading.is_empty() || headings(&target).contains(&heading.to_owned()));
+            if !found {
+                broken.push(format!("{}: {link}", path.display()));
+            }
+        }
+    }
+    assert!(broken.is_empty(), "{broken:#?}");
+}
+
+/// The anchors of a document's headings, as forges name them.
+fn headings(path: &Path) -> Vec<String> {
+    let text = prose(&read(path));
+    let lines = text.lines().filter(|line| line.starts_with('#'));
+    lines
+        .map(|line| {
+            let title = line.trim_start_matches('#').trim().to_lowercase();
+            let kept = title
+                .chars()
+                .filter(|c| c.is_alphanumeric() || " -_".contains(*c));
+            kept.collect::<String>().replace(' ', "-")
+        })
+        .collect()
+}
+
+/// The version stands in four places.
+#[test]
+fn versions_agree() {
+    let version = env!("CARGO_PKG_VERSION");
+    let (major_minor, _) = version.rsplit_once('.').unwrap();
+    for (file, text) in [
+        ("CITATION.cff", format!("version: {version}")),
+        ("CHANGELOG.md", format!("## {version}")),
+        ("README.md", format!("Version {major_minor}")),
+    ] {
+        assert!(
+            read(root().join(file)).contains(&text),
+            "{file} lacks \"{text}\""
+        );
+    }
+}
+
+/// Options that documents name as the command's are options of a subcommand.
+#[test]
+fn options_exist() {
+    let known = help::every();
+    let known: Vec<&str> = options(&known).collect();
+    let mut unknown = Vec::new();
+    for path in markdown() {
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        // What these tell of may be gone.
+        if ["CHANGELOG.md", "decisions.md"].contains(&name.as_str()) {
+            continue;
+        }
+        let text = handwritten(&read(&path));
+        let spans = text.split('`').skip(1).step_by(2);
+        let spans = spans.filter(|span| span.starts_with("--") || span.starts_with("gpc "));
+        let lines = text
+            .lines()
+            .filter(|line| line.trim_start().starts_with("gpc "));
+        for option in spans.chain(lines).flat_map(options) {
+            if !known.contains(&option) && !["--help", "--version"].contains(&option) {
+                unknown.push(format!("{name}: {option}"));
+            }
+        }
+    }
+    assert!(unknown.is_empty(), "{unknown:#?}");
+}
+
+/// The long options in a text.
+fn options(text: &str) -> impl Iterator<Item = &str> {
+    let words = text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '-'));
+    words.filter(|word| word.starts_with("--") && word.len() > 3)
+}

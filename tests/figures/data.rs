@@ -1,0 +1,169 @@
+//! The measurements in `docs/bench`.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+/// A file of measurements: a head of lines `# key: value`, then comma-separated values with a line of names.
+pub struct Measurement {
+    head: HashMap<String, String>,
+    pub rows: Vec<Row>,
+}
+
+/// A line of a file, by the names of its columns.
+pub struct Row(HashMap<String, String>);
+
+/// What every file says of where its figures come from.
+const HEAD: [&str; 5] = ["driver", "machine", "date", "commit", "size"];
+
+pub fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// All files `KIND-*.csv`, in the order of their names.
+pub fn load(kind: &str) -> Vec<Measurement> {
+    let folder = root().join("docs/bench");
+    let mut paths: Vec<PathBuf> = std::fs::read_dir(&folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| {
+            let name = path.file_name().unwrap().to_string_lossy();
+            name.starts_with(&format!("{kind}-")) && name.ends_with(".csv")
+        })
+        .collect();
+    paths.sort();
+    assert!(!paths.is_empty(), "no {kind}-*.csv in {}", folder.display());
+    paths.iter().map(|path| Measurement::read(path)).collect()
+}
+
+impl Measurement {
+    fn read(path: &Path) -> Self {
+        let text = std::fs::read_to_string(path).unwrap();
+        let head: HashMap<_, _> = text
+            .lines()
+            .filter_map(|line| line.strip_prefix("# ")?.split_once(": "))
+            .map(|(key, value)| (key.to_owned(), value.to_owned()))
+            .collect();
+        for key in HEAD {
+            assert!(
+                head.contains_key(key),
+                "{}: no line \"# {key}: ...\"",
+                path.display()
+            );
+        }
+        let mut reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .from_reader(text.as_bytes());
+        let rows = reader.deserialize().map(|row| Row(row.unwrap())).collect();
+        Self { head, rows }
+    }
+
+    /// A value of the head.
+    pub fn head(&self, key: &str) -> &str {
+        &self.head[key]
+    }
+
+    /// Width x height, as text writes it.
+    pub fn size(&self) -> String {
+        self.head("size").replace('x', " x ")
+    }
+
+    /// Where the figures come from, in a line.
+    pub fn source(&self) -> String {
+        let note = self.head.get("note");
+        format!(
+            "{}; {}; {}, commit `{}`{}",
+            self.head("driver"),
+            self.head("machine"),
+            self.head("date"),
+            self.head("commit"),
+            note.map_or_else(String::new, |note| format!("; {note}")),
+        )
+    }
+
+    /// The scenes, in the order of the file.
+    pub fn scenes(&self) -> Vec<&str> {
+        let mut scenes: Vec<&str> = Vec::new();
+        for row in &self.rows {
+            if !scenes.contains(&row.scene()) {
+                scenes.push(row.scene());
+            }
+        }
+        scenes
+    }
+
+    /// The numbers of samples that a method was measured at, in ascending order.
+    pub fn samples(&self, method: &str) -> Vec<u32> {
+        let of = self.rows.iter().filter(|row| row.text("method") == method);
+        let mut samples: Vec<u32> = of.map(Row::samples).collect();
+        samples.sort_unstable();
+        samples.dedup();
+        samples
+    }
+
+    /// What was measured of a scene under a method at a number of samples.
+    pub fn find(&self, scene: &str, method: &str, samples: u32) -> Option<&Row> {
+        self.rows.iter().find(|row| {
+            row.scene() == scene && row.text("method") == method && row.samples() == samples
+        })
+    }
+
+    /// Whether a scene has textures.
+    pub fn textured(&self, scene: &str) -> bool {
+        let row = self.rows.iter().find(|row| row.scene() == scene);
+        row.is_some_and(|row| row.text("textured") == "true")
+    }
+}
+
+impl Row {
+    pub fn text(&self, column: &str) -> &str {
+        let value = self.0.get(column);
+        value.unwrap_or_else(|| panic!("no column {column}"))
+    }
+
+    pub fn number(&self, column: &str) -> f64 {
+        let text = self.text(column);
+        text.parse()
+            .unwrap_or_else(|_| panic!("{column}: \"{text}\" is not a number"))
+    }
+
+    pub fn samples(&self) -> u32 {
+        self.text("samples").parse().unwrap()
+    }
+
+    /// The name of the scene that documents use; files have names of their own.
+    pub fn scene(&self) -> &str {
+        match self.text("scene") {
+            "dutch_ship_medium_1k" => "DutchShip",
+            "MetalRoughSpheresNoTextures" => "MetalRoughSpheres",
+            "vintageFan_animated" => "DeskFanAnimated",
+            "zdm2" => "SauerbratenZdm2",
+            name => name,
+        }
+    }
+
+    /// Milliseconds on the device.
+    pub fn ms(&self) -> f64 {
+        self.number("gpu_ms_median")
+    }
+}
+
+/// A median, and the largest value with what it belongs to.
+pub struct Spread<'a> {
+    pub median: f64,
+    pub worst: (f64, &'a str),
+}
+
+/// Of values with their names; `None` of no values.
+pub fn spread<'a>(mut values: Vec<(f64, &'a str)>) -> Option<Spread<'a>> {
+    values.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let middle = values.len() / 2;
+    let median = match values.len() {
+        0 => return None,
+        odd if odd % 2 == 1 => values[middle].0,
+        _ => 0.5 * (values[middle - 1].0 + values[middle].0),
+    };
+    Some(Spread {
+        median,
+        worst: *values.last()?,
+    })
+}

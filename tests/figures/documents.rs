@@ -1,0 +1,93 @@
+//! The documents with their generated parts.
+
+use crate::data::root;
+use crate::{help, plot, sets, table};
+use std::path::PathBuf;
+
+/// What makes the text of a part.
+type Make = fn() -> String;
+
+const PARTS: [(&str, Make); 9] = [
+    ("readme", table::readme),
+    ("choosing", table::choosing),
+    ("exceptions", table::exceptions),
+    ("quality", table::quality_by_scene),
+    ("speed", table::speed),
+    ("motion", table::motion),
+    ("variants", table::variants),
+    ("growth", table::growth),
+    ("help", help::every),
+];
+
+const PLOTS: [(&str, Make); 3] = [
+    ("error-time", plot::error_time),
+    ("growth", plot::growth),
+    ("sets", sets::draw),
+];
+
+const BEGIN: &str = "<!-- figures: ";
+const END: &str = "<!-- end -->";
+
+/// Every file that holds something generated, with the text that it should have.
+pub fn generate() -> Vec<(PathBuf, String)> {
+    let mut used = Vec::new();
+    let mut files: Vec<_> = markdown()
+        .into_iter()
+        .filter_map(|path| {
+            let text = std::fs::read_to_string(&path).unwrap();
+            text.contains(BEGIN).then(|| (path, fill(&text, &mut used)))
+        })
+        .collect();
+    for (name, _) in PARTS {
+        assert!(
+            used.iter().any(|other| other == name),
+            "no document has the part \"{name}\""
+        );
+    }
+    for (name, make) in PLOTS {
+        files.push((root().join(format!("docs/figures/{name}.svg")), make()));
+    }
+    files
+}
+
+/// The documents at the root and in `docs`.
+pub fn markdown() -> Vec<PathBuf> {
+    let folders = [root().to_owned(), root().join("docs")];
+    let mut paths: Vec<PathBuf> = folders
+        .iter()
+        .flat_map(|folder| std::fs::read_dir(folder).unwrap())
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "md"))
+        .collect();
+    paths.sort();
+    paths
+}
+
+/// A document whose marked parts are made anew.
+fn fill(text: &str, used: &mut Vec<String>) -> String {
+    let mut filled = String::new();
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once(BEGIN) {
+        let (name, after) = after.split_once(" -->").unwrap();
+        let part = PARTS.iter().find(|(other, _)| *other == name);
+        let (_, make) = part.unwrap_or_else(|| panic!("no part is called \"{name}\""));
+        let end = after
+            .find(END)
+            .unwrap_or_else(|| panic!("the part \"{name}\" has no end"));
+        filled += &format!("{before}{BEGIN}{name} -->\n\n{}\n\n{END}", make().trim());
+        used.push(name.to_owned());
+        rest = &after[end + END.len()..];
+    }
+    filled + rest
+}
+
+/// A document without its generated parts.
+pub fn handwritten(text: &str) -> String {
+    let mut kept = String::new();
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once(BEGIN) {
+        kept += before;
+        rest = after.split_once(END).map_or("", |(_, rest)| rest);
+    }
+    kept + rest
+}

@@ -1,0 +1,35 @@
+//! Every table and plot of the documents is what the data in `docs/bench` make of it, and every help text what the command says.
+//!
+//! `make figures` writes them: it runs this test with `GPC_FIGURES=write`.
+
+mod checks;
+mod data;
+mod documents;
+mod help;
+mod plot;
+mod sets;
+mod table;
+mod text;
+
+/// Compares what is in the repository with what should be there, or writes it.
+#[test]
+fn documents_agree_with_their_data() {
+    let write = std::env::var_os("GPC_FIGURES").is_some_and(|value| value == "write");
+    let mut stale = Vec::new();
+    for (path, wanted) in documents::generate() {
+        let found = std::fs::read_to_string(&path).unwrap_or_default();
+        if found == wanted {
+            continue;
+        }
+        if write {
+            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+            std::fs::write(&path, wanted).unwrap();
+        } else {
+            stale.push(path.display().to_string());
+        }
+    }
+    assert!(
+        stale.is_empty(),
+        "these differ from docs/bench or from the command's help; run `make figures`: {stale:?}"
+    );
+}

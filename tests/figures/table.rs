@@ -1,0 +1,410 @@
+//! The tables of the documents.
+
+use crate::data::{self, Measurement, Row, Spread, spread};
+use crate::text::{Table, cells, error, grouped, short};
+
+/// A column of the quality files, and how one method's value is held against another's.
+type Column = fn(&Row) -> f64;
+
+const RMSE: Column = |row| row.number("rmse");
+const FLIP: Column = |row| row.number("flip");
+const MS: Column = |row| row.ms();
+
+/// Ratios of a column of two methods over all scenes that were measured under both.
+fn ratios<'a>(
+    of: &'a Measurement,
+    scenes: &[&'a str],
+    column: Column,
+    (above, above_samples): (&str, u32),
+    (below, below_samples): (&str, u32),
+) -> Option<Spread<'a>> {
+    let ratio = |scene: &&'a str| {
+        let above = of.find(scene, above, above_samples)?;
+        let below = of.find(scene, below, below_samples)?;
+        Some((column(above) / column(below), *scene))
+    };
+    spread(scenes.iter().filter_map(ratio).collect())
+}
+
+/// The median of a column over scenes.
+fn median(
+    of: &Measurement,
+    scenes: &[&str],
+    column: Column,
+    method: &str,
+    samples: u32,
+) -> Option<f64> {
+    let value = |scene: &&str| Some((column(of.find(scene, method, samples)?), ""));
+    Some(spread(scenes.iter().filter_map(value).collect())?.median)
+}
+
+fn textured(of: &Measurement) -> Vec<&str> {
+    let mut scenes = of.scenes();
+    scenes.retain(|scene| of.textured(scene));
+    scenes
+}
+
+fn with_worst(spread: Option<Spread<'_>>) -> String {
+    spread.map_or_else(String::new, |s| {
+        format!("{} ({})", short(s.median), short(s.worst.0))
+    })
+}
+
+fn or_none(value: Option<f64>, write: fn(f64) -> String) -> String {
+    value.map_or_else(String::new, write)
+}
+
+/// The measurement of errors that documents speak of: the first with superpixels.
+fn quality(all: &[Measurement]) -> &Measurement {
+    let found = all.iter().find(|of| !of.samples("superpixel").is_empty());
+    found.expect("docs/bench/quality-*.csv has no superpixels")
+}
+
+/// Time, error and what they are to brute force, in a few lines.
+pub fn readme() -> String {
+    let all = data::load("quality");
+    let of = quality(&all);
+    let scenes = textured(of);
+    let samples: Vec<u32> = of
+        .samples("superpixel")
+        .into_iter()
+        .filter(|n| *n >= 16)
+        .collect();
+    let mut head = cells(&["samples in a superpixel"]);
+    head.extend(samples.iter().map(|n| grouped(u64::from(*n))));
+    let mut table = Table::new(&head);
+    let mut line = |name: &str, value: &dyn Fn(u32) -> String| {
+        let mut row = cells(&[name]);
+        row.extend(samples.iter().map(|n| value(*n)));
+        table.row(&row);
+    };
+    line("superpixel time / time of one sample", &|n| {
+        with_worst(ratios(of, &scenes, MS, ("superpixel", n), ("none", 1)))
+    });
+    line("superpixel time / `ssaa` time", &|n| {
+        with_worst(ratios(of, &scenes, MS, ("superpixel", n), ("ssaa", n)))
+    });
+    line("superpixel RMSE / `ssaa` RMSE", &|n| {
+        with_worst(ratios(of, &scenes, RMSE, ("superpixel", n), ("ssaa", n)))
+    });
+    line("superpixel FLIP / `ssaa` FLIP", &|n| {
+        with_worst(ratios(of, &scenes, FLIP, ("superpixel", n), ("ssaa", n)))
+    });
+    format!(
+        "Medians (worst) of {} textured scenes at {}. Below 1, superpixels win. {}.\n\n{}",
+        scenes.len(),
+        of.size(),
+        of.source(),
+        table.finish()
+    )
+}
+
+/// Error and time of every method at every number of samples.
+pub fn choosing() -> String {
+    let mut text = String::new();
+    for of in &data::load("quality") {
+        let scenes = textured(of);
+        let mut table = Table::new(&cells(&[
+            "method",
+            "samples",
+            "time (worst)",
+            "RMSE",
+            "FLIP",
+            "RMSE / `ssaa`",
+            "FLIP / `ssaa`",
+        ]));
+        for method in ["none", "msaa", "ssaa", "superpixel"] {
+            for n in of.samples(method) {
+                let over = |column| match method {
+                    "superpixel" => {
+                        with_worst(ratios(of, &scenes, column, (method, n), ("ssaa", n)))
+                    }
+                    _ => String::new(),
+                };
+                table.row(&[
+                    format!("`{method}`"),
+                    grouped(u64::from(n)),
+                    with_worst(ratios(of, &scenes, MS, (method, n), ("none", 1))),
+                    or_none(median(of, &scenes, RMSE, method, n), error),
+                    or_none(median(of, &scenes, FLIP, method, n), error),
+                    over(RMSE),
+                    over(FLIP),
+                ]);
+            }
+        }
+        text += &format!("{}:\n\n{}\n", of.source(), table.finish());
+    }
+    text
+}
+
+/// Where brute force is the better method.
+pub fn exceptions() -> String {
+    let all = data::load("quality");
+    let of = quality(&all);
+    let scenes = of.scenes();
+    let mut table = Table::new(&cells(&[
+        "samples",
+        "`ssaa` is faster on",
+        "`ssaa` has the smaller RMSE on",
+        "`ssaa` has the smaller FLIP on",
+    ]));
+    for n in of.samples("superpixel") {
+        let better = |column: Column| {
+            let better: Vec<&str> = scenes
+                .iter()
+                .filter(|scene| {
+                    let of = |method| of.find(scene, method, n).map(column);
+                    of("ssaa") < of("superpixel")
+                })
+                .copied()
+                .collect();
+            let names = match better.len() {
+                0 => String::new(),
+                few if few <= 3 => format!(": {}", better.join(", ")),
+                _ => String::new(),
+            };
+            format!("{} of {}{names}", better.len(), scenes.len())
+        };
+        table.row(&[
+            grouped(u64::from(n)),
+            better(MS),
+            better(RMSE),
+            better(FLIP),
+        ]);
+    }
+    format!(
+        "All {} scenes; {}:\n\n{}",
+        scenes.len(),
+        of.source(),
+        table.finish()
+    )
+}
+
+/// Error and time scene by scene.
+pub fn quality_by_scene() -> String {
+    let mut text = String::new();
+    for of in &data::load("quality") {
+        text += &format!("{}, {}.\n\n", of.source(), of.size());
+        for n in of.samples("superpixel") {
+            let mut table = Table::new(&cells(&[
+                "scene",
+                "superpixels",
+                "one sample, ms",
+                "superpixel, ms",
+                "`ssaa`, ms",
+                "RMSE",
+                "`ssaa`",
+                "FLIP",
+                "`ssaa`",
+            ]));
+            for scene in of.scenes() {
+                let Some((fine, brute)) = of
+                    .find(scene, "superpixel", n)
+                    .zip(of.find(scene, "ssaa", n))
+                else {
+                    continue;
+                };
+                let plain = of.find(scene, "none", 1).map(MS);
+                table.row(&[
+                    scene.to_owned(),
+                    format!("{:.1} %", 100.0 * fine.number("superpixel_fraction")),
+                    or_none(plain, short),
+                    short(fine.ms()),
+                    short(brute.ms()),
+                    error(RMSE(fine)),
+                    error(RMSE(brute)),
+                    error(FLIP(fine)),
+                    error(FLIP(brute)),
+                ]);
+            }
+            text += &format!(
+                "**{} samples**\n\n{}\n",
+                grouped(u64::from(n)),
+                table.finish()
+            );
+        }
+        for n in of.samples("msaa") {
+            let mut table = Table::new(&cells(&[
+                "scene",
+                "one sample, ms",
+                "`msaa`, ms",
+                "RMSE of one sample",
+                "`msaa`",
+                "FLIP of one sample",
+                "`msaa`",
+            ]));
+            for scene in of.scenes() {
+                if let Some((plain, multi)) =
+                    of.find(scene, "none", 1).zip(of.find(scene, "msaa", n))
+                {
+                    table.row(&[
+                        scene.to_owned(),
+                        short(plain.ms()),
+                        short(multi.ms()),
+                        error(RMSE(plain)),
+                        error(RMSE(multi)),
+                        error(FLIP(plain)),
+                        error(FLIP(multi)),
+                    ]);
+                }
+            }
+            text += &format!("**`msaa`, {n} samples**\n\n{}\n", table.finish());
+        }
+    }
+    text
+}
+
+/// Times of larger images, driver by driver.
+pub fn speed() -> String {
+    let mut text = String::new();
+    for of in &data::load("speed") {
+        let samples = of.samples("superpixel");
+        let mut head = cells(&["scene", "one sample, ms"]);
+        for n in &samples {
+            let n = grouped(u64::from(*n));
+            head.extend([
+                format!("{n} samples, ms"),
+                "/ one sample".to_owned(),
+                "`ssaa` / it".to_owned(),
+            ]);
+        }
+        let mut table = Table::new(&head);
+        for scene in of.scenes() {
+            let Some(plain) = of.find(scene, "none", 1) else {
+                continue;
+            };
+            let mut row = vec![scene.to_owned(), short(plain.ms())];
+            for n in &samples {
+                let fine = of.find(scene, "superpixel", *n).map(MS);
+                let brute = of.find(scene, "ssaa", *n).map(MS);
+                row.push(or_none(fine, short));
+                row.push(or_none(fine.map(|ms| ms / plain.ms()), short));
+                row.push(or_none(
+                    fine.zip(brute).map(|(fine, brute)| brute / fine),
+                    short,
+                ));
+            }
+            table.row(&row);
+        }
+        let scenes = of.scenes();
+        let mut row = cells(&["**median**", ""]);
+        for n in &samples {
+            let over =
+                |above, below| ratios(of, &scenes, MS, above, below).map(|spread| spread.median);
+            row.push(String::new());
+            row.push(or_none(over(("superpixel", *n), ("none", 1)), short));
+            row.push(or_none(over(("ssaa", *n), ("superpixel", *n)), short));
+        }
+        table.row(&row);
+        text += &format!("{}, {}:\n\n{}\n", of.source(), of.size(), table.finish());
+    }
+    text
+}
+
+/// Errors and flicker while the camera moves.
+pub fn motion() -> String {
+    let mut text = String::new();
+    for of in &data::load("motion") {
+        let samples = of.samples("superpixel");
+        let mut head = cells(&["scene", "motion"]);
+        for n in &samples {
+            head.extend([format!("error, {n} samples"), "flicker".to_owned()]);
+        }
+        let mut table = Table::new(&head);
+        for scene in of.scenes() {
+            for motion in ["pan", "turn"] {
+                let find = |method: &str, n: u32| {
+                    of.rows.iter().find(|row| {
+                        row.scene() == scene
+                            && row.text("motion") == motion
+                            && row.text("method") == method
+                            && row.samples() == n
+                    })
+                };
+                let mut row = cells(&[scene, motion]);
+                for n in &samples {
+                    for column in ["rmse", "flicker"] {
+                        let pair = find("superpixel", *n).zip(find("ssaa", *n));
+                        let ratio =
+                            pair.map(|(fine, brute)| fine.number(column) / brute.number(column));
+                        row.push(or_none(ratio, |ratio| format!("{ratio:.2}")));
+                    }
+                }
+                table.row(&row);
+            }
+        }
+        text += &format!("{}, {}:\n\n{}\n", of.source(), of.size(), table.finish());
+    }
+    text
+}
+
+/// Time of a sample under the camera's variants.
+pub fn variants() -> String {
+    let mut text = String::new();
+    for of in &data::load("variants") {
+        let mut table = Table::new(&cells(&[
+            "scene",
+            "variant",
+            "device, ns",
+            "/ raster",
+            "by the clock, ns",
+            "/ raster",
+        ]));
+        for row in &of.rows {
+            table.row(&[
+                row.scene().to_owned(),
+                row.text("variant").to_owned(),
+                short(row.number("gpu_ns")),
+                short(row.number("gpu_ratio")),
+                short(row.number("wall_ns")),
+                short(row.number("wall_ratio")),
+            ]);
+        }
+        text += &format!("{}, {}:\n\n{}\n", of.source(), of.size(), table.finish());
+    }
+    text
+}
+
+/// Time against the size of things.
+pub fn growth() -> String {
+    let mut text = String::new();
+    for of in &data::load("growth") {
+        let mut table = Table::new(&cells(&[
+            "quantity",
+            "value",
+            "one sample, ms",
+            "superpixel, ms",
+            "`ssaa`, ms",
+        ]));
+        let mut seen = Vec::new();
+        for row in &of.rows {
+            let key = (row.text("quantity"), row.text("value"));
+            if seen.contains(&key) {
+                continue;
+            }
+            seen.push(key);
+            let ms = |method: &str| {
+                let same = |other: &&Row| {
+                    (other.text("quantity"), other.text("value")) == key
+                        && other.text("method") == method
+                };
+                or_none(of.rows.iter().find(same).map(MS), short)
+            };
+            let (quantity, value) = (key.0, row.number("value"));
+            table.row(&[
+                quantity.to_owned(),
+                short(value),
+                ms("none"),
+                ms("superpixel"),
+                ms("ssaa"),
+            ]);
+        }
+        text += &format!(
+            "{}, {} where pixels do not grow:\n\n{}\n",
+            of.source(),
+            of.size(),
+            table.finish()
+        );
+    }
+    text
+}

@@ -1,0 +1,40 @@
+//! Recordings that are discarded, and those that are asked about before they are done.
+
+use super::list::pixels;
+use super::machine::{Base, Machine, is_not_done};
+use super::mask;
+use super::world::{PLACED, SIZE, World};
+use crate::stage::on_gpu;
+use gpc::host::Options;
+use gpc::scene::Sampler;
+
+/// What a frame or list uploads with its first recording is uploaded by the next one where that one was discarded.
+#[test]
+fn a_discarded_recording_changes_nothing() {
+    on_gpu(|gpu| {
+        let world = mask::world(&Sampler::default());
+        let mut machine = Machine::new(gpu, &world);
+        let options = Options::new(SIZE[0], SIZE[1]);
+        let lent = world.lent(&PLACED);
+        let [seen, again] = [false, true].map(|discards| {
+            machine.discards = discards;
+            let frame = machine.see_lent(&PLACED, &lent, Base::Nothing, options.clone());
+            let (list, _) = machine.see_list(&PLACED, &pixels(), options.clone());
+            (frame.colors, list)
+        });
+        assert!(seen == again);
+    });
+}
+
+/// It is neither waited for commands that still run, nor read what they write.
+#[test]
+fn what_still_runs_is_not_read() {
+    on_gpu(|gpu| {
+        let world = World::new();
+        let machine = Machine::new(gpu, &world);
+        let options = Options::new(SIZE[0], SIZE[1]);
+        let [early, late] = machine.asked_early(&PLACED, &pixels(), &options);
+        assert!(is_not_done(early.err()));
+        assert_eq!(late.unwrap().left_over, 0);
+    });
+}

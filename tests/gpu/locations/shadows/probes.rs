@@ -1,0 +1,83 @@
+//! The places of a pixel that are asked for shadows besides its centre.
+
+use glam::DVec2;
+use gpc::reference::shadow::PROBES;
+use gpc::render::{Detection, Rendered, Settings, Shadows};
+use gpc::sampling::Pattern;
+use gpc::scene::AlphaMode;
+
+use super::super::planar;
+use super::{FLOOR, floor, lit, pinhole, render, sun, upload, within};
+use crate::stage::{everywhere, on_gpu};
+
+const SIZE: [u32; 2] = [256, 192];
+/// Radius of a dot of shadow, in pixels.
+const RADIUS: f64 = 1.0 / 40.0;
+/// Pixels from one with a dot to the next, so that no dot has to do with another's pixel.
+const APART: usize = 4;
+
+/// Where dots lie, from their pixel's centre: on every probe and all around it, and on a grid over the pixel without its
+/// centre, which is asked for the pixel's own colour.
+fn dots() -> Vec<DVec2> {
+    let steps = |from: i32| (from..=-from).flat_map(move |y| (from..=-from).map(move |x| (x, y)));
+    let place = |(x, y): (i32, i32)| DVec2::new(f64::from(x), f64::from(y)) / 16.0;
+    let around = |probe| steps(-1).map(move |step| DVec2::from_array(probe) + place(step));
+    let grid = steps(-7).filter(|step| *step != (0, 0)).map(place);
+    PROBES.into_iter().flat_map(around).chain(grid).collect()
+}
+
+/// Dots of shadow that are smaller than the gaps between them: a pixel is a superpixel where one covers a probe as the twin
+/// has them, and only there.
+#[test]
+fn pixels_are_probed_where_the_twin_has_it() {
+    on_gpu(|gpu| {
+        let mut stage = floor(vec![lit(AlphaMode::Opaque)]);
+        let pinhole = pinhole(SIZE);
+        // Casters high above the camera, out of sight.
+        let above = |uv: DVec2| {
+            let ray = pinhole.ray(uv);
+            let to_floor = (FLOOR - ray.start.y) / ray.direction.y;
+            let on_floor = ray.start + ray.direction * to_floor;
+            (on_floor - sun().direction * 20.0).as_vec3().to_array()
+        };
+        let columns = (2..SIZE[0] - 2).step_by(APART);
+        let pixels = (124..SIZE[1] - 2)
+            .step_by(APART)
+            .flat_map(|y| columns.clone().map(move |x| [x, y]));
+        let mut expected = Vec::new();
+        for (pixel, dot) in pixels.zip(dots()) {
+            let middle = dot + DVec2::from_array(pixel.map(f64::from)) + 0.5;
+            let corners = [0.0, 2.1, 4.2].map(|angle| middle + DVec2::from_angle(angle) * RADIUS);
+            stage.add(0, corners.map(above));
+            let centre = middle - dot;
+            let covers = |probe| within(centre + DVec2::from_array(probe), corners).0;
+            expected.push((pixel, dot, PROBES.into_iter().any(covers)));
+        }
+        assert_eq!(expected.len(), dots().len());
+        let probed = expected.iter().filter(|(_, _, probed)| *probed).count();
+        assert!(probed >= PROBES.len() && probed < 10, "{probed}");
+
+        let prepared = upload(gpu, &stage, &[sun()]);
+        let settings = Settings {
+            shadows: Shadows::Exact,
+            detection: Detection::Edges,
+            attributes: true,
+            ..everywhere(SIZE, Pattern::Sobol, 16)
+        };
+        let frame = render(gpu, &prepared, &settings);
+        let rig = [(pinhole, planar(SIZE))];
+        let list = gpu.render_locations(&prepared, &rig, SIZE, &settings);
+        let is_superpixel = |image: &Rendered, x: u32, y: u32| {
+            image.attributes[(y * SIZE[0] + x) as usize].superpixel == 1
+        };
+        for (name, image) in [("frame", &frame), ("list", &list.unwrap())] {
+            for ([x, y], dot, probed) in &expected {
+                assert_eq!(
+                    is_superpixel(image, *x, *y),
+                    *probed,
+                    "{name}: {x}, {y}, {dot}"
+                );
+            }
+        }
+    });
+}

@@ -1,0 +1,8 @@
+//! Programs that use the library, in Rust and by its C API.
+
+mod capi;
+#[path = "../common/difference.rs"]
+mod difference;
+mod embed;
+mod example;
+mod visibility;

@@ -1,0 +1,484 @@
+/* What bad input is answered, through the header in C99; the program's exit status says whether all was as expected. */
+
+#include <gpc.h>
+#include <vulkan/vulkan.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int failures = 0;
+
+#define EXPECT(condition, what)                                                 \
+    do {                                                                        \
+        if (!(condition)) {                                                     \
+            ++failures;                                                         \
+            printf("line %d: %s: \"%s\"\n", __LINE__, what, gpc_last_error());  \
+        }                                                                       \
+    } while (0)
+
+/* The answer to a call, and a part of the message. */
+#define ANSWERS(call, result, text)                                             \
+    EXPECT((call) == (result) && strstr(gpc_last_error(), text) != NULL, #call)
+
+#define MUST(call)                                                              \
+    do {                                                                        \
+        if ((call) != VK_SUCCESS) {                                             \
+            printf("%s failed: \"%s\"\n", #call, gpc_last_error());             \
+            exit(1);                                                            \
+        }                                                                       \
+    } while (0)
+
+enum { SIDE = 64, VERTICES = 12, INDICES = 12 };
+
+static VkInstance instance;
+static VkPhysicalDevice physical;
+static VkDevice device;
+static uint32_t family;
+static GpcAntialiaser *antialiaser;
+
+static VkDeviceMemory allocate(VkMemoryRequirements needs) {
+    VkMemoryAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = needs.size};
+    VkDeviceMemory memory;
+    while (!(needs.memoryTypeBits >> info.memoryTypeIndex & 1)) ++info.memoryTypeIndex;
+    MUST(vkAllocateMemory(device, &info, NULL, &memory));
+    return memory;
+}
+
+static VkBuffer make_buffer(VkDeviceSize bytes, VkDeviceMemory *memory) {
+    VkBufferCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
+        .size = bytes,
+        .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+    };
+    VkMemoryRequirements needs;
+    VkBuffer buffer;
+    MUST(vkCreateBuffer(device, &info, NULL, &buffer));
+    vkGetBufferMemoryRequirements(device, buffer, &needs);
+    *memory = allocate(needs);
+    MUST(vkBindBufferMemory(device, buffer, *memory, 0));
+    return buffer;
+}
+
+static GpcImage make_image(VkFormat format, VkDeviceMemory *memory) {
+    VkImageCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
+        .imageType = VK_IMAGE_TYPE_2D,
+        .format = format,
+        .extent = {SIDE, SIDE, 1},
+        .mipLevels = 1,
+        .arrayLayers = 1,
+        .samples = VK_SAMPLE_COUNT_1_BIT,
+        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
+    };
+    GpcImage image = {
+        .aspects = VK_IMAGE_ASPECT_COLOR_BIT,
+        .before = {VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_NONE},
+        .after = {VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_NONE},
+    };
+    VkImageViewCreateInfo view = {
+        .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+        .viewType = VK_IMAGE_VIEW_TYPE_2D,
+        .format = format,
+        .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1},
+    };
+    VkMemoryRequirements needs;
+    MUST(vkCreateImage(device, &info, NULL, &image.image));
+    vkGetImageMemoryRequirements(device, image.image, &needs);
+    *memory = allocate(needs);
+    MUST(vkBindImageMemory(device, image.image, *memory, 0));
+    view.image = image.image;
+    MUST(vkCreateImageView(device, &view, NULL, &image.view));
+    return image;
+}
+
+static void without_a_device(void) {
+    VkPhysicalDeviceVulkan13Features features = {.privateData = VK_TRUE};
+    EXPECT(gpc_version() == GPC_VERSION && GPC_VERSION >> 12 == (GPC_VERSION_MAJOR << 10 | GPC_VERSION_MINOR), "the version");
+    EXPECT(gpc_last_error()[0] == '\0', "the message before any failure");
+    ANSWERS(gpc_require_features(NULL), GPC_RESULT_NULL, "features is NULL");
+    ANSWERS(gpc_require_features(&features), GPC_RESULT_VALUE, "features->sType is 0");
+    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+    EXPECT(gpc_require_features(&features) == GPC_RESULT_SUCCESS, "features");
+    EXPECT(features.privateData && features.dynamicRendering && features.synchronization2 && !features.inlineUniformBlock,
+           "features are added to what is set");
+
+    GpcOptions options = {.size = 4, .samples = 7};
+    ANSWERS(gpc_options_init(NULL, 1, 1), GPC_RESULT_NULL, "GpcOptions is NULL");
+    ANSWERS(gpc_options_init(&options, 1, 1), GPC_RESULT_STRUCT_SIZE, "GpcOptions.size is 4");
+    EXPECT(options.samples == 7, "a struct of another size is left alone");
+
+    ANSWERS(gpc_check_device(NULL, NULL, NULL, NULL), GPC_RESULT_NULL, "get_instance_proc_addr is NULL");
+    ANSWERS(gpc_check_device(vkGetInstanceProcAddr, NULL, NULL, NULL), GPC_RESULT_NULL, "instance is NULL");
+    ANSWERS(gpc_antialiaser_create(NULL, NULL), GPC_RESULT_NULL, "antialiaser is NULL");
+    ANSWERS(gpc_antialiaser_create(NULL, &antialiaser), GPC_RESULT_NULL, "GpcDevice is NULL");
+    EXPECT(gpc_antialiaser_samples_layout(NULL) == VK_NULL_HANDLE, "the layout of nothing");
+    EXPECT(gpc_frame_memory_bytes(NULL) == 0, "the memory of nothing");
+    ANSWERS(gpc_frame_grow(NULL, NULL), GPC_RESULT_NULL, "grown is NULL");
+    ANSWERS(gpc_frame_outcome(NULL, NULL), GPC_RESULT_NULL, "frame is NULL");
+    ANSWERS(gpc_frame_record(NULL, NULL, NULL, NULL, NULL), GPC_RESULT_NULL, "frame is NULL");
+    gpc_frame_destroy(NULL);
+    gpc_antialiaser_destroy(NULL);
+}
+
+static PFN_vkVoidFunction VKAPI_PTR without_features2(VkInstance asked, const char *name) {
+    return strcmp(name, "vkGetPhysicalDeviceFeatures2") == 0 ? NULL : vkGetInstanceProcAddr(asked, name);
+}
+
+static void make_device(void) {
+    VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .apiVersion = GPC_VULKAN_API_VERSION};
+    VkInstanceCreateInfo instance_info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+                                          .pApplicationInfo = &application};
+    uint32_t count = 1;
+    float priority = 1;
+    VkPhysicalDeviceVulkan13Features features = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    VkDeviceQueueCreateInfo queue = {
+        .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, .queueCount = 1, .pQueuePriorities = &priority};
+    VkDeviceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                               .pNext = &features,
+                               .queueCreateInfoCount = 1,
+                               .pQueueCreateInfos = &queue};
+    MUST(vkCreateInstance(&instance_info, NULL, &instance));
+    vkEnumeratePhysicalDevices(instance, &count, &physical);
+    ANSWERS(gpc_check_device(without_features2, instance, physical, NULL), GPC_RESULT_UNSUPPORTED,
+            "there is no vkGetPhysicalDeviceFeatures2: create the instance for Vulkan 1.3");
+    ANSWERS(gpc_check_device(vkGetInstanceProcAddr, instance, NULL, NULL), GPC_RESULT_NULL, "physical_device is NULL");
+    MUST((VkResult)gpc_check_device(vkGetInstanceProcAddr, instance, physical, &family));
+    queue.queueFamilyIndex = family;
+    gpc_require_features(&features);
+    MUST(vkCreateDevice(physical, &info, NULL, &device));
+}
+
+static void make_antialiaser(void) {
+    GpcDevice lent = {.size = sizeof lent,
+                      .queue_family = family,
+                      .get_instance_proc_addr = vkGetInstanceProcAddr,
+                      .instance = instance,
+                      .physical_device = physical};
+    ANSWERS(gpc_antialiaser_create(&lent, &antialiaser), GPC_RESULT_NULL, "GpcDevice.device is NULL");
+    EXPECT(antialiaser == NULL, "what failed gives nothing");
+    lent.device = device;
+    lent.size += 8;
+    ANSWERS(gpc_antialiaser_create(&lent, &antialiaser), GPC_RESULT_STRUCT_SIZE, "GpcDevice.size is");
+    lent.size -= 8;
+    lent.queue_family = 99;
+    ANSWERS(gpc_antialiaser_create(&lent, &antialiaser), GPC_RESULT_VALUE, "queue family 99 of device");
+    lent.queue_family = family;
+    lent.conditional_rendering = VK_TRUE;
+    ANSWERS(gpc_antialiaser_create(&lent, &antialiaser), GPC_RESULT_UNSUPPORTED, "create the device with VK_EXT_conditional_rendering");
+    lent.conditional_rendering = VK_FALSE;
+    MUST((VkResult)gpc_antialiaser_create(&lent, &antialiaser));
+}
+
+static void shade_nothing(void *user, VkCommandBuffer commands, const GpcVisibilitySamples *samples) {
+    (void)commands;
+    (void)samples;
+    ++*(int *)user;
+}
+
+static void recordings(GpcFrame *frame) {
+    VkCommandPoolCreateInfo pool_info = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, .queueFamilyIndex = family};
+    VkCommandBufferAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, .commandBufferCount = 1};
+    VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    VkCommandBuffer commands;
+    GpcDraw draws[2] = {{.triangle_count = 2, .vertex_count = 3}, {.first_index = 6, .triangle_count = 2, .vertex_count = 3}};
+    GpcScenery scenery = {.size = sizeof scenery, .draw_count = 2, .draws = draws};
+    GpcOutcome outcome = {.size = sizeof outcome};
+    GpcFrame *grown = NULL;
+    int calls = 0;
+    scenery.projection[0][0] = scenery.projection[1][1] = scenery.projection[2][2] = scenery.projection[3][3] = 1;
+    MUST(vkCreateCommandPool(device, &pool_info, NULL, &info.commandPool));
+    MUST(vkAllocateCommandBuffers(device, &info, &commands));
+    MUST(vkBeginCommandBuffer(commands, &begin));
+    ANSWERS(gpc_frame_outcome(frame, &outcome), GPC_RESULT_NOT_READY, "nothing was recorded yet");
+    outcome.size = 0;
+
+#define RECORD gpc_frame_record(frame, commands, &scenery, shade_nothing, &calls)
+    ANSWERS(gpc_frame_record(frame, commands, NULL, shade_nothing, NULL), GPC_RESULT_NULL, "GpcScenery is NULL");
+    ANSWERS(gpc_frame_record(frame, NULL, &scenery, shade_nothing, NULL), GPC_RESULT_NULL, "commands is NULL");
+    ANSWERS(gpc_frame_record(frame, commands, &scenery, NULL, NULL), GPC_RESULT_NULL, "shade is NULL");
+    scenery.draws = NULL;
+    ANSWERS(RECORD, GPC_RESULT_NULL, "GpcScenery.draws is NULL");
+    scenery.draws = draws;
+    draws[1].material = 70000;
+    ANSWERS(RECORD, GPC_RESULT_VALUE, "GpcDraw.material is 70000; it can be 0 to 65535");
+    draws[1].material = 0;
+    draws[0].double_sided = 2;
+    ANSWERS(RECORD, GPC_RESULT_VALUE, "GpcDraw.double_sided is 2; it can be VK_FALSE (0), VK_TRUE (1)");
+    draws[0].double_sided = VK_TRUE;
+    draws[1].key = 1;
+    ANSWERS(RECORD, GPC_RESULT_VALUE, "draw 1 has shading key 1, and there are 1");
+    draws[1].key = 0;
+    draws[1].alpha_map = 70000;
+    ANSWERS(RECORD, GPC_RESULT_VALUE, "GpcDraw.alpha_map is 70000; it can be 0 to 65536");
+    draws[1].alpha_map = 1;
+    ANSWERS(RECORD, GPC_RESULT_VALUE, "GpcDraw.alpha_map of draw 1 is 1; it can be 0 to 0");
+    draws[1].alpha_map = 0;
+    draws[1].blended = 2;
+    ANSWERS(RECORD, GPC_RESULT_VALUE, "GpcDraw.blended is 2; it can be VK_FALSE (0), VK_TRUE (1)");
+    draws[1].blended = VK_TRUE;
+    ANSWERS(RECORD, GPC_RESULT_VALUE, "draw 1 is blended; create the frame with GpcGeometry.blended");
+    draws[1].blended = VK_FALSE;
+    draws[1].triangle_count = 3;
+    ANSWERS(RECORD, GPC_RESULT_CAPACITY, "draw 1 reads indices up to 15, and there are 12");
+    draws[1].triangle_count = 2;
+    draws[1].vertex_offset = 10;
+    ANSWERS(RECORD, GPC_RESULT_CAPACITY, "draw 1 has the vertices from 10 to before 13");
+    draws[1].vertex_offset = 6;
+    draws[1].vertex_count = 4;
+    ANSWERS(RECORD, GPC_RESULT_CAPACITY, "7 vertices; the frame was prepared for 6");
+    draws[1].vertex_count = 3;
+    draws[1].to_clip[3][1] = 0.0f / (scenery.projection[3][0]);
+    ANSWERS(RECORD, GPC_RESULT_VALUE, "the matrix of draw 1 has a number that is not finite");
+    draws[1].to_clip[3][1] = 0;
+    scenery.projection[2][1] = 0.0f / (scenery.projection[3][0]);
+    ANSWERS(RECORD, GPC_RESULT_VALUE, "not finite");
+    scenery.projection[2][1] = 0;
+    scenery.projection[1][1] = 0;
+    ANSWERS(RECORD, GPC_RESULT_VALUE, "GpcScenery.projection has a scale of 0 along y");
+    scenery.projection[1][1] = 1;
+    EXPECT(calls == 0, "what is refused records nothing");
+    EXPECT(RECORD == GPC_RESULT_SUCCESS && calls > 0, "a recording");
+    ANSWERS(gpc_frame_outcome(frame, &outcome), GPC_RESULT_STRUCT_SIZE, "GpcOutcome.size is 0");
+    outcome.size = sizeof outcome;
+    ANSWERS(gpc_frame_outcome(frame, &outcome), GPC_RESULT_NOT_READY, "the commands of the last recording are not done");
+    ANSWERS(gpc_frame_grow(frame, &grown), GPC_RESULT_NOT_READY, "the commands of the last recording are not done");
+    MUST(vkEndCommandBuffer(commands));
+    vkDestroyCommandPool(device, info.commandPool, NULL);
+}
+
+static void lists(const GpcGeometry *geometry, const GpcOptions *options) {
+    enum { LOCATIONS = 8 };
+    VkCommandPoolCreateInfo pool_info = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, .queueFamilyIndex = family};
+    VkCommandBufferAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, .commandBufferCount = 1};
+    VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    VkCommandBuffer commands;
+    VkDeviceMemory memory[2];
+    VkBuffer locations = make_buffer(sizeof(GpcLocation) * LOCATIONS, &memory[0]), colors = make_buffer(16 * LOCATIONS, &memory[1]);
+    GpcLocationList lent = {.size = 0, .capacity = 0};
+    GpcDraw draw = {.triangle_count = 2, .vertex_count = 3};
+    GpcListOutcome outcome = {.size = 0};
+    GpcList *list = (GpcList *)&list;
+    int calls = 0;
+
+    MUST(vkCreateCommandPool(device, &pool_info, NULL, &info.commandPool));
+    MUST(vkAllocateCommandBuffers(device, &info, &commands));
+    MUST(vkBeginCommandBuffer(commands, &begin));
+#define CREATE_LIST gpc_list_create(antialiaser, geometry, &lent, options, &list)
+    ANSWERS(gpc_list_create(antialiaser, geometry, &lent, options, NULL), GPC_RESULT_NULL, "list is NULL");
+    ANSWERS(gpc_list_create(NULL, geometry, &lent, options, &list), GPC_RESULT_NULL, "antialiaser is NULL");
+    EXPECT(list == NULL, "what failed gives nothing");
+    ANSWERS(CREATE_LIST, GPC_RESULT_STRUCT_SIZE, "GpcLocationList.size is 0");
+    lent.size = sizeof lent;
+    ANSWERS(CREATE_LIST, GPC_RESULT_NULL, "the buffer of locations is VK_NULL_HANDLE");
+    lent.locations = locations;
+    ANSWERS(CREATE_LIST, GPC_RESULT_NULL, "the buffer of colours is VK_NULL_HANDLE");
+    lent.colors = colors;
+    ANSWERS(CREATE_LIST, GPC_RESULT_VALUE, "the capacity of locations is 0; it can be 1 to");
+    lent.capacity = LOCATIONS;
+    lent.offset = 8;
+    ANSWERS(CREATE_LIST, GPC_RESULT_VALUE, "the offset of locations is 8 bytes; it can be a multiple of");
+    lent.offset = 0;
+    lent.colors_offset = 2;
+    ANSWERS(CREATE_LIST, GPC_RESULT_VALUE, "the offset of colours is 2 bytes; it can be a multiple of 4");
+    lent.colors_offset = 0;
+    MUST((VkResult)CREATE_LIST);
+    EXPECT(gpc_list_memory_bytes(list) > 0, "the memory of a list");
+    EXPECT(gpc_list_memory_bytes(NULL) == 0, "no list, no memory");
+
+#define RECORD_LIST(count) gpc_list_record(list, commands, &draw, 1, count, shade_nothing, &calls)
+    ANSWERS(gpc_list_record(NULL, commands, &draw, 1, 1, shade_nothing, NULL), GPC_RESULT_NULL, "list is NULL");
+    ANSWERS(gpc_list_record(list, NULL, &draw, 1, 1, shade_nothing, NULL), GPC_RESULT_NULL, "commands is NULL");
+    ANSWERS(gpc_list_record(list, commands, NULL, 1, 1, shade_nothing, NULL), GPC_RESULT_NULL, "draws is NULL");
+    ANSWERS(gpc_list_record(list, commands, &draw, 1, 1, NULL, NULL), GPC_RESULT_NULL, "shade is NULL");
+    ANSWERS(RECORD_LIST(LOCATIONS + 1), GPC_RESULT_CAPACITY, "9 locations; the frame was prepared for 8");
+    draw.key = 1;
+    ANSWERS(RECORD_LIST(LOCATIONS), GPC_RESULT_VALUE, "draw 0 has shading key 1, and there are 1");
+    draw.key = 0;
+    EXPECT(calls == 0, "what is refused records nothing");
+    EXPECT(RECORD_LIST(0) == GPC_RESULT_SUCCESS && calls > 0, "a recording of no locations");
+    EXPECT(RECORD_LIST(LOCATIONS) == GPC_RESULT_SUCCESS, "a recording");
+    ANSWERS(gpc_list_outcome(list, &outcome), GPC_RESULT_STRUCT_SIZE, "GpcListOutcome.size is 0");
+    MUST(vkEndCommandBuffer(commands));
+    vkDestroyCommandPool(device, info.commandPool, NULL);
+    gpc_list_destroy(list);
+    gpc_list_destroy(NULL);
+    vkDestroyBuffer(device, locations, NULL);
+    vkDestroyBuffer(device, colors, NULL);
+    for (int i = 0; i < 2; ++i) vkFreeMemory(device, memory[i], NULL);
+}
+
+static void frames(void) {
+    VkDeviceMemory memory[4];
+    VkBuffer positions = make_buffer(16 * VERTICES, &memory[0]), indices = make_buffer(4 * INDICES, &memory[1]);
+    GpcImage ids = make_image(VK_FORMAT_R32_UINT, &memory[2]), color = make_image(VK_FORMAT_R8G8B8A8_UNORM, &memory[3]);
+    GpcGeometry geometry = {.size = sizeof geometry,
+                            .vertex_capacity = VERTICES,
+                            .position_stride = 16,
+                            .indices = indices,
+                            .index_type = VK_INDEX_TYPE_UINT32,
+                            .index_capacity = INDICES,
+                            .triangle_capacity = 4,
+                            .draw_capacity = 2,
+                            .keys = 1};
+    GpcImages images = {.size = sizeof images, .color_format = VK_FORMAT_R8G8B8A8_UINT, .ids = ids, .color = color};
+    GpcOptions options = {.size = sizeof options};
+    GpcAlphaMap map = {.width = SIDE, .height = SIDE, .levels = 1, .cutoff = 0.5f};
+    float zero = 0;
+    GpcFrame *frame = (GpcFrame *)&frame;
+    const float locations[2][2] = {{-0.25f, 0.25f}, {0.25f, -0.25f}};
+
+#define CREATE gpc_frame_create(antialiaser, &geometry, &images, &options, &frame)
+    MUST((VkResult)gpc_options_init(&options, SIDE, SIDE));
+    ANSWERS(gpc_frame_create(antialiaser, &geometry, &images, &options, NULL), GPC_RESULT_NULL, "frame is NULL");
+    ANSWERS(gpc_frame_create(NULL, &geometry, &images, &options, &frame), GPC_RESULT_NULL, "antialiaser is NULL");
+    EXPECT(frame == NULL, "what failed gives nothing");
+    ANSWERS(CREATE, GPC_RESULT_NULL, "the buffer of positions is VK_NULL_HANDLE");
+    geometry.positions = positions;
+    geometry.alpha_map_count = 1;
+    ANSWERS(CREATE, GPC_RESULT_NULL, "GpcGeometry.alpha_maps is NULL");
+    geometry.alpha_maps = &map;
+    map.view = VK_NULL_HANDLE;
+    ANSWERS(CREATE, GPC_RESULT_NULL, "the view of an alpha map is VK_NULL_HANDLE");
+    map.view = color.view;
+    map.width = 0;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "the width of an alpha map is 0; it can be 1 to 65535");
+    map.width = SIDE;
+    map.levels = 8;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "levels of an alpha map is 8; it can be 1 to 7");
+    map.levels = 1;
+    map.address_v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "alpha map 0 has the address mode CLAMP_TO_BORDER");
+    map.address_v = VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    map.mipmap_mode = (VkSamplerMipmapMode)2;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "alpha map 0 has the mipmap_mode 2; it can be NEAREST (0) or LINEAR (1)");
+    map.mipmap_mode = VK_SAMPLER_MIPMAP_MODE_LINEAR;
+    map.cutoff = 0.0f / zero;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "the cutoff of alpha map 0 is not finite");
+    map.cutoff = 0.5f;
+    ANSWERS(CREATE, GPC_RESULT_NULL, "the buffer of coordinates is VK_NULL_HANDLE");
+    geometry.coordinates = positions;
+    geometry.coordinates_offset = 6;
+    geometry.coordinates_stride = 8;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "coordinates_offset is 6 bytes; it can be a multiple of 4");
+    geometry.coordinates_offset = 4;
+    geometry.coordinates_stride = 4;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "coordinates_stride is 4 bytes; it can be any multiple of 4 from 8 on");
+    GpcAlphaMap *many = calloc(70000, sizeof *many);
+    geometry.alpha_maps = many;
+    geometry.alpha_map_count = 70000;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "the number of alpha maps is 70000; it can be 1 to 65536");
+    free(many);
+    geometry.alpha_map_count = 0;
+    geometry.keys = 0;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "keys is 0");
+    geometry.keys = 1;
+    geometry.positions_offset = 2;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "positions_offset is 2 bytes; it can be a multiple of 4");
+    geometry.positions_offset = 0;
+    geometry.position_stride = 12;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "position_stride is 12 bytes; it can be any multiple of 4 from 16 on");
+    geometry.position_space = 2;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcGeometry.position_space is 2; it can be GPC_POSITION_SPACE_CLIP (0), GPC_POSITION_SPACE_OBJECT (1)");
+    geometry.position_space = GPC_POSITION_SPACE_OBJECT;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "the capacity of positions in object space is 0");
+    geometry.position_capacity = 6;
+    geometry.position_stride = 14;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "position_stride is 14 bytes; it can be any multiple of 4 from 12 on");
+    geometry.position_stride = 16;
+    geometry.vertex_capacity = 0xffffffffu;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "the buffer of positions");
+    geometry.vertex_capacity = VERTICES;
+    geometry.index_type = VK_INDEX_TYPE_NONE_KHR;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcGeometry.index_type is 1000165000; it can be VK_INDEX_TYPE_UINT16 (0) or VK_INDEX_TYPE_UINT32 (1)");
+    geometry.index_type = VK_INDEX_TYPE_UINT16;
+    geometry.indices_offset = 1;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "indices_offset is 1 bytes; it can be a multiple of 2");
+    geometry.index_type = VK_INDEX_TYPE_UINT32;
+    geometry.indices_offset = 0;
+    geometry.y_up = 3;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcGeometry.y_up is 3");
+    geometry.y_up = VK_TRUE;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "lend GpcImages.depth, the depth image, or set GpcOptions.thin to VK_FALSE");
+    options.thin = VK_FALSE;
+    images.corner[1] = 0xffffffffu;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "the frame's part of the images ends at");
+    images.corner[1] = 0;
+    geometry.blended = 2;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcGeometry.blended is 2; it can be VK_FALSE (0), VK_TRUE (1)");
+    geometry.blended = VK_TRUE;
+    options.shade_all = VK_TRUE;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcGeometry.blended with GpcOptions.shade_all");
+    options.shade_all = VK_FALSE;
+    geometry.blended = VK_FALSE;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "a colour image of format R8G8B8A8_UINT");
+    images.color_format = VK_FORMAT_R8G8B8A8_UNORM;
+    images.color.before.layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "the image of colours is in the layout UNDEFINED before the recording");
+    images.color.before.layout = VK_IMAGE_LAYOUT_GENERAL;
+    images.color.after.layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "the image of colours is in the layout UNDEFINED after the recording");
+    images.color.after.layout = VK_IMAGE_LAYOUT_GENERAL;
+    images.color.aspects = 0;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "the image of colours has the aspects");
+    images.color.aspects = VK_IMAGE_ASPECT_COLOR_BIT;
+    options.has_background = VK_TRUE;
+    options.background[1] = zero / zero;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "its light must be finite");
+    options.background[1] = 0;
+    options.has_background = VK_FALSE;
+    images.depth.image = ids.image;
+    ANSWERS(CREATE, GPC_RESULT_NULL, "the view of depth is VK_NULL_HANDLE");
+    images.depth.view = color.view;
+    images.depth.aspects = VK_IMAGE_ASPECT_DEPTH_BIT;
+    images.depth.before.layout = images.depth.after.layout = VK_IMAGE_LAYOUT_GENERAL;
+    images.ids.image = VK_NULL_HANDLE;
+    ANSWERS(CREATE, GPC_RESULT_NULL, "the image of IDs is VK_NULL_HANDLE");
+    images.ids.view = VK_NULL_HANDLE;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "depth is lent without IDs");
+    images.ids = ids;
+    images.depth.image = VK_NULL_HANDLE;
+    images.depth.view = VK_NULL_HANDLE;
+    options.pattern = 6;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcOptions.pattern is 6; it can be GPC_PATTERN_SOBOL (0), GPC_PATTERN_LATTICE (1)");
+    options.pattern = GPC_PATTERN_LIST;
+    ANSWERS(CREATE, GPC_RESULT_NULL, "GpcOptions.locations is NULL");
+    options.locations = locations;
+    options.location_count = 2;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "64 samples were asked for, but the list holds 2 offsets");
+    options.samples = 2;
+    options.contrast = 256;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcOptions.contrast is 256");
+    options.contrast = 10;
+    options.width = 0;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "an image of 0 x 64 pixels");
+    options.width = SIDE;
+    options.max_memory = 1000;
+    ANSWERS(CREATE, GPC_RESULT_OUT_OF_MEMORY, "1000");
+    options.max_memory = 0;
+    EXPECT(frame == NULL, "what failed gives nothing");
+    MUST((VkResult)CREATE);
+    EXPECT(gpc_frame_memory_bytes(frame) > 0, "the memory of a frame");
+    recordings(frame);
+    lists(&geometry, &options);
+
+    gpc_antialiaser_destroy(antialiaser); /* before its frame */
+    gpc_frame_destroy(frame);
+    vkDestroyBuffer(device, positions, NULL);
+    vkDestroyBuffer(device, indices, NULL);
+    vkDestroyImageView(device, ids.view, NULL);
+    vkDestroyImageView(device, color.view, NULL);
+    vkDestroyImage(device, ids.image, NULL);
+    vkDestroyImage(device, color.image, NULL);
+    for (int i = 0; i < 4; ++i) vkFreeMemory(device, memory[i], NULL);
+}
+
+int main(void) {
+    without_a_device();
+    make_device();
+    make_antialiaser();
+    frames();
+    vkDestroyDevice(device, NULL);
+    vkDestroyInstance(instance, NULL);
+    return failures != 0;
+}

@@ -1,0 +1,327 @@
+//! Files that claim more than they hold, or repeat what they hold beyond measure.
+
+use std::time::Instant;
+
+use crate::scene_builder::{Builder, TRIANGLE};
+use gpc::scene::{PoseRequest, Scene, SceneError};
+use serde_json::{Value, json};
+
+#[track_caller]
+fn refused(builder: &Builder, message: &str) {
+    let start = Instant::now();
+    let error = builder.load().unwrap_err().to_string();
+    assert!(error.contains(message), "{error}");
+    assert!(start.elapsed().as_secs() < 5, "{:?}", start.elapsed());
+}
+
+#[test]
+fn accessors_cannot_claim_what_is_not_there() {
+    for (change, message) in [
+        (
+            json!({"count": 4}),
+            "4 elements of 12 bytes, 12 apart, at 0 reach beyond the 36 bytes",
+        ),
+        (json!({"count": 0}), "/accessors/0/count: 0 elements"),
+        (
+            json!({"count": u64::MAX}),
+            "/accessors/0/count: 18446744073709551615 elements",
+        ),
+        (
+            json!({"count": 4_000_000_000_u32, "bufferView": null}),
+            "/accessors/0: claims 4000000000 elements, but has no buffer view",
+        ),
+        (json!({"byteOffset": u64::MAX}), "reach beyond"),
+        (
+            json!({"type": "VEC2"}),
+            "expected elements of [3] components, found 2",
+        ),
+        (
+            json!({"type": "VEC9"}),
+            "/accessors/0/type: \"VEC9\" is no valid type",
+        ),
+        (
+            json!({"componentType": 5124}),
+            "/accessors/0/componentType: 5124",
+        ),
+    ] {
+        let mut builder = Builder::new();
+        builder.triangle(json!({}));
+        for (key, value) in change.as_object().unwrap() {
+            builder.json["accessors"][0][key] = value.clone();
+        }
+        refused(&builder, message);
+    }
+}
+
+#[test]
+fn zeros_are_not_allocated_by_claim() {
+    let void = json!({"type": "VEC3", "componentType": 5126, "count": 4_000_000_000_u32});
+    let mut builder = Builder::new();
+    let positions = builder.push("accessors", void.clone());
+    builder.node_with(json!({"attributes": {"POSITION": positions}}), json!({}));
+    refused(
+        &builder,
+        "/accessors/0: claims 4000000000 elements, but has no buffer view",
+    );
+
+    let mut builder = Builder::new();
+    let positions = builder.push("accessors", void.clone());
+    let indices = builder.push(
+        "accessors",
+        json!({"type": "SCALAR", "componentType": 5125, "count": 4_000_000_000_u32}),
+    );
+    builder.node_with(
+        json!({"attributes": {"POSITION": positions}, "indices": indices}),
+        json!({}),
+    );
+    refused(&builder, "/accessors/1: claims");
+
+    let mut builder = Builder::new();
+    let node = builder.triangle(json!({}));
+    let translation = builder.push("accessors", void);
+    builder.json["nodes"][node]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] =
+        json!({"TRANSLATION": translation});
+    refused(&builder, "claims 4000000000 instances without any data");
+}
+
+#[test]
+fn compressed_views_cannot_claim_what_is_not_there() {
+    let mut builder = Builder::new();
+    builder.triangle(json!({}));
+    let compressed = |count: u64, stride: u32, mode: &str| {
+        json!({"EXT_meshopt_compression": {
+            "buffer": 0, "byteLength": 36, "byteStride": stride, "count": count, "mode": mode,
+        }})
+    };
+    for (count, stride, mode, message) in [
+        (
+            1_u64 << 40,
+            12,
+            "ATTRIBUTES",
+            "36 bytes cannot hold 1099511627776 elements of 12",
+        ),
+        (3, 12, "ATTRIBUTES", "the compressed data are broken"),
+        (3, 13, "ATTRIBUTES", "the compressed data are broken"),
+        (3, 0, "ATTRIBUTES", "the compressed data are broken"),
+        (4, 4, "TRIANGLES", "the compressed data are broken"),
+        (3, 12, "TRIANGLES", "the compressed data are broken"),
+        (3, 4, "INDICES", "the compressed data are broken"),
+        (3, 4, "ZIP", "unknown compression mode \"ZIP\""),
+    ] {
+        builder.json["bufferViews"][0]["extensions"] = compressed(count, stride, mode);
+        refused(&builder, message);
+    }
+}
+
+#[test]
+fn repetition_is_bounded() {
+    // 20,000 primitives that share one list of 60,000 indices: 400 million triangles.
+    let mut builder = Builder::new();
+    let positions = builder.floats(&TRIANGLE);
+    let indices = builder.indices(&[0; 60_000]);
+    let primitive = json!({"attributes": {"POSITION": positions}, "indices": indices});
+    builder.push("meshes", json!({"primitives": vec![primitive; 20_000]}));
+    builder.push("nodes", json!({"mesh": 0}));
+    refused(&builder, "exceed the limit");
+
+    // 40,000 nodes that share a mesh of 20,000 triangles.
+    let mut builder = Builder::new();
+    let positions = builder.floats(&TRIANGLE);
+    let indices = builder.indices(&[0; 60_000]);
+    builder.node_with(
+        json!({"attributes": {"POSITION": positions}, "indices": indices}),
+        json!({}),
+    );
+    for _ in 0..40_000 {
+        builder.push("nodes", json!({"mesh": 0}));
+    }
+    let error = builder.load().unwrap().scene.pose(&PoseRequest::default());
+    assert!(matches!(error, Err(SceneError::TooLarge { .. })));
+}
+
+#[test]
+fn deep_hierarchies_do_not_overflow_the_stack() {
+    const DEPTH: usize = 200_000;
+    let mut builder = Builder::new();
+    builder.triangle(json!({"translation": [1, 0, 0]}));
+    for child in 0..DEPTH {
+        builder.push(
+            "nodes",
+            json!({"children": [child], "translation": [1, 0, 0]}),
+        );
+    }
+    let (low, _) = builder.pose().geometry.bounds().unwrap();
+    assert_eq!(low.x, (DEPTH + 1) as f64);
+}
+
+#[test]
+fn cycles_and_second_parents_are_found() {
+    for (nodes, message) in [
+        (json!([{"children": [0]}]), "/nodes/0: is its own ancestor"),
+        (
+            json!([{}, {"children": [2]}, {"children": [1]}]),
+            "/nodes/1: is its own ancestor",
+        ),
+        (
+            json!([{"children": [2]}, {"children": [2]}, {}]),
+            "/nodes/1/children: node 2 is already a child of node 0",
+        ),
+        (
+            json!([{"children": [1, 1]}, {}]),
+            "node 1 is already a child of node 0",
+        ),
+    ] {
+        let mut builder = Builder::new();
+        builder.json["nodes"] = nodes;
+        refused(&builder, message);
+    }
+}
+
+#[test]
+fn transforms_beyond_floating_point_leave_their_meshes_out() {
+    for node in [
+        json!({"scale": [1e300, 1, 1], "translation": [1e308, 0, 0]}),
+        json!({"translation": [1e35, 0, 0]}),
+        json!({"matrix": [1e308, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1e308, 0, 0, 1]}),
+    ] {
+        let mut builder = Builder::new();
+        builder.triangle(node);
+        builder.triangle(json!({}));
+        let pose = builder.pose();
+        assert_eq!(pose.geometry.triangles.len(), 1);
+        assert_eq!(pose.warnings.len(), 1, "{:?}", pose.warnings);
+        assert!(
+            pose.warnings[0].starts_with("test.glb: /nodes/0: "),
+            "{:?}",
+            pose.warnings
+        );
+    }
+}
+
+#[test]
+fn what_is_not_gltf_is_named() {
+    let message = |bytes: &[u8]| Scene::from_slice(bytes, "x", None).unwrap_err().to_string();
+    assert_eq!(message(b""), "x: the file is empty");
+    assert!(message(b"\x88PNG").contains("neither a GLB nor a glTF JSON document"));
+    assert!(message(b"\x89PNG").contains("gpc zoom"));
+    assert!(message(b" \n").contains("the JSON document is empty"));
+    assert!(message(b"version https://git-lfs.github.com/spec/v1\n").contains("git lfs pull"));
+    assert!(message(br#"{"asset": {"version": "1.0"}}"#).contains("glTF 1.0 is not supported"));
+    assert!(message(br#"{"asset": {"version": "two"}}"#).contains("/asset/version"));
+    let nested = [vec![b'['; 100_000], vec![b']'; 100_000]].concat();
+    let nested = [br#"{"a":"#.as_slice(), &nested, b"}"].concat();
+    assert!(message(&nested).contains("recursion limit"));
+}
+
+/// A scene of all parts, small enough to break it at every byte.
+fn rich() -> Builder {
+    let mut builder = Builder::new();
+    let positions = builder.floats(&TRIANGLE);
+    let uvs = builder.floats(&[[0., 1.], [1., 1.], [0., 0.]]);
+    let joints = builder.accessor("VEC4", 5121, &[0; 12], json!({}));
+    let weights = builder.floats(&[[1., 0., 0., 0.]; 3]);
+    let indices = builder.indices(&[0, 1, 2]);
+    let texture = builder.texture([1, 2, 3]);
+    let material = builder.push("materials", json!({"normalTexture": {"index": texture}}));
+    let node = builder.node_with(
+        json!({
+            "attributes": {"POSITION": positions, "TEXCOORD_0": uvs, "JOINTS_0": joints,
+                           "WEIGHTS_0": weights},
+            "indices": indices, "material": material, "targets": [{"POSITION": positions}],
+        }),
+        json!({"weights": [0.5], "camera": 0}),
+    );
+    builder.push(
+        "cameras",
+        json!({"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}),
+    );
+    builder.push("skins", json!({"joints": [1]}));
+    builder.json["nodes"][node]["skin"] = 0.into();
+    builder.push("nodes", json!({"translation": [1, 2, 3]}));
+    builder.push("scenes", json!({"nodes": [0, 1]}));
+    let (input, output) = (builder.floats(&[[0.], [1.]]), builder.floats(&[[0.; 3]; 2]));
+    builder.push(
+        "animations",
+        json!({
+            "channels": [{"sampler": 0, "target": {"node": 1, "path": "scale"}}],
+            "samplers": [{"input": input, "output": output}],
+        }),
+    );
+    builder
+}
+
+fn exercise(bytes: &[u8]) -> bool {
+    let Ok(loaded) = Scene::from_slice(bytes, "broken.glb", None) else {
+        return false;
+    };
+    let request = PoseRequest {
+        time: 0.5,
+        ..PoseRequest::default()
+    };
+    loaded.scene.pose(&request).is_ok()
+}
+
+#[test]
+fn truncation_at_every_byte_is_an_error() {
+    let bytes = rich().glb();
+    assert!(exercise(&bytes));
+    for length in 0..bytes.len() {
+        assert!(!exercise(&bytes[..length]), "{length} bytes");
+    }
+}
+
+#[test]
+fn no_changed_byte_panics() {
+    let bytes = rich().glb();
+    for at in 0..bytes.len() {
+        for change in [0x01, 0x80, 0xFF, 0x10] {
+            let mut bytes = bytes.clone();
+            bytes[at] ^= change;
+            exercise(&bytes);
+        }
+    }
+}
+
+/// Replaces every value of the document in turn.
+#[test]
+fn no_changed_value_panics() {
+    fn pointers(value: &Value, place: &str, found: &mut Vec<String>) {
+        found.push(place.to_owned());
+        if let Some(object) = value.as_object() {
+            for (key, value) in object {
+                pointers(value, &format!("{place}/{key}"), found);
+            }
+        } else if let Some(array) = value.as_array() {
+            for (i, value) in array.iter().enumerate() {
+                pointers(value, &format!("{place}/{i}"), found);
+            }
+        }
+    }
+    let original = rich();
+    let mut places = Vec::new();
+    pointers(&original.json, "", &mut places);
+    assert!(places.len() > 100);
+    for place in places {
+        for value in [
+            json!(null),
+            json!(-1),
+            json!(0),
+            json!(1),
+            json!(1e300),
+            json!(u64::MAX),
+            json!("x"),
+            json!([]),
+            json!({}),
+            json!([0, 0]),
+            json!(0.5),
+            json!(true),
+        ] {
+            let mut builder = rich();
+            *builder.json.pointer_mut(&place).unwrap() = value.clone();
+            // The builder itself needs an object.
+            if builder.json.is_object() {
+                exercise(&builder.glb());
+            }
+        }
+    }
+}

@@ -1,0 +1,17 @@
+//! Scene files: what they become, and which are refused. No test here needs a device.
+
+mod assets;
+#[cfg(all(feature = "draco", feature = "basisu"))]
+mod compressed;
+mod edges;
+mod formats;
+mod geometry;
+mod hostile;
+mod indexed;
+mod look;
+mod malformed;
+mod motion;
+#[path = "../common/scene_builder.rs"]
+mod scene_builder;
+#[path = "../common/shared.rs"]
+mod shared;

@@ -1,0 +1,130 @@
+//! Textures whose every pixel is known: a plane to the horizon, integrated over each pixel by quadrature in f64.
+//!
+//! The expected image owes nothing to the renderer: neither its mipmaps nor its choice of levels, nor where it samples.
+//! All is in linear light. `cargo test --release --test tools closed_form -- --nocapture` prints the errors.
+
+mod plane;
+mod texture;
+
+use gpc::render::{Footprint, Headless, HeadlessOptions, Method};
+use gpc::scene::{Filter, Sampler, TextureTransform, Wrap};
+use plane::{Plane, reference, render, rmse, settings};
+use texture::Texture;
+
+/// Most that the truth may err: root of the mean squared difference from the integral, of values of 0 to 1.
+const TRUTH: f64 = 0.004;
+/// The same without the row of pixels right below the horizon, where a pixel sees the plane from afar to infinity, and a
+/// texture is read with the same sharpness across as along.
+const TRUTH_BELOW: f64 = 0.002;
+/// Numbers of samples, and most that superpixels may err there beside supersampling of as many samples.
+const BESIDE_SSAA: [(u32, f64); 2] = [(64, 1.5), (256, 1.25)];
+
+fn headless() -> Headless {
+    Headless::new(&HeadlessOptions::default()).unwrap()
+}
+
+/// Squares, and waves along, across and aslant.
+fn patterns() -> [(&'static str, Plane); 4] {
+    let grating = |waves| Plane::new(Texture::grating(Sampler::default(), waves));
+    [
+        (
+            "checker",
+            Plane::new(Texture::checker(Sampler::default(), 8)),
+        ),
+        ("waves along", grating([4, 0])),
+        ("waves across", grating([0, 4])),
+        ("waves aslant", grating([3, 5])),
+    ]
+}
+
+/// A mosaic under sampler modes and transforms of its coordinates.
+fn modes() -> Vec<(&'static str, Plane)> {
+    use Filter::{Linear, Nearest};
+    use Wrap::{ClampToEdge, MirroredRepeat, Repeat};
+    let sampler = |mag, min, mip, wrap_u| Sampler {
+        mag,
+        min,
+        mip,
+        wrap_u,
+        wrap_v: Repeat,
+    };
+    let turned = |degrees: f32, scale: [f32; 2]| {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        TextureTransform([
+            [cos * scale[0], sin * scale[1], 0.3],
+            [-sin * scale[0], cos * scale[1], -0.2],
+        ])
+    };
+    let plain = turned(0.0, [1.0; 2]);
+    let trilinear = Sampler::default();
+    let nearest = sampler(Nearest, Nearest, None, Repeat);
+    let stepped = sampler(Nearest, Linear, Some(Nearest), Repeat);
+    let unmipped = sampler(Linear, Linear, None, MirroredRepeat);
+    let mirrored = sampler(Linear, Linear, Some(Linear), MirroredRepeat);
+    let clamped = sampler(Linear, Nearest, Some(Nearest), ClampToEdge);
+    [
+        ("turned", trilinear, turned(30.0, [1.0; 2])),
+        ("scaled", trilinear, turned(0.0, [2.0, 0.5])),
+        ("turned and scaled", trilinear, turned(-50.0, [0.5, 1.5])),
+        ("nearest", nearest, plain),
+        ("nearest, mipmapped", stepped, turned(20.0, [1.0; 2])),
+        ("without mipmaps", unmipped, plain),
+        ("mirrored", mirrored, turned(10.0, [1.0; 2])),
+        ("clamped", clamped, plain),
+    ]
+    .map(|(name, sampler, transform)| {
+        let plane = Plane::new(Texture::mosaic(sampler));
+        (name, Plane { transform, ..plane })
+    })
+    .into()
+}
+
+/// The truth is the integral, and superpixels come as near to it as is said beside supersampling.
+fn check(headless: &mut Headless, name: &str, plane: &Plane) {
+    let expected = plane.expected();
+    let scene = plane.upload(headless);
+    let truth = reference(headless, &scene, Footprint::Sample);
+    let [whole, below] = [0, 1].map(|rows| rmse(&truth, &expected, rows));
+    println!("{name}: truth {whole:.5}, below the horizon's row {below:.5}");
+    assert!(
+        whole < TRUTH && below < TRUTH_BELOW,
+        "{name}: {whole} {below}"
+    );
+    for (samples, most) in BESIDE_SSAA {
+        let [superpixel, ssaa] = [Method::Superpixel, Method::Ssaa].map(|method| {
+            let image = render(headless, &scene, &settings(method, samples));
+            rmse(&image, &expected, 0)
+        });
+        let ratio = superpixel / ssaa;
+        println!("  {samples} samples: superpixel {superpixel:.5}, ssaa {ssaa:.5}, {ratio:.2}");
+        assert!(ratio < most, "{name}, {samples} samples: {ratio}");
+    }
+}
+
+#[test]
+fn patterns_come_to_their_integrals() {
+    let mut headless = headless();
+    for (name, plane) in patterns() {
+        check(&mut headless, name, &plane);
+    }
+}
+
+#[test]
+fn every_sampler_mode_and_transform_comes_to_its_integral() {
+    let mut headless = headless();
+    for (name, plane) in modes() {
+        check(&mut headless, name, &plane);
+    }
+}
+
+/// Brute force that reads textures for a whole pixel comes to another image.
+#[test]
+fn textures_read_for_pixels_miss_the_integral() {
+    let mut headless = headless();
+    for (name, plane) in patterns() {
+        let scene = plane.upload(&mut headless);
+        let blurred = reference(&mut headless, &scene, Footprint::Pixel);
+        let error = rmse(&blurred, &plane.expected(), 0);
+        assert!(error > 5.0 * TRUTH, "{name}: {error}");
+    }
+}

@@ -1,0 +1,15 @@
+//! What the tools are made of: image files, comparisons, resampling, benchmarks, and the truths that errors are measured
+//! against.
+
+mod bench;
+mod closed_form;
+#[path = "../common/command.rs"]
+#[allow(dead_code, reason = "other tests use the rest")]
+mod command;
+mod compare;
+#[path = "../common/difference.rs"]
+mod difference;
+mod output;
+mod resample;
+mod stress;
+mod truth;

@@ -1,0 +1,80 @@
+#!/usr/bin/env bash
+# Makes what a release holds, in out/dist:
+#
+#   gpc-VERSION-TRIPLE.tar.xz      the command with its window, stripped, manual pages, completions, licences, examples
+#   gpc-render_VERSION-1_ARCH.deb  the same as a package (by cargo-deb)
+#   libgpc-VERSION-TRIPLE.tar.xz   the C library: header, libraries, GLSL includes, pkg-config file, manual, licences
+#
+# FEATURES=cli leaves the window out.
+#
+# Archives unpack into a folder of their name, whose bin, lib, share and include belong below a prefix such as /usr/local.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+for program in deb deny; do
+    cargo "$program" --version >/dev/null 2>&1 || {
+        echo "cargo-$program is not installed: cargo install --locked cargo-$program" >&2
+        exit 1
+    }
+done
+
+version="$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)"
+triple="$(rustc -vV | sed -n 's/^host: //p')"
+built="${CARGO_TARGET_DIR:-target}/release"
+dist=out/dist
+rm -rf "$dist"
+root="$dist/root"
+doc="$root/share/doc/gpc-render"
+install -d "$root/bin" "$root/share/man/man1" "$root/share/bash-completion/completions" \
+    "$root/share/fish/vendor_completions.d" "$root/share/zsh/site-functions" "$doc"
+
+features="${FEATURES:-view}"
+cargo build --release --locked --features "$features" --bin gpc
+cargo run --release --locked --features "$features" --example manual "$dist/manual"
+install -m 755 "$built/gpc" "$root/bin/gpc"
+strip "$root/bin/gpc"
+install -m 644 "$dist"/manual/man1/*.1 "$root/share/man/man1/"
+install -m 644 "$dist/manual/completions/gpc.bash" "$root/share/bash-completion/completions/gpc"
+install -m 644 "$dist/manual/completions/gpc.fish" "$root/share/fish/vendor_completions.d/"
+install -m 644 "$dist/manual/completions/_gpc" "$root/share/zsh/site-functions/"
+rm -r "$dist/manual"
+
+# Licences of this program and of all that is compiled into it.
+cargo deny --locked check licenses
+licences() { # FILE FEATURES...
+    local file="$1"
+    shift
+    {
+        echo "Crates that are compiled into gpc $version, by licence. Their sources, with the texts of the licences, are at"
+        echo "https://crates.io/crates/NAME."
+        echo
+        cargo deny --locked "$@" list --format human --layout license
+    } | sed 's/\x1b\[[0-9;]*m//g' >"$file"
+}
+licences "$doc/THIRD-PARTY.txt" --features "$features"
+install -m 644 LICENSE-MIT LICENSE-APACHE README.md CHANGELOG.md CITATION.cff "$doc/"
+# A scene to try, and what a golden-image workflow looks like.
+install -m 644 assets/fence.glb assets/letters.glb examples/ci/golden-images.yml "$doc/"
+
+archive() { # NAME FOLDER
+    tar --sort=name --owner=0 --group=0 --numeric-owner --mtime="@$(git log -1 --format=%ct)" \
+        --transform "s,^\.,$1," -C "$2" -cJf "$dist/$1.tar.xz" .
+}
+archive "gpc-$version-$triple" "$root"
+cargo deb --no-build --no-strip --locked --output "$dist/"
+
+# The C library.
+library="$dist/library"
+make --no-print-directory install PREFIX="$PWD/$library"
+# The prefix is wherever the archive is unpacked.
+sed -i 's,^prefix=.*,prefix=${pcfiledir}/../..,' "$library/lib/pkgconfig/gpc.pc"
+strip --strip-debug "$library"/lib/libgpc.so."$version" "$library"/lib/libgpc.a
+install -d "$library/share/doc/gpc" "$library/share/gpc/examples"
+install -m 644 LICENSE-MIT LICENSE-APACHE CHANGELOG.md docs/embedding.md "$library/share/doc/gpc/"
+licences "$library/share/doc/gpc/THIRD-PARTY.txt" --no-default-features --features capi
+cp -r examples/forward "$library/share/gpc/examples/"
+archive "libgpc-$version-$triple" "$library"
+rm -r "$library"
+
+(cd "$dist" && sha256sum -- *.tar.xz *.deb >SHA256SUMS)
+ls -l "$dist"

@@ -1,0 +1,71 @@
+#!/usr/bin/env bash
+# Measures everything that the documents have figures of, on one driver, and writes docs/bench/KIND-DRIVER.csv. Takes hours.
+#
+#   tools/measure.sh [KIND...]        quality, speed, motion, variants, growth; all if none is named
+#
+# The driver is the one that VK_ICD_FILENAMES or VK_DRIVER_FILES names, or else the best device's. Nothing else should run on
+# the machine. `make figures` writes the documents from the files.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+source tools/scenes.sh
+
+gpc() { "${CARGO_TARGET_DIR:-target}/release/gpc" "$@"; }
+cargo build --release --bin gpc
+
+kinds=("$@")
+[ ${#kinds[@]} -gt 0 ] || kinds=(quality speed motion variants growth)
+if ! git diff --quiet HEAD -- src shaders Cargo.toml; then
+    echo "src, shaders or Cargo.toml differ from the commit that the files would name; commit first" >&2
+    exit 1
+fi
+commit="$(git rev-parse --short HEAD)"
+work="$(mktemp -d)"
+trap 'rm -r "$work"' EXIT
+
+# The driver's name as a part of a file's: "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)" is lavapipe-22.3.
+slug() { # CSV
+    local driver
+    driver="$(sed -n 's/^# driver: //p' "$1" | tr '[:upper:]' '[:lower:]')"
+    driver="${driver/llvmpipe mesa/lavapipe}"
+    sed -E 's/\(.*//; s/([0-9]+\.[0-9]+)(\.[0-9]+)*/\1/g; s/[^a-z0-9.]+/-/g; s/^-|-$//g' <<<"$driver"
+}
+
+# Puts a CSV of a run into the folder of the documents, with the commit in its head.
+keep() { # KIND CSV
+    local name
+    name="docs/bench/$1-$(slug "$2").csv"
+    # What an earlier run left, in parts of the kind too.
+    rm -f "${name%.csv}"*.csv
+    { echo "# commit: $commit" && cat "$2"; } >"$name"
+    echo "$name"
+}
+
+for kind in "${kinds[@]}"; do
+    out="$work/$kind"
+    case "$kind" in
+        quality)
+            gpc bench "${quality_scenes[@]}" --out "$out" --size 480x270 --samples 4,16,64,256,1024 --repeat 3 --budget 2
+            keep quality "$out/results.csv"
+            ;;
+        speed)
+            gpc bench "${speed_scenes[@]}" --out "$out" --samples 4,64,256,1024 --reference 256 --repeat 5 --budget 2
+            keep speed "$out/results.csv"
+            ;;
+        motion)
+            gpc bench --motion "${motion_scenes[@]}" --out "$out" --samples 4,16,64 --reference 1024
+            keep motion "$out/motion.csv"
+            ;;
+        variants)
+            gpc bench "${speed_scenes[@]}" --out "$out" --methods none --samples 1 --reference 256 --repeat 3 --variants
+            keep variants "$out/variants.csv"
+            ;;
+        growth)
+            gpc bench --out "$out" --size 640x360 --samples 64 --repeat 3 --budget 4 --growth
+            keep growth "$out/growth.csv"
+            ;;
+        *)
+            echo "no kind \"$kind\"; there are quality, speed, motion, variants and growth" >&2
+            exit 2
+            ;;
+    esac
+done

@@ -1,0 +1,84 @@
+#!/usr/bin/env bash
+# Renders the pictures of the README and of docs/gallery.md again, by the commands that are printed there. Look at each.
+#
+# Scenes that are not part of the repository (docs/scenes.md says where they come from) are looked for in ../shared/scenes;
+# pictures of scenes that are not there stay as they are. Enlarging needs ffmpeg. tools/window.sh makes those of the window.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+cargo build --release --bin gpc
+gpc() { "${CARGO_TARGET_DIR:-target}/release/gpc" "$@"; }
+shared=../shared/scenes
+out=docs/gallery
+work="$(mktemp -d)"
+trap 'rm -r "$work"' EXIT
+
+# A real scene: the whole frame, and a part of it without and with antialiasing, enlarged four times. CC0.
+ship="$shared/DutchShip/dutch_ship_medium_1k.gltf"
+if [ -f "$ship" ]; then
+    view=(--azimuth 10 --elevation 8 --zoom 1.45 --background '#b9cfe4' --quiet)
+    gpc render "$ship" -o docs/pictures/ship.png "${view[@]}"
+    for aa in none superpixel; do
+        gpc render "$ship" -o "$work/$aa.png" "${view[@]}" --aa $aa --region 480,290,180x120
+        ffmpeg -loglevel error -y -i "$work/$aa.png" -vf scale=iw*4:ih*4:flags=neighbor "docs/pictures/ship-$aa.png"
+    done
+else
+    echo "left out: $ship is not there" >&2
+fi
+
+# Planar and superpixel sets.
+gpc render assets/letters.glb -o $out/planar.png --size 480x300 --background '#708090' --aa none --quiet
+gpc render assets/letters.glb -o "$work/superpixel.png" --size 480x300 --background '#708090' --aov superpixels --quiet
+cp "$work/superpixel.png" "$work/superpixel.superpixels.png" $out
+
+# An offset set: the zoom of a scene, and its steps.
+gpc zoom assets/letters.glb -o "$work/zoom.png" --size 480x300 --background '#708090' \
+    --center 225,222 --radius 60 --multiplicity 0.3 --transition smooth --steps
+for step in '' .original .locations .resampled .transition .direct; do cp "$work/zoom$step.png" $out; done
+
+# The same seen again in an ordinary way, without the scene.
+gpc unzoom "$work/zoom.png" -o $out/unzoom.png --reference "$work/zoom.direct.png"
+
+# An image file without its scene: two regions.
+gpc render assets/fence.glb -o "$work/view.jpg" --size 480x300 --background '#a8c0d8' --quiet
+gpc zoom "$work/view.jpg" -o $out/image-zoom.png --center 135,140 --radius 28 --multiplicity 0.4 \
+    --center 370,80 --radius 40,24 --multiplicity 0.5 --shape circle --shape rectangle
+
+# No pattern: the plane of a fence that recedes, sampled at equal steps along the fence.
+awk 'BEGIN { print "u,v,row,col"; for (row = 0; row < 160; row++) for (col = 0; col < 480; col++) {
+    d = 0.8 + 4 * col / 480
+    print 253 - 253 / d "," 156.8 + (30 + 195 * row / 160) / d "," row "," col } }' > "$work/fence.csv"
+gpc sample assets/fence.glb --samples "$work/fence.csv" -o $out/no-pattern.png --size 480x300 --background '#a8c0d8' \
+    --aa superpixel
+
+# Panoramas.
+for projection in equirectangular cylindrical fisheye; do
+    gpc panorama assets/fence.glb -o $out/$projection.png --projection $projection --size 480x240 \
+        --background '#a8c0d8'
+done
+# A rig of six pinholes, in a room, so that its cross shows. MIT.
+room="$shared/GodotRoom/room.glb"
+if [ -f "$room" ]; then
+    gpc panorama "$room" -o $out/cubemap.png --projection cubemap --size 960x480 --background '#202830' \
+        --eye 0,1.6,0 --target 1,1.6,0
+else
+    echo "left out: $room is not there" >&2
+fi
+
+# Projectors: two with keystone, from correspondences.
+gpc project assets/fence.glb -o "$work/projector-{projector}.png" --size 480x300 --background '#a8c0d8' \
+    --projector $out/left.csv --projector $out/right.csv --projector-size 320x240 \
+    --weights --wall $out/wall.png
+cp "$work/projector-0.png" "$work/projector-0.weights.png" "$work/projector-1.png" $out
+
+# Lines: the edges of meshes.
+for aa in none superpixel; do
+    gpc render assets/spheres.glb -o "$work/edges-$aa.png" --size 480x300 --background '#a8c0d8' --edges 1.5 --aa $aa --quiet
+done
+cp "$work/edges-none.png" $out
+cp "$work/edges-superpixel.png" $out/edges.png
+
+# Shadows: what is seen, on the planes of the lights.
+for scene in letters fence; do
+    gpc render assets/$scene.glb -o $out/shadows-$scene.png --size 480x300 --background '#a8c0d8' --shadows exact --quiet
+done

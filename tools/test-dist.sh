@@ -1,0 +1,78 @@
+#!/usr/bin/env bash
+# Installs what tools/dist.sh made in empty Debian 12 and 13 systems, and runs it there. Needs root, debootstrap, and the
+# sources of packages that the machine's apt has.
+#
+#   tools/test-dist.sh [FOLDER [RELEASE...]]     out/dist, bookworm and trixie if not given
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+dist="$(realpath "${1:-out/dist}")"
+shift || true
+releases=("$@")
+[ ${#releases[@]} -gt 0 ] || releases=(bookworm trixie)
+[ "$(id -u)" -eq 0 ] || { echo "this needs root, for debootstrap and chroot" >&2; exit 1; }
+command -v debootstrap >/dev/null || { echo "debootstrap is not installed" >&2; exit 1; }
+
+# Where the machine gets Debian's packages from.
+site="$(apt-get indextargets --format '$(SITE)' 'Created-By: Packages' 'Origin: Debian' 'Label: Debian' | head -n 1)"
+[ -n "$site" ] || site=http://deb.debian.org/debian
+
+work="$(mktemp -d)"
+trap 'umount -l "$work"/*/proc 2>/dev/null || true; rm -rf "$work"' EXIT
+
+for release in "${releases[@]}"; do
+    echo "== $release"
+    root="$work/$release"
+    debootstrap --variant=minbase "$release" "$root" "$site" >"$work/$release.log" 2>&1 ||
+        { tail "$work/$release.log" >&2; exit 1; }
+    cp /etc/resolv.conf "$root/etc/"
+    # Settings of the machine's apt, such as proxies.
+    cp -r /etc/apt/apt.conf.d/. "$root/etc/apt/apt.conf.d/"
+    mount -t proc proc "$root/proc"
+    cp "$dist"/*.deb "$dist"/*.tar.xz "$root/tmp/"
+    # Linked into the C library's example, whose shaders are compiled already.
+    chroot "$root" bash -euo pipefail <<'INSIDE'
+export DEBIAN_FRONTEND=noninteractive LC_ALL=C
+cd /tmp
+apt-get -qq update
+apt-get -qq install -y --no-install-recommends ./gpc-render_*.deb mesa-vulkan-drivers >/dev/null
+
+render() { # COMMAND IMAGE
+    "$1" render /usr/share/doc/gpc-render/fence.glb -o "$2" --size 320x180 --background '#a8c0d8' --quiet
+    "$1" compare "$2" "$2" --max-rmse 0
+}
+echo "-- the package"
+gpc --version
+gpc devices
+render gpc package.png
+test -e /usr/share/man/man1/gpc-render.1.gz -o -e /usr/share/man/man1/gpc-render.1
+
+echo "-- the archive"
+apt-get -qq install -y --no-install-recommends xz-utils >/dev/null
+tar -xJf gpc-[0-9]*.tar.xz
+render ./gpc-[0-9]*/bin/gpc archive.png
+cmp package.png archive.png
+
+echo "-- the C library"
+apt-get -qq install -y --no-install-recommends gcc libc6-dev pkg-config libvulkan-dev >/dev/null
+tar -xJf libgpc-*.tar.xz
+cd libgpc-*/
+export PKG_CONFIG_PATH="$PWD/lib/pkgconfig" LD_LIBRARY_PATH="$PWD/lib"
+cat >/tmp/use.c <<'C'
+#include <gpc.h>
+#include <stdio.h>
+int main(void) {
+    /* Without a device there is an error, and no crash. */
+    GpcAntialiaser *antialiaser = NULL;
+    GpcResult result = gpc_antialiaser_create(NULL, &antialiaser);
+    printf("gpc_antialiaser_create without a device: %d\n", (int)result);
+    return result == 0;
+}
+C
+gcc /tmp/use.c -o /tmp/use $(pkg-config --cflags --libs gpc)
+/tmp/use
+INSIDE
+    umount "$root/proc"
+    rm -rf "$root"
+done
+echo "all packages install and run on ${releases[*]}"
