@@ -84,7 +84,7 @@
 
 #![warn(missing_docs)]
 // The engine has what scenes of files need, too.
-#![cfg_attr(not(feature = "gltf"), allow(dead_code))]
+#![cfg_attr(not(feature = "gltf"), allow(dead_code, unused_imports))]
 
 #[cfg(feature = "capi")]
 mod capi;

@@ -439,8 +439,8 @@ static void frames(void) {
     images.ids = ids;
     images.depth.image = VK_NULL_HANDLE;
     images.depth.view = VK_NULL_HANDLE;
-    options.pattern = 6;
-    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcOptions.pattern is 6; it can be GPC_PATTERN_SOBOL (0), GPC_PATTERN_LATTICE (1)");
+    options.pattern = 7;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcOptions.pattern is 7; it can be GPC_PATTERN_SOBOL (0), GPC_PATTERN_LATTICE (1)");
     options.pattern = GPC_PATTERN_LIST;
     ANSWERS(CREATE, GPC_RESULT_NULL, "GpcOptions.locations is NULL");
     options.locations = locations;

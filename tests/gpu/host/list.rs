@@ -6,6 +6,7 @@ use crate::meshes::Random;
 use crate::stage::on_gpu;
 use gpc::host::{Location, Options};
 use gpc::render::{Detection, Shading};
+use gpc::sampling::Pattern;
 
 /// Samples of a superpixel.
 const SAMPLES: u32 = 16;
@@ -45,8 +46,10 @@ fn a_list_of_all_pixels_is_the_picture() {
         let lent = world.lent(&PLACED);
         let (once, _) = machine.see_list(&PLACED, &pixels(), options(1));
         for (shading, most) in [(Shading::Sample, 1e-5), (Shading::Part, 3e-2)] {
+            // Lists have points, which frames have where they are asked for.
             let options = Options {
                 shading,
+                pattern: Pattern::Sobol,
                 ..options(SAMPLES)
             };
             let picture = machine.see_lent(&PLACED, &lent, Base::Nothing, options.clone());

@@ -2,6 +2,7 @@
 
 use gpc::camera::{Pinhole, SampleLocation};
 use gpc::render::{Coverage, Method, Rendered, Settings, Shading};
+use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Filter, Image, Sampler};
 
 use super::{location, pinhole, planar};
@@ -62,6 +63,8 @@ fn a_planar_image_is_the_cameras() {
             shading: Shading::Triangle,
             // Where more triangles meet than a subgroup has invocations, locations know no areas.
             coverage: Coverage::Samples,
+            // Locations have points.
+            pattern: Pattern::Sobol,
             attributes: true,
             background: Some([0.2, 0.3, 0.4]),
             ..Settings::new(SIZE[0], SIZE[1])

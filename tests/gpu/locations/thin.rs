@@ -4,6 +4,7 @@ use glam::DVec3;
 use gpc::camera::{Camera, Pinhole, Projection, SampleLocation};
 use gpc::reference::crossings::{Mark, View};
 use gpc::render::{Detection, Headless, PreparedScene, Rendered, Settings};
+use gpc::sampling::Pattern;
 use gpc::scene::AlphaMode;
 
 use super::{pinhole, planar};
@@ -72,7 +73,11 @@ fn wires_of_a_planar_set_are_the_images() {
         // Apart from the wall, and painted on it.
         for distance in [2.0, 4.999] {
             let stage = wires(SIZE, distance);
-            let settings = settings(Detection::Contrast, true);
+            // Locations have points.
+            let settings = Settings {
+                pattern: Pattern::Sobol,
+                ..settings(Detection::Contrast, true)
+            };
             let image = stage.render(gpu, &settings);
             let scene = stage.upload(gpu);
             let locations = seen(gpu, &scene, &planar(SIZE), &settings);
