@@ -53,7 +53,7 @@ pub enum RenderError {
     /// A scene is not on the device yet.
     #[error("the scene is not on the device: Headless::upload puts it there")]
     NotUploaded,
-    /// [`Headless::stop_when`](super::Headless::stop_when) said so.
+    /// `Headless::stop_when` said so.
     #[cfg(feature = "gltf")]
     #[error("what was being made is no longer wanted")]
     Stopped,
