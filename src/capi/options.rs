@@ -129,7 +129,7 @@ pub unsafe extern "C" fn gpc_options_init(
                 width,
                 height,
                 samples: defaults.samples,
-                pattern: GpcPattern::Lines as u32,
+                pattern: GpcPattern::Sobol as u32,
                 shading: GpcShading::Part as u32,
                 detection: GpcDetection::Contrast as u32,
                 contrast: defaults.contrast.map_or(GPC_CONTRAST_OF_SAMPLES, u32::from),

@@ -49,7 +49,7 @@ impl Options {
         Self {
             size: [width, height],
             samples: Settings::DEFAULT_SAMPLES,
-            pattern: Pattern::Lines,
+            pattern: Pattern::Sobol,
             shading: Shading::Part,
             detection: Detection::Contrast,
             contrast: None,

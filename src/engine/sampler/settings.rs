@@ -193,7 +193,7 @@ impl Settings {
             region: None,
             method: Method::Superpixel,
             samples: Self::DEFAULT_SAMPLES,
-            pattern: Pattern::Lines,
+            pattern: Pattern::Sobol,
             coverage: Coverage::Area,
             shading: Shading::Part,
             detection: Detection::Contrast,

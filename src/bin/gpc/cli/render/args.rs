@@ -71,7 +71,7 @@ pub struct SamplingArgs {
     #[arg(
         long,
         value_name = "P",
-        default_value = "lines",
+        default_value = "sobol",
         hide_short_help = true
     )]
     pub pattern: Pattern,
