@@ -1,4 +1,4 @@
-//! Tools of the command: image files, comparisons of images, resampling of photographs, benchmarks.
+//! Tools of the command: image files, comparisons of images, resampling of photographs, and benchmarks.
 
 pub mod bench;
 pub mod compare;

@@ -1,4 +1,4 @@
-//! What the command calls values of the library: the names that its options take, its reports have and the viewer shows.
+//! Names of the library's values in the command: in its options, its reports and the viewer.
 
 use crate::camera::panorama::PanoramaProjection;
 use crate::camera::zoom::{Shape, Transition};
@@ -9,7 +9,8 @@ use clap::builder::PossibleValue;
 use serde::{Serialize, Serializer};
 use std::fmt;
 
-/// Names values, with a help text where the list of values doesn't speak for itself. Values without a name can't be asked for.
+/// Implements [`ValueEnum`]: gives values a name and, where the name alone is unclear, a help text. Values without a
+/// name can't be selected.
 macro_rules! names {
     ($($type:ident { $($value:ident $name:literal $($help:literal)?,)* })*) => {
         $(impl ValueEnum for $type {
@@ -77,7 +78,7 @@ names! {
     }
 }
 
-/// What an option calls a value; empty for one that can't be asked for.
+/// Name of a value in options; empty for a value that can't be selected.
 #[must_use]
 pub fn name(value: &impl ValueEnum) -> String {
     let named = value.to_possible_value();

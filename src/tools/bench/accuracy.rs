@@ -4,14 +4,14 @@ use crate::compare::{CompareError, compare};
 use crate::output::{DecodedImage, Picture};
 use serde::Serialize;
 
-/// Distance of an image from the reference. Only colours count: the images are opaque.
+/// Distance of an image from the reference. Only colours are compared: the images are opaque.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Accuracy {
-    /// Root of the mean squared difference of the linear values of 0 to 1.
+    /// Root mean squared difference of the linear values, 0 to 1.
     pub rmse_linear: f64,
     /// Peak signal-to-noise ratio of the linear values in decibels; `None` (infinite) for identical images.
     pub psnr_linear: Option<f64>,
-    /// Root of the mean squared difference of the sRGB-encoded values of 0 to 1.
+    /// Root mean squared difference of the sRGB-encoded values, 0 to 1.
     pub rmse: f64,
     /// Peak signal-to-noise ratio of the sRGB-encoded values in decibels; `None` (infinite) for identical images.
     pub psnr: Option<f64>,
@@ -19,15 +19,15 @@ pub struct Accuracy {
     pub max: f64,
     /// Mean of the FLIP error map, 0 to 1.
     pub flip: f64,
-    /// Share of the aliasing error that is removed: 1 - MSE / MSE of one sample a pixel, of sRGB-encoded values.
-    /// Negative for an image worse than one sample; 1 where one sample is without error.
+    /// Share of the aliasing error that is removed: 1 - MSE / MSE of one sample a pixel, of sRGB-encoded values. It is
+    /// negative for an image worse than one sample a pixel, and 1 if one sample a pixel has no error.
     pub removed: f64,
-    /// Share of all pixels that were changed needlessly: one sample differs from the reference by less than 1/255 in
-    /// every channel, and the image differs from it by more in some.
+    /// Share of the pixels that were changed needlessly: one sample differs from the reference by less than 1/255 in
+    /// every channel, and the image differs by more in some channel.
     pub needless: f64,
 }
 
-/// Reference and image of one sample a pixel, with which all images are compared.
+/// Reference, and the image of one sample a pixel, with which all images are compared.
 #[derive(Clone, Debug)]
 pub struct Yardstick {
     linear: Vec<[f32; 4]>,
@@ -192,7 +192,8 @@ mod tests {
 
     #[test]
     fn only_pixels_that_were_right_can_be_changed_needlessly() {
-        // Right and kept, right and changed, right and changed by less than a code, wrong and changed.
+        // The pixels are: correct and unchanged, correct and changed, correct and changed by less than one code, wrong
+        // and changed.
         let reference = [100.0, 100.0, 100.0, 150.0];
         let one = [100.5, 100.0, 100.0, 100.0];
         let image = [100.5, 104.0, 100.9, 150.0];

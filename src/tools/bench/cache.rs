@@ -1,4 +1,4 @@
-//! Cache of references on disk, since brute force takes minutes.
+//! Cache of reference images on disk, because rendering one takes minutes.
 
 use super::reference::of_reference;
 use crate::camera::Camera;
@@ -14,10 +14,10 @@ const PROBE_SAMPLES: u32 = 16;
 
 /// Hash of everything that a reference depends on.
 ///
-/// Geometry, camera and footprint count bit by bit. Materials, textures, lights, shaders, and the code between them and the device
-/// count by what they show: every bit of the image at 16 samples a pixel, textures read as in the reference. Hence neither a change of a shader nor one of
-/// a file makes references stale that would be the same, and none passes by that changes what is seen. Another release
-/// of Rust may hash differently; references are then rendered again.
+/// Geometry, camera and footprint enter bit by bit. Materials, textures, lights, shaders and code enter by their
+/// effect: every bit of a probe image of 16 samples a pixel that reads textures as the reference does. So a change of
+/// a shader or a file invalidates a reference only if it changes the image. Another release of Rust may hash
+/// differently; references are then rendered again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fingerprint(u64);
 
@@ -42,7 +42,7 @@ impl Fingerprint {
         let [x, y, z] = geometry.origin.to_array().map(f64::to_bits);
         (x, y, z, image.size, samples).hash(&mut hasher);
         (&limits.device_name, &limits.driver).hash(&mut hasher);
-        // The debug format of floats is exact.
+        // The debug format of floats loses no bits.
         let places = &geometry.instances;
         let sizes = [probe.line_width, probe.point_size, probe.edge_width];
         let strokes = (&geometry.strokes, &geometry.edges, sizes);
@@ -54,7 +54,7 @@ impl Fingerprint {
     }
 }
 
-/// Folder of cached references.
+/// Cache of references in a folder.
 #[derive(Clone, Debug)]
 pub struct Cache {
     folder: PathBuf,
@@ -69,8 +69,8 @@ impl Cache {
         }
     }
 
-    /// Folder of the cache unless another one is named: `gpc` in the user's cache folder, `$XDG_CACHE_HOME` or else
-    /// `~/.cache` (XDG Base Directory Specification 0.8); `None` for a user without either.
+    /// Default folder of the cache: `gpc` in the user's cache folder, `$XDG_CACHE_HOME` or otherwise `~/.cache` (XDG
+    /// Base Directory Specification 0.8); `None` for a user without either.
     #[must_use]
     pub fn default_folder() -> Option<PathBuf> {
         let absolute = |name: &str| {
@@ -83,8 +83,8 @@ impl Cache {
             .map(|folder| folder.join("gpc"))
     }
 
-    /// Pixels of the reference of this fingerprint and size, if the cache holds them. A file that can't be used counts
-    /// as absent, with a warning in the log.
+    /// Pixels of the reference with this fingerprint and size, if the cache holds them. An unusable file counts as
+    /// absent, with a warning in the log.
     #[must_use]
     pub fn get(&self, fingerprint: Fingerprint, size: [u32; 2]) -> Option<Vec<[f32; 4]>> {
         let path = self.path(fingerprint);

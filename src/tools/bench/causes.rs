@@ -1,4 +1,4 @@
-//! Causes of the errors that antialiasing leaves in pixels.
+//! Causes of the errors that antialiasing leaves.
 
 use super::Yardstick;
 use super::accuracy::squares;
@@ -14,19 +14,19 @@ use std::ops::RangeInclusive;
 /// Places in a pixel, besides its centre, at which IDs are looked up.
 pub const LOOKS: u32 = 64;
 
-/// Scrambling seed of these places.
+/// Scrambling seed of these places, another one than those of the patterns.
 const SEED: u32 = 2;
 
-/// Cause of the error in a pixel.
+/// Cause of a pixel's error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cause {
-    /// Superpixel: its error comes from the number of samples and of their shadings.
+    /// Superpixel: the error comes from the number of its samples and shadings.
     Superpixel,
-    /// Pixel that is no superpixel although it or a neighbour's centre sees several triangles: their colours contrast
+    /// Pixel that is no superpixel although its centre or a neighbour's shows another triangle: their colours contrast
     /// too little.
     BelowThreshold,
-    /// Pixel that is no superpixel and holds a triangle, or a gap between triangles, that no centre of the 3 x 3 pixels
-    /// around it sees.
+    /// Pixel that is no superpixel and holds a triangle, or a gap between triangles, that no centre of the 3 x 3
+    /// pixels around it shows.
     Unseen,
     /// Pixel that is no superpixel and holds one triangle: its error comes from shading or texture.
     Inside,
@@ -36,17 +36,17 @@ pub enum Cause {
 /// colours; they add up to 1 - [`super::Accuracy::removed`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Split {
-    /// Error in superpixels.
+    /// Share in superpixels.
     pub superpixels: f64,
-    /// Error in pixels that contrast too little to become superpixels.
+    /// Share in pixels that contrast too little to become superpixels.
     pub below_threshold: f64,
-    /// Error in pixels of features that no centre saw and that did not become superpixels.
+    /// Share in pixels with features that no centre shows and that did not become superpixels.
     pub unseen: f64,
-    /// Error in pixels of one triangle.
+    /// Share in pixels of one triangle.
     pub inside: f64,
 }
 
-/// Triangles in each pixel, as [`LOOKS`] places and the centre see them.
+/// Triangles in each pixel, found at [`LOOKS`] places and at the centre.
 ///
 /// IDs are those of opaque and MASK triangles; a BLEND triangle counts as what lies behind it.
 #[derive(Clone, Debug)]
@@ -56,8 +56,8 @@ pub struct Looks {
 }
 
 impl Looks {
-    /// Looks up the IDs in each pixel of an image with these settings. `progress` is called after each of [`LOOKS`]
-    /// renderings.
+    /// Finds the triangle IDs in each pixel of an image with these settings. `progress` is called after each of
+    /// [`LOOKS`] renderings.
     ///
     /// # Errors
     /// As [`Headless::render`].
@@ -91,7 +91,7 @@ impl Looks {
         Ok(Self { unseen, several })
     }
 
-    /// Whether a pixel holds more than one triangle, or a triangle and background.
+    /// Whether a pixel holds several triangles, or a triangle and background.
     pub(super) fn holds_several(&self, pixel: usize) -> bool {
         self.several.get(pixel).copied().unwrap_or_default()
     }
@@ -127,7 +127,7 @@ impl Looks {
     }
 }
 
-/// Settings that render IDs and superpixels; one sample a pixel suffices for these.
+/// Settings for IDs and superpixels with one sample a pixel, which suffices for these.
 fn with_attributes(settings: &Settings, method: Method) -> Settings {
     Settings {
         method,
@@ -179,7 +179,7 @@ impl Yardstick {
 }
 
 impl Split {
-    /// Share of a cause.
+    /// Mutable share of a cause.
     fn of_mut(&mut self, cause: Cause) -> &mut f64 {
         match cause {
             Cause::Superpixel => &mut self.superpixels,
@@ -196,7 +196,8 @@ mod tests {
 
     #[test]
     fn each_cause_is_told_from_the_others() {
-        // A superpixel, a pixel of one triangle, one of two that neighbours see, and one of an unseen one.
+        // The pixels: a superpixel; one with a single triangle; one with two triangles that neighbours show; one with
+        // a triangle that no centre shows.
         let centres: Vec<_> = (0..4)
             .map(|pixel| PixelAttributes {
                 superpixel: u32::from(pixel == 0),

@@ -1,4 +1,4 @@
-//! Faults: whether edges, texture or light is to blame for an error.
+//! Faults: whether edges, texture or light cause an error.
 
 use super::accuracy::squares;
 use super::{Cause, Looks, Yardstick};
@@ -8,16 +8,16 @@ use crate::output::{DecodedImage, OutputError, Picture};
 use crate::render::{Detection, Headless, PreparedScene, RenderError, Settings, Shading};
 use serde::Serialize;
 
-/// Part of rendering that is to blame for an error in a superpixel or inside of one triangle.
+/// Part of rendering that causes an error in a superpixel or in a pixel of one triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
-    /// Edges: the superpixel holds several triangles, and at least half of its squared error stays when every sample is
-    /// shaded. The number of samples, their places and their weights are to blame.
+    /// Edges: the superpixel holds several triangles, and at least half of its squared error remains when every sample
+    /// is shaded. Number, places and weights of the samples are to blame.
     Edges,
-    /// Texture: paint alone errs at least as much in the pixel as light alone. The filtering of textures and the number
-    /// of reads are to blame.
+    /// Texture: the scene's paint alone has at least as large an error in the pixel as its light alone. Texture
+    /// filtering and the number of texture reads are to blame.
     Texture,
-    /// Light: light alone errs more. Highlights, normals and roughness are to blame.
+    /// Light: the scene's light alone has the larger error. Highlights, normals and roughness are to blame.
     Light,
 }
 
@@ -26,28 +26,28 @@ pub enum Fault {
 /// [`super::Split::inside`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Within {
-    /// Error in superpixels by edges and the number of samples.
+    /// Share in superpixels by edges, including the number of samples.
     pub superpixel_edges: f64,
-    /// Error in superpixels by texture.
+    /// Share in superpixels by texture.
     pub superpixel_texture: f64,
-    /// Error in superpixels by light.
+    /// Share in superpixels by light.
     pub superpixel_light: f64,
-    /// Error inside of one triangle by texture.
+    /// Share in pixels of one triangle by texture.
     pub inside_texture: f64,
-    /// Error inside of one triangle by light.
+    /// Share in pixels of one triangle by light.
     pub inside_light: f64,
 }
 
-/// Stripped scene on the device, and its truth as a display shows it.
+/// Stripped scene on the device, and its reference image.
 #[derive(Clone, Copy)]
 pub struct Half<'a> {
     /// Scene of [`super::Stripped::of`].
     pub scene: &'a PreparedScene,
-    /// Truth of the scene.
+    /// Reference image of the stripped scene, as a display shows it.
     pub truth: &'a DecodedImage,
 }
 
-/// Errors of telling faults.
+/// Error of finding faults.
 #[derive(Debug, thiserror::Error)]
 pub enum FaultError {
     /// Image that can't be rendered.
@@ -61,7 +61,7 @@ pub enum FaultError {
     Picture(#[from] OutputError),
 }
 
-/// Scenes that are compared to tell the fault of an error.
+/// Scenes whose errors are compared to find the faults.
 pub struct Suspects<'a> {
     /// Whole scene.
     pub scene: &'a PreparedScene,
@@ -69,25 +69,26 @@ pub struct Suspects<'a> {
     pub halves: [Half<'a>; 2],
     /// Camera of all images.
     pub camera: &'a Camera,
-    /// Triangles in each pixel.
+    /// Triangles in each pixel of the whole scene.
     pub looks: &'a Looks,
 }
 
-/// Squared errors of a stripped scene, pixel by pixel.
+/// Squared errors of a stripped scene, one for each pixel.
 struct Errors {
-    /// Errors with every pixel a superpixel.
+    /// Errors if every pixel is a superpixel.
     superpixels: Vec<f64>,
-    /// Errors with no pixel a superpixel.
+    /// Errors if no pixel is a superpixel.
     inside: Vec<f64>,
 }
 
 impl Suspects<'_> {
-    /// Fault of each pixel's error, rows from the top; `None` where the cause is neither superpixels nor one triangle.
-    /// `picture` is the whole scene under superpixel antialiasing with `settings`, and `causes` are those of its
-    /// pixels.
+    /// Fault of each pixel's error, rows from the top; `None` for causes other than superpixels and one triangle.
+    /// `picture` is the whole scene under superpixel antialiasing with `settings`, and `causes` holds the causes of
+    /// its errors.
     ///
-    /// Renders the whole scene with every sample of its superpixels shaded, and each half with superpixels everywhere and
-    /// nowhere, for these contrast elsewhere than the whole.
+    /// This renders the whole scene with every sample of its superpixels shaded, and each stripped scene twice: with
+    /// superpixels everywhere and nowhere. It can't use the whole scene's superpixels because stripped scenes contrast
+    /// in other places.
     ///
     /// # Errors
     /// As [`Headless::render`]; [`CompareError::Size`] if an image does not have the reference's size.
@@ -113,7 +114,7 @@ impl Suspects<'_> {
             detection: Detection::Every,
             ..settings.clone()
         };
-        // No difference of 8-bit codes is above their greatest.
+        // No two 8-bit codes differ by more than this threshold.
         let nowhere = Settings {
             contrast: Some(u8::MAX),
             detection: Detection::Contrast,
@@ -146,7 +147,7 @@ impl Suspects<'_> {
     }
 }
 
-/// Fault of a pixel's error. `stays` is the share of it that remains when every sample is shaded.
+/// Fault of a pixel's error. `stays` is the share of the error that remains when every sample is shaded.
 fn fault(cause: Cause, several: bool, stays: f64, [paint, light]: [f64; 2]) -> Option<Fault> {
     match cause {
         Cause::BelowThreshold | Cause::Unseen => None,
@@ -157,8 +158,8 @@ fn fault(cause: Cause, several: bool, stays: f64, [paint, light]: [f64; 2]) -> O
 }
 
 impl Yardstick {
-    /// Splits an image's error in superpixels and inside of one triangle by fault; all parts are zero if one sample a
-    /// pixel has no error.
+    /// Splits an image's error in superpixels and in pixels of one triangle by fault; all parts are zero if one sample
+    /// a pixel has no error.
     ///
     /// # Errors
     /// [`CompareError::Size`] if the image does not have the reference's size.
@@ -199,7 +200,7 @@ mod tests {
             (Superpixel, true, 0.6, [3.0, 1.0], Some(Fault::Edges)),
             (Superpixel, true, 0.4, [3.0, 1.0], Some(Fault::Texture)),
             (Superpixel, true, 0.4, [1.0, 3.0], Some(Fault::Light)),
-            // There are no edges amid one triangle.
+            // A pixel of one triangle has no edges to blame.
             (Superpixel, false, 0.9, [1.0, 3.0], Some(Fault::Light)),
             (Inside, false, 0.9, [1.0, 3.0], Some(Fault::Light)),
             (Inside, false, 0.9, [3.0, 1.0], Some(Fault::Texture)),

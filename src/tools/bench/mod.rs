@@ -1,9 +1,9 @@
-//! Benchmarks: the costs of methods, and the distances of their images from brute force at thousands of samples.
+//! Benchmarks: times of the methods, and the distances of their images from a reference.
 //!
-//! [`brute_force`] renders the reference, which a [`Cache`] keeps on disk; [`Yardstick`] holds images against it;
-//! [`take_turns`] times several [`Contender`]s in one run, each in its turn, so that a machine that slows down slows all
-//! of them down. A [`VariantContender`] does so for the sampling sets of the camera's variants. A [`Sequence`] holds frames in
-//! [`Motion`] against their own truths.
+//! [`brute_force`] renders the reference by supersampling with thousands of samples a pixel, and a [`Cache`] keeps it
+//! on disk. [`Yardstick`] compares images with it. [`take_turns`] times several [`Contender`]s in one run, frame by
+//! frame in turns, so that a machine that slows down affects all of them. [`VariantContender`] does the same for the
+//! sampling sets of the camera's variants. [`Sequence`] compares frames in [`Motion`] with a reference for each frame.
 
 mod accuracy;
 mod cache;

@@ -1,4 +1,4 @@
-//! Benchmark of motion: each frame's distance from its own truth, and how much this error flickers.
+//! Benchmark of motion: each frame's distance from its own reference, and the flicker of this error.
 
 use super::accuracy::differences;
 use crate::camera::Camera;
@@ -13,21 +13,21 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Motion {
-    /// Pan of the film by fractions of a pixel, to the points of an Owen-scrambled Sobol set: the same picture, sampled
-    /// elsewhere in each frame.
+    /// Pan of the image by fractions of a pixel, to the points of an Owen-scrambled Sobol set: every frame shows the
+    /// same picture, sampled in other places.
     Pan,
-    /// Turn of the camera about the vertical axis through its target, by a quarter of a degree a frame.
+    /// Turn of the camera about the vertical axis through its target, by 0.25 degrees a frame.
     Turn,
 }
 
-/// Frames of a motion; a power of two, so that the Sobol set is evenly spread.
+/// Number of frames of a motion; a power of two, for which a Sobol set is evenly spread.
 const FRAMES: u32 = 16;
 
 /// Degrees between two frames of a turn.
 const TURN: f64 = 0.25;
 
-/// Scrambling seed of a pan's places. Superpixels and references have others, so that a pan does not meet their
-/// samples.
+/// Scrambling seed of a pan's places. Superpixels and references have other seeds, so that a pan does not coincide
+/// with their samples.
 const SEED: u32 = 3;
 
 impl Motion {
@@ -64,13 +64,13 @@ impl fmt::Display for Motion {
     }
 }
 
-/// Accuracy and steadiness of a sequence, in sRGB-encoded values of 0 to 1.
+/// Error and flicker of a sequence, in sRGB-encoded values of 0 to 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Steadiness {
-    /// Mean over the frames of each frame's RMSE against its own truth.
+    /// Mean over the frames of each frame's RMSE against its own reference.
     pub rmse: f64,
-    /// Root mean square, over pixels and colours, of the error's standard deviation over time. An error that is the
-    /// same in all frames does not count.
+    /// Flicker: root mean square, over pixels and colours, of the error's standard deviation over time. An error that
+    /// is the same in all frames does not count.
     pub flicker: f64,
 }
 
@@ -79,12 +79,12 @@ pub struct Steadiness {
 pub struct Sequence {
     frames: u32,
     rmse: f64,
-    /// Sum of the errors and of their squares, for each colour of each pixel.
+    /// Sum of the errors and sum of their squares, for each colour of each pixel.
     sums: Vec<[[f64; 2]; 3]>,
 }
 
 impl Sequence {
-    /// Adds a frame and its truth.
+    /// Adds a frame and its reference.
     ///
     /// # Errors
     /// [`CompareError::Size`] if their sizes differ, or are not those of the earlier frames.
@@ -106,7 +106,7 @@ impl Sequence {
         Ok(())
     }
 
-    /// Accuracy and steadiness of the frames so far; all zero without frames.
+    /// Error and flicker of the frames so far; all zero without frames.
     #[must_use]
     pub fn steadiness(&self) -> Steadiness {
         if self.frames == 0 {
@@ -118,7 +118,7 @@ impl Sequence {
         let mean = variances.sum::<f64>() / (3 * self.sums.len()) as f64;
         Steadiness {
             rmse: self.rmse / frames,
-            // Rounding may leave less than nothing.
+            // Rounding may make the variance negative.
             flicker: mean.max(0.0).sqrt(),
         }
     }
@@ -152,7 +152,7 @@ mod tests {
 
     #[test]
     fn an_error_that_comes_and_goes_flickers() {
-        // One pixel's error swings by a quarter around its mean, the other has none.
+        // One pixel's error varies by a quarter around its mean; the other has no error.
         let found = steadiness(&[([0.5, 0.5], [0.75, 0.5]), ([0.5, 0.5], [0.25, 0.5])]);
         let expected = 0.25 / 2_f64.sqrt();
         assert!((found.flicker - expected).abs() < 1e-9, "{found:?}");

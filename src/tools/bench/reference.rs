@@ -1,37 +1,38 @@
-//! Reference images: brute force at thousands of samples a pixel.
+//! Reference images: supersampling with thousands of samples a pixel.
 
 use crate::camera::Camera;
 use crate::render::{Footprint, Headless, Method, PreparedScene, RenderError, Settings};
 use crate::sampling::owen_sobol;
 use glam::DVec2;
 
-/// Side of the sample grid of one rendering.
+/// Side of the sample grid in each rendering.
 const SIDE: u32 = 16;
 
-/// Samples a pixel of one rendering.
+/// Samples a pixel of each rendering.
 pub const GRID_SAMPLES: u32 = SIDE * SIDE;
 
 /// Most samples a pixel of a reference.
 pub const MAX_REFERENCE_SAMPLES: u32 = 1024 * GRID_SAMPLES;
 
-/// Side, in output pixels, of the square over which the truth reads textures: that of a sample's cell at 4,096 samples.
+/// Side, in output pixels, of the square over which the reference reads textures: the cell of a sample at 4,096
+/// samples.
 pub const TRUTH_SIDE: f32 = 1.0 / 64.0;
 
-/// Scrambling seed of the grids' shifts. The superpixels' pattern has another one: a reference of its own samples would
-/// favour it.
+/// Scrambling seed of the grids' shifts. Superpixels have another seed: a reference with their own samples would
+/// favour them.
 const SEED: u32 = 1;
 
-/// Renders an image at `samples` samples a pixel: 16 x 16 supersampling again and again, each time with the grid moved
-/// to another point of an Owen-scrambled Sobol set within its own cell, and the mean of all. A finer grid alone would
-/// err on edges along an axis and favour methods whose samples lie in grids.
+/// Renders an image at `samples` samples a pixel. It is the mean of many renderings with 16 x 16 supersampling; in
+/// each, the grid is shifted to another point of an Owen-scrambled Sobol set within the grid's cell. A finer grid
+/// alone would err on edges along an axis, and favour methods whose samples lie in grids.
 ///
-/// Of `settings`, all that concerns sampling is replaced, and [`Footprint::Sample`] becomes a square of [`TRUTH_SIDE`]:
-/// textures and the alpha of MASK materials are read so sharply that the image is *the truth*, the mean over each pixel of
-/// the scene as it is. [`Footprint::Pixel`] stays: that reference filters textures as if every sample were a pixel, and
-/// against it methods at the same footprint differ by geometry alone.
+/// The sampling fields of `settings` are replaced, and [`Footprint::Sample`] becomes a square of [`TRUTH_SIDE`]:
+/// textures and the alpha of MASK materials are read so sharply that the image is the mean over each pixel of the
+/// unfiltered scene. [`Footprint::Pixel`] stays: that reference filters textures over a whole pixel at every sample,
+/// and methods with the same footprint differ from it by geometry alone.
 ///
-/// `progress` is called after each rendering. The result holds rows from the top of what
-/// [`Rendered::colors`](crate::render::Rendered::colors) holds.
+/// `progress` is called after each rendering. The result holds colours like those of
+/// [`Rendered::colors`](crate::render::Rendered::colors), rows from the top.
 ///
 /// # Errors
 /// [`RenderError::Samples`] unless `samples` is a multiple of [`GRID_SAMPLES`] from it to [`MAX_REFERENCE_SAMPLES`];
@@ -59,7 +60,8 @@ pub fn brute_force(
     let shifts = owen_sobol(samples / GRID_SAMPLES, SEED);
     let mut sums: Vec<[f64; 4]> = Vec::new();
     for shift in &shifts {
-        // From cells of the grid to pixels to images.
+        // The shift is in cells of the grid: divided by its side it is in pixels, and divided by the size in image
+        // widths and heights.
         let moved = DVec2::from(shift.map(f64::from)) / f64::from(SIDE) / size;
         let camera = Camera {
             shift: camera.shift + moved,
@@ -81,7 +83,7 @@ pub fn brute_force(
         .collect())
 }
 
-/// Settings of one rendering, of `samples` samples a pixel, for a reference.
+/// Settings of one rendering of a reference, with `samples` samples a pixel.
 pub(super) fn of_reference(settings: &Settings, samples: u32) -> Settings {
     Settings {
         method: Method::Ssaa,

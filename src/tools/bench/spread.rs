@@ -5,11 +5,11 @@ use serde::Serialize;
 /// Median, minimum and spread of several measurements.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Spread {
-    /// Middle one of the measurements, or the mean of the middle two.
+    /// Median: the middle measurement, or the mean of the middle two.
     pub median: f64,
-    /// Least of the measurements.
+    /// Smallest measurement.
     pub min: f64,
-    /// Difference between the greatest and the least measurement.
+    /// Difference between the largest and the smallest measurement.
     pub spread: f64,
     /// Number of measurements.
     pub count: usize,

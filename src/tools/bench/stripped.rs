@@ -1,23 +1,23 @@
-//! Stripped scenes: one without light and one without paint. An error is the fault of the one in which it remains.
+//! Stripped scenes: one without light and one without paint. The one that keeps an error tells its cause.
 
 use crate::color::srgb;
 use crate::scene::{AlphaMode, Image, Material, Scene, Texture};
 
-/// Part of a scene's looks that a stripped scene keeps.
+/// Part of a scene's appearance that a stripped scene keeps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stripped {
-    /// Paint alone: every material is unlit, with its base colour, of factor, texture and vertices.
+    /// Paint alone: every material is unlit and has its base colour, from factor, texture and vertices.
     Paint,
-    /// Light alone: every base colour texture has its mean colour everywhere and keeps its alpha. All other textures
+    /// Light alone: every base colour texture is replaced by its mean colour and keeps its alpha. All other textures
     /// stay, emissive ones too.
     Light,
 }
 
 impl Stripped {
-    /// Both parts.
+    /// Both parts of the appearance.
     pub const ALL: [Self; 2] = [Self::Paint, Self::Light];
 
-    /// Strips a scene of all but this part. The poses of the whole scene are valid for it.
+    /// Copy of a scene that keeps only this part. Poses of the scene are valid for the copy too.
     #[must_use]
     pub fn of(self, scene: &Scene) -> Scene {
         let mut stripped = scene.clone();
@@ -55,7 +55,7 @@ fn flatten(scene: &mut Scene, index: usize) {
     if material.alpha_mode == AlphaMode::Opaque {
         return;
     }
-    // Cut-outs stay what they are.
+    // Alpha stays, so that cut-outs do.
     let mut white = image.clone();
     for pixel in white.pixels.as_chunks_mut::<4>().0 {
         pixel[..3].fill(255);
@@ -75,8 +75,8 @@ fn tint(material: &mut Material, color: [f64; 3]) {
     }
 }
 
-/// Mean colour of an image in linear light, weighted by alpha unless `alpha_mode` is opaque; white if all is
-/// transparent.
+/// Mean colour of an image in linear light, weighted by alpha unless `alpha_mode` is opaque; white if the image is
+/// transparent everywhere.
 fn mean(image: &Image, alpha_mode: AlphaMode) -> [f64; 3] {
     let linear: Vec<f64> = (0..=255)
         .map(|code| srgb::decode(f64::from(code) / 255.0))

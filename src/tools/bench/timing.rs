@@ -1,4 +1,4 @@
-//! Times of methods, measured by turns.
+//! Times of the methods, measured in turns.
 
 use super::Spread;
 use crate::camera::Camera;
@@ -6,7 +6,7 @@ use crate::render::{Frame, Headless, PassTime, PreparedScene, RenderError, Rende
 use serde::Serialize;
 use std::time::{Duration, Instant};
 
-/// Method that takes part in a measurement: warmed up, with the times of its frames.
+/// Method that takes part in a measurement, warmed up; collects the times of its frames.
 pub struct Contender {
     frame: Frame,
     frames: Vec<Timed>,
@@ -23,9 +23,9 @@ struct Timed {
 pub struct Cost {
     /// Milliseconds on the device.
     pub gpu_ms: Spread,
-    /// Milliseconds by the clock, from recording to the image in host memory.
+    /// Wall-clock milliseconds, from recording to the image in host memory.
     pub wall_ms: Spread,
-    /// Cost on the device of each pass, in their order.
+    /// Device time of each pass, in the order in which they run.
     pub passes: Vec<PassCost>,
 }
 
@@ -40,7 +40,8 @@ pub struct PassCost {
 }
 
 impl Contender {
-    /// Prepares a method and renders a frame that is not timed, since drivers compile shaders during the first one.
+    /// Prepares a method and renders a frame that is not timed, because drivers compile shaders during the first
+    /// frame.
     ///
     /// # Errors
     /// [`RenderError`] if the settings are impossible, memory runs out or the device is lost.
@@ -82,7 +83,7 @@ impl Contender {
         Ok(())
     }
 
-    /// Whether another frame is wanted and fits into the time allowed. The first frame always does.
+    /// Whether another frame is wanted and fits into the time limit. The first frame is always rendered.
     fn goes_on(&self, repeat: u32, budget: Duration) -> bool {
         let Some(last) = self.frames.last() else {
             return true;
@@ -91,7 +92,7 @@ impl Contender {
         self.frames.len() < repeat as usize && expected <= budget.as_secs_f64()
     }
 
-    /// Cost of the frames so far.
+    /// Cost over the frames so far.
     #[must_use]
     pub fn cost(&self) -> Cost {
         let of_pass = |pass: &str| {
@@ -116,7 +117,7 @@ impl Contender {
     }
 }
 
-/// Times every contender `repeat` times, by turns. A contender that would need more than `budget` drops out of later
+/// Times every contender `repeat` times, in turns. A contender that would need more than `budget` drops out of later
 /// rounds, after at least one frame. `progress` is called before each frame.
 ///
 /// # Errors

@@ -1,8 +1,8 @@
 //! Differences between two images.
 //!
-//! Both are taken as a display shows them (see [`DecodedImage`]): sRGB-encoded, over black. Alpha
-//! is a fourth channel where either image has a pixel that is not opaque, and is left out otherwise, so that
-//! the numbers of opaque images are those of RGB.
+//! Both are compared as a display shows them (see [`DecodedImage`]): sRGB-encoded, over black. Alpha counts as a
+//! fourth channel if either image has a pixel that is not opaque, and is left out otherwise, so that the numbers of
+//! opaque images are those of RGB.
 
 use crate::output::DecodedImage;
 use nv_flip::{FlipImageRgb8, FlipPool};
@@ -12,7 +12,7 @@ use std::sync::LazyLock;
 /// Differences between an image and a reference.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Comparison {
-    /// Root of the mean squared difference over all pixels and channels, 0 to 1.
+    /// Root mean squared difference over all pixels and channels, 0 to 1.
     pub rmse: f64,
     /// Peak signal-to-noise ratio in decibels; `None` (infinite) for identical images.
     pub psnr: Option<f64>,
@@ -22,7 +22,7 @@ pub struct Comparison {
     pub flip: f64,
 }
 
-/// Pair of images that can't be compared.
+/// Error: a pair of images that can't be compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum CompareError {
     /// Images of different sizes.
@@ -65,8 +65,8 @@ pub fn compare(reference: &DecodedImage, image: &DecodedImage) -> Result<Compari
     })
 }
 
-/// Colour of a value of 0 to 1 on a scale from black at 0 through purple and orange to light yellow at 1, as sRGB
-/// codes. Values outside of it have the colour of the nearer end.
+/// Colour of a value on a scale from black at 0 through purple and orange to light yellow at 1, as sRGB codes. Values
+/// outside of the scale get the colour of the nearer end.
 #[must_use]
 pub fn heat_color(share: f32) -> [u8; 3] {
     static PALETTE: LazyLock<Vec<[u8; 3]>> =

@@ -21,7 +21,7 @@ pub enum AovKind {
 }
 
 impl AovKind {
-    /// All kinds.
+    /// All kinds of AOVs.
     pub const ALL: [Self; 5] = [
         Self::Depth,
         Self::Id,

@@ -10,8 +10,8 @@ use std::path::Path;
 
 /// Image as a display shows it: sRGB-encoded colours of 0 to 1 over black, and alpha.
 ///
-/// A PNG's translucent colours are multiplied by alpha in linear light and encoded again, so that colour which
-/// no one sees does not count. An EXR's values are brought into 0 to 1 and encoded; they are not tone-mapped.
+/// Translucent colours of a PNG are multiplied by alpha in linear light and encoded again, so that colour which is
+/// invisible does not count. The values of an EXR are clamped to 0 to 1 and encoded; they are not tone-mapped.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DecodedImage {
     /// Width and height in pixels.
@@ -21,7 +21,7 @@ pub struct DecodedImage {
 }
 
 impl From<&Picture<'_>> for DecodedImage {
-    /// Converts a rendered image to what a display shows of it, without the rounding of a file.
+    /// Converts a rendered image to the image that a display shows, without the rounding of a file.
     fn from(picture: &Picture<'_>) -> Self {
         Self {
             size: picture.size(),
@@ -37,7 +37,7 @@ impl From<&Picture<'_>> for DecodedImage {
 
 const EXR_MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
 
-/// Reads a PNG, JPEG or EXR file; the format is told by the content.
+/// Reads a PNG, JPEG or EXR file; the content tells the format.
 ///
 /// # Errors
 /// [`OutputError::Read`] if the file can't be read, otherwise as [`decode`].
@@ -49,7 +49,7 @@ pub fn read(path: &Path) -> Result<DecodedImage, OutputError> {
     decode(&bytes, &path.display().to_string())
 }
 
-/// Decodes a PNG, JPEG or EXR image; the format is told by the content. `name` stands for the file in messages.
+/// Decodes a PNG, JPEG or EXR image; the content tells the format. `name` stands for the file in messages.
 ///
 /// # Errors
 /// [`OutputError::Decode`] if the bytes are in none of these formats or broken, [`OutputError::NotANumber`] for an EXR
@@ -80,7 +80,7 @@ pub fn decode(bytes: &[u8], name: &str) -> Result<DecodedImage, OutputError> {
     })
 }
 
-/// Decodes an EXR or Radiance (.hdr) image to [width, height] and its values as they are: linear light, premultiplied
+/// Decodes an EXR or Radiance (.hdr) image to [width, height] and its unchanged values: linear light, premultiplied
 /// alpha, rows from the top. `name` stands for the file in messages.
 ///
 /// # Errors
@@ -95,7 +95,8 @@ pub fn decode_linear(bytes: &[u8], name: &str) -> Result<([u32; 2], Vec<[f32; 4]
     decoded.map_err(|reason| not_linear(name, reason))
 }
 
-/// Decodes as [`decode_linear`] does, without alpha. A Radiance image's colours are not copied.
+/// Decodes an EXR or Radiance image as [`decode_linear`] does, but without alpha; this saves a copy of a Radiance
+/// image.
 ///
 /// # Errors
 /// As [`decode_linear`].
@@ -117,9 +118,9 @@ fn not_linear(name: &str, reason: String) -> OutputError {
     }
 }
 
-/// Size and straight sRGB-encoded pixels of a PNG or JPEG.
+/// Size and sRGB-encoded pixels with straight alpha, of a PNG or JPEG.
 fn display_referred(bytes: &[u8]) -> Result<([u32; 2], Vec<[f32; 4]>), String> {
-    // The reader's default limits bound what a header may claim.
+    // The reader's default limits protect against headers that claim huge images.
     let image = ImageReader::new(Cursor::new(bytes))
         .with_guessed_format()
         .map_err(|error| error.to_string())?
@@ -151,7 +152,7 @@ fn show_linear([r, g, b, a]: [f32; 4]) -> [f32; 4] {
 }
 
 fn show_straight([r, g, b, a]: [f32; 4]) -> [f32; 4] {
-    // Encoding and decoding again would cost the last bit of every opaque colour.
+    // Decoding and encoding again would change the last bit of opaque colours.
     if a >= 1.0 {
         return [r, g, b, 1.0];
     }

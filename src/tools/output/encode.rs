@@ -10,11 +10,10 @@ use rayon::prelude::*;
 
 const JPEG_QUALITY: u8 = 95;
 
-/// Encodes a picture in a format. AOVs become layers of an EXR; other formats have no place for them and leave them
-/// out.
+/// Encodes a picture. AOVs become layers of an EXR; other formats leave them out.
 ///
 /// # Errors
-/// [`OutputError::PixelCount`] if an AOV is of another size, [`OutputError::Encode`] if the format can't hold the
+/// [`OutputError::PixelCount`] if an AOV has another size, [`OutputError::Encode`] if the format can't hold the
 /// picture: a JPEG's sides are at most 65,535.
 pub fn encode(format: Format, picture: &Picture<'_>, aovs: &[Aov]) -> Result<Vec<u8>, OutputError> {
     let size = picture.size();
@@ -41,16 +40,17 @@ pub fn encode(format: Format, picture: &Picture<'_>, aovs: &[Aov]) -> Result<Vec
     }
 }
 
-/// Encodes an AOV of `size` = [width, height] as a PNG for people to look at:
+/// Encodes an AOV of `size` = [width, height] as a PNG for viewing:
 ///
-/// - depth: 16-bit grey, linear in distance, 65,535 at the nearest pixel, 1 at the furthest, 0 where nothing is seen;
-/// - id: a colour for each triangle, black where nothing is seen;
-/// - normal: x, y and z from -1 to 1 as red, green and blue from 0 to 255, black where nothing is seen;
-/// - superpixels: white where a pixel is one;
+/// - depth: 16-bit grey, linear in distance, 65,535 at the nearest pixel, 1 at the furthest, 0 where nothing is
+///   visible;
+/// - id: a colour for each triangle, black where nothing is visible;
+/// - normal: x, y and z from -1 to 1 as red, green and blue from 0 to 255, black where nothing is visible;
+/// - superpixels: white for superpixels;
 /// - samples: 16-bit grey, 65,535 for 1,024 samples.
 ///
 /// # Errors
-/// [`OutputError::PixelCount`] if it is not of this size, [`OutputError::Encode`] if it can't be held.
+/// [`OutputError::PixelCount`] if the AOV does not have this size, [`OutputError::Encode`] if the encoder fails.
 pub fn encode_aov(size: [u32; 2], aov: &Aov) -> Result<Vec<u8>, OutputError> {
     check_count(size, aov.len())?;
     let grey16 = |codes: Vec<u16>| png(size, bytemuck::cast_slice(&codes), ExtendedColorType::L16);
@@ -84,17 +84,17 @@ pub fn encode_aov(size: [u32; 2], aov: &Aov) -> Result<Vec<u8>, OutputError> {
 ///
 /// # Errors
 /// [`OutputError::PixelCount`] if the number of pixels is not width times height, [`OutputError::Encode`] if the
-/// encoder refuses.
+/// encoder fails.
 pub fn encode_rgb(size: [u32; 2], pixels: &[[u8; 3]]) -> Result<Vec<u8>, OutputError> {
     check_count(size, pixels.len())?;
     png(size, pixels.as_flattened(), ExtendedColorType::Rgb8)
 }
 
-/// Encodes a share of 0 to 1 for each pixel as a 16-bit grey PNG: linear, with 65,535 for 1.
+/// Encodes a value of 0 to 1 for each pixel as a 16-bit grey PNG: linear, with 65,535 for 1.
 ///
 /// # Errors
-/// [`OutputError::PixelCount`] if the number of shares is not width times height, [`OutputError::Encode`] if the
-/// encoder refuses.
+/// [`OutputError::PixelCount`] if the number of values is not width times height, [`OutputError::Encode`] if the
+/// encoder fails.
 pub fn encode_shares(size: [u32; 2], shares: &[f32]) -> Result<Vec<u8>, OutputError> {
     check_count(size, shares.len())?;
     let code = |share: &f32| (share.clamp(0.0, 1.0) * f32::from(u16::MAX)).round() as u16;
@@ -107,13 +107,13 @@ enum Channels {
     Rgba,
 }
 
-/// Codes of 0 to `top` of sRGB colours and straight alpha.
+/// Codes from 0 to `top` of sRGB colours and straight alpha.
 pub(super) fn straight_codes(picture: &Picture<'_>, top: u16) -> Vec<[u16; 4]> {
     let scale = f64::from(top);
     let code = |[r, g, b, a]: &[f32; 4]| {
         let alpha = f64::from(*a);
         let alpha_code = (alpha.clamp(0.0, 1.0) * scale).round() as u16;
-        // A colour that no one can see would only cost bytes, and dividing by almost nothing makes one up.
+        // An invisible colour would only cost bytes, and dividing by a tiny alpha would make it up.
         let color = |premultiplied: f32| match alpha_code {
             0 => 0,
             _ => (srgb::encode(f64::from(premultiplied) / alpha) * scale).round() as u16,
@@ -123,7 +123,7 @@ pub(super) fn straight_codes(picture: &Picture<'_>, top: u16) -> Vec<[u16; 4]> {
     picture.pixels().par_iter().map(code).collect()
 }
 
-/// Codes as of [`straight_codes`]; without alpha where every pixel is opaque.
+/// Codes as of [`straight_codes`]; without alpha if every pixel is opaque.
 fn straight(picture: &Picture<'_>, top: u16) -> (Vec<u16>, Channels) {
     let codes = straight_codes(picture, top);
     if codes.par_iter().all(|code| code[3] == top) {
@@ -135,7 +135,7 @@ fn straight(picture: &Picture<'_>, top: u16) -> (Vec<u16>, Channels) {
 }
 
 fn jpeg(picture: &Picture<'_>) -> Result<Vec<u8>, OutputError> {
-    // Premultiplied colour is colour over black.
+    // A premultiplied colour equals the colour over black.
     let code = |[r, g, b, _]: &[f32; 4]| [*r, *g, *b].map(|v| srgb::encode_u8(f64::from(v)));
     let pixels: Vec<_> = picture.pixels().par_iter().map(code).collect();
     let [width, height] = picture.size();
@@ -176,7 +176,7 @@ fn depth_codes(depths: &[f32]) -> Vec<u16> {
     depths.iter().map(code).collect()
 }
 
-/// Colour of a triangle's ID, so that neighbouring IDs differ clearly.
+/// Colour for a triangle's ID; neighbouring IDs get clearly different colours.
 fn id_color(id: u32) -> [u8; 3] {
     if id == 0 {
         return [0; 3];
@@ -186,6 +186,6 @@ fn id_color(id: u32) -> [u8; 3] {
     hash = (hash ^ (hash >> 16)).wrapping_mul(0x85eb_ca6b);
     hash = (hash ^ (hash >> 13)).wrapping_mul(0xc2b2_ae35);
     hash ^= hash >> 16;
-    // Black is the background's.
+    // Black is reserved for the background.
     [hash, hash >> 8, hash >> 16].map(|bits| (bits as u8) | 0x20)
 }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-/// Image file or film that can't be encoded, written, read or decoded.
+/// Error of encoding, writing, reading or decoding an image file or film.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
     /// Number of pixels that contradicts the size.
@@ -15,7 +15,7 @@ pub enum OutputError {
         /// Number of pixels given.
         found: usize,
     },
-    /// Image that the encoder refuses, with its reason.
+    /// Image that the encoder refuses; holds the encoder's reason.
     #[error("the image can't be encoded: {0}")]
     Encode(String),
     /// File that can't be written.
@@ -36,7 +36,7 @@ pub enum OutputError {
         /// Width and height of the film.
         expected: [u32; 2],
     },
-    /// Film that can't be written, with the error of the system.
+    /// Film that can't be written; holds the system's error.
     #[error("frames can't be written: {0}")]
     Stream(#[source] std::io::Error),
     /// File that can't be read.
@@ -47,17 +47,17 @@ pub enum OutputError {
         /// Error of the system.
         source: std::io::Error,
     },
-    /// File that is no image in an expected format.
+    /// File that is not an image in an expected format.
     #[error("{file}: {reason}; it must be {expected}")]
     Decode {
         /// Name of the file.
         file: String,
         /// Reason of the decoder.
         reason: String,
-        /// Formats that are read in this place.
+        /// Formats that can be read in this place.
         expected: &'static str,
     },
-    /// EXR with a pixel that is not a number, so that no comparison would mean anything.
+    /// EXR with a NaN, which can't be compared.
     #[error("{file}: pixel ({x}, {y}) is not a number")]
     NotANumber {
         /// Name of the file.
@@ -69,7 +69,7 @@ pub enum OutputError {
     },
 }
 
-/// File name whose ending belongs to no image format.
+/// Error: a file name whose ending belongs to no image format.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "{}: the name must end in .png (8 bits a channel), .16.png (16 bits), .jpg, .jpeg or .exr",
@@ -77,7 +77,7 @@ pub enum OutputError {
 )]
 pub struct UnknownFormat(pub PathBuf);
 
-/// Name that belongs to no AOV.
+/// Error: a name that belongs to no AOV.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("there is no AOV \"{0}\"; there are depth, id, normal, superpixels and samples")]
 pub struct UnknownAov(pub String);

@@ -1,10 +1,10 @@
-//! OpenEXR files, by the `exr` crate.
+//! OpenEXR files, read and written by the `exr` crate.
 
 use super::{Aov, OutputError, Picture, check_count};
 use ::exr::prelude::*;
 use std::io::Cursor;
 
-/// Encodes one part: the picture's R, G, B and A, and a layer for each AOV.
+/// Encodes a file with one part: the picture's R, G, B and A, and a layer for each AOV.
 pub(super) fn encode(
     picture: &Picture<'_>,
     aovs: &[Aov],
@@ -59,10 +59,10 @@ fn layer(aov: &Aov) -> Vec<AnyChannel<FlatSamples>> {
     }
 }
 
-/// Most pixels that are read, so that no header can claim memory far beyond the file's size.
+/// Largest number of pixels that is read, so that a header can't claim memory far beyond the file's size.
 const MAX_PIXELS: usize = 1 << 28;
 
-/// Size and pixels of the first layer with R, G and B; alpha is 1 if the layer has none.
+/// Size and pixels of the first layer that has R, G and B; alpha is 1 if the layer has none.
 pub(super) fn decode(bytes: &[u8]) -> std::result::Result<([u32; 2], Vec<[f32; 4]>), String> {
     let text = |error: Error| error.to_string();
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(text)?;

@@ -1,4 +1,4 @@
-//! Image formats and the endings of their files' names.
+//! Image formats and the endings of their file names.
 
 use super::UnknownFormat;
 use std::path::Path;
@@ -17,7 +17,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// Format for a file's name, by its ending in upper or lower case.
+    /// Format of a file by the ending of its name, in upper or lower case.
     ///
     /// # Errors
     /// [`UnknownFormat`], whose message lists the endings.
@@ -39,7 +39,7 @@ impl Format {
             .ok_or_else(|| UnknownFormat(path.to_path_buf()))
     }
 
-    /// Whether files of this format hold scene-linear light; others hold sRGB colours.
+    /// Whether files of this format hold scene-linear light; the others hold sRGB colours.
     #[must_use]
     pub fn is_scene_linear(self) -> bool {
         self == Self::Exr

@@ -5,11 +5,11 @@ use image::ImageFormat;
 use png::text_metadata::{EncodableTextChunk, TEXtChunk};
 use std::io::Cursor;
 
-/// Bytes of a PNG's signature and header chunk; all other chunks follow them.
+/// Number of bytes of a PNG's signature and header chunk, which all other chunks follow.
 const HEADER: usize = 8 + 25;
 
-/// Inserts a text into an encoded PNG, right after its header. Keyword and text are Latin-1, the keyword 1 to 79
-/// characters long.
+/// Inserts a text into an encoded PNG, right after its header. Keyword and text are Latin-1; the keyword has 1 to 79
+/// characters.
 ///
 /// # Errors
 /// [`OutputError::Encode`] if the bytes are no PNG, or if a PNG can't hold the keyword or the text.
@@ -31,7 +31,7 @@ pub fn add_text(png: &[u8], keyword: &str, text: &str) -> Result<Vec<u8>, Output
 #[must_use]
 pub fn find_text(png: &[u8], keyword: &str) -> Option<String> {
     let mut reader = png::Decoder::new(Cursor::new(png)).read_info().ok()?;
-    // Texts may also follow the pixels.
+    // Text chunks may also follow the pixels.
     reader.finish().ok()?;
     let mut texts = reader.info().uncompressed_latin1_text.iter();
     texts

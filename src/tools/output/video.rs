@@ -1,4 +1,4 @@
-//! Films: frames of one size, written one after the other for an encoder to read from its standard input.
+//! Films: frames of one size, written one after the other, for example to the standard input of an encoder.
 
 use super::encode::straight_codes;
 use super::{OutputError, Picture};
@@ -10,11 +10,11 @@ use y4m::{Colorspace, Ratio, VendorExtensionString};
 /// Format of a film's frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum VideoFormat {
-    /// YUV4MPEG2: a header line with size and rate, then per frame the planes Y', Cb and Cr, 8 bits each, 4:4:4. Codes
-    /// are those of BT.709 in limited range (Y' from 16 to 235, Cb and Cr from 16 to 240), of sRGB-encoded colours over
-    /// black.
+    /// YUV4MPEG2: a header line with size and rate, then for each frame the planes Y', Cb and Cr, 8 bits each, 4:4:4.
+    /// The codes are those of BT.709 in limited range (Y' from 16 to 235, Cb and Cr from 16 to 240), of sRGB-encoded
+    /// colours over black.
     Y4m,
-    /// RGBA frames without any header: 8 bits a channel, sRGB-encoded, straight alpha.
+    /// RGBA frames without a header: 8 bits a channel, sRGB-encoded, straight alpha.
     Raw,
 }
 
@@ -24,13 +24,13 @@ pub struct VideoWriter<W: Write> {
     size: [u32; 2],
 }
 
-/// Encoder or plain writer, by the film's format.
+/// Destination of the frames: an encoder or a plain writer, depending on the format.
 enum Stream<W: Write> {
     Y4m(y4m::Encoder<Unbuffered<W>>),
     Raw(Unbuffered<W>),
 }
 
-/// Writer that flushes after each write, so that a frame does not wait for the next one.
+/// Writer that flushes after each write, so that a frame is not held back until the next one.
 struct Unbuffered<W>(W);
 
 impl<W: Write> Write for Unbuffered<W> {
@@ -46,12 +46,12 @@ impl<W: Write> Write for Unbuffered<W> {
 }
 
 impl<W: Write> VideoWriter<W> {
-    /// Begins a film of `size` = [width, height] in pixels and `rate` frames a second. The rate of a YUV4MPEG2 film is
-    /// a fraction: n:1 for whole numbers, n:1001 for those of NTSC, such as 23.976 and 29.97, otherwise millionths in
-    /// lowest terms. Raw films do not hold their rate.
+    /// Begins a film of `size` = [width, height] in pixels and `rate` frames a second. YUV4MPEG2 stores the rate as a
+    /// fraction: n:1 for whole numbers, n:1001 for those of NTSC, such as 23.976 and 29.97, otherwise millionths in
+    /// lowest terms. Raw films do not store the rate.
     ///
     /// # Errors
-    /// [`OutputError::Stream`] if `out` fails.
+    /// [`OutputError::Stream`] if writing to `out` fails.
     pub fn new(
         out: W,
         format: VideoFormat,
@@ -76,7 +76,7 @@ impl<W: Write> VideoWriter<W> {
     /// Writes a frame and flushes it.
     ///
     /// # Errors
-    /// [`OutputError::FrameSize`] if the picture has another size, [`OutputError::Stream`] if `out` fails.
+    /// [`OutputError::FrameSize`] if the picture has another size, [`OutputError::Stream`] if writing fails.
     pub fn write(&mut self, picture: &Picture<'_>) -> Result<(), OutputError> {
         if picture.size() != self.size {
             return Err(OutputError::FrameSize {
@@ -108,13 +108,13 @@ fn refused(error: y4m::Error) -> OutputError {
 
 /// Planes Y', Cb and Cr of a picture over black.
 fn planes(picture: &Picture<'_>) -> [Vec<u8>; 3] {
-    // Premultiplied colour is colour over black.
+    // A premultiplied colour equals the colour over black.
     let code = |[r, g, b, _]: &[f32; 4]| bt709([*r, *g, *b].map(|v| srgb::encode(f64::from(v))));
     let codes: Vec<_> = picture.pixels().par_iter().map(code).collect();
     [0, 1, 2].map(|plane| codes.iter().map(|code| code[plane]).collect())
 }
 
-/// Codes Y', Cb and Cr of a gamma-encoded colour R', G', B' of 0 to 1: 8 bits, limited range, by ITU-R BT.709-6.
+/// 8-bit codes Y', Cb and Cr, in limited range, of a gamma-encoded colour R', G', B' of 0 to 1, by ITU-R BT.709-6.
 fn bt709([r, g, b]: [f64; 3]) -> [u8; 3] {
     let luma = 0.2126 * r + 0.7152 * g + 0.0722 * b;
     let chroma = |difference: f64, range: f64| 128.0 + 224.0 * difference / range;
@@ -126,7 +126,7 @@ fn bt709([r, g, b]: [f64; 3]) -> [u8; 3] {
     .map(|code| code.round() as u8)
 }
 
-/// Frame rate as a fraction of whole numbers.
+/// Frame rate as a fraction of whole numbers, as [`VideoWriter::new`] describes.
 fn ratio(rate: f64) -> Ratio {
     const MILLION: usize = 1_000_000;
     let whole = (rate * 1.001).round();
@@ -150,7 +150,7 @@ fn greatest_common_divisor(a: usize, b: usize) -> usize {
 mod tests {
     use super::*;
 
-    /// Codes of a test picture's colour bars, which ITU-R BT.709 and measuring devices agree on.
+    /// The codes of colour bars agree with those that ITU-R BT.709 gives and that measuring devices expect.
     #[test]
     fn colour_bars_have_their_codes() {
         let bars = [
@@ -168,7 +168,7 @@ mod tests {
         }
     }
 
-    /// Decoding by the inverse matrix finds each colour again, up to half a code of each channel.
+    /// Decoding by the inverse matrix gives each colour back, within half a code in each channel.
     #[test]
     fn codes_are_the_nearest() {
         let steps = || (0..=20).map(|step| f64::from(step) / 20.0);

@@ -6,12 +6,12 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// Writes a file atomically: under a temporary name in the same folder, which is then renamed, so that no reader finds
-/// half a file and no failure leaves one. If `path` is a symbolic link, its target is replaced; if it is a pipe or a
+/// Writes a file atomically: under a temporary name in the same folder, which is then renamed. Readers never see half
+/// a file, and a failure leaves none. If `path` is a symbolic link, its target is replaced; if it is a pipe or a
 /// device, the bytes are written to it directly.
 ///
 /// # Errors
-/// [`OutputError::Write`]; the temporary file has been removed then.
+/// [`OutputError::Write`] if writing or renaming fails; the temporary file is removed then.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     write(path, bytes).map_err(|source| OutputError::Write {
         path: path.to_path_buf(),
@@ -45,13 +45,14 @@ fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
         .write_all(bytes)
         .and_then(|()| fs::rename(&temporary, &target));
     if written.is_err() {
-        // The error that matters is the one above.
+        // The first error is the one to report.
         let _ = fs::remove_file(&temporary);
     }
     written
 }
 
-/// Hidden temporary name in the target's folder, with the process' number, so that two processes have different ones.
+/// Hidden temporary name in the target's folder. It contains the process ID, so that two processes use different
+/// names.
 fn temporary_name(target: &Path) -> io::Result<PathBuf> {
     let name = target
         .file_name()

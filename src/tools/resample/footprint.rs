@@ -2,14 +2,15 @@
 
 use glam::{DMat2, DVec2};
 
-/// Most places along each axis of a footprint.
+/// Largest number of places along each axis of a footprint.
 const MOST: f64 = 64.0;
 
-/// Places at which a photograph is read for one output pixel: a grid along the principal axes of the pixel's footprint.
+/// Places at which a photograph is read for one output pixel: a grid along the principal axes of the pixel's
+/// footprint.
 ///
-/// The footprint of a pixel is an ellipse with the singular values of the Jacobian as its axes. Along an axis of length
-/// a <= 1 the reconstruction alone will do. Above, a box of the width sqrt(a^2 - 1) is added: variances of filters that
-/// follow each other add up, and the width grows from 0, so that nothing jumps where a prefilter sets in.
+/// The footprint of a pixel is an ellipse whose axes are the singular values of the Jacobian. Along an axis of length
+/// a <= 1 the reconstruction suffices. For a longer axis, a box filter of width sqrt(a^2 - 1) is added. Variances of
+/// successive filters add up, and the width grows from 0, so that the result is continuous where the prefilter begins.
 pub(super) struct Footprint {
     axes: [DVec2; 2],
     counts: [u32; 2],
@@ -32,7 +33,7 @@ impl Footprint {
         Self {
             axes: [major * widths[0], major.perp() * widths[1]],
             counts: widths.map(|width| {
-                // Places at most half a pixel apart: the reconstruction between pixels is not a straight line.
+                // Places are at most half a pixel apart, because the reconstruction is not linear between pixels.
                 if width > 0.0 {
                     ((2.0 * width).ceil() + 1.0).min(MOST) as u32
                 } else {
@@ -46,7 +47,7 @@ impl Footprint {
         f64::from(self.counts[0] * self.counts[1])
     }
 
-    /// Offsets of the places from the footprint's middle, in pixels of the photograph.
+    /// Offsets of the places from the middle of the footprint, in pixels of the photograph.
     pub(super) fn offsets(&self) -> impl Iterator<Item = DVec2> {
         let [across, down] = self.counts;
         let place = |index: u32, count: u32| (f64::from(index) + 0.5) / f64::from(count) - 0.5;

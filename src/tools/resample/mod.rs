@@ -1,9 +1,9 @@
 //! Resampling of photographs, in linear light.
 //!
-//! A photograph is all that is known of its scene, so that it has to be reconstructed between its pixels: by the cubic
-//! convolution of Catmull and Rom, which goes through them (R. Keys, "Cubic convolution interpolation for digital image
+//! Only the photograph's pixels are known of its scene, so the values between them are reconstructed. Cubic
+//! convolution by Catmull and Rom interpolates them (R. Keys, "Cubic convolution interpolation for digital image
 //! processing", IEEE TASSP 29(6), 1981, with a = -1/2). Where the output is coarser than the photograph, the
-//! reconstruction is averaged over what the output pixel covers (the prefilter), lest it aliases.
+//! reconstruction is averaged over the area of the output pixel (the prefilter), to prevent aliasing.
 
 mod footprint;
 mod wall;
@@ -58,12 +58,12 @@ impl Photograph {
         &self.pixels
     }
 
-    /// Colour at `uv`, for an output pixel whose location changes by `jacobian` = [per output column, per output row].
-    /// Both are in pixels of the photograph, whose upper left corner is (0, 0). Beyond the photograph its border pixels
-    /// continue.
+    /// Colour at the location `uv`, filtered for an output pixel. `jacobian` = [change of the location per output
+    /// column, per output row]. Both are in pixels of the photograph, whose upper left corner is (0, 0). Beyond the
+    /// photograph its border pixels are repeated.
     ///
-    /// At the centre of a pixel and with no more than a pixel for a pixel, this is the pixel itself. Footprints of more
-    /// than 64 pixels across are averaged with gaps.
+    /// At the centre of a pixel, and at a scale of one pixel or less per output pixel, the result is the pixel itself.
+    /// Footprints more than 64 pixels wide are averaged with gaps.
     #[must_use]
     pub fn sample(&self, uv: DVec2, jacobian: DMat2) -> [f32; 4] {
         let footprint = Footprint::new(jacobian);
@@ -77,8 +77,9 @@ impl Photograph {
         [r, g, b, a.min(1.0)]
     }
 
-    /// Resamples the photograph to an image of `size` = [width, height]. For the centre of each output pixel, in pixels
-    /// of the output, `look` gives the location in the photograph and the location's Jacobian.
+    /// Resamples the photograph to an image of `size` = [width, height]. For the centre of each output pixel, in
+    /// pixels of the output, `look` returns the location in the photograph and its Jacobian, both as [`Self::sample`]
+    /// takes them.
     #[must_use]
     pub fn resample(
         &self,
@@ -112,7 +113,7 @@ impl Photograph {
         sum
     }
 
-    /// Pixel nearest to a column and row.
+    /// Pixel nearest to a column and row; beyond the photograph, its border pixel.
     fn pixel(&self, column: f64, row: f64) -> [f32; 4] {
         let [width, height] = self.size;
         let column = column.clamp(0.0, f64::from(width - 1)) as usize;
@@ -122,7 +123,7 @@ impl Photograph {
     }
 }
 
-/// Weights of four values at -1, 0, 1 and 2 for a place at `t` of 0 to 1.
+/// Weights of four values at -1, 0, 1 and 2 for a place `t` from 0 to 1.
 fn weights(t: f64) -> [f64; 4] {
     [
         t * (t * (1.0 - 0.5 * t) - 0.5),

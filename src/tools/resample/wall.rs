@@ -1,4 +1,4 @@
-//! Simulation of several projectors that light one wall.
+//! Simulation of several projectors that light the same wall.
 
 use super::Photograph;
 use crate::camera::projector::Projector;
@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 /// Adds up the projectors' light on the wall: an image of `size` = [width, height] of the picture that they show
 /// together, rows from the top, linear light, opaque. Each frame appears where its projector's map sends it; places
-/// that no projector reaches are black.
+/// that no projector reaches stay black.
 #[must_use]
 pub fn light_on_wall(size: [u32; 2], frames: &[(&Projector, &Photograph)]) -> Vec<[f32; 4]> {
     let light = |location: DVec2| {

@@ -1,4 +1,4 @@
-//! Zoomed images that hold the map of their zoom, so that ordinary views can be made of them without the scene.
+//! Zoomed images that store the map of their zoom, so that ordinary views can be made from them without the scene.
 
 use super::Photograph;
 use crate::camera::LocationMap;
@@ -7,13 +7,13 @@ use crate::output::{self, OutputError};
 use glam::{DMat2, DVec2};
 use serde::{Deserialize, Serialize};
 
-/// Keyword of the text chunk that holds the map.
+/// Keyword of the text chunk that stores the map.
 const KEYWORD: &str = "gpc zoom";
 
-/// Content of the text chunk, as JSON.
+/// Content of the text chunk, in JSON.
 #[derive(Serialize, Deserialize)]
 struct Record {
-    /// Width and height of the image in pixels; the regions are given in these pixels.
+    /// Width and height of the image in pixels, in which the regions are given.
     size: [u32; 2],
     regions: Vec<ZoomRegion>,
 }
@@ -25,16 +25,16 @@ pub struct Zoomed {
     map: ZoomMap,
 }
 
-/// File that is no zoomed image.
+/// Error: a file that is not a zoomed image.
 #[derive(Debug, thiserror::Error)]
 pub enum ZoomedError {
-    /// File that is no image.
+    /// File that is not an image.
     #[error(transparent)]
     Image(#[from] OutputError),
     /// Image without a zoom's map.
     #[error("{0}: it holds no zoom; give a PNG as gpc zoom wrote it, not converted")]
     NoRecord(String),
-    /// Map that is no valid JSON record of a zoom.
+    /// Map that is not a valid JSON record of a zoom.
     #[error("{name}: the zoom that it holds can't be read: {source}")]
     Record {
         /// Name of the file.
@@ -42,7 +42,7 @@ pub enum ZoomedError {
         /// Error of the JSON reader.
         source: serde_json::Error,
     },
-    /// Record whose regions make no map.
+    /// Record whose regions are not a valid map.
     #[error("{name}: {source}")]
     Map {
         /// Name of the file.
@@ -80,7 +80,7 @@ impl Zoomed {
         output::add_text(png, KEYWORD, &text)
     }
 
-    /// Whether a file holds a zoom's map.
+    /// Whether a file holds the map of a zoom.
     #[must_use]
     pub fn is_in(bytes: &[u8]) -> bool {
         output::find_text(bytes, KEYWORD).is_some()
@@ -89,7 +89,7 @@ impl Zoomed {
     /// Decodes a zoomed PNG and its map; `name` stands for the file in messages.
     ///
     /// # Errors
-    /// [`ZoomedError`] if the file is no image, or if its map is missing, broken or of another size.
+    /// [`ZoomedError`] if the file is no image, or if its map is missing, broken or for another size.
     pub fn decode(bytes: &[u8], name: &str) -> Result<Self, ZoomedError> {
         let photograph = Photograph::from(&output::decode(bytes, name)?);
         let name = name.to_owned();
@@ -127,8 +127,8 @@ impl Zoomed {
         &self.map
     }
 
-    /// Location in the zoomed image, and its Jacobian, of a location of the ordinary image plane with `jacobian` = its
-    /// change for each column and row of the output. [`Photograph::sample`] takes both.
+    /// Location in the zoomed image, and its Jacobian, for a location in the ordinary image plane; `jacobian` is the
+    /// change of that location per column and row of the output. [`Photograph::sample`] takes the result.
     #[must_use]
     pub fn place(&self, location: DVec2, jacobian: DMat2) -> (DVec2, DMat2) {
         let place = self.map.inverse(location);

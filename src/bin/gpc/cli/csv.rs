@@ -1,7 +1,7 @@
 //! Numbers from comma-separated values.
 
-/// Reads a header, which must be one of `headers`, and lines with a number for each of its columns. Returns the number
-/// of columns, which tells the headers apart, and the numbers row by row.
+/// Parses a CSV whose header is one of `headers` and whose other lines hold a number for each column. Returns the
+/// number of columns, which tells the headers apart, and all numbers row by row.
 pub fn numbers(bytes: &[u8], headers: &[&[&str]]) -> Result<(usize, Vec<f64>), String> {
     let text = std::str::from_utf8(bytes)
         .map_err(|_| "it is no text in UTF-8, as a CSV must be".to_owned())?;

@@ -6,7 +6,7 @@ use gpc::vulkan::{DeviceInfo, Instance, InstanceOptions, MISSING_DRIVER_HELP};
 use serde::Serialize;
 use std::process::ExitCode;
 
-/// Lists the Vulkan devices, and all that each lacks; exits with 3 if none will do.
+/// Lists the Vulkan devices, and what each lacks; exits with 3 if none is suitable.
 #[derive(Args)]
 pub struct DevicesArgs {
     /// Print one JSON object: devices

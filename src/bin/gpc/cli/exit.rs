@@ -10,15 +10,15 @@ const DEVICE_FAILURE: u8 = 4;
 
 /// No device is suitable, or there is no display.
 pub const NO_DEVICE: u8 = 3;
-/// A comparison is over its bound.
+/// The difference of two images is above its bound.
 pub const OVER_BOUND: u8 = 5;
 
-/// The command was asked for what it can't do.
+/// A request that the command can't fulfil: wrong usage.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct Usage(pub String);
 
-/// Stops with a usage error.
+/// Returns a usage error with this message.
 macro_rules! usage {
     ($($text:tt)*) => {
         return Err($crate::cli::exit::Usage(format!($($text)*)).into())
@@ -76,7 +76,8 @@ fn of_scene(error: &SceneError) -> u8 {
     }
 }
 
-/// An error and its causes, but for those that the error quotes itself, and the option that it is about.
+/// An error's message with its causes and the option that it is about. Causes that the error quotes itself are left
+/// out.
 pub fn message(error: &anyhow::Error) -> String {
     let mut message = error.to_string();
     for cause in error.chain().skip(1).map(ToString::to_string) {
@@ -90,7 +91,7 @@ pub fn message(error: &anyhow::Error) -> String {
     message
 }
 
-/// Whether a bound on device memory has to do with an error.
+/// Whether an error is a lack of device memory, which `--max-memory` may have caused.
 fn is_of_memory(cause: &(dyn std::error::Error + 'static)) -> bool {
     let is_full = |error: &VulkanError| matches!(error, VulkanError::OutOfMemory { .. });
     match cause.downcast_ref::<RenderError>() {
@@ -101,7 +102,7 @@ fn is_of_memory(cause: &(dyn std::error::Error + 'static)) -> bool {
     }
 }
 
-/// Whether whoever read our standard output has had enough, as `head` does.
+/// Whether an error means that the reader of standard output, such as `head`, has closed it.
 pub fn is_closed_pipe(error: &anyhow::Error) -> bool {
     error.chain().any(|cause| {
         cause

@@ -8,12 +8,12 @@ use serde::Serialize;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Says what a scene holds.
+/// Describes the contents of a scene.
 #[derive(Args)]
 pub struct InfoArgs {
     /// A .glb or .gltf file, or - for standard input
     scene: PathBuf,
-    /// Say instead what passes a frame of it takes, in their order: shader, what tells the number of workgroups, and what the shader
+    /// List the passes of a frame instead, in order: shader, source of the number of workgroups, and what the shader
     /// may read and write
     #[arg(long)]
     passes: bool,
@@ -22,7 +22,7 @@ pub struct InfoArgs {
     json: bool,
 }
 
-/// Size of the frame whose passes are listed: it has a single region.
+/// Size of the frame whose passes are listed, small enough for a single region.
 const SIZE: [u32; 2] = [256, 144];
 
 #[derive(Serialize)]
@@ -58,7 +58,7 @@ pub fn run(args: &InfoArgs) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The passes of a frame with the default settings and, where the scene has lights, shadows.
+/// The passes of a frame with the default settings, with shadows if the scene has lights.
 fn passes(scene: &Scene) -> anyhow::Result<Vec<FramePass>> {
     let pose = scene.pose(&PoseRequest::default())?;
     let mut settings = Settings::new(SIZE[0], SIZE[1]);
@@ -76,7 +76,7 @@ fn passes(scene: &Scene) -> anyhow::Result<Vec<FramePass>> {
     Ok(headless.passes(&mut frame, &view.camera)?)
 }
 
-/// A line a pass.
+/// A table with a line for each pass.
 fn table(passes: &[FramePass]) -> String {
     let lines = passes.iter().map(|pass| {
         let FramePass { name, dispatch, .. } = pass;
@@ -99,7 +99,7 @@ fn text(info: &SceneInfo) -> String {
         let items = items.iter().enumerate();
         list(items.map(|(i, item)| format!("{i} {item}")).collect())
     };
-    // Other formats have neither a version nor a generator.
+    // Formats other than glTF have neither a version nor a generator.
     let origin = match (info.version.as_str(), info.generator.as_deref()) {
         ("", _) => info.format.to_owned(),
         (version, generator) => {

@@ -11,12 +11,12 @@ pub fn is_standard(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 
-/// Loads a scene; `-` is standard input, whose relative URIs start from the working folder.
+/// Loads a scene. `-` stands for standard input, whose relative URIs start from the working folder.
 pub fn load(path: &Path) -> anyhow::Result<Loaded> {
     load_variant(path, None)
 }
 
-/// Loads a scene with the materials of a variant.
+/// Loads a scene with the materials of a variant, if one is named.
 pub fn load_variant(path: &Path, variant: Option<&str>) -> anyhow::Result<Loaded> {
     if !is_standard(path) {
         return Ok(match variant {
@@ -45,7 +45,7 @@ pub fn environment(path: &Path) -> anyhow::Result<Environment> {
         .with_context(|| format!("{file} is no environment"))
 }
 
-/// The scene's name for file names: its file's without the extension.
+/// The scene's name for output files: its file's name without the extension.
 pub fn stem(path: &Path) -> String {
     if is_standard(path) {
         return "stdin".to_owned();

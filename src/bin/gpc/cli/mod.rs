@@ -66,9 +66,9 @@ enum Command {
     Project(Box<project::ProjectArgs>),
     /// Compare two images
     Compare(compare::CompareArgs),
-    /// Say what a scene holds
+    /// Describe the contents of a scene
     Info(info::InfoArgs),
-    /// Measure what methods cost, and how exact they are
+    /// Measure the cost and the accuracy of the methods
     Bench(bench::BenchArgs),
     /// List the Vulkan devices, and what they lack
     Devices(devices::DevicesArgs),
@@ -78,7 +78,7 @@ enum Command {
 }
 
 impl Command {
-    /// Whether nothing but errors is said.
+    /// Whether only errors are printed.
     fn is_quiet(&self) -> bool {
         let report = match self {
             Self::Render(args) => &args.report,
@@ -95,7 +95,7 @@ impl Command {
     }
 }
 
-/// The command's options, for manual pages and completions.
+/// The command with its options, from which manual pages and completions are made.
 #[allow(dead_code, reason = "the example `manual` uses it")]
 pub fn command() -> clap::Command {
     <Cli as clap::CommandFactory>::command()
@@ -103,7 +103,7 @@ pub fn command() -> clap::Command {
 
 /// Runs the command that the process was started with.
 pub fn run() -> ExitCode {
-    // Wrong usage ends here with exit code 2.
+    // Wrong usage ends the process here, with exit code 2.
     let command = Cli::parse().command;
     start_log(command.is_quiet());
     let done = match command {

@@ -14,7 +14,7 @@ use std::process::ExitCode;
 /// Renders what is around the camera, up to 360 x 180 degrees.
 ///
 /// Every pixel is sampled exactly where it looks and antialiased, on the planes of up to six pinholes that share the
-/// camera's eye; no picture is resampled. The camera looks at the middle of the image.
+/// camera's eye; nothing is resampled. The camera looks at the middle of the image.
 #[derive(Args)]
 #[command(
     mut_arg("size", |arg| arg.default_value("1280x640")),
@@ -29,8 +29,8 @@ pub struct PanoramaArgs {
     /// Image to write: .png, .16.png, .jpg or .exr, or - for a PNG on standard output
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
-    /// How directions are laid out: longitude and latitude, a cylinder unrolled, angles from the axis, or the six faces
-    /// of a cube as the largest cross of 4 x 3 squares that fits
+    /// How directions map to the image: longitude and latitude, an unrolled cylinder, angles from the axis (fisheye),
+    /// or the six faces of a cube as the largest cross of 4 x 3 squares that fits
     #[arg(long)]
     projection: PanoramaProjection,
 
@@ -43,7 +43,7 @@ pub struct PanoramaArgs {
 /// Fields of `--json` for a panorama, besides those of every image.
 #[derive(Serialize)]
 struct Around {
-    /// Pinholes that were sampled.
+    /// Number of pinholes that were sampled.
     pinholes: usize,
 }
 
@@ -54,7 +54,7 @@ pub fn run(args: &PanoramaArgs) -> anyhow::Result<ExitCode> {
         PanoramaProjection::Fisheye => 180.0,
         _ => 360.0,
     };
-    // The camera's own field of view does not matter, and may be less than what is asked for here.
+    // `--fov` is that of the panorama; the camera, which could not see 180 degrees or more, keeps its own.
     let mut image = args.image.clone();
     let fov = image.camera.fov.take().unwrap_or(widest);
     let refuse = |error: PanoramaError| Usage(error.to_string());

@@ -1,4 +1,4 @@
-//! Standard output. Unlike `println!`, a closed pipe is an error and no panic.
+//! Printing to standard output. Unlike `println!`, these functions return an error if the pipe is closed.
 
 use serde::Serialize;
 use std::io::Write;
@@ -15,7 +15,7 @@ pub fn line(text: &str) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Writes bytes as they are.
+/// Writes bytes unchanged.
 pub fn bytes(bytes: &[u8]) -> anyhow::Result<()> {
     let mut out = std::io::stdout().lock();
     out.write_all(bytes)?;

@@ -10,7 +10,7 @@ use serde::Serialize;
 use std::path::Path;
 use std::time::Instant;
 
-/// Scene on a device, the cameras that sample it, and the settings.
+/// A scene on a device, the camera that samples it, and the settings.
 pub struct Stage {
     pub headless: Headless,
     pub scene: PreparedScene,
@@ -21,7 +21,7 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// Loads a scene, poses it and puts it on the device.
+    /// Loads a scene, poses it and uploads it.
     pub fn open(path: &Path, image: &ImageArgs, settings: Settings) -> anyhow::Result<Self> {
         if image.background == Background::Environment {
             usage!("--background environment: this command shows none; `gpc render` does");
@@ -62,7 +62,7 @@ impl Stage {
         Ok(Pinhole::from_camera(&self.camera, self.settings.size)?)
     }
 
-    /// Renders an image of `size` pixels that look where the locations of pinholes say.
+    /// Renders an image of `size` = [width, height]; each pixel is sampled at a location of a pinhole.
     pub fn render(
         &mut self,
         size: [u32; 2],
@@ -79,7 +79,7 @@ impl Stage {
         })
     }
 
-    /// Figures of what was rendered to a file; `more` adds the command's own.
+    /// Figures of an image that was written to `output`; `more` holds the figures of this command alone.
     pub fn figures<T: Serialize>(
         &self,
         output: &Path,
@@ -110,7 +110,7 @@ impl Stage {
         )
     }
 
-    /// Fails if the validation layer was asked, and has said anything.
+    /// Fails if the validation layer is on and has reported a message.
     pub fn finish(&self) -> anyhow::Result<()> {
         match self.headless.validation_messages().first() {
             Some(message) => anyhow::bail!("the validation layer says: {message}"),

@@ -18,19 +18,19 @@ use std::time::Instant;
 
 /// Turns an image of gpc zoom back into an ordinary view, without the scene.
 ///
-/// The map is found in the image, so that it must be a PNG as gpc zoom wrote it. The view is that of a region: the
-/// rectangle around it, with a pixel for each of its pixels, as if the camera had looked at nothing else.
+/// The map of the zoom is stored in the image, which must be a PNG as gpc zoom wrote it. The view is that of one
+/// region: the rectangle around it, with a pixel for each of its pixels, as if the camera had looked at nothing else.
 #[derive(Args)]
 pub struct UnzoomArgs {
-    /// A PNG of gpc zoom
+    /// A PNG that gpc zoom wrote
     image: PathBuf,
     /// Image to write: .png, .16.png, .jpg or .exr, or - for a PNG on standard output
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
-    /// Which region, in the order in which they were given to gpc zoom, from 0
+    /// Index of the region, from 0, in the order in which the regions were given to gpc zoom
     #[arg(long, value_name = "N", default_value_t = 0, conflicts_with = "whole")]
     region: usize,
-    /// All that the image shows, at the rate of its surroundings, in place of one region
+    /// Show the whole image at the sampling rate outside of the regions, instead of one region
     #[arg(long)]
     whole: bool,
     /// Compare with this image of the same view, and print rmse, psnr, max and flip as gpc compare does
@@ -44,17 +44,17 @@ pub struct UnzoomArgs {
 /// Output of `--json`.
 #[derive(Serialize)]
 struct Unzoomed {
-    /// The file.
+    /// Path of the image.
     output: String,
     /// Width and height of the image.
     size: [u32; 2],
     /// The regions that the zoomed image holds.
     regions: Vec<ZoomRegion>,
-    /// Index of the region that is shown; `null` if the whole image is.
+    /// Index of the region that is shown; `null` for the whole image.
     region: Option<usize>,
     /// Wall-clock milliseconds of resampling.
     wall_ms: f64,
-    /// Difference of the image from that of `--reference`.
+    /// Difference from the image of `--reference`.
     comparison: Option<Comparison>,
 }
 
@@ -112,7 +112,7 @@ pub fn run(args: &UnzoomArgs) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The part of the plane that is asked for.
+/// The part of the image plane that the options select.
 fn window(args: &UnzoomArgs, size: [u32; 2], regions: &[ZoomRegion]) -> Result<Window, Usage> {
     if args.whole {
         return Ok(Window {

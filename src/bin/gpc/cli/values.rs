@@ -1,11 +1,11 @@
-//! Values of options, from text.
+//! Parsers of option values.
 
 use glam::DVec3;
 use gpc::color::srgb;
 use gpc::render::{PixelRect, Settings};
 use std::ops::RangeInclusive;
 
-/// A number that is neither infinite nor NaN.
+/// Parses a number that is neither infinite nor NaN.
 pub fn finite(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
@@ -13,7 +13,7 @@ pub fn finite(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A number of 0 or more.
+/// Parses a number of 0 or more.
 pub fn not_negative(text: &str) -> Result<f64, String> {
     match finite(text) {
         Ok(number) if number >= 0.0 => Ok(number),
@@ -21,7 +21,7 @@ pub fn not_negative(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A number above 0.
+/// Parses a number above 0.
 pub fn positive(text: &str) -> Result<f64, String> {
     match finite(text) {
         Ok(number) if number > 0.0 => Ok(number),
@@ -29,7 +29,7 @@ pub fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Width of lines or size of points in pixels.
+/// Parses a width of lines or a size of points, in pixels.
 pub fn stroke(text: &str) -> Result<f64, String> {
     let largest = Settings::LARGEST_STROKE;
     positive(text)
@@ -38,7 +38,7 @@ pub fn stroke(text: &str) -> Result<f64, String> {
         .ok_or_else(|| format!("expected pixels above 0 and at most {largest}, such as 1.5"))
 }
 
-/// Frames a second.
+/// Parses a number of frames per second.
 pub fn rate(text: &str) -> Result<f64, String> {
     positive(text)
         .ok()
@@ -54,7 +54,7 @@ pub struct Shard {
     pub count: u32,
 }
 
-/// The I-th of N shares: `I/N`.
+/// Parses `I/N`: the I-th of N shares.
 pub fn shard(text: &str) -> Result<Shard, String> {
     text.split_once('/')
         .and_then(|(number, count)| {
@@ -67,7 +67,7 @@ pub fn shard(text: &str) -> Result<Shard, String> {
         .ok_or_else(|| "expected I/N with I from 1 to N, such as 1/4".to_owned())
 }
 
-/// A field of view in degrees.
+/// Parses a field of view in degrees, above 0 and below 180.
 pub fn field_of_view(text: &str) -> Result<f64, String> {
     match finite(text) {
         Ok(number) if number > 0.0 && number < 180.0 => Ok(number),
@@ -75,7 +75,7 @@ pub fn field_of_view(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Width and height in pixels: `1280x720`.
+/// Parses a width and height in pixels: `1280x720`.
 pub fn size(text: &str) -> Result<[u32; 2], String> {
     let side = |text: &str| text.parse().ok().filter(|side| (1..=65_535).contains(side));
     text.split_once(['x', 'X'])
@@ -85,7 +85,7 @@ pub fn size(text: &str) -> Result<[u32; 2], String> {
         })
 }
 
-/// A part of an image in pixels, from its upper left corner: `640,360,320x180`.
+/// Parses a part of an image: column and row of its upper left pixel, width and height, as `640,360,320x180`.
 pub fn region(text: &str) -> Result<PixelRect, String> {
     let region = || {
         let mut parts = text.splitn(3, ',');
@@ -101,7 +101,7 @@ pub fn region(text: &str) -> Result<PixelRect, String> {
     })
 }
 
-/// A point or direction: `X,Y,Z`.
+/// Parses a point or direction: `X,Y,Z`.
 pub fn vector(text: &str) -> Result<DVec3, String> {
     numbers(text)
         .map(DVec3::from_array)
@@ -113,7 +113,7 @@ fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
     numbers?.try_into().ok()
 }
 
-/// A place: `X,Y`.
+/// Parses a place: `X,Y`.
 pub fn place(text: &str) -> Result<[f64; 2], String> {
     numbers(text).ok_or_else(|| "expected two numbers X,Y, such as 320,240".to_owned())
 }
@@ -129,7 +129,7 @@ pub fn radii(text: &str) -> Result<[f64; 2], String> {
         .ok_or_else(|| "expected a radius R or RX,RY above 0, such as 80 or 120,60".to_owned())
 }
 
-/// Background behind the scene.
+/// Background of the image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Background {
     /// No background: the image is transparent there.
@@ -140,7 +140,7 @@ pub enum Background {
     Environment,
 }
 
-/// `none`, `environment`, `R,G,B` with sRGB components of 0 to 1, or `#rrggbb`.
+/// Parses a background: `none`, `environment`, `R,G,B` with sRGB components of 0 to 1, or `#rrggbb`.
 pub fn background(text: &str) -> Result<Background, String> {
     if text == "none" {
         return Ok(Background::Transparent);
@@ -154,12 +154,12 @@ pub fn background(text: &str) -> Result<Background, String> {
     })
 }
 
-/// An sRGB-encoded colour as linear light.
+/// Linear light of an sRGB-encoded colour.
 pub fn linear(color: [f64; 3]) -> [f32; 3] {
     color.map(|v| srgb::decode(v) as f32)
 }
 
-/// `R,G,B` with sRGB components of 0 to 1, or `#rrggbb`.
+/// Parses a colour: `R,G,B` with sRGB components of 0 to 1, or `#rrggbb`.
 fn color(text: &str) -> Option<[f64; 3]> {
     match text.strip_prefix('#') {
         Some(digits) => hexadecimal(digits),
@@ -169,7 +169,7 @@ fn color(text: &str) -> Option<[f64; 3]> {
     }
 }
 
-/// Width and colour of the edges of meshes.
+/// Width and colour of the edge lines of meshes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EdgeLines {
     /// Width in pixels.
@@ -178,7 +178,7 @@ pub struct EdgeLines {
     pub color: [f64; 3],
 }
 
-/// A width in pixels, and a colour or else black: `1.5` or `1.5,#204060`.
+/// Parses a width in pixels with an optional colour, black by default: `1.5` or `1.5,#204060`.
 pub fn edges(text: &str) -> Result<EdgeLines, String> {
     let (width, colour) = match text.split_once(',') {
         Some((width, colour)) => (width, color(colour)),
@@ -203,7 +203,7 @@ fn hexadecimal(digits: &str) -> Option<[f64; 3]> {
     Some([16, 8, 0].map(|shift| f64::from(code >> shift & 0xff) / 255.0))
 }
 
-/// A number of bytes, with K, M, G or T for powers of 1,024.
+/// Parses a number of bytes, with K, M, G or T for powers of 1,024.
 pub fn bytes(text: &str) -> Result<u64, String> {
     let upper = text.to_ascii_uppercase();
     let upper = upper.strip_suffix("IB").unwrap_or(&upper);
@@ -219,7 +219,7 @@ pub fn bytes(text: &str) -> Result<u64, String> {
         .ok_or_else(|| "expected a number of bytes, such as 512M or 2G".to_owned())
 }
 
-/// Frame numbers, both ends included: `0..47`.
+/// Parses frame numbers, first and last included: `0..47`.
 pub fn frames(text: &str) -> Result<RangeInclusive<u32>, String> {
     text.split_once("..")
         .and_then(|(first, last)| Some(first.parse().ok()?..=last.parse().ok()?))

@@ -12,12 +12,13 @@ use std::fmt::Display;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Opens a window in which scenes and photographs are looked at; H lists the keys.
+/// Opens a window for looking at scenes and photographs; H lists the keys.
 ///
-/// While anything moves few samples are taken, and at rest more and more, up to those asked for.
+/// Few samples are taken while anything moves, and more and more at rest, up to the number asked for.
 #[derive(Args)]
 pub struct ViewArgs {
-    /// Scenes, folders of scenes, photographs (PNG or JPEG) and images of gpc zoom; the arrow keys go from one to the next
+    /// Scenes, folders of scenes, photographs (PNG or JPEG) and images of gpc zoom; the arrow keys go from one to the
+    /// next
     #[arg(id = "file", value_name = "SCENE|FOLDER|IMAGE", required = true)]
     scenes: Vec<PathBuf>,
     /// Width and height of the window in pixels
@@ -79,7 +80,7 @@ pub fn run(args: ViewArgs) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Viewpoint from which the first scene is seen at first.
+/// Viewpoint at the start, from which the first scene is seen.
 fn start(args: &CameraArgs) -> Result<Start, Usage> {
     let default = Orbit::default();
     let fov = args.fov.unwrap_or(default.fov);
@@ -115,7 +116,7 @@ fn start(args: &CameraArgs) -> Result<Start, Usage> {
     }
 }
 
-/// Antialiasing of the pictures, and size of the window.
+/// Antialiasing of the pictures, and the size of the window.
 fn look(args: &ViewArgs, background: Background) -> anyhow::Result<Look> {
     let background = match background {
         Background::Transparent | Background::Environment => None,
@@ -148,11 +149,11 @@ fn look(args: &ViewArgs, background: Background) -> anyhow::Result<Look> {
     Ok(Look { settings })
 }
 
-/// The options that say how scenes look, but for numbers that the settings hold.
+/// The options for the appearance of scenes, as words of a command line. Numbers that the settings hold are left out.
 fn appearance_options(args: &ViewArgs, look: &Look) -> Vec<String> {
     let appearance = &args.appearance;
     let mut options = Vec::new();
-    // One word each: a value that begins with a minus is no option then.
+    // Name and value form one word, so that a value with a minus sign is not taken for an option.
     let mut add = |option: &str, value: &dyn Display| options.push(format!("{option}={value}"));
     if look.settings.background.is_some() {
         add("--background", &args.background);

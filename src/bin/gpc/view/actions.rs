@@ -1,4 +1,4 @@
-//! Actions of keys and mouse.
+//! What keys and mouse do.
 
 use super::command::{Shot, line, unzoom_photo, zoom_photo};
 use super::files::{free_name, scenes_at};
@@ -24,7 +24,7 @@ use winit::event::{ElementState, KeyEvent, MouseScrollDelta, WindowEvent};
 use winit::window::Fullscreen;
 
 impl Viewer {
-    /// Takes an event of the window.
+    /// Handles an event of the window.
     pub fn on_event(&mut self, event: &WindowEvent) -> anyhow::Result<()> {
         let response = self.interface.on_window_event(&self.window, event);
         self.is_dirty |= response.repaint;
@@ -37,14 +37,15 @@ impl Viewer {
             WindowEvent::RedrawRequested | WindowEvent::Occluded(false) => self.is_dirty = true,
             WindowEvent::ModifiersChanged(modifiers) => self.modifiers = modifiers.state(),
             WindowEvent::DroppedFile(path) => self.open(path),
-            // Keys that were down before the window had the focus were meant for another one.
+            // Synthetic events report keys that went down before the window had the focus; they were meant for another
+            // window.
             WindowEvent::KeyboardInput {
                 event,
                 is_synthetic: false,
                 ..
             } => self.on_key(event, response.consumed)?,
             WindowEvent::Focused(false) => {
-                // Keys that are let go elsewhere are not heard of.
+                // Without the focus the window isn't told when a key is released.
                 if let Some(flight) = &mut self.flight {
                     flight.stop();
                 }
@@ -113,7 +114,7 @@ impl Viewer {
         self.is_dirty = true;
     }
 
-    /// Opens a file of those that there are.
+    /// Shows the open file with this index.
     fn show_scene(&mut self, index: usize) {
         self.scene = index;
         self.source = Source::new(self.scenes[index].clone());
@@ -217,7 +218,7 @@ impl Viewer {
         self.cover_changed();
     }
 
-    /// Begins or ends to unzoom what is under the pointer.
+    /// Turns unzooming of the region under the pointer on or off.
     fn toggle_unzoom(&mut self) {
         match &mut self.easel {
             Some(easel) if easel.photo.zoomed().is_some() => {
@@ -249,7 +250,7 @@ impl Viewer {
         self.restart();
     }
 
-    /// Goes on by `by` scenes; the first one follows the last.
+    /// Goes on by `by` files; the first one follows the last.
     fn turn_to(&mut self, by: usize) {
         if self.scenes.len() > 1 {
             self.show_scene((self.scene + by) % self.scenes.len());
@@ -262,12 +263,13 @@ impl Viewer {
         usize::from(column.is_some_and(|column| self.pointer.place().x >= column))
     }
 
-    /// Changes the number of samples of the picture under the pointer, if its method and pattern allow the new number.
+    /// Changes the number of samples of the picture under the pointer to the next one that its method and pattern
+    /// allow.
     fn change_samples(&mut self, change: impl Fn(u32) -> u32) -> anyhow::Result<()> {
         let layer = self.layer_under_pointer();
         let look = &mut self.looks[layer];
         let mut samples = look.settings.samples;
-        // Numbers in between are passed over.
+        // Numbers that aren't allowed are skipped.
         while (1..=MAX_SAMPLES).contains(&change(samples)) {
             samples = change(samples);
             let changed = Look {
@@ -282,7 +284,7 @@ impl Viewer {
         Ok(())
     }
 
-    /// Does what the user asked of the panel.
+    /// Does what the user asked for in the panel.
     pub fn fulfil(&mut self, wishes: Wishes) -> anyhow::Result<()> {
         if let Some((layer, look)) = wishes.look {
             self.notes.clear_errors();
@@ -334,7 +336,7 @@ impl Viewer {
         self.is_dirty = true;
     }
 
-    /// Begins or ends to show two methods side by side.
+    /// Turns the comparison of two methods side by side on or off.
     fn toggle_split(&mut self) -> anyhow::Result<()> {
         if self.looks.len() > 1 {
             self.looks.truncate(1);
@@ -349,7 +351,8 @@ impl Viewer {
         self.renew_layers()
     }
 
-    /// Writes the picture under the pointer with all its samples, as the command does that is copied.
+    /// Writes the picture under the pointer to a PNG with all its samples, equal to the one that the copied command
+    /// writes.
     fn write_screenshot(&mut self) {
         let path = free_name(Path::new(""), &self.source.stem());
         if let Some(easel) = &self.easel {
@@ -371,7 +374,7 @@ impl Viewer {
         self.order(0, samples, Subject::File(path, self.cover.lenses.map()));
     }
 
-    /// Puts the command that makes the picture under the pointer on the clipboard.
+    /// Copies the command that makes the picture under the pointer to the clipboard.
     fn copy_command(&mut self) {
         let output = PathBuf::from(self.source.stem()).with_extension("png");
         let lenses = self.cover.lenses.regions();

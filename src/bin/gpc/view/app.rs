@@ -1,4 +1,4 @@
-//! The event loop's side of the viewer.
+//! The viewer as the handler of the event loop.
 
 use super::Options;
 use super::losses::{Losses, is_lost};
@@ -14,17 +14,17 @@ use winit::window::WindowId;
 
 /// Message from another thread.
 pub enum Event {
-    /// A file is loaded, or can't be; the number tells which was asked for.
+    /// A file was loaded, or could not be; the number is that of the request.
     Opened(u64, Box<anyhow::Result<Opened>>),
-    /// The file was written.
+    /// The scene's file has changed.
     Changed,
-    /// A frame.
+    /// A frame was prepared.
     Prepared(Box<Prepared>),
-    /// A picture that frames can't make.
+    /// A picture was made that frames can't show.
     Made(Made),
 }
 
-/// The viewer.
+/// The viewer as the event loop runs it.
 pub struct App {
     options: Options,
     proxy: EventLoopProxy<Event>,
@@ -44,12 +44,12 @@ impl App {
         }
     }
 
-    /// Closes the window, and gives all messages of the validation layer.
+    /// Ends the viewer; returns all messages of the validation layer.
     pub fn close(self) -> anyhow::Result<Vec<String>> {
         self.outcome
     }
 
-    /// Ends the program where something that it can't do without has failed.
+    /// Ends the event loop after an error that the viewer can't recover from.
     fn check(&mut self, events: &ActiveEventLoop, outcome: anyhow::Result<()>) {
         if let Err(error) = outcome.or_else(|error| self.recover(error)) {
             self.outcome = Err(error);
@@ -57,7 +57,7 @@ impl App {
         }
     }
 
-    /// Makes everything again after the device was lost. Hands back what there is no recovering from.
+    /// Opens another device and makes everything anew if the error is a lost device. Any other error is returned.
     fn recover(&mut self, error: anyhow::Error) -> anyhow::Result<()> {
         if !is_lost(&error) || !self.losses.book(Instant::now()) {
             return Err(error);

@@ -30,23 +30,23 @@ const DRAWN: ImageState = ImageState {
     ),
 };
 
-/// State of the window's image when the window system takes it over, after a semaphore.
+/// State of the window's image after the last command, before it is presented.
 const PRESENTED: ImageState = ImageState {
     layout: vk::ImageLayout::PRESENT_SRC_KHR,
     stage: vk::PipelineStageFlags2::NONE,
     access: vk::AccessFlags2::NONE,
 };
 
-/// Pictures, panel, and what shows them.
+/// Pictures of the scene, the panel, and the swapchain that shows them.
 ///
-/// Fields are dropped in their order: what the device uses goes before it.
+/// Fields are dropped in their order: users of the device come before the device.
 pub struct Canvas {
     slots: [Slot; SLOTS],
-    /// Index of the slot whose turn it is.
+    /// Index of the slot to record into next.
     turn: usize,
-    /// The picture, or the two of a split, left first.
+    /// The picture of the scene, or both pictures of a split view, left first.
     layers: Vec<Layer>,
-    /// Pictures of the stage before, until there are layers.
+    /// Pictures of the stage before, shown until the layers have rendered something.
     before: Vec<Picture>,
     /// Picture that is shown instead of all others.
     cover: Option<Picture>,
@@ -54,30 +54,30 @@ pub struct Canvas {
     pub refines: bool,
     stage: Option<Stage>,
     is_uploaded: bool,
-    /// Whether memory is left that the upload needed.
+    /// Whether the memory of the upload has still to be freed.
     has_uploads: bool,
     painter: Painter,
     preparer: Preparer,
     presenter: Presenter,
-    /// Whether the window's images have to be made anew.
+    /// Whether the swapchain has to be made anew.
     is_stale: bool,
-    /// `None` while the window has no pixels.
+    /// The window's images; `None` while the window has no pixels.
     swapchain: Option<Swapchain>,
     pub engine: Arc<Engine>,
 }
 
-/// Contents of the window that are to be drawn.
+/// What the next image of the window shows.
 pub struct Seen<'a> {
     pub camera: Option<&'a Camera>,
     pub moment: Option<&'a Arc<Moment>>,
     pub pieces: &'a [Piece],
-    /// Over the others.
+    /// Pieces of pictures that are enlarged over the others.
     pub magnified: &'a [Piece],
 }
 
 impl Canvas {
-    /// Makes the canvas of a window of `size` = [width, height]. The caller hands what the preparer delivers to
-    /// [`Self::prepared`].
+    /// Makes the canvas of a window of `size` = [width, height]. The caller passes the frames that the preparer
+    /// delivers to [`Self::prepared`].
     pub fn new(engine: Arc<Engine>, size: [u32; 2], preparer: Preparer) -> anyhow::Result<Self> {
         let device = &engine.device;
         let swapchain = Swapchain::new(device, size, None)?;
@@ -106,7 +106,7 @@ impl Canvas {
         Some([extent.width, extent.height])
     }
 
-    /// Fits the window's images to its size.
+    /// Makes the swapchain anew for a window of `size` = [width, height].
     pub fn resize(&mut self, size: [u32; 2]) -> anyhow::Result<()> {
         self.wait()?;
         self.is_stale = false;
@@ -147,7 +147,7 @@ impl Canvas {
         &self.layers
     }
 
-    /// Shows pictures with other looks, and those before until there is something to see.
+    /// Replaces the looks of the pictures. The old pictures stay visible until the new ones have rendered something.
     pub fn set_looks(&mut self, looks: &[Look], now: Instant) -> anyhow::Result<()> {
         let layer = |look: &Look| Layer::new(&self.engine, look.clone(), now);
         let layers = looks.iter().map(layer).collect::<anyhow::Result<_>>()?;
@@ -162,7 +162,7 @@ impl Canvas {
         Ok(())
     }
 
-    /// Takes the pictures that are seen away from the layers, which end.
+    /// Removes the layers, and returns the pictures that are visible.
     fn take_pictures(&mut self) -> Vec<Picture> {
         let layers = std::mem::take(&mut self.layers);
         let (seen, others): (_, Vec<_>) = layers.into_iter().map(Layer::into_pictures).unzip();
@@ -170,7 +170,7 @@ impl Canvas {
         seen
     }
 
-    /// Keeps something until no commands use it.
+    /// Keeps a replaced object until no commands use it.
     fn keep(&mut self, kept: Kept) {
         let kept = Rc::new(kept);
         for slot in self.slots.iter_mut().filter(|slot| slot.is_busy()) {
@@ -178,7 +178,7 @@ impl Canvas {
         }
     }
 
-    /// Takes a frame that the preparer delivers.
+    /// Takes a frame that the preparer has delivered.
     pub fn prepared(&mut self, prepared: Prepared) -> anyhow::Result<()> {
         let is_meant = |layer: &&mut Layer| layer.is_meant(&prepared.ticket);
         match self.layers.iter_mut().find(is_meant) {
@@ -187,21 +187,21 @@ impl Canvas {
         }
     }
 
-    /// Shows a picture instead of all others, or these again.
+    /// Sets the picture that is shown instead of all others, or removes it.
     pub fn set_cover(&mut self, cover: Option<Picture>) {
         if let Some(before) = std::mem::replace(&mut self.cover, cover) {
             self.keep(Kept::Pictures(vec![before]));
         }
     }
 
-    /// Restarts all pictures, since something moved.
+    /// Restarts all pictures because the view or the scene has changed.
     pub fn restart(&mut self, now: Instant) {
         for layer in &mut self.layers {
             layer.restart(now);
         }
     }
 
-    /// Takes back what the device has done. Says whether pictures were part of it.
+    /// Finishes the work that the device has done. Returns whether that included work on pictures.
     ///
     /// # Errors
     /// If the device is lost, or a picture can't be finished.
@@ -214,7 +214,7 @@ impl Canvas {
         for index in 0..SLOTS {
             if self.slots[index].poll()? {
                 any |= !self.slots[index].jobs.is_empty();
-                // What fails of one picture keeps the others from nothing.
+                // An error of one picture does not keep the other slots from being finished.
                 outcome = outcome.and(self.finish(index));
             }
         }
@@ -222,12 +222,12 @@ impl Canvas {
         outcome.map(|()| any)
     }
 
-    /// Whether the device still has something to do.
+    /// Whether the device is still at work.
     pub fn is_busy(&self) -> bool {
         self.presenter.is_busy() || self.slots.iter().any(Slot::is_busy)
     }
 
-    /// Whether the pictures have work that is due, or will be.
+    /// Time at which the next work on a picture is due, if there is any.
     pub fn due(&self) -> Option<Instant> {
         self.stage.as_ref()?;
         self.layers
@@ -237,7 +237,7 @@ impl Canvas {
             .min()
     }
 
-    /// Whether there is work to do again.
+    /// Whether work has to be repeated in a frame with more room.
     pub fn has_again(&self) -> bool {
         self.layers.iter().any(Layer::has_again)
     }
@@ -257,7 +257,7 @@ impl Canvas {
             && self.slots.iter().all(|slot| slot.jobs.is_empty())
     }
 
-    /// An image of the window to draw. `None` where none is free now.
+    /// An image of the window to draw into; `None` if none is free now.
     pub fn acquire(&mut self) -> anyhow::Result<Option<Acquired>> {
         let slot = &self.slots[self.turn];
         let is_busy = slot.is_busy() || self.presenter.is_busy();
@@ -280,11 +280,11 @@ impl Canvas {
         }
     }
 
-    /// Renders what is due, draws an image of the window and shows it.
+    /// Renders the work that is due, draws an image of the window and presents it.
     ///
     /// # Errors
-    /// If memory runs out, settings are impossible or the device is lost. An image that can't be rendered is shown without
-    /// it all the same.
+    /// If memory runs out, settings are impossible or the device is lost. If only the pictures fail, the image is
+    /// presented without them.
     pub fn draw(
         &mut self,
         acquired: Acquired,
@@ -294,7 +294,7 @@ impl Canvas {
     ) -> anyhow::Result<()> {
         self.painter.upload(&painting)?;
         let commands = self.slots[self.turn].begin()?;
-        // SAFETY: the commands are being recorded, and the slot keeps what they use until they are done.
+        // SAFETY: the commands are being recorded, and the slot keeps the objects that they use until they have run.
         let (rendered, painted) = unsafe {
             let rendered = self.record_work(commands, seen, now);
             self.record_pieces(commands, &acquired, seen);
@@ -328,7 +328,7 @@ impl Canvas {
         now: Instant,
     ) -> anyhow::Result<()> {
         if let Some(cover) = &mut self.cover {
-            // SAFETY: passed on to the caller; a cover that is replaced is kept until its commands are done.
+            // SAFETY: guaranteed by the caller; a cover that is replaced is kept until its commands have run.
             unsafe { cover.record_pixels(commands) };
         }
         let (Some(stage), Some(camera)) = (&self.stage, seen.camera) else {
@@ -336,7 +336,7 @@ impl Canvas {
         };
         let slot = &mut self.slots[self.turn];
         if !self.is_uploaded {
-            // SAFETY: passed on to the caller; the stage is kept until the commands are done.
+            // SAFETY: guaranteed by the caller; the stage is kept until the commands have run.
             unsafe { stage.prepared.record_upload(commands) };
             self.is_uploaded = true;
             slot.uploads = true;
@@ -352,7 +352,7 @@ impl Canvas {
                 continue;
             }
             let makers = (&self.engine, &self.preparer);
-            // SAFETY: passed on to the caller; the slot keeps the job.
+            // SAFETY: guaranteed by the caller; the slot keeps the job.
             let job = unsafe { layer.record(makers, commands, &sight, now) }?;
             slot.jobs.extend(job);
         }
@@ -373,10 +373,11 @@ impl Canvas {
         let black = vk::ClearColorValue {
             float32: [0.0, 0.0, 0.0, 1.0],
         };
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         unsafe {
             picture::change(device, commands, acquired.image, UNUSED, DESTINATION);
-            // What no picture covers: there is none yet, or one of a smaller window.
+            // The clear colour fills what no picture covers: before the first picture, or around one of a smaller
+            // window.
             device.handle.cmd_clear_color_image(
                 commands,
                 acquired.image,
@@ -385,7 +386,7 @@ impl Canvas {
                 &[picture::COLOR],
             );
             for pieces in [seen.pieces, seen.magnified] {
-                // Each group is written over what was written before.
+                // Magnified pieces overwrite what was copied before, so that they need a barrier.
                 picture::change(device, commands, acquired.image, DESTINATION, DESTINATION);
                 for piece in pieces {
                     self.record_piece(commands, acquired.image, piece);
@@ -420,7 +421,7 @@ impl Canvas {
             .src_offsets(offsets(&piece.from))
             .dst_subresource(LAYERS)
             .dst_offsets(offsets(&piece.to))];
-        // SAFETY: passed on to the caller; both rectangles lie in their images.
+        // SAFETY: guaranteed by the caller; both rectangles lie in their images.
         unsafe {
             self.engine.device.handle.cmd_blit_image(
                 commands,
@@ -434,7 +435,7 @@ impl Canvas {
         }
     }
 
-    /// Takes back what a slot's commands used.
+    /// Finishes a slot whose commands have run, and takes back the objects that they used.
     fn finish(&mut self, index: usize) -> anyhow::Result<()> {
         let slot = &mut self.slots[index];
         let textures = std::mem::take(&mut slot.textures);
@@ -452,23 +453,23 @@ impl Canvas {
         Ok(outcome?)
     }
 
-    /// Frees the memory that the upload needed, once no frame is being prepared.
+    /// Frees the memory of the upload, once no frame is being prepared.
     fn discard_uploads(&mut self) {
         let stage = self.stage.as_mut().filter(|_| self.has_uploads);
         if let Some(prepared) = stage.and_then(|stage| Arc::get_mut(&mut stage.prepared)) {
-            // SAFETY: the commands that uploaded it are done: those of stages before are not counted.
+            // SAFETY: the commands that uploaded the stage have run; `has_uploads` is about this stage alone.
             unsafe { prepared.discard_uploads() };
             self.has_uploads = false;
         }
     }
 
-    /// Waits until nothing is in flight.
+    /// Waits until the device is idle.
     fn wait(&mut self) -> anyhow::Result<()> {
         self.engine.device.wait();
         if let Some(shown) = self.presenter.wait() {
             self.is_stale |= shown? == Fit::Stale;
         }
-        // A picture that could not be finished is about to go.
+        // An error of the pictures doesn't matter: they are about to be dropped.
         let _ = self.collect();
         if self.is_busy() {
             bail!(gpc::vulkan::VulkanError::DeviceLost);
@@ -479,7 +480,7 @@ impl Canvas {
 
 impl Drop for Canvas {
     fn drop(&mut self) {
-        // What is lost needs not be waited for.
+        // A lost device has nothing left to wait for.
         let _ = self.wait();
     }
 }

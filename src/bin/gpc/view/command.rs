@@ -1,4 +1,4 @@
-//! The `gpc render` or `gpc zoom` command that makes the picture which is seen.
+//! The `gpc render` or `gpc zoom` command that makes the visible picture.
 
 use super::look::Look;
 use super::source::Source;
@@ -10,16 +10,16 @@ use gpc::render::{Footprint, Method, Settings};
 use gpc::sampling::Pattern;
 use std::path::Path;
 
-/// A picture to be made.
+/// A picture to be made by a command.
 pub struct Shot<'a> {
     pub source: &'a Source,
     pub standpoint: &'a Standpoint,
     pub look: &'a Look,
-    /// Options that say how scenes look.
+    /// Options for the appearance of scenes, as words of a command line.
     pub appearance: &'a [String],
-    /// Whether the scene's environment is seen behind it.
+    /// Whether the scene's environment is the background.
     pub shows_environment: bool,
-    /// Moment of the animation in seconds.
+    /// Time of the animation in seconds.
     pub time: f64,
     /// Regions that are enlarged.
     pub lenses: &'a [ZoomRegion],
@@ -43,7 +43,7 @@ impl Shot<'_> {
         let [width, height] = settings.size;
         arguments.add("--size", format_args!("{width}x{height}"));
         arguments.settings(&settings);
-        // Which zoomed pictures have not.
+        // `gpc zoom` has no environment as background.
         if self.shows_environment && self.lenses.is_empty() {
             arguments.0.push("--background=environment".to_owned());
         }
@@ -79,10 +79,10 @@ impl Arguments {
         self.0.extend([option.to_owned(), value.to_string()]);
     }
 
-    /// Adds a vector, exactly.
+    /// Adds a vector with all its digits.
     fn add_vector(&mut self, option: &str, vector: DVec3) {
         let DVec3 { x, y, z } = vector;
-        // With an equals sign, a first number below 0 is no option.
+        // With an equals sign, a negative first number is not taken for an option.
         self.0.push(format!("{option}={x},{y},{z}"));
     }
 
@@ -94,7 +94,7 @@ impl Arguments {
             self.add("--radius", format_args!("{rx},{ry}"));
             self.add("--multiplicity", lens.multiplicity);
         }
-        // Where one differs from the default, all are said.
+        // If one lens differs from the default, all are given.
         if lenses.iter().any(|lens| lens.shape != Shape::default()) {
             for lens in lenses {
                 self.add("--shape", name(&lens.shape));
@@ -108,7 +108,7 @@ impl Arguments {
         }
     }
 
-    /// Settings that differ from the command's defaults.
+    /// Adds the settings that differ from the command's defaults.
     fn settings(&mut self, settings: &Settings) {
         let default = Settings::new(settings.size[0], settings.size[1]);
         if settings.method != default.method {
@@ -146,7 +146,7 @@ impl Arguments {
         }
     }
 
-    /// Adds the options that select the visible part of the scene and the standpoint.
+    /// Adds the options that select the scene, the time and the standpoint.
     fn view(&mut self, shot: &Shot<'_>) {
         let request = &shot.source.request;
         if let Some(scene) = request.scene {
@@ -173,7 +173,7 @@ impl Arguments {
     }
 }
 
-/// A pattern, as `--pattern` has it.
+/// A pattern's name for `--pattern`.
 pub fn pattern_name(pattern: &Pattern) -> &'static str {
     match pattern {
         Pattern::Lines => "lines",
@@ -185,7 +185,7 @@ pub fn pattern_name(pattern: &Pattern) -> &'static str {
     }
 }
 
-/// A command line for a shell.
+/// A command line for a POSIX shell.
 pub fn line(arguments: &[String]) -> String {
     let quoted = arguments.iter().map(|argument| quote(argument));
     std::iter::once("gpc".to_owned())
@@ -194,7 +194,7 @@ pub fn line(arguments: &[String]) -> String {
         .join(" ")
 }
 
-/// A word as a POSIX shell reads it back.
+/// A word, quoted where a POSIX shell needs it.
 fn quote(word: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./,=:+@%".contains(c);
     if !word.is_empty() && word.chars().all(is_plain) {

@@ -7,17 +7,17 @@ pub struct Rect {
     pub size: [u32; 2],
 }
 
-/// Pixels of a picture, and where they are seen.
+/// A rectangle of a picture, and the rectangle of the window that shows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Piece {
-    /// 0 left of the split, 1 right of it.
+    /// Index of the picture: 0 left of the split, 1 right of it.
     pub layer: usize,
     pub from: Rect,
     pub to: Rect,
 }
 
 impl Piece {
-    /// The part of it that a picture of this size has, if any.
+    /// The part of this piece that lies in a picture of `size` = [width, height], if any.
     pub fn within(&self, size: [u32; 2]) -> Option<Self> {
         let mut part = *self;
         for (axis, end) in size.into_iter().enumerate() {
@@ -30,19 +30,19 @@ impl Piece {
     }
 }
 
-/// A square window into the pictures that shows their pixels enlarged.
+/// A square in the window that shows pixels of the pictures enlarged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Magnifier {
-    /// The pixel in the middle.
+    /// The pixel in the middle of the magnifier.
     pub centre: [u32; 2],
-    /// Sides of a pixel as it is shown.
+    /// Side of an enlarged pixel, in pixels of the window.
     pub factor: u32,
 }
 
-/// About as wide and high as the magnifier is on the screen, in pixels.
+/// Approximate side of the magnifier, in pixels of the window.
 const MAGNIFIER_SIDE: u32 = 288;
 
-/// The pictures, side by side where there is a split at a column.
+/// Pieces that show the pictures, side by side if there is a split at a column.
 pub fn pictures(size: [u32; 2], split: Option<u32>) -> Vec<Piece> {
     let whole = Rect {
         corner: [0, 0],
@@ -57,15 +57,15 @@ pub fn pictures(size: [u32; 2], split: Option<u32>) -> Vec<Piece> {
         .collect()
 }
 
-/// Pieces of the pictures under the magnifier.
+/// Pieces that show the pictures under the magnifier enlarged.
 pub fn magnified(size: [u32; 2], split: Option<u32>, magnifier: Magnifier) -> Vec<Piece> {
     let factor = magnifier.factor.max(1);
-    // An odd number of pixels has one in the middle.
+    // An odd number of pixels has a pixel in the middle.
     let side = [0, 1].map(|axis| ((MAGNIFIER_SIDE / factor) | 1).min(size[axis] / factor));
     if side.contains(&0) {
         return Vec::new();
     }
-    // It stays inside of the picture and of the window, as near to the pointer as that allows.
+    // The magnifier stays inside of the picture and of the window, as close to the pointer as that allows.
     let around = |centre: u32, side: u32, end: u32| {
         let first = centre.saturating_sub(side / 2);
         first.min(end - side)

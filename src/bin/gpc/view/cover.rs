@@ -5,47 +5,47 @@ use super::overlay::Overlay;
 use super::worker::Subject;
 use std::time::{Duration, Instant};
 
-/// Samples of the first pictures, before those asked for.
+/// Numbers of samples of the first pictures, before the number asked for.
 const STEPS: [u32; 2] = [4, 64];
-/// Time without any change before a picture of more samples is begun.
+/// Time without changes before a picture with more samples is begun.
 const REST: Duration = Duration::from_millis(700);
 
-/// Cover that is wanted, and the progress of making it.
+/// The cover to show, and the progress of making it.
 #[derive(Debug, Default)]
 pub struct Cover {
     pub lenses: Lenses,
-    /// Whether their transitions are coloured.
+    /// Whether the lenses' transitions are coloured.
     pub tints: bool,
     pub overlay: Option<Overlay>,
-    /// Whether pictures have shadows, which are made without them while something moves.
+    /// Whether pictures have shadows; frames have none.
     pub has_shadows: bool,
-    /// Whether an environment is seen behind the scene, as it is not in frames.
+    /// Whether pictures show the environment as background; frames don't.
     pub shows_environment: bool,
-    /// Whether there are no frames, but a photograph.
+    /// Whether a photograph is shown, so that there are no frames.
     pub is_photo: bool,
     /// Number of the last order.
     number: u64,
-    /// Samples of the orders since the last change, in turn.
+    /// Numbers of samples of the orders since the last change.
     steps: Vec<u32>,
-    /// Index of the last order's.
+    /// Index in `steps` of the last order.
     step: usize,
-    /// Time of the next order, if it waits.
+    /// Time at which to place the next order, if it has to wait.
     due: Option<Instant>,
-    /// Number of the first order since something moved.
+    /// Number of the first order since the view changed.
     first: u64,
     is_done: bool,
 }
 
-/// Treatment of a picture that has arrived.
+/// What to do with a picture that has arrived.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Arrival {
     pub is_shown: bool,
-    /// Whether to ask for a better one at once.
+    /// Whether to order a picture with more samples at once.
     pub refines: bool,
 }
 
 impl Cover {
-    /// Over frames, of pictures that have shadows and show an environment or not.
+    /// Cover over frames; says whether its pictures have shadows and show the environment.
     pub fn new(has_shadows: bool, shows_environment: bool) -> Self {
         Self {
             has_shadows,
@@ -62,7 +62,7 @@ impl Cover {
         }
     }
 
-    /// Picture to order of a scene, if any is wanted.
+    /// Kind of picture to order of a scene, if one is needed.
     pub fn subject(&self) -> Option<Subject> {
         match (self.overlay, self.lenses.map()) {
             (Some(overlay), _) => Some(Subject::Overlay(overlay)),
@@ -71,18 +71,18 @@ impl Cover {
         }
     }
 
-    /// Whether frames are hidden.
+    /// Whether a cover hides the frames.
     pub fn is_wanted(&self) -> bool {
         self.is_photo || self.subject().is_some()
     }
 
-    /// Whether all that is wanted is seen.
+    /// Whether the picture with all samples is visible.
     pub fn is_done(&self) -> bool {
         !self.is_wanted() || self.is_done
     }
 
-    /// Number and samples of the first order after a change: of the view, or of the lenses alone. `asked` are the samples of
-    /// the last.
+    /// Number and samples of the first order after a change of the view, or of the lenses alone. `asked` is the number
+    /// of samples of the last order to come.
     pub fn begin(&mut self, view_changed: bool, asked: u32) -> (u64, u32) {
         let needs_all = self.is_photo || self.overlay.is_some_and(Overlay::needs_all_samples);
         let below = |samples: &u32| *samples < asked && !needs_all;
@@ -96,18 +96,18 @@ impl Cover {
         order
     }
 
-    /// Number and samples of the order that follows.
+    /// Number and samples of the next order.
     pub fn refine(&mut self) -> (u64, u32) {
         self.step += 1;
         self.next_order()
     }
 
-    /// Time at which the next order is due, if one waits.
+    /// Time at which to place the next order, if it has to wait.
     pub fn due(&self) -> Option<Instant> {
         self.due
     }
 
-    /// Decides about the picture of an order that has arrived.
+    /// Decides what to do with the picture of an order that has arrived.
     pub fn arrived(&mut self, number: u64, now: Instant) -> Arrival {
         let is_last = number == self.number;
         let next = self.steps.get(self.step + 1).filter(|_| is_last);
@@ -150,7 +150,7 @@ mod tests {
         assert!(arrival.is_shown && arrival.refines && !cover.is_done());
         let (second, samples) = cover.refine();
         assert_eq!(samples, 64);
-        // The last one waits.
+        // The order with the most samples has to wait.
         let arrival = cover.arrived(second, now);
         assert!(arrival.is_shown && !arrival.refines && !cover.is_done());
         assert_eq!(cover.due(), Some(now + REST));

@@ -1,4 +1,4 @@
-//! The viewer's own instance, device and queue, as any host has them.
+//! The viewer's own instance, device and queue, made as any host makes them.
 
 use anyhow::{Context, anyhow};
 use ash::vk;
@@ -11,27 +11,27 @@ use winit::window::Window;
 
 const VALIDATION: &CStr = c"VK_LAYER_KHRONOS_validation";
 
-/// A device that can show pictures in a window.
+/// A device that can present pictures in a window.
 ///
-/// All that is made from it holds an [`Arc`] of it, so that it goes last.
+/// Everything that is made from the device holds an [`Arc`] of it, so that the device is destroyed last.
 pub struct Device {
     pub handle: ash::Device,
     pub physical: vk::PhysicalDevice,
     pub queue_family: u32,
     conditional_rendering: bool,
-    /// Used by one thread at a time.
+    /// Queue for graphics and presentation; one thread uses it at a time.
     queue: Mutex<vk::Queue>,
     pub surface: vk::SurfaceKHR,
     pub surfaces: ash::khr::surface::Instance,
     pub swapchains: ash::khr::swapchain::Device,
-    /// `None` only while dropping: its blocks go before the device.
+    /// Allocator of device memory; `None` only in `Drop`, which frees its blocks before the device.
     allocator: Option<SharedAllocator>,
     instance: ash::Instance,
     debug: Option<(ash::ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
     messages: Box<Messages>,
-    /// The surface's.
+    /// Window of the surface, which must not outlive it.
     _window: Arc<Window>,
-    /// Keeps the loader's library open.
+    /// Vulkan loader, whose library stays open.
     _entry: ash::Entry,
 }
 
@@ -61,7 +61,7 @@ unsafe extern "system" fn on_message(
 }
 
 impl Device {
-    /// Opens the best device that can show pictures in the window, or one by part of its name.
+    /// Opens the best device that can present pictures in the window, or one by part of its name.
     pub fn new(window: Arc<Window>, name: Option<&str>, validation: bool) -> anyhow::Result<Self> {
         let display = window.display_handle()?.as_raw();
         let handle = window.window_handle()?.as_raw();
@@ -69,7 +69,7 @@ impl Device {
             .map_err(VulkanError::of("finding what the window needs"))?
             .to_vec();
         // SAFETY: plain creations whose structures live until after the call; display and window outlive the surface.
-        // Handles made before a failure leak, which ends the program.
+        // Handles that were made before a failure leak, but the program ends then.
         unsafe {
             let entry =
                 ash::Entry::load().map_err(|error| VulkanError::NoLoader(error.to_string()))?;
@@ -114,7 +114,7 @@ impl Device {
             let (physical, queue_family) = choose(&instance, &surfaces, surface, name)?;
 
             let mut features = Requirements::features13();
-            // Rounds of superpixels that are not needed are skipped where the device can skip them.
+            // Conditional rendering skips rounds of superpixels that are not needed.
             let conditional_rendering =
                 Requirements::has_conditional_rendering(&instance, physical);
             let mut conditional = vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default()
@@ -164,7 +164,7 @@ impl Device {
         }
     }
 
-    /// Device as it is lent to the renderer.
+    /// The device's handles, as a host lends them to the renderer.
     pub fn host(&self) -> Host {
         Host {
             instance: self.instance.clone(),
@@ -176,7 +176,7 @@ impl Device {
         }
     }
 
-    /// The allocator, which the renderer and the panel's painter share.
+    /// The allocator, shared by the renderer and the panel's painter.
     pub fn allocator(&self) -> anyhow::Result<SharedAllocator> {
         let allocator = self.allocator.clone();
         allocator.ok_or_else(|| anyhow!("the allocator is gone"))
@@ -193,16 +193,16 @@ impl Device {
         self.queue.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Waits until the device has done all that was submitted.
+    /// Waits until the device has done all submitted work.
     pub fn wait(&self) {
         let _queue = self.queue();
-        // SAFETY: the device is alive, and no other thread uses its queue meanwhile. A device that is lost has nothing left
-        // to do.
+        // SAFETY: the device is alive, and no other thread uses its queue meanwhile. An error can be ignored: a lost
+        // device is idle.
         let _ = unsafe { self.handle.device_wait_idle() };
     }
 }
 
-/// Collects what the validation layer says.
+/// Creates a messenger that collects the messages of the validation layer.
 ///
 /// # Safety
 /// The messages outlive the messenger.
@@ -220,7 +220,7 @@ unsafe fn listen(
         .message_type(vk::DebugUtilsMessageTypeFlagsEXT::VALIDATION)
         .pfn_user_callback(Some(on_message))
         .user_data(std::ptr::from_ref(messages).cast_mut().cast());
-    // SAFETY: passed on to the caller.
+    // SAFETY: guaranteed by the caller.
     let messenger = unsafe { loader.create_debug_utils_messenger(&info, None) }
         .map_err(VulkanError::of("vkCreateDebugUtilsMessengerEXT"))?;
     Ok((loader, messenger))
@@ -292,7 +292,7 @@ unsafe fn choose(
     }
 }
 
-/// The lower the better.
+/// Order of preference of a type of device; the lowest is the best.
 fn rank(kind: vk::PhysicalDeviceType) -> u32 {
     match kind {
         vk::PhysicalDeviceType::DISCRETE_GPU => 0,
@@ -307,7 +307,7 @@ impl Drop for Device {
     fn drop(&mut self) {
         self.wait();
         self.allocator = None;
-        // SAFETY: nothing is executed any more, and all made from device and surface held an `Arc` of this and is gone.
+        // SAFETY: the device is idle, and everything made from device and surface held an `Arc` of `self` and is gone.
         unsafe {
             self.handle.destroy_device(None);
             self.surfaces.destroy_surface(self.surface, None);

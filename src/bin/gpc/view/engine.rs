@@ -1,11 +1,11 @@
-//! The renderer in the viewer's device.
+//! The renderer on the viewer's device.
 
 use super::device::Device;
 use gpc::render::Renderer;
 use gpc::vulkan::VulkanError;
 use std::sync::Arc;
 
-/// Renderer and its device. Everything that the renderer prepares is kept together with an [`Arc`] of the engine.
+/// Renderer and its device. Everything that the renderer prepares holds an [`Arc`] of the engine.
 pub struct Engine {
     /// Renderer; the first field, so that it is dropped before the device.
     pub renderer: Renderer,
@@ -13,10 +13,10 @@ pub struct Engine {
 }
 
 impl Engine {
-    /// A renderer in a device.
+    /// Makes a renderer on a device.
     pub fn new(device: Arc<Device>) -> Result<Self, VulkanError> {
         // SAFETY: the handles belong together, the features are enabled, and the device is kept until the renderer and
-        // all that it prepared is gone.
+        // everything that it prepared is gone.
         let renderer = unsafe { Renderer::new(device.host()) }?;
         Ok(Self { renderer, device })
     }

@@ -3,10 +3,10 @@
 use anyhow::{Context, bail};
 use std::path::{Path, PathBuf};
 
-/// Endings of scene files' names.
+/// Extensions of scene files.
 const SCENES: [&str; 5] = ["glb", "gltf", "obj", "ply", "stl"];
 
-/// A file, or the scene files of a folder in the order of their names.
+/// `path` itself if it is a file; the scene files of a folder, sorted by name.
 ///
 /// # Errors
 /// If the folder can't be read or has no scene file.
@@ -38,7 +38,7 @@ pub fn scenes_at(path: &Path) -> anyhow::Result<Vec<PathBuf>> {
     Ok(scenes)
 }
 
-/// The first of STEM.png, STEM-2.png and so on that there is no file of yet.
+/// The first of STEM.png, STEM-2.png and so on that does not exist yet.
 pub fn free_name(folder: &Path, stem: &str) -> PathBuf {
     let mut path = folder.join(format!("{stem}.png"));
     let mut number = 2;

@@ -1,12 +1,12 @@
-//! Flying through a scene: keys that are held move the eye.
+//! Flying through a scene: held keys move the eye.
 
 use glam::DVec3;
 use std::time::{Duration, Instant};
 use winit::keyboard::{KeyCode, PhysicalKey};
 
-/// Seconds in which the eye flies along the scene's diagonal, unless the wheel sets another speed.
+/// Seconds that the eye takes to fly along the scene's diagonal, unless the wheel sets another speed.
 const SECONDS_A_DIAGONAL: f64 = 10.0;
-/// Longest time by which one picture moves the eye, however long it takes.
+/// Longest time step of the eye, however long a picture takes.
 const LONGEST: Duration = Duration::from_millis(500);
 
 /// Direction in which a key moves the eye.
@@ -21,7 +21,7 @@ pub enum Way {
 }
 
 impl Way {
-    /// Direction of a key, by its place on the keyboard.
+    /// Direction of a key, by the key's position on the keyboard.
     pub fn of(key: PhysicalKey) -> Option<Self> {
         let PhysicalKey::Code(code) = key else {
             return None;
@@ -37,7 +37,7 @@ impl Way {
         })
     }
 
-    /// Right, up and forward.
+    /// Unit vector with the components right, up and forward.
     fn direction(self) -> DVec3 {
         match self {
             Self::Forward => DVec3::Z,
@@ -56,12 +56,12 @@ pub struct Flight {
     held: Vec<Way>,
     /// Speed in units of the scene a second.
     speed: f64,
-    /// Time at which the eye was last moved, while a key is held.
+    /// Time at which the eye was last moved; `None` while no key is held.
     last: Option<Instant>,
 }
 
 impl Flight {
-    /// Through a scene with that diagonal.
+    /// Flight through a scene whose diagonal has this length.
     pub fn new(diagonal: f64) -> Self {
         Self {
             held: Vec::new(),
@@ -70,7 +70,7 @@ impl Flight {
         }
     }
 
-    /// Units of the scene a second.
+    /// Speed in units of the scene a second.
     pub fn speed(&self) -> f64 {
         self.speed
     }
@@ -79,7 +79,7 @@ impl Flight {
         self.speed *= factor;
     }
 
-    /// A key is pressed.
+    /// Records that a key was pressed.
     pub fn hold(&mut self, way: Way, now: Instant) {
         if !self.held.contains(&way) {
             self.held.push(way);
@@ -87,7 +87,7 @@ impl Flight {
         self.last.get_or_insert(now);
     }
 
-    /// A key is let go.
+    /// Records that a key was released.
     pub fn release(&mut self, way: Way) {
         self.held.retain(|held| *held != way);
         if self.held.is_empty() {
@@ -95,7 +95,7 @@ impl Flight {
         }
     }
 
-    /// Stops, as if all keys were released.
+    /// Stops the flight, as if all keys were released.
     pub fn stop(&mut self) {
         self.held.clear();
         self.last = None;
@@ -106,7 +106,7 @@ impl Flight {
         self.last.is_some()
     }
 
-    /// Movement of the eye until now: right, up and forward, in units of the scene.
+    /// Movement of the eye since the last call: right, up and forward, in units of the scene.
     pub fn advance(&mut self, now: Instant) -> DVec3 {
         let Some(last) = &mut self.last else {
             return DVec3::ZERO;
@@ -134,7 +134,7 @@ mod tests {
         flight.hold(Way::Left, after(200));
         let moved = flight.advance(after(300));
         assert!((moved.length() - 0.2).abs() < 1e-9 && moved.x < 0.0 && moved.z > 0.0);
-        // Keys that repeat change nothing, and opposite ones stand still.
+        // Key repeats change nothing, and opposite keys cancel each other.
         flight.hold(Way::Left, after(300));
         flight.release(Way::Forward);
         flight.hold(Way::Right, after(300));

@@ -1,10 +1,10 @@
-//! Actions of keys, and the list of them.
+//! Actions of keys, and the list that the window shows.
 
 use super::navigate::Side;
 use gpc::render::Method;
 use winit::keyboard::{Key, ModifiersState, NamedKey};
 
-/// Action that a key or a button of the panel asks for.
+/// Action of a key or of a button in the panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
     Help,
@@ -37,7 +37,7 @@ pub enum Action {
     Quit,
 }
 
-/// A key, with Control or without.
+/// A key with or without Control, and its action.
 struct Binding {
     key: Pressed,
     control: bool,
@@ -77,7 +77,7 @@ const fn named(key: NamedKey, label: &'static str, action: Action, does: &'stati
     }
 }
 
-/// Every key.
+/// Bindings of all keys.
 static BINDINGS: [Binding; 35] = [
     text("h", "H", Action::Help, "list the keys"),
     text("p", "P", Action::Panel, "show or hide the panel"),
@@ -222,7 +222,7 @@ static BINDINGS: [Binding; 35] = [
     text("q", "Q", Action::Quit, "quit"),
 ];
 
-/// Actions of the mouse, for the list.
+/// Actions of the mouse for the list: gesture and effect.
 pub const MOUSE: [(&str, &str); 7] = [
     ("Left drag", "turn around the target"),
     ("Shift + left drag, middle drag", "move sideways"),
@@ -239,7 +239,7 @@ pub const MOUSE: [(&str, &str); 7] = [
     ("Drop a file or folder", "open it"),
 ];
 
-/// Action of a key.
+/// Action of a key, if it has one.
 pub fn action(key: &Key, modifiers: ModifiersState) -> Option<Action> {
     let is_pressed = |binding: &&Binding| {
         let pressed = match (&binding.key, key) {
@@ -255,7 +255,7 @@ pub fn action(key: &Key, modifiers: ModifiersState) -> Option<Action> {
         .map(|binding| binding.action)
 }
 
-/// The list: keys, and what they do.
+/// Rows of the list: the keys, and what they do.
 pub fn list() -> impl Iterator<Item = (&'static str, &'static str)> {
     BINDINGS.iter().map(|binding| (binding.label, binding.does))
 }

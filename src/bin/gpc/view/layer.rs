@@ -1,4 +1,4 @@
-//! A picture of the scene with one way of antialiasing, and the frames that refine it.
+//! A picture of the scene under one method of antialiasing, and the frames that refine it.
 
 use super::engine::Engine;
 use super::look::Look;
@@ -12,7 +12,7 @@ use gpc::scene::Moment;
 use std::sync::{Arc, Weak};
 use std::time::Instant;
 
-/// A frame's capacity is raised this often before what is lacking is said.
+/// Number of times that a frame's capacity is raised before the error is reported.
 const RETRIES: u32 = 6;
 
 /// A picture of the scene, at most as large as the window.
@@ -20,29 +20,29 @@ pub struct Layer {
     pub look: Look,
     pub schedule: Schedule,
     picture: Picture,
-    /// Seen until there is something in the picture.
+    /// Picture that is shown until this layer has rendered something.
     before: Option<Picture>,
     /// Ticket that identifies the layer to the preparer.
     ticket: Ticket,
-    /// Frames of drafts that nothing uses just now.
+    /// Frames of drafts that are not in use.
     spare: Vec<Frame>,
-    /// A frame of a band that nothing uses.
+    /// A frame for bands that is not in use.
     band: Option<Frame>,
     /// Settings of the frames that are being prepared.
     asked: Vec<Settings>,
-    /// Work that waits for its frame.
+    /// Work that waits until its frame is prepared.
     waiting: Option<PictureWork>,
-    /// Work to do again, in a frame that has more room.
+    /// Work to repeat, the frame with more room for it, and the number of repetitions.
     again: Option<(PictureWork, Frame, u32)>,
-    /// Number of the picture, by which results of older pictures are recognised.
+    /// Number of the picture, which tells the results of older pictures apart.
     version: u64,
-    /// Samples a pixel of the picture that is shown, if all of its pixels have the same number.
+    /// Samples a pixel of the visible picture, if all of its pixels have the same number.
     pub shown: Option<u32>,
-    /// Figures of the last work.
+    /// Statistics of the work on the visible picture.
     pub statistics: Statistics,
 }
 
-/// Work that the device has not done yet, and what it uses.
+/// Work that the device has not finished, and the objects that it uses.
 pub struct Job {
     /// Ticket of the layer that takes the job back.
     pub ticket: Weak<()>,
@@ -50,11 +50,11 @@ pub struct Job {
     work: PictureWork,
     version: u64,
     tries: u32,
-    /// Picture that a band is rendered to before it is copied.
+    /// Picture that a band is rendered to before it is copied; kept until the job is done.
     _band: Option<Picture>,
 }
 
-/// Scene and camera of a picture.
+/// What a picture shows: scene and camera.
 pub struct Sight<'a> {
     pub scene: &'a Arc<PreparedScene>,
     pub camera: &'a Camera,
@@ -62,7 +62,7 @@ pub struct Sight<'a> {
 }
 
 impl Layer {
-    /// Makes a layer of which nothing is rendered yet.
+    /// Makes a layer that has rendered nothing yet.
     pub fn new(engine: &Engine, look: Look, now: Instant) -> anyhow::Result<Self> {
         Ok(Self {
             picture: Picture::new(&engine.device, look.settings.size)?,
@@ -94,8 +94,8 @@ impl Layer {
             .unwrap_or(&self.picture)
     }
 
-    /// Splits the layer into the picture that is shown, for use until another layer has something to show, and one that
-    /// is not shown.
+    /// Splits the layer into the picture that is shown, for use until another layer has something to show, and the
+    /// picture that is not shown.
     pub fn into_pictures(self) -> (Picture, Option<Picture>) {
         match self.before {
             Some(before) if !self.picture.is_written() => (before, Some(self.picture)),
@@ -103,7 +103,7 @@ impl Layer {
         }
     }
 
-    /// The picture is another one from now on: something moved.
+    /// Starts a new picture because the view or the scene has changed.
     pub fn restart(&mut self, now: Instant) {
         self.schedule.restart(now);
         self.again = None;
@@ -117,8 +117,8 @@ impl Layer {
     /// If memory runs out.
     ///
     /// # Safety
-    /// `commands` is being recorded for the engine's device, after the upload of the scene; the job, and this or what
-    /// [`Self::into_pictures`] hands over, outlive their execution.
+    /// `commands` is being recorded for the engine's device, after the upload of the scene. The job and this layer (or
+    /// the pictures of [`Self::into_pictures`]) outlive the execution of the commands.
     pub unsafe fn record(
         &mut self,
         (engine, preparer): (&Arc<Engine>, &Preparer),
@@ -151,7 +151,8 @@ impl Layer {
         let band = match &work {
             PictureWork::Draft { .. } => {
                 let target = self.picture.target();
-                // SAFETY: passed on to the caller; spare frames were waited for, and the picture has the frame's size.
+                // SAFETY: guaranteed by the caller; commands that used a spare frame have run, and the picture has the
+                // frame's size.
                 unsafe { frame.record(sight.camera, commands, &target) };
                 None
             }
@@ -176,10 +177,10 @@ impl Layer {
         }))
     }
 
-    /// Takes back a job that the device has done.
+    /// Finishes a job that the device has done.
     ///
     /// # Errors
-    /// If the frame can't be finished however often its work is split, or its figures can't be read.
+    /// If the work is still too large after all retries, or its statistics can't be read.
     pub fn finish(&mut self, engine: &Engine, job: Job) -> Result<(), RenderError> {
         let is_current = job.version == self.version;
         match job.frame.statistics() {
@@ -206,12 +207,12 @@ impl Layer {
         }
     }
 
-    /// Whether frames and jobs of this ticket are the layer's.
+    /// Whether frames and jobs with this ticket belong to the layer.
     pub fn is_meant(&self, ticket: &Weak<()>) -> bool {
         Weak::ptr_eq(&Arc::downgrade(&self.ticket), ticket)
     }
 
-    /// Takes a frame that was asked for, or the error of preparing it.
+    /// Takes a frame that was requested, or the error of preparing it.
     pub fn prepared(
         &mut self,
         settings: &Settings,
@@ -229,22 +230,22 @@ impl Layer {
         Ok(())
     }
 
-    /// Whether there is work whose frame is being prepared.
+    /// Whether work waits for its frame to be prepared.
     pub fn is_waiting(&self) -> bool {
         self.waiting.is_some()
     }
 
-    /// Time at which the next work is due, if it waits for nothing else.
+    /// Time at which the next work is due; `None` while work waits for its frame.
     pub fn due(&self) -> Option<Instant> {
         self.schedule.due().filter(|_| !self.is_waiting())
     }
 
-    /// Whether there is work that waits for nothing.
+    /// Whether work has to be repeated, which can be done at once.
     pub fn has_again(&self) -> bool {
         self.again.is_some()
     }
 
-    /// Adds figures of work on the picture that is seen.
+    /// Adds the statistics of work on the visible picture.
     fn note(&mut self, work: &PictureWork, statistics: Statistics) {
         let is_first = match work {
             PictureWork::Draft { samples } => {
@@ -263,13 +264,14 @@ impl Layer {
                 ..Statistics::default()
             };
         }
-        // Of the whole picture, what no band needed.
+        // A pass counts as skipped if no band needed it.
         let skipped = &mut self.statistics.skipped_passes;
         skipped.retain(|pass| statistics.skipped_passes.contains(pass));
         self.statistics.append(statistics);
     }
 
-    /// A frame of these settings, if one is prepared. Drafts use theirs again, and let go of others.
+    /// A prepared frame for these settings, if there is one. Frames of drafts are reused while the settings stay, and
+    /// dropped otherwise.
     fn frame(&mut self, settings: &Settings) -> Option<Frame> {
         if settings.region.is_some() {
             return self.band.take_if(|frame| frame.settings() == settings);
@@ -289,7 +291,7 @@ impl Layer {
                 }),
             ),
         };
-        // Shadows are for pictures of the worker: they would take frames too long.
+        // Frames leave shadows out, which would take too long. The worker's pictures have them.
         Settings {
             shadows: Shadows::None,
             ..settings

@@ -1,16 +1,16 @@
-//! Zoom lenses: regions of the picture that are enlarged, as the mouse sets them.
+//! Zoom lenses: enlarged regions of the picture, which the mouse moves.
 
 use glam::DVec2;
 use gpc::camera::zoom::{Shape, Transition, ZoomMap, ZoomRegion};
 
-/// Radius of a new lens, as a share of the picture's height.
+/// Radius of a new lens / height of the picture.
 const FIRST_RADIUS: f64 = 1.0 / 6.0;
-/// Drags shorter than this only move the lens.
+/// Shortest drag that resizes a lens, in pixels; a shorter one only moves it.
 const LEAST_RADIUS: f64 = 8.0;
-/// The most that the wheel enlarges by is one over it.
+/// Smallest multiplicity of a lens: the wheel enlarges by at most 1 / multiplicity.
 const LEAST_MULTIPLICITY: f64 = 0.01;
 
-/// Lenses in the order of their maps. The mouse sets one of them.
+/// Lenses in the order in which their maps are applied. The mouse changes one of them, the active one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Lenses {
     regions: Vec<ZoomRegion>,
@@ -23,18 +23,18 @@ impl Lenses {
         &self.regions
     }
 
-    /// The map of all, where there are any.
+    /// The map of all lenses; `None` without lenses.
     pub fn map(&self) -> Option<ZoomMap> {
-        // Those that the mouse makes are possible.
+        // The regions that the mouse makes are always valid.
         ZoomMap::new(self.regions.clone()).ok()
     }
 
-    /// Index of the lens that the mouse sets.
+    /// Index of the active lens.
     pub fn active(&self) -> usize {
         self.active
     }
 
-    /// Adds a lens that shows what is around a place twice as large, in a picture of that height.
+    /// Adds a lens that shows the surroundings of a place twice as large, in a picture of height `height` in pixels.
     pub fn add(&mut self, place: DVec2, height: f64) {
         self.active = self.regions.len();
         self.regions.push(ZoomRegion {
@@ -46,7 +46,7 @@ impl Lenses {
         });
     }
 
-    /// Removes the lens that the mouse sets; the one before it is set from then on.
+    /// Removes the active lens; the one before it becomes active.
     pub fn remove(&mut self) {
         if self.active < self.regions.len() {
             self.regions.remove(self.active);
@@ -54,7 +54,7 @@ impl Lenses {
         }
     }
 
-    /// Changes the outline and transition of the lens that the mouse sets.
+    /// Changes the outline and transition of the active lens.
     pub fn set(&mut self, shape: Shape, transition: Transition) {
         self.change(|lens| {
             lens.shape = shape;
@@ -62,7 +62,7 @@ impl Lenses {
         });
     }
 
-    /// Takes another lens at a place, or else moves the one at hand there.
+    /// Makes the lens at a place the active one, or moves the active lens there if there is none.
     pub fn press(&mut self, place: DVec2) {
         let is_at_hand = |index: usize| index == self.active;
         let other = (0..self.regions.len())
@@ -74,7 +74,7 @@ impl Lenses {
         }
     }
 
-    /// Makes the lens at hand as large as to reach a place.
+    /// Resizes the active lens so that it reaches a place.
     pub fn drag(&mut self, place: DVec2) {
         self.change(|lens| {
             let radius = (place - DVec2::from(lens.center)).length().round();
@@ -84,11 +84,11 @@ impl Lenses {
         });
     }
 
-    /// Enlarges by a factor more, or less below 1.
+    /// Multiplies the enlargement of the active lens by a factor.
     pub fn enlarge(&mut self, factor: f64) {
         self.change(|lens| {
             let multiplicity = (lens.multiplicity / factor).clamp(LEAST_MULTIPLICITY, 1.0);
-            // Four digits are enough for a command to be read.
+            // Four digits keep the copied command readable.
             lens.multiplicity = (1e4 * multiplicity).round() / 1e4;
         });
     }

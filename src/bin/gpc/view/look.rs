@@ -1,11 +1,11 @@
-//! Antialiasing of a picture, which keys and panel change.
+//! Antialiasing settings of a picture, which keys and panel change.
 
 use gpc::render::{Detection, Footprint, Method, PixelRect, Settings, Shading};
 
-/// Most samples a pixel of a picture at rest, unless others are asked for.
+/// Samples a pixel of a picture at rest, unless another number is asked for.
 pub const DEFAULT_SAMPLES: u32 = 1024;
 
-/// The least threshold while something moves.
+/// Smallest contrast threshold while something moves, in 8-bit sRGB code values.
 const DRAFT_CONTRAST: u8 = 16;
 
 /// Settings of a picture that is refined step by step.
@@ -25,8 +25,9 @@ impl Look {
         }
     }
 
-    /// Settings of a picture while something moves: superpixels along edges alone, each triangle shaded once and its
-    /// textures filtered as elsewhere, take less than half of the time. With one sample they would be all cost and no gain.
+    /// Settings of a picture while something moves. Superpixels lie along edges only, each triangle in them is shaded
+    /// once, and textures are filtered as in other pixels; this takes less than half of the time. With one sample a
+    /// pixel, superpixels would cost time without any gain, so that there are none.
     pub fn draft(&self, samples: u32) -> Settings {
         let settings = self.at(samples, None);
         match settings.method {
@@ -54,19 +55,19 @@ impl Look {
             Method::None => samples == 1,
             Method::Superpixel => self.settings.pattern.offsets(samples).is_ok(),
             Method::Ssaa => samples.isqrt().pow(2) == samples,
-            // What a device has is not known here; the number asked for is all that is shown.
+            // The number that the device supports is unknown here, so only the number asked for is allowed.
             Method::Msaa => samples == self.settings.samples,
         }
     }
 
-    /// Changes the method, and the samples to the method's usual number.
+    /// Changes the method, and sets the method's default number of samples.
     pub fn set_method(&mut self, method: Method) {
         self.settings.method = method;
         self.settings.samples = default_samples(method);
     }
 }
 
-/// Samples that are shown at rest unless others are asked for.
+/// Samples a pixel at rest, unless another number is asked for.
 pub fn default_samples(method: Method) -> u32 {
     match method {
         Method::None => 1,

@@ -1,11 +1,11 @@
-//! Devices that are lost: how often everything is made again.
+//! Lost devices: how often the viewer may open another one.
 
 use ash::vk;
 use gpc::render::RenderError;
 use gpc::vulkan::VulkanError;
 use std::time::{Duration, Instant};
 
-/// Largest number of devices that may be lost within [`WHILE`] before the viewer gives up.
+/// Number of devices that may be lost within [`WHILE`]; after one more, the viewer gives up.
 const MOST: usize = 3;
 const WHILE: Duration = Duration::from_secs(60);
 
@@ -14,7 +14,7 @@ const WHILE: Duration = Duration::from_secs(60);
 pub struct Losses(Vec<Instant>);
 
 impl Losses {
-    /// Books a loss. Says whether to try another device.
+    /// Records the loss of a device. Returns whether to open another one.
     pub fn book(&mut self, now: Instant) -> bool {
         self.0.retain(|then| now.duration_since(*then) < WHILE);
         self.0.push(now);
@@ -22,7 +22,7 @@ impl Losses {
     }
 }
 
-/// Whether an error says that the device is lost, or the window's surface, which is lost together with it.
+/// Whether an error is a lost device, or the loss of the window's surface that comes with it.
 pub fn is_lost(error: &anyhow::Error) -> bool {
     error.chain().any(|cause| {
         let vulkan = match cause.downcast_ref::<RenderError>() {

@@ -1,7 +1,7 @@
-//! `gpc view`: a window in which a scene is looked at.
+//! `gpc view`: a window for looking at a scene.
 //!
-//! The viewer is a host like any other. It uses the public interface of the library alone: its own device and swapchain,
-//! the renderer's passes recorded into its own command buffers, and its panel drawn over what they made.
+//! The viewer is a host like any other. It uses the library's public interface alone: it has its own device and
+//! swapchain, records the renderer's passes into its own command buffers, and draws its panel over the result.
 
 mod actions;
 mod app;
@@ -64,7 +64,7 @@ pub struct Options {
     pub source: Source,
     /// Other files and folders that the arrow keys go to.
     pub others: Vec<PathBuf>,
-    /// Standpoint in the first scene at the start.
+    /// Standpoint at the start, in the first scene.
     pub start: Start,
     /// Appearance of scenes beyond what their files say.
     pub appearance: Appearance,
@@ -72,21 +72,21 @@ pub struct Options {
     pub appearance_options: Vec<String>,
     /// Antialiasing, and the size of the window.
     pub look: Look,
-    /// Whether the scene's environment is seen behind it, at rest.
+    /// Whether the scene's environment is the background while nothing moves.
     pub shows_environment: bool,
-    /// Options for opening devices: the window's, and those that write files.
+    /// Options for opening the window's device and the one that writes files.
     pub device: HeadlessOptions,
-    /// Puts errors into words.
+    /// Function that turns an error into a message.
     pub describe: fn(&anyhow::Error) -> String,
 }
 
-/// Lack of a display to open a window on.
+/// Error: no display to open a window on.
 #[derive(Debug, thiserror::Error)]
 #[error("no window can be opened: {0}. Without a display, gpc render writes images to files")]
 pub struct NoDisplay(String);
 
 impl NoDisplay {
-    /// Makes the error of winit's message, without the line of winit's source that it names.
+    /// Makes the error from winit's message, without the source line of winit that the message names.
     fn new(error: &dyn std::error::Error) -> Self {
         let said = error.to_string();
         let reason = match said.split_once("os error at ") {
@@ -102,8 +102,8 @@ impl NoDisplay {
 /// Opens the window, and returns when it is closed.
 ///
 /// # Errors
-/// [`NoDisplay`] where there is no display, [`gpc::vulkan::VulkanError`] where no device can show pictures in the window;
-/// what the validation layer said, where it was asked.
+/// [`NoDisplay`] if there is no display, [`gpc::vulkan::VulkanError`] if no device can present pictures in the window;
+/// the messages of the validation layer, if it is on.
 pub fn run(options: Options) -> anyhow::Result<()> {
     heap::share();
     let events = EventLoop::with_user_event()

@@ -12,16 +12,16 @@ use gpc::camera::{Camera, Pinhole};
 use std::time::Instant;
 use winit::event::MouseButton;
 
-/// Factor by which a notch of the wheel brings things nearer.
+/// Zoom factor of one notch of the wheel.
 pub const NOTCH: f64 = 1.15;
-/// Pixels of a touchpad or of a drag, on an ordinary display, that count as a notch.
+/// Pixels of a touchpad or of a drag that count as one notch, at a scale factor of 1.
 const PIXELS_A_NOTCH: f64 = 40.0;
-/// Pixels of an ordinary display from the line of a split at which it is taken hold of.
+/// Largest distance of the pointer from the line of a split that takes hold of it, in pixels at a scale factor of 1.
 const GRIP: f64 = 6.0;
 
 /// Zoom factor of a pinch; `delta` is the change of the fingers' distance as a share of that distance.
 pub fn pinched(delta: f64) -> f64 {
-    // Some systems end a gesture with a number that is none.
+    // Some systems end a gesture with NaN.
     if delta.is_finite() {
         (1.0 + delta).clamp(0.5, 2.0)
     } else {
@@ -30,7 +30,7 @@ pub fn pinched(delta: f64) -> f64 {
 }
 
 impl Viewer {
-    /// Moves to another place.
+    /// Changes the standpoint.
     pub fn go(&mut self, change: impl FnOnce(&mut Turntable)) {
         if let Some(bounds) = self.canvas.stage().map(|stage| stage.bounds) {
             let mut standpoint = self.standpoint;
@@ -40,13 +40,13 @@ impl Viewer {
         }
     }
 
-    /// Renders everything again.
+    /// Renders all pictures anew.
     pub fn restart(&mut self) {
         self.canvas.restart(Instant::now());
         self.view_changed();
     }
 
-    /// Changes the lenses, where there are any. Says whether there are.
+    /// Changes the active lens. Returns whether there is one.
     pub fn change_lens(&mut self, change: impl FnOnce(&mut Lenses)) -> bool {
         if self.cover.lenses.regions().is_empty() {
             return false;
@@ -56,7 +56,7 @@ impl Viewer {
         true
     }
 
-    /// Shows another part of the photograph, where there is one. Says whether there is.
+    /// Changes the visible part of the photograph. Returns whether there is a photograph.
     pub fn reframe(&mut self, change: impl FnOnce(&mut Framing)) -> bool {
         let Some(easel) = &mut self.easel else {
             return false;
@@ -66,7 +66,7 @@ impl Viewer {
         true
     }
 
-    /// Place of the picture, in pixels of the photograph if one is shown, under a place of the window.
+    /// Place in the picture, or in the photograph if one is shown, under a place of the window; all in pixels.
     pub fn plane_place(&self, pointer: DVec2) -> DVec2 {
         match &self.easel {
             Some(easel) => easel.framing.place(pointer),
@@ -125,17 +125,17 @@ impl Viewer {
         }
     }
 
-    /// Notches of a wheel that a touchpad's or a drag's pixels stand for.
+    /// Notches of a wheel that equal a number of pixels of a touchpad or drag.
     pub fn notches(&self, pixels: f64) -> f64 {
         pixels / (PIXELS_A_NOTCH * self.window.scale_factor())
     }
 
-    /// Pixels of a touchpad that notches of a wheel stand for.
+    /// Pixels of a touchpad that equal a number of notches of a wheel.
     pub fn pixels_of_notches(&self, notches: DVec2) -> DVec2 {
         notches * (PIXELS_A_NOTCH * self.window.scale_factor())
     }
 
-    /// Enlarges what the wheel is for: the lens, the speed of flying, or what is under the pointer.
+    /// Enlarges by a factor: the active lens, the speed of flying, or otherwise the view at the pointer.
     pub fn wheel(&mut self, factor: f64) {
         if self.change_lens(|lenses| lenses.enlarge(factor)) {
             return;
@@ -151,7 +151,7 @@ impl Viewer {
         self.is_dirty = true;
     }
 
-    /// Begins or ends flying.
+    /// Starts or ends flying.
     pub fn toggle_flight(&mut self) {
         self.flight = match (&self.flight, self.canvas.stage()) {
             (None, Some(stage)) => {
@@ -166,7 +166,7 @@ impl Viewer {
         });
     }
 
-    /// Moves the eye to where it has flown until now.
+    /// Moves the eye along the flight up to `now`.
     pub fn fly(&mut self, now: Instant) {
         if let Some(flight) = self.flight.as_mut().filter(|flight| flight.is_moving()) {
             let by = flight.advance(now);
@@ -174,7 +174,7 @@ impl Viewer {
         }
     }
 
-    /// Comes nearer to what is at a place in the window.
+    /// Zooms by a factor; what is at `place` in the window stays there.
     fn zoom(&mut self, factor: f64, place: DVec2) {
         if self.reframe(|framing| framing.zoom(factor, place)) {
             return;
@@ -184,7 +184,7 @@ impl Viewer {
         self.go(|turntable| turntable.zoom(factor, pointer, height));
     }
 
-    /// Brings what is under the pointer into the middle.
+    /// Turns so that the point under the pointer comes into the middle.
     fn recentre(&mut self) {
         let Some(stage) = self.canvas.stage() else {
             return;

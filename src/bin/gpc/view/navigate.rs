@@ -1,21 +1,21 @@
-//! Moving about a scene: a turntable around a point, with the vertical axis upright.
+//! Navigation about a scene: a turntable around a target, with the vertical axis upright.
 
 use glam::{DVec2, DVec3};
 use gpc::camera::{Camera, CameraError, Orbit, Projection, Viewpoint};
 
-/// Degrees that dragging over the height of the image turns by.
+/// Degrees of a turn by a drag over the height of the image.
 const DEGREES_A_HEIGHT: f64 = 180.0;
-/// Straight up and down have no sideways; this is as near as the camera gets.
+/// Largest elevation in degrees: seen straight from above or below, a turntable has no sideways direction.
 const STEEPEST: f64 = 89.99;
 
-/// Standpoint of a camera at a distance from a target, at the angles of [`Orbit`].
+/// Standpoint of a camera at a distance from its target, with the angles of [`Orbit`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turntable {
-    /// Point that stays in the middle while the camera turns.
+    /// Point that stays in the middle of the image while the camera turns.
     pub target: DVec3,
-    /// Degrees around the vertical axis; 0 looks along -z, 90 along -x.
+    /// Angle around the vertical axis in degrees; 0 looks along -z, 90 along -x.
     pub azimuth: f64,
-    /// Degrees above the horizon.
+    /// Angle above the horizon in degrees.
     pub elevation: f64,
     /// Distance from eye to target.
     pub distance: f64,
@@ -23,10 +23,10 @@ pub struct Turntable {
     pub fov: f64,
 }
 
-/// The box around a scene.
+/// The box around a scene: lower and upper corner.
 pub type Bounds = (DVec3, DVec3);
 
-/// Directions to look from that have a key.
+/// Directions of view that have a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     Front,
@@ -36,7 +36,7 @@ pub enum Side {
 }
 
 impl Side {
-    /// Azimuth and elevation.
+    /// Azimuth and elevation of the direction in degrees.
     fn angles(self) -> (f64, f64) {
         match self {
             Self::Front => (0.0, 0.0),
@@ -48,7 +48,7 @@ impl Side {
 }
 
 impl Turntable {
-    /// Sees all of a scene from the default direction, in an image of `aspect` = width / height.
+    /// Turntable that sees all of a scene from the default direction, in an image of `aspect` = width / height.
     pub fn fitting(bounds: Bounds, aspect: f64) -> Self {
         let default = Orbit::default();
         let mut turntable = Self {
@@ -62,8 +62,9 @@ impl Turntable {
         turntable
     }
 
-    /// Stands where a camera does, upright, and turns about what is abreast of a scene's centre on its axis. In place of a
-    /// camera with parallel lines of sight it stands where the target looks as large.
+    /// Turntable at a camera's position, upright. Its target is the point on the camera's axis that is nearest to the
+    /// scene's centre. An orthographic camera is replaced by one at the distance from which the target has the same
+    /// size.
     pub fn of_camera(camera: &Camera, (low, high): Bounds) -> Self {
         let direction = camera.direction();
         let ahead = (0.5 * (low + high) - camera.eye).dot(direction);
@@ -89,10 +90,10 @@ impl Turntable {
         .clamped()
     }
 
-    /// Stands where a viewpoint does, upright, and turns about its target.
+    /// Turntable at a viewpoint, upright, with the viewpoint's target.
     ///
     /// # Errors
-    /// If it looks nowhere.
+    /// If eye and target coincide, or the field of view is out of range.
     pub fn of_viewpoint(viewpoint: &Viewpoint, bounds: Bounds) -> Result<Self, CameraError> {
         let camera = viewpoint.frame(bounds.0, bounds.1)?;
         Ok(Self {
@@ -102,10 +103,10 @@ impl Turntable {
         })
     }
 
-    /// Sees a scene as an orbit does, in an image of `aspect` = width / height.
+    /// Turntable that sees a scene as an orbit does, in an image of `aspect` = width / height.
     ///
     /// # Errors
-    /// If its angles or its field of view are impossible.
+    /// If the orbit's angles or its field of view are out of range.
     pub fn of_orbit(orbit: &Orbit, bounds: Bounds, aspect: f64) -> Result<Self, CameraError> {
         let camera = orbit.frame(bounds.0, bounds.1, aspect)?;
         let target = 0.5 * (bounds.0 + bounds.1);
@@ -116,7 +117,7 @@ impl Turntable {
         })
     }
 
-    /// Place and target for a camera.
+    /// The eye, target and field of view for a camera.
     pub fn viewpoint(&self) -> Viewpoint {
         Viewpoint {
             eye: self.target + self.distance * self.backward(),
@@ -126,14 +127,14 @@ impl Turntable {
         }
     }
 
-    /// Moves back or forth until all of a scene is seen, in the same direction.
+    /// Changes the distance until all of a scene is in view, in the same direction.
     pub fn fit(&mut self, bounds: Bounds, aspect: f64) {
         let orbit = Orbit {
             fov: self.fov,
             ..Orbit::default()
         };
         self.target = 0.5 * (bounds.0 + bounds.1);
-        // Angles and field of view are in range, so that there is a camera.
+        // Angles and field of view of a turntable are always in range.
         if let Ok(camera) = orbit.frame(bounds.0, bounds.1, aspect) {
             self.distance = (camera.eye - self.target).length();
         }
@@ -144,22 +145,22 @@ impl Turntable {
         (self.azimuth, self.elevation) = side.angles();
     }
 
-    /// Turns by a drag in pixels of an image of that height: what is under the pointer follows it.
+    /// Turns by a drag in pixels of an image of height `height`, so that the near side follows the pointer.
     pub fn orbit(&mut self, drag: DVec2, height: f64) {
         self.azimuth = (self.azimuth - drag.x / height * DEGREES_A_HEIGHT).rem_euclid(360.0);
         self.elevation += drag.y / height * DEGREES_A_HEIGHT;
         *self = self.clamped();
     }
 
-    /// Moves eye and target alike by a drag in pixels: what lies at the target's distance stays under the pointer.
+    /// Moves eye and target by a drag in pixels, so that points at the target's distance follow the pointer.
     pub fn pan(&mut self, drag: DVec2, height: f64) {
         let (right, up) = self.across();
         let pixel = 2.0 * self.half_height() / height;
         self.target += pixel * (drag.y * up - drag.x * right);
     }
 
-    /// Comes nearer by a factor, or draws back from below 1. What lies at the target's distance under the pointer stays
-    /// there; `pointer` is in pixels from the middle of an image of that height, y down.
+    /// Divides the distance by a factor. The point at the target's distance under the pointer stays there; `pointer`
+    /// is in pixels from the middle of an image of height `height`, y down.
     pub fn zoom(&mut self, factor: f64, pointer: DVec2, height: f64) {
         let (right, up) = self.across();
         let pixel = 2.0 * self.half_height() / height;
@@ -168,22 +169,23 @@ impl Turntable {
         self.distance /= factor;
     }
 
-    /// Turns so that a point comes into the middle, from the same place.
+    /// Moves eye and target so that a point comes into the middle, in the same direction of view.
     pub fn recentre(&mut self, point: DVec3) {
         let shift = point - self.target;
-        // The eye moves along with the target, abreast; its distance to the point becomes the turntable's.
+        // The eye moves sideways only, so that its distance changes by the difference of depth.
         let deeper = -shift.dot(self.backward());
         self.target = point;
         self.distance = (self.distance + deeper).max(1e-6 * self.distance);
     }
 
-    /// Moves eye and target alike: right, up and forward.
+    /// Moves eye and target: right, up and forward, in units of the scene.
     pub fn fly(&mut self, by: DVec3) {
         let (right, up) = self.across();
         self.target += by.x * right + by.y * up - by.z * self.backward();
     }
 
-    /// Turns the eye by a drag in pixels of an image of that height, where it stands: what is under the pointer follows it.
+    /// Turns the camera about its eye by a drag in pixels of an image of height `height`, so that the image follows
+    /// the pointer.
     pub fn look(&mut self, drag: DVec2, height: f64) {
         let eye = self.target + self.distance * self.backward();
         let turn = self.fov / height * drag;
@@ -193,7 +195,7 @@ impl Turntable {
         self.target = eye - self.distance * self.backward();
     }
 
-    /// Half of the height that the image shows at the target's distance, in units of the scene.
+    /// Half of the image's height at the target's distance, in units of the scene.
     fn half_height(&self) -> f64 {
         self.distance * (0.5 * self.fov.to_radians()).tan()
     }
@@ -208,7 +210,7 @@ impl Turntable {
         )
     }
 
-    /// Right and up in the image.
+    /// Unit vectors to the right and up in the image.
     fn across(&self) -> (DVec3, DVec3) {
         let back = self.backward();
         let right = DVec3::Y.cross(back).normalize();
@@ -234,7 +236,7 @@ mod tests {
         turntable.viewpoint().frame(BOUNDS.0, BOUNDS.1).unwrap()
     }
 
-    /// Pixels from the middle of the image, y down.
+    /// Place of a point in the image: pixels from its middle, y down.
     fn seen(turntable: &Turntable, point: DVec3) -> DVec2 {
         let matrix = camera(turntable).pixel_matrix(DVec3::ZERO, SIZE[0], SIZE[1]);
         let clip = matrix * point.extend(1.0);
@@ -302,7 +304,7 @@ mod tests {
         let (right, up) = before.across();
         let expected = 0.1 * right + 0.2 * up - 0.3 * before.backward();
         assert!((moved - expected).length() < 1e-9);
-        // A small drag takes what is in the middle along.
+        // A small drag moves the middle of the image along.
         let mut after = before;
         after.look(DVec2::new(4.0, -3.0), SIZE[1]);
         assert!((after.viewpoint().eye - before.viewpoint().eye).length() < 1e-9);

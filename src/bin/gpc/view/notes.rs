@@ -2,18 +2,18 @@
 
 use std::time::{Duration, Instant};
 
-/// Notes are seen for this long; errors until something else is asked for.
+/// Time for which a note is shown. Errors stay until the user asks for something else.
 const SEEN: Duration = Duration::from_secs(6);
 
-/// Sentences in the window.
+/// Notes in the window.
 #[derive(Debug)]
 pub struct Notes {
     notes: Vec<Note>,
-    /// Puts errors into words.
+    /// Function that turns an error into a message.
     describe: fn(&anyhow::Error) -> String,
 }
 
-/// A sentence in the window.
+/// A note in the window.
 #[derive(Debug)]
 pub struct Note {
     pub text: String,
@@ -29,7 +29,7 @@ impl Notes {
         }
     }
 
-    /// Says something, in the window and on standard error. What is said again is seen once.
+    /// Shows a note in the window and logs it. A note that is repeated is shown once.
     pub fn say(&mut self, text: impl Into<String>) {
         let text = text.into();
         log::info!("{text}");
@@ -37,7 +37,7 @@ impl Notes {
         self.add(text, false);
     }
 
-    /// Says what went wrong, once.
+    /// Shows an error and logs it, once.
     pub fn fail(&mut self, error: &anyhow::Error) {
         let text = (self.describe)(error);
         if !self
@@ -58,12 +58,12 @@ impl Notes {
         });
     }
 
-    /// Forgets errors.
+    /// Removes errors.
     pub fn clear_errors(&mut self) {
         self.notes.retain(|note| !note.is_error);
     }
 
-    /// Notes that are shown now.
+    /// Notes to show now.
     pub fn seen(&mut self, now: Instant) -> &[Note] {
         self.notes
             .retain(|note| note.is_error || now < note.since + SEEN);

@@ -1,4 +1,4 @@
-//! Loading what is looked at, in the background.
+//! Loading of files in the background.
 
 use super::app::Event;
 use super::photo::{Easel, Photo};
@@ -11,25 +11,25 @@ use super::window::Viewer;
 use std::path::Path;
 use std::time::Instant;
 
-/// File that is being loaded.
+/// A file that is being loaded.
 pub struct Loading {
     number: u64,
     pub source: Source,
     pub since: Instant,
     pub progress: Progress,
-    /// Whether the scene is seen from the standpoint of the scene before it.
+    /// Whether the new scene is seen from the standpoint of the scene before it.
     pub keeps_view: bool,
 }
 
 impl Drop for Loading {
-    /// Nobody waits for it any more.
+    /// Cancels the loading, whose result is no longer wanted.
     fn drop(&mut self) {
         self.progress.cancel();
     }
 }
 
 impl Viewer {
-    /// Loads what was asked for, in the background.
+    /// Starts to load the requested source in the background.
     pub fn load(&mut self, keeps_view: bool) {
         let source = self.source.clone();
         self.loads += 1;
@@ -52,23 +52,23 @@ impl Viewer {
         self.loaders.retain(|loader| !loader.is_finished());
         self.loaders.push(std::thread::spawn(move || {
             let opened = source.open(engine, &appearance, max_memory, &progress);
-            // Nobody waits for it once the window is closed.
+            // An error means that the window is closed and that the result is no longer needed.
             let _ = proxy.send_event(Event::Opened(number, Box::new(opened)));
         }));
     }
 
-    /// Whether what was asked for is shown, as it is now or as it was.
+    /// Whether the requested source is shown; a version from before the file changed counts too.
     pub fn shows_source(&self) -> bool {
         let scene = self.canvas.stage().map(|stage| &stage.source.path);
         let photo = self.easel.as_ref().map(|easel| &easel.photo.path);
         scene.or(photo) == Some(&self.source.path)
     }
 
-    /// Watches the file, whether it can be loaded or not.
+    /// Watches a file for changes, even one that can't be loaded.
     fn watch(&mut self, path: &Path) {
         let proxy = self.proxy.clone();
         let watch = Watch::new(path, move || {
-            // Nobody waits for it once the window is closed.
+            // An error means that the window is closed and that the message is no longer needed.
             let _ = proxy.send_event(Event::Changed);
         });
         if let Err(error) = &watch {
@@ -77,9 +77,9 @@ impl Viewer {
         self.watch = watch.ok();
     }
 
-    /// Takes what was loaded.
+    /// Takes the result of loading; `number` is that of the request.
     pub fn opened(&mut self, number: u64, opened: anyhow::Result<Opened>) -> anyhow::Result<()> {
-        // Another one was asked for meanwhile, or none.
+        // Another file was requested meanwhile, or the request was cancelled.
         let Some(loading) = self.loading.take_if(|loading| loading.number == number) else {
             return Ok(());
         };
@@ -150,7 +150,7 @@ impl Viewer {
         self.view_changed();
     }
 
-    /// Switches between scenes and photographs, whose lenses are not at the same places.
+    /// Shows a photograph or returns to the scene. Lenses are removed, because their places mean nothing in the other.
     fn set_easel(&mut self, easel: Option<Easel>) {
         if easel.is_some() != self.easel.is_some() {
             self.cover = self.cover.cleared(easel.is_some());

@@ -1,4 +1,4 @@
-//! Orders for pictures that are shown instead of frames.
+//! Orders for pictures that cover the frames.
 
 use super::cover::Cover;
 use super::picture::Picture;
@@ -7,17 +7,17 @@ use super::worker::{Pixels, SceneTask, Subject, Task};
 use std::time::Instant;
 
 impl Viewer {
-    /// Drops pictures of the previous view, and orders them anew.
+    /// Discards covers of the previous view, and orders new ones.
     pub fn view_changed(&mut self) {
         self.is_dirty = true;
-        // A photograph has no frames to be seen meanwhile.
+        // A photograph has no frames to show meanwhile, so that its old cover stays.
         if !self.cover.is_photo {
             self.canvas.set_cover(None);
         }
         self.begin_cover(true);
     }
 
-    /// Asks for another cover of the same view, or for none.
+    /// Orders another cover of the same view, or removes the cover if none is needed.
     pub fn cover_changed(&mut self) {
         self.is_dirty = true;
         self.canvas.refines = !self.cover.is_wanted();
@@ -27,7 +27,7 @@ impl Viewer {
         self.begin_cover(false);
     }
 
-    /// Shows what the worker has made.
+    /// Shows a picture that the worker has made.
     pub fn show_made(&mut self, number: u64, pixels: &Pixels) -> anyhow::Result<()> {
         let arrival = self.cover.arrived(number, Instant::now());
         if arrival.is_shown {
@@ -49,7 +49,7 @@ impl Viewer {
         self.order_cover(|cover| cover.begin(view_changed, asked));
     }
 
-    /// Orders the next one, which has waited.
+    /// Orders the next picture, for which the cover has waited.
     pub fn refine_cover(&mut self) {
         self.order_cover(Cover::refine);
     }
@@ -75,7 +75,7 @@ impl Viewer {
         }
     }
 
-    /// Asks the worker for a picture of the visible scene, antialiased like the picture under the pointer.
+    /// Orders a picture of the visible scene from the worker, with the antialiasing of the picture under the pointer.
     pub fn order(&mut self, number: u64, samples: u32, subject: Subject) {
         let Some(stage) = self.canvas.stage() else {
             return;

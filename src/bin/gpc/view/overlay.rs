@@ -1,24 +1,24 @@
-//! Overlays: values of pixels that are shown instead of their colours.
+//! Overlays: values of pixels, shown instead of colours.
 
 use gpc::compare::heat_color;
 use gpc::output::AovKind;
 
-/// Values that are shown instead of colours.
+/// Kind of value that is shown instead of colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Overlay {
     /// Values of an AOV, as `gpc render --aov` writes them.
     Stored(AovKind),
     /// Number of triangles in a pixel.
     Triangles,
-    /// Distance of a pixel's colour from that of brute force.
+    /// Difference between a pixel's colour and that of supersampling.
     Error,
 }
 
-/// Samples along a side of a pixel that triangles are counted at.
+/// Side of the grid of samples in a pixel at which triangles are counted.
 pub const COUNT_SIDE: u32 = 4;
-/// Largest number of triangles that the samples can tell apart, at the top of the scale.
+/// Largest number of triangles that these samples can tell apart: the top of the scale.
 const MOST_TRIANGLES: u32 = COUNT_SIDE * COUNT_SIDE;
-/// Differences at the top of their scale, in 8-bit code values.
+/// Difference at the top of the scale, in 8-bit code values.
 const LARGEST_ERROR: u8 = 16;
 
 impl Overlay {
@@ -40,18 +40,18 @@ impl Overlay {
         }
     }
 
-    /// The one after this, and none after the last; the first after none.
+    /// The overlay after `current`, or `None` after the last. `None` is followed by the first overlay.
     pub fn next(current: Option<Self>) -> Option<Self> {
         let index = current.and_then(|current| Self::ALL.iter().position(|one| *one == current));
         Self::ALL.get(index.map_or(0, |index| index + 1)).copied()
     }
 
-    /// Whether the overlay makes sense only with all samples.
+    /// Whether the overlay needs all samples at once, so that no quick preview is made.
     pub fn needs_all_samples(self) -> bool {
         matches!(self, Self::Triangles | Self::Error)
     }
 
-    /// Legend of the colours: places on the scale, 0 to 1, and their labels.
+    /// Legend of the colours: places on the scale from 0 to 1, with labels.
     pub fn scale(self) -> &'static [(f64, &'static str)] {
         match self {
             Self::Stored(_) => &[],
@@ -73,7 +73,7 @@ impl Overlay {
     }
 }
 
-/// The colour of a pixel whose samples see triangles of these IDs, 0 none.
+/// Colour for the number of triangles in a pixel. `ids` are the triangle IDs of its samples, 0 for none.
 pub fn triangles(ids: &mut [u32]) -> [u8; 4] {
     ids.sort_unstable();
     let mut distinct = 0;
@@ -90,7 +90,7 @@ pub fn triangles(ids: &mut [u32]) -> [u8; 4] {
     ))
 }
 
-/// The colour of the largest difference of two pixels' channels.
+/// Colour for the largest difference of two pixels' channels.
 pub fn error(first: [u8; 4], second: [u8; 4]) -> [u8; 4] {
     let differences = first.iter().zip(second).map(|(a, b)| a.abs_diff(b));
     let largest = differences.max().unwrap_or(0);

@@ -1,4 +1,4 @@
-//! The panel over the picture: egui, drawn in the viewer's command buffers.
+//! Drawing of the panel: egui's layout, recorded into the viewer's command buffers.
 
 use super::device::Device;
 use super::slot::SLOTS;
@@ -7,14 +7,14 @@ use egui_ash_renderer::{DynamicRendering, Options, Renderer, RendererError};
 use gpc::vulkan::VulkanError;
 use std::sync::Arc;
 
-/// Draws what egui lays out.
+/// Renderer of egui's layouts.
 pub struct Painter {
     renderer: Renderer,
     pool: vk::CommandPool,
     device: Arc<Device>,
 }
 
-/// Layout of egui, ready to be drawn.
+/// A layout of egui that is ready to be drawn.
 pub struct Painting {
     pub textures: egui::TexturesDelta,
     pub primitives: Vec<egui::ClippedPrimitive>,
@@ -22,7 +22,7 @@ pub struct Painting {
 }
 
 impl Painter {
-    /// Makes a painter for images of a format.
+    /// Makes a painter for images in this format.
     pub fn new(device: &Arc<Device>, format: vk::Format) -> anyhow::Result<Self> {
         let renderer = Renderer::with_gpu_allocator(
             device.allocator()?,
@@ -47,8 +47,8 @@ impl Painter {
         })
     }
 
-    /// Uploads textures that changed, which waits for the device. Egui's first layout has the letters; later ones rarely
-    /// have any.
+    /// Uploads changed textures, and waits for the device. The letters come with egui's first layout; later layouts
+    /// rarely change a texture.
     pub fn upload(&mut self, painting: &Painting) -> anyhow::Result<()> {
         let changed = &painting.textures.set;
         if !changed.is_empty() {
@@ -60,16 +60,16 @@ impl Painter {
         Ok(())
     }
 
-    /// Frees textures that no commands use any more.
+    /// Frees textures that no commands use any longer.
     pub fn free(&mut self, textures: &[egui::TextureId]) -> anyhow::Result<()> {
         self.renderer.free_textures(textures).map_err(failure)
     }
 
-    /// Records drawing over an image, which is a colour attachment before and after.
+    /// Records the drawing over an image, which is a colour attachment before and after.
     ///
     /// # Safety
-    /// `commands` is being recorded for the device outside of a render pass, in the slot whose turn it is; the view, of
-    /// that size, outlives their execution.
+    /// `commands` is being recorded for the device outside of a render pass, in the slot whose turn it is. `view`
+    /// belongs to an image of this size and outlives the execution of the commands.
     pub unsafe fn record(
         &mut self,
         commands: vk::CommandBuffer,
@@ -85,7 +85,7 @@ impl Painter {
             .render_area(extent.into())
             .layer_count(1)
             .color_attachments(&attachments);
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         unsafe { self.device.handle.cmd_begin_rendering(commands, &info) };
         let drawn = self.renderer.cmd_draw(
             commands,
@@ -99,7 +99,7 @@ impl Painter {
     }
 }
 
-/// Converts an error of the panel's renderer, so that a lost device is recognised.
+/// Converts an error of egui's renderer, so that a lost device is recognised.
 fn failure(error: RendererError) -> anyhow::Error {
     match error {
         RendererError::Vulkan(result) => VulkanError::of("drawing the panel")(result).into(),
@@ -110,7 +110,7 @@ fn failure(error: RendererError) -> anyhow::Error {
 impl Drop for Painter {
     fn drop(&mut self) {
         self.device.wait();
-        // SAFETY: nothing is executed any more.
+        // SAFETY: no commands of the pool are being executed.
         unsafe { self.device.handle.destroy_command_pool(self.pool, None) };
     }
 }

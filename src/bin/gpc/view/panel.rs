@@ -1,4 +1,4 @@
-//! Panel, notes and list of keys, which lie over the picture.
+//! Panel, notes and list of keys, drawn over the picture.
 
 use super::keys::{self, Action};
 use super::lens::Lenses;
@@ -13,7 +13,7 @@ use gpc::sampling::Pattern;
 use gpc::scene::AnimationInfo;
 use std::time::Duration;
 
-/// Facts that the panel shows.
+/// State that the panel shows.
 pub struct Facts<'a> {
     pub notes: &'a [Note],
     pub loading: Option<LoadingFacts<'a>>,
@@ -22,29 +22,29 @@ pub struct Facts<'a> {
     /// Column of the split in pixels.
     pub split: Option<u32>,
     pub lenses: &'a Lenses,
-    /// Whether their transitions are coloured.
+    /// Whether the lenses' transitions are coloured.
     pub tints: bool,
     /// Overlay that is shown instead of colours.
     pub overlay: Option<Overlay>,
-    /// Figures about the overlay, in words.
+    /// Text about the overlay.
     pub figures: Option<&'a str>,
-    /// Whether a better picture is being made.
+    /// Whether a picture with more samples is being made.
     pub is_refining: bool,
     pub photo: Option<PhotoFacts>,
     pub scene: Option<SceneFacts<'a>>,
     pub pictures: Vec<PictureFacts<'a>>,
 }
 
-/// Facts about the file that is being loaded.
+/// State of the file that is being loaded.
 pub struct LoadingFacts<'a> {
     pub name: &'a str,
     pub since: Duration,
     pub step: &'static str,
-    /// Share of all the work that is done, 0 to 1.
+    /// Share of the loading that is done, 0 to 1.
     pub share: f32,
 }
 
-/// Facts about the photograph.
+/// Description of the photograph.
 pub struct PhotoFacts {
     pub name: String,
     /// Width and height in pixels.
@@ -53,52 +53,52 @@ pub struct PhotoFacts {
     pub is_zoomed: bool,
 }
 
-/// Facts about the scene.
+/// Description of the scene.
 pub struct SceneFacts<'a> {
     pub name: String,
     /// Warnings: parts of the file that can't be shown.
     pub warnings: &'a [String],
     pub triangles: u64,
-    /// Animations, the index of the one that is played, and its player; `None` if nothing moves.
+    /// Animations, the index of the one that is played, and its player; `None` without animations.
     pub motion: Option<(&'a [AnimationInfo], usize, &'a Player)>,
 }
 
-/// Facts about a picture.
+/// State of a picture.
 pub struct PictureFacts<'a> {
     pub look: &'a Look,
-    /// Samples a pixel of the picture that is shown, if all of its pixels have the same number.
+    /// Samples a pixel of the visible picture, if all of its pixels have the same number.
     pub shown: Option<u32>,
-    /// Whether the device has kernels for it.
+    /// Whether the device has compiled the picture's kernels.
     pub is_prepared: bool,
     pub statistics: &'a Statistics,
 }
 
-/// Changes that the user made in the panel.
+/// Changes that the user has asked for in the panel.
 #[derive(Default)]
 pub struct Wishes {
-    /// Antialiasing that a picture should have, and the picture's index.
+    /// Index of a picture, and the antialiasing that it should have.
     pub look: Option<(usize, Look)>,
-    /// Outline and transition of the lens at hand.
+    /// Outline and transition that the active lens should have.
     pub lens: Option<(Shape, Transition)>,
-    /// Action of a button, which a key could also ask for.
+    /// Action of a button, for which there is also a key.
     pub action: Option<Action>,
-    /// Overlay that should be shown; `Some(None)` for colours.
+    /// Overlay to show; `Some(None)` shows colours again.
     pub overlay: Option<Option<Overlay>>,
-    /// Moment of the animation in seconds.
+    /// Time of the animation to show, in seconds.
     pub time: Option<f64>,
-    /// Index of the animation.
+    /// Index of the animation to play.
     pub animation: Option<usize>,
-    /// Whether to toggle between playing and pausing.
+    /// Whether to switch between playing and pausing.
     pub toggles_play: bool,
-    /// Steps of the speed.
+    /// Number of steps by which to change the speed.
     pub speed_steps: i32,
 }
 
 const ERROR: egui::Color32 = egui::Color32::from_rgb(255, 140, 130);
-/// Thresholds that the panel offers.
+/// Largest contrast threshold that the panel offers, in 8-bit sRGB code values.
 const MOST_CONTRAST: u8 = 64;
 
-/// Lays everything out.
+/// Lays out panel, notes and lists, and returns what the user asked for.
 pub fn show(ctx: &egui::Context, facts: &Facts<'_>) -> Wishes {
     let mut wishes = Wishes::default();
     if let Some(column) = facts.split {
@@ -173,7 +173,7 @@ fn show_scene(ui: &mut egui::Ui, scene: &SceneFacts<'_>, facts: &Facts<'_>, wish
     }
 }
 
-/// Changes what is seen of pixels.
+/// Controls of the overlay.
 fn show_overlay(ui: &mut egui::Ui, facts: &Facts<'_>, wishes: &mut Wishes) {
     let name = |overlay: Option<Overlay>| overlay.map_or("colours", Overlay::name);
     egui::ComboBox::from_label("shown")
@@ -195,7 +195,7 @@ fn show_overlay(ui: &mut egui::Ui, facts: &Facts<'_>, wishes: &mut Wishes) {
     }
 }
 
-/// The colours of a heat map, and what they stand for.
+/// The colours of a heat map and their meaning.
 fn show_scale(ui: &mut egui::Ui, marks: &[(f64, &str)]) {
     const SIZE: egui::Vec2 = egui::vec2(200.0, 26.0);
     const BAR: f32 = 10.0;
@@ -221,7 +221,7 @@ fn show_scale(ui: &mut egui::Ui, marks: &[(f64, &str)]) {
     }
 }
 
-/// Changes the lens at hand, and how many there are.
+/// Controls of the lenses.
 fn show_lenses(ui: &mut egui::Ui, facts: &Facts<'_>, wishes: &mut Wishes) {
     let lenses = facts.lenses.regions();
     let Some(lens) = lenses.get(facts.lenses.active()) else {
@@ -297,7 +297,7 @@ fn show_player(
     }
 }
 
-/// Changes how a picture is antialiased.
+/// Controls of a picture's antialiasing.
 fn edit(ui: &mut egui::Ui, look: &mut Look) {
     ui.horizontal(|ui| {
         for method in [Method::Superpixel, Method::None, Method::Msaa, Method::Ssaa] {
@@ -314,7 +314,7 @@ fn edit(ui: &mut egui::Ui, look: &mut Look) {
         .selected_text(look.settings.samples.to_string())
         .show_ui(ui, |ui| {
             for samples in (0..=10).map(|exponent| 1 << exponent) {
-                // A device has most of these.
+                // Most devices have these numbers of samples.
                 let is_common = look.settings.method == Method::Msaa && samples <= 8;
                 if is_common || look.can_have(samples) {
                     ui.selectable_value(&mut look.settings.samples, samples, samples.to_string());
@@ -360,7 +360,7 @@ fn edit(ui: &mut egui::Ui, look: &mut Look) {
     });
 }
 
-/// Says what the picture took.
+/// Figures about the work that the picture took.
 fn show_figures(ui: &mut egui::Ui, picture: &PictureFacts<'_>) {
     let statistics = picture.statistics;
     match picture.shown {
@@ -431,7 +431,7 @@ fn show_notes(ctx: &egui::Context, facts: &Facts<'_>) {
 }
 
 fn show_keys(ctx: &egui::Context) {
-    // As much of the list as the window has room for.
+    // The list scrolls if it is higher than the window.
     const MARGIN: f32 = 48.0;
     let height = ctx.content_rect().height() - MARGIN;
     let area = egui::ScrollArea::vertical().min_scrolled_height(height);
@@ -450,7 +450,7 @@ fn show_keys(ctx: &egui::Context) {
     });
 }
 
-/// A window without a title or a handle.
+/// A small window without a title or a handle.
 fn overlay(id: &'static str, anchor: egui::Align2) -> egui::Window<'static> {
     let margin = egui::vec2(8.0, 8.0) * -anchor.to_sign();
     egui::Window::new(id)

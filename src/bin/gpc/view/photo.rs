@@ -1,4 +1,4 @@
-//! Photographs, and images that were zoomed: what of them is seen in the window.
+//! Photographs and zoomed images, and the part of them that the window shows.
 
 use super::tint::tinted;
 use anyhow::Context;
@@ -10,9 +10,9 @@ use gpc::resample::{Photograph, Zoomed};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Half of the side of the square that is unzoomed, as a share of the window's height.
+/// Half side of the square in which the image is unzoomed / height of the window.
 const LOUPE: f64 = 0.25;
-/// Largest enlargement of a photograph: pixels of the window for one of the photograph.
+/// Largest enlargement of a photograph, in pixels of the window for one pixel of the photograph.
 const MOST: f64 = 64.0;
 
 /// A photograph from a file.
@@ -44,7 +44,7 @@ impl Photo {
         })
     }
 
-    /// The pixels.
+    /// The image as a photograph.
     pub fn photograph(&self) -> &Photograph {
         match &self.image {
             Image::Plain(photograph) => photograph,
@@ -52,7 +52,7 @@ impl Photo {
         }
     }
 
-    /// The image with its map, where it was zoomed.
+    /// The image with its map, if `gpc zoom` made it.
     pub fn zoomed(&self) -> Option<&Zoomed> {
         match &self.image {
             Image::Plain(_) => None,
@@ -61,41 +61,42 @@ impl Photo {
     }
 }
 
-/// Part of a photograph that the window shows.
+/// The part of a photograph that the window shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Framing {
-    /// Place of the photograph at the window's upper left corner, in pixels of the photograph.
+    /// Place in the photograph at the window's upper left corner, in pixels of the photograph.
     corner: DVec2,
-    /// Pixels of the photograph for one of the window's.
+    /// Pixels of the photograph for one pixel of the window.
     step: f64,
 }
 
 impl Framing {
-    /// Shows a whole photograph in the middle of the window: pixel by pixel if there is room, otherwise smaller.
+    /// Framing of a whole photograph in the middle of the window: pixel for pixel if there is room, otherwise scaled
+    /// down.
     pub fn fitting(photograph: [u32; 2], window: [u32; 2]) -> Self {
         let [photograph, window] = [photograph, window].map(as_vector);
         let step = (photograph / window).max_element().max(1.0);
-        // Pixels on pixels where it is shown as it is.
+        // A whole number of pixels lets each pixel of the window show one of the photograph.
         let corner = (0.5 * (photograph - step * window)).floor();
         Self { corner, step }
     }
 
-    /// The place of the photograph under one of the window.
+    /// The place in the photograph under a place of the window.
     pub fn place(&self, pointer: DVec2) -> DVec2 {
         self.corner + self.step * pointer
     }
 
-    /// Pixels of the photograph for one of the window's.
+    /// Pixels of the photograph for one pixel of the window.
     pub fn step(&self) -> f64 {
         self.step
     }
 
-    /// Moves it by a drag in the window.
+    /// Moves the photograph by a drag in the window.
     pub fn pan(&mut self, drag: DVec2) {
         self.corner -= self.step * drag;
     }
 
-    /// Enlarges it by a factor around a place of the window.
+    /// Enlarges the photograph by a factor around a place of the window.
     pub fn zoom(&mut self, factor: f64, pointer: DVec2) {
         let fixed = self.place(pointer);
         self.step = (self.step / factor).clamp(1.0 / MOST, MOST);
@@ -111,12 +112,12 @@ impl Framing {
     }
 }
 
-/// A photograph in the window.
+/// A photograph that the window shows.
 #[derive(Clone, Debug)]
 pub struct Easel {
     pub photo: Arc<Photo>,
     pub framing: Framing,
-    /// Whether the image is unzoomed under the pointer.
+    /// Whether the image is unzoomed around the pointer.
     pub unzooms: bool,
 }
 
@@ -130,7 +131,7 @@ impl Easel {
         }
     }
 
-    /// Picture of the photograph for a window of `size` = [width, height].
+    /// Picture of the visible part, for a window of `size` = [width, height].
     pub fn view(
         &self,
         size: [u32; 2],
@@ -147,14 +148,14 @@ impl Easel {
         }
     }
 
-    /// Index of the zoomed region that the image has under a place of the window.
+    /// Index of the zoomed region under a place of the window, if there is one.
     pub fn region_at(&self, pointer: DVec2) -> Option<usize> {
         let place = self.framing.place(pointer);
         let regions = self.photo.zoomed()?.map().regions();
         regions.iter().position(|region| region.contains(place))
     }
 
-    /// Picture of the whole photograph, as `gpc zoom` makes it.
+    /// Picture of the whole photograph with lenses, as `gpc zoom` makes it.
     pub fn whole(&self, map: ZoomMap) -> PhotoView {
         PhotoView {
             photo: self.photo.clone(),
@@ -170,7 +171,7 @@ impl Easel {
     }
 }
 
-/// Picture to make of a photograph.
+/// A picture to make of a photograph.
 #[derive(Clone, Debug)]
 pub struct PhotoView {
     photo: Arc<Photo>,
@@ -178,7 +179,7 @@ pub struct PhotoView {
     /// Map of the lenses.
     pub map: Option<ZoomMap>,
     tints: bool,
-    /// The place of the window around which the image is unzoomed.
+    /// The place in the window around which the image is unzoomed.
     loupe: Option<DVec2>,
 }
 
@@ -189,8 +190,8 @@ impl PhotoView {
         photograph.resample(self.window.size, |place| self.look(place))
     }
 
-    /// Code of a pixel with what lies over it: black outside of the photograph, a tint, or the loupe's frame. `place`
-    /// is the pixel's centre.
+    /// `code` of a pixel with what lies over it: black outside of the photograph, a tint, or the frame of the loupe.
+    /// `place` is the pixel's centre.
     pub fn covered(&self, code: [u8; 4], place: DVec2) -> [u8; 4] {
         let plane = self.window.location(place);
         if let Some(distance) = self.outside_loupe(place)
@@ -212,7 +213,7 @@ impl PhotoView {
         }
     }
 
-    /// Location in the photograph at which a pixel of the window looks, and its Jacobian.
+    /// Location in the photograph that a place of the window shows, and its Jacobian.
     fn look(&self, place: DVec2) -> (DVec2, DMat2) {
         if let (Some((location, rate)), Some(zoomed)) = (self.unzoomed(place), self.photo.zoomed())
         {
@@ -226,8 +227,8 @@ impl PhotoView {
         }
     }
 
-    /// Location of the ordinary view for a place inside of the loupe, and the distance between its pixels. The loupe's
-    /// middle shows what the image shows there, as large.
+    /// Location in the ordinary view for a place inside of the loupe, and the distance between neighbouring pixels
+    /// there. The middle of the loupe shows the same as the image, in the same size.
     fn unzoomed(&self, place: DVec2) -> Option<(DVec2, f64)> {
         let (middle, zoomed) = (self.loupe?, self.photo.zoomed()?);
         if self.outside_loupe(place)? >= 0.0 {
@@ -238,7 +239,7 @@ impl PhotoView {
         Some((zoomed.map().location(plane) + rate * (place - middle), rate))
     }
 
-    /// Distance of a place from the loupe, below 0 inside; `None` without a loupe.
+    /// Distance of a place from the loupe's edge, negative inside; `None` without a loupe.
     fn outside_loupe(&self, place: DVec2) -> Option<f64> {
         let half = LOUPE * f64::from(self.window.size[1]);
         Some((place - self.loupe?).abs().max_element() - half)
@@ -267,7 +268,7 @@ mod tests {
         }
     }
 
-    /// A picture whose colours say where it looks.
+    /// A photograph whose colours are the locations of its pixels.
     fn easel(map: Option<&ZoomMap>) -> Easel {
         let places = (0..SIZE[1]).flat_map(|row| (0..SIZE[0]).map(move |col| (col, row)));
         let color = |(col, row): (u32, u32)| {
@@ -336,7 +337,7 @@ mod tests {
         easel.unzooms = true;
         let view = easel.view(SIZE, None, false, middle);
         let pixels = view.pixels();
-        // 7.5 pixels to each side, half a pixel of the plane each.
+        // The loupe reaches 7.5 pixels to each side; each pixel is half a pixel of the image plane.
         for place in [[20, 15], [15, 12], [26, 21]] {
             let [x, y] = place.map(|v| f64::from(v) + 0.5);
             let expected = middle + 0.5 * (DVec2::new(x, y) - middle);

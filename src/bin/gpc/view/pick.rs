@@ -1,10 +1,10 @@
-//! Triangle that a line of sight meets first.
+//! Picking: the triangle that a line of sight meets first.
 
 use glam::{DAffine3, DVec3};
 use gpc::camera::Ray;
 use gpc::scene::Geometry;
 
-/// First point of a triangle that a ray meets, from either side and with any alpha.
+/// First point at which a ray meets a triangle, from either side and whatever its alpha.
 pub fn first_hit(geometry: &Geometry, ray: &Ray) -> Option<DVec3> {
     let start = ray.start - geometry.origin;
     let meet = |triangles: std::ops::Range<usize>, place: DAffine3| {
@@ -35,7 +35,7 @@ pub fn first_hit(geometry: &Geometry, ray: &Ray) -> Option<DVec3> {
     nearest.map(|distance| ray.start + distance * ray.direction)
 }
 
-/// Distance from the start to a triangle, in lengths of the direction (Moeller and Trumbore, 1997).
+/// Distance along the ray to a triangle, in lengths of `direction` (Moeller and Trumbore, 1997).
 fn distance(start: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f64> {
     let (ab, ac) = (b - a, c - a);
     let p = direction.cross(ac);
@@ -45,7 +45,7 @@ fn distance(start: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f64
     let q = from.cross(ab);
     let v = scale * direction.dot(q);
     let t = scale * ac.dot(q);
-    // A triangle seen from its edge gives no finite numbers.
+    // For a triangle seen edge-on the numbers are infinite or NaN.
     (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 && t.is_finite()).then_some(t)
 }
 

@@ -1,4 +1,4 @@
-//! Images that the renderer writes and the window's images are copied from.
+//! Images that the renderer writes and that are copied to the window's images.
 
 use super::device::Device;
 use super::worker::Pixels;
@@ -10,7 +10,7 @@ use gpu_allocator::MemoryLocation;
 use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
 use std::sync::{Arc, PoisonError};
 
-/// Whole image of one level and one layer.
+/// Subresource range of an image with one level and one layer.
 pub const COLOR: vk::ImageSubresourceRange = vk::ImageSubresourceRange {
     aspect_mask: vk::ImageAspectFlags::COLOR,
     base_mip_level: 0,
@@ -19,7 +19,7 @@ pub const COLOR: vk::ImageSubresourceRange = vk::ImageSubresourceRange {
     layer_count: 1,
 };
 
-/// Whole image of one level and one layer, for copies.
+/// Subresource layers for copies of an image with one level and one layer.
 pub const LAYERS: vk::ImageSubresourceLayers = vk::ImageSubresourceLayers {
     aspect_mask: vk::ImageAspectFlags::COLOR,
     mip_level: 0,
@@ -27,39 +27,39 @@ pub const LAYERS: vk::ImageSubresourceLayers = vk::ImageSubresourceLayers {
     layer_count: 1,
 };
 
-/// State of an image from which is copied.
+/// State of an image as the source of copies.
 pub const SOURCE: ImageState = ImageState {
     layout: vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
     stage: vk::PipelineStageFlags2::ALL_TRANSFER,
     access: vk::AccessFlags2::TRANSFER_READ,
 };
 
-/// State of an image to which is copied.
+/// State of an image as the destination of copies.
 pub const DESTINATION: ImageState = ImageState {
     layout: vk::ImageLayout::TRANSFER_DST_OPTIMAL,
     stage: vk::PipelineStageFlags2::ALL_TRANSFER,
     access: vk::AccessFlags2::TRANSFER_WRITE,
 };
 
-/// State of an image whose contents are not needed, while copies from it may still run.
+/// State of an image whose contents are discarded, although copies from it may still be running.
 pub const UNUSED: ImageState = ImageState {
     layout: vk::ImageLayout::UNDEFINED,
     stage: vk::PipelineStageFlags2::ALL_TRANSFER,
     access: vk::AccessFlags2::NONE,
 };
 
-/// An image of sRGB codes with premultiplied alpha, in [`SOURCE`] between recordings once something was written.
+/// An image of sRGB codes with premultiplied alpha. Once written, it is in the state [`SOURCE`] between recordings.
 pub struct Picture {
     device: Arc<Device>,
     image: vk::Image,
     memory: Option<Allocation>,
     size: [u32; 2],
     is_written: bool,
-    /// Memory in which pixels of the host wait for their copy.
+    /// Memory with the host's pixels, until they are copied.
     staging: Option<Staging>,
 }
 
-/// Memory that the host has written.
+/// Memory that the host writes and the device copies from.
 struct Staging {
     device: Arc<Device>,
     buffer: vk::Buffer,
@@ -96,7 +96,7 @@ impl Picture {
         // SAFETY: the image was made from this device.
         let requirements = unsafe { device.handle.get_image_memory_requirements(image) };
         let memory = allocate(device, requirements, MemoryLocation::GpuOnly)?;
-        // SAFETY: the memory is the image's alone, and freed after it.
+        // SAFETY: the memory belongs to the image alone, and is freed after it.
         unsafe {
             device
                 .handle
@@ -107,14 +107,14 @@ impl Picture {
         Ok(picture)
     }
 
-    /// Holds these codes, once [`Self::record_pixels`] is executed.
+    /// Makes a picture of these codes, which it holds once [`Self::record_pixels`] has been executed.
     pub fn from_pixels(device: &Arc<Device>, pixels: &Pixels) -> anyhow::Result<Self> {
         let mut picture = Self::new(device, pixels.size)?;
         picture.staging = Some(Staging::new(device, pixels.codes.as_flattened())?);
         Ok(picture)
     }
 
-    /// Records the copy of pixels of the host, if any wait.
+    /// Records the copy of the host's pixels to the image, if they have not been copied.
     ///
     /// # Safety
     /// `commands` is being recorded for the device outside of a render pass; the picture outlives their execution.
@@ -130,7 +130,7 @@ impl Picture {
                 height: self.size[1],
                 depth: 1,
             })];
-        // SAFETY: passed on to the caller; the buffer has a code for each pixel, and what the host wrote before the
+        // SAFETY: guaranteed by the caller; the buffer has a code for each pixel, and what the host wrote before the
         // submission is visible to it.
         unsafe {
             change(&self.device, commands, self.image, UNUSED, DESTINATION);
@@ -155,12 +155,12 @@ impl Picture {
         self.image
     }
 
-    /// Whether there is anything to see.
+    /// Whether the image holds a picture.
     pub fn is_written(&self) -> bool {
         self.is_written
     }
 
-    /// Target for a renderer that replaces the whole picture.
+    /// Target for a renderer that overwrites the whole picture.
     pub fn target(&mut self) -> Target {
         self.is_written = true;
         Target::Image {
@@ -170,11 +170,11 @@ impl Picture {
         }
     }
 
-    /// Records a copy of all of another picture to rows of this one, from `first_row` on.
+    /// Records a copy of all of another picture to this one, from the row `first_row` on.
     ///
     /// # Safety
-    /// `commands` is being recorded for the device outside of a render pass; both pictures outlive their execution, and
-    /// the rows lie in this one.
+    /// `commands` is being recorded for the device outside of a render pass; both pictures outlive their execution,
+    /// and the rows lie in this picture.
     pub unsafe fn record_rows(&mut self, commands: vk::CommandBuffer, from: &Self, first_row: u32) {
         let before = if self.is_written { SOURCE } else { UNUSED };
         self.is_written = true;
@@ -191,7 +191,7 @@ impl Picture {
                 height: from.size[1],
                 depth: 1,
             })];
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         unsafe {
             change(&self.device, commands, self.image, before, DESTINATION);
             self.device.handle.cmd_copy_image(
@@ -224,7 +224,7 @@ impl Staging {
         let requirements = unsafe { device.handle.get_buffer_memory_requirements(buffer) };
         let memory = allocate(device, requirements, MemoryLocation::CpuToGpu)?;
         let memory = staging.memory.insert(memory);
-        // SAFETY: the memory is the buffer's alone, and freed after it.
+        // SAFETY: the memory belongs to the buffer alone, and is freed after it.
         unsafe {
             device
                 .handle
@@ -242,13 +242,13 @@ impl Staging {
 
 impl Drop for Staging {
     fn drop(&mut self) {
-        // SAFETY: whoever recorded commands with it keeps it until they are done.
+        // SAFETY: commands that use the buffer have run; whoever recorded them kept it until then.
         unsafe { self.device.handle.destroy_buffer(self.buffer, None) };
         free(&self.device, self.memory.take());
     }
 }
 
-/// Memory of the shared allocator.
+/// Allocates memory from the shared allocator.
 fn allocate(
     device: &Device,
     requirements: vk::MemoryRequirements,
@@ -275,16 +275,16 @@ fn allocate(
 fn free(device: &Device, memory: Option<Allocation>) {
     if let (Some(memory), Ok(allocator)) = (memory, device.allocator()) {
         let mut allocator = allocator.lock().unwrap_or_else(PoisonError::into_inner);
-        // Freeing fails only for an allocation of another allocator.
+        // Freeing fails only for memory of another allocator.
         let _ = allocator.free(memory);
     }
 }
 
-/// Records the change of an image from one state to another.
+/// Records the transition of an image from one state to another.
 ///
 /// # Safety
-/// `commands` is being recorded for the device outside of a render pass; the image outlives their execution and is in the
-/// first state, unless that is undefined.
+/// `commands` is being recorded for the device outside of a render pass; the image outlives their execution and is in
+/// the first state, unless that is undefined.
 pub unsafe fn change(
     device: &Device,
     commands: vk::CommandBuffer,
@@ -302,13 +302,13 @@ pub unsafe fn change(
         .image(image)
         .subresource_range(COLOR)];
     let info = vk::DependencyInfo::default().image_memory_barriers(&barriers);
-    // SAFETY: passed on to the caller.
+    // SAFETY: guaranteed by the caller.
     unsafe { device.handle.cmd_pipeline_barrier2(commands, &info) };
 }
 
 impl Drop for Picture {
     fn drop(&mut self) {
-        // SAFETY: whoever recorded commands with it keeps it until they are done.
+        // SAFETY: commands that use the image have run; whoever recorded them kept it until then.
         unsafe { self.device.handle.destroy_image(self.image, None) };
         free(&self.device, self.memory.take());
     }

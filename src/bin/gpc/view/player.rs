@@ -1,22 +1,22 @@
-//! The time of an animation: played, paused, moved by hand.
+//! Playback of an animation: playing, paused, or moved by hand.
 
 use std::time::Instant;
 
-/// Speeds that keys go through, of real time.
+/// Speeds that the keys select, in seconds of the animation a second.
 const SPEEDS: [f64; 7] = [0.125, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0];
 
-/// A time that runs from 0 to the end of an animation, and then again.
+/// Playback that runs from 0 to the end of an animation and then starts again.
 #[derive(Clone, Debug)]
 pub struct Player {
     time: f64,
     duration: f64,
     speed: f64,
-    /// Time at which the animation was last advanced, while it plays.
+    /// Time at which the animation was last advanced; `None` while it is paused.
     last: Option<Instant>,
 }
 
 impl Player {
-    /// Makes a paused player at a time of an animation, in seconds.
+    /// Makes a paused player at `time`; both are in seconds of the animation.
     pub fn new(time: f64, duration: f64) -> Self {
         Self {
             time,
@@ -26,27 +26,27 @@ impl Player {
         }
     }
 
-    /// Seconds from the animation's start.
+    /// Time of the animation in seconds.
     pub fn time(&self) -> f64 {
         self.time
     }
 
-    /// Seconds that the animation lasts.
+    /// Duration of the animation in seconds.
     pub fn duration(&self) -> f64 {
         self.duration
     }
 
-    /// Seconds of the animation in a second.
+    /// Speed in seconds of the animation a second.
     pub fn speed(&self) -> f64 {
         self.speed
     }
 
-    /// Whether the time runs.
+    /// Whether the animation plays.
     pub fn is_playing(&self) -> bool {
         self.last.is_some()
     }
 
-    /// Starts or stops the time.
+    /// Starts or pauses the animation.
     pub fn toggle(&mut self, now: Instant) {
         self.last = match self.last {
             Some(_) => None,
@@ -54,7 +54,7 @@ impl Player {
         };
     }
 
-    /// Moves the time by hand.
+    /// Moves to a time of the animation in seconds.
     pub fn seek(&mut self, time: f64) {
         self.time = time.clamp(0.0, self.duration);
     }
@@ -66,7 +66,7 @@ impl Player {
         self.speed = SPEEDS[index.clamp(0, SPEEDS.len() as i32 - 1) as usize];
     }
 
-    /// Moves the time on to now, while it plays.
+    /// Advances the animation up to `now`, if it plays.
     pub fn advance(&mut self, now: Instant) {
         if let Some(last) = self.last.replace(now) {
             let passed = now.saturating_duration_since(last).as_secs_f64();

@@ -1,13 +1,13 @@
-//! The mouse: where it is, and what dragging it means.
+//! State of the mouse: the pointer's place, and what a drag does.
 
 use glam::DVec2;
 use std::time::{Duration, Instant};
 
-/// Presses closer than this in time and place are a double click.
+/// Longest time between the presses of a double click.
 const DOUBLE: Duration = Duration::from_millis(400);
 const NEAR: f64 = 5.0;
 
-/// Effect of dragging.
+/// What a drag does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drag {
     Orbit,
@@ -18,7 +18,7 @@ pub enum Drag {
     Lens,
 }
 
-/// The mouse's state.
+/// State of the mouse.
 #[derive(Debug, Default)]
 pub struct Pointer {
     place: DVec2,
@@ -32,14 +32,14 @@ impl Pointer {
         self.place
     }
 
-    /// Moves it; says what is dragged, and how far in pixels.
+    /// Moves the pointer. Returns the drag and its length in pixels, if a button is held.
     pub fn moved(&mut self, to: DVec2) -> Option<(Drag, DVec2)> {
         let by = to - self.place;
         self.place = to;
         self.drag.map(|drag| (drag, by))
     }
 
-    /// Begins to drag. Says whether this is the second press of a double click.
+    /// Starts a drag. Returns whether this is the second press of a double click.
     pub fn pressed(&mut self, drag: Drag, now: Instant) -> bool {
         let is_double = self.last_press.take().is_some_and(|(then, place)| {
             now - then < DOUBLE && (place - self.place).length() < NEAR
@@ -51,7 +51,7 @@ impl Pointer {
         is_double
     }
 
-    /// Ends dragging.
+    /// Ends the drag.
     pub fn released(&mut self) {
         self.drag = None;
     }
@@ -79,7 +79,7 @@ mod tests {
         let mut pointer = Pointer::default();
         assert!(!pointer.pressed(Drag::Orbit, start));
         assert!(pointer.pressed(Drag::Orbit, after(200)));
-        // A third one begins anew.
+        // A third press starts a new double click.
         assert!(!pointer.pressed(Drag::Orbit, after(300)));
         assert!(!pointer.pressed(Drag::Orbit, after(800)));
         pointer.moved(DVec2::new(50.0, 0.0));

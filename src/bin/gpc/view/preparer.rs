@@ -1,5 +1,5 @@
-//! Frames are prepared by a thread of their own: drivers take seconds for the first kernels of a method, and the window's
-//! thread waits for nothing.
+//! Preparation of frames in a separate thread: drivers take seconds to compile the first kernels of a method, and the
+//! window's thread must not wait.
 
 use super::engine::Engine;
 use gpc::render::{Encoding, Frame, PreparedScene, RenderError, Settings};
@@ -7,15 +7,15 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Weak};
 use std::thread::JoinHandle;
 
-/// Tells whose frame it is. Nobody wants it any more once this is gone.
+/// Identifies the layer that requested a frame. Once it is dropped, its frames are no longer wanted.
 pub type Ticket = Arc<()>;
 
-/// Prepared frame, or the error of preparing it.
+/// A prepared frame, or the error of preparing it.
 pub struct Prepared {
     pub ticket: Weak<()>,
     pub settings: Settings,
     pub frame: Result<Frame, RenderError>,
-    /// Engine whose device the frame needs until it is dropped.
+    /// Engine whose device the frame uses; dropped after the frame.
     _engine: Arc<Engine>,
 }
 
@@ -26,15 +26,15 @@ struct Request {
     engine: Arc<Engine>,
 }
 
-/// Prepares frames until it is dropped.
+/// Thread that prepares frames until this is dropped.
 pub struct Preparer {
-    /// `None` only while dropping.
+    /// Channel to the thread; `None` only in `Drop`.
     requests: Option<Sender<Request>>,
     thread: Option<JoinHandle<()>>,
 }
 
 impl Preparer {
-    /// Hands frames to `deliver`, in the thread.
+    /// Starts the thread, which passes each frame to `deliver`.
     pub fn new(deliver: impl Fn(Prepared) + Send + 'static) -> Self {
         let (requests, received) = channel();
         let thread = std::thread::spawn(move || run(&received, deliver));
@@ -44,7 +44,7 @@ impl Preparer {
         }
     }
 
-    /// Asks for a frame of a scene.
+    /// Requests a frame of a scene with these settings.
     pub fn ask(
         &self,
         ticket: &Ticket,
@@ -53,7 +53,7 @@ impl Preparer {
         engine: &Arc<Engine>,
     ) {
         if let Some(requests) = &self.requests {
-            // The thread ends with this sender, and not before.
+            // Sending can't fail: the thread ends only when this sender is dropped.
             let _ = requests.send(Request {
                 ticket: Arc::downgrade(ticket),
                 settings,
@@ -66,7 +66,7 @@ impl Preparer {
 
 fn run(requests: &Receiver<Request>, deliver: impl Fn(Prepared)) {
     for request in requests {
-        // Dropped in the opposite order: the engine goes after what is its.
+        // Variables are dropped in reverse order: the engine after the objects that use it.
         let Request {
             engine,
             scene,
@@ -93,7 +93,7 @@ impl Drop for Preparer {
     fn drop(&mut self) {
         self.requests = None;
         if let Some(thread) = self.thread.take() {
-            // A panic has been reported by the thread itself.
+            // The thread has reported its own panic.
             let _ = thread.join();
         }
     }

@@ -1,5 +1,5 @@
-//! Images are shown in the window by a thread of their own: drivers may wait there until an image is drawn, or until the
-//! window is to be seen, and the window's thread waits for nothing.
+//! Presentation of images in a separate thread: drivers may wait there until an image is drawn or the window is
+//! visible, and the window's thread must not wait.
 
 use super::device::Device;
 use super::swapchain::Acquired;
@@ -9,20 +9,20 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 
-/// Shows one image at a time, and ends when it is dropped.
+/// Thread that presents one image at a time, until this is dropped.
 pub struct Presenter {
-    /// `None` only while dropping.
+    /// Channel to the thread; `None` only in `Drop`.
     images: Option<Sender<Acquired>>,
     outcomes: Receiver<Result<Fit, VulkanError>>,
     is_busy: bool,
     thread: Option<JoinHandle<()>>,
 }
 
-/// Whether the window's images are still like the window.
+/// Whether the swapchain still fits the window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fit {
     Fits,
-    /// The images have to be made anew.
+    /// The swapchain has to be made anew.
     Stale,
 }
 
@@ -33,7 +33,7 @@ impl Presenter {
         let device = device.clone();
         let thread = std::thread::spawn(move || {
             for image in received {
-                // The other end goes after this thread.
+                // Sending can't fail: the receiver outlives this thread.
                 let _ = outcome.send(present(&device, &image));
             }
         });
@@ -45,26 +45,26 @@ impl Presenter {
         }
     }
 
-    /// Whether an image is being shown. Until it is, the swapchain may not be used.
+    /// Whether an image is being presented. Until then the swapchain must not be used.
     pub fn is_busy(&self) -> bool {
         self.is_busy
     }
 
-    /// Shows an image once it is drawn. What draws it was submitted.
+    /// Presents an image once it is drawn. The commands that draw it have been submitted.
     pub fn show(&mut self, image: Acquired) {
         if let Some(images) = &self.images {
             self.is_busy = images.send(image).is_ok();
         }
     }
 
-    /// Result of presenting the last image; `None` until there is one, and when asked again.
+    /// Result of presenting the last image; `None` until it is there, and once it was returned.
     pub fn poll(&mut self) -> Option<Result<Fit, VulkanError>> {
         let outcome = self.outcomes.try_recv().ok()?;
         self.is_busy = false;
         Some(outcome)
     }
 
-    /// Waits until no image is being shown; the device has done what draws it.
+    /// Waits until no image is being presented. The device must have finished the commands that draw it.
     pub fn wait(&mut self) -> Option<Result<Fit, VulkanError>> {
         let outcome = self.is_busy.then(|| self.outcomes.recv().ok()).flatten()?;
         self.is_busy = false;
@@ -79,8 +79,8 @@ fn present(device: &Device, image: &Acquired) -> Result<Fit, VulkanError> {
         .swapchains(&swapchains)
         .image_indices(&indices);
     let queue = device.queue();
-    // SAFETY: the image was acquired and its semaphore is signalled by what was submitted; nobody else uses the queue, nor
-    // the swapchain as long as the presenter is busy.
+    // SAFETY: the image was acquired, and submitted commands signal its semaphore. Nobody else uses the queue now, nor
+    // the swapchain while the presenter is busy.
     match unsafe { device.swapchains.queue_present(*queue, &info) } {
         Ok(false) if !image.stale => Ok(Fit::Fits),
         Ok(_) | Err(vk::Result::ERROR_OUT_OF_DATE_KHR) => Ok(Fit::Stale),
@@ -92,7 +92,7 @@ impl Drop for Presenter {
     fn drop(&mut self) {
         self.images = None;
         if let Some(thread) = self.thread.take() {
-            // A panic has been reported by the thread itself.
+            // The thread has reported its own panic.
             let _ = thread.join();
         }
     }

@@ -1,4 +1,4 @@
-//! Progress of loading, and whether anybody still waits for it.
+//! Progress of loading, which can also be cancelled.
 
 use anyhow::bail;
 use std::sync::Arc;
@@ -25,7 +25,7 @@ impl LoadStep {
     }
 }
 
-/// Shared by who loads and who waits.
+/// Progress that is shared between the thread that loads and the one that waits.
 #[derive(Clone, Debug, Default)]
 pub struct Progress(Arc<State>);
 
@@ -39,7 +39,7 @@ impl Progress {
     /// Begins a step.
     ///
     /// # Errors
-    /// If nobody waits for it any more.
+    /// If the loading was cancelled.
     pub fn begin(&self, step: LoadStep) -> anyhow::Result<()> {
         if self.0.is_cancelled.load(Ordering::Relaxed) {
             bail!("loading was stopped");
@@ -48,16 +48,16 @@ impl Progress {
         Ok(())
     }
 
-    /// The step at hand, and the share of all that is done.
+    /// The current step, and the share of all work that is done, 0 to 1.
     pub fn step(&self) -> (LoadStep, f32) {
         let index = self.0.step.load(Ordering::Relaxed);
         let step = LoadStep::ALL.get(index).copied().unwrap_or(LoadStep::Read);
-        // In the middle of the step, for want of more to go by.
+        // A step counts as half done, since nothing tells how far it is.
         let share = (index as f32 + 0.5) / LoadStep::ALL.len() as f32;
         (step, share)
     }
 
-    /// Nobody waits any more.
+    /// Asks the loading thread to stop at its next step.
     pub fn cancel(&self) {
         self.0.is_cancelled.store(true, Ordering::Relaxed);
     }

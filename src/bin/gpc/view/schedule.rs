@@ -1,53 +1,54 @@
-//! Schedule of rendering: few samples while anything moves, more and more at rest, in bands that leave time for the
-//! window.
+//! Schedule of rendering: few samples while anything moves, more and more at rest, in bands short enough for the
+//! window to stay responsive.
 
 use super::look::Look;
 use gpc::render::{Method, Statistics};
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
-/// Time without movement before a picture is refined.
+/// Time without changes before a picture is refined.
 const REST: Duration = Duration::from_millis(150);
-/// Milliseconds on the device that a band, or a picture while something moves, should take.
+/// Device milliseconds that a band, or a picture while something moves, should take.
 const TARGET_MS: f64 = 80.0;
-/// Pictures in a row that take too long before the next ones have fewer samples: other programs may be busy for a moment.
+/// Number of slow pictures in a row that are tolerated before the number of samples is reduced: other programs may be
+/// busy for a moment.
 const MOST_SLOW: u32 = 2;
-/// Time before a number of samples that was too slow is tried again, unless there was a rest.
+/// Time before a number of samples that was too slow is tried again; a rest ends it early.
 const AGAIN: Duration = Duration::from_secs(2);
-/// Bands have multiples of this many rows: the height of a tile.
+/// Number of rows of which a band has a multiple: the height of a tile.
 const ROW_STEP: u32 = 4;
-/// Expected ratio of a row's time with the samples of the next step to that of the present one, until a row has been
-/// rendered.
+/// Expected ratio of a row's time with the next number of samples to its time with the present one, until a row has
+/// been measured.
 const STEP_COST: f64 = 2.0;
-/// Passes that take as long for one row as for all: they go over the scene's triangles.
+/// Passes over the scene's triangles, which take as long for one row as for all.
 const OF_TRIANGLES: [&str; 4] = ["pose", "stroke", "thin", "cull"];
-/// Samples while something moves, from the best.
+/// Numbers of samples while something moves, the largest first.
 const DRAFTS: [u32; 5] = [16, 8, 4, 2, 1];
-/// Samples on the way to those asked for.
+/// Numbers of samples between a draft and the number asked for.
 const STEPS: [u32; 2] = [64, 256];
 
-/// A part of the work on a picture.
+/// A piece of work on a picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PictureWork {
-    /// Whole picture at once.
+    /// The whole picture at once.
     Draft {
         /// Samples a pixel.
         samples: u32,
     },
-    /// Some rows of the picture.
+    /// A band: some rows of the picture.
     Band {
         /// Samples a pixel.
         samples: u32,
-        /// The rows.
+        /// Range of the rows.
         rows: Range<u32>,
     },
 }
 
-/// Milliseconds on the device that some work took.
+/// Device milliseconds that a piece of work took.
 #[derive(Clone, Copy, Debug)]
 pub struct Took {
     pub ms: f64,
-    /// Milliseconds of these that one row would also have taken.
+    /// Milliseconds that do not depend on the number of rows, included in `ms`.
     pub fixed_ms: f64,
 }
 
@@ -61,41 +62,41 @@ impl Took {
         }
     }
 
-    /// Milliseconds of one of `rows` rows, without the fixed ones.
+    /// Milliseconds per row of `rows` rows, without the fixed part.
     fn of_row(self, rows: u32) -> f64 {
         (self.ms - self.fixed_ms) / f64::from(rows.max(1))
     }
 }
 
-/// Work that is left to do for a picture.
+/// Work that is left to do on a picture.
 #[derive(Debug)]
 pub struct Schedule {
-    /// Samples while something moves, from the best.
+    /// Numbers of samples while something moves, the largest first.
     drafts: Vec<u32>,
-    /// Samples of the one that is the picture at rest, if one is.
+    /// Number of samples of the draft that equals the picture at rest, if there is one.
     final_draft: Option<u32>,
-    /// Index of the draft that is quick enough.
+    /// Index in `drafts` of the number that is fast enough.
     draft: usize,
     /// Number of pictures in a row that were too slow.
     slow: u32,
-    /// Time at which the draft before it was found to be too slow.
+    /// Time at which the draft with the next larger number of samples was found to be too slow.
     too_slow: Option<Instant>,
-    /// Samples at rest, to those asked for.
+    /// Numbers of samples at rest, up to the one asked for.
     steps: Vec<u32>,
     height: u32,
     /// Time at which the picture last changed.
     changed: Instant,
     step: Phase,
-    /// Milliseconds that a row is thought to take.
+    /// Expected milliseconds of a row.
     row_ms: f64,
-    /// Milliseconds that a band takes besides, however few rows it has.
+    /// Expected milliseconds of a band that do not depend on its number of rows.
     fixed_ms: f64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Phase {
     Draft,
-    /// Rendering with `samples` samples, from `row` on.
+    /// Rendering bands with `samples` samples, the next one from row `row` on.
     Band {
         samples: u32,
         row: u32,
@@ -104,11 +105,11 @@ enum Phase {
 }
 
 impl Schedule {
-    /// Schedule of a picture of which nothing is rendered.
+    /// Schedule of a picture that has not been rendered.
     pub fn new(look: &Look, now: Instant) -> Self {
         let asked = look.settings.samples;
         let below = |samples: &u32| *samples < asked && look.can_have(*samples);
-        // Brute force shades every sample of every pixel: one at most is quick.
+        // Supersampling shades every sample of every pixel, so that only one sample is fast.
         let is_brute = look.settings.method == Method::Ssaa;
         let is_quick = |samples: &u32| below(samples) && (!is_brute || *samples == 1);
         let mut drafts: Vec<_> = DRAFTS.into_iter().filter(is_quick).collect();
@@ -135,13 +136,13 @@ impl Schedule {
         }
     }
 
-    /// The picture is another one from now on.
+    /// Starts again because the view or the scene has changed.
     pub fn restart(&mut self, now: Instant) {
         self.changed = now;
         self.step = Phase::Draft;
     }
 
-    /// Takes the next work that is due.
+    /// Takes the next piece of work, if any is due.
     pub fn take(&mut self, now: Instant) -> Option<PictureWork> {
         match self.step {
             Phase::Draft => {
@@ -161,7 +162,8 @@ impl Schedule {
                     self.too_slow = None;
                     self.row_ms *= STEP_COST;
                 }
-                // At least half of a band's time is its rows', or a picture of many triangles would never be done.
+                // The rows take at least half of a band's time; otherwise a picture of many triangles would never be
+                // finished.
                 let target = TARGET_MS.max(2.0 * self.fixed_ms) - self.fixed_ms;
                 let rows = (target / self.row_ms).min(f64::from(self.height)) as u32;
                 let rows = (rows / ROW_STEP * ROW_STEP).max(ROW_STEP);
@@ -180,12 +182,12 @@ impl Schedule {
         }
     }
 
-    /// Whether nothing is rendered of the picture.
+    /// Whether the draft has still to be rendered.
     pub fn is_draft(&self) -> bool {
         self.step == Phase::Draft
     }
 
-    /// Time at which the next work is due, if any is left.
+    /// Time at which the next piece of work is due, if any is left.
     pub fn due(&self) -> Option<Instant> {
         match self.step {
             Phase::Done => None,
@@ -194,12 +196,12 @@ impl Schedule {
         }
     }
 
-    /// Whether the picture has all samples that it should have, or will have once the work taken is done.
+    /// Whether all work has been taken: the picture has all its samples once that work is done.
     pub fn is_done(&self) -> bool {
         self.step == Phase::Done
     }
 
-    /// Learns from what work took on the device.
+    /// Adapts the schedule to the time that a piece of work took on the device.
     pub fn learn(&mut self, work: &PictureWork, took: Took, now: Instant) {
         match work {
             PictureWork::Draft { samples } => {
@@ -212,17 +214,18 @@ impl Schedule {
             PictureWork::Band { samples, rows } if self.is_rendering(*samples) => {
                 self.fixed_ms = took.fixed_ms;
                 let found = took.of_row(rows.end - rows.start);
-                // What a row takes differs along the image: halfway there, but never far from what was found.
+                // Rows differ within an image, so the estimate moves half of the way, but stays near the last
+                // measurement.
                 let halfway = (self.row_ms * found).sqrt();
                 self.row_ms = halfway.clamp(0.5 * found, 2.0 * found);
             }
-            // The last bands of a step are done when the next one has begun.
+            // The last bands of a step may finish after the next step has begun.
             PictureWork::Band { .. } => {}
         }
     }
 
-    /// Goes on to drafts of fewer samples where these are too slow more than once in a row, and back to more where these are
-    /// quick, but not at once to what was too slow.
+    /// Reduces the samples of drafts after several slow ones in a row, and raises them after fast ones, but not at
+    /// once to a number that was too slow.
     fn learn_draft(&mut self, ms: f64, now: Instant) {
         if ms <= 1.25 * TARGET_MS {
             self.slow = 0;
@@ -240,18 +243,18 @@ impl Schedule {
         }
     }
 
-    /// Whether the present step renders with `samples` samples.
+    /// Whether bands with `samples` samples are being rendered.
     fn is_rendering(&self, samples: u32) -> bool {
         matches!(self.step, Phase::Band { samples: at_hand, .. } if at_hand == samples)
     }
 
-    /// Samples while something moves.
+    /// Number of samples while something moves.
     fn draft_samples(&self) -> u32 {
-        // There is always one, and the index stays among them.
+        // The list is never empty, and the index stays within it.
         self.drafts.get(self.draft).copied().unwrap_or(1)
     }
 
-    /// Step that follows a picture of `done` samples.
+    /// Phase that follows a picture with `done` samples.
     fn after(&self, done: u32) -> Phase {
         let next = self.steps.iter().find(|step| **step > done);
         next.map_or(Phase::Done, |samples| Phase::Band {
@@ -280,7 +283,7 @@ mod tests {
         start + Duration::from_millis(ms)
     }
 
-    /// Samples and rows of all bands until the picture is done, if each takes `ms` milliseconds a row.
+    /// Samples and rows of all bands until the picture is done, if each row takes `ms` milliseconds.
     fn bands(schedule: &mut Schedule, ms: f64, now: Instant) -> Vec<(u32, Range<u32>)> {
         let mut bands = Vec::new();
         while let Some(work) = schedule.take(now) {
@@ -315,7 +318,7 @@ mod tests {
             assert_eq!(row, 540);
         }
         assert!(schedule.is_done() && schedule.due().is_none());
-        // Bands find their height: 80 ms are 40 rows.
+        // Bands adapt their height: 80 ms are 40 rows.
         let last = &bands[bands.len() - 2].1;
         assert!((36..=44).contains(&(last.end - last.start)), "{last:?}");
     }
@@ -331,7 +334,7 @@ mod tests {
         };
         schedule.learn(&draft, took, start);
         let bands = bands(&mut schedule, 2.0, after(150, start));
-        // 200 ms for triangles, and as much for 100 rows.
+        // 200 ms are fixed, and 100 rows take another 200 ms.
         let heights: Vec<_> = bands
             .iter()
             .map(|(_, rows)| rows.end - rows.start)
@@ -366,7 +369,7 @@ mod tests {
             schedule.learn(&work, Took { ms, fixed_ms: 0.0 }, now);
             work
         };
-        // One that is slow is no reason, two in a row are.
+        // One slow draft changes nothing; two in a row do.
         for (ms, samples) in [(200.0, 16), (90.0, 16), (200.0, 16), (200.0, 16), (90.0, 8)] {
             let work = draft(&mut schedule, ms, start);
             assert_eq!(work, PictureWork::Draft { samples });
@@ -375,7 +378,7 @@ mod tests {
             let work = draft(&mut schedule, 200.0, start);
             assert_eq!(work, PictureWork::Draft { samples });
         }
-        // What was too slow is tried again after a while, and not before.
+        // A number that was too slow is tried again only after a while.
         let soon = after(1000, start);
         assert_eq!(
             draft(&mut schedule, 10.0, soon),
@@ -391,7 +394,7 @@ mod tests {
             draft(&mut schedule, 90.0, later),
             PictureWork::Draft { samples: 2 }
         );
-        // Or after a rest.
+        // A rest also lets it be tried again.
         for _ in 0..2 {
             draft(&mut schedule, 200.0, later);
         }
@@ -411,7 +414,7 @@ mod tests {
             assert_eq!(schedule.take(start), Some(PictureWork::Draft { samples }));
             assert!(schedule.is_done());
         }
-        // Drafts of superpixels are cheaper than what is asked for.
+        // Drafts of superpixels have cheaper settings, so that the same number of samples is rendered again at rest.
         let mut few = schedule(Method::Superpixel, 4, 100, start);
         assert_eq!(few.take(start), Some(PictureWork::Draft { samples: 4 }));
         let rest = after(150, start);

@@ -1,4 +1,4 @@
-//! Command buffers that take turns, so that one is recorded while another is executed.
+//! Command buffers that alternate, so that one is recorded while the other is executed.
 
 use super::device::Device;
 use super::layer::Job;
@@ -9,31 +9,31 @@ use gpc::vulkan::VulkanError;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// Largest number of frames in flight.
+/// Largest number of command buffers in flight.
 pub const SLOTS: usize = 2;
 
-/// Replaced object that commands may still use.
+/// A replaced object that commands may still use.
 pub enum Kept {
     Stage(#[expect(dead_code, reason = "kept until it is dropped")] Box<Stage>),
     Pictures(#[expect(dead_code, reason = "kept until it is dropped")] Vec<Picture>),
 }
 
-/// A command buffer, and what its commands use until they are done.
+/// A command buffer, and the objects that its commands use until they have run.
 pub struct Slot {
     device: Arc<Device>,
     pool: vk::CommandPool,
     commands: vk::CommandBuffer,
     done: vk::Fence,
-    /// Signalled when the window's image is free to be drawn.
+    /// Signalled when the window's image may be drawn to.
     pub free: vk::Semaphore,
     is_busy: bool,
-    /// Work of the layers.
+    /// Work on pictures that the commands contain.
     pub jobs: Vec<Job>,
     /// Replaced objects that the commands use.
     pub kept: Vec<Rc<Kept>>,
-    /// Textures of the panel that these commands are the last to use.
+    /// Textures of the panel to free once these commands have run.
     pub textures: Vec<egui::TextureId>,
-    /// Whether they put the scene on the device.
+    /// Whether the commands upload the scene.
     pub uploads: bool,
 }
 
@@ -52,7 +52,7 @@ impl Slot {
             uploads: false,
         };
         let handle = &device.handle;
-        // SAFETY: plain creations on a live device; what was made before a failure is destroyed by `Drop`.
+        // SAFETY: plain creations on a live device; `Drop` destroys what was made before a failure.
         unsafe {
             let info = vk::CommandPoolCreateInfo::default()
                 .queue_family_index(device.queue_family)
@@ -77,17 +77,17 @@ impl Slot {
         Ok(slot)
     }
 
-    /// Whether commands are still to be executed.
+    /// Whether submitted commands have not been found to be finished.
     pub fn is_busy(&self) -> bool {
         self.is_busy
     }
 
-    /// Whether commands that were submitted have been done since the last call.
+    /// Returns true once when the submitted commands have run.
     pub fn poll(&mut self) -> Result<bool, VulkanError> {
         if !self.is_busy {
             return Ok(false);
         }
-        // SAFETY: the fence was handed to the last submission.
+        // SAFETY: the fence belongs to the last submission.
         let is_done = unsafe { self.device.handle.get_fence_status(self.done) }
             .map_err(VulkanError::of("vkGetFenceStatus"))?;
         self.is_busy = !is_done;
@@ -96,7 +96,7 @@ impl Slot {
 
     /// Begins recording.
     pub fn begin(&mut self) -> Result<vk::CommandBuffer, VulkanError> {
-        // SAFETY: the last submission is done.
+        // SAFETY: the last submission has been executed.
         unsafe {
             self.device
                 .handle
@@ -112,10 +112,11 @@ impl Slot {
         Ok(self.commands)
     }
 
-    /// Submits what was recorded: it draws the window's image once that is free, and signals when it is drawn.
+    /// Submits the recorded commands. They draw to the window's image once `free` is signalled, and signal `drawn`
+    /// when they are done.
     pub fn submit(&mut self, drawn: vk::Semaphore) -> Result<(), VulkanError> {
         let commands = [vk::CommandBufferSubmitInfo::default().command_buffer(self.commands)];
-        // The window's image is first copied to; rendering before that needs not wait.
+        // Rendering needs not wait for the window's image, which the commands first copy to.
         let waits = [vk::SemaphoreSubmitInfo::default()
             .semaphore(self.free)
             .stage_mask(vk::PipelineStageFlags2::ALL_TRANSFER)];
@@ -126,7 +127,8 @@ impl Slot {
             .command_buffer_infos(&commands)
             .wait_semaphore_infos(&waits)
             .signal_semaphore_infos(&signals)];
-        // SAFETY: the commands were recorded by the caller, who keeps what they use in this slot; the fence is not in use.
+        // SAFETY: the caller recorded the commands and keeps the objects that they use in this slot; the fence is not
+        // in use.
         unsafe {
             self.device
                 .handle
@@ -149,7 +151,7 @@ impl Slot {
 impl Drop for Slot {
     fn drop(&mut self) {
         self.device.wait();
-        // SAFETY: nothing is executed any more.
+        // SAFETY: the commands are not being executed.
         unsafe {
             self.device.handle.destroy_semaphore(self.free, None);
             self.device.handle.destroy_fence(self.done, None);

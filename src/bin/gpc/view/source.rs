@@ -1,4 +1,4 @@
-//! Opening of files in a thread of its own: reading a scene, posing it and making room for it on the device.
+//! Loading in a separate thread: reading a scene, posing it and allocating its device memory.
 
 use super::engine::Engine;
 use super::navigate::Bounds;
@@ -12,7 +12,7 @@ use gpc::scene::{
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Selection of a file, a scene in it and a moment.
+/// A file to open: its path, and the scene, material variant, animation and time to show.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Source {
     pub path: PathBuf,
@@ -25,7 +25,7 @@ pub struct Source {
 /// Appearance of scenes beyond what their files say.
 #[derive(Clone, Debug, Default)]
 pub struct Appearance {
-    /// Light from all around in place of the studio.
+    /// Environment that replaces the built-in studio.
     pub environment: Option<Arc<Environment>>,
     /// Edges of meshes that are drawn; `None` for none.
     pub edges: Option<Edges>,
@@ -37,21 +37,21 @@ pub enum Opened {
     Photo(Photo),
 }
 
-/// A scene on the device.
+/// A scene on the device, and what the window needs to know of it.
 pub struct Stage {
     pub source: Source,
     pub scene: Arc<Scene>,
     pub prepared: Arc<PreparedScene>,
-    /// Motion of the scene, if it has animations.
+    /// How the scene moves, if it has animations.
     pub motion: Option<Motion>,
     pub animations: Vec<AnimationInfo>,
     pub cameras: Vec<SceneCamera>,
-    /// Triangles among which the one under the pointer is found.
+    /// Triangles for finding the one under the pointer.
     pub geometry: Geometry,
     pub bounds: Bounds,
     /// Warnings: parts of the file that can't be shown.
     pub warnings: Vec<String>,
-    /// Engine whose device the scene needs until it is dropped.
+    /// Engine whose device the scene uses; dropped after the scene.
     _engine: Arc<Engine>,
 }
 
@@ -68,7 +68,7 @@ impl Stage {
 }
 
 impl Source {
-    /// The file's own scene, as it is at first.
+    /// Source for the file's default scene at the start of its animation.
     pub fn new(path: PathBuf) -> Self {
         Self {
             path,
@@ -130,7 +130,7 @@ impl Source {
         })))
     }
 
-    /// The file's name.
+    /// The file name.
     pub fn name(&self) -> String {
         let name = self.path.file_name().unwrap_or(self.path.as_os_str());
         name.to_string_lossy().into_owned()
@@ -143,7 +143,7 @@ impl Source {
     }
 }
 
-/// The box around a pose; around the origin where it is empty.
+/// The box around a pose; a box around the origin if the pose is empty.
 pub fn bounds(pose: &Pose) -> Bounds {
     let bounds = pose.geometry.bounds();
     bounds.unwrap_or((DVec3::splat(-1.0), DVec3::ONE))

@@ -1,30 +1,30 @@
-//! Standpoints of a scene: one of its cameras, or the place to which the user went.
+//! Standpoints in a scene: one of its cameras, or a place to which the user moved.
 
 use super::navigate::{Bounds, Turntable};
 use glam::DVec3;
 use gpc::camera::{Camera, CameraError, Orbit, Viewpoint};
 use gpc::scene::SceneCamera;
 
-/// Standpoint in the first scene at the start.
+/// Standpoint at the start, in the first scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Start {
-    /// First camera of the scene, or else a standpoint that sees everything.
+    /// First camera of the scene, or a view of the whole scene if it has none.
     #[default]
     First,
-    /// A camera by name or index.
+    /// Camera with this name or index.
     Camera(String),
-    /// A place. Without a target, the scene's centre is looked at.
+    /// A position. Without a target, the camera looks at the scene's centre.
     Place {
         eye: DVec3,
         target: Option<DVec3>,
         /// Vertical field of view in degrees.
         fov: f64,
     },
-    /// Standpoint that sees everything from an angle.
+    /// View of the whole scene from an angle.
     Around(Orbit),
 }
 
-/// Standpoint that does not exist.
+/// Error: a standpoint that does not exist.
 #[derive(Debug, thiserror::Error)]
 pub enum NoStart {
     #[error("there is no camera {asked}; the scene has {found}")]
@@ -34,10 +34,10 @@ pub enum NoStart {
 }
 
 impl Start {
-    /// The first view of a scene, in an image of `aspect` = width / height.
+    /// The standpoint of the first scene, in an image of `aspect` = width / height.
     ///
     /// # Errors
-    /// If the scene has no such camera, or there is no view from there.
+    /// If the scene has no such camera, or the place and target give no view.
     pub fn standpoint(
         &self,
         cameras: &[SceneCamera],
@@ -76,14 +76,14 @@ fn find(asked: &str, cameras: &[SceneCamera]) -> Result<usize, NoStart> {
 /// Standpoint from which a scene is seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Standpoint {
-    /// A camera of the scene by index.
+    /// Index of a camera of the scene.
     Camera(usize),
-    /// Anywhere.
+    /// A turntable, which can stand anywhere.
     Free(Turntable),
 }
 
 impl Standpoint {
-    /// The first view of a scene: its first camera, or else one that shows everything.
+    /// The standpoint of a newly opened scene: its first camera, or a view of the whole scene if it has none.
     pub fn first(cameras: &[SceneCamera], bounds: Bounds, aspect: f64) -> Self {
         if cameras.is_empty() {
             Self::Free(Turntable::fitting(bounds, aspect))
@@ -92,10 +92,10 @@ impl Standpoint {
         }
     }
 
-    /// The camera. One that the scene no longer has becomes a view of everything.
+    /// The camera at this standpoint. An index that the scene does not have gives a view of the whole scene.
     ///
     /// # Errors
-    /// If the user went where no direction is left.
+    /// If eye and target have come to coincide.
     pub fn camera(
         &self,
         cameras: &[SceneCamera],
@@ -112,7 +112,7 @@ impl Standpoint {
         turntable.viewpoint().frame(bounds.0, bounds.1)
     }
 
-    /// Moves; a camera of the scene is left for a turntable that stands there.
+    /// Moves the standpoint. A camera of the scene is first replaced by a turntable at its position.
     pub fn go(
         &mut self,
         cameras: &[SceneCamera],

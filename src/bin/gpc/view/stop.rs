@@ -1,9 +1,9 @@
-//! Work that may no longer be wanted while it is done.
+//! Cancellation of work in another thread.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, Ordering};
 
-/// Shared by who asked for something and who makes it.
+/// Flag that is shared between the thread that orders work and the one that does it.
 #[derive(Clone, Debug, Default)]
 pub struct Stop(Arc<AtomicU8>);
 
@@ -16,17 +16,17 @@ impl Stop {
         self.0.fetch_max(SUPERSEDED, Ordering::Relaxed);
     }
 
-    /// Nobody wants it any more.
+    /// Marks the work as unwanted: it is to be abandoned.
     pub fn stop(&self) {
         self.0.fetch_max(UNWANTED, Ordering::Relaxed);
     }
 
-    /// Whether the work is not to be begun any more.
+    /// Whether work should not be started any more.
     pub fn is_superseded(&self) -> bool {
         self.0.load(Ordering::Relaxed) >= SUPERSEDED
     }
 
-    /// Whether the work is not to be finished, either.
+    /// Whether work that was started should be abandoned.
     pub fn is_unwanted(&self) -> bool {
         self.0.load(Ordering::Relaxed) >= UNWANTED
     }

@@ -6,7 +6,7 @@ use ash::vk;
 use gpc::vulkan::VulkanError;
 use std::sync::Arc;
 
-/// Images that take turns in the window.
+/// The window's images, drawn and presented by turns.
 pub struct Swapchain {
     device: Arc<Device>,
     handle: vk::SwapchainKHR,
@@ -15,15 +15,15 @@ pub struct Swapchain {
     images: Vec<SwapchainImage>,
 }
 
-/// Image of the window.
+/// An image of the window.
 struct SwapchainImage {
     image: vk::Image,
     view: vk::ImageView,
-    /// Signalled when it is drawn.
+    /// Signalled when the image is drawn.
     drawn: vk::Semaphore,
 }
 
-/// An image that is free to be drawn.
+/// An image of the window that may be drawn to.
 #[derive(Clone, Copy)]
 pub struct Acquired {
     pub swapchain: vk::SwapchainKHR,
@@ -32,23 +32,23 @@ pub struct Acquired {
     pub view: vk::ImageView,
     /// Semaphore to signal when the image is drawn.
     pub drawn: vk::Semaphore,
-    /// Whether the swapchain no longer fits its window.
+    /// Whether the swapchain no longer fits the window.
     pub stale: bool,
 }
 
 /// Result of asking for an image.
 pub enum Turn {
     Ready(Acquired),
-    /// No image is free just now.
+    /// No image is free now.
     Busy,
     /// The swapchain has to be made anew.
     Stale,
 }
 
 impl Swapchain {
-    /// Makes the images of a window of `size` = [width, height], which replace an older swapchain.
+    /// Makes the images for a window of `size` = [width, height]; they replace the `older` swapchain.
     pub fn new(device: &Arc<Device>, size: [u32; 2], older: Option<Self>) -> anyhow::Result<Self> {
-        // SAFETY: queries and creations on a live device and surface. What was made is destroyed by `Drop`.
+        // SAFETY: queries and creations on a live device and surface. `Drop` destroys what was made before a failure.
         unsafe {
             let capabilities = device
                 .surfaces
@@ -58,7 +58,7 @@ impl Swapchain {
                 .surfaces
                 .get_physical_device_surface_formats(device.physical, device.surface)
                 .map_err(VulkanError::of("vkGetPhysicalDeviceSurfaceFormatsKHR"))?;
-            // Codes are copied as they are.
+            // The format must not convert: sRGB codes are copied unchanged.
             let fits = |format: &&vk::SurfaceFormatKHR| {
                 let known = [vk::Format::B8G8R8A8_UNORM, vk::Format::R8G8B8A8_UNORM];
                 known.contains(&format.format)
@@ -119,7 +119,7 @@ impl Swapchain {
                 .swapchains
                 .create_swapchain(&info, None)
                 .map_err(VulkanError::of("vkCreateSwapchainKHR"))?;
-            // The caller waited for all that used it.
+            // The caller waited for all commands that used the older swapchain.
             drop(older);
             let mut swapchain = Self {
                 device: device.clone(),
@@ -156,9 +156,9 @@ impl Swapchain {
         }
     }
 
-    /// An image to draw, which is free once `free` is signalled. Waits for nothing.
+    /// Asks for an image to draw to, without waiting. `free` is signalled when it may be drawn to.
     pub fn acquire(&self, free: vk::Semaphore) -> Result<Turn, VulkanError> {
-        // SAFETY: the semaphore is unsignalled and nobody waits for it: its frame's last submission is done.
+        // SAFETY: the semaphore is unsignalled and not waited for: the last submission of its slot has been executed.
         let acquired = unsafe {
             self.device
                 .swapchains
@@ -190,7 +190,7 @@ impl Swapchain {
 impl Drop for Swapchain {
     fn drop(&mut self) {
         self.device.wait();
-        // SAFETY: the device has done all that was submitted, presentation of this swapchain's images included.
+        // SAFETY: the device is idle, and no image of this swapchain is being presented.
         unsafe {
             for shown in &self.images {
                 self.device.handle.destroy_image_view(shown.view, None);

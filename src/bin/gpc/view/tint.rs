@@ -1,12 +1,12 @@
-//! Colours over the transitions of lenses, which are what a zoom bends.
+//! Colours over the transitions of lenses, the parts that a zoom bends.
 
 use glam::DVec2;
 use gpc::camera::zoom::ZoomRegion;
 
-/// A colour for each lens, round and round.
+/// Colours of the lenses, used in turn.
 const TINTS: [[u8; 3]; 4] = [[255, 64, 64], [64, 160, 255], [64, 220, 96], [255, 190, 32]];
 
-/// Mixes the tint of the last lens whose transition a place of the picture lies in with its colour.
+/// Mixes `code` with the tint of the last lens in whose transition `place` lies; `place` is in pixels of the picture.
 pub fn tinted(code: [u8; 4], place: DVec2, regions: &[ZoomRegion]) -> [u8; 4] {
     let Some(index) = regions
         .iter()

@@ -1,19 +1,20 @@
-//! Files that change on the disk.
+//! Watching files for changes.
 
 use notify::{EventKind, RecommendedWatcher, RecursiveMode, Watcher};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-/// Endings of the files that scene files refer to. No other program of interest writes such files.
+/// Extensions of files that scene files refer to. Other programs rarely write such files.
 const BESIDE: [&str; 2] = ["bin", "mtl"];
 
-/// Watches a scene file until it is dropped.
+/// A watch on a scene file, which ends when it is dropped.
 pub struct Watch {
     _watcher: RecommendedWatcher,
 }
 
 impl Watch {
-    /// Calls `changed`, in another thread, whenever the file or data in its folder is written or replaced.
+    /// Calls `changed` in another thread whenever the scene file, or a data file in its folder, is written or
+    /// replaced.
     ///
     /// # Errors
     /// If the system can't watch the file's folder.
@@ -42,7 +43,7 @@ impl Watch {
                     changed();
                 }
             })?;
-        // The folder: editors replace files by others.
+        // The folder is watched instead of the file, because editors replace files.
         watcher.watch(&folder, RecursiveMode::NonRecursive)?;
         Ok(Self { _watcher: watcher })
     }

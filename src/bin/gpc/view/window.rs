@@ -1,4 +1,4 @@
-//! The window: loading scenes, and drawing what is due.
+//! The window: loads scenes and draws what is due.
 
 use super::app::Event;
 use super::canvas::{Canvas, Seen};
@@ -34,41 +34,41 @@ use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
 use winit::keyboard::ModifiersState;
 use winit::window::Window;
 
-/// Time to wait before asking again whether the device is done.
+/// Time to wait before asking the device again whether it is done.
 const POLL: Duration = Duration::from_millis(3);
-/// Time for which a file has to stay unchanged before it is loaded again: programs may write it in parts.
+/// Time for which a file has to stay unchanged before it is reloaded: programs may write it in parts.
 const SETTLE: Duration = Duration::from_millis(300);
 
-/// The window with all that is in it.
+/// The window and everything in it.
 pub struct Viewer {
     pub proxy: EventLoopProxy<Event>,
     pub canvas: Canvas,
     pub interface: egui_winit::State,
     pub window: Arc<Window>,
 
-    /// Files that the arrow keys go through, and which of them was asked for.
+    /// Files that the arrow keys go through.
     pub scenes: Vec<PathBuf>,
     pub scene: usize,
-    /// Source that was asked for.
+    /// Source that was requested.
     pub source: Source,
     pub loading: Option<Loading>,
-    /// Loads that were begun, and the threads of those that have not ended.
+    /// Number of requests to load a file.
     pub loads: u64,
     pub loaders: Vec<JoinHandle<()>>,
-    /// Tells when the scene's file changes.
+    /// Watch on the scene's file.
     pub watch: Option<Watch>,
-    /// Time to load the scene again.
+    /// Time at which to reload the scene.
     pub reload: Option<Instant>,
 
     /// Player of the animation, if the scene has one.
     pub player: Option<Player>,
-    /// Moment of the animation that is shown, unless it is the first pose.
+    /// Moment of the animation that is shown; `None` for the first pose.
     pub moment: Option<Arc<Moment>>,
 
     pub standpoint: Standpoint,
-    /// Standpoint in the first scene at the start.
+    /// Standpoint at the start, in the first scene; `None` once it has been used.
     pub start: Option<Start>,
-    /// While keys move the eye.
+    /// Flight, while keys move the eye.
     pub flight: Option<Flight>,
     /// Antialiasing of the pictures, the left one first.
     pub looks: Vec<Look>,
@@ -76,9 +76,9 @@ pub struct Viewer {
     pub appearance: Arc<Appearance>,
     /// Options of the command line for this appearance and the background.
     pub appearance_options: Vec<String>,
-    /// Column of the split, as a share of the width.
+    /// Position of the split / width of the window.
     pub split: f64,
-    /// Enlargement of the magnifier, where it is on.
+    /// Enlargement of the magnifier; `None` while it is off.
     pub magnifier: Option<u32>,
 
     pub pointer: Pointer,
@@ -88,22 +88,22 @@ pub struct Viewer {
     pub cover_figures: Option<String>,
     /// Photograph that is shown instead of a scene.
     pub easel: Option<Easel>,
-    /// Makes it, and files.
+    /// Worker that makes covers and files.
     pub worker: PictureWorker,
     pub notes: Notes,
     pub shows_keys: bool,
     pub shows_panel: bool,
-    /// Whether the window has to be drawn again.
+    /// Whether the window has to be redrawn.
     pub is_dirty: bool,
-    /// Time to draw the panel again.
+    /// Time at which egui wants the panel redrawn.
     pub repaint: Option<Instant>,
-    /// Whether the picture was said to be at rest.
+    /// Whether it was announced that the picture has all samples.
     pub rests: bool,
     pub wants_to_quit: bool,
 
     /// Options for opening devices.
     device: HeadlessOptions,
-    /// Messages of the validation layer about devices that were lost.
+    /// Messages of the validation layer about devices that are lost by now.
     messages: Vec<String>,
 }
 
@@ -125,7 +125,7 @@ impl Viewer {
         let interface = interface(&window);
         let deliver = proxy.clone();
         let worker = PictureWorker::new(options.device.clone(), move |made| {
-            // Nobody waits for it once the window is closed.
+            // An error means that the window is closed and that the result is no longer needed.
             let _ = deliver.send_event(Event::Made(made));
         });
         let has_shadows = options.look.settings.shadows == Shadows::Exact;
@@ -187,7 +187,7 @@ impl Viewer {
         Ok(view)
     }
 
-    /// Opens a device again after the one before was lost, for the same view.
+    /// Opens a device again after one was lost, and restores the view.
     pub fn reopened(mut self) -> anyhow::Result<Self> {
         let mut messages = std::mem::take(&mut self.messages);
         messages.extend(self.canvas.engine.device.validation_messages());
@@ -195,7 +195,7 @@ impl Viewer {
             Some(loading) => loading.keeps_view,
             None => self.shows_source(),
         };
-        // The window's images go before it has others.
+        // The old swapchain must be gone before the window gets another one.
         drop(self.canvas);
         let mut view = Self {
             canvas: canvas(&self.window, &self.device, &self.proxy)?,
@@ -212,8 +212,8 @@ impl Viewer {
         Ok(view)
     }
 
-    /// Ends everything, and hands over what the validation layer said. Files that are not written yet are given up. Threads
-    /// are waited for, for a moment, or, where the validation layer is asked, until it has heard all.
+    /// Ends all work, and returns the messages of the validation layer. Files that are being written are abandoned.
+    /// Threads are waited for: for a moment, or to their end if the validation layer is on.
     pub fn close(mut self) -> Vec<String> {
         self.window.set_visible(false);
         for path in self.worker.stop_files() {
@@ -228,14 +228,14 @@ impl Viewer {
         let mut messages = std::mem::take(&mut self.messages);
         drop(self);
         for loader in loaders {
-            // A panic has been reported by the thread itself.
+            // The thread has reported its own panic.
             let _ = loader.join();
         }
         messages.extend(device.validation_messages());
         messages
     }
 
-    /// Takes what another thread has done.
+    /// Handles the result of another thread.
     pub fn on_done(&mut self, event: Event) -> anyhow::Result<()> {
         self.is_dirty = true;
         match event {
@@ -259,7 +259,7 @@ impl Viewer {
         Ok(())
     }
 
-    /// Makes pictures of the window's size anew.
+    /// Makes new pictures in the window's size.
     pub fn renew_layers(&mut self) -> anyhow::Result<()> {
         self.is_dirty = true;
         self.rests = false;
@@ -286,17 +286,17 @@ impl Viewer {
         self.pixels().map(f64::from)
     }
 
-    /// Size of the window in whole pixels; a window without a size has one pixel.
+    /// Size of the window in whole pixels; 1 x 1 for a window without pixels.
     pub fn pixels(&self) -> [u32; 2] {
         self.canvas.size().unwrap_or([1, 1])
     }
 
-    /// Column of the split, where there is one.
+    /// Column of the split, if there is one.
     pub fn split_column(&self) -> Option<u32> {
         (self.looks.len() > 1).then(|| (self.split * self.size()[0]).round() as u32)
     }
 
-    /// Does what is due, and says when to be asked again.
+    /// Does what is due, and returns when to be called again.
     ///
     /// # Errors
     /// If the device is lost or memory runs out.
@@ -456,7 +456,7 @@ impl Viewer {
         (painting, wishes)
     }
 
-    /// The cameras of the scene, where they are now.
+    /// The scene's cameras at the time that is shown.
     pub fn cameras(&self) -> &[SceneCamera] {
         match (&self.moment, self.canvas.stage()) {
             (Some(moment), _) => &moment.cameras,
@@ -465,14 +465,14 @@ impl Viewer {
         }
     }
 
-    /// Moment of the animation in seconds.
+    /// Time of the animation in seconds.
     pub fn time(&self) -> f64 {
         self.player
             .as_ref()
             .map_or(self.source.request.time, Player::time)
     }
 
-    /// Shows the scene at the player's time.
+    /// Moves the scene to the player's time.
     pub fn show_time(&mut self) {
         let time = self.time();
         let Some((stage, motion)) = self
@@ -487,7 +487,8 @@ impl Viewer {
                 self.moment = Some(Arc::new(moment));
                 self.restart();
             }
-            // A mesh turns inside out, or something comes or goes: the scene is posed anew, which takes a while.
+            // The scene can't be moved there: a mesh turns inside out, or something appears or disappears. Posing it
+            // anew takes a while.
             Ok(None) => {
                 if let Some(player) = &mut self.player
                     && player.is_playing()
@@ -504,7 +505,7 @@ impl Viewer {
         }
     }
 
-    /// Says what went wrong in the window. What nothing can go on after is handed back.
+    /// Shows an error in the window. A lost device is returned as an error.
     fn report(&mut self, error: anyhow::Error) -> anyhow::Result<()> {
         if is_lost(&error) {
             return Err(error);
@@ -514,7 +515,7 @@ impl Viewer {
         Ok(())
     }
 
-    /// Says when the picture that is seen has all samples.
+    /// Announces that the visible picture has all its samples.
     fn note_rest(&mut self) {
         let is_drawn = self.easel.is_some() || self.canvas.rests();
         if !(is_drawn && self.cover.is_done()) {
@@ -526,7 +527,7 @@ impl Viewer {
     }
 }
 
-/// Opens a device that shows pictures in the window.
+/// Opens a device that can present pictures in the window.
 fn canvas(
     window: &Arc<Window>,
     options: &HeadlessOptions,
@@ -540,13 +541,13 @@ fn canvas(
     let engine = Engine::new(Arc::new(device))?;
     let deliver = proxy.clone();
     let preparer = Preparer::new(move |prepared| {
-        // Nobody waits for it once the window is closed.
+        // An error means that the window is closed and that the result is no longer needed.
         let _ = deliver.send_event(Event::Prepared(Box::new(prepared)));
     });
     Canvas::new(Arc::new(engine), window.inner_size().into(), preparer)
 }
 
-/// Lays out the panel from nothing, since a new device has none of its textures.
+/// Makes a new context of the panel: a new device has none of the old one's textures.
 fn interface(window: &Window) -> egui_winit::State {
     let context = egui::Context::default();
     context.set_visuals(egui::Visuals::dark());

@@ -1,6 +1,5 @@
-//! Pictures that the window's frames can't make: of other sampling locations than the centres of pixels, of what pixels hold
-//! beside their colours, of photographs, and for files. They are made in a thread and a device of their own, so that the
-//! window never waits for them.
+//! Pictures that frames can't show: zooms, values other than colours, photographs, and pictures for files. A separate
+//! thread with a device of its own makes them, so that the window never waits for them.
 
 use super::losses::is_lost;
 use super::overlay::{self, COUNT_SIDE, Overlay};
@@ -28,58 +27,58 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 
-/// Rows of a picture that are made at once, where it takes long: in between it can be stopped.
+/// Rows that are rendered at once in pictures that take long; between two bands the picture can be stopped.
 const BAND: u32 = 32;
-/// Most samples of a picture that is soon done. Such a picture is shown even if another one has been asked for
-/// meanwhile, so that there is something to see while lenses move.
+/// Largest number of samples of a quick picture. A quick picture is finished and shown even if another one has been
+/// ordered meanwhile, so that lenses that move show something.
 const QUICK: u32 = 4;
-/// Least samples of the brute force that pictures are compared with.
+/// Smallest number of samples of the supersampled picture that serves as a reference.
 const REFERENCE_SAMPLES: u32 = 256;
 
-/// Kind of picture that is made of a scene.
+/// Kind of picture to make of a scene.
 #[derive(Clone, Debug)]
 pub enum Subject {
-    /// The scene, to look at.
+    /// The scene, for the window.
     Still,
-    /// The scene with regions enlarged, to look at, with or without colours over the transitions.
+    /// The scene with enlarged regions, for the window; `true` colours their transitions.
     Zoom(ZoomMap, bool),
-    /// Values of pixels other than their colours, to look at.
+    /// Values of pixels other than their colours, for the window.
     Overlay(Overlay),
-    /// PNG file with the same bytes that `gpc render` writes or, with regions enlarged, `gpc zoom`.
+    /// A PNG file with the same bytes that `gpc render` or, with enlarged regions, `gpc zoom` writes.
     File(PathBuf, Option<ZoomMap>),
 }
 
-/// A picture to be made.
+/// A picture to make.
 struct Order {
-    /// Tells what is made from what was asked for since.
+    /// Number of the order; 0 for files.
     number: u64,
     task: Task,
     stop: Stop,
 }
 
-/// Contents of an order.
+/// What to make.
 pub enum Task {
     Scene(Box<SceneTask>),
     Photo(PhotoView),
-    /// PNG file with the same bytes that `gpc zoom` or `gpc unzoom` writes.
+    /// A PNG file with the same bytes that `gpc zoom` or `gpc unzoom` writes.
     PhotoFile(PhotoView, PathBuf),
 }
 
-/// Order for a picture of a scene: the scene, the standpoint and the settings.
+/// A picture of a scene: scene, standpoint and settings.
 pub struct SceneTask {
     pub source: Source,
     pub scene: Arc<Scene>,
-    /// Moment of the animation in seconds.
+    /// Time of the animation in seconds.
     pub time: f64,
     pub standpoint: Standpoint,
     pub settings: Settings,
-    /// Whether its environment is seen behind it, but where regions are enlarged.
+    /// Whether the scene's environment is the background; pictures with enlarged regions have none.
     pub shows_environment: bool,
     pub subject: Subject,
 }
 
 impl Task {
-    /// File that the task writes; such a task is done whatever else is asked for.
+    /// File that the task writes. Files are written whatever is ordered afterwards.
     fn file(&self) -> Option<&Path> {
         match self {
             Self::Scene(task) => match &task.subject {
@@ -100,18 +99,18 @@ impl SceneTask {
     }
 }
 
-/// A picture to look at.
+/// A picture for the window.
 pub struct Pixels {
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// Rows of RGBA from the top: sRGB codes, premultiplied.
+    /// RGBA as sRGB codes, premultiplied, rows from the top.
     pub codes: Vec<[u8; 4]>,
-    /// Figures about the picture, in words.
+    /// Text about the picture.
     pub figures: Option<String>,
 }
 
 impl Pixels {
-    /// Codes of linear light.
+    /// Picture with the codes of linear colours.
     fn new(size: [u32; 2], colors: &[[f32; 4]]) -> Self {
         let code = |[r, g, b, a]: &[f32; 4]| {
             let [r, g, b] = [*r, *g, *b].map(|v| srgb::encode_u8(f64::from(v)));
@@ -124,7 +123,7 @@ impl Pixels {
         }
     }
 
-    /// Replaces each code by one made of it and of the pixel's centre.
+    /// Replaces each code by `change` of the code and the pixel's centre.
     fn map(mut self, change: impl Fn([u8; 4], DVec2) -> [u8; 4]) -> Self {
         let width = self.size[0].max(1);
         for (index, code) in self.codes.iter_mut().enumerate() {
@@ -142,7 +141,7 @@ pub enum Made {
 }
 
 impl Made {
-    /// Error for which there is no result.
+    /// The error, if the order failed.
     fn error(&self) -> Option<&anyhow::Error> {
         match self {
             Self::Pixels(_, made) => made.as_ref().err(),
@@ -151,19 +150,19 @@ impl Made {
     }
 }
 
-/// Takes orders until it is dropped, which stops what it is at.
+/// Thread that carries out orders until this is dropped, which stops the current one.
 pub struct PictureWorker {
-    /// `None` only while dropping.
+    /// Channel to the thread; `None` only in `Drop`.
     orders: Option<Sender<Order>>,
     thread: Option<JoinHandle<()>>,
-    /// The last picture to look at.
+    /// Flag that stops the last picture for the window.
     picture: Stop,
-    /// Files that were asked for and are not written.
+    /// Files that were ordered and are not yet written, with the flags that stop them.
     files: Vec<(PathBuf, Stop)>,
 }
 
 impl PictureWorker {
-    /// Starts a thread that opens a device with the first order of a scene, and delivers what it makes.
+    /// Starts the thread. It opens a device for the first order of a scene, and passes results to `deliver`.
     pub fn new(options: HeadlessOptions, deliver: impl Fn(Made) + Send + 'static) -> Self {
         let (orders, received) = channel();
         let thread = std::thread::spawn(move || {
@@ -182,7 +181,7 @@ impl PictureWorker {
         }
     }
 
-    /// Asks for a picture. Of those to look at the last alone is made.
+    /// Orders a picture. An order for the window supersedes earlier ones.
     pub fn ask(&mut self, number: u64, task: Task) {
         let stop = Stop::default();
         match task.file() {
@@ -191,22 +190,22 @@ impl PictureWorker {
         }
         let order = Order { number, task, stop };
         if let Some(orders) = &self.orders {
-            // The thread ends with this sender, and not before.
+            // Sending can't fail: the thread ends only when this sender is dropped.
             let _ = orders.send(order);
         }
     }
 
-    /// The last picture to look at is of no use any more.
+    /// Marks the last picture for the window as superseded.
     pub fn supersede(&mut self) {
         self.picture.supersede();
     }
 
-    /// A file is written, or can't be.
+    /// Removes a file from the list: it was written, or failed.
     pub fn delivered(&mut self, path: &Path) {
         self.files.retain(|(asked, _)| asked != path);
     }
 
-    /// Stops all files, and says which.
+    /// Stops all files that are being written, and returns their paths.
     pub fn stop_files(&mut self) -> Vec<PathBuf> {
         let stopped = |(path, stop): (PathBuf, Stop)| {
             stop.stop();
@@ -222,15 +221,15 @@ impl Drop for PictureWorker {
         self.picture.stop();
         self.stop_files();
         if let Some(thread) = self.thread.take() {
-            // A panic has been reported by the thread itself.
+            // The thread has reported its own panic.
             let _ = thread.join();
         }
     }
 }
 
-/// The thread's own.
+/// State of the thread.
 struct Maker {
-    /// First, since it goes before the device.
+    /// The scene on the device; the first field, so that it is dropped before the device.
     shown: Option<OpenScene>,
     headless: Option<Headless>,
     options: HeadlessOptions,
@@ -263,7 +262,7 @@ impl Maker {
         }
     }
 
-    /// Makes a picture. If it is stopped, the error is one that [`is_stopped`] recognises.
+    /// Makes a picture. If it is stopped, [`is_stopped`] is true for the error.
     fn make(&mut self, order: &Order) -> Made {
         let number = order.number;
         let task = match &order.task {
@@ -293,7 +292,7 @@ impl Maker {
         Made::Pixels(number, pixels)
     }
 
-    /// Opens the device, and has it ask whether the task is still wanted.
+    /// Opens the device, and lets it check during rendering whether the task is still wanted.
     fn listen(&mut self, task: &SceneTask, stop: &Stop) -> anyhow::Result<()> {
         let headless = match &mut self.headless {
             Some(headless) => headless,
@@ -322,7 +321,7 @@ impl Maker {
         Ok(Pixels::new(rendered.size, &rendered.colors))
     }
 
-    /// The scene and what is behind it.
+    /// The scene over its background.
     fn scenery(&mut self, task: &SceneTask) -> anyhow::Result<Rendered> {
         let mut rendered = self.render(task, &task.settings)?;
         if task.shows_environment {
@@ -335,7 +334,7 @@ impl Maker {
         Ok(rendered)
     }
 
-    /// The scene with regions enlarged.
+    /// The scene with enlarged regions.
     fn enlarged(&mut self, task: &SceneTask, map: &ZoomMap) -> anyhow::Result<Rendered> {
         let size = task.settings.size;
         let (headless, shown) = self.show(task)?;
@@ -375,7 +374,7 @@ impl Maker {
         })
     }
 
-    /// Counts triangles at a grid of samples in every pixel.
+    /// Picture of the number of triangles in each pixel, counted at a grid of samples.
     fn triangles(&mut self, task: &SceneTask) -> anyhow::Result<Pixels> {
         let size = task.settings.size;
         let finer = Settings {
@@ -407,7 +406,7 @@ impl Maker {
         })
     }
 
-    /// Compares with brute force.
+    /// Picture of the differences from supersampling.
     fn error(&mut self, task: &SceneTask) -> anyhow::Result<Pixels> {
         let side = task.settings.samples.max(REFERENCE_SAMPLES).isqrt();
         let brute = Settings {
@@ -441,7 +440,7 @@ impl Maker {
         })
     }
 
-    /// Renders bands of `rows` rows from the top, and hands each to `take`.
+    /// Renders bands of `rows` rows from the top, and passes each to `take`.
     fn render_bands(
         &mut self,
         task: &SceneTask,
@@ -488,13 +487,13 @@ impl Maker {
         Ok(whole)
     }
 
-    /// Puts what the task is of on the device, unless it is there.
+    /// Uploads the task's scene and pose, unless they are on the device already.
     fn show(&mut self, task: &SceneTask) -> anyhow::Result<(&mut Headless, &OpenScene)> {
         let headless = self.headless.as_mut().context("there is no device")?;
         let is_shown =
             |shown: &OpenScene| Arc::ptr_eq(&shown.scene, &task.scene) && shown.time == task.time;
         if !self.shown.as_ref().is_some_and(is_shown) {
-            // The memory of the pose before is free for this one.
+            // The memory of the pose before is freed first, so that this one can use it.
             self.shown = None;
             let pose = task.scene.pose(&PoseRequest {
                 time: task.time,
@@ -520,7 +519,7 @@ fn write_photo(view: &PhotoView, path: &Path) -> anyhow::Result<()> {
     write_png(path, view.window.size, &view.pixels(), view.map.as_ref())
 }
 
-/// Writes a file that tells which regions of it are enlarged.
+/// Writes a PNG that also stores its enlarged regions.
 fn write_png(
     path: &Path,
     size: [u32; 2],
@@ -542,7 +541,7 @@ fn camera(task: &SceneTask, shown: &OpenScene) -> anyhow::Result<gpc::camera::Ca
         .camera(&pose.cameras, bounds(pose), width / height)?)
 }
 
-/// Whether an error says that nobody wants the picture any more.
+/// Whether an error means that the picture was stopped.
 fn is_stopped(error: &anyhow::Error) -> bool {
     matches!(
         error.downcast_ref::<RenderError>(),
@@ -550,7 +549,7 @@ fn is_stopped(error: &anyhow::Error) -> bool {
     )
 }
 
-/// Fails if the validation layer was asked, and has said anything.
+/// Fails if the validation layer is on and has reported a message.
 fn check(headless: &Headless) -> anyhow::Result<()> {
     match headless.validation_messages().first() {
         Some(message) => bail!("the validation layer says: {message}"),

@@ -3,7 +3,7 @@
 use crate::scene::{Draw, DrawClass, Geometry, Material, Pose, Scene, VertexStreams};
 use glam::{DVec3, Vec3};
 
-/// Mesh in the making; all its triangles have one material.
+/// Mesh that is being built; all its triangles have the same material.
 #[derive(Default)]
 pub(super) struct Mesh {
     positions: Vec<[f32; 3]>,

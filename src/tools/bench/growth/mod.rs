@@ -1,4 +1,4 @@
-//! Benchmark of growth: series of scenes in each of which one quantity grows, to see what it costs.
+//! Benchmark of growth: series of scenes in which one quantity grows, to measure how the time grows with it.
 
 mod mesh;
 mod scenes;
@@ -7,37 +7,37 @@ use crate::camera::Camera;
 use crate::scene::{Pose, Scene};
 use std::fmt;
 
-/// Quantity that grows in a series of scenes while all others stay.
+/// Quantity that grows in a series of scenes while all others stay constant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Growth {
     /// Triangles of a landscape of hills, 10^3 to 10^7.
     Triangles,
     /// Pixels of an image of a landscape of 10^5 triangles, 0.1 to 33 megapixels.
     Pixels,
-    /// Superpixels' share of the pixels, 0 to 100 %: upright strips two pixels wide, of which this share alternates
-    /// between two colours.
+    /// Share of superpixels among the pixels, 0 to 100 %: upright strips two pixels wide, of which this share
+    /// alternates between two colours.
     Superpixels,
-    /// Layers that fill the image, 1 to 64, the nearest last: triangles that cover each sample.
+    /// Number of layers that fill the image, 1 to 64, the nearest drawn last: the triangles that cover each sample.
     Depth,
 }
 
 /// One scene of a series.
 #[derive(Clone, Debug)]
 pub struct GrowthStep {
-    /// Value of the quantity: a number of triangles, megapixels, a percentage or a number of layers.
+    /// Value of the quantity: number of triangles, megapixels, percentage or number of layers.
     pub value: f64,
     /// Width and height of the image in pixels.
     pub size: [u32; 2],
     /// Scene with its materials.
     pub scene: Scene,
-    /// Pose with its triangles.
+    /// Pose of the scene, with its triangles.
     pub pose: Pose,
     /// Camera of the scene.
     pub camera: Camera,
 }
 
 impl Growth {
-    /// All quantities.
+    /// All quantities, each with a series of its own.
     pub const ALL: [Self; 4] = [
         Self::Triangles,
         Self::Pixels,
@@ -56,8 +56,8 @@ impl Growth {
         }
     }
 
-    /// Makes scene number `index`, 0 being the least, for an image of `size` pixels unless the size is what grows;
-    /// `None` after the last.
+    /// Makes scene number `index`, 0 being the smallest; `None` after the last. `size` is the width and height of the
+    /// image in pixels, unless the size is the quantity that grows.
     #[must_use]
     pub fn step(self, index: usize, size: [u32; 2]) -> Option<GrowthStep> {
         match self {

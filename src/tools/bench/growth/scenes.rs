@@ -6,9 +6,9 @@ use crate::camera::{Camera, Projection};
 use crate::scene::Material;
 use glam::{DMat3, DVec2, DVec3, Vec3};
 
-/// Numbers of triangles of the steps of [`super::Growth::Triangles`].
+/// Numbers of triangles of the series [`super::Growth::Triangles`].
 pub(super) const TRIANGLES: [u32; 5] = [1_000, 10_000, 100_000, 1_000_000, 10_000_000];
-/// Image sizes of the steps of [`super::Growth::Pixels`].
+/// Image sizes of the series [`super::Growth::Pixels`].
 pub(super) const SIZES: [[u32; 2]; 6] = [
     [427, 240],
     [854, 480],
@@ -17,12 +17,12 @@ pub(super) const SIZES: [[u32; 2]; 6] = [
     [3840, 2160],
     [7680, 4320],
 ];
-/// Percentages of superpixels of the steps of [`super::Growth::Superpixels`].
+/// Percentages of superpixels of the series [`super::Growth::Superpixels`].
 pub(super) const PERCENTAGES: [u32; 8] = [0, 1, 5, 10, 25, 50, 75, 100];
-/// Numbers of layers of the steps of [`super::Growth::Depth`].
+/// Numbers of layers of the series [`super::Growth::Depth`].
 pub(super) const LAYERS: [u32; 7] = [1, 2, 4, 8, 16, 32, 64];
 
-/// Landscape of hills that hide each other, seen from above their tops; `value` becomes the step's.
+/// Landscape of hills that occlude each other, seen from above; `value` becomes the step's value.
 pub(super) fn landscape(triangles: u32, size: [u32; 2], value: f64) -> GrowthStep {
     const SIDE: f32 = 24.0;
     let cells = (f64::from(triangles) / 2.0).sqrt().round() as u32;
@@ -47,7 +47,7 @@ pub(super) fn landscape(triangles: u32, size: [u32; 2], value: f64) -> GrowthSte
         }
     });
     let (scene, pose) = mesh.build(double_sided(false));
-    // Down by a quarter of a right angle.
+    // The camera looks down by 22.5 degrees.
     let (sin, cos) = std::f64::consts::FRAC_PI_8.sin_cos();
     let camera = Camera {
         eye: DVec3::new(0.0, 3.0, 1.0),
@@ -67,7 +67,7 @@ pub(super) fn landscape(triangles: u32, size: [u32; 2], value: f64) -> GrowthSte
     }
 }
 
-/// Upright strips two pixels wide, a little tilted; `percentage` of them alternate between light and dark.
+/// Upright strips two pixels wide, slightly tilted; `percentage` of them alternate between light and dark.
 pub(super) fn strips(percentage: u32, size: [u32; 2]) -> GrowthStep {
     const PITCH: f32 = 2.0;
     const ROWS: u32 = 16;
@@ -77,7 +77,7 @@ pub(super) fn strips(percentage: u32, size: [u32; 2]) -> GrowthStep {
     let mut mesh = Mesh::default();
     for strip in 0..count {
         let left = strip as f32 * PITCH - lean;
-        // At half of the image's height, where strips have not leant over yet.
+        // At half of the image's height a tilted strip is in the place of an upright one.
         let alternates = match percentage {
             0 => false,
             100 => true,
@@ -100,12 +100,12 @@ pub(super) fn strips(percentage: u32, size: [u32; 2]) -> GrowthStep {
     }
 }
 
-/// Layers behind each other, checked in two colours, the farthest first.
+/// Layers behind each other with a pattern of two-coloured squares, the farthest drawn first.
 pub(super) fn layers(count: u32, size: [u32; 2]) -> GrowthStep {
     let [width, height] = size.map(|side| side as f32);
     let mut mesh = Mesh::default();
     for layer in (0..count).rev() {
-        // No two layers have their edges in the same places.
+        // Numbers of columns differ, so that no two layers have edges in the same places.
         let columns = 16 + layer % 13;
         let rows = 9 + layer % 7;
         let distance = 2.0 + layer as f32;
@@ -116,7 +116,7 @@ pub(super) fn layers(count: u32, size: [u32; 2]) -> GrowthStep {
                 mesh.add_grid([1, 1], |u, v| {
                     let x = (column as f32 + u) / columns as f32 * 1.1 - 0.05;
                     let y = (row as f32 + v) / rows as f32 * 1.1 - 0.05;
-                    // Lines that are not along the pixels.
+                    // The grid is slanted, so that its lines do not run along the pixels.
                     let place = [(x + 0.03 * y) * width, (y - 0.03 * x) * height];
                     at(place, distance, color, size)
                 });

@@ -21,7 +21,7 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
     for (turns, what) in [(0, "duplicates"), (1, "duplicates begun at another vertex")] {
         let stage = with_duplicates(&plain, turns);
         let raster = stage.render(headless, &once(size))?;
-        // The one location of the grid is the pixel's centre.
+        // A grid of one sample lies at the pixel's centre.
         let sampled = stage.render(headless, &everywhere(size, Pattern::Grid, 1))?;
         let [raster, sampled] = [&raster, &sampled].map(winners);
         let share = |count: usize| count as f64 / raster.len() as f64;
@@ -53,7 +53,8 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
     Ok(findings)
 }
 
-/// Stage of white triangles, followed by black duplicates in another order and with their vertices turned.
+/// Stage of the white triangles of `plain`, followed by black copies in another order whose vertices are rotated by
+/// `turns`.
 fn with_duplicates(plain: &Stage, turns: usize) -> Stage {
     let mut stage = plain.clone();
     let mut duplicates = plain.triangles.clone();
@@ -66,7 +67,7 @@ fn with_duplicates(plain: &Stage, turns: usize) -> Stage {
     stage
 }
 
-/// Whether each pixel shows a white triangle.
+/// Whether each pixel shows a white triangle rather than a black one.
 fn winners(image: &Rendered) -> Vec<bool> {
     image.colors.iter().map(|color| color[0] > 0.5).collect()
 }

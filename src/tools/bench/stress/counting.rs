@@ -1,18 +1,18 @@
-//! Counts of how often samples are hit.
+//! Counts of how often triangles hit samples.
 
 use super::stage::{Stage, flat};
 use crate::camera::Camera;
 use crate::render::{Headless, RenderError, Settings};
 use crate::scene::AlphaMode;
 
-/// Hits of samples.
+/// Numbers of hits of samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Hits {
-    /// Samples that were checked.
+    /// Number of samples that were checked.
     pub samples: u64,
-    /// Samples that no opaque triangle covers.
+    /// Number of samples that no opaque triangle covers.
     pub holes: f64,
-    /// Difference of the hits of translucent triangles from the samples that opaque triangles cover.
+    /// Number of hits by translucent triangles minus the number of samples that opaque triangles cover.
     pub excess: f64,
 }
 
@@ -24,10 +24,11 @@ impl Hits {
     }
 }
 
-/// Counts the hits of a stage's triangles in the pixels that `counts` selects by column and row.
+/// Counts the hits of a stage's triangles, in the pixels for which `counts` is true of column and row.
 ///
-/// Opacity is coverage: where all triangles are opaque, a pixel's alpha is the share of samples hit. Where all let one
-/// half through, samples hit once weigh a half and those hit twice three quarters.
+/// The count is read from the alpha. If all triangles are opaque, a pixel's alpha is the share of its samples that
+/// were hit. If all have an alpha of one half, a sample that was hit once contributes a half and one that was hit
+/// twice three quarters.
 pub(super) fn count(
     headless: &mut Headless,
     stage: &Stage,
@@ -57,17 +58,17 @@ pub(super) fn count(
             continue;
         }
         let [opaque, half] = [opaque, half].map(|color| f64::from(color[3]));
-        // Which pixels are superpixels may depend on the material.
+        // The two materials may make different pixels superpixels.
         let [samples, translucent] = [seen.0, seen.1].map(|seen| f64::from(seen.samples));
         hits.samples += u64::from(seen.0.samples);
-        // Means that are not of a power of two are rounded, by far less than the weight of a sample.
+        // A mean over a number of samples that is no power of two is rounded, by far less than the weight of a sample.
         hits.holes += (samples * (1.0 - opaque)).round().abs();
         hits.excess += (translucent * (half - 0.5 * opaque) / 0.25).round().abs();
     }
     Ok(hits)
 }
 
-/// Greatest error of the coverage of the pixels that `counts` selects, each of which opaque triangles cover completely.
+/// Largest error of the coverage of the pixels that `counts` selects, all of which opaque triangles cover completely.
 pub(super) fn worst_cover(
     headless: &mut Headless,
     stage: &Stage,

@@ -11,7 +11,7 @@ pub(super) fn in_bits(a: &Rendered, b: &Rendered) -> f64 {
     pairs.filter(differ).count() as f64
 }
 
-/// Share of the pixels that differ by more than the 8-bit codes of sRGB can show.
+/// Share of the pixels that differ in any channel by more than one 8-bit sRGB code.
 pub(super) fn in_codes(a: &Rendered, b: &Rendered) -> f64 {
     let code = |value: f32| srgb::encode_u8(f64::from(value.clamp(0.0, 1.0)));
     let differ = |(a, b): &(&[f32; 4], &[f32; 4])| {
@@ -22,7 +22,7 @@ pub(super) fn in_codes(a: &Rendered, b: &Rendered) -> f64 {
     pairs.filter(differ).count() as f64 / a.colors.len() as f64
 }
 
-/// Finding on two images that must be identical.
+/// Finding that compares two images which must be identical.
 pub(super) fn same(case: impl Into<String>, a: &Rendered, b: &Rendered) -> Finding {
     Finding {
         case: case.into(),

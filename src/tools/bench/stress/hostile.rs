@@ -1,4 +1,5 @@
-//! Stress check: vertices without a place, and triangles without a surface. None may show, nor change what others show.
+//! Stress check: vertices with infinite or undefined positions, and triangles without an area. None may be visible,
+//! nor change the rest of the image.
 
 use super::difference::same;
 use super::stage::once;
@@ -35,7 +36,7 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
     Ok(findings)
 }
 
-/// Triangles without an area, or with one that has no value.
+/// Triangles with no area, or with an undefined one.
 fn hostile() -> [(&'static str, [[f32; 3]; 3]); 9] {
     let (right, up) = ([1.0, 0.0, -1.0], [0.0, 1.0, -1.0]);
     [
@@ -66,7 +67,7 @@ fn hostile() -> [(&'static str, [[f32; 3]; 3]); 9] {
     ]
 }
 
-/// Triangle with its vertices in all three rotations, and in the other winding.
+/// Triangle with its vertices in all three rotations, and once in the opposite winding.
 fn turned(corners: [[f32; 3]; 3]) -> [[[f32; 3]; 3]; 4] {
     let [a, b, c] = corners;
     [[a, b, c], [b, c, a], [c, a, b], [b, a, c]]

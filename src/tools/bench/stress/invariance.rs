@@ -1,4 +1,4 @@
-//! Stress check: changes that must not change an image.
+//! Stress check: changes of settings and scenes that must not change an image.
 
 use super::difference::same;
 use super::stage::{Stage, everywhere};
@@ -38,7 +38,7 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
     Ok(findings)
 }
 
-/// Renders in less and less memory, by a quarter each time, until the least does not suffice.
+/// Renders with the memory limit reduced by a quarter each time, until it is too small.
 fn less_memory(
     headless: &mut Headless,
     stage: &Stage,

@@ -1,4 +1,4 @@
-//! Meshes, made from seeds, that tile a square of the screen and are hard to rasterize without holes or double hits.
+//! Meshes, made from seeds, that tile a square of the screen and are hard to rasterize without holes or overlaps.
 
 use super::Random;
 use glam::DVec3;
@@ -20,7 +20,7 @@ impl Mesh {
     /// 6.
     ///
     /// # Panics
-    /// If there is no such triangle.
+    /// If there is no triangle with this index.
     #[must_use]
     pub fn corners(&self, triangle: usize, permutation: usize) -> [[f32; 4]; 3] {
         const PERMUTATIONS: [[usize; 3]; 6] = [
@@ -35,12 +35,12 @@ impl Mesh {
     }
 }
 
-/// Distances from the eye that the vertices of a mesh get.
+/// Distances of a mesh's vertices from the eye.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depths {
     /// w = 1, and positions rounded to 1/16 pixel: samples on a grid fall on edges and corners.
     Snapped,
-    /// Random w for each vertex, 1/8 to 8.
+    /// Random w for each vertex, from 1/8 to 8.
     Random,
 }
 
@@ -56,7 +56,7 @@ impl Depths {
     }
 }
 
-/// All kinds of meshes that cover the square from -half to half pixels on both axes with positive w.
+/// Meshes of every kind that cover the square from -half to half pixels on both axes with positive w.
 #[must_use]
 pub fn tilings(seed: u64, half: f64) -> Vec<Mesh> {
     let mut meshes = Vec::new();
@@ -69,18 +69,19 @@ pub fn tilings(seed: u64, half: f64) -> Vec<Mesh> {
     meshes
 }
 
-/// Jittered grid of `cells` x `cells` quadrilaterals, each split along its Delaunay diagonal.
+/// Jittered grid of `cells` x `cells` quadrilaterals, each split along its Delaunay diagonal; `half` is half of the
+/// square's side in pixels.
 #[must_use]
 pub fn delaunay(seed: u64, half: f64, cells: usize, depths: Depths) -> Mesh {
     let mut random = Random::new(seed);
     let side = cells + 1;
-    // The rim is left straight, a little outside of the square.
+    // The vertices on the rim stay on a square slightly larger than the one to cover.
     let step = (2.0 * half + 2.0) / cells as f64;
     let mut jitter = |index: usize| match index {
         0 => 0.0,
         _ if index == cells => 0.0,
-        // Quadrilaterals stay convex while their corners move by less than a quarter of a cell, 1/16 pixel of rounding
-        // included.
+        // Quadrilaterals stay convex while their corners move by less than a quarter of a cell, which includes
+        // rounding to 1/16 pixel.
         _ => random.range(-1.0, 1.0) * (0.24 * step - 1.0 / 16.0).max(0.0),
     };
     let positions: Vec<[f64; 2]> = (0..side * side)
@@ -96,7 +97,7 @@ pub fn delaunay(seed: u64, half: f64, cells: usize, depths: Depths) -> Mesh {
     let mut triangles = Vec::with_capacity(2 * cells * cells);
     for corner in (0..cells).flat_map(|row| (0..cells).map(move |column| row * side + column)) {
         let [a, b, c, d] = [corner, corner + 1, corner + 1 + side, corner + side];
-        // Counter-clockwise in the axes' sense, the fourth corner is inside the circle: the other diagonal.
+        // The fourth corner is inside of the others' circumcircle, so the other diagonal is the Delaunay one.
         if in_circle([a, b, c, d].map(|index| positions[index])) > 0.0 {
             triangles.extend([[a, b, d], [b, c, d]]);
         } else {
@@ -110,8 +111,8 @@ pub fn delaunay(seed: u64, half: f64, cells: usize, depths: Depths) -> Mesh {
     }
 }
 
-/// Positive if the last point lies in the circle through the others, which turn counter-clockwise in the axes' sense.
-/// Rounding may decide otherwise: either diagonal makes a tiling.
+/// Positive if the last point lies in the circumcircle of the others, which are counter-clockwise in the axes' sense.
+/// The sign may be wrong by rounding; either diagonal makes a tiling.
 fn in_circle([a, b, c, d]: [[f64; 2]; 4]) -> f64 {
     let rows = [a, b, c].map(|[x, y]| {
         let [x, y] = [x - d[0], y - d[1]];
@@ -120,7 +121,7 @@ fn in_circle([a, b, c, d]: [[f64; 2]; 4]) -> f64 {
     rows[0].dot(rows[1].cross(rows[2]))
 }
 
-/// Fan of `spokes` triangles around one vertex in the square.
+/// Fan of `spokes` triangles around one vertex in the square; `half` is half of the square's side in pixels.
 #[must_use]
 pub fn fan(seed: u64, half: f64, spokes: usize, depths: Depths) -> Mesh {
     let mut random = Random::new(seed);
@@ -131,7 +132,7 @@ pub fn fan(seed: u64, half: f64, spokes: usize, depths: Depths) -> Mesh {
         })
         .collect();
     angles.sort_unstable_by(f64::total_cmp);
-    // Even the chords between neighbouring spokes stay outside of the square, as seen from a hub anywhere in it.
+    // The chord between neighbouring spokes stays outside of the square from every hub in it.
     let radius = 4.0 * half + 4.0;
     let mut vertices = vec![depths.vertex(&mut random, hub)];
     for angle in angles {
@@ -148,13 +149,13 @@ pub fn fan(seed: u64, half: f64, spokes: usize, depths: Depths) -> Mesh {
 }
 
 /// Strip of long thin triangles, with `count` vertices on either side; many are far thinner than the distance between
-/// samples.
+/// samples. `half` is half of the square's side in pixels.
 #[must_use]
 pub fn slivers(seed: u64, half: f64, count: usize, depths: Depths) -> Mesh {
     let mut random = Random::new(seed);
     let side = |random: &mut Random, x: f64| {
         let mut heights: Vec<f64> = (1..count - 1).map(|_| random.range(-half, half)).collect();
-        // Some vertices a hair's breadth from another.
+        // Every third vertex almost coincides with the one before.
         for index in (0..heights.len()).step_by(3).skip(1) {
             heights[index] = heights[index - 1] + random.range(-16.0, -4.0).exp2();
         }
@@ -180,19 +181,19 @@ pub fn slivers(seed: u64, half: f64, count: usize, depths: Depths) -> Mesh {
     }
 }
 
-/// Horizontal plane under the camera, of `cells` x `cells` irregular cells that begin behind it: the near plane cuts
-/// its quadrilaterals in every way, and its vertices lie up to 10^6 pixels off the screen. It covers the screen from
-/// the pixel row `horizon` (from the centre) down; `half` is the distance in pixels from the screen's centre to its
-/// sides.
+/// Horizontal plane under the camera, of `cells` x `cells` irregular cells that begin behind the camera. The near
+/// plane cuts its quadrilaterals in many ways, and its vertices lie up to 10^6 pixels off the screen. It covers the
+/// screen from the pixel row `horizon` (from the centre) downwards; `half` is the distance in pixels from the screen's
+/// centre to its sides.
 #[must_use]
 pub fn ground(seed: u64, half: f64, horizon: f64, cells: usize) -> Mesh {
     let mut random = Random::new(seed);
-    // The plane is one unit below the eye, and the focal length such that a slope of 1 is at the screen's side.
+    // The plane is one unit below the eye, and a slope of 1 is seen at the screen's side.
     let farthest = half / horizon;
     let side = cells + 1;
     let mut coordinate = |low: f64, high: f64| {
         let mut inner: Vec<f64> = (1..cells).map(|_| random.range(low, high)).collect();
-        // Vertices nearly and exactly in the plane of the eye.
+        // Some vertices lie exactly or almost in the plane of the eye.
         inner[0] = 0.0;
         inner[1] = 1e-6;
         inner.extend([low, high]);

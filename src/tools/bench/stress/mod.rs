@@ -1,7 +1,7 @@
-//! Stress suite: geometry that is hard on a rasterizer, and properties that its images must have.
+//! Stress suite: geometry that is hard to rasterize, and properties that its images must have.
 //!
-//! Every check is made from seeds and says what it found as [`Finding`]s, in numbers. Tests run them short, `gpc bench
-//! --stress` long.
+//! Every check is made from seeds and reports numbers as [`Finding`]s. Tests run the short suite, `gpc bench --stress`
+//! the long one.
 
 mod coincident;
 mod counting;
@@ -24,7 +24,7 @@ use super::Random;
 use crate::render::{Headless, RenderError};
 use serde::Serialize;
 
-/// Amount of work of a check.
+/// Length of a check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Length {
     /// Seconds on a CPU device.
@@ -43,30 +43,30 @@ impl Length {
     }
 }
 
-/// Result of a check for one case.
+/// Result of a check in one case.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Finding {
     /// Scene, and the property that was checked.
     pub case: String,
-    /// Number of samples, pixels or frames that were checked; `unit` names them.
+    /// Number of samples, pixels or frames that were checked.
     pub checked: u64,
-    /// Unit of `checked` and `measured`.
+    /// Unit of `checked` and `measured`, such as samples.
     pub unit: &'static str,
-    /// Count or measure.
+    /// Measured count or error.
     pub measured: f64,
-    /// Most that `measured` may be; `None` if it is only measured for comparison.
+    /// Largest value of `measured` that is allowed; `None` if it is only measured for comparison.
     pub allowed: Option<f64>,
 }
 
 impl Finding {
-    /// Whether the measure is at most what is allowed.
+    /// Whether `measured` is allowed.
     #[must_use]
     pub fn holds(&self) -> bool {
         self.allowed.is_none_or(|allowed| self.measured <= allowed)
     }
 }
 
-/// Check of the suite.
+/// Check of the stress suite.
 #[derive(Clone, Copy, Debug)]
 pub struct Check {
     /// Name of the check.

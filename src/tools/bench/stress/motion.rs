@@ -1,4 +1,5 @@
-//! Stress check: thin wires under a camera that pans by parts of a pixel. Their energy must stay, and not flicker.
+//! Stress check: thin wires under a camera that pans by fractions of a pixel. Their total brightness must stay the
+//! same and must not flicker.
 
 use super::stage::{Stage, camera, flat, once, seen_at};
 use super::{Finding, Length};
@@ -7,13 +8,14 @@ use crate::render::{Headless, Method, RenderError, SceneRequest, Settings};
 use crate::scene::AlphaMode;
 use glam::DVec2;
 
-/// Largest relative difference of an image's energy from the wires'.
+/// Largest relative difference of an image's brightness from that of the wires.
 const ENERGY: f64 = 0.01;
 /// Widths of the wires in pixels.
 const WIDTHS: [f64; 3] = [0.1, 0.3, 0.8];
-/// Degrees between the wires and the vertical.
+/// Angles between the wires and the vertical, in degrees.
 const LEANS: [f64; 4] = [0.5, 3.0, 11.0, 27.0];
-/// Distance between the wires' middles, in heights of the image: the most slanted wire stays within it.
+/// Distance between the wires' middles / height of the image, large enough that the most slanted wire stays in its
+/// interval.
 const PITCH: f64 = 0.625;
 
 pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Finding>, RenderError> {
@@ -53,11 +55,11 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
     Ok(findings)
 }
 
-/// White wires side by side, from above to below the image.
+/// White wires side by side that extend above and below the image.
 struct Wires {
     size: [u32; 2],
     stage: Stage,
-    /// Sum of the colours of a row.
+    /// Expected sum of the colours of a row.
     energy: f64,
 }
 
@@ -70,7 +72,7 @@ impl Wires {
         for (index, lean) in LEANS.into_iter().enumerate() {
             let middle = (index as f64 + 0.5) * pitch - f64::from(size[0]) / 2.0;
             let slope = lean.to_radians().tan();
-            // Its width along a row.
+            // Width of a slanted wire along a row.
             let across = width / lean.to_radians().cos();
             let end = f64::from(size[1]);
             let place = |x: f64, y: f64| seen_at([middle + x + slope * y, y], 2.0, size[1]);
@@ -93,8 +95,8 @@ impl Wires {
         }
     }
 
-    /// Pans to the right by a pixel, and down by less, in `frames` steps. Returns the greatest relative error of an
-    /// image's energy, and the root of the mean squared relative error of a row's.
+    /// Pans right by one pixel, and down by less, in `frames` steps. Returns the largest relative error of an image's
+    /// brightness, and the root mean squared relative error of a row's brightness.
     fn pan(
         &self,
         headless: &mut Headless,

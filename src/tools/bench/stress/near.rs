@@ -1,5 +1,5 @@
-//! Stress check: cameras inside closed surfaces, whose triangles cross the planes of the eye and of the near plane in
-//! all ways and reach millions of pixels off the image.
+//! Stress check: cameras inside closed surfaces. The triangles cross the planes of the eye and of the near plane in
+//! many ways and reach millions of pixels off the image.
 
 use super::counting::{Hits, count};
 use super::partition::report;
@@ -13,7 +13,7 @@ use std::f64::consts::{PI, TAU};
 
 /// Vertical fields of view in degrees.
 const FIELDS: [f64; 8] = [0.1, 1.0, 10.0, 60.0, 90.0, 150.0, 175.0, 179.0];
-/// Distance of the near plane; the surface's distance from its middle is 1.
+/// Distance of the near plane; the surface is at distance 1 from its centre.
 const NEAR: f64 = 1e-4;
 
 pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Finding>, RenderError> {

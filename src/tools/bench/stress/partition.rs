@@ -1,4 +1,4 @@
-//! Stress check: each sample of a tiling is hit exactly once (partition of unity).
+//! Stress check: triangles of a tiling hit each sample exactly once (partition of unity).
 
 use super::counting::{Hits, count, worst_cover};
 use super::meshes::{ground, tilings};
@@ -13,13 +13,13 @@ const COUNTS: [u32; 6] = [1, 4, 16, 64, 256, 1024];
 /// Largest error of the sum of areas in a pixel.
 const AREA: f64 = 1e-4;
 
-/// Row below the image's centre from which [`ground`] covers it.
+/// Row below the image's centre from which [`ground`] covers the image.
 const HORIZON: f64 = 2.0;
 
 pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Finding>, RenderError> {
     let mut findings = Vec::new();
     for samples in COUNTS {
-        // About as many samples in each image.
+        // All images have about the same number of samples.
         let side = length.choose(128, 1472) / samples.isqrt();
         let settings = everywhere([side; 2], Pattern::Sobol, samples);
         let mut hits = Hits::default();
@@ -39,7 +39,7 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
         report(&mut findings, &case, hits);
     }
     for samples in [4, 64] {
-        // Triangles larger than pixels, so that both kinds of pixels lie side by side.
+        // Triangles are larger than pixels, so that superpixels and ordinary pixels lie side by side.
         let settings = Settings {
             detection: Detection::Exact,
             ..everywhere([length.choose(96, 512); 2], Pattern::Sobol, samples)
@@ -91,14 +91,14 @@ fn of_mesh(
     )
 }
 
-/// Stage of a mesh's triangles with their vertices in all orders.
+/// Stage of a mesh's triangles, with their vertices in all orders.
 fn stage(mesh: &Mesh, settings: &Settings) -> Stage {
     let mut stage = Stage::default();
     stage.add_mesh(0, mesh, settings.size[1], |triangle| triangle);
     stage
 }
 
-/// Reports holes and double hits, neither of which may occur.
+/// Adds findings about holes and double hits, neither of which is allowed.
 pub(super) fn report(findings: &mut Vec<Finding>, case: &str, hits: Hits) {
     for (unit, measured) in [
         ("samples without a hit", hits.holes),

@@ -1,4 +1,4 @@
-//! Stress check: scenes of all sizes, far from the origin, and deep ones.
+//! Stress check: scenes of all sizes, scenes far from the origin, and deep scenes.
 
 use super::difference::{in_codes, same};
 use super::stage::{NEAR, Stage, camera, everywhere, flat, seen_at};
@@ -9,7 +9,7 @@ use crate::sampling::Pattern;
 use crate::scene::AlphaMode;
 use glam::DVec3;
 
-/// Share of the pixels that may differ when vertices are rounded differently: those of samples on edges.
+/// Share of the pixels, those with samples on edges, that may differ when vertices are rounded differently.
 const ROUNDED: f64 = 0.002;
 
 pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Finding>, RenderError> {
@@ -64,7 +64,7 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
     Ok(findings)
 }
 
-/// Stage with all its lengths scaled, and the near plane's distance with them.
+/// Image of a stage whose lengths, the near plane's distance included, are scaled by `factor`.
 fn scaled(
     headless: &mut Headless,
     stage: &Stage,
@@ -89,8 +89,8 @@ fn near_at(near: f64) -> Camera {
     }
 }
 
-/// Columns at distances from 10^-3 to 10^6 in random order, each before a wall that is farther by a factor of 1 +
-/// 2^-16.
+/// Finding on columns at distances from 10^-3 to 10^6 in random order, each in front of a wall that is farther by a
+/// factor of 1 + 2^-16.
 fn ladder(headless: &mut Headless, samples: u32) -> Result<Finding, RenderError> {
     const STEPS: u32 = 10;
     const COLUMN: u32 = 8;

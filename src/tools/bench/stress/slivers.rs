@@ -1,5 +1,5 @@
-//! Stress check: interpolated attributes stay within the range of a triangle's vertices, for slivers, for triangles
-//! with vertices behind the eye, and for those smaller than pixels.
+//! Stress check: interpolated attributes stay within the range of the vertices' values, for slivers, for triangles
+//! with vertices behind the eye, and for triangles smaller than pixels.
 
 use super::meshes::{Depths, delaunay, fan, ground, slivers};
 use super::stage::{Stage, camera, everywhere, flat};
@@ -10,7 +10,7 @@ use crate::scene::AlphaMode;
 
 /// Range of the vertices' colours.
 const RANGE: [f32; 2] = [0.25, 0.75];
-/// Largest excess of a colour: rounding of 24 bits, over a sum of samples.
+/// Largest distance of a colour from the range: rounding of floats with 24 bits, summed over samples.
 const ROUNDING: f64 = 1e-5;
 
 pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Finding>, RenderError> {
@@ -52,7 +52,7 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
             let image = headless.render(&mut frame, &camera())?;
             let excess = |[r, g, b, a]: &[f32; 4]| {
                 let worst = |v: &f32| (RANGE[0] * a - v).max(v - RANGE[1] * a);
-                // NaN is no number's maximum.
+                // `f32::max` ignores NaN, but a sum keeps it.
                 let parts = [r, g, b].map(worst);
                 let sum: f32 = parts.iter().sum();
                 if sum.is_nan() {

@@ -1,4 +1,4 @@
-//! Random triangles.
+//! Stages of random triangles.
 
 use super::Random;
 use super::stage::{Stage, flat, seen_at};
@@ -7,8 +7,8 @@ use crate::scene::{AlphaMode, Material};
 /// Number of colours of a [`soup`]'s opaque triangles.
 const COLORS: usize = 16;
 
-/// Stage of `count` random triangles in sixteen colours. Sums of these over samples are exact, so that the order of
-/// summation, which is that of IDs, does not show. The last `blend` triangles are translucent.
+/// Stage of `count` random triangles in sixteen colours; the last `blend` triangles are translucent. Sums of these
+/// colours over samples are exact, so that the order of summation, which follows the IDs, has no effect.
 #[must_use]
 pub fn soup(seed: u64, size: [u32; 2], count: usize, blend: usize) -> Stage {
     let mut random = Random::new(seed);

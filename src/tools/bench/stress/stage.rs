@@ -1,8 +1,8 @@
-//! Stages: scenes of a few triangles before a camera whose transform a CPU repeats to the bit.
+//! Stages: scenes of a few triangles in front of a camera whose transform a CPU can repeat to the bit.
 //!
-//! The camera stands at the origin, looks along -z with a vertical field of view of 90 degrees and has its far plane at
-//! infinity. Each row of its matrix then has a single entry, so that a clip-space coordinate is one product (or the
-//! constant [`NEAR`]): however a device orders or contracts the sum, the rounding is the same.
+//! The camera stands at the origin, looks along -z with a vertical field of view of 90 degrees, and has its far plane
+//! at infinity. Each row of its matrix then has a single entry, so that a clip-space coordinate is one product (or the
+//! constant [`NEAR`]), with the same rounding however a device orders or contracts the sum.
 
 use super::{Mesh, Random};
 use crate::camera::{Camera, Projection};
@@ -35,8 +35,8 @@ pub fn camera() -> Camera {
     }
 }
 
-/// Position that the camera sees at `distance` along the direction of view, at a place in pixels from the image's
-/// centre, y down. The image is `height` pixels high.
+/// Position that the camera sees at `distance` along the direction of view. `[x, y]` is the place in pixels from the
+/// image's centre, y down; the image is `height` pixels high.
 #[must_use]
 pub fn seen_at([x, y]: [f64; 2], distance: f64, height: u32) -> [f32; 3] {
     let scale = distance * 2.0 / f64::from(height);
@@ -56,18 +56,18 @@ pub struct Triangle {
     pub uvs: [[f32; 2]; 3],
 }
 
-/// Stage in the making. Triangle `i` has the ID `i + 1`.
+/// Stage that is being built. Triangle `i` has the ID `i + 1`.
 #[derive(Clone, Debug, Default)]
 pub struct Stage {
     /// Materials of the stage.
     pub materials: Vec<Material>,
-    /// Triangles of the stage; those of opaque materials come first, then MASK, then BLEND.
+    /// Triangles of the stage: those of opaque materials first, then MASK, then BLEND.
     pub triangles: Vec<Triangle>,
     /// Texture of all materials made by [`textured`].
     pub texture: Option<(Image, Sampler)>,
 }
 
-/// Unlit material, seen from both sides.
+/// Unlit material that is visible from both sides.
 #[must_use]
 pub fn flat(base_color: [f32; 4], alpha_mode: AlphaMode) -> Material {
     Material {
@@ -111,14 +111,14 @@ impl Stage {
         });
     }
 
-    /// Adds the two triangles of a quadrilateral, whose corners are given in turn.
+    /// Adds the two triangles of a quadrilateral, whose corners are given in order around it.
     pub fn add_quad(&mut self, material: usize, [a, b, c, d]: [[f32; 3]; 4]) {
         self.add(material, [a, b, c]);
         self.add(material, [a, c, d]);
     }
 
-    /// Adds a mesh as seen in an image `height` pixels high, at its vertices' pixels and w. `permutation` gives the
-    /// order of each triangle's corners, as [`Mesh::corners`] takes it.
+    /// Adds a mesh as seen in an image `height` pixels high. `permutation` gives the order of each triangle's corners,
+    /// as in [`Mesh::corners`].
     pub fn add_mesh(
         &mut self,
         material: usize,
@@ -136,7 +136,7 @@ impl Stage {
         }
     }
 
-    /// Colours every triangle with its three [codes](code).
+    /// Colours each triangle with the [code](code) of its ID.
     pub fn color_by_code(&mut self) {
         for (index, triangle) in self.triangles.iter_mut().enumerate() {
             let [r, g, b] = code(index as u32 + 1);
@@ -144,7 +144,7 @@ impl Stage {
         }
     }
 
-    /// Makes the scene and pose that the renderer takes.
+    /// Makes the scene and the pose for the renderer.
     pub fn build(&self) -> (Scene, Pose) {
         let mut scene = Scene::from_materials(self.materials.clone());
         if let Some((image, sampler)) = &self.texture {
@@ -193,7 +193,7 @@ impl Stage {
                     Some(_) => each(&|t, corner| [t.uvs[corner][0], t.uvs[corner][1], 0.0, 0.0]),
                     None => Vec::new(),
                 },
-                // Without the stream, white is exactly 1.
+                // Without colours the renderer uses white, which is exactly 1.
                 colors: if white {
                     Vec::new()
                 } else {
@@ -249,21 +249,21 @@ impl Stage {
     }
 }
 
-/// Unit normal of a triangle's front face; towards the camera if the triangle has no area.
+/// Unit normal of a triangle's front face; a triangle without an area gets one towards the camera.
 fn normal(triangle: &Triangle) -> [f32; 3] {
     let [a, b, c] = triangle.corners.map(Vec3::from_array);
     (b - a).cross(c - a).normalize_or(Vec3::Z).to_array()
 }
 
-/// Code of an ID as an unlit colour: three whole numbers from 1 to 4,095, chosen so that sums over up to 1,024 samples
-/// still tell triangles apart.
+/// Code of an ID as an unlit colour: three whole numbers from 1 to 4,095. Sums over up to 1,024 samples still tell
+/// triangles apart.
 #[must_use]
 pub fn code(id: u32) -> [f32; 3] {
     let mut random = Random::new(u64::from(id));
     [0; 3].map(|_| (1 + random.below(4095)) as f32)
 }
 
-/// Settings under which every pixel is sampled `samples` times; its colour is the plain average of radiances.
+/// Settings that sample every pixel `samples` times; its colour is the mean of the samples' radiance.
 #[must_use]
 pub fn everywhere(size: [u32; 2], pattern: Pattern, samples: u32) -> Settings {
     Settings {
@@ -279,7 +279,7 @@ pub fn everywhere(size: [u32; 2], pattern: Pattern, samples: u32) -> Settings {
     }
 }
 
-/// Settings for one sample at each pixel's centre, with attributes and radiances as they are.
+/// Settings for one sample at each pixel's centre, with attributes and without tone mapping.
 #[must_use]
 pub fn once(size: [u32; 2]) -> Settings {
     Settings {

@@ -6,7 +6,7 @@ use crate::camera::set::SetError;
 use crate::camera::zoom::ZoomError;
 use crate::render::RenderError;
 
-/// Variant that a camera or a device can't have.
+/// Error: a variant that a camera or a device can't have.
 #[derive(Debug, thiserror::Error)]
 pub enum VariantError {
     /// Camera that is no pinhole.
@@ -15,7 +15,7 @@ pub enum VariantError {
     /// Locations that make no set.
     #[error(transparent)]
     Set(#[from] SetError),
-    /// Image without a middle to zoom.
+    /// Image that can't be zoomed.
     #[error(transparent)]
     Zoom(#[from] ZoomError),
     /// Camera without a panorama.

@@ -1,7 +1,7 @@
-//! Benchmark of camera variants: the cost of a sample beside that of the raster pass.
+//! Benchmark of camera variants: time per sample, compared with that of the raster pass.
 //!
-//! All of a scene's variants are warmed up once and then run in turns. The time is that of sampling: locations are made
-//! before, once.
+//! All variants of a scene are warmed up once and then run in turns. Only sampling is timed; locations are made once,
+//! beforehand.
 
 mod error;
 mod work;
@@ -16,13 +16,13 @@ use std::fmt;
 use std::time::{Duration, Instant};
 use work::VariantWork;
 
-/// Camera variant: locations and the way that they are sampled.
+/// Camera variant: its locations, and the way in which they are sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Variant {
     /// Pixels' centres by the raster pass, which the other variants are compared with.
     Raster,
-    /// Pixels' centres as a set of locations.
+    /// Pixels' centres as a list of locations.
     Planar,
     /// Zoom into the middle of the image.
     Offset,
@@ -89,25 +89,25 @@ pub struct VariantCost {
     pub samples: u64,
     /// Milliseconds of a run on the device.
     pub gpu_ms: Spread,
-    /// Milliseconds of a run by the clock, from locations to values in host memory.
+    /// Wall-clock milliseconds of a run, from locations to values in host memory.
     pub wall_ms: Spread,
 }
 
 impl VariantCost {
-    /// Median nanoseconds a sample on the device.
+    /// Median device time per sample, in nanoseconds.
     #[must_use]
     pub fn gpu_ns(&self) -> f64 {
         1e6 * self.gpu_ms.median / self.samples as f64
     }
 
-    /// Median nanoseconds a sample by the clock.
+    /// Median wall-clock time per sample, in nanoseconds.
     #[must_use]
     pub fn wall_ns(&self) -> f64 {
         1e6 * self.wall_ms.median / self.samples as f64
     }
 }
 
-/// Camera variant that takes part in a measurement: warmed up, with the times of its runs.
+/// Camera variant that takes part in a measurement, warmed up; collects the times of its runs.
 pub struct VariantContender {
     variant: Variant,
     work: VariantWork,
@@ -117,12 +117,12 @@ pub struct VariantContender {
 }
 
 impl VariantContender {
-    /// Makes the locations of a variant for images of the settings' size, and runs it once unmeasured. The settings'
-    /// method is ignored: the variant decides.
+    /// Makes the locations of a variant for images of the settings' size, and runs it once without timing. The
+    /// settings' method is ignored: the variant decides.
     ///
     /// # Errors
-    /// [`VariantError`] if the camera has no such locations, as an orthographic one has no panorama, or if they can't
-    /// be sampled.
+    /// [`VariantError`] if the camera has no such locations (an orthographic one has no panorama), or if they can't be
+    /// sampled.
     pub fn warm_up(
         variant: Variant,
         headless: &mut Headless,
@@ -141,8 +141,8 @@ impl VariantContender {
         })
     }
 
-    /// Runs every contender `repeat` times, by turns. A contender that would need more than `budget` drops out of later
-    /// rounds, after at least one run.
+    /// Runs every contender `repeat` times, in turns. A contender that would need more than `budget` drops out of
+    /// later rounds, after at least one run.
     ///
     /// # Errors
     /// As [`Headless::render`].

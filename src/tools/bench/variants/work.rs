@@ -1,4 +1,4 @@
-//! Locations of a camera variant, and a run that samples them.
+//! Locations of a camera variant, and runs that sample them.
 
 use super::{Variant, VariantError};
 use crate::bench::Random;
@@ -8,11 +8,11 @@ use crate::camera::zoom::{Shape, Transition, ZoomError, ZoomMap, ZoomRegion};
 use crate::camera::{Camera, Pinhole, SampleLocation};
 use crate::render::{Frame, Headless, Method, PreparedScene, RenderError, Settings, Statistics};
 
-/// Most samples of a leaf of the quad-tree.
+/// Largest number of samples in a leaf of the quadtree.
 const LEAF_SAMPLES: usize = 32;
 /// Seed of the random locations, which are the same in every run.
 const SEED: u64 = 2010;
-/// Strength of the zoom into the image's middle.
+/// Multiplicity of the zoom into the middle of the image, which is enlarged by 1 / multiplicity.
 const MULTIPLICITY: f64 = 0.3;
 
 /// Camera variant that is ready to run.
@@ -21,7 +21,7 @@ pub(super) enum VariantWork {
     Frame(Box<Frame>),
     /// One sample at each location of each pinhole.
     Points(Vec<(Pinhole, Vec<SampleLocation>)>, Box<Settings>),
-    /// Image at two rates: one sample a cell, and more in cells that alias.
+    /// Image at two rates: one sample in each cell, and more in cells that alias.
     TwoRates(Vec<(Pinhole, Vec<SampleLocation>)>, Box<Settings>),
 }
 
@@ -120,7 +120,7 @@ fn zoom(size: [u32; 2]) -> Result<ZoomMap, ZoomError> {
 }
 
 /// Random locations anywhere in the image, one for each of its pixels. All belong to one cell of the output, so that
-/// none has a neighbour and each stands for a pixel.
+/// none has neighbours and each stands for a pixel.
 fn random(size: [u32; 2]) -> Result<SamplingSet, SetError> {
     let [width, height] = size.map(f64::from);
     let count = u64::from(size[0]) * u64::from(size[1]);

@@ -9,20 +9,22 @@ use gpc::sampling::MAX_SAMPLES;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Measures what methods cost and how exact they are.
+/// Measures the cost and the accuracy of the antialiasing methods.
 ///
 /// Every scene is rendered as by `gpc render`, before a light grey background, by every method at every number of
-/// samples that it can have: once to warm up and then R times, the methods taking turns. Each image is held against
-/// the truth: brute force at thousands of samples a pixel that read textures at a 64th of its side, which is kept on disk
-/// for the next run.
+/// samples that the method allows: once to warm up and then R times, the methods taking turns. Each image is compared
+/// with a reference: supersampling at thousands of samples a pixel, each of which reads textures over 1/64 of a
+/// pixel's width. References are kept on disk for the next run.
 ///
-/// With --geometry, the methods are also measured with textures read for a whole pixel, against a reference that does so
-/// too, so that they differ by geometry alone. With --motion, sequences show what flickers. With --variants, other sampling
-/// sets than the pixels of an image are timed too; with --growth, scenes made for it show what grows with what; with
-/// --stress, geometry that is hard on a rasterizer shows what holds.
+/// With --geometry, the methods are also measured with textures read over a whole pixel, against a reference that
+/// reads them so too; the differences then come from geometry alone. With --motion, the flicker of moving images is
+/// measured. With --variants, the sampling sets of the camera's variants are timed. With --growth, times are measured
+/// while the size of a scene or image grows. With --stress, geometry that is hard to rasterize is rendered, and the
+/// images are checked.
 ///
-/// DIR then holds results.json, results.csv and report.html, and motion.csv, variants.csv and growth.csv with these options,
-/// written anew after each scene. Lines at the head of a CSV begin with # and say where its figures come from.
+/// DIR then holds results.json, results.csv and report.html, and, with these options, motion.csv, variants.csv and
+/// growth.csv. All are rewritten after each scene. Lines at the head of a CSV begin with # and say where its figures
+/// come from.
 #[derive(Args)]
 pub struct BenchArgs {
     /// .glb or .gltf files
@@ -43,37 +45,38 @@ pub struct BenchArgs {
         default_value = "none,msaa,ssaa,superpixel"
     )]
     methods: Vec<Method>,
-    /// Samples a pixel; methods that can't have a number are left out there
+    /// Samples a pixel; a method leaves out the numbers that it doesn't allow
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "4,16,64,256,1024",
         value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES)))]
     samples: Vec<u32>,
-    /// Samples a pixel of the truth, a multiple of 256
+    /// Samples a pixel of the reference, a multiple of 256
     #[arg(long, value_name = "N", default_value_t = 4096, value_parser = reference_samples)]
     pub reference: u32,
-    /// Measure geometry alone too: every method, and a reference of its own, reading textures for a whole pixel
+    /// Also measure every method with textures read over a whole pixel, against a reference that reads them so too
     #[arg(long)]
     pub geometry: bool,
-    /// Time also against the number of triangles, of pixels, of superpixels and of layers, in scenes made for it
+    /// Also time the methods while the number of triangles, pixels, superpixels or layers grows, in scenes made for
+    /// this
     #[arg(long)]
     pub growth: bool,
-    /// Time the variants of the camera too: of each scene planar, offset, superpixel and random sets and a panorama,
-    /// beside the raster pass, a sample and in all
+    /// Also time the camera's variants: planar, offset, superpixel and random sets and a panorama of each scene,
+    /// beside the raster pass, in total and per sample
     #[arg(long)]
     pub variants: bool,
-    /// Measure these files in motion: panned by fractions of a pixel and turned slowly, 16 frames each, the error of each
-    /// frame against its own truth and how much it flickers
+    /// Measure these files in motion: pan by fractions of a pixel and turn slowly, 16 frames each; report each frame's
+    /// error against its own reference, and the flicker
     #[arg(long, value_name = "SCENE", num_args = 1..)]
     pub motion: Vec<PathBuf>,
     /// Width and height of images in motion
     #[arg(long, value_name = "WxH", default_value = "320x180", value_parser = values::size)]
     pub motion_size: [u32; 2],
-    /// Run the stress suite too: what must hold of images whatever the geometry
+    /// Also run the stress suite: geometry that is hard to rasterize, and properties that its images must have
     #[arg(long)]
     pub stress: bool,
-    /// Frames to time, at most
+    /// Most frames to time
     #[arg(long, value_name = "R", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..))]
     pub repeat: u32,
-    /// Seconds for the frames of one method at one number of samples, of which at least one frame is timed
+    /// Seconds for the frames of one method at one number of samples; at least one frame is timed
     #[arg(long, value_name = "SECONDS", default_value_t = 20.0, value_parser = budget)]
     pub budget: f64,
     /// Folder where references are kept [default: gpc in the user's cache folder]
@@ -85,7 +88,7 @@ pub struct BenchArgs {
 }
 
 impl BenchArgs {
-    /// The methods and numbers of samples asked for, each once, one sample a pixel first.
+    /// The methods and numbers of samples to measure, without duplicates, starting with one sample a pixel.
     pub fn cells(&self) -> Vec<(Method, u32)> {
         let mut counts = self.samples.clone();
         counts.sort_unstable();
@@ -104,7 +107,7 @@ impl BenchArgs {
         cells
     }
 
-    /// Time for the frames of a cell.
+    /// Time limit for all frames of one method at one number of samples.
     pub fn budget(&self) -> Duration {
         Duration::from_secs_f64(self.budget)
     }
@@ -122,7 +125,7 @@ fn reference_samples(text: &str) -> Result<u32, String> {
         })
 }
 
-/// Seconds that a [`Duration`] can hold.
+/// Parses a number of seconds that a [`Duration`] can hold.
 fn budget(text: &str) -> Result<f64, String> {
     const MOST: f64 = 1e6;
     values::not_negative(text).and_then(|seconds| {

@@ -1,22 +1,22 @@
-//! The best that was measured: which points none beats, and what an error costs along them.
+//! The Pareto front of time and error, and the time at which it reaches an error.
 
 use super::results::{Row, SceneResults};
 use gpc::render::Method;
 
-/// Numbers of samples whose error under supersampling superpixels are to reach.
+/// Numbers of samples of supersampling whose error serves as a target for superpixels.
 pub const TARGETS: [u32; 2] = [64, 256];
 
-/// Milliseconds of a row's frame on the device.
+/// Median milliseconds of a row's frame on the device.
 pub fn time(row: &Row) -> f64 {
     row.cost.gpu_ms.median
 }
 
-/// A row's RMSE against the truth, as a display shows it.
+/// A row's RMSE against the reference, in sRGB-encoded values.
 pub fn error(row: &Row) -> f64 {
     row.accuracy.rmse
 }
 
-/// The rows that none beats in both time and an error, by time: their Pareto front.
+/// The rows that no other row beats in both time and error, sorted by time: their Pareto front.
 pub fn front<'a>(
     rows: impl IntoIterator<Item = &'a Row>,
     error: impl Fn(&Row) -> f64,
@@ -36,8 +36,8 @@ pub fn front<'a>(
     sorted
 }
 
-/// The share of supersampling's time at `samples` samples in which superpixels reach its error; `Some(None)` if they
-/// never do, and `None` where either was not measured.
+/// Superpixel time / supersampling time, at the error of supersampling with `samples` samples: the time that
+/// superpixels need to reach this error. `Some(None)` if they never reach it, `None` if either was not measured.
 pub fn time_to_error(scene: &SceneResults, samples: u32) -> Option<Option<f64>> {
     let goal = scene.row(Method::Ssaa, samples)?;
     let rows = scene.rows.iter();
@@ -52,14 +52,14 @@ pub fn time_to_error(scene: &SceneResults, samples: u32) -> Option<Option<f64>> 
     Some(reached(&points, error(goal)).map(|ms| ms / time(goal)))
 }
 
-/// Time at which a front of times and falling errors reaches an error: at its first point, or along straight lines
-/// between points on logarithmic axes, but never beyond its last.
+/// Time at which a front reaches the error `goal`. `front` holds times and falling errors. Between two points the
+/// front is a straight line on logarithmic axes; it ends at its last point.
 fn reached(front: &[[f64; 2]], goal: f64) -> Option<f64> {
     let after = front.iter().position(|[_, error]| *error <= goal)?;
     let [late, low] = *front.get(after)?;
     let before = after.checked_sub(1).and_then(|index| front.get(index));
     Some(match before {
-        // A line on logarithmic axes never comes to an error of zero.
+        // A logarithmic axis has no zero, so a line to an error of zero can't be followed.
         Some([early, high]) if low > 0.0 && *early > 0.0 => {
             let share = (high / goal).ln() / (high / low).ln();
             early * (late / early).powf(share)
@@ -81,7 +81,7 @@ mod tests {
         };
         near(0.01, 10.0);
         near(0.001, 100.0);
-        // What the first point has already costs no less than that point.
+        // An error that the first point reaches already costs that point's time.
         near(0.2, 1.0);
         assert_eq!(reached(&front, 0.0005), None);
         assert_eq!(reached(&[[1.0, 0.1], [5.0, 0.0]], 0.05), Some(5.0));

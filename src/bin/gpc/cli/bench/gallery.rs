@@ -7,20 +7,20 @@ use gpc::output::DecodedImage;
 
 /// The pictures of one scene.
 pub struct Gallery {
-    /// The whole image in several versions, small.
+    /// The whole image in several versions, scaled down.
     pub overview: Vec<Version>,
-    /// Parts that are enlarged.
+    /// Enlarged parts of the image.
     pub parts: Vec<Part>,
 }
 
-/// An image of superpixels, and why its pixels err.
+/// An image of superpixels, and the cause of each pixel's error.
 pub struct GalleryImage {
     /// Samples a superpixel.
     pub samples: u32,
     pub image: DecodedImage,
-    /// Pixel by pixel.
+    /// Causes of the errors, one for each pixel.
     pub causes: Vec<Cause>,
-    /// Pixel by pixel.
+    /// Parts of rendering that are to blame, one for each pixel.
     pub faults: Vec<Option<Fault>>,
 }
 
@@ -39,7 +39,7 @@ pub struct Part {
 }
 
 impl Gallery {
-    /// Draws the pictures; `ssaa` is supersampling with as many samples as the superpixels.
+    /// Makes the pictures; `ssaa` is the image of supersampling with as many samples as the superpixels.
     pub fn new(
         yardstick: &Yardstick,
         ssaa: Option<&DecodedImage>,
@@ -111,10 +111,10 @@ impl GalleryImage {
     }
 }
 
-/// Smaller shares of a window's error are not named.
+/// Smallest share of a window's error that is named, in percent.
 const LEAST_PERCENT: f64 = 5.0;
 
-/// The image of a method.
+/// The image that a method made, and its errors.
 struct Method<'a> {
     name: String,
     image: &'a DecodedImage,
@@ -131,7 +131,7 @@ fn versions(
     for Method { name, image, .. } in images {
         versions.push(version(name, window.png(size, &colors(image))?));
     }
-    // The last method is the one that the report is about.
+    // The last method is the one that the gallery is about.
     if let Some(Method { name, errors, .. }) = images.last() {
         let picture = window.png(size, &errors.colors())?;
         versions.push(version(&format!("error of {name}"), picture));

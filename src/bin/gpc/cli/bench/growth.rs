@@ -1,4 +1,4 @@
-//! Costs of methods while one quantity of the scene or the image grows.
+//! Times of the methods while one quantity of the scene or the image grows.
 
 use super::results::{Curve, Point, Time};
 use super::subject::{Bench, settings};
@@ -37,7 +37,7 @@ pub fn csv(curves: &[Curve]) -> String {
     text
 }
 
-/// The methods that are compared, and their samples a pixel.
+/// The methods to compare, with their samples a pixel.
 const METHODS: [(Method, u32); 3] = [
     (Method::None, 1),
     (Method::Superpixel, Settings::DEFAULT_SAMPLES),
@@ -45,8 +45,8 @@ const METHODS: [(Method, u32); 3] = [
 ];
 
 impl Bench<'_> {
-    /// Measures a curve. A method whose frame takes longer than the time for its frames is left out from then on, and
-    /// the curve ends where the device can hold no more.
+    /// Measures a curve. A method whose next frame would take longer than the time limit is dropped. The curve ends
+    /// where the device runs out of memory.
     pub fn grow(&mut self, growth: Growth) -> anyhow::Result<Curve> {
         self.progress.begin(&growth.to_string());
         let mut curve = Curve {
@@ -79,7 +79,7 @@ impl Bench<'_> {
         Ok(curve)
     }
 
-    /// Takes methods that would need too long for the next scene out of the list.
+    /// Removes the methods that would take too long for the next scene.
     fn drop_slow(&self, point: &Point, methods: &mut Vec<(Method, u32)>, notes: &mut Vec<String>) {
         let budget = self.args.budget;
         methods.retain(|(method, _)| {
@@ -95,7 +95,7 @@ impl Bench<'_> {
         });
     }
 
-    /// Measures a scene, and takes methods that can go no further out of the list.
+    /// Measures a scene, and removes the methods that can't go any further.
     fn point(
         &mut self,
         step: &GrowthStep,

@@ -1,12 +1,12 @@
-//! Machine and time of a benchmark.
+//! Machine and date of a benchmark.
 
+use chrono::Utc;
 use serde::Serialize;
-use std::time::{SystemTime, UNIX_EPOCH};
 
-/// The machine, as far as it says.
+/// The machine, as far as the system describes it.
 #[derive(Serialize)]
 pub struct Machine {
-    /// Model of the processor; its architecture where it does not say.
+    /// Model of the processor, or its architecture if the system names no model.
     pub cpu: String,
     /// Hardware threads that this process may use.
     pub threads: usize,
@@ -25,7 +25,7 @@ impl Machine {
     }
 }
 
-/// The first value of a key in a file of lines of keys and values.
+/// The first value of a key in a text file with one key and value in each line.
 fn value_in(file: &str, key: &str, separator: char) -> Option<String> {
     let text = std::fs::read_to_string(file).ok()?;
     let mut pairs = text.lines().filter_map(|line| line.split_once(separator));
@@ -35,45 +35,5 @@ fn value_in(file: &str, key: &str, separator: char) -> Option<String> {
 
 /// Today's date in universal time: `YYYY-MM-DD`.
 pub fn today() -> String {
-    let since = SystemTime::now().duration_since(UNIX_EPOCH);
-    date(since.map_or(0, |since| since.as_secs() / 86_400))
-}
-
-/// The Gregorian date of a day counted from 1970-01-01.
-fn date(day: u64) -> String {
-    // Years begin in March here, so that a leap day ends one.
-    let days = day + 719_468;
-    let (era, day_of_era) = (days / 146_097, days % 146_097);
-    let leaps = day_of_era / 1_460 + day_of_era / 146_096;
-    let year_of_era = (day_of_era + day_of_era / 36_524 - leaps) / 365;
-    let day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
-    let month = (5 * day_of_year + 2) / 153;
-    let day = day_of_year - (153 * month + 2) / 5 + 1;
-    let (month, later) = if month < 10 {
-        (month + 3, 0)
-    } else {
-        (month - 9, 1)
-    };
-    format!("{:04}-{month:02}-{day:02}", 400 * era + year_of_era + later)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::date;
-
-    #[test]
-    fn dates() {
-        for (day, expected) in [
-            (0, "1970-01-01"),
-            (58, "1970-02-28"),
-            (59, "1970-03-01"),
-            (11_016, "2000-02-29"),
-            (11_017, "2000-03-01"),
-            (11_322, "2000-12-31"),
-            (47_540, "2100-02-28"),
-            (47_541, "2100-03-01"),
-        ] {
-            assert_eq!(date(day), expected);
-        }
-    }
+    Utc::now().format("%Y-%m-%d").to_string()
 }

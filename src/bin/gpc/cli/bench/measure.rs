@@ -1,4 +1,4 @@
-//! Measurement of one scene: the cost of every method, and its distance from the truth.
+//! Measurement of one scene: the cost of every method, and its distance from the reference.
 
 use super::gallery::{Gallery, GalleryImage};
 use super::results::{Row, SceneResults};
@@ -9,7 +9,7 @@ use gpc::output::{DecodedImage, Picture};
 use gpc::render::{Footprint, Method, RenderError, Settings};
 use std::path::Path;
 
-/// A method that takes part, with what is known of it before it is timed.
+/// A method that takes part, with the figures that are known before it is timed.
 struct Entry {
     contender: Contender,
     row: Row,
@@ -107,7 +107,8 @@ impl Bench<'_> {
         Ok((scene, gallery))
     }
 
-    /// Samples of the superpixels that the report shows: the default number, or else the most there are.
+    /// Samples of the superpixels that the report shows: the default number, or otherwise the largest that is
+    /// measured.
     fn shown_samples(&self) -> Option<u32> {
         let cells = self.args.cells();
         let counts = cells
@@ -117,7 +118,8 @@ impl Bench<'_> {
         counts.max_by_key(|samples| (*samples == Settings::DEFAULT_SAMPLES, *samples))
     }
 
-    /// Yardstick of geometry alone, if it is wanted. One sample a pixel is the same image with either footprint.
+    /// Yardstick of geometry alone, if it is asked for. `one_sample` serves both yardsticks, because one sample a
+    /// pixel is the same image with either footprint.
     fn geometry_yardstick(
         &mut self,
         subject: &Subject,
@@ -134,7 +136,7 @@ impl Bench<'_> {
         Ok(Some(Yardstick::new(&reference, one_sample)?))
     }
 
-    /// Accuracy of a method by geometry alone.
+    /// Accuracy of a method with textures read over a whole pixel.
     fn geometry(
         &mut self,
         subject: &Subject,
@@ -174,7 +176,7 @@ impl Bench<'_> {
     }
 }
 
-/// Settings with textures read for a whole pixel, whatever the number of samples.
+/// Settings whose textures are read over a whole pixel, at every number of samples.
 fn for_whole_pixels(settings: Settings) -> Settings {
     Settings {
         footprint: Footprint::Pixel,
@@ -182,7 +184,7 @@ fn for_whole_pixels(settings: Settings) -> Settings {
     }
 }
 
-/// Notes of what is left out: a line for each method and reason.
+/// Notes on numbers of samples that were left out: a line for each method and reason.
 #[derive(Default)]
 struct Notes(Vec<(Method, String, Vec<u32>)>);
 

@@ -66,7 +66,7 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
         bench.progress.suspend(|| table::print(&scene))?;
         results.scenes.push(scene);
         galleries.push(gallery);
-        // Again after each scene, so that what was measured survives a failure.
+        // Files are written after each scene, so that a failure loses no results.
         results.summary = summary::summarize(&results.scenes);
         write(&args.out, &results, &galleries)?;
     }

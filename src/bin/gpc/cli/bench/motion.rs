@@ -1,4 +1,4 @@
-//! Accuracy and steadiness of methods in motion.
+//! Errors and flicker of the methods in motion.
 
 use super::results::{MotionRow, SceneMotion};
 use super::subject::{self, Bench, Subject, Wanted};
@@ -12,10 +12,10 @@ use serde::Serialize;
 use std::fmt::Write;
 use std::path::Path;
 
-/// Samples a pixel of each frame's truth.
+/// Samples a pixel of each frame's reference.
 const TRUTH_SAMPLES: u32 = 1024;
 
-/// Methods and their samples a pixel.
+/// The methods to measure, with their samples a pixel.
 const CELLS: [(Method, u32); 6] = [
     (Method::None, 1),
     (Method::Msaa, 4),
@@ -25,18 +25,18 @@ const CELLS: [(Method, u32); 6] = [
     (Method::Superpixel, 64),
 ];
 
-/// Superpixels in motion over supersampling at equal numbers of samples, over all scenes and both motions.
+/// Superpixel / supersampling ratios in motion, at equal numbers of samples, over all scenes and both motions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MotionRatio {
     pub samples: u32,
-    /// Ratio of the mean of each frame's RMSE.
+    /// Ratio of the mean RMSE of the frames.
     pub rmse: Ratio,
     /// Ratio of the flicker.
     pub flicker: Ratio,
 }
 
 impl Bench<'_> {
-    /// Measures the scene of a file in motion, in images of that size.
+    /// Measures the scene of a file in motion, in images of `size` = [width, height].
     pub fn motion(&mut self, path: &Path, size: [u32; 2]) -> anyhow::Result<SceneMotion> {
         let name = subject::name(path);
         self.progress.begin(&format!("{name}, in motion"));
@@ -74,7 +74,7 @@ impl Bench<'_> {
         })
     }
 
-    /// The truth of each frame.
+    /// The reference of each frame.
     fn truths(
         &mut self,
         subject: &Subject,
@@ -95,7 +95,7 @@ impl Bench<'_> {
         Ok(truths)
     }
 
-    /// Measures all frames with the same settings.
+    /// Measures all frames of a motion with the same settings.
     fn sequence(
         &mut self,
         subject: &Subject,
@@ -114,7 +114,7 @@ impl Bench<'_> {
     }
 }
 
-/// Superpixels over supersampling, a line for each number of samples that both were measured with.
+/// Superpixel / supersampling ratios, one for each number of samples at which both were measured.
 pub fn summarize(scenes: &[SceneMotion]) -> Vec<MotionRatio> {
     let counts = CELLS
         .iter()
@@ -163,7 +163,7 @@ pub fn print(scene: &SceneMotion) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Prints the ratios over all scenes in motion.
+/// Prints the ratios over all scenes.
 pub fn print_summary(summary: &[MotionRatio]) -> anyhow::Result<()> {
     if !summary.is_empty() {
         print::line("\nsuperpixel in motion over ssaa, medians over scenes and motions:")?;

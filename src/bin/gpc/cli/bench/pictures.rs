@@ -1,4 +1,4 @@
-//! Small pictures, enlarged parts, and error maps.
+//! Small pictures, enlarged parts of images, and error maps.
 
 use anyhow::Context;
 use base64::Engine;
@@ -9,23 +9,23 @@ use image::ExtendedColorType;
 use image::codecs::jpeg::JpegEncoder;
 use std::ops::Range;
 
-/// Width of small pictures in pixels, at most.
+/// Largest width of small pictures in pixels.
 const SMALL: usize = 480;
 const JPEG_QUALITY: u8 = 80;
-/// Width and height of a window in pixels, at most.
+/// Largest width and height of a window in pixels.
 const WINDOW: [usize; 2] = [48, 30];
-/// Distance between the places at which a window is tried.
+/// Distance in pixels between the places at which a window is tried.
 const STRIDE: usize = 6;
-/// The error that maps show brightest, of sRGB-encoded values of 0 to 1.
+/// The error that maps show brightest, in sRGB-encoded values of 0 to 1.
 pub const BRIGHTEST: f32 = 0.25;
 
-/// The root of each pixel's mean squared error, of sRGB-encoded values of 0 to 1.
+/// The root of the mean squared error of each pixel, in sRGB-encoded values of 0 to 1.
 pub struct ErrorMap {
     size: [usize; 2],
     errors: Vec<f32>,
 }
 
-/// A part of an image, in pixels.
+/// A rectangular part of an image, in pixels.
 #[derive(Clone, Copy)]
 pub struct Window {
     /// Upper left pixel.
@@ -43,7 +43,7 @@ pub fn colors(image: &DecodedImage) -> Vec<[f32; 3]> {
 }
 
 impl ErrorMap {
-    /// The errors of an image of the reference's size.
+    /// The errors of an image that has the reference's size.
     pub fn new(reference: &DecodedImage, image: &DecodedImage) -> Self {
         let error = |(a, b): (&[f32; 4], &[f32; 4])| {
             let squares = a.iter().zip(b).take(3).map(|(a, b)| (a - b).powi(2));
@@ -61,7 +61,7 @@ impl ErrorMap {
     }
 
     /// Colours of the errors, from black (none) through purple and orange to light yellow ([`BRIGHTEST`] and above).
-    /// The scale is that of the error's root, since most errors are small.
+    /// The scale is linear in the square root of the error, because most errors are small.
     pub fn colors(&self) -> Vec<[f32; 3]> {
         let color = |error: &f32| {
             let share = (error / BRIGHTEST).clamp(0.0, 1.0).sqrt();
@@ -70,13 +70,13 @@ impl ErrorMap {
         self.errors.iter().map(color).collect()
     }
 
-    /// The pixels of a window by index, and their squared errors.
+    /// The index and squared error of each pixel in a window.
     pub fn squares(&self, window: Window) -> impl Iterator<Item = (usize, f64)> + '_ {
         let pixels = window.rows(self.size[0]).flatten();
         pixels.filter_map(|pixel| Some((pixel, f64::from(*self.errors.get(pixel)?).powi(2))))
     }
 
-    /// The window with the largest squared error.
+    /// The window with the largest sum of squared errors.
     pub fn worst_window(&self) -> Window {
         let [width, height] = self.size;
         let size = [WINDOW[0].min(width), WINDOW[1].min(height)];
@@ -100,13 +100,13 @@ impl ErrorMap {
 }
 
 impl Window {
-    /// The window's rows in an image of a width.
+    /// Index ranges of the window's rows, in an image of this width.
     fn rows(self, width: usize) -> impl Iterator<Item = Range<usize>> {
         let [x, y] = self.low;
         (y..y + self.size[1]).map(move |y| y * width + x..y * width + x + self.size[0])
     }
 
-    /// The window of an image as a PNG.
+    /// The window's part of an image, as a PNG.
     pub fn png(self, size: [u32; 2], colors: &[[f32; 3]]) -> anyhow::Result<String> {
         let pixels: Vec<_> = self
             .rows(size[0] as usize)
@@ -119,7 +119,7 @@ impl Window {
     }
 }
 
-/// A JPEG of an image, made smaller by means of whole pixels.
+/// A JPEG of an image, scaled down by a whole number.
 pub fn small_jpeg(size: [u32; 2], colors: &[[f32; 3]]) -> anyhow::Result<String> {
     let [width, height] = size.map(|side| side as usize);
     let step = width.div_ceil(SMALL).min(height).max(1);

@@ -1,16 +1,16 @@
-//! Progress on standard error, where that is a terminal.
+//! Progress on standard error, if that is a terminal.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use std::time::Duration;
 
-/// Says which scene is being measured, and what of it.
+/// A progress bar that names the scene and the step of its measurement.
 pub struct Progress {
     bar: ProgressBar,
     scene: String,
 }
 
 impl Progress {
-    /// Begins a bar of so many scenes, curves and checks.
+    /// Makes a bar of `parts` scenes, curves and checks.
     pub fn new(parts: usize) -> Self {
         let style = ProgressStyle::with_template("{spinner} {pos}/{len}, {elapsed}  {wide_msg}");
         let bar = ProgressBar::new(parts as u64)
@@ -22,18 +22,18 @@ impl Progress {
         }
     }
 
-    /// Begins a scene.
+    /// Begins to measure a scene.
     pub fn begin(&mut self, scene: &str) {
         self.scene = scene.to_owned();
         self.say("loading");
     }
 
-    /// Says what is being done to the scene.
+    /// Names the step of the measurement.
     pub fn say(&self, what: &str) {
         self.bar.set_message(format!("{}: {what}", self.scene));
     }
 
-    /// The scene is done: prints with the bar out of the way.
+    /// Ends the scene: calls `print` while the bar is hidden.
     pub fn suspend<R>(&self, print: impl FnOnce() -> R) -> R {
         self.bar.inc(1);
         self.bar.suspend(print)

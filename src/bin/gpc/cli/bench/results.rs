@@ -20,20 +20,20 @@ pub struct Results {
     pub device: String,
     pub driver: String,
     pub size: [u32; 2],
-    /// Samples a pixel of the truth, and of the reference for geometry alone.
+    /// Samples a pixel of the references.
     pub reference_samples: u32,
     pub repeat: u32,
     pub budget_seconds: f64,
-    /// Medians, of textured and of untextured scenes apart.
+    /// Medians over the scenes, those with and those without textures separately.
     pub summary: Vec<Summary>,
     pub scenes: Vec<SceneResults>,
-    /// Superpixels in motion over supersampling.
+    /// Superpixel / supersampling ratios in motion.
     pub motion_summary: Vec<MotionRatio>,
     /// Errors in motion, scene by scene.
     pub motion: Vec<SceneMotion>,
     /// Time of the camera's variants, scene by scene.
     pub variants: Vec<SceneVariants>,
-    /// Time against the size of things.
+    /// Curves of time against the size of the scene or image.
     pub growth: Vec<Curve>,
     /// Findings of the stress suite.
     pub stress: Vec<Stress>,
@@ -43,11 +43,11 @@ pub struct Results {
 #[derive(Serialize)]
 pub struct SceneMotion {
     pub name: String,
-    /// Whether a material of something drawn has a texture.
+    /// Whether a visible material has a texture.
     pub textured: bool,
     pub size: [u32; 2],
     pub rows: Vec<MotionRow>,
-    /// Notes of what was left out, and why.
+    /// What was left out, and why.
     pub notes: Vec<String>,
 }
 
@@ -61,29 +61,29 @@ pub struct MotionRow {
     pub steadiness: Steadiness,
 }
 
-/// Costs of the camera's variants, of one scene.
+/// Costs of the camera's variants for one scene.
 #[derive(Serialize)]
 pub struct SceneVariants {
     pub name: String,
     pub triangles: u64,
-    /// The raster pass first.
+    /// Costs, starting with the raster pass.
     pub rows: Vec<VariantRow>,
-    /// Notes of what was left out, and why.
+    /// What was left out, and why.
     pub notes: Vec<String>,
 }
 
-/// Cost of a variant: in all, per sample and relative to the raster pass.
+/// Cost of a variant: total, per sample, and relative to the raster pass.
 #[derive(Serialize)]
 pub struct VariantRow {
     #[serde(flatten)]
     pub cost: VariantCost,
-    /// Nanoseconds a sample on the device.
+    /// Device time per sample, in nanoseconds.
     pub gpu_ns: f64,
-    /// Nanoseconds a sample by the clock.
+    /// Wall-clock time per sample, in nanoseconds.
     pub wall_ns: f64,
-    /// Ratio of the device's time for a sample to that of the raster pass.
+    /// Variant / raster pass ratio of device time per sample.
     pub gpu_ratio: f64,
-    /// Time by the clock a sample over that of the raster pass.
+    /// Variant / raster pass ratio of wall-clock time per sample.
     pub wall_ratio: f64,
 }
 
@@ -95,23 +95,23 @@ pub struct Stress {
     pub findings: Vec<Finding>,
 }
 
-/// Costs while one quantity grows.
+/// Times while one quantity grows.
 #[derive(Serialize)]
 pub struct Curve {
     pub quantity: String,
     pub points: Vec<Point>,
-    /// Notes of what was left out, and why.
+    /// What was left out, and why.
     pub notes: Vec<String>,
 }
 
 /// Measurements of one scene of a curve.
 #[derive(Serialize)]
 pub struct Point {
-    /// The quantity that grows.
+    /// Value of the quantity that grows.
     pub value: f64,
     pub size: [u32; 2],
     pub triangles: u64,
-    /// Share of the pixels that are superpixels, where these were rendered.
+    /// Share of the pixels that are superpixels; `None` if superpixels were not rendered.
     pub superpixel_fraction: Option<f64>,
     pub times: Vec<Time>,
 }
@@ -123,7 +123,7 @@ pub struct Time {
     pub samples: u32,
     /// Milliseconds on the device.
     pub gpu_ms: Spread,
-    /// Milliseconds by the clock.
+    /// Wall-clock milliseconds.
     pub wall_ms: Spread,
 }
 
@@ -133,11 +133,11 @@ pub struct SceneResults {
     pub name: String,
     pub file: String,
     pub triangles: u64,
-    /// Whether a material of something drawn has a texture.
+    /// Whether a visible material has a texture.
     pub textured: bool,
-    /// Seconds that the truth took to render; `None` if it came from the cache.
+    /// Seconds that the reference took to render; `None` if it came from the cache.
     pub reference_seconds: Option<f64>,
-    /// Notes of what was left out, and why.
+    /// What was left out, and why.
     pub notes: Vec<String>,
     pub rows: Vec<Row>,
 }
@@ -149,19 +149,20 @@ pub struct Row {
     pub samples: u32,
     #[serde(flatten)]
     pub cost: Cost,
-    /// Device memory of scene and frame.
+    /// Bytes of device memory for scene and frame.
     pub memory_bytes: u64,
     /// Share of the pixels that are superpixels.
     pub superpixel_fraction: f64,
-    /// Triangles in the lists of tiles.
+    /// Number of entries in the candidate lists of all tiles.
     pub candidates: u64,
-    /// Against the truth.
+    /// Accuracy against the reference.
     pub accuracy: Accuracy,
-    /// Accuracy with textures read for a whole pixel, against a reference that also reads them so; only if wanted.
+    /// Accuracy with textures read over a whole pixel, against a reference that reads them so too; `None` unless asked
+    /// for.
     pub geometry: Option<Accuracy>,
-    /// The error that is left by cause, where superpixels were measured.
+    /// Share of the error that is left, by cause; `None` if superpixels were not measured.
     pub left: Option<Split>,
-    /// Split of the remaining error by edges, texture and light, for superpixels.
+    /// Share of the error that is left, by fault (edges, texture or light); superpixels only.
     pub left_within: Option<Within>,
 }
 
@@ -187,7 +188,8 @@ impl Results {
         }
     }
 
-    /// Where the figures of a CSV come from, as lines `# key: value` before it.
+    /// Lines `# key: value` for the head of a CSV, which say where its figures come from. The size is that of the
+    /// images.
     pub fn head(&self, [width, height]: [u32; 2]) -> String {
         let Machine { cpu, threads, os } = &self.machine;
         let lines = [
@@ -204,7 +206,7 @@ impl Results {
 }
 
 impl VariantRow {
-    /// A row held against the raster pass.
+    /// A row for `cost`, relative to the raster pass.
     pub fn new(cost: VariantCost, raster: &VariantCost) -> Self {
         Self {
             cost,
@@ -217,7 +219,7 @@ impl VariantRow {
 }
 
 impl Point {
-    /// The median of what a method took on the device, in milliseconds.
+    /// The median device time of a method, in milliseconds.
     pub fn ms(&self, method: Method) -> Option<f64> {
         let time = self.times.iter().find(|time| time.method == method)?;
         Some(time.gpu_ms.median)
@@ -225,7 +227,7 @@ impl Point {
 }
 
 impl SceneMotion {
-    /// The row of a motion under a method at a number of samples.
+    /// The row of a motion, a method and a number of samples.
     pub fn row(&self, motion: Motion, method: Method, samples: u32) -> Option<&MotionRow> {
         let wanted = |row: &&MotionRow| {
             row.motion == motion && row.method == method && row.samples == samples
@@ -235,7 +237,7 @@ impl SceneMotion {
 }
 
 impl SceneResults {
-    /// The row of a method at a number of samples.
+    /// The row of a method and a number of samples.
     pub fn row(&self, method: Method, samples: u32) -> Option<&Row> {
         let wanted = |row: &&Row| row.method == method && row.samples == samples;
         self.rows.iter().find(wanted)

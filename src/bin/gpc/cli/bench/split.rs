@@ -1,35 +1,35 @@
-//! Split of an image's error by place and fault.
+//! Split of an image's error by cause and by fault.
 
 use super::subject::{Bench, Subject, Wanted};
 use gpc::bench::{self, Cause, Fault, Half, Looks, Split, Stripped, Suspects, Within, Yardstick};
 use gpc::output::{DecodedImage, Picture};
 use gpc::render::{Method, PreparedScene, SceneRequest};
 
-/// Most samples a pixel of the truths of stripped scenes, which only have to tell which of two errors is the larger.
+/// Most samples a pixel of the references of stripped scenes. They only have to tell which of two errors is larger.
 const MOST_SAMPLES: u32 = 1024;
 
-/// Images and scenes by which errors are split.
+/// Images and scenes that tell the causes and faults of errors.
 pub(super) struct Splitter {
     looks: Looks,
-    /// Paint alone and light alone, and their truths.
+    /// The scene stripped to its paint and stripped to its light, each with its reference.
     halves: [(PreparedScene, DecodedImage); 2],
-    /// Samples of the superpixels that split the images of other methods.
+    /// Samples of the superpixels by which the images of other methods are split.
     shown: u32,
 }
 
-/// An image's error in pieces.
+/// An image's error, split.
 pub(super) struct Pieces {
     pub split: Split,
-    /// Split of the error in superpixels and inside of one triangle, for superpixel antialiasing alone.
+    /// Split by fault of the error in superpixels and in pixels of one triangle; superpixel antialiasing only.
     pub within: Option<Within>,
-    /// Pixel by pixel.
+    /// Causes of the errors, one for each pixel.
     pub causes: Vec<Cause>,
-    /// Pixel by pixel; empty for other methods than superpixels.
+    /// Faults of the errors, one for each pixel; empty for methods without superpixels.
     pub faults: Vec<Option<Fault>>,
 }
 
 impl Splitter {
-    /// Looks into the scene's pixels, and renders the truths of its paint and of its light alone.
+    /// Looks up the triangles in each pixel, and renders the references of the scene's paint alone and light alone.
     pub fn new(bench: &mut Bench<'_>, subject: &Subject, shown: u32) -> anyhow::Result<Self> {
         let settings = bench.settings(Method::None, 1);
         let progress = &bench.progress;
@@ -66,7 +66,8 @@ impl Splitter {
         })
     }
 
-    /// Splits the error of a method's image. Images without superpixels are split by those that the report shows.
+    /// Splits the error of a method's image. Methods without superpixels use the superpixels with `shown` samples
+    /// each.
     pub fn split(
         &self,
         bench: &mut Bench<'_>,
@@ -111,7 +112,7 @@ impl Splitter {
     }
 }
 
-/// A cause and a fault in words.
+/// A cause and a fault as a phrase for captions.
 pub fn reason(cause: Option<Cause>, fault: Option<Fault>) -> &'static str {
     match (cause, fault) {
         (Some(Cause::Superpixel), Some(Fault::Edges)) => "edges in superpixels",
@@ -125,7 +126,7 @@ pub fn reason(cause: Option<Cause>, fault: Option<Fault>) -> &'static str {
     }
 }
 
-/// Parts of the error that superpixels leave, in words and as shares of the squared error of one sample a pixel.
+/// Parts of the error that superpixels leave: a phrase, and its share of the squared error of one sample a pixel.
 pub fn shares(left: &Split, within: &Within) -> [(&'static str, f64); 7] {
     [
         (

@@ -7,7 +7,7 @@ use gpc::bench::stress::{Check, Finding, Length};
 use std::time::Instant;
 
 impl Bench<'_> {
-    /// Runs a part of the suite.
+    /// Runs one check of the suite.
     pub fn stress(&mut self, check: Check) -> anyhow::Result<Stress> {
         self.progress.begin(check.name);
         let start = Instant::now();
@@ -20,7 +20,7 @@ impl Bench<'_> {
     }
 }
 
-/// Prints what was found.
+/// Prints the findings of a check.
 pub fn print(stress: &Stress) -> anyhow::Result<()> {
     print::line(&format!("\n{}, {:.0} s:", stress.about, stress.seconds))?;
     for finding in &stress.findings {
@@ -36,7 +36,7 @@ pub fn print(stress: &Stress) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Verdict on a finding: whether it holds, is only for comparison, or fails.
+/// Verdict on a finding: `-` if it is only measured for comparison, otherwise whether it holds.
 pub fn verdict(finding: &Finding) -> &'static str {
     match finding.allowed {
         None => "-",
@@ -45,7 +45,7 @@ pub fn verdict(finding: &Finding) -> &'static str {
     }
 }
 
-/// A count as it is, other numbers to three digits.
+/// A whole number as it is, other numbers with three digits.
 pub fn figure(value: f64) -> String {
     if value.fract() == 0.0 {
         format!("{value:.0}")

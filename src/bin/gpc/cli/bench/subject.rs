@@ -1,4 +1,4 @@
-//! A scene on the device, and its references.
+//! A scene on the device, and its reference images.
 
 use super::BenchArgs;
 use super::progress::Progress;
@@ -13,10 +13,10 @@ use gpc::scene::{Geometry, Pose, PoseRequest, Scene};
 use std::path::Path;
 use std::time::Instant;
 
-/// Background colour in sRGB: opaque, so that colours alone tell images apart.
+/// Background colour in sRGB. It is opaque, so that images differ in colour alone and never in alpha.
 const BACKGROUND: [f64; 3] = [0.87, 0.89, 0.91];
 
-/// Device and options that scene after scene is measured with.
+/// Device and options for measuring one scene after the other.
 pub struct Bench<'a> {
     pub headless: Headless,
     pub cache: Cache,
@@ -24,7 +24,7 @@ pub struct Bench<'a> {
     pub progress: Progress,
 }
 
-/// A scene on the device, and what it was made from.
+/// A scene on the device, with its source.
 pub(super) struct Subject {
     pub prepared: PreparedScene,
     pub scene: Scene,
@@ -32,7 +32,7 @@ pub(super) struct Subject {
     pub view: NamedView,
 }
 
-/// A reference in the making.
+/// Request for a reference image.
 pub(super) struct Wanted<'a> {
     pub prepared: &'a PreparedScene,
     pub geometry: &'a Geometry,
@@ -40,12 +40,12 @@ pub(super) struct Wanted<'a> {
     pub settings: &'a Settings,
     /// Samples a pixel.
     pub samples: u32,
-    /// Name of the scene for the bar of progress.
+    /// Name of the scene for the progress bar.
     pub name: &'a str,
 }
 
 impl Bench<'_> {
-    /// Puts the scene of a file on the device, to be seen in images of that size.
+    /// Loads a scene and uploads it for images of `size` = [width, height].
     pub(super) fn upload(&mut self, path: &Path, size: [u32; 2]) -> anyhow::Result<Subject> {
         let loaded = input::load(path)?;
         let pose = loaded.scene.pose(&PoseRequest::default())?;
@@ -68,7 +68,7 @@ impl Bench<'_> {
         settings(method, samples, self.args.size)
     }
 
-    /// A reference, and how many seconds it took unless it was there already.
+    /// A reference image, and the seconds that it took to render; `None` if it came from the cache.
     pub(super) fn reference(
         &mut self,
         wanted: &Wanted<'_>,
@@ -135,7 +135,7 @@ impl Subject {
         self.pose.geometry.triangle_count()
     }
 
-    /// Whether a material of something drawn has a texture.
+    /// Whether a visible material has a texture.
     pub fn is_textured(&self) -> bool {
         let draws = self.pose.geometry.draws.iter();
         draws
@@ -143,7 +143,7 @@ impl Subject {
             .any(|material| material.textures().next().is_some())
     }
 
-    /// A reference of the whole scene.
+    /// Request for a reference image of the whole scene.
     pub fn wanted<'a>(&'a self, settings: &'a Settings, samples: u32, name: &'a str) -> Wanted<'a> {
         Wanted {
             prepared: &self.prepared,
@@ -166,7 +166,8 @@ pub fn settings(method: Method, samples: u32, [width, height]: [u32; 2]) -> Sett
     }
 }
 
-/// A file's name without its ending, or its folder's where files of all scenes are called `scene`, as Sketchfab's are.
+/// Name of a scene: its file's name without the ending, or its folder's name if the file is called `scene`, as
+/// Sketchfab's files are.
 pub(super) fn name(path: &Path) -> String {
     let stem = input::stem(path);
     let folder = || Some(path.parent()?.file_name()?.to_string_lossy().into_owned());

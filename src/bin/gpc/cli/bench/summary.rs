@@ -1,4 +1,4 @@
-//! Ratios over all scenes, those with textures and those without apart.
+//! Ratios over all scenes, those with and those without textures separately.
 
 use super::front::{TARGETS, time_to_error};
 use super::results::{Row, SceneResults};
@@ -10,59 +10,59 @@ use serde::Serialize;
 /// Summary of the scenes with textures, or of those without.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
-    /// Whether a material of something drawn has a texture.
+    /// Whether these are the scenes with textures.
     pub textured: bool,
     /// Number of scenes.
     pub scenes: usize,
-    /// A line for each number of samples that superpixels were measured with.
+    /// Ratios at each number of samples that superpixels were measured with.
     pub at: Vec<AtSamples>,
-    /// A line for each error to be reached.
+    /// Times to reach the error of supersampling, at each of its numbers of samples.
     pub reach: Vec<Reach>,
 }
 
-/// Cost of superpixels, and error that they remove, at one number of samples. Medians are over the scenes that have
-/// both rows.
+/// Cost and accuracy of superpixels at one number of samples. Each median is taken over the scenes that have both
+/// rows.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AtSamples {
     pub samples: u32,
     /// Scenes with superpixels at this number of samples.
     pub scenes: usize,
-    /// Median time of the device under supersampling over that with superpixels.
+    /// Median of supersampling time / superpixel time, on the device.
     pub speedup: Option<f64>,
-    /// Median time with superpixels over that of one sample a pixel.
+    /// Median of superpixel time / time of one sample a pixel, on the device.
     pub over_none: Option<f64>,
-    /// RMSE with superpixels over that of supersampling, against the truth and as a display shows it.
+    /// Superpixel RMSE / supersampling RMSE against the reference, in sRGB-encoded values.
     pub rmse_ratio: Option<Ratio>,
-    /// Ratio of the FLIP errors.
+    /// Superpixel FLIP / supersampling FLIP.
     pub flip_ratio: Option<Ratio>,
-    /// RMSE over that of supersampling, of geometry alone.
+    /// Superpixel RMSE / supersampling RMSE of geometry alone.
     pub geometry_ratio: Option<Ratio>,
-    /// Median share of the aliasing error removed.
+    /// Median share of the aliasing error that superpixels remove.
     pub removed: Option<f64>,
 }
 
-/// A ratio over all scenes.
+/// A ratio's median and largest value over all scenes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Ratio {
     pub median: f64,
     /// Largest ratio.
     pub worst: f64,
-    /// Scene of the largest ratio.
+    /// Name of the scene with the largest ratio.
     pub worst_scene: String,
 }
 
-/// Share of supersampling's time in which superpixels reach its error.
+/// Superpixel time / supersampling time, at the error of supersampling.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reach {
-    /// Samples a pixel of supersampling.
+    /// Samples a pixel of supersampling, whose error is the goal.
     pub samples: u32,
-    /// The median; `None` where at least half of the scenes never reach it.
+    /// The median ratio; `None` if at least half of the scenes never reach the error.
     pub share: Option<f64>,
-    /// Scenes for which the share was measured, each with its share; `None` if superpixels never reach the error.
+    /// Scenes for which the ratio was measured, with their ratios; `None` if superpixels never reach the error.
     pub scenes: Vec<(String, Option<f64>)>,
 }
 
-/// Sums up the scenes, those with textures first.
+/// Summaries of the scenes: those with textures first, then those without.
 pub fn summarize(scenes: &[SceneResults]) -> Vec<Summary> {
     [true, false]
         .into_iter()
@@ -93,7 +93,7 @@ pub fn counts<'a>(scenes: impl IntoIterator<Item = &'a SceneResults>) -> Vec<u32
 }
 
 impl Summary {
-    /// The scenes that it is of, in a few words.
+    /// A phrase that says which scenes the summary is of.
     pub fn about(&self) -> String {
         let kind = if self.textured {
             "textured"
@@ -153,7 +153,7 @@ impl Ratio {
         )
     }
 
-    /// Ratios of named pairs of an error above and one below; pairs with 0 below are left out.
+    /// Median and largest of the ratios `first / second` of named pairs. A pair whose second number is 0 is left out.
     pub fn of(pairs: impl IntoIterator<Item = (String, f64, f64)>) -> Option<Self> {
         let ratios: Vec<_> = pairs
             .into_iter()
@@ -168,36 +168,36 @@ impl Ratio {
     }
 }
 
-/// Time under supersampling over that with superpixels.
+/// Supersampling time / superpixel time.
 pub fn speedup(scene: &SceneResults, samples: u32) -> Option<f64> {
     let ssaa = scene.row(Method::Ssaa, samples)?;
     let superpixel = scene.row(Method::Superpixel, samples)?;
     ratio(ssaa.cost.gpu_ms.median, superpixel.cost.gpu_ms.median)
 }
 
-/// Time with superpixels over that of one sample a pixel.
+/// Superpixel time / time of one sample a pixel.
 pub fn over_none(scene: &SceneResults, samples: u32) -> Option<f64> {
     let superpixel = scene.row(Method::Superpixel, samples)?;
     let none = scene.row(Method::None, 1)?;
     ratio(superpixel.cost.gpu_ms.median, none.cost.gpu_ms.median)
 }
 
-/// RMSE with superpixels over that of supersampling.
+/// Superpixel RMSE / supersampling RMSE.
 pub fn rmse_ratio(scene: &SceneResults, samples: u32) -> Option<f64> {
     let superpixel = scene.row(Method::Superpixel, samples)?;
     let ssaa = scene.row(Method::Ssaa, samples)?;
     ratio(superpixel.accuracy.rmse, ssaa.accuracy.rmse)
 }
 
-/// FLIP with superpixels over that of supersampling.
+/// Superpixel FLIP / supersampling FLIP.
 fn flip_ratio(scene: &SceneResults, samples: u32) -> Option<f64> {
     let superpixel = scene.row(Method::Superpixel, samples)?;
     let ssaa = scene.row(Method::Ssaa, samples)?;
     ratio(superpixel.accuracy.flip, ssaa.accuracy.flip)
 }
 
-/// Largest part of the squared error that superpixels leave, at the default number of samples or else at the most that
-/// were measured, and its share.
+/// Largest part of the squared error that superpixels leave, and its share. The number of samples is the default, or
+/// otherwise the largest that was measured.
 pub fn most_of_what_is_left(scene: &SceneResults) -> Option<(&'static str, f64)> {
     let superpixels = |row: &&Row| row.method == Method::Superpixel;
     let row = scene
@@ -212,7 +212,7 @@ pub fn most_of_what_is_left(scene: &SceneResults) -> Option<(&'static str, f64)>
     Some((name, ratio(share, whole)?))
 }
 
-/// RMSE over that of supersampling, of geometry alone.
+/// Superpixel RMSE / supersampling RMSE of geometry alone.
 pub fn geometry_ratio(scene: &SceneResults, samples: u32) -> Option<f64> {
     let superpixel = scene.row(Method::Superpixel, samples)?;
     let ssaa = scene.row(Method::Ssaa, samples)?;
@@ -294,7 +294,7 @@ mod tests {
         assert_eq!(textured.at[0].rmse_ratio.as_ref(), Some(&expected));
         assert_eq!(textured.at[0].speedup, Some(7.5));
         assert_eq!(textured.at[0].geometry_ratio, None);
-        // Neither reaches the error of supersampling, and the untextured one does at its own price.
+        // Neither textured scene reaches the error of supersampling; the untextured one does, in a tenth of the time.
         assert_eq!(textured.reach[0].share, None);
         assert_eq!(untextured.reach[0].share, Some(0.1));
         assert_eq!(untextured.reach.len(), 1, "256 samples were not measured");

@@ -6,7 +6,7 @@ use crate::cli::print;
 use gpc::bench::Within;
 use std::fmt::Write;
 
-/// Prints what was measured of a scene.
+/// Prints the figures of a scene.
 pub fn print(scene: &SceneResults) -> anyhow::Result<()> {
     let reference = scene
         .reference_seconds
@@ -28,7 +28,7 @@ pub fn print(scene: &SceneResults) -> anyhow::Result<()> {
     print_geometry(scene)
 }
 
-/// Prints what is left of the error, by cause.
+/// Prints the error that is left, by cause.
 fn print_left(scene: &SceneResults) -> anyhow::Result<()> {
     let rows = scene.rows.iter().filter_map(|row| Some((row, row.left?)));
     for (index, (row, left)) in rows.enumerate() {
@@ -149,7 +149,7 @@ pub fn print_summary(summary: &[Summary]) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// A share of a time, or that it never comes.
+/// A ratio of times as text, or "never".
 pub fn share(share: Option<f64>) -> String {
     share.map_or_else(
         || "never".to_owned(),
@@ -161,7 +161,7 @@ fn times(ratio: Option<f64>) -> String {
     ratio.map_or_else(|| "-".to_owned(), |ratio| format!("{ratio:.2}"))
 }
 
-/// Decibels, or that there is no noise.
+/// Decibels as text, or "inf" for identical images.
 pub fn decibels(psnr: Option<f64>) -> String {
     psnr.map_or_else(|| "inf".to_owned(), |psnr| format!("{psnr:.2}"))
 }
@@ -213,7 +213,7 @@ pub fn csv(scenes: &[SceneResults]) -> String {
     text
 }
 
-/// The four shares of what is left; empty where they were not measured.
+/// The four shares of the error that is left, by cause, as cells of a CSV; empty cells if they were not measured.
 fn left(row: &Row) -> String {
     let shares = row.left.map(|left| {
         [
@@ -227,14 +227,15 @@ fn left(row: &Row) -> String {
     shares.map(optional).join(",")
 }
 
-/// The five shares of what is left within superpixels and one triangle; empty where they were not measured.
+/// The five shares of the error that is left, by fault, as cells of a CSV; empty cells if they were not measured.
 fn left_within(row: &Row) -> String {
     let shares = row.left_within.as_ref().map(within);
     let shares = shares.map_or([None; 5], |shares| shares.map(Some));
     shares.map(optional).join(",")
 }
 
-/// Shares in superpixels by edges, texture and light, and inside of one triangle by texture and light.
+/// Shares in the order of the CSV: in superpixels by edges, texture and light, then in pixels of one triangle by
+/// texture and light.
 pub fn within(within: &Within) -> [f64; 5] {
     [
         within.superpixel_edges,
@@ -245,7 +246,7 @@ pub fn within(within: &Within) -> [f64; 5] {
     ]
 }
 
-/// A number, or nothing.
+/// A number as text, or an empty cell.
 fn optional(value: Option<f64>) -> String {
     value.map_or_else(String::new, |value| value.to_string())
 }

@@ -9,7 +9,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 impl Bench<'_> {
-    /// Times the variants on the scene of a file. Those that its camera can't have are left out.
+    /// Times the camera's variants on the scene of a file. Variants that the scene's camera can't have are left out.
     pub fn variants(&mut self, path: &Path) -> anyhow::Result<SceneVariants> {
         let name = subject::name(path);
         self.progress.begin(&format!("{name}, variants"));

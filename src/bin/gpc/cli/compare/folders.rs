@@ -10,17 +10,17 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// What became of an image.
+/// Result of comparing an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
-    /// Within the bound.
+    /// Difference within the bound.
     Equal,
-    /// Beyond the bound, or not comparable.
+    /// Difference above the bound, or no comparison possible.
     Different,
-    /// In the reference's folder alone.
+    /// Image in the reference's folder only.
     Missing,
-    /// In the other folder alone.
+    /// Image in the other folder only.
     New,
 }
 
@@ -37,7 +37,7 @@ impl Status {
     }
 }
 
-/// An image of either folder.
+/// An image of either folder, and its result.
 #[derive(Serialize)]
 pub struct Image {
     /// Its path below the folder, with `/` between folders.
@@ -45,11 +45,11 @@ pub struct Image {
     pub status: Status,
     #[serde(flatten)]
     pub comparison: Option<Comparison>,
-    /// Why it is not equal.
+    /// Why the image is not equal.
     pub reason: Option<String>,
 }
 
-/// What `--json` prints.
+/// Output of `--json`.
 #[derive(Serialize)]
 struct Report<'a> {
     equal: usize,
@@ -153,7 +153,7 @@ fn alone(name: &str, status: Status, absent_from: &Path) -> Image {
     }
 }
 
-/// Compares the images of a name, and writes where they differ.
+/// Compares the two images with this name, and writes the error map if they differ.
 fn compared(args: &CompareArgs, name: &str, bound: f64) -> anyhow::Result<Image> {
     let different = |comparison, reason| Image {
         name: name.to_owned(),
@@ -191,7 +191,7 @@ fn compared(args: &CompareArgs, name: &str, bound: f64) -> anyhow::Result<Image>
     Ok(different(Some(comparison), reason))
 }
 
-/// Path of the error map of an image: under the image's name, with `.png` added to another ending.
+/// Path of the error map of an image: the image's name in `folder`, with `.png` appended unless it ends so already.
 fn difference_path(folder: &Path, name: &str) -> PathBuf {
     if name.to_lowercase().ends_with(".png") {
         folder.join(name)

@@ -1,9 +1,9 @@
-//! The report of a comparison that forges show beside the results of tests.
+//! JUnit reports, which the forges of continuous integration show among the results of tests.
 
 use super::folders::{Image, Status};
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
-/// A report of a suite with a test case for each image.
+/// A report of a test suite with one test case for each image.
 pub fn report(suite: &str, images: &[Image]) -> anyhow::Result<String> {
     let mut cases = TestSuite::new(suite);
     for image in images {

@@ -9,14 +9,15 @@ use gpc::{compare, output};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Compares two images of the same size, or the images of two folders, as a display shows them: sRGB-encoded, over black.
+/// Compares two images of the same size, or the images of two folders, as a display shows them: sRGB-encoded, over
+/// black.
 ///
-/// Numbers are over colour, and over alpha too where either image is not opaque. An EXR's values are brought into
-/// 0 to 1 and encoded, not tone-mapped. FLIP is the mean of the error map of the colours in 8 bits.
+/// The figures cover colour, and alpha too if either image is not opaque. The values of an EXR are clamped to 0 to 1
+/// and encoded, not tone-mapped. FLIP is the mean of the error map of the colours in 8 bits.
 ///
-/// Of two folders, images of the same name are compared, in subfolders too. An image is equal, different (its rmse is above
-/// the bound, 0 if none is given, or the two can't be compared), missing (in A alone) or new (in B alone). The command exits
-/// with 5 unless all are equal.
+/// Of two folders, images with the same name are compared, in subfolders too. An image is equal, different (its rmse
+/// is above the bound, 0 if none is given, or the two can't be compared), missing (in A only) or new (in B only). The
+/// command exits with 5 unless all are equal.
 #[derive(Args)]
 pub struct CompareArgs {
     /// The reference: PNG, JPEG or EXR, or a folder of such images
@@ -26,7 +27,7 @@ pub struct CompareArgs {
     /// Print one JSON object: rmse, psnr (null for identical images), max, flip; of folders, these for each image
     #[arg(long)]
     json: bool,
-    /// Write FLIP's error map as a PNG; of folders, a folder for the error map of each image that differs
+    /// Write FLIP's error map as a PNG; of two folders, a folder with the error map of each image that differs
     #[arg(long, value_name = "OUT")]
     heatmap: Option<PathBuf>,
     /// Exit with 5 if the rmse (0 to 1) is above this

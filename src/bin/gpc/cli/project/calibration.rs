@@ -9,13 +9,13 @@ use gpc::output::{self, OutputError};
 use serde::Serialize;
 use std::path::Path;
 
-/// A projector and what its correspondences were worth.
+/// A projector, and how well its correspondences fit.
 pub struct Calibrated {
     pub projector: Projector,
     pub fit: Option<Fit>,
 }
 
-/// Numbers of the correspondences that a homography was fitted to.
+/// Figures of the homography that was fitted to a projector's correspondences.
 #[derive(Clone, Copy, Serialize)]
 pub struct Fit {
     correspondences: usize,
@@ -52,7 +52,7 @@ pub fn read(args: &ProjectArgs) -> anyhow::Result<Vec<Calibrated>> {
         .collect()
 }
 
-/// Calibration by a location for each pixel.
+/// Calibration from an image that holds a location for each of the projector's pixels.
 fn dense(bytes: &[u8], name: &str) -> anyhow::Result<Calibrated> {
     let (size, pixels) = output::decode_linear(bytes, name)?;
     let location = |[u, v, _, alpha]: [f32; 4]| match alpha {
@@ -66,7 +66,7 @@ fn dense(bytes: &[u8], name: &str) -> anyhow::Result<Calibrated> {
     })
 }
 
-/// Calibration by correspondences.
+/// Calibration from correspondences, for a plane wall.
 fn planar(
     args: &ProjectArgs,
     bytes: &[u8],

@@ -19,11 +19,12 @@ use std::process::ExitCode;
 
 /// Renders the frames of projectors that together show one picture of a scene on a wall.
 ///
-/// A projector is given by a CSV of correspondences (header x,y,u,v: a place in its pixels and the location that it
-/// lights) for a plane wall, or by an EXR with a pixel for each of its pixels: u in red, v in green, and NaN or an alpha
-/// of 0 where it lights nothing. Locations are in pixels of the picture, which has --size; (0, 0) is the upper left
-/// corner everywhere. The scene is sampled where each projector's pixels shine, and dimmed where projectors overlap, so
-/// that their light adds up to the picture.
+/// For a plane wall, a projector is given by a CSV of correspondences (header x,y,u,v): a place in the projector's
+/// pixels and the location that it lights. For any wall, it is given by an EXR with the projector's size: each pixel
+/// holds its location, u in red and v in green, and NaN or an alpha of 0 where it lights nothing. Locations are in
+/// pixels of the picture, which has --size; (0, 0) is the upper left corner everywhere. The scene is sampled at the
+/// location of each projector pixel. Where projectors overlap they are dimmed, so that their light adds up to the
+/// picture.
 #[derive(Args)]
 pub struct ProjectArgs {
     /// A .glb or .gltf file, or - for standard input
@@ -38,19 +39,19 @@ pub struct ProjectArgs {
     /// Width and height of projectors with correspondences, in pixels; once for all, or once for each
     #[arg(long, value_name = "WxH", default_value = "1920x1080", value_parser = values::size)]
     projector_size: Vec<[u32; 2]>,
-    /// Correspondences that are further than this from the homography of the others, in pixels of the picture, do not
-    /// count
+    /// Largest distance of a correspondence from the homography of the others, in pixels of the picture; those further
+    /// away are ignored
     #[arg(long, value_name = "PX", default_value_t = 2.0, allow_negative_numbers = true, value_parser = values::positive)]
     tolerance: f64,
-    /// Chooses the random fits to correspondences; the same seed gives the same frames
+    /// Seed of the random fits to correspondences; the same seed gives the same frames
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
 
-    /// Write each projector's blend weights too, as a PNG beside its frame named like it with .weights: grey of 16 bits,
+    /// Also write each projector's blend weights, as a PNG beside its frame, named like it with .weights: 16-bit grey,
     /// 65535 where it shines alone
     #[arg(long)]
     weights: bool,
-    /// Also write what lands on the wall, seen as the picture: the sum of all frames
+    /// Also write what appears on the wall, seen as the picture: the sum of all frames
     #[arg(long, value_name = "OUT")]
     wall: Option<PathBuf>,
 
@@ -65,7 +66,7 @@ pub struct ProjectArgs {
 struct Frame {
     /// Quality of the correspondences; `null` for a dense map.
     calibration: Option<Fit>,
-    /// Mean of its blend weights.
+    /// Mean of the projector's blend weights.
     mean_weight: f64,
     weights: Option<String>,
 }
@@ -157,14 +158,14 @@ pub fn run(args: &ProjectArgs) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The picture where a projector's pixels shine.
+/// Renders the picture at the locations of a projector's pixels.
 fn shoot(stage: &mut Stage, projector: &Projector) -> anyhow::Result<Shot> {
     let pinhole = stage.pinhole()?;
     let locations = projector.set()?.locations();
     stage.render(projector.size(), &[(pinhole, locations)])
 }
 
-/// Light of a projector, dimmed by weights: opaque, and black where the projector lights nothing.
+/// Colours dimmed by weights: opaque, and black where the projector lights nothing.
 fn dim(colors: &[[f32; 4]], weights: &[f32]) -> Vec<[f32; 4]> {
     let dim = |([r, g, b, _], weight): (&[f32; 4], &f32)| {
         let [r, g, b] = [r, g, b].map(|light| light * weight);

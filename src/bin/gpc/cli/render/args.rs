@@ -34,7 +34,7 @@ pub struct RenderArgs {
 
     #[command(flatten)]
     pub image: ImageArgs,
-    /// Render this part of the image alone, from column X and row Y on, to the same numbers as in the whole image
+    /// Render only this part of the image, from column X and row Y on; its pixels equal those of the whole image
     #[arg(long, value_name = "X,Y,WxH", value_parser = values::region, hide_short_help = true)]
     pub region: Option<PixelRect>,
     #[command(flatten)]
@@ -56,18 +56,18 @@ pub struct SamplingArgs {
     pub aa: Method,
     /// Samples a pixel [default: 64; 4 for msaa]
     ///
-    /// 1 to 1024 for superpixel, a square for ssaa, what the device has for msaa.
+    /// 1 to 1024 for superpixel, a square for ssaa, what the device supports for msaa.
     #[arg(long, value_name = "N")]
     samples: Option<u32>,
-    /// Differences of neighbours above this are a contrast, in 8-bit sRGB code values
-    /// [default: 6; 1 from 128 samples on]
+    /// Neighbours contrast if they differ by more than this, in 8-bit sRGB code values [default: 6; 1 from 128 samples
+    /// on]
     #[arg(long, value_name = "T", hide_short_help = true)]
     pub contrast: Option<u8>,
-    /// What makes a pixel a superpixel: a neighbour in a contrasting colour; one that also shows another triangle; or
-    /// any neighbour that shows another triangle
+    /// Which pixels become superpixels: those with a neighbour that contrasts; with one that contrasts and shows
+    /// another triangle; or with one that shows another triangle
     #[arg(long, default_value = "contrast", hide_short_help = true)]
     pub detect: Detection,
-    /// Where a superpixel's samples lie: lines, or as points: sobol, lattice, korobov, grid or rotated
+    /// Where a superpixel's samples lie: on lines, or as points: sobol, lattice, korobov, grid or rotated
     #[arg(
         long,
         value_name = "P",
@@ -75,14 +75,15 @@ pub struct SamplingArgs {
         hide_short_help = true
     )]
     pub pattern: Pattern,
-    /// How samples become coverage: the exact area of triangles that are seen whole, or counts of samples alone
+    /// How samples become coverage: the exact area of triangles that nothing occludes, or the number of samples alone
     #[arg(long, default_value = "area", hide_short_help = true)]
     pub coverage: Coverage,
-    /// What texture levels are chosen for: the part of a pixel that a shading place stands for, or the whole pixel. none
-    /// and msaa have the pixel's at either
+    /// Area over which textures are filtered: the part of a pixel that one shading stands for, or the whole pixel.
+    /// none and msaa always use the whole pixel
     #[arg(long, default_value = "sample", hide_short_help = true)]
     pub footprint: Footprint,
-    /// Shade a superpixel once for each visible triangle, in up to 256 parts where colours vary, or once a sample
+    /// Shade a superpixel once for each visible triangle and in up to 256 parts where colours vary, or once for each
+    /// sample
     #[arg(long, default_value = "part", hide_short_help = true)]
     pub shading: Shading,
 }
@@ -94,7 +95,7 @@ impl SamplingArgs {
         self.samples
     }
 
-    /// The number of samples asked for, or the method's default.
+    /// The number of samples asked for, or otherwise the method's default.
     pub fn samples(&self) -> u32 {
         self.samples.unwrap_or(match self.aa {
             Method::None => 1,
@@ -104,44 +105,44 @@ impl SamplingArgs {
     }
 }
 
-/// Where the scene is seen from, and when.
+/// Camera and time of the scene.
 #[derive(Args, Clone, Default)]
 #[command(next_help_heading = "View")]
 pub struct CameraArgs {
     /// A camera of the scene, or all [default: the first, or else a view of the whole scene]
     #[arg(long, value_name = "INDEX|NAME", conflicts_with_all = ["eye", "azimuth", "elevation", "zoom"])]
     pub camera: Option<String>,
-    /// Stand here
+    /// Position of the camera
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector, hide_short_help = true,
         conflicts_with_all = ["azimuth", "elevation", "zoom"])]
     pub eye: Option<DVec3>,
-    /// Look there [default: the scene's centre]
+    /// Point that the camera looks at [default: the scene's centre]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector, requires = "eye", hide_short_help = true)]
     pub target: Option<DVec3>,
-    /// This direction is up [default: 0,1,0]
+    /// Direction that is up in the image [default: 0,1,0]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = values::vector, requires = "eye", hide_short_help = true)]
     pub up: Option<DVec3>,
     /// Vertical field of view in degrees [default: the camera's, or else 40]
     #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = values::field_of_view, hide_short_help = true)]
     pub fov: Option<f64>,
-    /// See the whole scene from this angle around it [default: 35]
+    /// View of the whole scene from this angle around it, in degrees [default: 35]
     ///
     /// 0 looks along -z, 90 along -x.
     #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = values::finite)]
     pub azimuth: Option<f64>,
-    /// See the whole scene from this angle above the horizon [default: 20]
+    /// View of the whole scene from this angle above the horizon, in degrees [default: 20]
     #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = values::finite)]
     pub elevation: Option<f64>,
-    /// See the whole scene this much larger than fits [default: 1]
+    /// View of the whole scene, enlarged by this factor over what fits [default: 1]
     #[arg(long, value_name = "F", value_parser = values::positive)]
     pub zoom: Option<f64>,
-    /// Scene of the file by index [default: the file's own]
+    /// Scene of the file by index [default: the file's default scene]
     #[arg(long, value_name = "N", hide_short_help = true)]
     pub scene: Option<usize>,
     /// Variant of the materials by name [default: none]
     #[arg(long, value_name = "NAME", hide_short_help = true)]
     pub variant: Option<String>,
-    /// Moment of the animation in seconds
+    /// Time of the animation in seconds
     #[arg(long, value_name = "S", default_value_t = 0.0, value_parser = values::not_negative)]
     pub time: f64,
     /// Animation by name or index [default: the first, where a time is given]
@@ -149,11 +150,11 @@ pub struct CameraArgs {
     pub animation: Option<String>,
 }
 
-/// Several images in one go.
+/// Options for several images at once.
 #[derive(Args)]
 #[command(next_help_heading = "Sequences")]
 pub struct SequenceArgs {
-    /// Frames of the animation, both ends included
+    /// Frames of the animation, first and last included
     #[arg(long, value_name = "A..B", value_parser = values::frames, conflicts_with_all = ["turntable", "time"])]
     pub frames: Option<RangeInclusive<u32>>,
     /// Frames a second [default: 24]
@@ -161,10 +162,10 @@ pub struct SequenceArgs {
     pub fps: Option<f64>,
     /// N images from all around
     ///
-    /// The camera turns about the vertical axis through what it looks at.
+    /// The camera turns about the vertical axis through the point that it looks at.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub turntable: Option<u32>,
-    /// Render the I-th of N equal shares of the sequence alone: every N-th image from the I-th on, I from 1 to N
+    /// Render only the I-th of N equal shares of the sequence: every N-th image from the I-th on, I from 1 to N
     #[arg(long, value_name = "I/N", value_parser = values::shard, hide_short_help = true)]
     pub shard: Option<Shard>,
 }

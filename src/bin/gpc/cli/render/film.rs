@@ -1,4 +1,4 @@
-//! A scene over the moments of a sequence.
+//! A scene at the times of a sequence.
 
 use super::ImageArgs;
 use super::sequence::SequenceFrame;
@@ -9,31 +9,31 @@ use crate::cli::exit::Usage;
 use glam::DVec3;
 use gpc::scene::{Environment, Loaded, Motion, Pose, SceneCamera};
 
-/// A scene in motion. Its first pose is put on the device once, and moved there; where that can't be, a moment is posed
-/// and put there by itself. A camera that frames the scene stays as it frames the first pose.
+/// A scene in motion. Its first pose is uploaded once and then moved. A time that the first pose can't be moved to is
+/// posed and uploaded anew. A camera that frames the whole scene keeps the framing of the first pose.
 pub struct Film<'a> {
     image: &'a ImageArgs,
     loaded: Loaded,
-    /// The first pose, and what moves of it, where several moments are shown.
+    /// The first pose; `motion` says how it moves, if the sequence has several times.
     pub pose: Pose,
     motion: Option<Motion>,
     bounds: (DVec3, DVec3),
     first: f64,
-    /// Cameras of the scene that is shown.
+    /// Cameras of the scene that is rendered.
     cameras: Vec<SceneCamera>,
     shown: Option<ShownMoment>,
 }
 
 #[derive(Clone, Copy, PartialEq)]
 enum ShownMoment {
-    /// The first pose, moved to a time.
+    /// The first pose, moved to this time in seconds.
     Moved(f64),
-    /// A pose of its own.
+    /// A separate pose for this time in seconds.
     Posed(f64),
 }
 
 impl<'a> Film<'a> {
-    /// A film of these steps, whose first pose is at the time `first`.
+    /// A film of these steps. `first` is the time of the first pose, in seconds.
     pub fn new(
         image: &'a ImageArgs,
         loaded: Loaded,
@@ -59,22 +59,22 @@ impl<'a> Film<'a> {
         })
     }
 
-    /// Environment that lights the scene; `None` if the studio does.
+    /// Environment that lights the scene; `None` for the built-in studio.
     pub fn environment(&self) -> Option<&Environment> {
         self.pose.environment(&self.loaded.scene)
     }
 
-    /// Cameras of the scene that is shown.
+    /// Cameras of the scene that is rendered.
     pub fn cameras(&self) -> &[SceneCamera] {
         &self.cameras
     }
 
-    /// Views of the scene that is shown.
+    /// Views of the scene that is rendered, for images of `aspect` = width / height.
     pub fn views(&self, aspect: f64) -> Result<Vec<NamedView>, Usage> {
         view::choose_among(&self.image.camera, &self.cameras, self.bounds, aspect)
     }
 
-    /// Shows a moment; what could not be posed, and why.
+    /// Brings the scene to a time in seconds. Returns warnings about what could not be posed.
     pub fn show(
         &mut self,
         time: f64,

@@ -1,4 +1,4 @@
-//! The options that all commands share which make an image of a scene.
+//! The options that are common to all commands which make an image of a scene.
 
 use super::args::{CameraArgs, SamplingArgs, Tonemap};
 use crate::cli::exit::{Usage, usage};
@@ -17,15 +17,15 @@ pub struct ImageArgs {
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = values::size)]
     pub size: [u32; 2],
-    /// How radiance becomes display colour: Khronos PBR Neutral, or clamped [default: neutral; none for .exr]
+    /// How radiance becomes display colour: Khronos PBR Neutral, or clamping [default: neutral; none for .exr]
     #[arg(long, hide_short_help = true)]
     pub tonemap: Option<Tonemap>,
-    /// Behind the scene: none (transparent), #rrggbb, environment, or sRGB R,G,B of 0 to 1
+    /// Background: none (transparent), #rrggbb, environment, or sRGB R,G,B of 0 to 1
     #[arg(long, value_name = "COLOUR", default_value = "none", value_parser = values::background)]
     pub background: Background,
-    /// More of each pixel: depth, id, normal, superpixels, samples
+    /// Values to write besides the colours: depth, id, normal, superpixels, samples
     ///
-    /// Layers of an EXR; otherwise PNG files beside OUT, named like it with .depth and so on before .png.
+    /// They become layers of an EXR; otherwise PNG files beside OUT, named like it with .depth and so on before .png.
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub aov: Vec<AovKind>,
 
@@ -39,40 +39,40 @@ pub struct ImageArgs {
     pub device: DeviceArgs,
 }
 
-/// How a scene is lit, and how its strokes are drawn.
+/// Light of a scene, and the drawing of its lines, points and edges.
 #[derive(Args, Clone)]
 #[command(next_help_heading = "Light and lines")]
 pub struct AppearanceArgs {
     /// Brightness in stops: 1 is twice as bright
     #[arg(long, value_name = "EV", default_value_t = 0.0, allow_negative_numbers = true, value_parser = values::finite)]
     pub exposure: f64,
-    /// Light from all around: an equirectangular .hdr or .exr [default: a neutral studio]
+    /// Light from all directions: an equirectangular .hdr or .exr [default: a neutral studio]
     #[arg(long, value_name = "FILE")]
     pub environment: Option<PathBuf>,
-    /// Turn it about the vertical axis, counter-clockwise seen from above
+    /// Degrees by which the environment is turned about the vertical axis, counter-clockwise seen from above
     #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true, value_parser = values::finite,
         requires = "environment", hide_short_help = true)]
     pub environment_rotation: f64,
     /// Shadows of the scene's own lights
     ///
-    /// They are exact at every sample, whatever the number and distance of the lights.
+    /// They are exact at every sample, for every number and distance of lights.
     #[arg(long, value_name = "S", default_value = "none")]
     pub shadows: Shadows,
-    /// Width of lines in pixels of the image
+    /// Width of lines in pixels
     #[arg(long, value_name = "PX", default_value_t = 1.0, allow_negative_numbers = true, value_parser = values::stroke, hide_short_help = true)]
     pub line_width: f64,
-    /// Diameter of points in pixels of the image
+    /// Diameter of points in pixels
     #[arg(long, value_name = "PX", default_value_t = 3.0, allow_negative_numbers = true, value_parser = values::stroke, hide_short_help = true)]
     pub point_size: f64,
     /// Draw silhouettes, boundaries and creases as lines of this width in pixels
     ///
-    /// Creases are of more than 30 degrees. Lines are black, or R,G,B of 0 to 1, or #rrggbb.
+    /// An edge is a crease if its faces meet at more than 30 degrees. Lines are black, or R,G,B of 0 to 1, or #rrggbb.
     #[arg(long, value_name = "WIDTH[,COLOUR]", allow_negative_numbers = true, value_parser = values::edges)]
     pub edges: Option<EdgeLines>,
 }
 
 impl AppearanceArgs {
-    /// The environment asked for, if one is.
+    /// The environment that is asked for, if any.
     pub fn environment(&self) -> anyhow::Result<Option<Arc<Environment>>> {
         let Some(file) = &self.environment else {
             return Ok(None);
@@ -81,7 +81,7 @@ impl AppearanceArgs {
         Ok(Some(Arc::new(turned)))
     }
 
-    /// The edges asked for, if any are.
+    /// The edges to draw, if any.
     pub fn edges(&self) -> Option<Edges> {
         self.edges.map(|edges| Edges {
             color: values::linear(edges.color),
@@ -89,7 +89,7 @@ impl AppearanceArgs {
         })
     }
 
-    /// The settings with this appearance.
+    /// `settings` with this appearance.
     pub fn settings(&self, settings: Settings) -> Settings {
         Settings {
             exposure: self.exposure as f32,
@@ -102,7 +102,7 @@ impl AppearanceArgs {
     }
 }
 
-/// What renders.
+/// Device that renders.
 #[derive(Args, Clone)]
 #[command(next_help_heading = "Device")]
 pub struct DeviceArgs {
@@ -115,7 +115,7 @@ pub struct DeviceArgs {
 }
 
 impl ImageArgs {
-    /// Refuses numbers of samples that the method can't have whatever the device.
+    /// Checks the number of samples against the method, as far as that is independent of the device.
     pub fn check_samples(&self) -> Result<(), Usage> {
         match (self.sampling.aa, self.sampling.samples()) {
             (Method::None, samples) if samples != 1 => Err(Usage(format!(
@@ -125,7 +125,7 @@ impl ImageArgs {
         }
     }
 
-    /// Refuses what can't go together, and says in what format OUT is written.
+    /// Checks the options against each other, and returns the format of OUT.
     pub fn format(&self, output: &Path) -> anyhow::Result<Format> {
         self.check_samples()?;
         if input::is_standard(output) {
@@ -141,7 +141,7 @@ impl ImageArgs {
         Ok(format)
     }
 
-    /// Loads a scene with the variant, the environment and the edges asked for.
+    /// Loads a scene with the variant, the environment and the edges that the options name.
     pub fn load(&self, path: &Path) -> anyhow::Result<Loaded> {
         let (loaded, environment) = rayon::join(
             || input::load_variant(path, self.camera.variant.as_deref()),
@@ -157,7 +157,7 @@ impl ImageArgs {
         Ok(loaded)
     }
 
-    /// Settings for images of a format.
+    /// Settings for images in this format.
     pub fn settings(&self, format: Format) -> Settings {
         let [width, height] = self.size;
         let tonemaps = self.tonemap != Some(Tonemap::None);
@@ -186,18 +186,18 @@ impl ImageArgs {
         })
     }
 
-    /// The AOVs asked for, each once.
+    /// The AOVs to write, without duplicates.
     pub fn aovs(&self) -> Vec<AovKind> {
         let asked = |kind: &AovKind| self.aov.contains(kind);
         AovKind::ALL.into_iter().filter(asked).collect()
     }
 
-    /// The scene at a moment.
+    /// The scene's pose at a time in seconds.
     pub fn pose(&self, loaded: &Loaded, time: f64) -> Result<Pose, SceneError> {
         loaded.scene.pose(&self.request(time))
     }
 
-    /// The scene at a moment, and what moves from there on.
+    /// The scene's pose at a time in seconds, and how it moves from then on.
     pub fn pose_in_motion(&self, loaded: &Loaded, time: f64) -> Result<(Pose, Motion), SceneError> {
         loaded.scene.pose_in_motion(&self.request(time))
     }

@@ -91,7 +91,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
         for view in film.views(aspect)? {
             let camera = view.turned(step.turn);
             let mut shot = session.shoot(&camera, args.repeat)?;
-            // A part of an image may well be empty.
+            // A part of an image may rightly be empty.
             if args.region.is_none() {
                 let colors = &shot.rendered.colors;
                 let warning = unseen::warning(colors, &view, &film.pose, film.cameras(), aspect);
@@ -141,7 +141,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Settings and format of the images; an error if these contradict each other.
+/// Settings and format of the images, checked against each other.
 fn settings(args: &RenderArgs) -> anyhow::Result<(Format, Settings)> {
     args.report.check(&args.output)?;
     let format = args.image.format(&args.output)?;
@@ -155,14 +155,15 @@ fn settings(args: &RenderArgs) -> anyhow::Result<(Format, Settings)> {
     Ok((format, settings))
 }
 
-/// The images of the sequence, or of the share of it that is asked for.
+/// The images of the sequence, or of one share of it, and the time of the sequence's first image.
 fn steps(args: &RenderArgs, template: &Template) -> Result<(f64, Vec<SequenceFrame>), Usage> {
     sequence::check(args)?;
     let steps = sequence::steps(args)?;
     if args.format.is_none() {
         template.require("frame", "frames", steps.len())?;
     }
-    // What all shares start from, so that none shows.
+    // All shares start from the first pose of the whole sequence, so that the images do not depend on the number of
+    // shares.
     let first = steps.first().map_or(0.0, |step| step.time);
     Ok((first, sequence::share(steps, args.sequence.shard)))
 }
@@ -177,7 +178,7 @@ fn progress(count: usize, quiet: bool) -> ProgressBar {
     ProgressBar::new(count as u64).with_style(style)
 }
 
-/// Every warning once.
+/// Warnings that were printed already; each is printed once.
 #[derive(Default)]
 struct Warnings(Vec<String>);
 

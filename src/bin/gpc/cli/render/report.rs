@@ -22,7 +22,7 @@ pub struct Report {
     camera: CameraReport,
     #[serde(flatten)]
     effort: Effort,
-    /// Times of starting, for the first image unless renderings are repeated.
+    /// Times of the start-up, reported with the first image only; `None` for repeated renderings.
     #[serde(skip_serializing_if = "Option::is_none")]
     startup_ms: Option<StartUp>,
     warnings: Vec<String>,
@@ -39,23 +39,23 @@ struct RegionReport {
 
 #[derive(Serialize)]
 struct CameraReport {
-    /// Column by column.
+    /// View matrix, column by column.
     view: [f64; 16],
     projection: [f64; 16],
     eye: [f64; 3],
     target: [f64; 3],
     up: [f64; 3],
-    /// Vertical, in degrees; `null` for an orthographic camera.
+    /// Vertical field of view in degrees; `null` for an orthographic camera.
     fov: Option<f64>,
 }
 
-/// Source and destination of an image.
+/// Where an image came from and where it is written.
 pub struct Origin<'a> {
     pub output: String,
     pub device: &'a Device,
     pub settings: &'a Settings,
     pub view: &'a NamedView,
-    /// The view's camera as it was turned.
+    /// The camera of the image, turntable rotation included.
     pub camera: &'a Camera,
     pub startup: Option<StartUp>,
     pub warnings: Vec<String>,
@@ -88,7 +88,7 @@ impl Report {
         }
     }
 
-    /// Report as one line for people.
+    /// A line of text for people.
     pub fn line(&self) -> String {
         let [width, height] = self.size;
         let Effort {

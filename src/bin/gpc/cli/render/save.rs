@@ -1,4 +1,4 @@
-//! An image and its AOVs into files.
+//! Writing an image and its AOVs to files.
 
 use crate::cli::{input, print};
 use gpc::output::{self, Aov, AovKind, Format, Picture};
@@ -39,7 +39,7 @@ pub fn encode(
     Ok(bytes)
 }
 
-/// Writes a file, or to standard output for `-`.
+/// Writes bytes to a file, or to standard output for `-`.
 pub fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
     if input::is_standard(path) {
         return print::bytes(bytes);
@@ -47,7 +47,8 @@ pub fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
     Ok(output::write_atomically(path, bytes)?)
 }
 
-/// `a.depth.png` for `a.png`, `a.16.png` and `a.jpg`, where what the file holds is depth.
+/// Path of a file beside the image that holds something else, such as depth: `a.depth.png` for `a.png`, `a.16.png` and
+/// `a.jpg`.
 pub fn beside(path: &Path, format: Format, holds: &str) -> PathBuf {
     let mut stem = path.with_extension("");
     if format == Format::Png16 {

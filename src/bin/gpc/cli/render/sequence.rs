@@ -6,7 +6,7 @@ use crate::cli::input;
 use crate::cli::values::Shard;
 use gpc::output::VideoFormat;
 
-/// A moment or an angle.
+/// An image of a sequence: its time and its angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SequenceFrame {
     /// Number that replaces `{frame}` in the output's name.
@@ -19,7 +19,7 @@ pub struct SequenceFrame {
 
 const MAX_STEPS: u32 = 1_000_000;
 
-/// Refuses what makes no sense without a sequence, or with this one.
+/// Refuses options that need a sequence without one, and options that contradict each other.
 pub fn check(args: &RenderArgs) -> Result<(), Usage> {
     let SequenceArgs {
         frames,
@@ -46,7 +46,7 @@ pub fn check(args: &RenderArgs) -> Result<(), Usage> {
     Ok(())
 }
 
-/// The steps of a share: every N-th one, since those close to each other cost about the same.
+/// The steps of a share: every N-th one, because neighbouring steps cost about the same.
 pub fn share(steps: Vec<SequenceFrame>, shard: Option<Shard>) -> Vec<SequenceFrame> {
     let Some(Shard { number, count }) = shard else {
         return steps;
@@ -55,7 +55,7 @@ pub fn share(steps: Vec<SequenceFrame>, shard: Option<Shard>) -> Vec<SequenceFra
     steps.into_iter().skip(first).step_by(count).collect()
 }
 
-/// The steps of the whole sequence that the options ask for, at least one.
+/// The steps of the whole sequence that the options describe, at least one.
 pub fn steps(args: &RenderArgs) -> Result<Vec<SequenceFrame>, Usage> {
     let time = args.image.camera.time;
     let still = SequenceFrame {

@@ -12,7 +12,7 @@ use gpc::vulkan::VulkanError;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Renders with the same settings until it is dropped.
+/// A device that renders one scene with the same settings throughout.
 pub struct Session {
     headless: Headless,
     settings: Settings,
@@ -28,13 +28,13 @@ pub struct Shot {
     pub wall_ms: Vec<f64>,
 }
 
-/// Opens a device by part of its name, or the best one; under the validation layer where the environment says so.
+/// Opens the best device, or one by part of its name. `GPC_VALIDATION` turns the validation layer on.
 fn open(device: Option<String>) -> Result<Headless, VulkanError> {
     let validation = std::env::var_os("GPC_VALIDATION").is_some_and(|value| !value.is_empty());
     Headless::new(&HeadlessOptions { device, validation })
 }
 
-/// Opens a device as [`open`] does while `load` reads what is to be shown. Where both fail, the error is that of `load`.
+/// Opens a device as [`open`] does, while `load` runs in parallel. If both fail, the error is that of `load`.
 pub fn open_beside<T>(
     device: Option<String>,
     load: impl FnOnce() -> anyhow::Result<T>,
@@ -50,7 +50,7 @@ pub fn open_beside<T>(
     })
 }
 
-/// Puts a pose on the device, to be moved where a motion says so, and ready for the shadows that the settings ask for.
+/// Uploads a pose, prepared for the motion that is given and for the shadows of the settings.
 pub fn upload(
     headless: &mut Headless,
     scene: &Scene,
@@ -83,8 +83,7 @@ impl Session {
         Device::of(&self.headless)
     }
 
-    /// Puts a pose on the device in place of the one before, to be moved where a motion says so, and makes pipelines for
-    /// it.
+    /// Uploads a pose in place of the one before, prepared for the motion that is given, and makes pipelines for it.
     pub fn show(
         &mut self,
         scene: &Scene,
@@ -92,7 +91,7 @@ impl Session {
         motion: Option<&Motion>,
         clock: &mut Clock,
     ) -> Result<(), RenderError> {
-        // The memory of the pose before is free for this one.
+        // The memory of the pose before is freed first, so that this one can use it.
         self.shown = None;
         let scene = upload(&mut self.headless, scene, (pose, motion), &self.settings)?;
         clock.lap("upload");
@@ -102,7 +101,7 @@ impl Session {
         Ok(())
     }
 
-    /// Moves what is shown.
+    /// Moves the scene on the device to another moment.
     pub fn show_moment(&mut self, moment: Moment) -> Result<(), RenderError> {
         match &mut self.shown {
             Some(frame) => frame.show(Arc::new(moment)),
@@ -110,7 +109,7 @@ impl Session {
         }
     }
 
-    /// Renders what is shown: once, or with `repeat` once unmeasured and then `repeat` times.
+    /// Renders the scene on the device: once, or with `repeat` one unmeasured time and then `repeat` times.
     pub fn shoot(&mut self, camera: &Camera, repeat: Option<u32>) -> anyhow::Result<Shot> {
         if repeat.is_some() {
             self.render(camera)?;

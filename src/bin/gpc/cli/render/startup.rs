@@ -4,18 +4,18 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::time::Instant;
 
-/// A clock that is read after each step until the first image is there.
+/// A clock that times the steps until the first image is done.
 pub struct Clock {
     start: Instant,
     last: Instant,
-    /// Taken with the first image.
+    /// Milliseconds by step; `None` once [`Self::finish`] has returned them.
     laps: Option<BTreeMap<&'static str, f64>>,
 }
 
-/// Wall-clock milliseconds of each step from the start of the command to the first image, and their sum, `total`:
-/// `load` (reading the scene and decoding its images), `pose`, `device` (what it took longer to open than to load and
-/// pose, beside which it is opened), `upload`, `pipelines`, `frame` (on drivers that compile kernels when they first run,
-/// with that) and `write`.
+/// Wall-clock milliseconds of each step from the start of the command to the first image, and their sum, `total`. The
+/// steps are `load` (reading the scene and decoding its images), `pose`, `device` (the time by which opening the
+/// device outlasts loading and posing, which run in parallel), `upload`, `pipelines`, `frame` (some drivers compile
+/// kernels in it, when they first run) and `write`.
 #[derive(Serialize)]
 #[serde(transparent)]
 pub struct StartUp(BTreeMap<&'static str, f64>);
@@ -30,7 +30,7 @@ impl Clock {
         }
     }
 
-    /// Books the time since the last step under the name of this one.
+    /// Adds the time since the last call to the step that has just ended.
     pub fn lap(&mut self, step: &'static str) {
         let now = Instant::now();
         if let Some(laps) = &mut self.laps {
@@ -39,7 +39,7 @@ impl Clock {
         self.last = now;
     }
 
-    /// Times of all steps up to the first image; `None` when asked again.
+    /// Times of all steps up to the first image; `None` from the second call on.
     pub fn finish(&mut self) -> Option<StartUp> {
         let total = 1e3 * (self.last - self.start).as_secs_f64();
         let mut laps = self.laps.take()?;

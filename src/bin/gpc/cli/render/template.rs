@@ -1,9 +1,9 @@
-//! Output names with fields.
+//! Names of output files with placeholders.
 
 use crate::cli::exit::Usage;
 use std::path::{Path, PathBuf};
 
-/// Values of `{stem}`, `{camera}` and `{frame}`.
+/// Values of the placeholders `{stem}`, `{camera}` and `{frame}`.
 pub struct Fields<'a> {
     pub stem: &'a str,
     pub camera: &'a str,
@@ -12,11 +12,11 @@ pub struct Fields<'a> {
 
 const KNOWN: [&str; 3] = ["stem", "camera", "frame"];
 
-/// OUT, checked.
+/// OUT with its placeholders checked.
 pub struct Template(String);
 
 impl Template {
-    /// Checks the fields of a name.
+    /// Checks the placeholders in the path of an output file.
     pub fn new(path: &Path) -> Result<Self, Usage> {
         let Some(text) = path.to_str() else {
             return Err(Usage(format!("-o {}: it is not UTF-8", path.display())));
@@ -36,7 +36,7 @@ impl Template {
         Ok(Self(text.to_owned()))
     }
 
-    /// Refuses to write several images under one name.
+    /// Refuses a name without the placeholder `field` if there are several images to write.
     pub fn require(&self, field: &str, what: &str, count: usize) -> Result<(), Usage> {
         let placeholder = format!("{{{field}}}");
         if count <= 1 || self.0.contains(&placeholder) {
@@ -54,7 +54,7 @@ impl Template {
         }))
     }
 
-    /// The name of one image. Values are put in as they are, braces in them included.
+    /// The path of one image. Braces in a value are kept.
     pub fn fill(&self, fields: &Fields<'_>) -> PathBuf {
         let frame = format!("{:04}", fields.frame);
         let mut name = String::new();
@@ -74,7 +74,7 @@ impl Template {
     }
 }
 
-/// A name from a scene as part of a file name: what folders, drives and shells give a meaning becomes `_`.
+/// A name from a scene as part of a file name: characters that folders, drives or shells interpret become `_`.
 pub fn file_name_part(name: &str) -> String {
     let safe = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | '.' | ' ' | '+');
     let part: String = name

@@ -1,12 +1,12 @@
-//! What to say of an image that shows nothing.
+//! Warnings about images that show nothing of the scene.
 
 use super::view::NamedView;
 use glam::DVec3;
 use gpc::camera::Camera;
 use gpc::scene::{Pose, SceneCamera};
 
-/// A warning if all pixels have one colour: nothing of the scene is in view. It names cameras that see the scene. `aspect` is
-/// width / height.
+/// A warning if all pixels have the same colour, which means that nothing of the scene is in view. The warning names
+/// cameras that see the scene. `aspect` is width / height.
 pub fn warning(
     colors: &[[f32; 4]],
     view: &NamedView,

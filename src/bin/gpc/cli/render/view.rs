@@ -13,11 +13,11 @@ pub struct NamedView {
     /// Text that replaces `{camera}` in the output's name.
     pub label: String,
     pub camera: Camera,
-    /// A point on the camera's axis: where it looks, or else abreast of the scene's centre.
+    /// The point on the camera's axis that the camera looks at; without one, the point nearest to the scene's centre.
     pub target: DVec3,
 }
 
-/// The box around a pose; around the origin where it is empty.
+/// The box around a pose; a box around the origin if the pose is empty.
 pub fn bounds(pose: &Pose) -> (DVec3, DVec3) {
     let bounds = pose.geometry.bounds();
     bounds.unwrap_or((DVec3::splat(-1.0), DVec3::ONE))
@@ -28,7 +28,7 @@ pub fn choose(args: &CameraArgs, pose: &Pose, aspect: f64) -> Result<Vec<NamedVi
     choose_among(args, &pose.cameras, bounds(pose), aspect)
 }
 
-/// Chooses as [`choose`] does, among these cameras, for contents within a box.
+/// Chooses as [`choose`] does, among `cameras`, for a scene within the box `bounds`.
 pub fn choose_among(
     args: &CameraArgs,
     cameras: &[SceneCamera],
@@ -132,7 +132,7 @@ fn find(asked: &str, cameras: &[SceneCamera]) -> Result<usize, Usage> {
     )))
 }
 
-/// A part of a file name for each camera, no two the same.
+/// A unique part of a file name for each camera.
 fn labels(cameras: &[SceneCamera]) -> Vec<String> {
     let name = |(index, camera): (usize, &SceneCamera)| match &camera.name {
         Some(name) => file_name_part(name),
@@ -141,7 +141,7 @@ fn labels(cameras: &[SceneCamera]) -> Vec<String> {
     let names: Vec<_> = cameras.iter().enumerate().map(name).collect();
     let mut uses = HashMap::new();
     for name in &names {
-        // File systems may take upper for lower case.
+        // File systems may ignore the difference of upper and lower case.
         *uses.entry(name.to_lowercase()).or_insert(0) += 1;
     }
     let unique = |(index, name): (usize, &String)| match uses.get(&name.to_lowercase()) {

@@ -1,19 +1,19 @@
-//! Effort of rendering an image.
+//! Work and time that an image took.
 
 use gpc::render::{PassTime, Settings, Statistics, TriangleCounts};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Work that was done for an image, and its times.
+/// Work that an image took, and its times.
 #[derive(Serialize)]
 pub struct Effort {
-    /// Samples of a superpixel; of every pixel under methods without superpixels.
+    /// Samples of a superpixel; samples of every pixel for methods without superpixels.
     pub samples: u32,
     pub superpixels: Superpixels,
     pub triangles: Triangles,
-    /// Milliseconds on the device: `total`, and each pass; medians over repetitions.
+    /// Device milliseconds of each pass, and of all together as `total`; medians over repetitions.
     pub gpu_ms: BTreeMap<&'static str, f64>,
-    /// Wall-clock milliseconds of rendering, from recording to the image in host memory; the median.
+    /// Wall-clock milliseconds from recording to the image in host memory; the median.
     pub wall_ms: f64,
     pub memory_bytes: u64,
 }
@@ -21,11 +21,11 @@ pub struct Effort {
 #[derive(Serialize)]
 pub struct Superpixels {
     pub count: u64,
-    /// Share of the pixels or locations.
+    /// Superpixels / pixels, or superpixels / locations.
     pub fraction: f64,
-    /// Superpixels that the first few of their samples did not settle.
+    /// Superpixels whose first few samples did not suffice.
     resampled: u64,
-    /// Visibility samples: the places that are shaded, and the links of BLEND layers.
+    /// Number of visibility samples: the shaded places, and the links of BLEND layers.
     records: u64,
 }
 
@@ -36,7 +36,7 @@ pub struct Triangles {
     skipped: Skipped,
 }
 
-/// Triangles that were no candidates for sub-samples, by reason.
+/// Triangles that were left out of the search for samples, by reason.
 #[derive(Serialize)]
 struct Skipped {
     outside: u64,
@@ -45,11 +45,11 @@ struct Skipped {
     untouching: u64,
 }
 
-/// Renderings of one image.
+/// The renderings of one image, from which its effort is computed.
 pub struct RenderWork<'a> {
     /// Statistics of the last rendering.
     pub statistics: &'a Statistics,
-    /// Pixels or locations.
+    /// Number of pixels or locations.
     pub cells: u64,
     /// Times of the passes, a list for each rendering.
     pub passes: &'a [Vec<PassTime>],
@@ -75,7 +75,7 @@ impl Effort {
         }
     }
 
-    /// Milliseconds on the device of all passes together.
+    /// Device milliseconds of all passes together.
     pub fn total_gpu_ms(&self) -> f64 {
         self.gpu_ms.get("total").copied().unwrap_or_default()
     }
@@ -94,7 +94,8 @@ fn count(counts: &TriangleCounts) -> Triangles {
     }
 }
 
-/// The median of each pass and of the sums of all. A pass that runs several times in a frame counts as one.
+/// The median time of each pass and of their sum, over the renderings. A pass that runs several times in a frame
+/// counts once, with its total.
 fn medians(renderings: &[Vec<PassTime>]) -> BTreeMap<&'static str, f64> {
     let mut times: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
     for rendering in renderings {

@@ -11,21 +11,21 @@ use gpc::render::Headless;
 use serde::Serialize;
 use std::path::Path;
 
-/// Amount of reporting.
+/// Options for the amount of output.
 #[derive(Args, Clone, Copy)]
 pub struct ReportArgs {
     /// Print figures as one JSON object
     ///
-    /// They are files, sizes, samples, superpixels, times and memory; several images are a list.
+    /// The figures are files, sizes, samples, superpixels, times and memory; several images are a list.
     #[arg(long, help_heading = "Report")]
     pub json: bool,
-    /// Say nothing but errors
+    /// Print nothing but errors
     #[arg(long, help_heading = "Report")]
     pub quiet: bool,
 }
 
 impl ReportArgs {
-    /// Refuses to print figures to the standard output that the image goes to.
+    /// Refuses `--json` if the image itself goes to standard output.
     pub fn check(&self, output: &Path) -> Result<(), Usage> {
         if self.json && input::is_standard(output) {
             return Err(Usage(
@@ -35,7 +35,7 @@ impl ReportArgs {
         Ok(())
     }
 
-    /// Prints figures, if they are wanted.
+    /// Prints figures if `--json` is given.
     pub fn print(&self, figures: &impl Serialize) -> anyhow::Result<()> {
         if self.json {
             print::json(figures)?;
@@ -61,15 +61,15 @@ impl Device {
     }
 }
 
-/// Figures of a scene that was sampled at locations of the command's own choice; `T` holds what only that command can
-/// say.
+/// Figures of an image that was sampled at locations which the command chose. `T` holds the figures of this command
+/// alone.
 #[derive(Serialize)]
 pub struct Figures<T> {
     /// The file, or `-`.
     pub output: String,
     #[serde(flatten)]
     pub device: Device,
-    /// Width and height of the image, or of the image plane if samples make no image.
+    /// Width and height of the image; of the image plane if the samples make no image.
     pub size: [u32; 2],
     #[serde(flatten)]
     pub effort: Effort,

@@ -4,20 +4,20 @@ use super::table::{COLUMNS, Locations, Row};
 use crate::cli::csv;
 use std::fmt::Write;
 
-/// Reads locations: a header `u,v` or `u,v,row,col`, and a line for each.
+/// Reads locations: a header `u,v` or `u,v,row,col`, and a line for each location.
 pub fn read(bytes: &[u8]) -> Result<Locations, String> {
     let (width, numbers) = csv::numbers(bytes, &[&["u", "v"], &["u", "v", "row", "col"]])?;
     Ok(Locations::from_rows(width, &numbers))
 }
 
-/// Writes a header, and a line for each row. Values have enough digits to be read back exactly.
+/// Writes a header, and a line for each row. The numbers have enough digits to be read back exactly.
 pub fn write(rows: &[Row]) -> Vec<u8> {
     let mut text = COLUMNS.join(",");
     for row in rows {
         text.push('\n');
         for (column, value) in row.iter().enumerate() {
             let comma = if column == 0 { "" } else { "," };
-            // Locations are what was given; the rest was 32 bits wide.
+            // Locations are the given 64-bit numbers; the renderer's values have 32 bits.
             let written = if column < 2 {
                 write!(text, "{comma}{value}")
             } else {

@@ -21,20 +21,19 @@ use std::process::ExitCode;
 use std::time::Instant;
 use table::Locations;
 
-/// Samples a scene at any locations.
+/// Samples a scene at given locations.
 ///
-/// A file of samples is a CSV with the header u,v or u,v,row,col, or a NPY array of N x 2 or N x 4 numbers
-/// (float32 or float64). Locations are in pixels of an image of --size, (0, 0) at its upper left corner; they may lie
-/// outside of it. Rows and columns tell which locations are neighbours, so that textures are filtered over what lies
-/// between them; without them a sample stands for a pixel.
+/// LOCATIONS is a CSV with the header u,v or u,v,row,col, or a NPY array of N x 2 or N x 4 numbers (float32 or
+/// float64). Locations are in pixels of an image of --size, (0, 0) at its upper left corner; they may lie outside of
+/// it. Rows and columns tell which locations are neighbours, so that textures are filtered over the area between them;
+/// without them a sample stands for a pixel.
 ///
-/// A row of the result belongs to a sample, in the order given: u, v, the colour r, g, b, a (linear light, premultiplied,
-/// not tone-mapped unless asked), depth (distance along the direction of view; 0 where nothing is hit), id (index of the
-/// triangle plus 1), hit (1 or 0) and the normal x, y, z. A CSV has a header; a NPY is an array of N x 12 float64.
-/// An image (.png, .16.png, .jpg, .exr) has the mean colour of the samples of each row and column, tone-mapped as those
-/// of gpc render are.
-/// Samples are points; with --aa superpixel or ssaa the colour is the mean of --supersamples
-/// points around each.
+/// Each row of the result belongs to a sample, in the order given: u, v, the colour r, g, b, a (linear light,
+/// premultiplied, not tone-mapped unless asked), depth (distance along the direction of view; 0 where nothing is hit),
+/// id (index of the triangle plus 1), hit (1 or 0) and the normal x, y, z. A CSV has a header; a NPY is an array of N
+/// x 12 float64. An image (.png, .16.png, .jpg, .exr) has the mean colour of the samples in each row and column,
+/// tone-mapped as by gpc render. Samples are points; with --aa superpixel or ssaa the colour is the mean of
+/// --supersamples points around each location.
 #[derive(Args)]
 #[command(
     mut_arg("aa", |arg| arg.default_value("none")),
@@ -71,7 +70,7 @@ struct Seen {
 enum Kind {
     Csv,
     Npy,
-    /// An image by row and column.
+    /// An image whose pixels are the rows and columns of the samples.
     Image(Format),
 }
 
@@ -86,7 +85,7 @@ pub fn run(args: &SampleArgs) -> anyhow::Result<ExitCode> {
     let set = set(&locations).with_context(|| args.locations.display().to_string())?;
     let format = match (kind, args.image.tonemap) {
         (Kind::Image(format), _) => format,
-        // Without a tone map, colours are those of a scene-linear image.
+        // Without a tone map, colours are linear, like those of an EXR.
         (_, Some(Tonemap::Neutral)) => Format::Png8,
         _ => Format::Exr,
     };
@@ -143,7 +142,7 @@ pub fn run(args: &SampleArgs) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Values of each sample; with antialiasing their colours are means.
+/// Values at each location; with antialiasing, the colours are means around it.
 fn sample(
     stage: &mut Stage,
     pinhole: &Pinhole,
@@ -172,7 +171,7 @@ fn sample(
     Ok(samples)
 }
 
-/// The sampling set of a file. Samples without rows and columns are all in one cell, so that they have no neighbours.
+/// The sampling set of a file. Samples without rows and columns all go into one cell, so that they have no neighbours.
 fn set(locations: &Locations) -> anyhow::Result<SamplingSet> {
     const LEAF_SAMPLES: usize = 32;
     let samples = locations.samples()?;

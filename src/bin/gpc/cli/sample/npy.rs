@@ -4,7 +4,7 @@ use super::table::{COLUMNS, Locations, Row};
 
 const MAGIC: &[u8] = b"\x93NUMPY";
 
-/// Data begins at a multiple of this.
+/// Alignment of the data in bytes.
 const ALIGNMENT: usize = 64;
 
 /// Reads locations: an array of N x 2 (u, v) or N x 4 (u, v, row, column), float32 or float64.
@@ -12,7 +12,7 @@ pub fn read(bytes: &[u8]) -> Result<Locations, String> {
     let broken = || "it is no NPY file, or broken".to_owned();
     let rest = bytes.strip_prefix(MAGIC).ok_or_else(broken)?;
     let (version, rest) = rest.split_at_checked(2).ok_or_else(broken)?;
-    // From version 2 on the header's length has four bytes.
+    // From version 2 on, the header's length has four bytes.
     let wide = if version.first() == Some(&1) { 2 } else { 4 };
     let (length, rest) = rest.split_at_checked(wide).ok_or_else(broken)?;
     let length = length
@@ -66,7 +66,7 @@ fn refuse(shape: &[usize]) -> String {
     format!("its shape is {shape:?}; it must be N x 2 (u, v) or N x 4 (u, v, row, column)")
 }
 
-/// The numbers of a tuple such as `(3, 2), }`.
+/// The numbers of a tuple at the start of `text`, such as `(3, 2), }`.
 fn shape(text: &str) -> Option<Vec<usize>> {
     let (inside, _) = text.strip_prefix('(')?.split_once(')')?;
     let numbers = inside

@@ -1,4 +1,4 @@
-//! Locations as they are read, and rows as they are written.
+//! Locations of a file, and rows of the result.
 
 use gpc::camera::set::Sample;
 use gpc::render::PointSample;
@@ -7,12 +7,12 @@ use gpc::render::PointSample;
 #[derive(Debug, Default, PartialEq)]
 pub struct Locations {
     pub uv: Vec<[f64; 2]>,
-    /// Row and column of each, where the file has them.
+    /// Row and column of each location, if the file has them.
     pub cells: Option<Vec<[f64; 2]>>,
 }
 
 impl Locations {
-    /// Makes a table of rows of 2 or 4 numbers: u, v and perhaps row and column.
+    /// Makes a table of rows of `width` numbers: u, v and, if `width` is 4, row and column.
     pub fn from_rows(width: usize, numbers: &[f64]) -> Self {
         let pair = |row: &[f64], start: usize| match row.get(start..start + 2) {
             Some([a, b]) => [*a, *b],
@@ -25,7 +25,7 @@ impl Locations {
         }
     }
 
-    /// The samples of a set, in the order given.
+    /// The samples of a set, in the order of the file.
     pub fn samples(&self) -> anyhow::Result<Vec<Sample>> {
         let Some(cells) = &self.cells else {
             let sample = |uv: &[f64; 2]| Sample {

@@ -8,13 +8,12 @@ use clap::Args;
 use gpc::camera::zoom::{Shape, Transition, ZoomMap, ZoomRegion};
 use std::path::PathBuf;
 
-/// Enlarges regions of an image, and joins them continuously to the rest: focus plus context.
+/// Enlarges regions of an image and joins them continuously to the rest (focus plus context).
 ///
-/// Of a scene each pixel is sampled exactly where it looks, and antialiased. Of a photograph (PNG or JPEG) the samples
-/// are reconstructed; size, view and sampling options are those of scenes and do not matter then. Positions are in
-/// pixels of the output, (0, 0) at its upper left corner. Several regions are given by repeating --center, --radius and
-/// --multiplicity; each map starts from what the maps before it have found. PNGs hold the map's parameters, for
-/// gpc unzoom.
+/// Of a scene, each pixel is sampled exactly where it looks, and antialiased. A photograph (PNG or JPEG) is
+/// interpolated between its pixels; size, view and sampling options are ignored then. Positions are in pixels of the
+/// output, (0, 0) at its upper left corner. Several regions are given by repeating --center, --radius and
+/// --multiplicity; each is applied to the result of those before it. PNGs store the parameters, for gpc unzoom.
 #[derive(Args)]
 pub struct ZoomArgs {
     /// A .glb or .gltf file, - for one on standard input, or a PNG or JPEG
@@ -23,9 +22,9 @@ pub struct ZoomArgs {
     /// Image to write: .png, .16.png, .jpg or .exr, or - for a PNG on standard output
     #[arg(short, long, value_name = "OUT")]
     pub output: PathBuf,
-    /// Write the steps too, as PNG files named like OUT: original (regular locations), locations (every so many),
-    /// resampled (regions without transitions), transition (that alone) and, of scenes, direct (an ordinary image of
-    /// what each region shows)
+    /// Also write the steps, as PNG files named like OUT: original (regular locations), locations (a subset of them),
+    /// resampled (regions without transitions), transition (transitions only) and, of scenes, direct (an ordinary
+    /// image of what each region shows)
     #[arg(long)]
     pub steps: bool,
 
@@ -37,24 +36,24 @@ pub struct ZoomArgs {
     pub report: ReportArgs,
 }
 
-/// Which regions are enlarged, and how.
+/// The regions to enlarge.
 #[derive(Args)]
 #[command(next_help_heading = "Regions")]
 pub struct RegionArgs {
     /// Centre of a region
     #[arg(long, value_name = "X,Y", required = true, allow_hyphen_values = true, value_parser = values::place)]
     center: Vec<[f64; 2]>,
-    /// Its radius, or radii along x and y: half sides of a rectangle
+    /// Radius of a region in pixels, or its radii along x and y; of a rectangle, half of its sides
     #[arg(long, value_name = "R|RX,RY", required = true, allow_hyphen_values = true, value_parser = values::radii)]
     radius: Vec<[f64; 2]>,
-    /// Its multiplicity, above 0 and at most 1: the region is enlarged by one over it
+    /// Multiplicity of a region, above 0 and at most 1: the region is enlarged by 1 / multiplicity
     #[arg(long, value_name = "M", required = true, allow_negative_numbers = true, value_parser = values::finite)]
     multiplicity: Vec<f64>,
-    /// Its outline; once for all regions, or once for each
+    /// Outline of a region; once for all regions, or once for each
     #[arg(long, default_value = "circle")]
     shape: Vec<Shape>,
-    /// What joins it to the rest: displacements that fade linearly, or a rate of sampling without jumps; once for all
-    /// regions, or once for each
+    /// Transition between a region and the rest: displacements that fade linearly, or a sampling rate without jumps;
+    /// once for all regions, or once for each
     #[arg(long, default_value = "linear")]
     transition: Vec<Transition>,
 }
@@ -90,7 +89,7 @@ impl RegionArgs {
     }
 }
 
-/// A value for each of `count` regions, from one for all or one for each.
+/// A value for each of `count` regions, from one value for all or one for each.
 fn each<T: Copy>(option: &str, values: &[T], count: usize) -> Result<Vec<T>, Usage> {
     match values {
         [value] => Ok(vec![*value; count]),

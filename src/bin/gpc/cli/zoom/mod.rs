@@ -22,7 +22,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 use steps::StepPicture;
 
-/// An image, the steps to it, and what is said of it.
+/// A zoomed image, the pictures of its steps, and its figures.
 struct Outcome {
     result: Rendered,
     steps: Vec<StepPicture>,
@@ -47,7 +47,7 @@ enum Report {
 #[derive(Serialize)]
 struct About {
     regions: Vec<ZoomRegion>,
-    /// Local rates of sampling, and folds of the map.
+    /// Local sampling rates, and the number of folds of the map.
     locations: SetStatistics,
 }
 
@@ -81,7 +81,7 @@ pub fn run(args: &ZoomArgs) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Refuses the ordinary image of a region that is too large for one.
+/// Refuses a region whose ordinary image would be too large.
 pub fn check_window(index: usize, window: &Window) -> Result<(), Usage> {
     let [width, height] = window.size;
     if u64::from(width) * u64::from(height) <= MOST_CELLS {
@@ -92,7 +92,7 @@ pub fn check_window(index: usize, window: &Window) -> Result<(), Usage> {
     )))
 }
 
-/// Whether a file starts like a PNG or a JPEG. What can't be read is left to the loader of scenes to complain about.
+/// Whether a file starts like a PNG or a JPEG. An unreadable file counts as a scene, whose loader reports the error.
 fn is_picture(path: &Path) -> bool {
     !input::is_standard(path) && output::is_image(path)
 }
@@ -131,7 +131,7 @@ fn photograph(args: &ZoomArgs, map: &ZoomMap) -> anyhow::Result<Outcome> {
     })
 }
 
-/// Samples a scene where the pixels look.
+/// Samples a scene at the locations that the map gives the pixels.
 fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<Outcome> {
     let size = args.image.size;
     if args.steps {
@@ -185,7 +185,7 @@ fn scene(args: &ZoomArgs, format: Format, map: &ZoomMap) -> anyhow::Result<Outco
     })
 }
 
-/// Rate in words. Images of one row or column have no rate.
+/// A sampling rate as text. Images of a single row or column have no rate.
 fn rate(rate: Option<f64>) -> String {
     match rate.unwrap_or(1.0) {
         rate if rate < 1e6 => format!("{rate:.2}"),

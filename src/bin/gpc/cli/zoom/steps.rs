@@ -4,10 +4,10 @@ use glam::DVec2;
 use gpc::camera::LocationMap;
 use gpc::camera::zoom::ZoomMap;
 
-/// A picture, rows from the top.
+/// Pixels of a picture, rows from the top.
 type Pixels = Vec<[f32; 4]>;
 
-/// A picture on the way to the result.
+/// A picture of one step of the zoom.
 pub struct StepPicture {
     /// Name of the step's file.
     pub name: String,
@@ -25,7 +25,7 @@ impl StepPicture {
     }
 }
 
-/// The steps that scenes and photographs share.
+/// The steps that zooms of scenes and of photographs have in common.
 pub fn common(
     size: [u32; 2],
     original: &[[f32; 4]],
@@ -40,13 +40,13 @@ pub fn common(
     ]
 }
 
-/// Locations along the wider side that are drawn.
+/// Number of locations along the wider side that are drawn.
 const DRAWN: u32 = 96;
 
-/// Share of its light that the image keeps under the locations.
+/// Factor by which the image under the locations is dimmed.
 const DIMMED: f32 = 0.15;
 
-/// Picture of some of the locations, as dots over the dimmed image.
+/// Picture of the image, dimmed, with a subset of the locations as dots.
 fn locations(size: [u32; 2], original: &[[f32; 4]], map: &ZoomMap) -> Pixels {
     let dim = |[r, g, b, _]: &[f32; 4]| [r * DIMMED, g * DIMMED, b * DIMMED, 1.0];
     let mut picture: Pixels = original.iter().map(dim).collect();
@@ -55,7 +55,7 @@ fn locations(size: [u32; 2], original: &[[f32; 4]], map: &ZoomMap) -> Pixels {
     let middles = |side: u32| (step / 2..side).step_by(step as usize);
     for (row, col) in middles(height).flat_map(|row| middles(width).map(move |col| (row, col))) {
         let at = map.location(DVec2::new(f64::from(col) + 0.5, f64::from(row) + 0.5));
-        // A dot of 2 x 2 pixels, about the location.
+        // A dot has 2 x 2 pixels, centred on the location.
         for (dx, dy) in [(-0.5, -0.5), (0.5, -0.5), (-0.5, 0.5), (0.5, 0.5)] {
             let pixel = (at + DVec2::new(dx, dy)).floor();
             let inside = pixel.cmpge(DVec2::ZERO).all()
@@ -70,7 +70,7 @@ fn locations(size: [u32; 2], original: &[[f32; 4]], map: &ZoomMap) -> Pixels {
     picture
 }
 
-/// The result without the transitions.
+/// The zoomed image without the transitions.
 fn resampled(size: [u32; 2], result: &[[f32; 4]], map: &ZoomMap) -> Pixels {
     keep(size, result, |place| !in_transition(map, place))
 }
@@ -86,7 +86,7 @@ fn in_transition(map: &ZoomMap, place: DVec2) -> bool {
         .any(|region| region.in_transition(place))
 }
 
-/// The pixels for which `kept` holds; the others are transparent.
+/// The pixels at whose places `kept` is true; the others become transparent.
 fn keep(size: [u32; 2], pixels: &[[f32; 4]], kept: impl Fn(DVec2) -> bool) -> Pixels {
     let places = (0..size[1]).flat_map(|row| (0..size[0]).map(move |col| (col, row)));
     let pixel = |(pixel, (col, row)): (&[f32; 4], (u32, u32))| {

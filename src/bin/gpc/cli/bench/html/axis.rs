@@ -1,8 +1,8 @@
-//! Axes of charts, and the grid that they span.
+//! Axes of charts, and the grid between them.
 
 use std::fmt::Write;
 
-/// An axis on a length of a chart.
+/// An axis: maps values to a length of the chart.
 pub struct Axis {
     low: f64,
     high: f64,
@@ -20,7 +20,7 @@ pub struct Frame {
 }
 
 impl Axis {
-    /// A logarithmic axis around positive values, with room at both ends.
+    /// A logarithmic axis that holds positive values, with a margin at both ends.
     pub fn logarithmic(values: impl Iterator<Item = f64> + Clone, from: f64, to: f64) -> Self {
         let low = values.clone().fold(f64::INFINITY, f64::min);
         let high = values.fold(0.0, f64::max).max(low);
@@ -54,7 +54,7 @@ impl Axis {
         self.from + share * (self.to - self.from)
     }
 
-    /// Powers of ten, and steps between them where there are few; quarters of a linear axis.
+    /// Values to label: powers of ten, with steps between them where these are few; the quarters of a linear axis.
     fn ticks(&self) -> Vec<f64> {
         if !self.logarithmic {
             return (0..=4)
@@ -76,7 +76,7 @@ impl Axis {
     }
 }
 
-/// Draws grid lines, their values and the names of the axes.
+/// Draws the grid lines, their values and the names of the axes.
 pub fn grid(svg: &mut String, frame: &Frame, [x, y]: [&Axis; 2], [across, up]: [&str; 2]) {
     let Frame {
         left,
@@ -115,7 +115,7 @@ pub fn grid(svg: &mut String, frame: &Frame, [x, y]: [&Axis; 2], [across, up]: [
     );
 }
 
-/// The value of a tick.
+/// The label of a tick.
 fn name(value: f64) -> String {
     if value >= 1e5 {
         format!("{value:e}")
@@ -127,7 +127,7 @@ fn name(value: f64) -> String {
     }
 }
 
-/// The points of a polyline.
+/// The `points` attribute of a polyline.
 pub fn points(places: &[(f64, f64)]) -> String {
     let points: Vec<_> = places
         .iter()
@@ -136,7 +136,7 @@ pub fn points(places: &[(f64, f64)]) -> String {
     points.join(" ")
 }
 
-/// A point with its value in words.
+/// Draws a point whose tooltip is `words`.
 pub fn mark(svg: &mut String, (x, y): (f64, f64), words: &str) {
     let _ = write!(
         svg,
@@ -144,7 +144,7 @@ pub fn mark(svg: &mut String, (x, y): (f64, f64), words: &str) {
     );
 }
 
-/// A method's mark and name above a chart; returns where the next begins.
+/// Draws a method's mark and name above a chart; returns the place of the next legend.
 pub fn legend(svg: &mut String, at: f64, name: &str) -> f64 {
     let _ = write!(
         svg,

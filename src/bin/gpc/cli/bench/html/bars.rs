@@ -10,12 +10,13 @@ const LEFT: f64 = 118.0;
 const RIGHT: f64 = 90.0;
 const STEP: f64 = 26.0;
 const THICKNESS: f64 = 18.0;
-/// Colours that there are, in `style.css`.
+/// Number of colours in `style.css`.
 const COLORS: usize = 10;
-/// Passes below this share of the longest bar are put together.
+/// Share of the longest bar below which a pass is drawn as one of the others.
 const LEAST: f64 = 0.012;
 
-/// Draws a bar for one sample a pixel and for each number of samples of the superpixels; supersampling's would dwarf them.
+/// Draws a bar for one sample a pixel and one for each number of samples of the superpixels. Supersampling is left
+/// out: its bar would dwarf the others.
 pub fn chart(scene: &SceneResults) -> String {
     let shown = |row: &&Row| matches!(row.method, Method::None | Method::Superpixel);
     let rows: Vec<&Row> = scene.rows.iter().filter(shown).collect();
@@ -77,7 +78,7 @@ pub fn chart(scene: &SceneResults) -> String {
 
 const OTHER: &str = "other";
 
-/// The passes that are drawn by themselves, in the order in which they run.
+/// The passes that get a segment of their own, in the order in which they run.
 fn large_passes(rows: &[&Row], longest: f64) -> Vec<&'static str> {
     let mut sizes: Vec<(&str, f64)> = Vec::new();
     for pass in rows.iter().flat_map(|row| &row.cost.passes) {
@@ -100,7 +101,7 @@ fn large_passes(rows: &[&Row], longest: f64) -> Vec<&'static str> {
         .collect()
 }
 
-/// A row's passes in order, the small ones put together at the end.
+/// A row's passes in order; the small ones are summed up at the end.
 fn segments(row: &Row, passes: &[&'static str]) -> Vec<(&'static str, f64)> {
     let mut segments: Vec<_> = row
         .cost

@@ -18,7 +18,7 @@ const BOTTOM: f64 = 44.0;
 /// A place on the chart.
 type Place = (f64, f64);
 
-/// An error against the truth.
+/// An error against the reference: its name and its values.
 pub struct Measure {
     name: &'static str,
     of: fn(&Row) -> f64,
@@ -33,7 +33,8 @@ pub const FLIP: Measure = Measure {
     of: |row| row.accuracy.flip,
 };
 
-/// Draws the chart of a scene. Rows without error or time have no place on it.
+/// Draws the chart of a scene. Rows with an error or a time of zero are left out: a logarithmic axis has no place for
+/// them.
 pub fn chart(scene: &SceneResults, measure: &Measure) -> String {
     let error = measure.of;
     let drawn: Vec<&Row> = scene
@@ -111,7 +112,7 @@ fn mark(svg: &mut String, row: &Row, measure: &Measure, x: f64, y: f64) {
         (measure.of)(row)
     );
     axis::mark(svg, (x, y), &words);
-    // Curves fall to the right, and superpixels lie left of the others.
+    // Curves fall to the right, and superpixels lie left of the other methods.
     let (dx, dy, anchor) = match row.method {
         Method::None => (0.0, -10.0, "middle"),
         Method::Superpixel => (-8.0, 13.0, "end"),

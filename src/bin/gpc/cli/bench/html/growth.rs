@@ -35,7 +35,7 @@ pub fn section(curves: &[Curve]) -> String {
 
 fn chart(curve: &Curve) -> String {
     let values = curve.points.iter().map(|point| point.value);
-    // Shares begin at nothing.
+    // Shares begin at zero, for which a logarithmic axis has no place.
     let x = if values.clone().any(|value| value == 0.0) {
         Axis::linear(values, FRAME.left, FRAME.right)
     } else {

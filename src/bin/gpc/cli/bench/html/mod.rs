@@ -1,4 +1,4 @@
-//! `report.html`: one file that needs no other.
+//! `report.html`: a single file that embeds its pictures and styles.
 
 mod axis;
 mod bars;
@@ -57,7 +57,7 @@ pub fn page(results: &Results, galleries: &[Gallery]) -> String {
     )
 }
 
-/// The section on all scenes; empty without any.
+/// The section that sums up all scenes; empty without scenes.
 fn summary(results: &Results) -> String {
     if results.scenes.is_empty() {
         return String::new();
@@ -83,7 +83,7 @@ fn summary(results: &Results) -> String {
     format!("<section>\n<h2>All scenes</h2>\n{tables}</section>\n")
 }
 
-/// Description of the way that the numbers were measured.
+/// The section that says how the figures were measured.
 fn method(results: &Results) -> String {
     format!(
         "<section class=\"method\">\n<h2>How this was measured</h2>\n<ul>\n\
@@ -115,7 +115,7 @@ fn method(results: &Results) -> String {
     )
 }
 
-/// Text for HTML.
+/// Text with the special characters of HTML escaped.
 fn escape(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")
@@ -123,13 +123,13 @@ fn escape(text: &str) -> String {
         .replace('"', "&quot;")
 }
 
-/// A scene's name as the place in the page that links to it lead to.
+/// The ID that links within the page use for a scene.
 fn anchor(name: &str) -> String {
     let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '-' };
     name.chars().map(plain).collect()
 }
 
-/// Whole number with its thousands separated.
+/// A whole number with a separator between its thousands.
 fn thousands(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::new();
@@ -142,7 +142,7 @@ fn thousands(number: u64) -> String {
     text
 }
 
-/// A number of three digits that count.
+/// A number rounded to three significant digits.
 fn short(value: f64) -> String {
     match value {
         v if v >= 99.95 => format!("{v:.0}"),

@@ -6,7 +6,7 @@ use crate::cli::bench::results::SceneMotion;
 use crate::cli::bench::summary::Ratio;
 use gpc::bench::Motion;
 
-/// The section; empty where nothing moved.
+/// The section; empty if no motion was measured.
 pub fn section(scenes: &[SceneMotion], summary: &[MotionRatio]) -> String {
     let Some(first) = scenes.first() else {
         return String::new();

@@ -34,7 +34,7 @@ fn part(stress: &Stress) -> String {
             escape(finding.unit),
         )
     };
-    // What failed must not be hidden.
+    // A part with a failure is unfolded, so that nobody misses it.
     let open = if stress.findings.iter().all(Finding::holds) {
         ""
     } else {

@@ -6,7 +6,7 @@ use crate::cli::bench::results::{Row, SceneResults};
 use crate::cli::bench::summary::{self, AtSamples, Ratio, Reach, Summary};
 use crate::cli::bench::table::{decibels, share, within};
 
-/// Ratios over all scenes of a kind.
+/// Table of the ratios over all scenes that have textures, or all that have none.
 pub fn summary(summary: &Summary) -> String {
     let ratio = |ratio: &Option<Ratio>, class: &str| match ratio {
         None => "<td>–</td><td>–</td>".to_owned(),
@@ -38,7 +38,7 @@ pub fn summary(summary: &Summary) -> String {
     )
 }
 
-/// Time in which superpixels reach an error; empty if that was not measured.
+/// Table of the time in which superpixels reach the error of supersampling; empty if that was not measured.
 pub fn reach(summary: &Summary) -> String {
     let row = |reach: &Reach| {
         let never = reach.scenes.iter().filter(|(_, share)| share.is_none());
@@ -60,10 +60,10 @@ pub fn reach(summary: &Summary) -> String {
     )
 }
 
-/// A figure of a scene at a number of samples, as a cell says it.
+/// A function that writes one cell: a figure of a scene at a number of samples.
 type Cell = fn(&SceneResults, u32) -> Option<String>;
 
-/// Figures scene by scene, with a column for each number of samples.
+/// Table of figures: a row for each scene, a column for each number of samples.
 pub fn by_scene(scenes: &[&SceneResults]) -> String {
     let counts = summary::counts(scenes.iter().copied());
     let figures: [(&str, &[u32], Cell); 5] = [
@@ -85,7 +85,7 @@ pub fn by_scene(scenes: &[&SceneResults]) -> String {
             |scene, samples| time_to_error(scene, samples).map(share),
         ),
     ];
-    // Not everything is always measured.
+    // Figures that were not measured are left out.
     let figures: Vec<_> = figures
         .iter()
         .filter(|(_, counts, cell)| {
@@ -149,7 +149,7 @@ fn group(index: usize) -> &'static str {
     if index == 0 { " class=\"group\"" } else { "" }
 }
 
-/// Table of all figures but the times of passes.
+/// Table of all figures except the times of passes.
 pub fn figures(scene: &SceneResults) -> String {
     let row = |row: &Row| {
         let Row { cost, accuracy, .. } = row;
@@ -186,7 +186,8 @@ pub fn figures(scene: &SceneResults) -> String {
     )
 }
 
-/// Table of the remaining share of the error of one sample a pixel, by cause; empty if that was not measured.
+/// Table of the error that is left, split by cause, as shares of the error of one sample a pixel; empty if that was
+/// not measured.
 pub fn left(scene: &SceneResults) -> String {
     let rows: Vec<_> = scene
         .rows
@@ -234,7 +235,7 @@ pub fn left(scene: &SceneResults) -> String {
     format!("<h3>What is left of the error</h3>\n{table}")
 }
 
-/// Table of errors of geometry alone; empty if these were not measured.
+/// Table of the errors of geometry alone; empty if they were not measured.
 pub fn geometry(scene: &SceneResults) -> String {
     let rows: Vec<_> = scene
         .rows
@@ -263,7 +264,7 @@ pub fn geometry(scene: &SceneResults) -> String {
     format!("<h3>Geometry alone</h3>\n{table}")
 }
 
-/// Medians of the passes' times, with a column for each method and number of samples.
+/// Table of the passes' median times, with a column for each method and number of samples.
 pub fn passes(scene: &SceneResults) -> String {
     let mut names: Vec<&str> = Vec::new();
     for pass in scene.rows.iter().flat_map(|row| &row.cost.passes) {
@@ -303,7 +304,7 @@ fn percent(share: f64) -> String {
     format!("{:.1} %", 100.0 * share)
 }
 
-/// A table of rows of cells.
+/// A table with the header `head` and these rows.
 pub fn table(head: &str, rows: impl Iterator<Item = String>, caption: &str) -> String {
     let rows: Vec<_> = rows.collect();
     let caption = if caption.is_empty() {
