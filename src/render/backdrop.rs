@@ -1,4 +1,4 @@
-//! An environment behind a scene.
+//! Environments as backgrounds of images.
 
 use super::{Rendered, Settings};
 use crate::camera::{Camera, Pinhole, PinholeError};
@@ -7,7 +7,7 @@ use crate::scene::Environment;
 use glam::DVec2;
 use rayon::prelude::*;
 
-/// Lines of sight of a pixel, from its corner.
+/// Places in a pixel, from its corner, at which the environment is looked up.
 const LINES: [DVec2; 4] = [
     DVec2::new(0.25, 0.25),
     DVec2::new(0.75, 0.25),
@@ -16,11 +16,11 @@ const LINES: [DVec2; 4] = [
 ];
 
 impl Rendered {
-    /// Shows an environment wherever the image is transparent; it is opaque then. Camera and settings are those that the
-    /// image was rendered with.
+    /// Fills the transparent parts of the image with an environment; the image is opaque afterwards. `camera` and
+    /// `settings` are those that the image was rendered with.
     ///
     /// # Errors
-    /// If the camera sees nothing.
+    /// [`PinholeError`] if the camera is not finite or out of range, or the image has no pixels.
     pub fn show_behind(
         &mut self,
         environment: &Environment,

@@ -1,4 +1,4 @@
-//! A renderer with a device of its own, for images without a window.
+//! Renderer with a device of its own, for images without a window.
 
 use super::renderer::{PreparedScene, Renderer, SceneRequest};
 use super::{Frame, RenderError, Settings, Shadows, Statistics, Target};
@@ -11,29 +11,29 @@ use crate::vulkan::{
 use ash::vk;
 use std::sync::Arc;
 
-/// How to create a [`Headless`].
+/// Options for opening a device.
 #[derive(Clone, Debug, Default)]
 pub struct HeadlessOptions {
-    /// Part of the device's name, or `None` for the best one.
+    /// Part of the device's name; `None` for the best device.
     pub device: Option<String>,
-    /// Run under the validation layer.
+    /// Whether to run under the validation layer.
     pub validation: bool,
 }
 
-/// An image and what it cost.
+/// A rendered image and its statistics.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rendered {
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// Rows from the top: linear light, premultiplied alpha.
+    /// Colours in linear light with premultiplied alpha, rows from the top.
     pub colors: Vec<[f32; 4]>,
-    /// Where asked for, what the centre of each pixel sees.
+    /// Attributes of each pixel, rows from the top; empty unless the settings ask for them.
     pub attributes: Vec<PixelAttributes>,
-    /// Figures of the frame.
+    /// Statistics of the frame.
     pub statistics: Statistics,
 }
 
-/// A device, a queue, and a renderer in it.
+/// Renderer with a device and a queue of its own.
 pub struct Headless {
     pub(super) renderer: Renderer,
     gpu: Arc<Gpu>,
@@ -45,7 +45,7 @@ pub struct Headless {
     is_unwanted: Option<Box<dyn Fn() -> bool + Send + Sync>>,
 }
 
-/// Memory that a frame's colours and attributes are copied to, for the host to read.
+/// Memory from which the host reads a frame's colours and attributes.
 struct ReadBack {
     colors: Buffer,
     attributes: Option<Buffer>,
@@ -60,7 +60,7 @@ impl ReadBack {
     const COLOR_BYTES: u64 = size_of::<[f32; 4]>() as u64;
     const ATTRIBUTE_BYTES: u64 = size_of::<PixelAttributes>() as u64;
 
-    /// Bytes that an image takes.
+    /// Bytes of the memory for an image.
     fn bytes(settings: &Settings) -> u64 {
         let attributes = if settings.attributes {
             Self::ATTRIBUTE_BYTES
@@ -70,7 +70,7 @@ impl ReadBack {
         pixel_count(settings) * (Self::COLOR_BYTES + attributes)
     }
 
-    /// What there is, where it has room for the frame's image, or else new memory.
+    /// Memory for a frame's image: `known` if it is large enough, otherwise new.
     fn for_frame(gpu: &Arc<Gpu>, frame: &Frame, known: Option<Self>) -> Result<Self, RenderError> {
         let settings = frame.settings();
         let pixels = pixel_count(settings);
@@ -111,44 +111,45 @@ impl ReadBack {
     }
 }
 
-/// What the centre of a pixel sees besides its colour; the layout is that of `shaders/attributes.comp`.
+/// What the centre of a pixel shows besides its colour. The layout is that of `shaders/attributes.comp`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct PixelAttributes {
-    /// Distance from the eye along the view direction in world units; 0 for background.
+    /// Distance from the eye along the view direction, in world units; 0 for background.
     pub depth: f32,
-    /// ID of the nearest opaque or MASK triangle; 0 is background.
+    /// ID of the nearest opaque or MASK triangle: its index plus 1; 0 for background.
     pub id: u32,
-    /// Samples that the pixel's colour is the mean of.
+    /// Number of samples of which the pixel's colour is the mean.
     pub samples: u32,
     /// 1 for superpixels, otherwise 0.
     pub superpixel: u32,
     /// Unit normal in world space; 0 for background.
     pub normal: [f32; 3],
-    /// Unused.
+    /// Unused, 0.
     pub padding: u32,
 }
 
-/// Capacity is doubled this often before a frame is given up.
+/// Number of times that a frame's capacity is doubled before its error is reported.
 const RETRIES: u32 = 6;
 
 impl Headless {
-    /// Creates a device and all it needs.
+    /// Opens a device and makes a renderer on it.
     ///
     /// # Errors
-    /// [`VulkanError`] if there is no suitable device, listing what is missing.
+    /// [`VulkanError`] if there is no suitable device; the message lists what each lacks.
     pub fn new(options: &HeadlessOptions) -> Result<Self, VulkanError> {
-        // SAFETY: limits stay as they are.
+        // SAFETY: `lower` changes nothing.
         unsafe { Self::within(options, |_| ()) }
     }
 
-    /// As [`Headless::new`], in a device whose limits `lower` has lowered: so one device stands for others in tests.
+    /// Opens a device as [`Headless::new`] does, with limits that `lower` reduces, so that tests can simulate weaker
+    /// devices.
     ///
     /// # Errors
     /// As [`Headless::new`].
     ///
     /// # Safety
-    /// `lower` gives the device nothing that it has not.
+    /// `lower` raises no limit and adds no feature.
     #[doc(hidden)]
     pub unsafe fn within(
         options: &HeadlessOptions,
@@ -157,11 +158,11 @@ impl Headless {
         let instance = Instance::new(InstanceOptions {
             validation: options.validation,
         })?;
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         let gpu = unsafe { instance.create_gpu_within(options.device.as_deref(), lower) }?;
         let renderer = Renderer::in_gpu(gpu.clone())?;
-        // SAFETY: the queue family is the one the device was created with; handles made before a failure are
-        // destroyed by `Drop`.
+        // SAFETY: the device was created with this queue family; `Drop` destroys handles that were made before a
+        // failure.
         let queue = unsafe { gpu.device.get_device_queue(gpu.queue_family, 0) };
         let mut headless = Self {
             renderer,
@@ -198,24 +199,25 @@ impl Headless {
         Ok(headless)
     }
 
-    /// The device.
+    /// Device of the renderer.
     #[must_use]
     pub fn gpu(&self) -> &Arc<Gpu> {
         &self.gpu
     }
 
-    /// Asks before each submission whether what is made is still wanted; where it is not, that ends with
-    /// [`RenderError::Stopped`]. Locations are sampled in shorter runs then. Other threads may change the answer.
+    /// Sets a function that is asked before each submission whether the result is still wanted. If it is not, the call
+    /// ends with [`RenderError::Stopped`]. Locations are sampled in shorter runs then. The function may answer
+    /// differently at any time, from another thread.
     pub fn stop_when(&mut self, is_unwanted: impl Fn() -> bool + Send + Sync + 'static) {
         self.is_unwanted = Some(Box::new(is_unwanted));
     }
 
-    /// Whether somebody may stop what is made.
+    /// Whether a function of [`Self::stop_when`] is set.
     pub(super) fn may_stop(&self) -> bool {
         self.is_unwanted.is_some()
     }
 
-    /// Everything the validation layer has said; empty without it.
+    /// Messages of the validation layer so far; empty without it.
     #[must_use]
     pub fn validation_messages(&self) -> Vec<String> {
         self.gpu
@@ -224,14 +226,14 @@ impl Headless {
             .unwrap_or_default()
     }
 
-    /// Puts a scene on the device, as [`Renderer::prepare_scene`] prepares it.
+    /// Uploads a scene, prepared as by [`Renderer::prepare_scene`].
     ///
     /// # Errors
-    /// As [`Renderer::prepare_scene`]; [`RenderError::Stopped`] as [`Self::stop_when`] says.
+    /// As [`Renderer::prepare_scene`]; [`RenderError::Stopped`] as [`Self::stop_when`] describes.
     pub fn upload(&mut self, request: SceneRequest<'_>) -> Result<PreparedScene, RenderError> {
         let mut prepared = self.renderer.prepare_shown(request)?;
         self.put(&mut prepared)?;
-        // What the first upload needed is free for the second one.
+        // The memory of the first upload is free for the second one.
         if request.shadows != Shadows::None {
             self.renderer.prepare_casters(&mut prepared, request)?;
             self.put(&mut prepared)?;
@@ -242,16 +244,16 @@ impl Headless {
     fn put(&mut self, prepared: &mut PreparedScene) -> Result<(), RenderError> {
         // SAFETY: the commands are submitted and waited for while the scene is alive.
         self.submit(|commands| unsafe { prepared.record_upload(commands) })?;
-        // SAFETY: the commands were waited for.
+        // SAFETY: the commands have run.
         unsafe { prepared.discard_uploads() };
         Ok(())
     }
 
-    /// Makes the pipelines and memory for frames of a scene.
+    /// Makes pipelines and memory for frames of a scene.
     ///
     /// # Errors
-    /// [`RenderError::OtherDevice`] for a scene of another device, [`RenderError::NotUploaded`] for one that this has not
-    /// put there; if the settings are impossible or memory runs out.
+    /// [`RenderError::OtherDevice`] for a scene of another device, [`RenderError::NotUploaded`] for a scene that was
+    /// not uploaded by [`Self::upload`]; otherwise if the settings are impossible or memory runs out.
     pub fn prepare(
         &self,
         scene: &PreparedScene,
@@ -263,12 +265,12 @@ impl Headless {
             .prepare_with(scene, settings, None, Capacity::least(), reserved)
     }
 
-    /// Renders a frame and waits for it. Where what it lists outgrows its memory it is prepared again with more, so that the image
-    /// does not depend on how much there was.
+    /// Renders a frame and waits for it. If the frame's lists outgrow their memory, it is prepared again with more, so
+    /// that the image does not depend on the first estimate.
     ///
     /// # Errors
-    /// [`RenderError::OtherDevice`] for a frame of another device; if the device is lost, or records do not fit however
-    /// often the work is split.
+    /// [`RenderError::OtherDevice`] for a frame of another device; otherwise if the device is lost, or the lists do
+    /// not fit even into the largest memory.
     pub fn render(&mut self, frame: &mut Frame, camera: &Camera) -> Result<Rendered, RenderError> {
         for _ in 0..RETRIES {
             match self.render_once(frame, camera) {
@@ -278,7 +280,7 @@ impl Headless {
                     self.prepare_again(frame, frame.capacity().more(shortfall))?;
                 }
                 Ok(image) => {
-                    // Tiles without a list made the image all the same, but slowly.
+                    // The image is complete: tiles without a candidate list tried every triangle, which is slow.
                     if image.statistics.unlisted_tiles > 0 && frame.lists_can_grow() {
                         self.prepare_again(frame, frame.capacity().with_doubled_lists())?;
                     }
@@ -290,7 +292,7 @@ impl Headless {
         self.render_once(frame, camera)
     }
 
-    /// Refuses a scene that commands of this device can't show.
+    /// Checks that a scene can be shown by this device.
     pub(super) fn check(&self, scene: &GpuScene) -> Result<(), RenderError> {
         self.renderer.check(scene)?;
         if !scene.is_uploaded() {
@@ -317,9 +319,10 @@ impl Headless {
             colors: output.colors.handle(),
             attributes: output.attributes.as_ref().map(Buffer::handle),
         };
-        // A submission for each region, so that none takes longer than systems let a device work on one.
+        // Each region is submitted separately, because systems stop a device that works on one submission for too
+        // long.
         let submitted = (0..frame.regions()).try_for_each(|region| {
-            // SAFETY: the last submission was waited for; frame and target outlive this one, which is waited for.
+            // SAFETY: the previous submission has run; frame and target outlive this one, which is waited for.
             self.submit(|commands| unsafe {
                 frame.record_regions(camera, commands, &target, region..region + 1);
             })
@@ -343,7 +346,7 @@ impl Headless {
         rendered
     }
 
-    /// Records, submits and waits.
+    /// Records commands, submits them and waits for them.
     pub(super) fn submit(
         &mut self,
         record: impl FnOnce(vk::CommandBuffer),
@@ -352,7 +355,8 @@ impl Headless {
             return Err(RenderError::Stopped);
         }
         let device = &self.gpu.device;
-        // SAFETY: the command buffer and fence are ours and idle between calls; the queue is used by this thread alone.
+        // SAFETY: this object owns command buffer and fence, which are idle between calls; this thread alone uses the
+        // queue.
         unsafe {
             let begin = vk::CommandBufferBeginInfo::default()
                 .flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
@@ -380,7 +384,7 @@ impl Headless {
     }
 }
 
-/// Makes what the device wrote visible to mapped memory.
+/// Records a barrier that makes the device's writes visible to mapped memory.
 ///
 /// # Safety
 /// `commands` is being recorded for `device`.
@@ -391,13 +395,13 @@ unsafe fn make_visible_to_host(device: &ash::Device, commands: vk::CommandBuffer
         .dst_stage_mask(vk::PipelineStageFlags2::HOST)
         .dst_access_mask(vk::AccessFlags2::HOST_READ)];
     let info = vk::DependencyInfo::default().memory_barriers(&barriers);
-    // SAFETY: passed on to the caller.
+    // SAFETY: guaranteed by the caller.
     unsafe { device.cmd_pipeline_barrier2(commands, &info) };
 }
 
 impl Drop for Headless {
     fn drop(&mut self) {
-        // SAFETY: every submission was waited for; the device lives until after.
+        // SAFETY: every submission was waited for; the device is destroyed after its objects.
         unsafe {
             let _ = self.gpu.device.device_wait_idle();
             self.gpu.device.destroy_fence(self.fence, None);

@@ -1,6 +1,7 @@
-//! Rendering: a scene and a camera in, an image out.
+//! Rendering: makes an image from a scene and a camera.
 //!
-//! [`Renderer`] works in a host's device and command buffers; [`Headless`] owns a device and is built on it.
+//! [`Renderer`] works in a host's device and command buffers; [`Headless`] has a device of its own and is built on
+//! [`Renderer`].
 
 mod backdrop;
 pub mod camera;

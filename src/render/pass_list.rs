@@ -1,20 +1,20 @@
-//! The passes of a frame, as they are recorded.
+//! List of the passes of a frame, in the order in which they are recorded.
 
 use super::{Frame, Headless, RenderError};
 use crate::camera::Camera;
 use crate::passes::Argument;
 use crate::vulkan::{Access, Dispatch, Dispatched};
 
-/// A pass of a frame: a dispatch of a compute shader, or what a pair of shaders draws.
+/// A pass of a frame: a dispatch of a compute shader, or a draw with a pair of shaders.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct FramePass {
-    /// The shader's name: that of its file in `shaders/` and, where it is drawn with, of its stage.
+    /// Name of the shader's file in `shaders/`, with the stage for shaders that draw.
     pub name: &'static str,
-    /// What tells how many workgroups there are: a number, the name of the vector of an indirect dispatch, or `drawn`.
+    /// Source of the number of workgroups: a number, the name of an indirect dispatch's vector, or `drawn`.
     pub dispatch: String,
-    /// What the shader may read, by the names in `shaders/`; what is read and written is in both lists.
+    /// Data that the shader may read, by its names in `shaders/`. Data that is both read and written is in both lists.
     pub reads: Vec<&'static str>,
-    /// What it may write.
+    /// Data that the shader may write.
     pub writes: Vec<&'static str>,
 }
 
@@ -34,7 +34,7 @@ impl FramePass {
     }
 }
 
-/// The name of an indirect dispatch.
+/// Name of an indirect dispatch.
 fn argument(index: u32) -> String {
     let first = Argument::Shade as u32;
     match Argument::NAMES.get(index as usize) {
@@ -44,8 +44,7 @@ fn argument(index: u32) -> String {
 }
 
 impl Headless {
-    /// Renders a frame and says what passes that takes, in their order. Of the rounds that follow one another, the first one alone is
-    /// listed.
+    /// Renders a frame and lists its passes in order. Of consecutive rounds, only the first is listed.
     ///
     /// # Errors
     /// As [`Headless::render`].

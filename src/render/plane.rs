@@ -1,4 +1,4 @@
-//! A rectangle of tiles of a pinhole's plane, as passes see it.
+//! Rectangle of tiles on a pinhole's plane, as passes see it.
 
 use super::Settings;
 use crate::camera::Pinhole;
@@ -8,39 +8,39 @@ use crate::passes::{Cells, FrameUniform, ListRegion, ResourceSizes};
 use crate::render::passes::GpuScene;
 use glam::{DMat4, DVec2};
 
-/// Pixels of a tile.
+/// Width and height of a tile in pixels.
 pub(super) const TILE: [i64; 2] = [8, 4];
 
-/// The part of a plane that sample locations lie in.
+/// Part of a plane in which sampling locations lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Window {
-    /// Its upper left pixel.
+    /// Column and row of its upper left pixel.
     pub low: [i64; 2],
-    /// Its size in tiles.
+    /// Width and height in tiles.
     pub tiles: [u32; 2],
-    /// The place on the plane that clip-space positions are relative to, in pixels.
+    /// Place on the plane, in pixels, to which clip-space positions are relative.
     pub middle: [f64; 2],
 }
 
 impl Window {
-    /// Tiles that it has.
+    /// Number of tiles.
     pub fn tile_count(&self) -> u32 {
         self.tiles[0] * self.tiles[1]
     }
 
-    /// Its size in pixels.
+    /// Width and height in pixels.
     pub fn size(&self) -> [u32; 2] {
         [0, 1].map(|axis| self.tiles[axis] * TILE[axis] as u32)
     }
 
-    /// Its corners, and so many pixels more on each side.
+    /// Upper left and lower right corner, extended by `beyond` pixels on each side.
     pub fn rectangle(&self, beyond: f64) -> [DVec2; 2] {
         let low = DVec2::from_array(self.low.map(|pixel| pixel as f64));
         let size = DVec2::from_array(self.size().map(f64::from));
         [low - beyond, low + size + beyond]
     }
 
-    /// It, as what a list of so many locations is of.
+    /// This window as the region of a list of `count` locations.
     pub fn region(&self, count: usize) -> ListRegion {
         ListRegion {
             tiles: self.tiles,
@@ -48,12 +48,12 @@ impl Window {
         }
     }
 
-    /// From the space of a scene's geometry to clip space around its middle.
+    /// Matrix from the scene's coordinates to clip space around the window's middle.
     pub fn to_clip(self, scene: &GpuScene, pinhole: &Pinhole) -> DMat4 {
         pinhole.pixel_matrix(scene.origin(), DVec2::from_array(self.middle))
     }
 
-    /// The uniform block of a list of such cells in it, each with so many samples.
+    /// Uniform block for a list of cells in this window, each with a number of samples.
     pub fn uniform(
         &self,
         scene: &GpuScene,

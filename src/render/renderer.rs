@@ -1,4 +1,4 @@
-//! The face of the renderer: what it needs of a device, and how scenes and frames are prepared.
+//! The renderer: requirements for a device, and preparation of scenes and frames.
 
 use super::frame::Frame;
 use super::shadows::Casters;
@@ -11,35 +11,35 @@ use crate::vulkan::{Gpu, Host, Memory, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// Renders in a device: the host's or one of our own.
+/// Renderer in a host's device, or in one of its own ([`Headless`](crate::render::Headless)).
 ///
-/// Everything that can fail happens in `prepare_scene` and `prepare`; recording a frame writes commands and nothing
-/// else: it does not submit, wait or allocate.
+/// Everything that can fail happens in `prepare_scene` and `prepare`. Recording a frame only writes commands: it does
+/// not submit, wait or allocate.
 pub struct Renderer {
     pub(super) layout: Arc<FrameLayout>,
     gpu: Arc<Gpu>,
 }
 
-/// What is to be put on a device of a scene, and how much memory that may take.
+/// Request to prepare a scene: what to upload, and a limit for its memory.
 #[derive(Clone, Copy)]
 #[non_exhaustive]
 pub struct SceneRequest<'a> {
-    /// The scene.
+    /// Scene with its materials.
     pub scene: &'a Scene,
-    /// The moment that is shown unless a frame [shows](Frame::show) another one.
+    /// Moment that is shown unless a frame [shows](Frame::show) another one.
     pub pose: &'a Pose,
-    /// The motion that the pose was made with, where frames show other moments of it, too. Images of locations are those of
+    /// Motion that the pose was made with, if frames will show other moments of it. Images of locations always show
     /// the pose.
     pub motion: Option<&'a Motion>,
-    /// The shadows that settings may ask for: with [`Shadows::Exact`] the scene's triangles are there twice, as what is seen and
-    /// as what casts shadows, for at most 32 lights.
+    /// Shadows that settings may ask for. With [`Shadows::Exact`] the scene's triangles are uploaded twice, as visible
+    /// surfaces and as casters of shadows, for at most 32 lights.
     pub shadows: Shadows,
-    /// Bound on device memory in bytes, for all of it.
+    /// Limit for all device memory in bytes.
     pub max_memory: Option<u64>,
 }
 
 impl<'a> SceneRequest<'a> {
-    /// A scene that keeps still and has no shadows, in as much memory as it takes.
+    /// Request for a scene that does not move and has no shadows, with unlimited memory.
     #[must_use]
     pub fn new(scene: &'a Scene, pose: &'a Pose) -> Self {
         Self {
@@ -51,7 +51,7 @@ impl<'a> SceneRequest<'a> {
         }
     }
 
-    /// The same with the motion that the pose was made with, if any.
+    /// This request with the motion that the pose was made with, if any.
     #[must_use]
     pub fn moving(self, motion: impl Into<Option<&'a Motion>>) -> Self {
         Self {
@@ -60,13 +60,13 @@ impl<'a> SceneRequest<'a> {
         }
     }
 
-    /// The same with shadows.
+    /// This request with shadows.
     #[must_use]
     pub fn shadowed(self, shadows: Shadows) -> Self {
         Self { shadows, ..self }
     }
 
-    /// The same in at most so many bytes, if any.
+    /// This request with a limit for device memory in bytes, if any.
     #[must_use]
     pub fn within(self, max_memory: impl Into<Option<u64>>) -> Self {
         Self {
@@ -76,18 +76,18 @@ impl<'a> SceneRequest<'a> {
     }
 }
 
-/// A scene on the device.
+/// A scene in device memory.
 pub struct PreparedScene {
-    /// Shared with the frames that show it.
+    /// The scene, shared with the frames that show it.
     pub(super) gpu_scene: Arc<GpuScene>,
     pub(super) uploads: SceneUploads,
-    /// What casts shadows, where the scene was made ready for them.
+    /// Casters of shadows, if the scene was prepared for shadows.
     pub(super) casters: Option<Arc<Casters>>,
     pub(super) caster_uploads: SceneUploads,
 }
 
 impl PreparedScene {
-    /// Bytes of device memory that it takes.
+    /// Bytes of device memory of the scene, casters of shadows included.
     #[must_use]
     pub fn memory_bytes(&self) -> u64 {
         self.gpu_scene.memory_bytes() + self.casters_bytes()
@@ -105,14 +105,15 @@ impl PreparedScene {
         self.gpu_scene.triangle_count()
     }
 
-    /// Records the copies of the scene, and of what casts shadows, to the device, to be executed before the first frame that
-    /// shows it. Where the commands were discarded, it records the same again; after [`Self::discard_uploads`], nothing.
+    /// Records the copies of the scene and of its casters to the device, to be executed before the first frame that
+    /// shows it. It can be called again if the commands were discarded; after [`Self::discard_uploads`] it records
+    /// nothing.
     ///
     /// # Safety
     /// - `commands` is being recorded for the device and queue family of the renderer that prepared the scene.
-    /// - The scene outlives the execution of the commands, and [`Self::discard_uploads`] waits for it.
+    /// - The scene outlives the execution of the commands, and [`Self::discard_uploads`] is not called before it.
     pub unsafe fn record_upload(&self, commands: vk::CommandBuffer) {
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         let recorder = unsafe { Recorder::new(self.gpu_scene.memory().gpu(), commands, None) };
         self.uploads.record(&recorder, &self.gpu_scene);
         if let Some(casters) = &self.casters {
@@ -123,7 +124,7 @@ impl PreparedScene {
     /// Frees the memory that the upload needed.
     ///
     /// # Safety
-    /// The commands of [`Self::record_upload`] were executed and are done.
+    /// The commands of [`Self::record_upload`] have been executed.
     pub unsafe fn discard_uploads(&mut self) {
         self.gpu_scene.set_uploaded();
         self.uploads = SceneUploads::default();
@@ -132,20 +133,20 @@ impl PreparedScene {
 }
 
 impl Renderer {
-    /// A renderer in a host's device. See [`crate::vulkan::Requirements`] for what the device needs.
+    /// Makes a renderer in a host's device. [`crate::vulkan::Requirements`] lists what the device needs.
     ///
     /// # Errors
-    /// [`VulkanError::Missing`] lists all that the device lacks.
+    /// [`VulkanError::Missing`] lists everything that the device lacks.
     ///
     /// # Safety
-    /// - The host's handles are alive, belong together and outlive the renderer and all that it prepares.
+    /// - The host's handles are alive, belong together and outlive the renderer and everything that it prepares.
     /// - The device was created with [`crate::vulkan::Requirements::features13`] enabled.
     pub unsafe fn new(host: Host) -> Result<Self, VulkanError> {
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         Self::in_gpu(unsafe { Gpu::new(host) }?)
     }
 
-    /// A renderer in a device of our own.
+    /// Makes a renderer in a device that the library opened.
     ///
     /// # Errors
     /// If the driver refuses the layouts.
@@ -156,25 +157,26 @@ impl Renderer {
         })
     }
 
-    /// The device.
+    /// Device of the renderer.
     #[must_use]
     pub fn gpu(&self) -> &Arc<Gpu> {
         &self.gpu
     }
 
-    /// Allocates a scene's memory on the device, and that of what casts shadows where these are asked for.
+    /// Allocates device memory for a scene, and for its casters if shadows are asked for.
     ///
     /// # Errors
-    /// If memory runs out, the bound on it is passed, or the scene passes a limit of the device; [`RenderError::Geometry`] if the
-    /// geometry contradicts itself; [`RenderError::OtherMotion`] for a pose and motion that were not made together;
-    /// [`RenderError::ShadowLights`] for shadows of more than 32 lights.
+    /// [`RenderError::Memory`] or [`RenderError::Vulkan`] if memory runs out, exceeds the limit, or the scene exceeds
+    /// a limit of the device; [`RenderError::Geometry`] if the geometry contradicts itself;
+    /// [`RenderError::OtherMotion`] for a pose and motion that were not made together; [`RenderError::ShadowLights`]
+    /// for shadows of more than 32 lights.
     pub fn prepare_scene(&self, request: SceneRequest<'_>) -> Result<PreparedScene, RenderError> {
         let mut prepared = self.prepare_shown(request)?;
         self.prepare_casters(&mut prepared, request)?;
         Ok(prepared)
     }
 
-    /// What is shown of a scene, without what casts shadows.
+    /// Prepares a scene without its casters of shadows.
     pub(super) fn prepare_shown(
         &self,
         request: SceneRequest<'_>,
@@ -209,12 +211,12 @@ impl Renderer {
         })
     }
 
-    /// Makes the pipelines and memory for frames of a scene; `encoding` is that of the host's image, `None` for
-    /// buffers of linear float RGBA.
+    /// Makes pipelines and memory for frames of a scene. `encoding` is that of the host's image; `None` is for buffers
+    /// of linear float RGBA.
     ///
     /// # Errors
-    /// [`RenderError::OtherDevice`] for a scene of another renderer's device; [`RenderError::NoCasters`] if shadows are asked for
-    /// and the scene was not made ready for them; if the settings are impossible, memory runs
+    /// [`RenderError::OtherDevice`] for a scene of another renderer's device; [`RenderError::NoCasters`] if shadows
+    /// are asked for and the scene was not prepared for them; otherwise if the settings are impossible, memory runs
     /// out, or the driver refuses something.
     pub fn prepare(
         &self,
@@ -225,16 +227,16 @@ impl Renderer {
         self.prepare_with(scene, settings, encoding, Capacity::default(), 0)
     }
 
-    /// Makes a frame like another one that ended as [`RenderError::Unfinished`], with more of what it lacked: memory for candidates and
-    /// layers, or subgroups.
+    /// Makes a frame like one that ended with [`RenderError::Unfinished`], with more of what it lacked: memory for
+    /// candidates and layers, or subgroups.
     ///
     /// # Errors
-    /// As for [`Self::prepare`].
+    /// As [`Self::prepare`].
     pub fn prepare_again(&self, frame: &Frame) -> Result<Frame, RenderError> {
         self.prepare_like(frame, frame.capacity().more(frame.shortfall()?))
     }
 
-    /// Refuses a scene of another device.
+    /// Checks that a scene belongs to this renderer's device.
     pub(super) fn check(&self, scene: &GpuScene) -> Result<(), RenderError> {
         if Arc::ptr_eq(scene.memory().gpu(), &self.gpu) {
             Ok(())
@@ -263,7 +265,7 @@ impl Renderer {
         Ok(like)
     }
 
-    /// Of what the settings allow, `reserved` bytes are kept free for others.
+    /// Prepares a frame. `reserved` bytes of the memory that the settings allow are left to other owners.
     pub(super) fn prepare_with(
         &self,
         scene: &PreparedScene,

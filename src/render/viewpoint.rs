@@ -1,4 +1,4 @@
-//! From where a scene is seen, as passes are told of it.
+//! Viewpoint of a scene, in the form that passes read.
 
 use crate::camera::{Camera, Pinhole};
 use crate::engine::sampler::uniform::SceneBlock;
@@ -6,7 +6,7 @@ use crate::passes::Content;
 use crate::render::passes::GpuScene;
 use glam::DVec3;
 
-/// From where a scene is seen, and in which direction.
+/// Position from which a scene is seen, and the direction of view.
 pub(super) struct Viewpoint {
     eye: DVec3,
     direction: DVec3,
@@ -25,7 +25,7 @@ impl From<&Camera> for Viewpoint {
 
 impl From<&Pinhole> for Viewpoint {
     fn from(pinhole: &Pinhole) -> Self {
-        // Parallel rays need not be at right angles to the plane.
+        // Parallel rays need not be perpendicular to the plane.
         let of_rays = pinhole.parallel_direction().map(|to_centre| -to_centre);
         Self {
             eye: pinhole.eye(),
@@ -36,7 +36,7 @@ impl From<&Pinhole> for Viewpoint {
 }
 
 impl SceneBlock {
-    /// That of a scene on the device, seen from a viewpoint.
+    /// Viewpoint block for a scene on the device.
     pub(super) fn of(scene: &GpuScene, viewpoint: &Viewpoint) -> Self {
         let parallel = if viewpoint.is_parallel { 1.0 } else { 0.0 };
         Self {

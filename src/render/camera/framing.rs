@@ -1,18 +1,18 @@
-//! Cameras that stand where someone wants to look from: around a whole scene, or anywhere in it.
+//! Cameras for a viewpoint of the user's: around a whole scene, or anywhere in it.
 
 use super::{Camera, CameraError};
 use glam::DVec3;
 
-/// Viewing direction around a scene, from which the whole scene is seen.
+/// View of a whole scene from an angle around it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Orbit {
-    /// Degrees around the vertical axis; 0 looks along -z, 90 along -x.
+    /// Angle around the vertical axis in degrees; 0 looks along -z, 90 along -x.
     pub azimuth: f64,
-    /// Degrees above the horizon.
+    /// Angle above the horizon in degrees.
     pub elevation: f64,
-    /// 1 fits the bounding sphere into the image, 2 shows everything twice as large.
+    /// Enlargement, above 0: 1 fits the bounding sphere into the image, 2 shows everything twice as large.
     pub zoom: f64,
-    /// Vertical field of view in degrees.
+    /// Vertical field of view in degrees, above 0 and below 180.
     pub fov: f64,
 }
 
@@ -28,10 +28,10 @@ impl Default for Orbit {
 }
 
 impl Orbit {
-    /// A camera around the box from `low` to `high`, for an image of `aspect` = width / height.
+    /// Camera that sees the box from `low` to `high`, in an image of `aspect` = width / height.
     ///
     /// # Errors
-    /// If an angle is not finite or the field of view not within 0 to 180 degrees.
+    /// [`CameraError`] if an angle is not finite or the field of view not between 0 and 180 degrees.
     pub fn frame(&self, low: DVec3, high: DVec3, aspect: f64) -> Result<Camera, CameraError> {
         let center = 0.5 * (low + high);
         let radius = (0.5 * (high - low).length())
@@ -54,31 +54,32 @@ impl Orbit {
             azimuth.cos() * elevation.cos(),
         );
         let eye = center + distance * from;
-        // Close enough for a camera inside of the scene; reversed depth keeps its precision all the same.
+        // The near plane is close enough for a camera inside of the scene; reversed depth stays precise all the same.
         let near = 1e-4 * radius.max(distance);
         Camera::look_at(eye, center, DVec3::Y, self.fov, near)
     }
 }
 
-/// A place to stand at and one to look at.
+/// Position of a camera, and the point that it looks at.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viewpoint {
-    /// Place of the camera.
+    /// Position of the camera.
     pub eye: DVec3,
     /// Point that the camera looks at.
     pub target: DVec3,
-    /// Upward direction.
+    /// Direction that is up in the image.
     pub up: DVec3,
-    /// Vertical field of view in degrees.
+    /// Vertical field of view in degrees, above 0 and below 180.
     pub fov: f64,
 }
 
 impl Viewpoint {
-    /// A camera for a scene in the box from `low` to `high`: its near plane leaves room for what stands between eye and
-    /// target, however large the scene.
+    /// Camera at this viewpoint, for a scene in the box from `low` to `high`. Its near plane is close enough to show
+    /// objects between eye and target, however large the scene is.
     ///
     /// # Errors
-    /// If these give no direction or the field of view is not within 0 to 180 degrees.
+    /// [`CameraError`] if eye and target coincide, `up` lies along the view, or the field of view is not between 0 and
+    /// 180 degrees.
     pub fn frame(&self, low: DVec3, high: DVec3) -> Result<Camera, CameraError> {
         let near = 1e-3
             * (self.target - self.eye)

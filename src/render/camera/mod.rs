@@ -1,11 +1,12 @@
-//! Cameras: where they stand, where they look, how they project, and where they sample.
+//! Cameras: position, direction, projection, and the locations at which they sample.
 //!
-//! [`Camera`] is a planar pinhole camera as files describe it: it knows no image size. [`Pinhole`] is the general one, a
-//! centre of projection and an image plane in pixels.
+//! [`Camera`] is a planar pinhole camera as files describe it; it knows no image size. [`Pinhole`] is the general
+//! camera: a centre of projection and an image plane in pixels.
 //!
 //! World space is glTF's: right-handed, y up. View space has its origin at the eye, x right, y up, and looks along -z.
-//! Clip space has y up as well; depth runs from 1 near to 0 far (reversed), so that float depth keeps its precision
-//! at any distance. Pixel positions are x right, y down, with the image's upper left corner at (0, 0).
+//! Clip space has y up as well; depth runs from 1 at the near plane to 0 at the far plane (reversed), so that float
+//! depth is precise at any distance. Pixel positions are x right, y down, with the image's upper left corner at (0,
+//! 0).
 
 mod framing;
 mod map;
@@ -29,7 +30,7 @@ use glam::{DMat3, DMat4, DQuat, DVec2, DVec3, DVec4};
 /// Projection of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
-    /// Lines of sight meet at the eye.
+    /// Perspective: lines of sight meet at the eye.
     Perspective {
         /// Vertical field of view in radians, above 0 and below pi.
         fov: f64,
@@ -38,7 +39,7 @@ pub enum Projection {
         /// Distance of the far plane; `None` is infinite.
         far: Option<f64>,
     },
-    /// Lines of sight are parallel.
+    /// Orthographic projection: lines of sight are parallel.
     Orthographic {
         /// Half of the image's height in world units, above 0.
         half_height: f64,
@@ -52,18 +53,19 @@ pub enum Projection {
 /// A camera in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// World position.
+    /// Position of the eye in world space.
     pub eye: DVec3,
-    /// Columns: right, up and backward, orthonormal.
+    /// Axes of view space in world space, as columns: right, up and backward, orthonormal.
     pub axes: DMat3,
     /// Projection of the camera.
     pub projection: Projection,
-    /// Shift of the film to the right and down, in widths and heights of the image; what is seen moves the other way.
-    /// Zero centres the image on the direction of view. A fraction of a pixel samples the same picture at other places.
+    /// Shift of the image plane to the right and down, in widths and heights of the image; the picture moves the other
+    /// way. Zero centres the image on the direction of view. A shift by a fraction of a pixel samples the same picture
+    /// at other places.
     pub shift: DVec2,
 }
 
-/// A camera that can't be.
+/// Error: a camera that can't exist.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum CameraError {
     /// Eye, target and up that give no direction: not finite, eye and target coincide, or up lies along the view.
@@ -71,24 +73,25 @@ pub enum CameraError {
         "eye {eye}, target {target} and up {up} give no direction to look at: eye and target must differ, and up must not lie along the view"
     )]
     Direction {
-        /// Place of the camera.
+        /// Position of the camera.
         eye: DVec3,
         /// Point that the camera looks at.
         target: DVec3,
-        /// Upward direction.
+        /// Direction that is up in the image.
         up: DVec3,
     },
-    /// The field of view is out of range.
+    /// Vertical field of view in degrees that is not between 0 and 180.
     #[error("a field of view of {0} degrees: it must be above 0 and below 180")]
     FieldOfView(f64),
 }
 
 impl Camera {
-    /// A perspective camera at `eye` that looks at `target`, with `up` as near to the image's upward direction as it
-    /// can be; `fov_degrees` is vertical.
+    /// Perspective camera at `eye` that looks at `target`, with `up` as close to the image's upward direction as
+    /// possible. `fov_degrees` is the vertical field of view.
     ///
     /// # Errors
-    /// If these give no direction or the field of view is not within 0 to 180 degrees.
+    /// [`CameraError`] if eye and target coincide, `up` lies along the view, or the field of view is not between 0 and
+    /// 180 degrees.
     pub fn look_at(
         eye: DVec3,
         target: DVec3,
@@ -113,7 +116,7 @@ impl Camera {
         })
     }
 
-    /// A camera of a file. An image of another aspect ratio than the camera's keeps the height of its view.
+    /// Camera of a scene file. An image with another aspect ratio than the camera's keeps the height of its view.
     #[must_use]
     pub fn from_scene(camera: &SceneCamera) -> Self {
         let projection = match camera.projection {
@@ -140,7 +143,7 @@ impl Camera {
         }
     }
 
-    /// The camera turned about the vertical axis through a point, by degrees counter-clockwise as seen from above.
+    /// This camera, turned about the vertical axis through `point` by `degrees`, counter-clockwise as seen from above.
     #[must_use]
     pub fn turned(&self, point: DVec3, degrees: f64) -> Self {
         let turn = DQuat::from_rotation_y(degrees.to_radians());
@@ -157,19 +160,20 @@ impl Camera {
         -self.axes.z_axis
     }
 
-    /// Whether lines of sight are parallel.
+    /// Whether the projection is orthographic: lines of sight are parallel.
     #[must_use]
     pub fn is_orthographic(&self) -> bool {
         matches!(self.projection, Projection::Orthographic { .. })
     }
 
-    /// World space to view space.
+    /// Matrix from world space to view space.
     #[must_use]
     pub fn view(&self) -> DMat4 {
         self.view_from(DVec3::ZERO)
     }
 
-    /// Positions relative to `origin` to view space; the large parts of both cancel before anything is rounded.
+    /// Matrix from positions relative to `origin` to view space. It is computed in double precision, so that large
+    /// coordinates of `origin` and of the eye cancel before anything is rounded.
     #[must_use]
     pub fn view_from(&self, origin: DVec3) -> DMat4 {
         let turn = self.axes.transpose();
@@ -182,13 +186,14 @@ impl Camera {
         )
     }
 
-    /// View space to clip space for an image of `aspect` = width / height.
+    /// Matrix from view space to clip space, for an image of `aspect` = width / height.
     #[must_use]
     pub fn projection_matrix(&self, aspect: f64) -> DMat4 {
         let centred = match self.projection {
             Projection::Perspective { fov, near, far } => {
                 let f = 1.0 / (0.5 * fov).tan();
-                // depth * w = near (far plane at infinity), or the line through near -> 1 and far -> 0.
+                // depth * w is `near` if the far plane is at infinity; otherwise it is linear, 1 at the near plane and
+                // 0 at the far plane.
                 let (a, b) = far.map_or((0.0, near), |far| {
                     (near / (far - near), near * far / (far - near))
                 });
@@ -218,7 +223,7 @@ impl Camera {
         DMat4::from_translation(moved) * centred
     }
 
-    /// Positions relative to `origin` to (pixel x * w, pixel y * w, depth * w, w), where pixel positions are relative
+    /// Matrix from positions relative to `origin` to (x w, y w, depth w, w). The pixel positions x and y are relative
     /// to the centre of an image of `width` x `height` pixels, y down.
     #[must_use]
     pub fn pixel_matrix(&self, origin: DVec3, width: f64, height: f64) -> DMat4 {
@@ -227,7 +232,7 @@ impl Camera {
     }
 }
 
-/// Right, up and backward of a camera that looks along `forward`.
+/// Axes (right, up and backward) of a camera that looks along `forward`; `None` if these vectors give no direction.
 fn axes_towards(forward: DVec3, up: DVec3) -> Option<DMat3> {
     let back = -forward.try_normalize()?;
     let right = up.try_normalize()?.cross(back);
@@ -292,7 +297,7 @@ mod tests {
             ..centred
         };
         for camera in [centred, orthographic] {
-            // A quarter of a pixel to the right and half a pixel down, of 200 x 100.
+            // The shift is a quarter of a pixel to the right and half a pixel down, in an image of 200 x 100 pixels.
             let shifted = Camera {
                 shift: DVec2::new(0.25 / 200.0, 0.5 / 100.0),
                 ..camera

@@ -17,41 +17,41 @@ use super::{Camera, Pinhole, Projection, Rig, RigError, SampleLocation};
 use glam::{DVec2, DVec3};
 use std::f64::consts::FRAC_PI_2;
 
-/// Layout of directions in a panorama.
+/// Projection of directions onto the image of a panorama.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PanoramaProjection {
-    /// Longitude along rows and latitude along columns, at the same number of pixels a degree.
+    /// Longitude along the width and latitude along the height, at the same number of pixels a degree.
     Equirectangular,
-    /// Longitude along rows and, along columns, height on a cylinder around the camera; pixels are square at the
-    /// horizon.
+    /// Longitude along the width and, along the height, the height on a cylinder around the camera; pixels are square
+    /// at the horizon.
     Cylindrical,
-    /// Angle from the axis in proportion to the distance from the middle (equidistant). The circle of the field of view
-    /// touches the nearer sides of the image; outside of it the image is empty.
+    /// Fisheye: the distance from the middle is proportional to the angle from the axis (equidistant). The circle of
+    /// the field of view touches the nearer sides of the image; outside of the circle the image is empty.
     Fisheye,
     /// Six squares in a cross, 4 wide and 3 high: left, front, right and back in the middle row, up and down above and
-    /// below of front.
+    /// below front.
     Cubemap,
 }
 
-/// Panorama of an image size and a field of view.
+/// Panorama with an image size and a field of view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Panorama {
     projection: PanoramaProjection,
-    /// Field of view in degrees.
+    /// Horizontal field of view in degrees.
     fov: f64,
     size: [u32; 2],
 }
 
-/// Panorama that can't exist.
+/// Error: a panorama that can't exist.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum PanoramaError {
-    /// Field of view that is not above 0, or more than all around.
+    /// Field of view in degrees that is not above 0 and at most 360.
     #[error("a panorama of {0} degrees; it must be above 0 and at most 360")]
     FieldOfView(f64),
-    /// Field of view of a cubemap, which always is all around.
+    /// Field of view in degrees that was given for a cubemap, which always has 360.
     #[error("a cubemap of {0} degrees; it shows all 360")]
     CubemapFieldOfView(f64),
-    /// Image that is higher than from the zenith to the nadir.
+    /// Equirectangular image that is higher than 180 degrees.
     #[error(
         "{width} x {height} pixels over {fov} degrees are {latitudes} degrees high; there are 180: make the image lower or the field of view smaller"
     )]
@@ -65,7 +65,7 @@ pub enum PanoramaError {
         /// Vertical field of view in degrees.
         latitudes: f64,
     },
-    /// Image too small for its layout.
+    /// Image of this width and height that is too small for its layout.
     #[error("a panorama of {} x {} pixels has no room for its layout", .0[0], .0[1])]
     Size([u32; 2]),
     /// Orthographic camera: parallel rays have no centre to look around from.
@@ -76,17 +76,17 @@ pub enum PanoramaError {
     Rig(#[from] RigError),
 }
 
-/// Face of a cubemap.
+/// A face of a cubemap.
 struct Face {
     forward: DVec3,
     right: DVec3,
     down: DVec3,
-    /// Column and row in the cross.
+    /// Column and row of the face in the cross.
     cross: [u32; 2],
 }
 
 impl Face {
-    /// Direction through a place of the face, 0 to 1 from its left and upper side.
+    /// Direction through a place of the face; the place is 0 to 1 from the face's left and upper side.
     fn toward(&self, place: DVec2) -> DVec3 {
         let way = 2.0 * place - DVec2::ONE;
         (self.forward + way.x * self.right + way.y * self.down).normalize()
@@ -132,19 +132,19 @@ const FACES: [Face; 6] = [
     },
 ];
 
-/// Radians by which a direction on the edge of the layout may be off.
+/// Tolerance in radians for directions on the edge of the layout.
 const ROUNDING: f64 = 1e-12;
 
 /// Longest side of a rig's planes in pixels.
 const LARGEST_PLANE: f64 = 65_536.0;
 
 impl Panorama {
-    /// Makes a panorama of `size` = [width, height] pixels, with a field of view of `fov` degrees along the width (for
-    /// a fisheye across its circle, for a cubemap 360). A cubemap takes the largest cross that fits.
+    /// Makes a panorama of `size` = [width, height] pixels. `fov` is its field of view in degrees, along the width
+    /// (for a fisheye across the circle; a cubemap takes 360 alone). A cubemap uses the largest cross that fits.
     ///
     /// # Errors
     /// [`PanoramaError`] if the field of view is not above 0 and at most 360, an equirectangular image is higher than
-    /// 180 degrees, or the image has no pixels.
+    /// 180 degrees, or the image is too small.
     pub fn new(
         projection: PanoramaProjection,
         fov: f64,
@@ -192,8 +192,8 @@ impl Panorama {
         self.size
     }
 
-    /// Direction, as a unit vector in the camera's axes, in which a place of the image in pixels looks; `None` where
-    /// the image is empty. Longitudes go on beyond the sides of the image.
+    /// Direction in which a place of the image looks, as a unit vector in the camera's axes; `None` where the image is
+    /// empty. The place is in pixels. Beyond the left and right sides the longitude continues.
     #[must_use]
     pub fn look(&self, place: DVec2) -> Option<DVec3> {
         let size = DVec2::new(f64::from(self.size[0]), f64::from(self.size[1]));
@@ -227,8 +227,8 @@ impl Panorama {
         }
     }
 
-    /// Makes the locations that a renderer samples for the panorama of a camera. Each pixel is sampled exactly in its
-    /// direction, on the one plane of a rig that the direction belongs to.
+    /// Makes the sampling locations of the panorama of a camera. Each pixel is sampled exactly in its direction, on
+    /// the plane of the rig to which the direction belongs.
     ///
     /// # Errors
     /// [`PanoramaError`] if the camera is orthographic or not finite.
@@ -236,7 +236,7 @@ impl Panorama {
         let Projection::Perspective { near, .. } = camera.projection else {
             return Err(PanoramaError::Orthographic);
         };
-        // On their axes the planes are as fine as the panorama is.
+        // In their middles the planes have the resolution of the panorama.
         let side = (2.0 / self.radians_per_pixel()).ceil().min(LARGEST_PLANE);
         let rig = Rig::cube(camera.eye, camera.axes, side as u32, near)?;
         let layout = Layout::of(self);
@@ -269,7 +269,7 @@ impl Panorama {
         })
     }
 
-    /// Radians per pixel at the middle of the image; for a cubemap in the middle of a face.
+    /// Radians per pixel in the middle of the image; for a cubemap, in the middle of a face.
     fn radians_per_pixel(&self) -> f64 {
         let [width, height] = self.size.map(f64::from);
         let fov = self.fov.to_radians();
@@ -281,15 +281,15 @@ impl Panorama {
     }
 }
 
-/// Arrangement of sampled cells. It has a border of a pixel wherever the panorama goes on at another place of the
-/// image: so every pixel has its neighbours, and seams are antialiased like everything else.
+/// Arrangement of the sampled cells. Where the panorama continues at another place of the image, the cells have a
+/// border of one pixel with these neighbours, so that seams are antialiased like everything else.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Layout {
-    /// Cells as the image has its pixels.
+    /// The image's pixels, without a border.
     Plain,
-    /// Columns of the image, with the last one again before the first, and the first one again after the last.
+    /// The image's columns, preceded by a copy of the last column and followed by a copy of the first.
     Around,
-    /// Faces side by side, of `side` pixels each way, each with a border.
+    /// Faces of `side` x `side` pixels beside each other, each with a border.
     Faces { side: u32 },
 }
 
@@ -316,7 +316,7 @@ impl Layout {
         }
     }
 
-    /// Sampled column and row of a pixel of the image.
+    /// Sampled column and row for a pixel of the image; `None` where the image is empty.
     fn sampled(self, col: u32, row: u32) -> Option<(u32, u32)> {
         match self {
             Self::Plain => Some((col, row)),
@@ -330,7 +330,7 @@ impl Layout {
     }
 }
 
-/// Locations of a panorama.
+/// Sampling locations of a panorama.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PanoramaLocations {
     panorama: Panorama,
@@ -340,20 +340,20 @@ pub struct PanoramaLocations {
 }
 
 impl PanoramaLocations {
-    /// Columns and rows that are sampled. There are more than the image has, and for a cubemap in another order, so
-    /// that every pixel has its neighbours beside it. [`PanoramaLocations::crop`] makes the image.
+    /// Number of sampled columns and rows. It is larger than the image's, and a cubemap has its faces in another
+    /// order, so that every pixel has its neighbours beside it. [`PanoramaLocations::crop`] makes the image.
     #[must_use]
     pub fn size(&self) -> [u32; 2] {
         self.size
     }
 
-    /// Pinholes, and the locations that are sampled on each.
+    /// Pinholes, each with the locations that are sampled on its plane.
     #[must_use]
     pub fn rig(&self) -> &[(Pinhole, Vec<SampleLocation>)] {
         &self.rig
     }
 
-    /// Crops what was sampled to the image, row by row; `empty` fills pixels in which the image is empty.
+    /// Crops sampled values to the image, row by row; pixels in which the image is empty get `empty`.
     #[must_use]
     pub fn crop<T: Copy>(&self, sampled: &[T], empty: T) -> Vec<T> {
         let [width, height] = self.panorama.size;

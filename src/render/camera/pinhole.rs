@@ -26,26 +26,26 @@ pub struct Pinhole {
     b: DVec3,
     near: f64,
     far: Option<f64>,
-    /// Inverse of the projection. It takes world vectors relative to C to (u w, v w, w), w being the distance from C.
-    /// If rays are parallel, it takes vectors relative to O to (u, v, distance along a ray).
+    /// Inverse of the projection. It maps world vectors relative to C to (u w, v w, w), w being the distance from C
+    /// along the normal. For parallel rays, it maps vectors relative to O to (u, v, distance along a ray).
     inverse: DMat3,
-    /// Unit normal of the plane, away from C.
+    /// Unit normal of the plane that points away from C.
     normal: DVec3,
 }
 
-/// Half-line of sight.
+/// Line of sight with a start and a direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Start of the ray: C, or a point of the image plane if rays are parallel.
+    /// Start of the ray: C, or a point of the image plane for parallel rays.
     pub start: DVec3,
     /// Unit vector along the ray.
     pub direction: DVec3,
 }
 
-/// Pinhole that can't exist.
+/// Error: a pinhole that can't exist.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum PinholeError {
-    /// Coordinate that is NaN or infinite, by its name.
+    /// Coordinate that is NaN or infinite; holds its name.
     #[error("{0} of the pinhole is not finite")]
     NotFinite(&'static str),
     /// Centre of projection that is neither a point (w = 1) nor a direction (w = 0), or is zero.
@@ -61,17 +61,17 @@ pub enum PinholeError {
         /// Step to the next row.
         b: DVec3,
     },
-    /// Centre of projection in the image plane, so that every ray lies in the plane.
+    /// Centre of projection in the image plane, so that every ray would lie in the plane.
     #[error("the centre of projection {0} lies in the image plane; move it out")]
     CentreInPlane(DVec4),
-    /// Empty or impossible range of depths.
+    /// Range of depths that is empty or impossible.
     #[error(
         "depths from {near} to {far}: far must be above near, near above 0 where rays meet, and far finite where they are parallel"
     )]
     Depths {
         /// Distance of the near plane.
         near: f64,
-        /// Distance of the far plane; infinite without one.
+        /// Distance of the far plane; infinite if there is none.
         far: f64,
     },
     /// Image without pixels.
@@ -82,7 +82,7 @@ pub enum PinholeError {
         /// Height in pixels.
         height: u32,
     },
-    /// Matrix that is not a pinhole's, with the reason.
+    /// Matrix that is not that of a pinhole; holds the reason.
     #[error("the projection matrix is none of a pinhole: {0}")]
     Matrix(&'static str),
     /// Camera that can't exist.
@@ -90,13 +90,13 @@ pub enum PinholeError {
     Camera(#[from] CameraError),
 }
 
-/// Sine below which a plane counts as parallel to its rays: it is seen so flatly that no digit of (u, v) is right.
+/// Sine of the angle between plane and rays below which they count as parallel: no digit of (u, v) would be right.
 const FLAT: f64 = 1e-12;
 
 impl Pinhole {
-    /// Makes a pinhole of its parts in world space: C, homogeneous with w = 1 or 0; O, the upper left corner of the
-    /// image; a and b, the steps from pixel to pixel. Depths from `near` to `far` are seen; they are distances along
-    /// the plane's normal, from C, or from the plane if rays are parallel.
+    /// Makes a pinhole from world-space vectors: `centre` C, homogeneous with w = 1 or 0; `origin` O, the upper left
+    /// corner of the image; `a` and `b`, the steps to the next pixel of a row and to the next row. Depths from `near`
+    /// to `far` are visible. They are distances along the plane's normal, from C, or from the plane for parallel rays.
     ///
     /// # Errors
     /// [`PinholeError`] if a number is not finite, C is neither point nor direction or lies in the plane, a and b span
@@ -133,7 +133,7 @@ impl Pinhole {
         if cross.length() <= FLAT * a.length() * b.length() {
             return Err(PinholeError::Plane { a, b });
         }
-        // The way from C to O; in the limit of a C that is far away, the way that it looks.
+        // The vector from C to O; for parallel rays their direction.
         let ahead = centre.w * origin - centre.xyz();
         let upright = cross.normalize();
         let height = ahead.dot(upright);
@@ -172,7 +172,7 @@ impl Pinhole {
         }
         let [width, height] = size.map(f64::from);
         let [right, up, back] = [camera.axes.x_axis, camera.axes.y_axis, camera.axes.z_axis];
-        // Half of the image's height on the plane, and how far the plane is from the eye.
+        // Half of the image's height on the plane, and the distance of the plane from the eye.
         let (half_height, distance) = match camera.projection {
             Projection::Perspective { fov, .. } => ((0.5 * fov).tan(), 1.0),
             Projection::Orthographic { half_height, .. } => (half_height, 0.0),
@@ -192,7 +192,7 @@ impl Pinhole {
         }
     }
 
-    /// Makes a pinhole at `eye` that looks at `target`; the image's upward direction is as near to `up` as possible.
+    /// Makes a pinhole at `eye` that looks at `target`; the image's upward direction is as close to `up` as possible.
     /// `fov_degrees` is the vertical field of view of an image of `size` = [width, height] in pixels, `near` the
     /// distance of the near plane.
     ///
@@ -212,7 +212,7 @@ impl Pinhole {
     }
 
     /// Makes the pinhole of a matrix from world space to clip space, for an image of `size` = [width, height] in
-    /// pixels. Clip space is that of [`Camera`]: y up, depth from 1 near to 0 far.
+    /// pixels. Clip space is that of [`Camera`]: y up, depth from 1 at the near plane to 0 at the far plane.
     ///
     /// # Errors
     /// [`PinholeError`] if the matrix is singular, or its near and far planes are not parallel to the image plane.
@@ -225,7 +225,7 @@ impl Pinhole {
             return Err(PinholeError::NotFinite("the projection matrix"));
         }
         let [x, y, depth, w] = [matrix.row(0), matrix.row(1), matrix.row(2), matrix.row(3)];
-        // Clip space to pixels: u = width (x + w) / 2, v = height (w - y) / 2.
+        // From clip space to pixels: u = width (x + w) / 2, v = height (w - y) / 2.
         let u = 0.5 * f64::from(width) * (x + w);
         let v = 0.5 * f64::from(height) * (w - y);
         if w.xyz().length() > FLAT * x.xyz().length().max(y.xyz().length()) {
@@ -259,7 +259,7 @@ impl Pinhole {
         self.centre.w == 0.0
     }
 
-    /// Point in which rays meet. If they are parallel, it is O, from whose plane depths are measured.
+    /// Point in which the rays meet. For parallel rays it is O; depths are measured from its plane then.
     #[must_use]
     pub fn eye(&self) -> DVec3 {
         if self.is_parallel() {
@@ -269,13 +269,13 @@ impl Pinhole {
         }
     }
 
-    /// Unit normal of the image plane, away from C; depths are distances along it.
+    /// Unit normal of the image plane that points away from C; depths are distances along it.
     #[must_use]
     pub fn direction(&self) -> DVec3 {
         self.normal
     }
 
-    /// Unit vector towards C if rays are parallel, otherwise `None`.
+    /// Unit vector towards C for parallel rays, otherwise `None`.
     #[must_use]
     pub fn parallel_direction(&self) -> Option<DVec3> {
         self.is_parallel().then(|| self.centre.xyz().normalize())
@@ -287,13 +287,13 @@ impl Pinhole {
         self.near
     }
 
-    /// Distance of the far plane; `None` is infinite.
+    /// Distance of the far plane; `None` for infinity.
     #[must_use]
     pub fn far(&self) -> Option<f64> {
         self.far
     }
 
-    /// Ray through a location in pixels of the image plane.
+    /// Ray through a location, which is in pixels of the image plane.
     #[must_use]
     pub fn ray(&self, uv: DVec2) -> Ray {
         let point = self.origin + self.a * uv.x + self.b * uv.y;
@@ -306,7 +306,7 @@ impl Pinhole {
         Ray { start, direction }
     }
 
-    /// Location of a point of the world, in pixels of the image plane; `None` for points beside or behind C.
+    /// Location of a world-space point in pixels of the image plane; `None` for points beside or behind C.
     #[must_use]
     pub fn project(&self, point: DVec3) -> Option<DVec2> {
         let p = self.inverse * (point - self.eye());
@@ -316,17 +316,18 @@ impl Pinhole {
         (p.z > 0.0).then(|| p.truncate() / p.z)
     }
 
-    /// Location of a direction from C, in pixels of the image plane; `None` for directions away from the plane, and if
-    /// rays are parallel.
+    /// Location of a direction from C in pixels of the image plane; `None` for directions away from the plane, and for
+    /// parallel rays.
     #[must_use]
     pub fn project_direction(&self, direction: DVec3) -> Option<DVec2> {
         let p = self.inverse * direction;
         (!self.is_parallel() && p.z > 0.0).then(|| p.truncate() / p.z)
     }
 
-    /// Matrix from positions relative to `origin` to (u w, v w, depth w, w). (u, v) are pixels relative to the location
-    /// `window`, depth runs from 1 near to 0 far, and w is the distance from C (1 if rays are parallel). The large
-    /// parts of `origin` and C cancel before anything is rounded.
+    /// Matrix from positions relative to `origin` to (u w, v w, depth w, w). (u, v) are pixels relative to the
+    /// location `window`, depth runs from 1 at the near plane to 0 at the far plane, and w is the distance from C (1
+    /// for parallel rays). It is computed in double precision, so that large coordinates of `origin` and C cancel
+    /// before anything is rounded.
     #[must_use]
     pub fn pixel_matrix(&self, origin: DVec3, window: DVec2) -> DMat4 {
         let from_eye = origin - self.eye();
@@ -353,14 +354,15 @@ fn perspective_of_rows(
     depth: DVec4,
     w: DVec4,
 ) -> Result<Pinhole, PinholeError> {
-    // u w, v w and w of points relative to C; C is where all three vanish.
+    // The rows give u w, v w and w for points relative to C; C is the point for which all three vanish.
     let rows = DMat3::from_cols(u.xyz(), v.xyz(), w.xyz()).transpose();
     let inverse = rows.inverse();
     if !inverse.is_finite() {
         return Err(PinholeError::Matrix("rows x, y and w are not independent"));
     }
     let centre = -(inverse * DVec3::new(u.w, v.w, w.w));
-    // Depth and w as functions of the distance from C: slope * distance + depth at C, and scale * distance.
+    // Depth and w are linear in the distance from C: depth w = slope * distance + its value at C, w = scale *
+    // distance.
     let scale = w.xyz().length();
     let slope = depth.xyz().dot(w.xyz()) / scale;
     if (depth.xyz() - w.xyz() * (slope / scale)).length() > 1e-9 * scale {
@@ -371,7 +373,7 @@ fn perspective_of_rows(
     let at_centre = depth.xyz().dot(centre) + depth.w;
     let near = at_centre / (scale - slope);
     let far = (slope < -1e-15 * scale).then(|| at_centre / -slope);
-    // The plane at distance 1.
+    // The image plane is placed at distance 1.
     let [a, b, corner] = [inverse.x_axis, inverse.y_axis, inverse.z_axis].map(|c| c * scale);
     Pinhole::new(centre.extend(1.0), centre + corner, a, b, near, far)
 }
@@ -384,7 +386,7 @@ fn parallel_of_rows(u: DVec4, v: DVec4, depth: DVec4, w: DVec4) -> Result<Pinhol
             "rows x, y and depth are not independent",
         ));
     }
-    // The image plane is the near plane, where depth is 1; one step of depth leads to the far plane.
+    // The image plane is the near plane, where depth is 1; a step of -1 in depth leads to the far plane.
     let offsets = DVec3::new(u.w, v.w, depth.w) / w.w;
     let origin = inverse * (DVec3::Z - offsets);
     let normal = inverse.x_axis.cross(inverse.y_axis).normalize();

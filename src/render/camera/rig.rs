@@ -16,22 +16,22 @@ use super::set::{Sample, SamplingSet, SetError};
 use super::{Pinhole, PinholeError};
 use glam::{DMat2, DMat3, DVec2, DVec3};
 
-/// Pinholes with one centre of projection.
+/// Pinholes with a common centre of projection.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rig {
     pinholes: Vec<Pinhole>,
 }
 
-/// Pinholes that make no rig, or directions that a rig can't sample.
+/// Error: pinholes that make no rig, or directions that a rig can't sample.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum RigError {
     /// Rig without pinholes.
     #[error("a rig without pinholes; give at least one")]
     Empty,
-    /// Pinhole of parallel rays, by its index: it has no centre to share.
+    /// Pinhole with parallel rays, which has no centre to share; holds its index.
     #[error("pinhole {0} of the rig has parallel rays; all must meet in one centre")]
     Parallel(usize),
-    /// Pinhole whose centre is not the first one's, by its index.
+    /// Pinhole whose centre differs from that of the first; holds its index.
     #[error("pinhole {0} of the rig has another centre than the first; all must have the same")]
     Centre(usize),
     /// Pinhole that can't exist.
@@ -42,18 +42,18 @@ pub enum RigError {
     Set(#[from] SetError),
 }
 
-/// Cosine of the largest angle from its axis, about 80 degrees, at which a pinhole is sampled: a pixel there is 30
-/// times as large as on the axis.
+/// Cosine of the largest angle from its axis at which a pinhole is sampled, about 80 degrees. A pixel there covers 30
+/// times as many pixels of the plane as one on the axis.
 const FLATTEST: f64 = 0.17;
 
-/// Part of a pixel over which differences for Jacobians are taken.
+/// Step for the numerical differentiation of Jacobians, in pixels.
 const STEP: f64 = 1.0 / 64.0;
 
 impl Rig {
     /// Makes a rig of pinholes with a common centre.
     ///
     /// # Errors
-    /// [`RigError`] if there are none, or one has parallel rays or a centre of its own.
+    /// [`RigError`] if there are no pinholes, or one has parallel rays or another centre than the first.
     pub fn new(pinholes: Vec<Pinhole>) -> Result<Self, RigError> {
         let Some(first) = pinholes.first() else {
             return Err(RigError::Empty);
@@ -70,8 +70,8 @@ impl Rig {
     }
 
     /// Makes six pinholes around `eye`: right, left, up, down, back and front of `axes` (columns right, up and
-    /// backward). Each has a plane of `side` x `side` pixels that sees 90 degrees, and the near plane at the distance
-    /// `near`.
+    /// backward). Each has a plane of `side` x `side` pixels with a field of view of 90 degrees, and its near plane at
+    /// the distance `near`.
     ///
     /// # Errors
     /// [`RigError`] if a number is not finite or `near` is not above 0.
@@ -81,7 +81,7 @@ impl Rig {
             return Err(PinholeError::Size { width, height }.into());
         }
         let [right, up, back] = [axes.x_axis, axes.y_axis, axes.z_axis];
-        // Forward and the image's right for each face; the third follows.
+        // Forward direction and the image's right for each face; they determine the third axis.
         let faces = [
             (right, back),
             (-right, -back),
@@ -112,8 +112,8 @@ impl Rig {
         &self.pinholes
     }
 
-    /// Index of the pinhole that a direction belongs to, and the direction's location there in pixels; `None` if the
-    /// direction is more than 80 degrees from the axes of all pinholes.
+    /// Index of the pinhole to which a direction belongs, and the direction's location there in pixels; `None` if the
+    /// direction is more than about 80 degrees from the axes of all pinholes.
     #[must_use]
     pub fn locate(&self, direction: DVec3) -> Option<(usize, DVec2)> {
         let mut nearest = (0, f64::NEG_INFINITY);
@@ -131,10 +131,10 @@ impl Rig {
         Some((index, location))
     }
 
-    /// Makes the samples of an output of `size` = [columns, rows]: a set for each pinhole, `None` for a pinhole without
-    /// a sample. `look` gives the direction for a place of the output in pixels, or `None` where the output shows
-    /// nothing. Jacobians are differences of the direction on the pixel's own plane, so that seams between pinholes do
-    /// not show in them.
+    /// Makes the sampling sets of an output of `size` = [columns, rows]: one for each pinhole, `None` for a pinhole
+    /// without samples. `look` gives the direction for a place of the output in pixels, or `None` where the output is
+    /// empty. Jacobians are differences on the plane of the pixel's own pinhole, so that they have no seams between
+    /// pinholes.
     ///
     /// # Errors
     /// [`RigError`] if the output has no cells or too many, or a location is not finite or too far away.

@@ -1,4 +1,4 @@
-//! Copies of a region's colours to their place in the target.
+//! Copies of a region's colours to the frame's target.
 
 use super::recording::Recording;
 use super::target::{COPIED_TO, Target};
@@ -7,7 +7,7 @@ use crate::vulkan::Recorder;
 use ash::vk;
 
 impl Recording<'_> {
-    /// Copies what is wanted of the region to its place in the target.
+    /// Copies the wanted pixels of a region to their place in the target.
     pub(super) fn deliver(&self, recorder: &Recorder<'_>, region: &Region) {
         let resources = self.resources;
         let color = resources.color.buffer.handle();
@@ -32,13 +32,13 @@ impl Recording<'_> {
         }
     }
 
-    /// Place in the target of what is wanted of a region.
+    /// Place of a region's wanted pixels in the target.
     fn place(&self, region: &Region) -> [u32; 2] {
         let origin = self.settings.region.map_or([0, 0], |wanted| wanted.corner);
         [0, 1].map(|axis| region.wanted_low[axis] - origin[axis])
     }
 
-    /// Copies what is wanted of the region, of `bytes` a pixel, to its place in a buffer.
+    /// Copies the wanted pixels of a region to their place in a buffer; a pixel has `bytes` bytes.
     fn copy_rows(
         &self,
         recorder: &Recorder<'_>,
@@ -50,7 +50,7 @@ impl Recording<'_> {
         let [width, height] = region.size().map(u64::from);
         let [left, top] = self.place(region).map(u64::from);
         let target_row = u64::from(self.settings.output_size()[0]);
-        // Rows that follow one another in both are one.
+        // If the rows are contiguous in both buffers, they are copied as one.
         let (rows, width) = if width == row(region) && width == target_row {
             (1, width * height)
         } else {
@@ -64,7 +64,8 @@ impl Recording<'_> {
                     .size(width * bytes)
             })
             .collect();
-        // SAFETY: the recorder's contract; the rows lie in both buffers, which have room for the region and the image.
+        // SAFETY: guaranteed by the recorder's caller; the rows lie in both buffers, which have room for the region
+        // and the image.
         unsafe {
             recorder
                 .device()
@@ -72,7 +73,7 @@ impl Recording<'_> {
         };
     }
 
-    /// Copies what is wanted of the region, of `bytes` a pixel, to its place in an image.
+    /// Copies the wanted pixels of a region to their place in an image; a pixel has `bytes` bytes.
     fn copy_to_image(
         &self,
         recorder: &Recorder<'_>,
@@ -102,7 +103,7 @@ impl Recording<'_> {
                 height,
                 depth: 1,
             })];
-        // SAFETY: the recorder's contract; the buffer holds the region, the host vouches for its image.
+        // SAFETY: guaranteed by the recorder's caller; the buffer holds the region, and the host guarantees its image.
         unsafe {
             recorder.device().cmd_copy_buffer_to_image(
                 recorder.raw(),
@@ -115,12 +116,12 @@ impl Recording<'_> {
     }
 }
 
-/// Pixels of a row of a region in memory.
+/// Number of pixels of a region's row in memory.
 fn row(region: &Region) -> u64 {
     u64::from(region.outer()[0])
 }
 
-/// Index in memory of the first pixel that is wanted of a region.
+/// Index in memory of the first wanted pixel of a region.
 fn first_wanted(region: &Region) -> u64 {
     let [x, y] = region.first_wanted().map(u64::from);
     y * row(region) + x

@@ -1,4 +1,4 @@
-//! One frame: its passes and memory, made once and recorded again and again.
+//! A frame: its passes and memory, made once and recorded any number of times.
 
 mod delivery;
 mod outcome;
@@ -26,13 +26,13 @@ use recording::Recording;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Pipelines and memory for frames of one scene, which it keeps alive, of one size and method.
+/// Pipelines and memory for frames of one scene in one size with one method. A frame keeps its scene alive.
 pub struct Frame {
     scene: Arc<GpuScene>,
-    /// What casts shadows, and what finds these, where the settings ask for it.
+    /// Casters of shadows, and the passes that find the shadows; `None` for settings without shadows.
     casters: Option<Arc<Casters>>,
     shadows: Option<ShadowFinder>,
-    /// What is shown in the stead of the first pose.
+    /// Moment that is shown instead of the first pose.
     moment: Option<Arc<Moment>>,
     encoding: Option<Encoding>,
     reserved: u64,
@@ -43,23 +43,23 @@ pub struct Frame {
     geometry: FrameGeometry,
     look: FrameLook,
     resources: Resources,
-    /// What the whole frame counted.
+    /// Counters of the whole frame, as the device wrote them.
     counters: CounterLog,
     timings: Timings,
     memory: Memory,
     completion: Completion,
-    /// Whether a recording with the uploads was executed.
+    /// Whether a recording that uploads constant data has been executed.
     uploaded: bool,
 }
 
-/// Pixels of the whole image as it is drawn.
+/// Number of pixels of the whole image at the resolution that is rasterized.
 fn drawn_pixels(settings: &Settings) -> u64 {
     let drawn = settings.size.map(|side| u64::from(side * settings.side()));
     drawn.into_iter().product()
 }
 
 impl Frame {
-    /// Of what the settings allow, `reserved` bytes are kept free for others.
+    /// Prepares a frame. `reserved` bytes of the memory that the settings allow are left to other owners.
     pub(super) fn new(
         layout: &Arc<FrameLayout>,
         (scene, casters): (&Arc<GpuScene>, Option<&Arc<Casters>>),
@@ -162,18 +162,18 @@ impl Frame {
         })
     }
 
-    /// The settings it was prepared with.
+    /// Settings with which the frame was prepared.
     #[must_use]
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
 
-    /// Shows another moment of the motion that its scene was prepared with, from the next recording on: that one hands the
-    /// device the moment's matrices and weights and what changes of materials and lights, and nothing else. Nothing waits for
-    /// the device.
+    /// Shows another moment of the motion with which the scene was prepared, from the next recording on. That
+    /// recording uploads the moment's matrices and weights and the changes of materials and lights, nothing else. This
+    /// does not wait for the device.
     ///
     /// # Errors
-    /// [`RenderError::OtherMotion`] if the moment is one of another motion.
+    /// [`RenderError::OtherMotion`] if the moment belongs to another motion.
     pub fn show(&mut self, moment: Arc<Moment>) -> Result<(), RenderError> {
         if !self.scene.has_moment(&moment) {
             return Err(RenderError::OtherMotion);
@@ -202,50 +202,53 @@ impl Frame {
         self.encoding
     }
 
-    /// Bytes of what the settings allow that are others'.
+    /// Bytes of the memory that the settings allow which are left to other owners.
     pub(super) fn reserved(&self) -> u64 {
         self.reserved
     }
 
-    /// What it was planned for.
+    /// Capacity with which the frame was planned.
     pub(super) fn capacity(&self) -> Capacity {
         self.plan.capacity
     }
 
-    /// Whether [`Capacity::with_doubled_lists`] makes any difference.
+    /// Whether [`Capacity::with_doubled_lists`] makes a difference.
     pub(super) fn lists_can_grow(&self) -> bool {
         self.plan.lists_can_grow && self.settings.max_memory.is_none()
     }
 
-    /// Bytes of device memory that it takes.
+    /// Bytes of device memory of the frame, without its scene.
     #[must_use]
     pub fn memory_bytes(&self) -> u64 {
         self.memory.used()
     }
 
-    /// Records a frame. It submits nothing, waits for nothing and allocates nothing.
+    /// Records a frame into `commands`. It submits nothing, waits for nothing and allocates nothing.
     ///
     /// # Safety
-    /// - `commands` is being recorded, outside of a render pass and of conditional rendering, for the device and queue family of the renderer.
+    /// - `commands` is being recorded, outside of a render pass and of conditional rendering, for the device and queue
+    ///   family of the renderer.
     /// - The upload of the frame's scene was recorded before, and is executed before these commands.
-    /// - The commands of this frame's last recording are done, or will never be executed: its memory is used again.
+    /// - The commands of this frame's previous recording have run, or will never be executed: the frame's memory is
+    ///   used again.
     /// - The frame, which keeps its scene alive, outlives the execution of the commands; so do the target's handles.
-    /// - The target's handles are of the settings' output size, and as [`Target`] says.
+    /// - The target has the settings' output size and the properties that [`Target`] requires.
     pub unsafe fn record(&mut self, camera: &Camera, commands: vk::CommandBuffer, target: &Target) {
         let regions = 0..self.regions();
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         unsafe { self.record_regions(camera, commands, target, regions) };
     }
 
-    /// Regions that the image is made in.
+    /// Number of regions in which the image is rendered.
     pub(super) fn regions(&self) -> usize {
         self.plan.regions.len()
     }
 
-    /// As [`Frame::record`], some of the regions: those of an image may be recorded into several command buffers.
+    /// Records some of the regions of a frame, as [`Frame::record`] records all; an image's regions may be recorded
+    /// into several command buffers.
     ///
     /// # Safety
-    /// As [`Frame::record`]; and the regions before are recorded, and executed before these.
+    /// As [`Frame::record`]; and the regions before `regions` were recorded, and are executed before these.
     pub(super) unsafe fn record_regions(
         &mut self,
         camera: &Camera,
@@ -254,7 +257,7 @@ impl Frame {
         regions: Range<usize>,
     ) {
         let gpu = self.memory.gpu().clone();
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
         let is_last = regions.end == self.plan.regions.len();
         if regions.start == 0 {

@@ -1,11 +1,11 @@
-//! What the device counted over a frame, once its commands are done.
+//! Counters of a frame, read once its commands have run.
 
 use super::Frame;
 use crate::engine::sampler::statistics::Shortfall;
 use crate::render::{PassTime, RenderError, Statistics};
 
 impl Frame {
-    /// What the last frame could not finish.
+    /// Work that the last recording could not finish.
     pub(in crate::render) fn shortfall(&self) -> Result<Shortfall, RenderError> {
         self.completion.check()?;
         let mut shortfall = Shortfall::default();
@@ -22,7 +22,7 @@ impl Frame {
         Ok(shortfall)
     }
 
-    /// Tiles of each region.
+    /// Number of tiles of each region.
     fn tiles(&self) -> impl Iterator<Item = u32> {
         let side = self.settings.side();
         self.plan.regions.iter().map(move |region| {
@@ -31,11 +31,12 @@ impl Frame {
         })
     }
 
-    /// Figures of the last recording, once its commands are done, until the next one. It waits for nothing.
+    /// Statistics of the last recording, available from the end of its commands until the next recording. This does
+    /// not wait.
     ///
     /// # Errors
-    /// [`RenderError::Unfinished`] if records did not fit in memory, [`RenderError::Vulkan`] if the last recording is not done
-    /// or what was counted or timed can't be read.
+    /// [`RenderError::Unfinished`] if visibility samples did not fit into memory; [`RenderError::Vulkan`] if the last
+    /// recording has not been executed, or its counters or times can't be read.
     pub fn statistics(&self) -> Result<Statistics, RenderError> {
         let mut statistics = Statistics {
             regions: self.plan.regions.len() as u64,

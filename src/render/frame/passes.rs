@@ -1,4 +1,4 @@
-//! The passes that a frame's settings ask for.
+//! The passes that a frame's settings need.
 
 use crate::engine::sampler::plan::Plan;
 use crate::engine::sampler::{PixelCells, Sampler, SamplerContext, record_rate};
@@ -12,13 +12,13 @@ use crate::vulkan::Memory;
 use ash::vk;
 use std::sync::Arc;
 
-/// What shades the centres of pixels.
+/// Passes that shade the centres of pixels.
 pub(super) struct PixelShading {
     pub spans: Spans,
     pub shade: Shade,
 }
 
-/// What turns the device's multisampling into colours.
+/// Passes that turn the device's multisampling into colours.
 pub(super) struct Multisampling {
     pub multisample: Multisample,
     pub sort: Sort,
@@ -32,7 +32,7 @@ pub(super) struct Passes {
     pub raster: Raster,
     pub pixels: Option<PixelShading>,
     pub multisampling: Option<Multisampling>,
-    /// Of records; what samplers and multisampling share.
+    /// Shading of visibility samples, shared by samplers and multisampling.
     pub shade: Option<Arc<Shade>>,
     pub blended: Option<Sampler>,
     pub superpixels: Option<Sampler>,
@@ -41,7 +41,7 @@ pub(super) struct Passes {
     pub encode: Option<Encode>,
 }
 
-/// Samples a pixel that the rasterizer draws with.
+/// Number of samples a pixel with which the rasterizer draws.
 pub(super) fn raster_samples(settings: &Settings) -> vk::SampleCountFlags {
     if settings.method == Method::Msaa {
         vk::SampleCountFlags::from_raw(settings.samples)
@@ -54,7 +54,7 @@ impl Passes {
     /// Makes the pipelines; `encoding` is that of a host's image.
     ///
     /// # Errors
-    /// If the driver refuses one.
+    /// [`RenderError`] if the driver refuses a pipeline.
     pub fn new(
         layout: &Arc<FrameLayout>,
         memory: &Memory,

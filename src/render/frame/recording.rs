@@ -16,12 +16,12 @@ use crate::vulkan::Recorder;
 use glam::DVec2;
 use std::ops::Range;
 
-/// Descriptor set with one sample at the pixel's centre.
+/// Index of the descriptor set with a single sample at the pixel's centre.
 const CENTRE: usize = 0;
-/// Descriptor set with the method's sample offsets.
+/// Index of the descriptor set with the method's sample offsets.
 const OFFSETS: usize = 1;
 
-/// One recording of a frame: the frame's parts, borrowed apart from its timings, and what it shows where.
+/// A recording of a frame: the frame's parts, borrowed without its timings, with the camera and the target.
 pub(super) struct Recording<'a> {
     pub settings: &'a Settings,
     pub plan: &'a Plan,
@@ -37,11 +37,11 @@ pub(super) struct Recording<'a> {
     pub target: &'a Target,
 }
 
-/// A scene's materials as a client of the engine.
+/// Shading of a scene's materials, as the engine calls it.
 pub(in crate::render) struct SceneShading<'a> {
     pub scene: &'a GpuScene,
     pub shade: Option<&'a Shade>,
-    /// What tells which lights reach what.
+    /// Passes that find which lights reach a place; `None` without shadows.
     pub shadows: Option<(&'a ShadowFinder, Shadowed<'a>)>,
 }
 
@@ -63,7 +63,7 @@ impl RecordShading for SceneShading<'_> {
 }
 
 impl Recording<'_> {
-    /// Records some of the frame's regions; the first and the last one begin and end the frame.
+    /// Records some of the frame's regions. The first region also begins the frame, and the last one ends it.
     pub fn record(&self, recorder: &mut Recorder<'_>, regions: Range<usize>) {
         if regions.start == 0 {
             self.target.record_begin(recorder);
@@ -85,7 +85,8 @@ impl Recording<'_> {
         }
     }
 
-    /// How lights see what is seen of the scene in a region: not at all without shadows, or where the camera is impossible.
+    /// Views of the lights onto the visible part of the scene in a region; `None` without shadows, or if the camera is
+    /// impossible.
     fn light_views(&self, region: &Region) -> Option<Vec<LightView>> {
         let place = |pixels: [u32; 2]| DVec2::from_array(pixels.map(f64::from));
         let low = place(region.corner());

@@ -1,4 +1,4 @@
-//! Where a frame's colours go: a host's image, and its states, or a buffer.
+//! Targets of frames: a host's image with its states, or a buffer.
 
 use crate::render::ImageState;
 use crate::vulkan::Recorder;
@@ -6,37 +6,38 @@ use ash::vk;
 
 const COLOR: vk::ImageAspectFlags = vk::ImageAspectFlags::COLOR;
 
-/// Where a frame's colours go.
+/// Destination of a frame's colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Target {
-    /// A host's image, single-sampled, created as a transfer destination, of the encoding and the
-    /// [output size](crate::render::Settings::output_size) that the frame was prepared with.
+    /// An image of the host: single-sampled, created as a transfer destination, with the encoding and the [output
+    /// size](crate::render::Settings::output_size) that the frame was prepared with.
     Image {
-        /// The image.
+        /// Handle of the image.
         image: vk::Image,
-        /// Its state when the frame begins; what it holds is replaced.
+        /// State of the image when the frame begins; its contents are overwritten.
         before: ImageState,
-        /// Its state when the frame is done.
+        /// State of the image when the frame is done.
         after: ImageState,
     },
-    /// A buffer of rows of linear premultiplied RGBA floats, from the top.
+    /// A buffer of linear premultiplied RGBA floats, rows from the top.
     Buffer {
-        /// The buffer, a transfer destination of 16 bytes a pixel.
+        /// Buffer for colours, a transfer destination of 16 bytes a pixel.
         colors: vk::Buffer,
-        /// Where attributes are asked for, a transfer destination of 32 bytes a pixel: see `shaders/attributes.comp`.
+        /// Buffer for attributes, if these are wanted: a transfer destination of 32 bytes a pixel, laid out as in
+        /// `shaders/attributes.comp`.
         attributes: Option<vk::Buffer>,
     },
 }
 
 impl Target {
-    /// Readies a host's image for copies.
+    /// Prepares a host's image for copies.
     pub(super) fn record_begin(&self, recorder: &Recorder<'_>) {
         if let Self::Image { image, before, .. } = self {
             before.change(recorder, *image, COLOR, COPIED_TO);
         }
     }
 
-    /// Hands a host's image back.
+    /// Puts a host's image into its state after the frame.
     pub(super) fn record_end(&self, recorder: &Recorder<'_>) {
         if let Self::Image { image, after, .. } = self {
             COPIED_TO.change(recorder, *image, COLOR, *after);
@@ -44,7 +45,7 @@ impl Target {
     }
 }
 
-/// The state in which an image is copied to.
+/// State of an image while it is copied to.
 pub(super) const COPIED_TO: ImageState = ImageState {
     layout: vk::ImageLayout::TRANSFER_DST_OPTIMAL,
     stage: vk::PipelineStageFlags2::COPY,

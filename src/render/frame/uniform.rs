@@ -11,8 +11,8 @@ use crate::render::passes::GpuScene;
 use glam::DMat4;
 
 impl Recording<'_> {
-    /// The uniform block of a region and of cells of so many samples; with `owned`, only pixels that are wanted of
-    /// the region become cells.
+    /// Uniform block of a region whose superpixels have `samples` samples. With `owned`, only the wanted pixels of the
+    /// region become superpixels, and no pixels of its halo.
     pub(super) fn uniform(&self, region: &Region, samples: u32, owned: bool) -> FrameUniform {
         let (scene, camera) = (self.scene, self.camera);
         let side = self.settings.side();
@@ -48,16 +48,17 @@ impl Recording<'_> {
     }
 }
 
-/// From the space of a scene's geometry to the image's clip space, in pixels.
+/// Matrix from a scene's coordinates to the image's clip space, with x and y in pixels.
 pub(super) fn to_clip(scene: &GpuScene, camera: &Camera, settings: &Settings) -> DMat4 {
     let [width, height] = settings.size.map(|side| f64::from(side * settings.side()));
     camera.pixel_matrix(scene.origin(), width, height)
 }
 
-/// Factor on a depth, and constant, by which a surface nearer by a pixel's width has a larger depth.
+/// Difference of depth between surfaces whose distances differ by a pixel's width: a factor on the depth, and a
+/// constant.
 fn gap(camera: &Camera, image_height: f64) -> [f32; 2] {
     match camera.projection {
-        // Depth is near / distance, so that a relative difference is one of distances.
+        // Depth is near / distance, so that a relative difference of depth is one of distance.
         Projection::Perspective { fov, .. } => {
             [(2.0 * (0.5 * fov).tan() / image_height) as f32, 0.0]
         }

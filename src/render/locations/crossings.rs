@@ -1,4 +1,4 @@
-//! Thin triangles that cross the cells of locations unseen, found run by run.
+//! Search for thin triangles that cross the cells of locations without covering any location, run by run.
 
 use super::plan::LocationPlan;
 use super::run::RunMemory;
@@ -16,7 +16,7 @@ use crate::vulkan::{Buffer, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// Pipelines and memory to look for thin triangles in runs of locations of one scene.
+/// Pipelines and memory for the search in runs of locations of one scene.
 pub(super) struct CrossingFinder {
     distribute: Distribute,
     cull: Cull,
@@ -28,7 +28,7 @@ pub(super) struct CrossingFinder {
 }
 
 impl CrossingFinder {
-    /// Makes the pipelines, and memory for the runs of a plan; cells are marked in `marks`.
+    /// Makes the pipelines, and memory for the runs of a plan. Cells that are crossed are marked in `marks`.
     ///
     /// # Safety
     /// `marks` outlives the execution of what is recorded, and has two words for each tile of the output.
@@ -56,11 +56,12 @@ impl CrossingFinder {
         let cells = Cells::Superpixels;
         let sizes = CellSizes::new(layout.gpu.limits().lanes, cells, 1);
         Ok(Self {
-            // SAFETY: the list goes with the resources, and has room for as many locations.
+            // SAFETY: the list lives as long as the resources, and has room for that many locations.
             distribute: unsafe { Distribute::new(layout, cells, sizes, resources, locations) }?,
             cull: Cull::new(layout, scene, CullFilter::Thin)?,
             bin: Bin::new(layout, scene)?,
-            // SAFETY: what is seen goes with the engine and has room for all locations; of the marks as the caller says.
+            // SAFETY: `seen` lives as long as the pass and has room for all locations; the caller guarantees the
+            // marks.
             crossings: unsafe { Crossings::new(layout, scene, resources, (&seen, marks)) }?,
             seen,
             counters: CounterLog::new(&run.memory, 1)?,
@@ -68,7 +69,7 @@ impl CrossingFinder {
         })
     }
 
-    /// The list of a run of so many locations and what these see, to be written while the device is idle.
+    /// Memory for a run of `count` locations and for what they see, to be written while the device is idle.
     pub fn listed_mut(
         &mut self,
         count: usize,
@@ -78,10 +79,10 @@ impl CrossingFinder {
         Ok((self.run.listed_mut(count)?, bytemuck::cast_slice_mut(seen)))
     }
 
-    /// Records a run of so many locations, which have been written, in a window of what a pinhole sees.
+    /// Records the search in a run of `count` locations, which have been written, in a window of a pinhole's plane.
     ///
     /// # Safety
-    /// As [`RunMemory::record`]; what was written as seen names cells of the output.
+    /// As [`RunMemory::record`]; and what was written as seen names cells of the output.
     pub unsafe fn record(
         &mut self,
         scene: &PreparedScene,
@@ -112,14 +113,14 @@ impl CrossingFinder {
             counters.record(recorder, resources, 0);
         };
         let (looking, cells) = ((pinhole, window), (Cells::Superpixels, 1));
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         unsafe { run.record(scene, looking, (cells, count), commands, record) };
     }
 
-    /// Fails where pairs of triangles and tiles of the last run did not fit.
+    /// Checks that the pairs of triangles and tiles of the last run fitted into memory.
     ///
     /// # Errors
-    /// [`RenderError::Unfinished`], or [`RenderError::Vulkan`] if what was counted can't be read.
+    /// [`RenderError::Unfinished`] if they did not; [`RenderError::Vulkan`] if the counters can't be read.
     pub fn check(&self) -> Result<(), RenderError> {
         let sizes = self.run.resources.sizes();
         let mut shortfall = Shortfall::default();
@@ -134,10 +135,10 @@ impl CrossingFinder {
         shortfall.check(sizes.lanes)
     }
 
-    /// Adds the times of the last run's passes.
+    /// Adds the times of the last run's passes to `statistics`.
     ///
     /// # Errors
-    /// If what was timed can't be read.
+    /// If the times can't be read.
     pub fn add_statistics(
         &self,
         scene: &PreparedScene,

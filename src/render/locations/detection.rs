@@ -1,5 +1,6 @@
-//! Superpixels of an image of locations: the cells that alias, and those beside them that contrast with what these were found to show.
-//! Passes find them, band by band of the output, by the same rules as pixels of frames; the host copies.
+//! Superpixels of an image of locations: the cells that alias, and the cells beside these that contrast with the
+//! colours which sampling them revealed. Passes find them, band by band of the output, by the same rules as for pixels
+//! of frames; the host copies data between the bands.
 
 use super::crossings::CrossingFinder;
 use super::image::{OutputImage, chosen};
@@ -25,34 +26,34 @@ use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Most cells of a band, with the rows around it.
+/// Largest number of cells of a band, including the rows around it.
 const MOST_CELLS: u64 = 1 << 20;
 
-/// Rows of an output that are looked at together.
+/// Rows of an output that are searched together.
 struct Band {
     rows: Range<u32>,
-    /// With the rows around them that superpixels may grow from.
+    /// The rows and those around them from which superpixels may grow.
     sampled: Range<u32>,
-    /// With the neighbours of these.
+    /// The sampled rows and their neighbours.
     seen: Range<u32>,
 }
 
-/// What superpixels are looked for.
+/// Kind of superpixels to search for.
 #[derive(Clone, Copy)]
 enum Search {
-    /// Those that what cells show tells.
+    /// Cells that alias, judged by what the cells show.
     Aliasing,
-    /// Those that contrast with what superpixels beside them were found to show, for the first time or another one.
+    /// Cells that contrast with a superpixel beside them; holds the number of earlier growths.
     Growth(usize),
 }
 
-/// Pipelines and memory to look at bands of an output.
+/// Pipelines and memory for the search in bands of an output.
 struct BandDetector {
     settings: Settings,
     cells: OutputCells,
     detect: Detect,
     neighbours: Neighbours,
-    /// In the order in which they run.
+    /// Passes for each growth, in the order in which they run.
     growths: Vec<Grow>,
     resources: Resources,
     masks: Buffer,
@@ -79,7 +80,7 @@ impl Headless {
         let mut detector = BandDetector::new(&layout, scene, settings)?;
         for band in detector.bands() {
             detector.show(&band, image, &shadowed);
-            // SAFETY: the last submission was waited for; the detector outlives this one, which is waited for.
+            // SAFETY: the previous submission has run; the detector outlives this one, which is waited for.
             self.submit(|commands| unsafe { detector.record_begin(&band, commands) })?;
             if settings.thin {
                 for (pinhole, locations) in rig {
@@ -107,7 +108,7 @@ impl Headless {
         Ok(statistics)
     }
 
-    /// Samples the superpixels that a detector found last, but for those that a band before had.
+    /// Samples the superpixels that the last search found, without those that an earlier band has sampled.
     fn sample_found(
         &mut self,
         scene: &PreparedScene,
@@ -130,7 +131,8 @@ impl Headless {
         self.sample_cells(scene, &chosen, &settings, image)
     }
 
-    /// Marks the cells that lights reach elsewhere than at their locations: what is narrower than a cell casts shadows there.
+    /// Marks the cells in which a light reaches other places than the location: something narrower than a cell casts a
+    /// shadow there.
     fn mark_shadows(
         &mut self,
         scene: &PreparedScene,
@@ -159,7 +161,7 @@ impl Headless {
         Ok(statistics)
     }
 
-    /// Marks the cells of a band that thin triangles cross unseen.
+    /// Marks the cells of a band that thin triangles cross without covering a location.
     fn find_crossings(
         &mut self,
         scene: &PreparedScene,
@@ -176,7 +178,7 @@ impl Headless {
         let partition = Partition::new(locations, Cells::Superpixels)?;
         let plan = LocationPlan::new(&layout, scene, &settings, &partition, false)?;
         let marks = &detector.resources.marks;
-        // SAFETY: the marks go with the detector, which outlives all submissions: each is waited for.
+        // SAFETY: the marks live as long as the detector, which outlives all submissions: each is waited for.
         let mut crossings =
             unsafe { CrossingFinder::new(&layout, scene, &settings, &plan, marks) }?;
         let width = settings.size[0];
@@ -195,14 +197,14 @@ impl Headless {
             for (seen, place) in seen.iter_mut().zip(run.clone()) {
                 *seen = image.seen_at(partition.location(place).output, first);
             }
-            // SAFETY: the last submission was waited for; scene and finder outlive this one, which is waited for. Cells are
-            // those of the band.
+            // SAFETY: the previous submission has run; scene and finder outlive this one, which is waited for. The
+            // cells are those of the band.
             self.submit(|commands| unsafe {
                 crossings.record(scene, (pinhole, &window), (&output, run.len()), commands);
             })?;
             match crossings.check() {
                 Ok(()) => crossings.add_statistics(scene, &mut statistics)?,
-                // Half as many locations have fewer pairs; marks of cells stay as they are.
+                // Half of the locations have fewer pairs; cells that were marked before stay marked.
                 Err(RenderError::Unfinished { .. }) if run.len() > 1 => {
                     waiting.extend(LocationPlan::halves(&run));
                 }
@@ -214,7 +216,7 @@ impl Headless {
 }
 
 impl Band {
-    /// Cells with the rows around, as a range of the output's.
+    /// Cells of the band and of all rows around it, as a range of the output's cells.
     fn cells(&self, width: u32) -> Range<usize> {
         let cell = |row: u32| row as usize * width as usize;
         cell(self.seen.start)..cell(self.seen.end)
@@ -228,7 +230,7 @@ impl Band {
         [width.div_ceil(8), self.height().div_ceil(4)]
     }
 
-    /// The locations whose cells may become superpixels.
+    /// Locations whose cells may become superpixels in this band.
     fn locations<'a>(
         &self,
         locations: &'a [SampleLocation],
@@ -243,7 +245,7 @@ impl Band {
     }
 }
 
-/// Bands of at most so many rows, whose superpixels grow so often.
+/// Bands of at most `rows` rows each, for superpixels that grow `growths` times.
 fn bands(height: u32, rows: u32, growths: u32) -> impl Iterator<Item = Band> {
     (0..height).step_by(rows as usize).map(move |first| {
         let end = height.min(first + rows);
@@ -256,7 +258,7 @@ fn bands(height: u32, rows: u32, growths: u32) -> impl Iterator<Item = Band> {
     })
 }
 
-/// Width of a pixel of the plane: at a distance of 1 or, where rays are parallel, at any.
+/// Width of a pixel of the plane: at distance 1, or at any distance for parallel rays.
 fn pixel_width(pinhole: &Pinhole) -> f64 {
     let [a, b] = pinhole.steps();
     let to_plane = if pinhole.is_parallel() {
@@ -323,7 +325,7 @@ impl BandDetector {
         })
     }
 
-    /// The settings, with as much memory as this leaves of what they allow.
+    /// The settings, with the memory that this detector leaves of what they allow.
     fn settings_beside(&self) -> Settings {
         let allowed = self.settings.max_memory;
         Settings {
@@ -339,7 +341,8 @@ impl BandDetector {
         bands(self.settings.size[1], rows, growths)
     }
 
-    /// Writes what the cells of a band show and which of them have shadows narrower than a cell, if any, while the device is idle.
+    /// Writes what the cells of a band show and, if there are any, which of them have shadows narrower than a cell.
+    /// The device must be idle.
     fn show(&mut self, band: &Band, image: &OutputImage, shadowed: &[bool]) {
         let width = self.settings.size[0];
         let range = band.cells(width);
@@ -371,7 +374,7 @@ impl BandDetector {
         }
     }
 
-    /// Writes the colours of the cells of a band, while the device is idle.
+    /// Writes the colours of the cells of a band. The device must be idle.
     fn show_colors(&mut self, band: &Band, image: &OutputImage) {
         let colors = &image.colors[band.cells(self.settings.size[0])];
         let words = self.cells.words_mut(OutputPlane::Colors);
@@ -380,23 +383,24 @@ impl BandDetector {
         }
     }
 
-    /// Records the way of what was shown to the device.
+    /// Records the upload of what was written.
     ///
     /// # Safety
     /// - `commands` is being recorded, outside of a render pass, for the device and queue family of the renderer.
-    /// - The commands of the last recording are done: its memory is used again.
+    /// - The commands of the last recording have run: its memory is used again.
     unsafe fn record_begin(&mut self, band: &Band, commands: vk::CommandBuffer) {
         let gpu = self.memory.gpu().clone();
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         let recorder = unsafe { Recorder::new(&gpu, commands, None) };
         self.resources.record_upload(&recorder);
         self.cells.record(&recorder, &self.resources, band.height());
     }
 
-    /// Records a search for superpixels, and the way of their masks to the host.
+    /// Records a search for superpixels, and the download of their masks.
     ///
     /// # Safety
-    /// As [`Self::record_begin`], after it; the last search of the band was the one before.
+    /// As [`Self::record_begin`], which was recorded before for this band; searches of a band are recorded in their
+    /// order.
     unsafe fn record(&mut self, band: &Band, search: Search, commands: vk::CommandBuffer) {
         let width = self.settings.size[0];
         let Self {
@@ -428,7 +432,7 @@ impl BandDetector {
         );
         let [columns, rows] = uniform.tiles;
         let tiles = columns * rows;
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(timings)) };
         recorder.begin();
         resources.record_begin(&recorder, set, &uniform);
@@ -450,7 +454,7 @@ impl BandDetector {
         recorder.barrier();
     }
 
-    /// The masks of the superpixels of a band that were found last.
+    /// Masks of the superpixels that the last search in a band found.
     fn masks(&self, band: &Band) -> Result<&[u32], VulkanError> {
         let [columns, rows] = band.tiles(self.settings.size[0]);
         self.masks.read((columns * rows) as usize)
@@ -464,7 +468,7 @@ impl BandDetector {
     }
 }
 
-/// Room for as many rows as suit the device, and a quarter of the memory that is left.
+/// Sizes for as many rows as suit the device and fit into a quarter of the memory that is left.
 fn band_sizes(limits: &Limits, settings: &Settings, left: Option<u64>) -> ResourceSizes {
     let [width, height] = settings.size;
     let halo = 2 * (settings.growths() + 1);

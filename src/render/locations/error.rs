@@ -1,66 +1,66 @@
-//! Why a set of locations can't be sampled.
+//! Errors of sampling locations.
 
 use thiserror::Error;
 
-/// A set of locations that can't be sampled; `index` is the first offender's place in the list.
+/// Error: locations that can't be sampled. `index` is the position of the first such location in the list.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum LocationError {
-    /// There is nothing to sample.
+    /// List without locations.
     #[error("the set holds no sampling location; give at least one")]
     Empty,
-    /// A coordinate or a derivative is not a number, or infinite.
+    /// Location with a coordinate or derivative that is NaN or infinite.
     #[error(
         "sampling location {index} is ({u}, {v}) with the Jacobian {jacobian:?}; all of these must be finite"
     )]
     NotFinite {
-        /// Its place in the list.
+        /// Index of the location in the list.
         index: usize,
-        /// Its u.
+        /// Coordinate u in pixels.
         u: f64,
-        /// Its v.
+        /// Coordinate v in pixels.
         v: f64,
-        /// Its Jacobian.
+        /// Jacobian of the location.
         jacobian: [[f64; 2]; 2],
     },
-    /// A location or its cell reaches too far off the image.
+    /// Location whose cell reaches too far off the image.
     #[error(
         "sampling location {index} is ({u}, {v}), with {half_width} x {half_height} pixels around it; all must lie within {} pixels of the image's upper left corner",
         Self::FARTHEST
     )]
     TooFar {
-        /// Its place in the list.
+        /// Index of the location in the list.
         index: usize,
-        /// Its u.
+        /// Coordinate u in pixels.
         u: f64,
-        /// Its v.
+        /// Coordinate v in pixels.
         v: f64,
         /// Half of the cell's width in pixels.
         half_width: f64,
         /// Half of the cell's height in pixels.
         half_height: f64,
     },
-    /// An output cell that the output does not have.
+    /// Location for a cell that the output does not have.
     #[error(
         "sampling location {index} belongs to output cell {output}, but there are {cells} cells"
     )]
     Output {
-        /// Its place in the list.
+        /// Index of the location in the list.
         index: usize,
-        /// The output cell asked for.
+        /// Index of the cell.
         output: u32,
-        /// How many there are.
+        /// Number of cells of the output.
         cells: u64,
     },
-    /// More locations than can be told apart.
+    /// List with more locations than 32-bit indices allow.
     #[error("{found} sampling locations at once; give at most {}", u32::MAX >> 1)]
     TooMany {
-        /// How many there are.
+        /// Number of locations.
         found: usize,
     },
 }
 
 impl LocationError {
-    /// The farthest that a location and its sub-samples can be from the upper left corner of the image along either
-    /// axis, in pixels: 2^20.
+    /// Largest distance of a location or its samples from the image's upper left corner along either axis, in pixels:
+    /// 2^20.
     pub const FARTHEST: f64 = 1_048_576.0;
 }

@@ -1,4 +1,4 @@
-//! An image whose pixels look where locations say: sampled once, then as superpixels where that aliases.
+//! Images whose pixels are sampled at given locations: once each, and then as superpixels where the image aliases.
 
 use super::{LocationError, PinholeLists, PointSample};
 use crate::camera::{Pinhole, SampleLocation};
@@ -15,26 +15,26 @@ pub(super) struct OutputImage {
     pub colors: Vec<[f32; 4]>,
     pub attributes: Vec<PixelAttributes>,
     pub blend_ids: Vec<u32>,
-    /// Display codes of what locations see that are sampled once.
+    /// Colour of each location as detection compares it: 8-bit sRGB codes and alpha, red in the lowest byte.
     pub codes: Vec<u32>,
-    /// What lights each lies in the shadow of.
+    /// Bits of the lights in whose shadow each location lies.
     pub shadows: Vec<u32>,
 }
 
 impl Headless {
-    /// Renders the image of `size` pixels whose pixel `row * width + column` looks where the location of that output index
-    /// does, on the plane of its pinhole. The pinholes of a list share a centre of projection as a rule, and together
-    /// see what one plane can't.
+    /// Renders an image of `size` = [width, height] in which the pixel `row * width + column` is sampled at the
+    /// location with this output index, on the plane of the location's pinhole. The pinholes of a rig usually share a
+    /// centre of projection, and together see more than one plane can.
     ///
-    /// Every location is sampled once. Where neighbours in the *output* alias, across pinholes too, locations are then sampled
-    /// as superpixels, and so are those that a triangle narrower than their cell crosses unseen. `ssaa` samples every
-    /// location by a grid and shades each sample. Pixels without a location show the background; of several locations of a
-    /// pixel the last one counts.
+    /// Every location is sampled once. Locations are then sampled as superpixels if neighbours in the *output* alias,
+    /// also across pinholes, or if a triangle narrower than their cell crosses it without covering the location.
+    /// `ssaa` samples every location by a grid and shades each sample. Pixels without a location show the background;
+    /// of several locations for a pixel the last one counts.
     ///
     /// # Errors
     /// [`RenderError::Location`] names the first location that can't be sampled or has no place in the output,
-    /// [`RenderError::LocationMethod`] if the method is `msaa`, [`RenderError::LocationRegion`] if the settings have a region;
-    /// otherwise as [`Headless::render`].
+    /// [`RenderError::LocationMethod`] if the method is `msaa`, [`RenderError::LocationRegion`] if the settings have a
+    /// region; otherwise as [`Headless::render`].
     pub fn render_locations(
         &mut self,
         scene: &PreparedScene,
@@ -50,7 +50,7 @@ impl Headless {
         match settings.method {
             Method::Msaa => return Err(RenderError::LocationMethod),
             Method::Ssaa => {
-                // Superpixels that are shaded as brute force is read textures as it does.
+                // Superpixels with every sample shaded equal supersampling, and read textures as it does.
                 settings.method = Method::Superpixel;
                 settings.pattern = Pattern::Grid;
                 settings.detection = Detection::Every;
@@ -103,7 +103,7 @@ impl Headless {
         })
     }
 
-    /// Samples locations as superpixels.
+    /// Samples locations as superpixels, and stores their colours in the image.
     pub(super) fn sample_cells(
         &mut self,
         scene: &PreparedScene,
@@ -123,7 +123,7 @@ impl Headless {
     }
 }
 
-/// The locations of some cells of an output.
+/// Locations of the cells of an output for which `is_chosen` is true.
 pub(super) fn chosen(
     rig: PinholeLists<'_>,
     is_chosen: impl Fn(u32) -> bool,
@@ -192,7 +192,7 @@ impl OutputImage {
         attributes.is_some_and(|attributes| attributes.superpixel == 1)
     }
 
-    /// What the location of a cell sees, with cells counted from `first` on.
+    /// What the location of a cell shows, with cells counted from `first`.
     pub fn seen_at(&self, cell: u32, first: u32) -> SeenLocation {
         let at = cell as usize;
         SeenLocation {

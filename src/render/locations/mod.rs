@@ -1,8 +1,8 @@
 //! Sampling at any set of locations on a pinhole's image plane.
 //!
-//! A scene is sampled where [`SampleLocation`]s lie, once each ([`Headless::sample_points`]) or as superpixels
-//! ([`Headless::sample_superpixels`]); [`Headless::render_locations`] makes an image of both. They run on the sampler that
-//! antialiases images; no picture is resampled.
+//! A scene is sampled at [`SampleLocation`]s, once each ([`Headless::sample_points`]) or as superpixels
+//! ([`Headless::sample_superpixels`]); [`Headless::render_locations`] makes an image of both. They use the sampler
+//! that antialiases images; no picture is resampled.
 
 mod crossings;
 mod detection;
@@ -24,51 +24,54 @@ use plan::LocationPlan;
 use sampler::{LocationSampler, LocationValues};
 use std::ops::Range;
 
-/// What a sampling location sees.
+/// What a scene shows at a sampling location.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PointSample {
-    /// Linear light, premultiplied alpha.
+    /// Colour in linear light with premultiplied alpha.
     pub color: [f32; 4],
-    /// Distance from the eye along the view direction in world units; 0 for background.
+    /// Distance from the eye along the view direction, in world units; 0 for background.
     pub depth: f32,
-    /// ID of the nearest opaque or MASK triangle; 0 is background.
+    /// ID of the nearest opaque or MASK triangle: its index plus 1; 0 for background.
     pub id: u32,
-    /// ID of the nearest BLEND triangle in front of it; 0 where there is none.
+    /// ID of the nearest BLEND triangle in front of that; 0 for none.
     pub blend_id: u32,
     /// Unit normal of the opaque or MASK triangle in world space; 0 for background.
     pub normal: [f32; 3],
-    /// The colour as detection compares it: 8-bit sRGB codes and alpha, red in the lowest byte.
+    /// Colour as detection compares it: 8-bit sRGB codes and alpha, red in the lowest byte.
     pub code: u32,
-    /// With [`Shadows::Exact`](super::Shadows::Exact), a bit for each light of the pose, the first one lowest, that
-    /// another triangle keeps from the opaque or MASK triangle, or which shines on its other side; otherwise 0.
+    /// Bits of the lights that do not reach the opaque or MASK triangle, the pose's first light in the lowest bit:
+    /// another triangle casts a shadow, or the light shines on the other side. 0 without
+    /// [`Shadows::Exact`](super::Shadows::Exact).
     pub shadows: u32,
 }
 
-/// Pinholes, and the locations on the plane of each.
+/// Pinholes, each with the locations on its plane.
 type PinholeLists<'a> = &'a [(Pinhole, Vec<SampleLocation>)];
 
-/// What a run of locations saw.
+/// What a run of locations shows.
 struct RunValues<'a> {
-    /// Its locations, as places in the order of the partition.
+    /// Range of the run in the order of the partition.
     places: Range<usize>,
     seen: LocationValues<'a>,
 }
 
-/// What a set of locations sees, in the order of the locations, and what it cost.
+/// What a scene shows at a list of locations, in the order of the list, and the statistics.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sampled<T> {
-    /// One value a location.
+    /// Values, one for each location.
     pub values: Vec<T>,
-    /// Figures of all runs, which count as regions; locations sampled as superpixels count as these.
+    /// Statistics of all runs. Runs count as regions, and locations that are sampled as superpixels count as
+    /// superpixels.
     pub statistics: Statistics,
 }
 
 impl Headless {
-    /// Samples a scene once at each location. Of the settings, size, method, samples and detection do not matter.
+    /// Samples a scene once at each location. The settings' size, method, samples and detection are ignored.
     ///
     /// # Errors
-    /// [`RenderError::Location`] names the first location that can't be sampled; with [`Shadows::Exact`](super::Shadows::Exact),
-    /// [`RenderError::NoCasters`] and [`RenderError::ShadowLights`]; otherwise as [`Headless::render`].
+    /// [`RenderError::Location`] names the first location that can't be sampled; with
+    /// [`Shadows::Exact`](super::Shadows::Exact), [`RenderError::NoCasters`] and [`RenderError::ShadowLights`];
+    /// otherwise as [`Headless::render`].
     pub fn sample_points(
         &mut self,
         scene: &PreparedScene,
@@ -97,14 +100,14 @@ impl Headless {
         Ok(Sampled { values, statistics })
     }
 
-    /// Samples each location as a superpixel: as often as the settings say, at its location plus its Jacobian times the
-    /// offsets of their pattern. The values are resolved colours, linear light with premultiplied alpha. Of the
-    /// settings, size, method and detection do not matter. With [`Shadows::Exact`](super::Shadows::Exact) every
-    /// sub-sample is shaded by itself, whatever the settings say.
+    /// Samples each location as a superpixel: its samples lie at the location plus its Jacobian times the offsets of
+    /// the settings' pattern. The values are resolved colours in linear light with premultiplied alpha. The settings'
+    /// size, method and detection are ignored. With [`Shadows::Exact`](super::Shadows::Exact) every sample is shaded
+    /// separately, whatever the settings say.
     ///
     /// # Errors
-    /// [`RenderError::Location`] names the first location that can't be sampled, [`RenderError::Pattern`] says which numbers of
-    /// samples there are; otherwise as [`Headless::render`].
+    /// [`RenderError::Location`] names the first location that can't be sampled, [`RenderError::Pattern`] lists the
+    /// possible numbers of samples; otherwise as [`Headless::render`].
     pub fn sample_superpixels(
         &mut self,
         scene: &PreparedScene,
@@ -121,7 +124,7 @@ impl Headless {
         Ok(Sampled { values, statistics })
     }
 
-    /// Samples locations run by run, in the partition's order; `take` is given what each run saw.
+    /// Samples locations run by run, in the partition's order, and passes the values of each run to `take`.
     fn run_locations(
         &mut self,
         partition: &Partition<'_>,
@@ -147,13 +150,13 @@ impl Headless {
                 places: partition.places(),
                 origin: scene.gpu_scene.origin(),
             };
-            // SAFETY: the last submission was waited for; scene and sampler outlive this one, which is waited for.
+            // SAFETY: the previous submission has run; scene and sampler outlive this one, which is waited for.
             self.submit(|commands| unsafe {
                 sampler.record(scene, &sight, &window, run.len(), commands);
             })?;
             match sampler.check(&window) {
                 Ok(()) => {}
-                // One cell at a time gets through longer lists.
+                // If one cell is sampled at a time, longer lists fit.
                 Err(RenderError::Unfinished { .. })
                     if !apart && sampler.has_long_lists(&window)? =>
                 {
@@ -162,7 +165,7 @@ impl Headless {
                     waiting.push(run);
                     continue;
                 }
-                // Half as many locations have half as many records.
+                // Half of the locations have about half of the visibility samples.
                 Err(RenderError::Unfinished { cells }) if run.len() > 1 => {
                     log::debug!(
                         "{cells} cells or tiles of {} locations did not fit",

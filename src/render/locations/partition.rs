@@ -1,6 +1,7 @@
-//! Locations into regions of the plane and runs: what is sampled at once. The device sorts a run's locations by tile.
+//! Partition of locations into regions of the plane and into runs, which are sampled at once. The device sorts a run's
+//! locations by tile.
 //!
-//! The plane is cut into regions on a fixed grid; regions without locations cost nothing.
+//! Regions form a fixed grid on the plane; regions without locations cost nothing.
 
 use super::LocationError;
 use crate::camera::SampleLocation;
@@ -12,37 +13,39 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// Tiles of a region: 2,048 x 2,048 pixels.
+/// Tiles of a region along both axes: 2,048 x 2,048 pixels.
 const REGION_TILES: [i64; 2] = [256, 512];
-/// Up to this many pixels locations share what positions are relative to, so that they see the same however they are cut
-/// into runs, and what an image of their plane sees; beyond it 32-bit positions are finer from the middle of each window.
+/// Largest extent of all locations, in pixels, for which positions of all runs are relative to the same point. Results
+/// then don't depend on how locations are cut into runs, and equal those of an image. For larger extents, 32-bit
+/// positions are more precise relative to the middle of each window.
 const COMPACT: f64 = 8192.0;
-/// Locations of a chunk of a list.
+/// Number of locations of a chunk of a list.
 const CHUNK: usize = 4096;
-/// A list whose chunks lie in areas of so many times the whole one is in no order that runs may follow.
+/// Ratio of the chunks' summed areas to the whole area above which a list counts as unordered, so that runs don't
+/// follow its order.
 const SCATTERED: f64 = 32.0;
-/// Most locations of a list.
+/// Largest number of locations of a list.
 const MOST: usize = (1 << 31) - 1;
 
-/// Locations in the order in which they are sampled.
+/// Locations, in the order in which they are sampled.
 pub(super) struct Partition<'a> {
     locations: &'a [SampleLocation],
-    /// Indices of locations in the order; nothing where that is the caller's.
+    /// Indices of the locations in sampling order; `None` for the caller's order.
     order: Option<Vec<u32>>,
     pub cells: Cells,
-    /// What clip-space positions of all runs are relative to, if they lie close enough together.
+    /// Point to which clip-space positions of all runs are relative; `None` if the locations are too far apart.
     middle: Option<[f64; 2]>,
-    /// What each chunk of the order lies in, where all is of one region.
+    /// Bounds of each chunk of the order; `None` if there are several regions.
     chunks: Option<Vec<Bounds>>,
-    /// The parts of the order, each of one region.
+    /// Ranges of the order, one for each region.
     regions: Vec<Range<usize>>,
 }
 
 impl<'a> Partition<'a> {
-    /// Parts `locations`.
+    /// Partitions `locations`.
     ///
     /// # Errors
-    /// The first location that is not finite or too far off the image.
+    /// [`LocationError`] about the first location that is not finite or too far off the image.
     pub fn new(locations: &'a [SampleLocation], cells: Cells) -> Result<Self, LocationError> {
         if locations.is_empty() {
             return Err(LocationError::Empty);
@@ -89,13 +92,13 @@ impl<'a> Partition<'a> {
         })
     }
 
-    /// Places of the plane that lights tell apart: superpixels have several.
+    /// Number of places on the plane for which lights are looked up: one for a point, up to eight in a superpixel.
     pub fn places(&self) -> u64 {
         let in_cell = if self.cells.are_points() { 1 } else { 8 };
         self.locations.len() as u64 * in_cell
     }
 
-    /// Runs of at most `longest` locations, each in one region.
+    /// Runs of at most `longest` locations each, within one region.
     pub fn runs(&self, longest: usize) -> Vec<Range<usize>> {
         let longest = longest.max(1);
         let pieces = |region: &Range<usize>| {
@@ -106,23 +109,23 @@ impl<'a> Partition<'a> {
         self.regions.iter().flat_map(pieces).collect()
     }
 
-    /// The index in the caller's list of a place in the order.
+    /// Index in the caller's list of the location at position `place` of the order.
     pub fn index(&self, place: usize) -> usize {
         self.order
             .as_ref()
             .map_or(place, |order| order[place] as usize)
     }
 
-    /// The location at a place in the order.
+    /// Location at position `place` of the order.
     ///
     /// # Panics
-    /// If there is none.
+    /// If there is no such position.
     pub fn location(&self, place: usize) -> &SampleLocation {
         &self.locations[self.index(place)]
     }
 
-    /// Puts the value of each location of a run, counted from the run's first, to its place in the caller's list. Runs come one
-    /// after the other.
+    /// Stores the values of a run's locations, the first of the run first, at their positions in the caller's list.
+    /// Runs follow one another.
     pub fn put<T: Clone + Default + Send>(
         &self,
         run: &Range<usize>,
@@ -140,7 +143,7 @@ impl<'a> Partition<'a> {
         }
     }
 
-    /// Writes a run's locations as the device takes them, in pixels of its window.
+    /// Writes a run's locations in the format of the device, in pixels of its window.
     pub fn list(&self, (run, window): (&Range<usize>, &Window), to: &mut [ListedLocation]) {
         to.par_iter_mut().enumerate().for_each(|(i, listed)| {
             let SampleLocation { uv, jacobian, .. } = self.location(run.start + i);
@@ -154,7 +157,8 @@ impl<'a> Partition<'a> {
         });
     }
 
-    /// The rectangle of the plane that all locations lie in, and how far samples lie from these at the most, in pixels.
+    /// Rectangle of the plane that holds all locations, and the largest distance of their samples from them, in
+    /// pixels.
     pub fn reach(&self) -> (Rectangle, f64) {
         type Reach = (Rectangle, f64);
         let around = |location: &SampleLocation| {
@@ -167,7 +171,7 @@ impl<'a> Partition<'a> {
         self.locations.par_iter().map(around).reduce(nothing, both)
     }
 
-    /// The window around a run.
+    /// Window that holds the locations of a run.
     pub fn window(&self, run: &Range<usize>) -> Window {
         let bounds = match &self.chunks {
             Some(chunks) => {
@@ -188,13 +192,13 @@ impl<'a> Partition<'a> {
     }
 }
 
-/// What has to be known of some locations.
+/// Facts about a list of locations.
 #[derive(Clone, Copy)]
 struct Survey {
-    /// The first one that can't be sampled.
+    /// Index of the first location that can't be sampled.
     offender: Option<usize>,
     bounds: Bounds,
-    /// The least and the largest key of a region.
+    /// Smallest and largest key of a region.
     regions: [u64; 2],
 }
 
@@ -233,7 +237,7 @@ impl Survey {
     }
 }
 
-/// Indices of locations, region by region, and the part of each region.
+/// Indices of the locations, sorted by region, and the range of each region.
 fn by_region(locations: &[SampleLocation], cells: Cells) -> (Vec<u32>, Vec<Range<usize>>) {
     let keyed: Vec<(u64, u32)> = (0..locations.len() as u32)
         .into_par_iter()
@@ -255,7 +259,7 @@ fn by_region(locations: &[SampleLocation], cells: Cells) -> (Vec<u32>, Vec<Range
     (order, regions)
 }
 
-/// Indices of locations, tile by tile of the plane, and what each chunk of them lies in.
+/// Indices of the locations, sorted by tile, and the bounds of each chunk of them.
 fn by_tile(locations: &[SampleLocation], bounds: &Bounds) -> (Vec<u32>, Vec<Bounds>) {
     let columns = u64::from(bounds.tiles()[0]);
     let low = [0, 1].map(|axis| bounds.low[axis] as i64 / TILE[axis]);
@@ -281,7 +285,7 @@ fn by_tile(locations: &[SampleLocation], bounds: &Bounds) -> (Vec<u32>, Vec<Boun
     (keys.into_iter().map(|key| key as u32).collect(), chunks)
 }
 
-/// A rectangle around tiles, in pixels of the plane.
+/// Rectangle of whole tiles, in pixels of the plane.
 #[derive(Clone, Copy)]
 struct Bounds {
     low: [f64; 2],
@@ -331,12 +335,12 @@ impl Bounds {
     }
 }
 
-/// The tile of the plane that a location lies in.
+/// Column and row of the tile of the plane in which a location lies.
 fn tile_of(location: &SampleLocation) -> [i64; 2] {
     [0, 1].map(|axis| (location.uv[axis] / TILE[axis] as f64).floor() as i64)
 }
 
-/// Half of the width and height of the upright rectangle around a location's cell, in pixels; points have none.
+/// Half of the width and height, in pixels, of the axis-aligned rectangle around a location's cell; zero for points.
 pub(super) fn half_extent(location: &SampleLocation, cells: Cells) -> [f64; 2] {
     let [column, row] = location.jacobian;
     if cells.are_points() {
@@ -371,8 +375,8 @@ fn check(location: &SampleLocation, index: usize, cells: Cells) -> Result<(), Lo
     Ok(())
 }
 
-/// A key of the region that a location is sampled in. Cells of about the same extent stay together, since the widest of a run
-/// decides how many triangles are candidates in its tiles.
+/// Key of the region in which a location is sampled. Cells of similar extent share a key, because the largest cell of
+/// a run determines how many triangles are candidates in its tiles.
 fn region(location: &SampleLocation, cells: Cells) -> u64 {
     let tile = tile_of(location);
     let region = [0, 1].map(|axis| tile[axis].div_euclid(REGION_TILES[axis]));
@@ -383,7 +387,7 @@ fn region(location: &SampleLocation, cells: Cells) -> u64 {
     } else {
         1 + (0.5 * extent.log2()) as u64
     };
-    // Regions lie within 2^10 of the first one.
+    // Regions are at most 2^10 columns and rows from the region at the origin.
     let [column, row] = region.map(|index| (index + 1024) as u64 & 0x7ff);
     level << 22 | row << 11 | column
 }
@@ -402,13 +406,14 @@ mod tests {
 
     #[test]
     fn runs_hold_every_location_once_and_windows_hold_runs() {
-        // Seven locations in one tile, one in the next, one left of the plane's corner by less than 64 bits resolve.
+        // Seven locations are in one tile and one in the next. The last is left of the plane's corner by less than
+        // 64-bit numbers resolve.
         let mut locations: Vec<SampleLocation> = (0..7)
             .map(|i| location([f64::from(i) + 0.5, 3.5]))
             .collect();
         locations.extend([location([9.0, 0.0]), location([-1e-20, 0.0])]);
         let partition = Partition::new(&locations, Cells::Superpixels).unwrap();
-        // The region left of the corner is one of its own.
+        // The location left of the corner is in a region of its own.
         let runs = partition.runs(100);
         assert_eq!(runs, [0..1, 1..9]);
         assert_eq!(partition.runs(5), [0..1, 1..6, 6..9]);
@@ -432,7 +437,7 @@ mod tests {
             }
         }
         assert_eq!(seen, [1, 2, 3, 4, 5, 6, 7, 10, 8]);
-        // Where all lie in one region, the order is the caller's.
+        // Locations in a single region stay in the caller's order.
         let partition = Partition::new(&locations[..8], Cells::Points).unwrap();
         assert!(partition.order.is_none());
         assert_eq!(partition.runs(3), [0..3, 3..6, 6..8]);

@@ -1,4 +1,4 @@
-//! How many locations are sampled at once: what memory and the device's limits allow.
+//! Number of locations that are sampled at once, by memory and the device's limits.
 
 use super::partition::Partition;
 use super::sampler::list_cells;
@@ -10,17 +10,17 @@ use crate::render::shadows::{Casters, ShadowFinder};
 use crate::render::{PreparedScene, RenderError, Settings, Shadows};
 use std::ops::Range;
 
-/// Most locations of a run: memory that stays at hand is used again.
+/// Largest number of locations of a run; more would not make sampling faster.
 const MOST_LOCATIONS: usize = 1 << 18;
-/// Most samples of a run that may have to be stopped.
+/// Largest number of samples of a run that may have to be stopped.
 const MOST_STOPPABLE: usize = 1 << 20;
-/// Fewest locations of a run, to which runs are cut where memory is bounded.
+/// Smallest number of locations to which runs are cut where memory is limited.
 const FEWEST_LOCATIONS: usize = 1 << 10;
 
-/// The runs of a set of locations and the memory that the largest of them needs.
+/// Runs of a list of locations, and the memory that the largest run needs.
 pub(super) struct LocationPlan {
     pub cells: Cells,
-    /// Places that lights tell apart.
+    /// Number of places for which lights are looked up.
     pub places: u64,
     pub runs: Vec<Range<usize>>,
     pub sizes: ResourceSizes,
@@ -30,8 +30,8 @@ impl LocationPlan {
     /// Plans the runs of a partition.
     ///
     /// # Errors
-    /// [`RenderError::Memory`] if not even short runs fit, [`RenderError::NoCasters`] if shadows are asked for and the scene was not
-    /// made ready for them.
+    /// [`RenderError::Memory`] if not even short runs fit, [`RenderError::NoCasters`] if shadows are asked for and the
+    /// scene was not prepared for them.
     pub fn new(
         layout: &FrameLayout,
         prepared: &PreparedScene,
@@ -89,14 +89,15 @@ impl LocationPlan {
 }
 
 impl LocationPlan {
-    /// The halves of a run, the first one last: half as many locations have half as many records and pairs.
+    /// Halves of a run, the first half last. Half of the locations have about half of the visibility samples and
+    /// pairs.
     pub fn halves(run: &Range<usize>) -> [Range<usize>; 2] {
         let middle = run.start + run.len() / 2;
         [middle..run.end, run.start..middle]
     }
 }
 
-/// Pixels of the largest window: these share one buffer of tiles, however long and wide each is.
+/// Size in pixels of the largest window. All windows share one buffer of tiles, whatever their proportions.
 fn region(windows: impl Iterator<Item = Window>) -> [u32; 2] {
     let area = |[width, height]: [u32; 2]| u64::from(width) * u64::from(height);
     let sizes = windows.map(|window| window.size());

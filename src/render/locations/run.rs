@@ -1,4 +1,4 @@
-//! What runs over locations need, whatever they look for: the geometry as a window sees it, memory, counters and times.
+//! What all runs over locations have in common: geometry as the window sees it, memory, counters and times.
 
 use crate::camera::Pinhole;
 use crate::engine::sampler::SamplerRun;
@@ -13,7 +13,7 @@ use crate::vulkan::{Memory, Recorder, Timings, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// The memory of runs over locations of one scene.
+/// Memory for runs over locations of one scene.
 pub(super) struct RunMemory {
     pub resources: Resources,
     pub memory: Memory,
@@ -26,7 +26,7 @@ pub(super) struct RunMemory {
 }
 
 impl RunMemory {
-    /// Makes it, with offsets of a cell's samples, and room for so many marks of time.
+    /// Allocates the memory. `offsets` are those of a cell's samples; the timer has room for `marks` marks.
     pub fn new(
         layout: &Arc<FrameLayout>,
         prepared: &PreparedScene,
@@ -77,13 +77,14 @@ impl RunMemory {
         })
     }
 
-    /// Records a run over `count` locations, which are such cells of so many samples, in a window of what a pinhole sees: what all
-    /// runs begin and end with, and between these what `record` does, which is told whether this is the first run.
+    /// Records a run over `count` locations in a window of a pinhole's plane. The locations are `cells` with a number
+    /// of samples each. `record` adds its passes between the beginning and the end that all runs share, and is told
+    /// whether this is the first run.
     ///
     /// # Safety
     /// - `commands` is being recorded, outside of a render pass, for the device and queue family of the renderer.
-    /// - `scene` is the one that this was made for and its upload was recorded before.
-    /// - The commands of the last recording are done: its memory is used again.
+    /// - `scene` is the one for which this was made, and its upload was recorded before.
+    /// - The commands of the last recording have run: its memory is used again.
     pub unsafe fn record(
         &mut self,
         scene: &PreparedScene,
@@ -102,7 +103,7 @@ impl RunMemory {
         let to_clip = window.to_clip(scene, pinhole);
         self.geometry.place(scene, &to_clip, None);
         let gpu = self.memory.gpu().clone();
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         let mut recorder = unsafe { Recorder::new(&gpu, commands, Some(&mut self.timings)) };
         let recorder = &mut recorder;
         let is_first = !self.uploaded;
@@ -135,12 +136,12 @@ impl RunMemory {
         recorder.barrier();
     }
 
-    /// The list of a run of so many locations, to be written while the device is idle.
+    /// Memory for a run of `count` locations, to be written while the device is idle.
     pub fn listed_mut(&mut self, count: usize) -> Result<&mut [ListedLocation], VulkanError> {
         self.resources.listed_mut(count)
     }
 
-    /// Adds the times of the last run's passes, and how much memory there is.
+    /// Adds the times of the last run's passes and the size of the memory to `statistics`.
     pub fn add_statistics(
         &self,
         scene: &PreparedScene,

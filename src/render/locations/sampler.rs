@@ -1,4 +1,4 @@
-//! The passes and memory that sample locations: the engine of superpixels with the caller's cells in the place of pixels.
+//! Passes and memory that sample locations: the engine's sampler with the caller's cells instead of pixels.
 
 use super::plan::LocationPlan;
 use super::run::RunMemory;
@@ -16,7 +16,7 @@ use crate::vulkan::{Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// The cells of a list, where places have so many words of shadows.
+/// Cells of a list with `shadow_words` words of shadows for each place.
 pub(super) fn list_cells(cells: Cells, shadow_words: u32) -> ListCells {
     ListCells {
         cells,
@@ -26,7 +26,7 @@ pub(super) fn list_cells(cells: Cells, shadow_words: u32) -> ListCells {
     }
 }
 
-/// Pipelines and memory to sample runs of locations of one scene.
+/// Pipelines and memory for sampling runs of locations of one scene.
 pub(super) struct LocationSampler {
     cells: Cells,
     settings: Settings,
@@ -36,10 +36,10 @@ pub(super) struct LocationSampler {
     run: RunMemory,
 }
 
-/// What the locations of a run saw, in their order.
+/// Values at the locations of a run, in their order.
 pub(super) struct LocationValues<'a> {
     pub colors: &'a [[f32; 4]],
-    /// What `shaders/points.comp` wrote; nothing for superpixels.
+    /// Output of `shaders/points.comp`; empty for superpixels.
     pub attributes: &'a [[[u32; 4]; 2]],
 }
 
@@ -83,7 +83,7 @@ impl LocationSampler {
             capacity,
             runs: 1,
         };
-        // SAFETY: the list goes with the resources, and has room for as many locations.
+        // SAFETY: the list lives as long as the resources, and has room for that many locations.
         let sampler = unsafe { listed.sampler(&context, (resources, resources.listed()?)) }?;
         let shadows = |casters| {
             let shading = (scene, *cells, resources);
@@ -109,17 +109,17 @@ impl LocationSampler {
         })
     }
 
-    /// The list of a run of so many locations, to be written while the device is idle.
+    /// Memory for a run of `count` locations, to be written while the device is idle.
     pub fn listed_mut(&mut self, count: usize) -> Result<&mut [ListedLocation], VulkanError> {
         self.run.listed_mut(count)
     }
 
-    /// Records a run of so many locations, which have been written, in a window of what is seen.
+    /// Records the sampling of a run of `count` locations, which have been written, in a window of the plane.
     ///
     /// # Safety
     /// - `commands` is being recorded, outside of a render pass, for the device and queue family of the renderer.
-    /// - `scene` is the one that the engine was made for and its upload was recorded before.
-    /// - The commands of the engine's last recording are done: its memory is used again.
+    /// - `scene` is the one for which the sampler was made, and its upload was recorded before.
+    /// - The commands of the last recording have run: its memory is used again.
     pub unsafe fn record(
         &mut self,
         scene: &PreparedScene,
@@ -171,11 +171,11 @@ impl LocationSampler {
                 shadows.record_end(recorder);
             }
         };
-        // SAFETY: passed on to the caller.
+        // SAFETY: guaranteed by the caller.
         unsafe { run.record(scene, looking, (cells, count), commands, record) };
     }
 
-    /// What the last run's `locations` locations saw.
+    /// Values at the `locations` locations of the last run.
     pub fn values(&self, locations: usize) -> Result<LocationValues<'_>, VulkanError> {
         let Resources {
             color, attributes, ..
@@ -189,7 +189,7 @@ impl LocationSampler {
         })
     }
 
-    /// What the last run could not finish.
+    /// Work that the last run could not finish.
     fn shortfall(&self, window: &Window) -> Result<Shortfall, VulkanError> {
         let mut shortfall = Shortfall::default();
         self.sampler
@@ -200,25 +200,27 @@ impl LocationSampler {
         Ok(shortfall)
     }
 
-    /// Whether cells of the last run, or tiles of a light, have longer lists than kernels walk that take several cells at a time.
+    /// Whether the last run had cells, or tiles of a light, with longer lists than the kernels for several cells at a
+    /// time can process.
     pub fn has_long_lists(&self, window: &Window) -> Result<bool, VulkanError> {
         let shortfall = self.shortfall(window)?;
         Ok(shortfall.stalled + shortfall.unshadowed > 0)
     }
 
-    /// Fails where records of the last run did not fit, or lists were too long.
+    /// Checks that the last run was finished: its visibility samples fitted into memory, and its lists were not too
+    /// long.
     ///
     /// # Errors
-    /// [`RenderError::Unfinished`], or [`RenderError::Vulkan`] if what was counted can't be read.
+    /// [`RenderError::Unfinished`] if it was not; [`RenderError::Vulkan`] if the counters can't be read.
     pub fn check(&self, window: &Window) -> Result<(), RenderError> {
         self.shortfall(window)?
             .check(self.run.resources.sizes().lanes)
     }
 
-    /// Adds the figures of the last run.
+    /// Adds the last run to `statistics`.
     ///
     /// # Errors
-    /// If what was counted or timed can't be read.
+    /// If its counters or times can't be read.
     pub fn add_statistics(
         &self,
         scene: &PreparedScene,

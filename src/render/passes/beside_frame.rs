@@ -1,4 +1,4 @@
-//! Kernels of 64 invocations that bind a set of their own beside the frame's.
+//! Kernels with 64 invocations that bind a descriptor set of their own beside the frame's.
 
 use crate::passes::own_layout::{OwnSet, PipelineLayout, SetLayout};
 use crate::passes::{FrameLayout, SampleSet};
@@ -7,7 +7,7 @@ use ash::vk;
 use std::marker::PhantomData;
 use std::sync::Arc;
 
-/// A set of storage buffers, and the layouts of kernels that bind it as set 1; `C` is what is pushed.
+/// A set of storage buffers, and the layouts of kernels that bind it as set 1; `C` is the type of the push constants.
 pub(super) struct BesideFrame<C> {
     layout: PipelineLayout,
     set: OwnSet,
@@ -16,13 +16,13 @@ pub(super) struct BesideFrame<C> {
 }
 
 impl<C: bytemuck::NoUninit> BesideFrame<C> {
-    /// Makes the layouts, and a set of these bindings that shows buffers.
+    /// Makes the layouts, and a set of these bindings for `buffers`.
     ///
     /// # Errors
     /// If the driver refuses one.
     ///
     /// # Safety
-    /// The buffers outlive the set's use.
+    /// The buffers outlive the use of the set.
     pub unsafe fn new(
         layout: &FrameLayout,
         bindings: &'static [Binding],
@@ -33,7 +33,7 @@ impl<C: bytemuck::NoUninit> BesideFrame<C> {
         let sets = [layout.frame_set, set_layout.raw];
         let own_layout = PipelineLayout::new(gpu, &sets, size_of::<C>() as u32)?;
         let set = set_layout.allocate()?;
-        // SAFETY: the set is new; of the buffers as the caller says.
+        // SAFETY: the set is new, and the caller guarantees the buffers.
         unsafe { set.write_buffers(buffers) };
         Ok(Self {
             layout: own_layout,
@@ -43,7 +43,7 @@ impl<C: bytemuck::NoUninit> BesideFrame<C> {
         })
     }
 
-    /// The pipeline of a shader.
+    /// Makes the pipeline of a shader.
     ///
     /// # Errors
     /// If the driver refuses it.
@@ -55,7 +55,8 @@ impl<C: bytemuck::NoUninit> BesideFrame<C> {
         self.layout.compute(layout, shader)
     }
 
-    /// Binds a frame's set and this one; afterwards the former is no longer bound as other passes bind it.
+    /// Binds a frame's set and this one. Other passes must bind the frame's set again afterwards, because their
+    /// layouts differ.
     pub fn bind(&self, recorder: &Recorder<'_>, frame: &SampleSet, pushed: &C) {
         let sets = [frame.descriptor(), self.set.raw];
         self.layout.bind(recorder, &sets, pushed);

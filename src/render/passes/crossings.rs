@@ -1,4 +1,4 @@
-//! crossings: cells of a list that a thin triangle crosses unseen.
+//! crossings: finds cells of a list that a thin triangle crosses without covering the location.
 
 use super::beside_frame::BesideFrame;
 use crate::passes::arguments::{After, Arguments};
@@ -8,25 +8,25 @@ use crate::passes::{Argument, Content, FrameLayout, Resources, SampleSet};
 use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
-/// What a location sees and what it is of, as `shaders/crossings.comp` describes it.
+/// What a location shows, and the cell to which it belongs; the layout is that of `shaders/crossings.comp`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct SeenLocation {
     /// Distance along the view direction in world units; 0 for background.
     pub distance: f32,
-    /// ID of the nearest opaque or MASK triangle; 0 is background.
+    /// ID of the nearest opaque or MASK triangle; 0 for background.
     pub id: u32,
-    /// ID of the nearest BLEND triangle in front of it; 0 where there is none.
+    /// ID of the nearest BLEND triangle in front of it; 0 for none.
     pub blend_id: u32,
-    /// Its cell of the output, row by row.
+    /// Index of its cell of the output, row by row.
     pub output: u32,
 }
 
-/// The output whose cells are marked: its size in tiles of 8 x 4 cells, its width in cells, and the width of a `pixel` of the plane in
-/// world units, at a distance of 1 or, where rays are parallel, at any.
+/// The output whose cells are marked: its size in tiles of 8 x 4 cells, its width in cells, and the width of a `pixel`
+/// of the plane in world units, at distance 1 or, for parallel rays, at any distance.
 pub use crate::passes::spirv::CrossingsPush as MarkedOutput;
 
-/// Marks cells for `detect`.
+/// Marks cells, which `detect` makes superpixels.
 pub struct Crossings {
     arguments: Arguments,
     pipeline: Arc<Pipeline>,
@@ -34,14 +34,15 @@ pub struct Crossings {
 }
 
 impl Crossings {
-    /// Makes the pipelines for lists of a scene's locations, which see what `seen` has of each, a [`SeenLocation`], and mark cells in
-    /// `marks`: two words a tile of the output.
+    /// Makes the pipelines for lists of locations in a scene. `seen` has a [`SeenLocation`] for each location; cells
+    /// are marked in `marks`, two words for each tile of the output.
     ///
     /// # Errors
     /// If the driver refuses one.
     ///
     /// # Safety
-    /// Both buffers outlive the execution of what is recorded, and have room for what `record` is told of.
+    /// Both buffers outlive the execution of what is recorded, and have room for the locations and tiles that `record`
+    /// is given.
     pub unsafe fn new(
         layout: &FrameLayout,
         scene: &dyn Content,
@@ -53,7 +54,7 @@ impl Crossings {
             (crossings_set::SEEN, whole(seen)),
             (crossings_set::CELL_MARKS, whole(marks)),
         ];
-        // SAFETY: passed on to the caller; the first buffer goes with the resources.
+        // SAFETY: guaranteed by the caller; the first buffer lives as long as the resources.
         let beside = unsafe { BesideFrame::new(layout, &crossings_set::ALL, &shown) }?;
         let shader = spirv::Crossings {
             blend_ids: scene.has_blend(),
@@ -67,7 +68,7 @@ impl Crossings {
         })
     }
 
-    /// Records it after `bin`; afterwards the frame's set is no longer bound as other passes bind it.
+    /// Records the pass, after `bin`. Other passes must bind the frame's set again afterwards.
     pub fn record(
         &self,
         recorder: &Recorder<'_>,

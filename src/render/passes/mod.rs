@@ -1,4 +1,5 @@
-//! The passes that shade and pose scenes of files, named like their shaders in `shaders/`, and what they read of a scene.
+//! Passes that shade and pose scenes of files, and the scene data that they read. A pass has the name of its shader in
+//! `shaders/`.
 
 mod beside_frame;
 mod crossings;

@@ -1,16 +1,16 @@
-//! neighbours: cells of an output that contrast with a superpixel beside them.
+//! neighbours: finds cells of an output that contrast with a superpixel beside them.
 
 use crate::passes::{ColorConstants, FrameLayout, spirv};
 use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
-/// Marks cells for [`Grow`](crate::passes::Grow), where superpixels are locations of lists.
+/// Marks cells for [`Grow`](crate::passes::Grow), for superpixels that are locations of lists.
 pub struct Neighbours {
     pipeline: Arc<Pipeline>,
 }
 
 impl Neighbours {
-    /// Makes the pipeline; `output` says how colours of the image are made.
+    /// Makes the pipeline; `output` holds the constants that turn radiance into the image's colours.
     ///
     /// # Errors
     /// If the driver refuses it.
@@ -24,7 +24,7 @@ impl Neighbours {
         })
     }
 
-    /// Records it for an output of so many cells.
+    /// Records the pass for an output of `cells` cells.
     pub fn record(&self, recorder: &Recorder<'_>, cells: u32) {
         recorder.dispatch(&self.pipeline, u64::from(cells.div_ceil(64)));
     }

@@ -1,31 +1,31 @@
-//! What the cells of an output show, from the host to where `detect` reads it.
+//! Contents of an output's cells, uploaded by the host for `detect`.
 
 use crate::passes::{IdViews, Resources};
 use crate::vulkan::{Buffer, Image, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 
-/// What cells show, row by row: a word each, but for marks and colours.
+/// Plane of data about the cells, row by row. A cell has one word, except in marks and colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OutputPlane {
-    /// IDs of the nearest opaque or MASK triangles.
+    /// ID of the nearest opaque or MASK triangle.
     Ids,
-    /// IDs of the nearest BLEND triangles.
+    /// ID of the nearest BLEND triangle.
     BlendIds,
-    /// Display codes.
+    /// Colour as detection compares it: 8-bit sRGB codes and alpha.
     Codes,
-    /// A bit for each light that something keeps from the place.
+    /// A bit for each light that does not reach the place.
     Shadows,
-    /// Cells that become superpixels whatever the others show: a word a tile of 8 x 4 cells.
+    /// Cells that become superpixels whatever they show: a word for each tile of 8 x 4 cells.
     Marks,
-    /// Colours of superpixels: four words a cell.
+    /// Colours of superpixels: four words for each cell.
     Colors,
 }
 
 impl OutputPlane {
-    /// Words a cell of all planes.
+    /// Number of words for a cell, over all planes.
     const WORDS: u64 = 9;
 
-    /// Where it begins, and how long it is, in words a cell.
+    /// Begin and length of the plane, in words for each cell.
     fn range(self) -> [u64; 2] {
         match self {
             Self::Colors => [5, 4],
@@ -34,17 +34,17 @@ impl OutputPlane {
     }
 }
 
-/// Some rows of an output, and images of their IDs.
+/// Rows of an output, and images of their triangle IDs.
 pub struct OutputCells {
     size: [u32; 2],
-    /// All words of each [`OutputPlane`], one after the other.
+    /// Words of all planes, each [`OutputPlane`] after the other.
     words: Buffer,
     ids: Image,
     blend_ids: Image,
 }
 
 impl OutputCells {
-    /// Room for `width` x `height` cells.
+    /// Allocates memory for `width` x `height` cells.
     ///
     /// # Errors
     /// If memory runs out.
@@ -77,7 +77,7 @@ impl OutputCells {
         })
     }
 
-    /// Bytes that so many cells take.
+    /// Number of bytes for `width` x `height` cells.
     #[must_use]
     pub fn bytes([width, height]: [u32; 2]) -> u64 {
         Self::bytes_of([width, height]) * (OutputPlane::WORDS + 2)
@@ -87,7 +87,7 @@ impl OutputCells {
         4 * u64::from(width) * u64::from(height)
     }
 
-    /// What passes see of the IDs.
+    /// Views of the IDs for passes.
     #[must_use]
     pub fn views(&self) -> IdViews {
         IdViews {
@@ -98,7 +98,7 @@ impl OutputCells {
         }
     }
 
-    /// The words of a plane, to be written while the device is idle; nothing where the driver did not map the buffer.
+    /// Words of a plane, to be written while the device is idle; empty if the driver did not map the buffer.
     pub fn words_mut(&mut self, plane: OutputPlane) -> &mut [u32] {
         let [first, bytes] = plane.range().map(|part| part * Self::bytes_of(self.size));
         let range = first as usize..(first + bytes) as usize;
@@ -106,7 +106,8 @@ impl OutputCells {
         words.map_or(&mut [], bytemuck::cast_slice_mut)
     }
 
-    /// Records the way of what the first `rows` rows show to the images, and to the buffers of resources that have room for it.
+    /// Records the upload of the first `rows` rows: to the images, and to the buffers of `resources`, which have room
+    /// for them.
     pub fn record(&self, recorder: &Recorder<'_>, resources: &Resources, rows: u32) {
         let planes = [
             (&self.ids, OutputPlane::Ids),
@@ -128,8 +129,8 @@ impl OutputCells {
                     height: rows,
                     depth: 1,
                 })];
-            // SAFETY: the recorder's contract; the buffer has the words of as many rows, and the image is as large and in this
-            // layout.
+            // SAFETY: guaranteed by the recorder's caller; the buffer has the words of these rows, and the image has
+            // their size and this layout.
             unsafe {
                 recorder.device().cmd_copy_buffer_to_image(
                     recorder.raw(),
@@ -159,7 +160,7 @@ impl OutputCells {
         recorder.barrier();
     }
 
-    /// Records the way of the colours of the first `rows` rows.
+    /// Records the upload of the colours of the first `rows` rows.
     pub fn record_colors(&self, recorder: &Recorder<'_>, resources: &Resources, rows: u32) {
         let bytes = 4 * Self::bytes_of([self.size[0], rows]);
         let colors = &resources.color.buffer;
@@ -167,10 +168,10 @@ impl OutputCells {
         recorder.barrier();
     }
 
-    /// Records a copy of the first bytes of a plane to a buffer of the same or larger size.
+    /// Records a copy of the first bytes of a plane to a buffer, which is at least as large.
     fn record_copy(&self, recorder: &Recorder<'_>, plane: OutputPlane, to: &Buffer, bytes: u64) {
         let first = plane.range()[0] * Self::bytes_of(self.size);
-        // SAFETY: both buffers have as many bytes, were made for copies, and go with what executes.
+        // SAFETY: both buffers have this many bytes, were created for copies, and outlive the execution.
         unsafe { recorder.copy_raw((self.words.raw, first), (to.raw, 0), bytes) };
     }
 }

@@ -1,4 +1,4 @@
-//! pose: vertices that move, at a moment.
+//! pose: computes vertices that move, at a moment.
 
 use super::{FrameGeometry, GpuScene};
 use crate::passes::{FrameLayout, spirv};
@@ -6,12 +6,12 @@ use crate::scene::Moment;
 use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
-/// As in `shaders/pose.comp`.
+/// Flag: the same number as in `shaders/pose.comp`.
 const FLAT: u32 = 1;
 const INSIDE_OUT: u32 = 2;
 const TANGENTS: u32 = 4;
 
-/// Morphs, skins and places meshes.
+/// Applies morph targets, skins and transforms to meshes.
 pub struct Pose {
     layout: Arc<FrameLayout>,
     pipeline: Arc<Pipeline>,
@@ -29,7 +29,7 @@ impl Pose {
         })
     }
 
-    /// Records it for a moment that the frame's memory holds.
+    /// Records the pass for a moment, which was written to the frame's memory.
     pub fn record(
         &self,
         recorder: &Recorder<'_>,
@@ -63,7 +63,7 @@ impl Pose {
             };
             recorder.push(self.layout.pipeline, &push);
             let groups = u64::from(part.vertex_count.div_ceil(64));
-            // Parts have vertices of their own.
+            // Parts write different vertices.
             recorder.dispatch_unordered(&self.pipeline, groups);
         }
         recorder.barrier();

@@ -1,7 +1,9 @@
-//! prefilter: what surfaces of each roughness reflect of an environment, seen along their normals, so that shading reads one
-//! place of a cube: sums over directions of GGX, each of which reads the level whose texels are as large as what it stands
-//! for, so that small bright lights neither flicker nor sparkle (Křivánek and Colbert, "Real-time Shading with Filtered
-//! Importance Sampling", 2008).
+//! prefilter: the light that surfaces of each roughness reflect from an environment, seen along their normals, so that
+//! shading needs one look-up in a cube.
+//!
+//! Each texel is a sum over directions of the GGX distribution. Each direction reads the level whose texels are as
+//! large as the solid angle that it stands for, so that small bright lights neither flicker nor sparkle (Křivánek and
+//! Colbert, "Real-time Shading with Filtered Importance Sampling", 2008).
 
 use crate::passes::own_layout::{OwnSet, PipelineLayout, SetLayout, whole};
 use crate::passes::spirv::{self, prefilter_set};
@@ -12,13 +14,14 @@ use ash::vk;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
-/// Roughnesses from 0 to 1, where the cube has as many levels.
+/// Number of levels of the cube, for roughnesses from 0 to 1.
 const LEVELS: u32 = 6;
-/// Directions of the first level that is filtered, twice as many of the next and so on; those that point into the surface are
-/// left out. So rough levels, which are small, are not blurred by what they read.
+/// Number of directions of the first filtered level; each further level has twice as many. Directions into the surface
+/// are left out. Rough levels are small, and need many directions so that the averages they read do not blur them
+/// further.
 const DIRECTIONS: u32 = 64;
 
-/// Filters one environment.
+/// Filters an environment.
 pub struct Prefilter {
     layout: PipelineLayout,
     _set_layout: SetLayout,
@@ -29,11 +32,11 @@ pub struct Prefilter {
     cubes: Vec<spirv::PrefilterPush>,
 }
 
-/// The levels of an environment whose finest cube has faces of `side` texels, a power of two: texels along the side of each,
-/// and the first of its texels. The first is the finest cube itself; the others come after all averages, which are as many
-/// cubes as can be halved.
+/// Levels of an environment whose finest cube has faces of `side` texels, a power of two: for each level its side in
+/// texels and the index of its first texel. Level 0 is the finest cube itself. The others are stored after all
+/// averages, which halve the cube down to one texel a face.
 pub fn levels(side: u32) -> impl Iterator<Item = (u32, u32)> {
-    // Six times the squares of the sides down to 1.
+    // The number of texels of all averages: six times the squares of the sides down to 1.
     let mut first = 8 * side * side - 2;
     let filtered = (1..LEVELS.min(side.ilog2() + 1)).map(move |level| {
         let own = first;
@@ -44,8 +47,8 @@ pub fn levels(side: u32) -> impl Iterator<Item = (u32, u32)> {
 }
 
 impl Prefilter {
-    /// Makes the pipeline, for texels of four half floats: the finest cube and ever coarser averages of it down to a texel a
-    /// face, and room for the [`levels`] after them, `texels` being a storage buffer of as many as these end with.
+    /// Makes the pipeline. `texels` is a storage buffer with texels of four half floats: the finest cube, its averages
+    /// down to a texel a face, and room for the [`levels`] after them, to the end of the last.
     ///
     /// # Errors
     /// If the driver refuses it, or memory runs out.
@@ -81,7 +84,7 @@ impl Prefilter {
             (prefilter_set::TEXELS, whole(&texels)),
             (prefilter_set::RAYS, whole(&rays)),
         ];
-        // SAFETY: the set is new, and both buffers go with it.
+        // SAFETY: the set is new, and both buffers live as long as it.
         unsafe { set.write_buffers(&shown) };
         Ok(Self {
             layout,
@@ -94,26 +97,27 @@ impl Prefilter {
         })
     }
 
-    /// The averages and the levels.
+    /// Texels of the averages and the levels.
     #[must_use]
     pub fn texels(&self) -> &Buffer {
         &self.texels
     }
 
-    /// Records it; the averages have been written before.
+    /// Records the pass; the averages were written before.
     pub fn record(&self, recorder: &Recorder<'_>) {
         for cube in &self.cubes {
             self.layout.bind(recorder, &[self.set.raw], cube);
             let groups = (6 * cube.side * cube.side).div_ceil(64);
-            // Cubes have texels of their own, and none is read.
+            // Each cube writes its own texels, and none reads another's.
             recorder.dispatch_unordered(&self.pipeline, u64::from(groups));
         }
         recorder.barrier();
     }
 }
 
-/// Where light comes from that the surface of a level, of `steps`, reflects along its normal, which is +z: directions, each as
-/// likely as GGX has it, and which average of a cube of `side` texels has texels as large as what it stands for.
+/// Directions from which a surface of level `level` of `steps` reflects light along its normal, +z. Each has the same
+/// probability under the GGX distribution; the fourth component is the average of a cube of `side` texels whose texels
+/// are as large as the solid angle that the direction stands for.
 #[must_use]
 pub fn lobe(level: u32, steps: u32, side: u32) -> Vec<[f32; 4]> {
     let texel = 4.0 * PI / (6.0 * f64::from(side * side));
@@ -129,7 +133,7 @@ pub fn lobe(level: u32, steps: u32, side: u32) -> Vec<[f32; 4]> {
         let bottom = n_h * n_h * (square - 1.0) + 1.0;
         let density = square / (PI * bottom * bottom) / 4.0;
         let stands_for = 1.0 / (f64::from(count) * density);
-        // Twice as wide as it needs to be on average, for those between which more lies.
+        // One average coarser than the solid angle on its own needs, because directions are not evenly spaced.
         let wide = (0.5 * (stands_for / texel).log2() + 1.0).round();
         let coarsest = f64::from(side.ilog2());
         let vector = ray.extend(wide.clamp(0.0, coarsest)).as_vec4();

@@ -1,4 +1,4 @@
-//! receivers: where the surfaces that are about to be shaded appear on the plane of a light.
+//! receivers: projects the surfaces that are about to be shaded onto the plane of a light.
 
 use super::GpuScene;
 use super::beside_frame::BesideFrame;
@@ -8,22 +8,23 @@ use crate::passes::{Argument, Cells, Content, FrameLayout, Resources, SampleSet}
 use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
-/// The plane of a light as the pass is told of it; `shaders/receivers.comp` says what the fields are.
+/// Plane of a light, as the pass takes it; `shaders/receivers.comp` describes the fields.
 pub use crate::passes::spirv::ReceiversPush as LightPlane;
 
 impl LightPlane {
-    /// The face of what is no plane of a cube.
+    /// Face of a plane that does not belong to a cube.
     pub const SINGLE: u32 = 6;
-    /// In the step that begins the words.
+    /// Flag in `step`: the pass initialises the words.
     pub const BEGINS: u32 = 32;
-    /// Other places of a pixel that are looked at, from its centre. `shaders/receivers.comp` says why these.
+    /// Further places in a pixel that are probed, relative to its centre. `shaders/receivers.comp` explains the
+    /// choice.
     pub const PROBES: [[f64; 2]; 3] = [
         [0.34375, 0.34375],
         [-0.296875, 0.40625],
         [0.46875, -0.296875],
     ];
 
-    /// The same for each probe.
+    /// The same plane for each probe.
     pub fn of_probes(self) -> impl Iterator<Item = Self> {
         let light = self.step & (Self::BEGINS - 1);
         let numbers = 1..=Self::PROBES.len() as u32;
@@ -34,16 +35,16 @@ impl LightPlane {
     }
 }
 
-/// What is about to be shaded.
+/// Places that are about to be shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Receiving {
-    /// The centres of a region's pixels, so many.
+    /// Centres of a region's pixels; holds their number.
     Pixels(u32),
-    /// The visibility samples of a round.
+    /// Visibility samples of a round.
     Records,
 }
 
-/// Lists the receivers of light.
+/// Lists the places that receive light.
 pub struct Receivers {
     of_pixels: Arc<Pipeline>,
     of_records: Arc<Pipeline>,
@@ -51,8 +52,8 @@ pub struct Receivers {
 }
 
 impl Receivers {
-    /// Makes the pipelines for cells of a scene, which write the receivers' places to `locations`, two vectors each, and begin
-    /// the words of the resources.
+    /// Makes the pipelines for cells of a scene. They write the receivers' locations to `locations`, two vectors each,
+    /// and initialise the shadow words of the resources.
     ///
     /// # Errors
     /// If the driver refuses one.
@@ -68,7 +69,7 @@ impl Receivers {
             (receivers_set::LOCATIONS_OUT, whole(locations)),
             (receivers_set::WORDS, words),
         ];
-        // SAFETY: both buffers go with the frame that this is of.
+        // SAFETY: both buffers live as long as the frame to which this belongs.
         let beside = unsafe { BesideFrame::new(layout, &receivers_set::ALL, &shown) }?;
         let pipeline = |pixels: bool| {
             let shader = spirv::Receivers {
@@ -88,7 +89,7 @@ impl Receivers {
         })
     }
 
-    /// Records it for a plane; afterwards the frame's set is no longer bound as other passes bind it.
+    /// Records the pass for a plane. Other passes must bind the frame's set again afterwards.
     pub fn record(
         &self,
         recorder: &Recorder<'_>,

@@ -1,4 +1,4 @@
-//! shade: the radiance of what is seen, one dispatch a material bin.
+//! shade: computes the radiance of visible places, with one dispatch for each material bin.
 
 use super::GpuScene;
 use super::scene::ShadeFeatures;
@@ -8,33 +8,33 @@ use ash::vk;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// What is shaded.
+/// Places that are shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ShadeSource {
-    /// The centre of every pixel of a region, into its colours.
+    /// The centres of a region's pixels; writes their colours.
     Pixels {
-        /// Write display codes for detection.
+        /// Whether to write display codes for detection.
         display_codes: bool,
     },
     /// Visibility samples.
     Records {
-        /// Of such cells.
+        /// Kind of the cells to which the visibility samples belong.
         cells: Cells,
     },
 }
 
-/// Shades each bin with a pipeline that has only what its materials and the scene's lights need.
+/// Shades each material bin with a pipeline that computes only what its materials and the scene's lights need.
 pub struct Shade {
     layout: Arc<FrameLayout>,
     source: ShadeSource,
     pipelines: Vec<Arc<Pipeline>>,
-    /// Pipeline of each bin.
+    /// Index of each bin's pipeline.
     bins: Vec<usize>,
 }
 
 impl Shade {
-    /// Makes a pipeline for each set of features in the scene; places have so many words of shadows, and `output` are the colour
-    /// constants of `shaders/include/color.glsl`.
+    /// Makes a pipeline for each set of features in the scene. Places have `shadow_words` words of shadows; `output`
+    /// holds the colour constants of `shaders/include/color.glsl`.
     ///
     /// # Errors
     /// If the driver refuses one.
@@ -92,13 +92,13 @@ impl Shade {
         })
     }
 
-    /// Records it, over the spans of a region or the records of the round.
+    /// Records the pass over the spans of a region or the visibility samples of a round.
     pub fn record(&self, recorder: &Recorder<'_>, scene: &GpuScene, arguments: &Buffer) {
         for (bin, (material_bin, pipeline)) in scene.bins.iter().zip(&self.bins).enumerate() {
             let Some(pipeline) = self.pipelines.get(*pipeline) else {
                 continue;
             };
-            // SAFETY: the recorder's contract; the set matches the pipelines' layout.
+            // SAFETY: guaranteed by the recorder's caller; the set matches the pipelines' layout.
             unsafe {
                 recorder.device().cmd_bind_descriptor_sets(
                     recorder.bindings(),

@@ -1,4 +1,4 @@
-//! shadow: which receivers of light another triangle was found before.
+//! shadow: finds the receivers of light that another triangle occludes.
 
 use super::beside_frame::BesideFrame;
 use crate::passes::arguments::{After, Arguments};
@@ -9,25 +9,25 @@ use crate::vulkan::{Buffer, Memory, MemoryUse, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// What is done with what was found between a light and receivers.
+/// What is done with the occluders between a light and its receivers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ShadowTarget {
-    /// It is written down for places from one on.
+    /// Sets bits in the shadow words of places.
     Words {
-        /// The first place.
+        /// Index of the first place.
         first_place: u32,
     },
-    /// Pixels of a region of some width are marked where their centres' words say otherwise.
+    /// Marks pixels of a region in which a probe's shadow words differ from those of the centre.
     Marks {
-        /// In pixels.
+        /// Width of the region in pixels.
         width: u32,
     },
 }
 
-/// Words of what is left undone.
+/// Number of words about unfinished work.
 const LEFT_WORDS: usize = 2;
 
-/// Writes the words of receivers, and counts what the passes before it left undone.
+/// Writes the shadow words of receivers, and counts what the passes before it could not finish.
 pub struct Shadow {
     arguments: Arguments,
     pipeline: Arc<Pipeline>,
@@ -37,7 +37,7 @@ pub struct Shadow {
 }
 
 impl Shadow {
-    /// Makes the pipelines, which write the words of the receivers' resources.
+    /// Makes the pipelines, which write the shadow words of the receivers' resources.
     ///
     /// # Errors
     /// If the driver refuses one, or memory runs out.
@@ -57,7 +57,7 @@ impl Shadow {
             (shadow_set::LEFT, whole(&left)),
             (shadow_set::MARKS_OF_PIXELS, whole(&receivers.marks)),
         ];
-        // SAFETY: the buffers go with the frame that this is of.
+        // SAFETY: the buffers live as long as the frame to which this belongs.
         let beside = unsafe { BesideFrame::new(layout, &shadow_set::ALL, &shown) }?;
         let shadow_words = receivers.sizes().shadow_words;
         let pipeline = beside.pipeline(layout, &spirv::Shadow { shadow_words })?;
@@ -70,13 +70,13 @@ impl Shadow {
         })
     }
 
-    /// Records what begins a frame.
+    /// Records the beginning of a frame.
     pub fn record_begin(&self, recorder: &Recorder<'_>) {
         recorder.clear(&self.left);
         recorder.barrier();
     }
 
-    /// Records it for the occluders of a round, whose set is bound, and which were found between a light and receivers.
+    /// Records the pass for the occluders of a round, whose descriptor set is bound.
     pub fn record(
         &self,
         recorder: &Recorder<'_>,
@@ -101,7 +101,7 @@ impl Shadow {
         occluders.record_bind(recorder, set);
     }
 
-    /// Records what follows the last round.
+    /// Records the count of unfinished work, after the last round.
     pub fn record_left(&self, recorder: &Recorder<'_>, set: &SampleSet) {
         let push = spirv::ShadowPush {
             ends: 1,
@@ -111,16 +111,17 @@ impl Shadow {
         recorder.dispatch(&self.pipeline, 1);
     }
 
-    /// Records what ends a frame.
+    /// Records the end of a frame.
     pub fn record_end(&self, recorder: &Recorder<'_>) {
         recorder.copy(&self.left, self.left.size(), &self.kept, 0);
         recorder.barrier();
     }
 
-    /// Receivers and tiles that the last frame left undone, and whether kernels had other subgroups than they were made for.
+    /// Number of receivers and tiles that the last frame could not finish, and whether kernels ran with another
+    /// subgroup size than expected.
     ///
     /// # Errors
-    /// If these can't be read.
+    /// If the counters can't be read.
     pub fn left(&self) -> Result<(u32, bool), VulkanError> {
         let words: &[u32] = self.kept.read(LEFT_WORDS)?;
         let word = |index: usize| words.get(index).copied().unwrap_or(0);

@@ -1,4 +1,4 @@
-//! stroke: points and lines, for a camera.
+//! stroke: computes points and lines for a camera.
 
 use super::{FrameGeometry, GpuScene};
 use crate::passes::{FrameLayout, spirv};
@@ -7,26 +7,26 @@ use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use glam::{DMat4, DVec3, Vec4Swizzles};
 use std::sync::Arc;
 
-/// Least distance of edges from the surfaces that they border, towards the camera, in output pixels: enough for what is
-/// thinner than a pixel to be looked for.
+/// Distance, in output pixels, by which edges are moved from their surfaces towards the camera: enough for the search
+/// for triangles thinner than a pixel.
 const APART: f32 = 2.0;
 
-/// Gives points and lines their size.
+/// Gives points and lines their size on the screen.
 pub struct Stroke {
     layout: Arc<FrameLayout>,
     pipeline: Arc<Pipeline>,
 }
 
-/// How large points and lines are, in output pixels.
+/// Sizes of points and lines in output pixels.
 #[derive(Clone, Copy, Debug)]
 pub struct StrokeSizes {
     /// Width of lines.
     pub line_width: f32,
     /// Diameter of points.
     pub point_size: f32,
-    /// Width of edges of meshes.
+    /// Width of the edges of meshes.
     pub edge_width: f32,
-    /// Pixels of the image that is rendered along an output pixel's side.
+    /// Number of rendered pixels along the side of an output pixel.
     pub side: u32,
 }
 
@@ -42,7 +42,7 @@ impl Stroke {
         })
     }
 
-    /// Records it for a camera, whose matrix leads from the space of the scene's geometry to pixel-scaled clip space.
+    /// Records the pass for a camera; `to_clip` is the matrix from the scene's coordinates to pixel-scaled clip space.
     pub fn record(
         &self,
         recorder: &Recorder<'_>,
@@ -76,11 +76,12 @@ impl Stroke {
     }
 }
 
-/// What leads one pixel to the right and one down in the image, in the plane parallel to it where w is 1.
+/// Vectors that lead one pixel to the right and one pixel down in the image, in the plane parallel to the image where
+/// w is 1.
 fn pixel_steps(to_clip: &DMat4) -> [DVec3; 2] {
     let rows = to_clip.transpose();
     let [x, y, z, w] = [rows.x_axis, rows.y_axis, rows.z_axis, rows.w_axis].map(|row| row.xyz());
-    // Planes parallel to the image are those of one w, or else of one depth.
+    // Planes parallel to the image have a constant w, or for parallel rays a constant depth.
     let across = if w == DVec3::ZERO { z } else { w };
     let (right, down) = (y.cross(across), across.cross(x));
     [right / right.dot(x), down / down.dot(y)]

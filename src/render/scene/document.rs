@@ -1,6 +1,6 @@
-//! A file's description as `gltf` has it, and what was decoded and checked by it: every index is in
-//! range but for those of cameras and lights, every number finite unless said otherwise.
-//! [`Scene::pose`](super::Scene::pose) works on this alone.
+//! Document of a file: the description in `gltf`'s types, and what was decoded from it and checked. Every index is in
+//! range except those of cameras and lights, and every number is finite unless said otherwise.
+//! [`Scene::pose`](super::Scene::pose) needs nothing else.
 
 use std::{fmt, sync::Arc};
 
@@ -28,7 +28,7 @@ pub struct Document {
     pub format: &'static str,
     /// Names, references and the hierarchy; without buffers and images.
     pub root: Root,
-    /// Index of the scene that is drawn unless another is asked for.
+    /// Index of the scene that is drawn by default.
     pub default_scene: Option<usize>,
     pub nodes: Vec<Node>,
     /// Indices of all nodes, parents before children.
@@ -42,16 +42,16 @@ pub struct Document {
     pub cameras: Vec<Option<SceneProjection>>,
     /// Lights at the origin, along -Z; `None` for an unusable light.
     pub lights: Vec<Option<Light>>,
-    /// Environment of every scene: its light from all around.
+    /// Environment of every scene.
     pub environments: Vec<Option<Arc<Environment>>>,
-    /// Number of the file's own materials, which are the first ones of the scene's.
+    /// Number of materials in the file; they come first among the scene's materials.
     pub file_materials: usize,
     /// Indices of materials that are unlit copies, and of their originals.
     pub unlit_copies: Vec<(usize, usize)>,
 }
 
 impl Document {
-    /// Whether each node is drawn. `own` is what each node says of itself; nothing below a hidden node is drawn.
+    /// Whether each node is drawn. `own` is the visibility of each node itself; nothing below a hidden node is drawn.
     pub fn drawn(&self, mut own: Vec<bool>) -> Vec<bool> {
         for &index in &self.order {
             let parent = self.nodes[index].parent;
@@ -60,7 +60,7 @@ impl Document {
         own
     }
 
-    /// Morph weights of a node without animation: the node's own, or else its mesh's.
+    /// Morph weights of a node without animation: the node's own, or otherwise its mesh's.
     pub fn weights(&self, node: usize) -> Vec<f64> {
         let node = self.root.nodes.get(node);
         let mesh = node.and_then(|node| self.root.get(node.mesh?));
@@ -113,7 +113,7 @@ impl Parts {
     }
 }
 
-/// Decoded properties of a node that `gltf`'s description does not hold.
+/// Properties of a node that were decoded, and that `gltf`'s description does not hold.
 #[derive(Clone, Debug)]
 pub struct Node {
     pub parent: Option<usize>,
@@ -132,8 +132,8 @@ pub struct Primitive {
     /// Vertex indices of each triangle, in range of every vertex stream that is not empty.
     pub triangles: Vec<[u32; 3]>,
     pub positions: Vec<[f32; 3]>,
-    /// Normals; not zero, not necessarily unit. An empty list means flat shading, triangle `i` having the vertices
-    /// `3i`, `3i + 1`, `3i + 2` to itself, or points and lines that face the camera.
+    /// Normals; not zero, not necessarily unit. An empty list means flat shading, in which triangle `i` has the
+    /// vertices `3i`, `3i + 1` and `3i + 2` to itself; for points and lines it means that they face the camera.
     pub normals: Vec<[f32; 3]>,
     /// Tangents, if the material has a normal texture.
     pub tangents: Vec<[f32; 4]>,
@@ -144,7 +144,7 @@ pub struct Primitive {
     pub targets: Vec<Target>,
     /// Joints and weights of each set `JOINTS_0`, `JOINTS_1`, ...
     pub influences: Vec<Influences>,
-    /// Corners of points and lines, which are the last vertices, in their order.
+    /// Corners of points and lines. Their vertices are the last ones, in the same order.
     pub corners: Vec<Corner>,
     /// Edges of a mesh; their corners are the last vertices.
     pub edges: Vec<Edge>,
@@ -236,10 +236,9 @@ pub struct Channel {
     pub interpolation: Interpolation,
     /// Times of the keyframes in seconds, ascending, at least one.
     pub times: Arc<[f32]>,
-    /// `width` numbers a keyframe; three times as many with cubic splines: in-tangent, value,
-    /// out-tangent.
+    /// Values of `width` numbers for each keyframe; three values with cubic splines: in-tangent, value, out-tangent.
     pub values: Arc<[f32]>,
-    /// Number of values of a keyframe's one part.
+    /// Number of numbers in a value.
     pub width: usize,
 }
 
@@ -252,7 +251,7 @@ impl Channel {
         }
     }
 
-    /// Numbers of part `part` of keyframe `i`, of `parts` parts in all.
+    /// Numbers of part `part` of keyframe `i`; a keyframe has `parts` parts.
     pub fn part(&self, i: usize, part: usize, parts: usize) -> Vec<f64> {
         let start = (i * parts + part) * self.width;
         let numbers = self.values.get(start..start + self.width);

@@ -12,12 +12,12 @@ use super::{
     surface::triangles,
 };
 
-/// Selection and colour of the edges that are drawn over meshes.
+/// Choice and colour of the edges that are drawn over meshes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Edges {
     /// Colour of the lines, linear light.
     pub color: [f32; 3],
-    /// Threshold of creases in degrees: an edge is a crease if its faces turn by more.
+    /// Threshold of creases in degrees: an edge is a crease if the normals of its faces differ by more.
     pub crease: f64,
 }
 
@@ -49,7 +49,7 @@ pub fn add(scene: &mut Scene, edges: &Edges) {
     scene.document.meshes.par_iter_mut().for_each(|mesh| {
         let mut groups: Vec<Vec<&Primitive>> = Vec::new();
         for primitive in mesh.iter().filter(|primitive| !primitive.is_strokes()) {
-            // Others do not move alike.
+            // Primitives with other joints or targets do not move in the same way.
             let alike = |other: &&Primitive| {
                 other.influences.len() == primitive.influences.len()
                     && other.targets.len() == primitive.targets.len()
@@ -68,7 +68,7 @@ pub fn add(scene: &mut Scene, edges: &Edges) {
     });
 }
 
-/// Primitives whose vertices are merged where they are at the same place.
+/// Primitives whose vertices are merged if their positions are equal.
 struct Surface<'p> {
     primitives: &'p [&'p Primitive],
     /// Primitive and vertex of each merged vertex.
@@ -81,7 +81,7 @@ struct Face {
     is_double_sided: bool,
 }
 
-/// Side of a face, in its direction.
+/// Directed side of a face.
 #[derive(Clone, Copy)]
 struct Side {
     from: u32,
@@ -109,7 +109,7 @@ impl<'p> Surface<'p> {
             let material = materials.get(primitive.material);
             let is_double_sided = material.is_some_and(|material| material.double_sided);
             let mut shared = |v: usize| {
-                // Without the sign of zero.
+                // Adding 0 turns a negative zero into a positive one.
                 let place = primitive.positions[v].map(|x| (x + 0.0).to_bits());
                 *at_place.entry(place).or_insert_with(|| {
                     surface.vertices.push((index, v));
@@ -127,7 +127,7 @@ impl<'p> Surface<'p> {
                 let next = surface.faces.len();
                 let face = *known.entry(sorted).or_insert(next);
                 match surface.faces.get_mut(face) {
-                    // Back to back.
+                    // Two faces with the same corners in opposite order are one double-sided face.
                     Some(face) => face.is_double_sided = true,
                     None => surface.faces.push(Face {
                         corners,
@@ -144,7 +144,7 @@ impl<'p> Surface<'p> {
         DVec3::from_array(self.primitives[primitive].positions[v].map(f64::from))
     }
 
-    /// Makes lines of the edges, of the material with this index.
+    /// Makes lines of the edges, with the material of this index.
     fn edges(&self, crease: f64, material: usize) -> Primitive {
         let mut sides: Vec<Side> = (0..)
             .zip(&self.faces)
@@ -174,7 +174,8 @@ impl<'p> Surface<'p> {
                 [second] => Some(self.normals(first, second.opposite)),
                 _ => None,
             };
-            // No view shows one of two faces in a plane alone.
+            // Two faces in the same plane are seen from the same side in every view, so that their edge is never a
+            // silhouette.
             if !deforms && normals.is_some_and(is_flat) && !rest.iter().any(turned) {
                 continue;
             }
@@ -198,7 +199,7 @@ impl<'p> Surface<'p> {
         self.primitive(edges, &sources, material)
     }
 
-    /// Normals of a face and of the one beyond its side; zero for a face without area.
+    /// Normals of a face and of its neighbour `beyond` a side; zero for a face without area.
     fn normals(&self, side: &Side, beyond: u32) -> [DVec3; 2] {
         let [from, to] = [side.from, side.to].map(|v| self.position(v));
         let along = to - from;
@@ -207,7 +208,7 @@ impl<'p> Surface<'p> {
         [normal, other].map(DVec3::normalize_or_zero)
     }
 
-    /// Makes a primitive of edges with these vertices, which move as the surface's vertices do.
+    /// Makes a primitive of edges with these vertices, which move like the surface's vertices.
     fn primitive(
         &self,
         edges: Vec<Edge>,
@@ -267,7 +268,7 @@ fn compact(edges: &mut [Edge], vertex_count: usize) -> Vec<u32> {
     [used, of_corners].concat()
 }
 
-/// Whether faces of these normals lie in a plane, up to the rounding of positions.
+/// Whether faces with these normals lie in the same plane, apart from rounding of positions.
 fn is_flat([normal, other]: [DVec3; 2]) -> bool {
     /// Largest sine of the angle between normals that counts as rounding.
     const ROUNDED: f64 = 1e-4;

@@ -2,12 +2,12 @@
 
 use std::{fmt, io, sync::Arc};
 
-/// Scene that can't be loaded or posed. Every message names the file and, if there is one, the place in it as a JSON
+/// Error of loading or posing a scene. Every message names the file and, if there is one, the place in it as a JSON
 /// pointer (RFC 6901).
 #[derive(Clone, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SceneError {
-    /// File that can't be read at all.
+    /// File that can't be read.
     #[error("{file}: cannot be read: {source}")]
     Read {
         /// Name of the file.
@@ -20,7 +20,7 @@ pub enum SceneError {
     NotGltf {
         /// Name of the file.
         file: String,
-        /// Other format that the bytes are in, or the part that is missing.
+        /// What the bytes are instead, or which part is missing.
         reason: String,
     },
     /// File of a version of glTF other than 2.0.
@@ -43,7 +43,7 @@ pub enum SceneError {
         /// Advice to the user.
         way_out: String,
     },
-    /// Broken part of the file that has to be drawn.
+    /// Broken part of the file without which the scene can't be drawn.
     #[error("{file}: {place}: {reason}")]
     Malformed {
         /// Name of the file.
@@ -83,7 +83,7 @@ pub enum SceneError {
         /// Variants of the file, in words.
         known: String,
     },
-    /// Scene that is too large to be posed, most likely since a small file's content is repeated.
+    /// Scene that is too large to be posed, most likely because a small file repeats its content.
     #[error(
         "{file}: {count} {what} exceed the limit of {limit}; split the scene or draw fewer instances"
     )]
@@ -92,14 +92,14 @@ pub enum SceneError {
         file: String,
         /// Counted items, such as triangles.
         what: &'static str,
-        /// Number of them, at least.
+        /// Number of items, or a lower bound of it.
         count: u64,
-        /// Largest possible number of them.
+        /// Largest number of items that is allowed.
         limit: u64,
     },
 }
 
-/// Fault at a place in the file; the code that meets it turns it into an error or a warning.
+/// Fault at a place in the file, which becomes an error or a warning.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Fault {
     /// JSON pointer to the place.
@@ -137,8 +137,8 @@ impl fmt::Display for Fault {
     }
 }
 
-/// Warnings about one file. Only the first [`Warnings::KEPT`] are kept and the others counted, so that a file broken in
-/// every element does not bury its user.
+/// Warnings about a file. Only the first [`Warnings::KEPT`] are kept and the others counted, so that a file with a
+/// fault in every element does not flood its user.
 #[derive(Debug)]
 pub(super) struct Warnings {
     file: String,

@@ -1,4 +1,4 @@
-//! Triangles of one scene at one moment, and the places where they are drawn.
+//! Triangles of a scene at one moment, and the places where they are drawn.
 
 use super::material::{AlphaMode, Material};
 use super::stroke::{Edge, Stroke};
@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
-/// Class of a draw: the way that its triangles are rasterized. [`Geometry::draws`] are in the order of the variants.
+/// Class of a draw: how its triangles are rasterized. [`Geometry::draws`] are in the order of these variants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum DrawClass {
     /// Opaque, back faces culled.
@@ -39,7 +39,7 @@ impl DrawClass {
     }
 }
 
-/// Run of triangles with one material and one class.
+/// Consecutive triangles with the same material and class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Draw {
     /// Index of the first triangle in [`Geometry::triangles`].
@@ -61,53 +61,53 @@ impl Draw {
 }
 
 /// Vertex attributes other than the position. A stream that no primitive of the scene needs is empty; otherwise it has
-/// one entry a vertex, glTF's default where a primitive has none.
+/// an entry for each vertex, with glTF's default for primitives that lack the attribute.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VertexStreams {
     /// Unit normals in world space; never empty if there are vertices (missing normals are generated flat).
     pub normals: Vec<[f32; 3]>,
-    /// Unit tangents in world space, `w` being the bitangent's sign; only if a material
+    /// Unit tangents in world space, with the bitangent's sign in `w`; empty unless a material
     /// [needs](Material::tangent_uv_set) them.
     pub tangents: Vec<[f32; 4]>,
     /// Texture coordinates, untransformed: TEXCOORD_0 in `[0..2]`, TEXCOORD_1 in `[2..4]`.
     pub uvs: Vec<[f32; 4]>,
     /// Vertex colours (COLOR_0), linear, straight alpha; opaque white by default.
     pub colors: Vec<[f32; 4]>,
-    /// Ratio of lengths in world space to those in the mesh: the cube root of the ratio of volumes. Only if a material
+    /// Length in world space / length in the mesh: the cube root of the ratio of volumes. Empty unless a material
     /// [has](Material::has_volume) a thickness.
     pub scales: Vec<f32>,
 }
 
-/// Neighbouring triangles of a [`Geometry`], drawn at one place.
+/// Consecutive triangles of a [`Geometry`], drawn at one place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Instance {
     /// Index of the first triangle in [`Geometry::triangles`].
     pub first_triangle: u32,
-    /// Number of triangles, at least 1; all have one [`DrawClass`].
+    /// Number of triangles, at least 1; all have the same [`DrawClass`].
     pub triangle_count: u32,
-    /// ID of the first triangle less 1, a multiple of [`Instance::ALIGNMENT`]; those of the other triangles follow. IDs
-    /// between the last triangle of an instance and the first of the next one belong to no triangle.
+    /// ID of the first triangle minus 1, a multiple of [`Instance::ALIGNMENT`]; the IDs of the other triangles follow
+    /// it. IDs between the last triangle of an instance and the first of the next belong to no triangle.
     pub first_index: u32,
     /// Transform from the space of the vertices to the world relative to [`Geometry::origin`].
     pub transform: DAffine3,
 }
 
-/// Ratio by which a transform makes lengths longer: the cube root of the ratio of volumes.
+/// Factor by which a transform enlarges lengths: the cube root of the ratio of volumes.
 pub(super) fn length_scale(transform: &DAffine3) -> f64 {
     transform.matrix3.determinant().abs().cbrt()
 }
 
 impl Instance {
-    /// Distance of the IDs at which instances may start; these are its multiples plus 1.
+    /// Number of which [`Instance::first_index`] is a multiple.
     pub const ALIGNMENT: u32 = 64;
 
-    /// Whether the transform mirrors, so that triangles wind the other way.
+    /// Whether the transform mirrors, which reverses the winding of triangles.
     #[must_use]
     pub fn mirrored(&self) -> bool {
         self.transform.matrix3.determinant() < 0.0
     }
 
-    /// Ratio of lengths in the world to those among the vertices: the cube root of the ratio of volumes.
+    /// Length in the world / length among the vertices: the cube root of the ratio of volumes.
     #[must_use]
     pub fn scale(&self) -> f64 {
         length_scale(&self.transform)
@@ -122,32 +122,32 @@ impl Instance {
 
 /// Triangles of a scene, ready for upload.
 ///
-/// Front faces wind counter-clockwise seen from outside. Without [`instances`](Self::instances) positions are in world
-/// space, and triangle `i` has the ID `i + 1`; 0 is background. With them, each instance draws some of the triangles at
-/// a place and with IDs of its own, so that a mesh that is drawn often is held once.
+/// Front faces wind counter-clockwise seen from outside. Without [`instances`](Self::instances), positions are in
+/// world space, and triangle `i` has the ID `i + 1`; 0 is background. With instances, each instance draws some of the
+/// triangles at its own place and with its own IDs, so that a mesh that is drawn many times is stored once.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Geometry {
-    /// World position that [`positions`](Self::positions) are relative to, so that a scene far from its origin keeps
-    /// its precision.
+    /// World position to which [`positions`](Self::positions) are relative, so that a scene far from the world's
+    /// origin keeps its precision.
     pub origin: DVec3,
     /// Positions relative to [`origin`](Self::origin), or in the space of their instances.
     pub positions: Vec<[f32; 3]>,
-    /// Other attributes, one entry a vertex in each stream that is not empty.
+    /// Other attributes, with an entry for each vertex in each stream that is not empty.
     pub streams: VertexStreams,
     /// Vertex indices of each triangle, in range.
     pub triangles: Vec<[u32; 3]>,
-    /// Runs that partition `triangles`, sorted by [`DrawClass`], then by order in the file.
+    /// Ranges that partition `triangles`, sorted by [`DrawClass`], then by order in the file.
     pub draws: Vec<Draw>,
-    /// Places where triangles are drawn, in the order of their IDs and so of their classes. If the list is empty, each
-    /// triangle is drawn once, where its vertices are.
+    /// Places where triangles are drawn, in the order of their IDs and therefore of their classes. If the list is
+    /// empty, each triangle is drawn once, at the positions of its vertices.
     pub instances: Vec<Instance>,
-    /// Vertices that are corners of points and lines, in world space; in range and ascending.
+    /// Corners of points and lines, in world space, with vertices in range and ascending.
     pub strokes: Vec<Stroke>,
     /// Edges of meshes, in world space and in range.
     pub edges: Vec<Edge>,
 }
 
-/// Fault of a [`Geometry`], which can't be drawn.
+/// Error: a [`Geometry`] that can't be drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GeometryError {
     /// Triangle that refers to a missing vertex.
@@ -173,7 +173,7 @@ pub enum GeometryError {
     /// Draws that do not partition the triangles in their order.
     #[error("draw {draw} has triangles from {first} on, and {expected} comes next of {triangles}")]
     Draw {
-        /// Index of the draw; the number of draws if triangles after the last one are in none.
+        /// Index of the draw; the number of draws if triangles remain after the last one.
         draw: usize,
         /// First triangle of the draw.
         first: u32,
@@ -230,13 +230,13 @@ pub enum GeometryError {
     },
 }
 
-/// Fault of an [`Instance`].
+/// Reason why an [`Instance`] can't be drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum InstanceFault {
     /// Instance without triangles, or with more than there are.
     #[error("it has no triangles, or some that there are none of")]
     Triangles,
-    /// First index that is below the end of the instance before it or no multiple of 64, or last index that needs more
+    /// First index that is below the end of the previous instance or no multiple of 64, or last index that needs more
     /// than 32 bits.
     #[error(
         "its first index is no multiple of 64 after the instance before it, or its last passes 32 bits"
@@ -254,11 +254,11 @@ pub enum InstanceFault {
 }
 
 impl Geometry {
-    /// Checks everything that a renderer relies on, for a scene of `materials` materials. Positions that are not finite
-    /// are allowed: their triangles are not seen.
+    /// Checks everything that a renderer relies on, for a scene with `materials` materials. Positions that are not
+    /// finite are allowed: their triangles are invisible.
     ///
     /// # Errors
-    /// The first contradiction found.
+    /// [`GeometryError`] about the first contradiction.
     pub fn check(&self, materials: usize) -> Result<(), GeometryError> {
         let vertices = self.positions.len();
         let VertexStreams {
@@ -275,7 +275,7 @@ impl Geometry {
             ("scales", scales.len()),
             ("colours", colors.len()),
         ] {
-            // Normals alone may not be left out.
+            // Only normals are required.
             let may_be_empty = stream != "normals";
             if found != vertices && !(may_be_empty && found == 0) {
                 return Err(GeometryError::Stream {
@@ -389,7 +389,7 @@ impl Geometry {
         Ok(())
     }
 
-    /// The draws that an instance has triangles of.
+    /// Draws that contain triangles of an instance.
     fn draws_of(&self, instance: &Instance) -> impl Iterator<Item = &Draw> + Clone {
         let own = instance.triangles();
         let first = self
@@ -399,13 +399,13 @@ impl Geometry {
         after.take_while(move |draw| draw.triangles().start < own.end)
     }
 
-    /// Whether some vertices are placed for each camera.
+    /// Whether some vertices have to be placed for each camera.
     #[must_use]
     pub fn has_strokes(&self) -> bool {
         !self.strokes.is_empty() || !self.edges.is_empty()
     }
 
-    /// Number of triangles that are drawn.
+    /// Number of triangles that are drawn, counting instances.
     #[must_use]
     pub fn triangle_count(&self) -> u64 {
         if self.instances.is_empty() {
@@ -415,7 +415,7 @@ impl Geometry {
         counts.sum()
     }
 
-    /// Number of indices of triangles, which are IDs less 1; some may stand for no triangle.
+    /// Number of indices of triangles (IDs minus 1); some may belong to no triangle.
     #[must_use]
     pub fn index_count(&self) -> u64 {
         self.instances
@@ -425,8 +425,8 @@ impl Geometry {
             })
     }
 
-    /// Smallest and largest corner of the axis-aligned box around all vertices that a drawn triangle
-    /// uses, in world space; `None` without triangles.
+    /// Lowest and highest corner of the axis-aligned box around all vertices of drawn triangles, in world space;
+    /// `None` without triangles.
     #[must_use]
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
         let whole = [DAffine3::IDENTITY].map(|place| self.box_of(0..self.triangles.len(), place));
@@ -444,7 +444,7 @@ impl Geometry {
         Some((low + self.origin, high + self.origin))
     }
 
-    /// The box around a range of triangles at a place.
+    /// Box around a range of triangles at a place.
     fn box_of(&self, triangles: std::ops::Range<usize>, place: DAffine3) -> Option<(DVec3, DVec3)> {
         let corners = self.triangles.get(triangles)?.iter().flatten();
         let positions = corners.map(|&v| place.transform_point3(self.position(v)));
@@ -452,7 +452,7 @@ impl Geometry {
         boxes.reduce(|(low, high), (p, _)| (low.min(p), high.max(p)))
     }
 
-    /// Corners of the box around an instance's vertices before its transform.
+    /// Lowest and highest corner of the box around an instance's vertices, before its transform.
     pub(crate) fn own_box(&self, instance: &Instance) -> Option<[DVec3; 2]> {
         let (low, high) = self.box_of(instance.triangles(), DAffine3::IDENTITY)?;
         Some([low, high])
@@ -462,9 +462,9 @@ impl Geometry {
         DVec3::from_array(self.positions[v as usize].map(f64::from))
     }
 
-    /// Makes the same triangles with the same IDs in world space and without instances. Vertices keep their indices;
-    /// those of meshes at other places follow. IDs that belong to no triangle become triangles without area, as are
-    /// points and lines before a camera gives them a size.
+    /// Geometry with the same triangles and IDs in world space, without instances. Vertices keep their indices; those
+    /// of meshes at other places follow. IDs that belong to no triangle become triangles without area, which points
+    /// and lines also are until a camera gives them a size.
     #[must_use]
     pub fn flat(&self) -> Cow<'_, Self> {
         if self.instances.is_empty() {
@@ -496,7 +496,7 @@ impl Geometry {
             self.place(low as usize..=high as usize, instance, flat)
         };
 
-        // What stands for nothing belongs to the draw before it.
+        // Indices that belong to no triangle become part of the draw before them.
         let gap = instance.first_index as usize - flat.triangles.len();
         flat.triangles.extend(std::iter::repeat_n([first; 3], gap));
         if let Some(draw) = flat.draws.last_mut() {
@@ -519,11 +519,11 @@ impl Geometry {
         }
     }
 
-    /// Adds some vertices of an instance in world space, and returns the index of the first one there.
+    /// Adds a range of an instance's vertices in world space; returns the index of the first one there.
     fn place(&self, used: RangeInclusive<usize>, instance: &Instance, flat: &mut Self) -> u32 {
         let first = flat.positions.len() as u32;
         let place = instance.transform;
-        // The inverse transpose up to a positive factor; exists also where the inverse does not.
+        // This is the inverse transpose up to a positive factor. It exists even if the inverse does not.
         let m = place.matrix3;
         let sign = if instance.mirrored() { -1.0 } else { 1.0 };
         let turn = |[x, y, z]: [f32; 3]| {

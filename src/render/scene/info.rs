@@ -1,4 +1,4 @@
-//! Summary of a file, for people and for scripts.
+//! Summary of a file's contents, for people and scripts.
 
 use serde::Serialize;
 
@@ -39,11 +39,11 @@ pub struct SceneInfo {
     pub triangles: u64,
     /// Number of points that are drawn in the default scene, instances counted.
     pub points: u64,
-    /// Number of lines' segments that are drawn in the default scene, instances counted.
+    /// Number of line segments that are drawn in the default scene, instances counted.
     pub lines: u64,
     /// Numbers of materials by alpha mode.
     pub materials: AlphaModes,
-    /// Names of the materials' variants, one of which can be asked for.
+    /// Names of the materials' variants, of which one can be selected.
     pub variants: Vec<String>,
     /// Number of textures that materials use.
     pub textures: usize,
@@ -51,13 +51,13 @@ pub struct SceneInfo {
     pub images: Vec<ImageInfo>,
     /// Number of lights in the default scene.
     pub lights: usize,
-    /// Whether the default scene has light from all around.
+    /// Whether the default scene has an environment.
     pub environment: bool,
     /// Number of skins.
     pub skins: usize,
     /// Extensions that the file uses.
     pub extensions_used: Vec<String>,
-    /// Extensions without which the file cannot be read.
+    /// Extensions without which the file can't be read.
     pub extensions_required: Vec<String>,
 }
 
@@ -66,15 +66,15 @@ pub struct SceneInfo {
 pub struct SceneNames {
     /// Names of the scenes in order; `None` for a scene without one.
     pub names: Vec<Option<String>>,
-    /// Index of the scene that is drawn unless another is asked for; `None` if the file has no scenes, so that all its
-    /// root nodes are drawn.
+    /// Index of the scene that is drawn by default; `None` if the file has no scenes, so that all its root nodes are
+    /// drawn.
     pub default: Option<usize>,
 }
 
 /// Camera of a file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct CameraInfo {
-    /// Name of the camera, or else of its node.
+    /// Name of the camera, or otherwise of its node.
     pub name: Option<String>,
     /// Kind of projection: `perspective` or `orthographic`.
     pub kind: &'static str,

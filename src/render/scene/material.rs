@@ -39,7 +39,7 @@ pub struct TextureUse {
     pub transform: TextureTransform,
 }
 
-/// Material; the defaults are glTF's.
+/// Material of a surface; the defaults are glTF's.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// Name in the file, if there is one.
@@ -50,20 +50,20 @@ pub struct Material {
     pub metallic: f32,
     /// Perceptual roughness, 0 to 1.
     pub roughness: f32,
-    /// Linear emitted radiance, `KHR_materials_emissive_strength` multiplied in.
+    /// Linear emitted radiance, including the strength of `KHR_materials_emissive_strength`.
     pub emissive: [f32; 3],
-    /// Factor of the x and y of the normal texture.
+    /// Factor for the x and y of the normal texture.
     pub normal_scale: f32,
     /// Strength of the occlusion texture from 0 (ignored) to 1.
     pub occlusion_strength: f32,
     /// Use of alpha.
     pub alpha_mode: AlphaMode,
-    /// Whether back faces are drawn, too.
+    /// Whether back faces are drawn too.
     pub double_sided: bool,
-    /// Whether an animation may change the material's numbers. Lobes that have no effect with the present numbers are
-    /// kept then.
+    /// Whether an animation may change the material's numbers. If so, lobes are kept even if they have no effect at
+    /// present.
     pub animated: bool,
-    /// Whether the base colour is the result, without light (`KHR_materials_unlit`).
+    /// Whether the base colour is the final colour, without lighting (`KHR_materials_unlit`).
     pub unlit: bool,
     /// Texture of the base colour: sRGB colour and linear alpha.
     pub base_color_texture: Option<TextureUse>,
@@ -152,7 +152,7 @@ impl TextureRole {
 }
 
 impl Material {
-    /// Whether surfaces show what lies behind, so that they are composited in order of depth.
+    /// Whether surfaces let their background show, so that they are composited in order of depth.
     #[must_use]
     pub fn is_layer(&self) -> bool {
         self.alpha_mode == AlphaMode::Blend || (self.lobes.transmission.is_some() && !self.unlit)
@@ -186,7 +186,7 @@ impl Material {
         used.into_iter()
     }
 
-    /// Places of all textures of the material, used or not, in the order of roles.
+    /// Places for all textures of the material, used or not, in the order of roles.
     pub(super) fn texture_slots(&mut self) -> Vec<(TextureRole, &mut Option<TextureUse>)> {
         use TextureRole as Role;
         let mut slots = vec![
@@ -242,7 +242,7 @@ pub struct Sampler {
     pub mag: Filter,
     /// Filter within a mipmap level.
     pub min: Filter,
-    /// Filter between mipmap levels; `None` reads the full image alone.
+    /// Filter between mipmap levels; `None` reads only the full image.
     pub mip: Option<Filter>,
     /// Wrapping along u.
     pub wrap_u: Wrap,

@@ -69,43 +69,42 @@ pub use view::{SceneCamera, SceneProjection};
 /// A file's content, checked and decoded.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// Materials: the file's in its order, glTF's default material for primitives without one, and unlit copies for
-    /// points and lines without normals; never empty.
+    /// Materials: those of the file in its order, glTF's default material for primitives without one, and unlit copies
+    /// for points and lines without normals; never empty.
     pub materials: Vec<Material>,
     /// Textures that materials use.
     pub textures: Vec<Texture>,
     /// Images that textures use.
     pub images: Vec<Image>,
-    /// Environment that replaces the file's own and the studio's: light from all around.
+    /// Environment that replaces the file's environment and the built-in studio.
     pub environment: Option<Arc<Environment>>,
     document: document::Document,
-    /// Numbers that animations change.
+    /// Descriptions whose numbers animations change.
     descriptions: Arc<read::Descriptions>,
 }
 
-/// Scene and the warnings of loading it.
+/// A loaded scene, and warnings about its file.
 #[derive(Clone, Debug)]
 pub struct Loaded {
     /// Loaded scene.
     pub scene: Scene,
-    /// Warnings. Each is one sentence that names the file and the place in it, and says what was left out or replaced,
-    /// and why.
+    /// Warnings, each a sentence that names the file and the place in it, and says what was left out or replaced, and
+    /// why.
     pub warnings: Vec<String>,
 }
 
 impl Scene {
-    /// Reads a glTF, OBJ, STL or PLY file; the format is told by the content. Relative URIs start from the file's
-    /// folder.
+    /// Reads a glTF, OBJ, STL or PLY file; the content tells the format. Relative URIs start from the file's folder.
     ///
     /// # Errors
-    /// If the file cannot be read, is none of these, is glTF other than 2.0, requires an extension that is not supported, or
-    /// if anything that has to be drawn is broken: see [`SceneError`].
+    /// [`SceneError`] if the file can't be read, is in none of these formats, is glTF of a version other than 2.0,
+    /// requires an unsupported extension, or if a part that has to be drawn is broken.
     pub fn load(path: &Path) -> Result<Loaded, SceneError> {
         let file = path.display().to_string();
         Self::from_slice(&read_file(path)?, &file, path.parent())
     }
 
-    /// Reads a file as [`load`](Self::load) does, with the materials of the `variant` of that name
+    /// Reads a file as [`load`](Self::load) does, with the materials of the variant called `variant`
     /// (`KHR_materials_variants`).
     ///
     /// # Errors
@@ -116,7 +115,7 @@ impl Scene {
     }
 
     /// Reads the bytes of a glTF, OBJ, STL or PLY file. `name` stands for the file in messages. Relative URIs start
-    /// from the folder `base`; without it they are errors where they are needed.
+    /// from the folder `base`; without it, a URI that is needed is an error.
     ///
     /// # Errors
     /// As [`load`](Self::load).
@@ -124,7 +123,7 @@ impl Scene {
         read::read(bytes, name, base, None)
     }
 
-    /// Reads bytes as [`from_slice`](Self::from_slice) does, with the materials of the `variant` of that name
+    /// Reads bytes as [`from_slice`](Self::from_slice) does, with the materials of the variant called `variant`
     /// (`KHR_materials_variants`).
     ///
     /// # Errors
@@ -138,8 +137,8 @@ impl Scene {
         read::read(bytes, name, base, Some(variant))
     }
 
-    /// Makes a scene without a file and without textures, for [`Geometry`] made by other means. glTF's default material
-    /// is appended.
+    /// Makes a scene of materials, without a file and without textures, for [`Geometry`] from another source. glTF's
+    /// default material is appended.
     #[must_use]
     pub fn from_materials(mut materials: Vec<Material>) -> Self {
         materials.push(Material::default());
@@ -153,22 +152,22 @@ impl Scene {
         }
     }
 
-    /// Adds lines along the edges of all meshes: creases, boundaries and, for each camera, silhouettes. They move as the
-    /// meshes do, but creases stay those of meshes at rest.
+    /// Adds lines along the edges of all meshes: creases, boundaries and, for each camera, silhouettes. They move with
+    /// the meshes, but creases are determined with the meshes at rest.
     pub fn add_edges(&mut self, edges: &Edges) {
         edges::add(self, edges);
     }
 
-    /// Poses one scene at one moment: its triangles, lights and cameras.
+    /// Poses a scene of the file at one moment: its triangles, lights and cameras.
     ///
     /// # Errors
-    /// If the file has no such scene or animation, or if repetition makes the scene too large.
+    /// [`SceneError`] if the file has no such scene or animation, or if repeated content makes the scene too large.
     pub fn pose(&self, request: &PoseRequest) -> Result<Pose, SceneError> {
         pose::pose(self, request)
     }
 
     /// Poses a scene as [`pose`](Self::pose) does, and makes the [`Motion`] that shows other moments of its animation.
-    /// What moves is not drawn by instances.
+    /// Moving meshes are not drawn by instances.
     ///
     /// # Errors
     /// As [`pose`](Self::pose).
@@ -176,7 +175,7 @@ impl Scene {
         pose::pose_in_motion(self, request)
     }
 
-    /// Summarises the file.
+    /// Summary of the file's contents.
     #[must_use]
     pub fn info(&self) -> SceneInfo {
         info::summarize(self)

@@ -1,37 +1,37 @@
-//! Points and lines, which have a size in pixels and so another shape for each camera.
+//! Points and lines. Their size is in pixels, so that they have another shape for each camera.
 
-/// A vertex of a [`Geometry`](super::Geometry) that a renderer places for each camera: a corner of a point's disc or of a
-/// line. The other vertices that it names are positions in space.
+/// Vertex of a [`Geometry`](super::Geometry) that a renderer places for each camera: a corner of a point's disc or of
+/// a line. The other vertices that it refers to are positions in space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stroke {
     /// Corner of the point or line.
     pub part: StrokePart,
-    /// The vertex to place; its position is that of [`at`](Self::at) until then.
+    /// Index of the vertex to place; until then its position is that of [`at`](Self::at).
     pub vertex: u32,
-    /// The point, or the end of a segment, that it belongs to.
+    /// Index of the vertex at the point, or at the segment's end, to which the corner belongs.
     pub at: u32,
-    /// The other end of the segment.
+    /// Index of the vertex at the other end of the segment.
     pub other: u32,
-    /// Index of the vertex at which the line goes on from `at`; `at` itself at its end.
+    /// Index of the vertex to which the line continues from `at`; `at` itself at the end of the line.
     pub beyond: u32,
-    /// Whether its normal is to face the camera, for want of one of its own.
+    /// Whether its normal faces the camera, because it has none of its own.
     pub faces_camera: bool,
 }
 
-/// An edge of a mesh, drawn as a line of two triangles, whose corners a renderer places for each camera.
+/// Edge of a mesh, drawn as a line of two triangles whose corners a renderer places for each camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Edge {
-    /// The first of four vertices to place, which follow each other: the left corner of the first end, right and left of the
-    /// second, and right of the first, as [`StrokePart`] has them.
+    /// Index of the first of four consecutive vertices to place: the left corner of the first end, the right and left
+    /// corners of the second end, and the right corner of the first, as in [`StrokePart`].
     pub first_vertex: u32,
-    /// The vertices at its ends.
+    /// Indices of the vertices at its ends.
     pub ends: [u32; 2],
-    /// The vertices of its faces that are not the edge's: of the one that runs from the first end to the second, and of the
-    /// one that runs back; an end of the edge where there is no such face.
+    /// Indices of the third vertices of its two faces: of the face in which the edge runs from the first end to the
+    /// second, and of the other one; an end of the edge stands for a missing face.
     pub opposite: [u32; 2],
-    /// Whether the edge shows as a silhouette alone: one of its faces is seen from the front, the other from behind.
+    /// Whether the edge is visible only as a silhouette, between a face seen from the front and one seen from behind.
     pub is_smooth: bool,
-    /// Whether the edge also shows if its faces are seen from behind.
+    /// Whether the edge is visible even if its faces are seen from behind.
     pub is_double_sided: bool,
 }
 
@@ -39,18 +39,18 @@ impl Edge {
     /// Number of an edge's corners.
     pub const CORNERS: u32 = 4;
 
-    /// The end that each corner belongs to.
+    /// The end to which each corner belongs.
     pub(crate) fn corners(&self) -> [u32; 4] {
         let [from, to] = self.ends;
         [from, to, to, from]
     }
 
-    /// The triangles that it is drawn by.
+    /// The triangles by which the edge is drawn.
     pub(crate) fn triangles(&self) -> [[u32; 3]; 2] {
         [[0, 1, 2], [0, 2, 3]].map(|corners| corners.map(|corner| self.first_vertex + corner))
     }
 
-    /// Edge with vertices counted from `first`, of a mesh that may be mirrored, so that faces turn the other way.
+    /// Edge whose vertices are counted from `first`, of a mesh that may be mirrored, which swaps the faces.
     pub(crate) fn placed(self, first: u32, mirrored: bool) -> Self {
         let [a, b] = self.opposite.map(|v| v + first);
         Self {
@@ -62,8 +62,8 @@ impl Edge {
     }
 }
 
-/// A corner of a point or line. Left and right are those of one who looks from the other end of the segment to the end
-/// that the corner belongs to.
+/// Corner of a point or line. Left and right are seen when looking from the other end of the segment to the corner's
+/// own end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StrokePart {
     /// The left corner of a segment's end.
@@ -72,17 +72,17 @@ pub enum StrokePart {
     Right,
     /// The middle of the triangle that fills a joint too sharp for a mitre.
     JointCentre,
-    /// The next corner of that triangle, counter-clockwise.
+    /// The first corner of that triangle on the border, counter-clockwise.
     JointFirst,
-    /// Last corner of a joint.
+    /// The last corner of that triangle.
     JointSecond,
-    /// A corner of the regular polygon that stands for a point's disc, counted counter-clockwise.
+    /// A corner of the regular polygon that approximates a point's disc, counted counter-clockwise.
     Disc(u32),
 }
 
 impl StrokePart {
-    /// Corners of the polygon that stands for a disc. It has the disc's area, and its border stays within 1.3 % of the
-    /// radius of the disc's.
+    /// Number of corners of the polygon that approximates a disc. The polygon has the disc's area, and its border is
+    /// within 1.3 % of the radius from the disc's.
     pub const DISC_CORNERS: u32 = 16;
 
     /// The kind of corner in `shaders/stroke.comp`.

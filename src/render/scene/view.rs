@@ -1,4 +1,4 @@
-//! Cameras that a file holds.
+//! Cameras of a file.
 
 use glam::{DMat3, DVec3};
 
@@ -9,11 +9,11 @@ pub enum SceneProjection {
     Perspective {
         /// Vertical field of view in radians, above 0 and below pi.
         yfov: f64,
-        /// Width over height, if the file prescribes one.
+        /// Width / height, if the file prescribes it.
         aspect: Option<f64>,
         /// Distance of the near plane, above 0.
         near: f64,
-        /// Distance of the far plane; `None` is infinite.
+        /// Distance of the far plane; `None` for infinity.
         far: Option<f64>,
     },
     /// Orthographic projection.
@@ -30,7 +30,7 @@ pub enum SceneProjection {
 }
 
 impl SceneCamera {
-    /// Index of the camera with this name, or else with this index.
+    /// Index of the camera with this name, or otherwise with this index.
     #[must_use]
     pub fn find(cameras: &[Self], asked: &str) -> Option<usize> {
         let by_name = cameras
@@ -41,14 +41,14 @@ impl SceneCamera {
     }
 }
 
-/// Camera placed in the world, at the moment of the pose.
+/// Camera in the world, at the moment of the pose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneCamera {
-    /// Name of the camera, or else of its node.
+    /// Name of the camera, or otherwise of its node.
     pub name: Option<String>,
-    /// World position.
+    /// Position in world space.
     pub eye: DVec3,
-    /// Columns: right, up and backward in world space, orthonormal (the camera looks along the negative third).
+    /// Columns: right, up and backward in world space, orthonormal. The camera looks along the negative third one.
     pub axes: DMat3,
     /// Projection of the camera.
     pub projection: SceneProjection,

@@ -1,4 +1,4 @@
-//! What casts shadows: the triangles of a pose, from both sides.
+//! Casters of shadows: the triangles of a pose, visible from both sides.
 
 use crate::passes::Content;
 use crate::render::passes::GpuScene;
@@ -9,24 +9,24 @@ use crate::scene::{
 use glam::DVec3;
 use std::sync::Arc;
 
-/// Casters on the device, and the lights.
+/// Casters of shadows in device memory, and the lights.
 pub(in crate::render) struct Casters {
     pub(super) scene: Arc<GpuScene>,
-    /// Those of the first pose.
+    /// Lights and bounds of the first pose.
     pub(super) lit: Lit,
     moving: Option<MovingBounds>,
 }
 
-/// What lights fall on at a moment.
+/// Lights, and the box that they light, at a moment.
 #[derive(Clone)]
 pub(super) struct Lit {
     pub lights: Vec<Light>,
-    /// The box around all triangles; nothing where there are none.
+    /// Lowest and highest corner of the box around all triangles; `None` without triangles.
     pub bounds: Option<(DVec3, DVec3)>,
 }
 
-/// The casters of a pose, as a scene of their own whose triangles have the same IDs: nothing culled, and of the materials
-/// what alpha tests and opacities need.
+/// The casters of a pose as a separate scene, whose triangles have the same IDs. Nothing is culled, and materials keep
+/// only what alpha tests and opacities need.
 pub(super) fn caster_scene(scene: &Scene, pose: &Pose) -> (Scene, Pose) {
     let materials: Vec<Material> = pose.materials(scene).iter().map(casting).collect();
     let used = |index: u32| {
@@ -47,7 +47,7 @@ pub(super) fn caster_scene(scene: &Scene, pose: &Pose) -> (Scene, Pose) {
     for draw in &mut geometry.draws {
         draw.class = seen_from_both_sides(draw.class);
     }
-    // A size in pixels is none that a light could see.
+    // Points and lines have a size in pixels, which is undefined for a light.
     geometry.strokes.clear();
     geometry.edges.clear();
     let mut casting = Scene::from_materials(materials);
@@ -64,7 +64,7 @@ pub(super) fn caster_scene(scene: &Scene, pose: &Pose) -> (Scene, Pose) {
     (casting, pose)
 }
 
-/// Of a material what its shadow needs.
+/// The part of a material that its shadow needs.
 fn casting(material: &Material) -> Material {
     let opaque = Material {
         alpha_mode: material.alpha_mode,
@@ -81,7 +81,7 @@ fn casting(material: &Material) -> Material {
     }
 }
 
-/// A moment, with what shadows need of materials.
+/// A moment with the part of its materials that shadows need.
 pub(super) fn caster_moment(moment: &Moment) -> Moment {
     let changed = moment.materials.iter();
     Moment {
@@ -112,7 +112,7 @@ impl Casters {
         }
     }
 
-    /// What lights fall on at a moment.
+    /// Lights and bounds at a moment.
     pub(super) fn at(&self, moment: &Moment) -> Lit {
         Lit {
             lights: moment.lights.clone(),
@@ -123,12 +123,12 @@ impl Casters {
         }
     }
 
-    /// What casts, on the device.
+    /// Casters in device memory.
     pub(in crate::render) fn scene(&self) -> &GpuScene {
         &self.scene
     }
 
-    /// Words of each place that say which lights reach it: see `shaders/include/shadows.glsl`.
+    /// Number of words for each place that say which lights reach it: see `shaders/include/shadows.glsl`.
     pub(in crate::render) fn shadow_words(&self) -> u32 {
         match self.scene.has_blend() {
             true => 1 + self.lit.lights.len() as u32,
@@ -136,7 +136,7 @@ impl Casters {
         }
     }
 
-    /// Bytes of device memory that they take.
+    /// Bytes of device memory of the casters.
     pub(in crate::render) fn memory_bytes(&self) -> u64 {
         self.scene.memory_bytes()
     }

@@ -1,4 +1,4 @@
-//! The passes and memory that tell what lies in shadow.
+//! Passes and memory that find shadows.
 
 use super::casters::{Casters, Lit, caster_moment};
 use super::light::{LightView, Sight, views};
@@ -20,16 +20,16 @@ use crate::vulkan::{BufferView, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// Pipelines and memory to find what keeps lights from what a frame or a run of locations shades.
+/// Pipelines and memory that find the casters between lights and the places that a frame or a run of locations shades.
 pub(in crate::render) struct ShadowFinder {
     casters: Arc<Casters>,
     lit: Lit,
-    /// What is shown in the stead of the first pose.
+    /// Moment that is shown instead of the first pose.
     moment: Option<Moment>,
     settings: Settings,
     receivers: Receivers,
     sampler: Sampler,
-    /// Of casters that may let light pass.
+    /// Shading of casters that let light pass; `None` without such casters.
     shade: Option<Shade>,
     shadow: Shadow,
     pose: Option<Pose>,
@@ -40,23 +40,23 @@ pub(in crate::render) struct ShadowFinder {
     _locations: BufferView,
 }
 
-/// What is about to be shaded, by whom, and from where it is seen.
+/// Places that are about to be shaded: the memory of their owner, and the views of lights onto them.
 #[derive(Clone, Copy)]
 pub(in crate::render) struct Shadowed<'a> {
     pub resources: &'a Resources,
     pub set: &'a SampleSet,
-    /// Of the region of an image, in pixels; 0 for a list of locations.
+    /// Size in pixels of the region of an image; 0 for a list of locations.
     pub size: [u32; 2],
-    /// How lights see it.
+    /// Views of lights onto the places.
     pub views: &'a [LightView],
 }
 
-/// What the casters between a plane of a light and receivers are asked for.
+/// Client of the sampler that finds occluders between a plane of a light and receivers.
 struct Occlusion<'a> {
     finder: &'a ShadowFinder,
     set: &'a SampleSet,
     target: ShadowTarget,
-    /// The light's bit.
+    /// Bit of the light in the words of receivers.
     light: u32,
 }
 
@@ -67,7 +67,7 @@ impl Shadowed<'_> {
 }
 
 impl RecordShading for Occlusion<'_> {
-    /// Shades casters that may let light pass, for their opacities.
+    /// Shades casters that let light pass, to get their opacities.
     fn record(&self, recorder: &mut Recorder<'_>, resources: &Resources) {
         if let Some(shade) = &self.finder.shade {
             shade.record(recorder, &self.finder.casters.scene, &resources.arguments);
@@ -81,7 +81,7 @@ impl RecordShading for Occlusion<'_> {
     }
 }
 
-/// The list that casters are sampled by.
+/// List by which casters are sampled.
 const OCCLUDERS: ListCells = ListCells {
     cells: Cells::Occluders,
     attributes: false,
@@ -101,8 +101,8 @@ fn sizes(
 }
 
 impl ShadowFinder {
-    /// About how many bytes it takes for an image or list of so many places, where the memory of those who shade is of these
-    /// sizes.
+    /// Approximate number of bytes for an image or list of `places` places; the places' owner has memory of the sizes
+    /// `sizes`.
     pub fn bytes(
         layout: &FrameLayout,
         casters: &Casters,
@@ -116,8 +116,8 @@ impl ShadowFinder {
         list + sizes.bytes() + FrameGeometry::bytes(scene) + FrameLook::bytes(scene)
     }
 
-    /// Makes the pipelines and memory for cells of a scene that are shaded with these resources, in an image or list of so many
-    /// places.
+    /// Makes pipelines and memory for cells of a scene that are shaded with `resources`, in an image or list of
+    /// `places` places.
     ///
     /// # Errors
     /// If the driver refuses something, or memory runs out.
@@ -179,10 +179,10 @@ impl ShadowFinder {
                 unlisted: true,
                 ..capacity
             },
-            // `shadow` counts on the device.
+            // `shadow` counts on the device, so that no runs are counted here.
             runs: 0,
         };
-        // SAFETY: the list goes with this, and has room for as many locations.
+        // SAFETY: the list lives as long as this, and has room for that many locations.
         let sampler = unsafe { OCCLUDERS.sampler(&context, (&resources, locations.view)) }?;
         let opacities = || {
             let source = ShadeSource::Records {
@@ -208,7 +208,7 @@ impl ShadowFinder {
         })
     }
 
-    /// Records copies to the device, once.
+    /// Records initial copies to the device.
     pub fn record_upload(&self, recorder: &Recorder<'_>) {
         self.geometry.record_upload(recorder, &self.casters.scene);
         self.look.record_upload(recorder, &self.casters.scene);
@@ -216,12 +216,12 @@ impl ShadowFinder {
         self.targets.record_unused(recorder);
     }
 
-    /// How lights see what is seen.
+    /// Views of lights onto what is visible.
     pub fn views(&self, sight: &Sight) -> Vec<LightView> {
         views(&self.lit, sight)
     }
 
-    /// Shows another moment of the motion that the casters were made with, from the next recording on.
+    /// Shows another moment of the casters' motion, from the next recording on.
     pub fn show(&mut self, moment: &Moment) {
         let moment = caster_moment(moment);
         self.look.show(&self.casters.scene, &moment);
@@ -229,7 +229,7 @@ impl ShadowFinder {
         self.moment = Some(moment);
     }
 
-    /// Records what begins a frame or run, while the device is done with the one before.
+    /// Records the beginning of a frame or run. The device must have finished the previous one.
     pub fn record_begin(&mut self, recorder: &Recorder<'_>) {
         self.shadow.record_begin(recorder);
         self.look.record(recorder);
@@ -242,12 +242,13 @@ impl ShadowFinder {
         }
     }
 
-    /// Records what ends a frame or run.
+    /// Records the end of a frame or run.
     pub fn record_end(&self, recorder: &Recorder<'_>) {
         self.shadow.record_end(recorder);
     }
 
-    /// Records which lights reach what is shaded next, whose set is bound, and is bound again after it.
+    /// Records the search for the lights that reach the places to be shaded next. The places' descriptor set is bound
+    /// before and after.
     pub fn record(&self, recorder: &mut Recorder<'_>, shaded: Shadowed<'_>, receiving: Receiving) {
         recorder.untimed(|recorder| {
             if shaded.views.is_empty() {
@@ -268,8 +269,8 @@ impl ShadowFinder {
         recorder.mark("shadows");
     }
 
-    /// Records marks of the pixels of a region that lights reach elsewhere than their centres say, which are known. The region's
-    /// set is bound, and bound again after it.
+    /// Records marks for pixels of a region in which lights reach other places than the centre; the centre's shadows
+    /// are known. The region's descriptor set is bound before and after.
     pub fn record_probes(&self, recorder: &mut Recorder<'_>, shaded: Shadowed<'_>) {
         recorder.untimed(|recorder| {
             let receiving = Receiving::Pixels(shaded.pixels());
@@ -328,10 +329,10 @@ impl ShadowFinder {
         self.shadow.record_left(recorder, set);
     }
 
-    /// Adds what the last recording could not finish.
+    /// Adds the work that the last recording could not finish.
     ///
     /// # Errors
-    /// If it can't be read.
+    /// If its counters can't be read.
     pub fn add_shortfall(&self, shortfall: &mut Shortfall) -> Result<(), VulkanError> {
         let (left, other_subgroups) = self.shadow.left()?;
         shortfall.unshadowed += u64::from(left);

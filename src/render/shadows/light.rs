@@ -15,54 +15,54 @@ use crate::render::plane::{TILE, Window};
 use crate::scene::{Light, LightKind};
 use glam::{DMat3, DVec2, DVec3};
 
-/// Largest half angle of a cone on one plane, in radians: 75 degrees. A pixel on its rim is 15 times as large as on its
-/// axis.
+/// Largest half angle of a cone that one plane covers, in radians: 75 degrees. A pixel on the cone's rim covers 15
+/// times the area of one on its axis.
 const WIDEST: f64 = 75.0 * std::f64::consts::PI / 180.0;
-/// Distance of the near plane of local lights, in diagonals of the scene; nothing nearer casts a shadow.
+/// Distance of the near plane of point and spot lights / diagonal of the scene; nothing nearer casts a shadow.
 const NEAR: f64 = 1e-6;
-/// Fewest and most pixels along a side of a light's plane, which is one region of the engine.
+/// Smallest and largest number of pixels along a side of a light's plane, which is one region of the sampler.
 const SIDES: [f64; 2] = [64.0, 2_000.0];
-/// What is added to each side of what is seen on a distant light's plane, in sides of that: covers the rounding of positions to
-/// 32 bits.
+/// Margin around the visible part of a distant light's plane / side of that part. It covers the rounding of positions
+/// to 32 bits.
 const RIM: f64 = 1.0 / 256.0;
 
-/// A rectangle of a plane: its upper left and lower right corner, in pixels.
+/// A rectangle of a plane: its upper left and lower right corner in pixels.
 pub(in crate::render) type Rectangle = [DVec2; 2];
 
-/// What is seen of a scene through a pinhole's plane. The planes of lights follow from the whole of it, so that all parts of an
-/// image, or runs of a list, see the same shadows to the bit.
+/// The part of a scene that is visible through a pinhole's plane. The planes of lights are computed from the whole
+/// visible part, so that all parts of an image, and all runs of a list, get bit-identical shadows.
 pub(in crate::render) struct Sight {
     pub pinhole: Pinhole,
     pub whole: Rectangle,
-    /// What is shaded at once.
+    /// Rectangle of the plane that is shaded at once.
     pub part: Rectangle,
-    /// Pixels of the whole image, or locations of the whole list.
+    /// Number of pixels of the whole image, or of locations of the whole list.
     pub places: u64,
-    /// What positions on the device are relative to.
+    /// World position to which positions on the device are relative.
     pub origin: DVec3,
 }
 
-/// A light's pinhole, the window of its plane that is sampled, and what receivers are told of it.
+/// View of a light: its pinhole, the window of its plane that is sampled, and the light's parameters for receivers.
 pub(in crate::render) struct LightView {
     pub(super) pinhole: Pinhole,
     pub(super) window: Window,
     pub(super) plane: LightPlane,
-    /// The light's bit in the words of receivers.
+    /// Bit of the light in the words of receivers.
     pub(super) bit: u32,
 }
 
 impl LightView {
-    /// Pixels along a side of a plane for so many pixels or locations. With some more on the plane than there are, tiles have short
-    /// lists.
+    /// Side in pixels of a plane for a number of pixels or locations. A plane with somewhat more pixels than places
+    /// keeps the lists of tiles short.
     pub fn side(places: u64) -> u32 {
         let [fewest, most] = SIDES;
         let side = (2.0 * places as f64).sqrt().clamp(fewest, most);
-        // Whole tiles.
+        // The side is a whole number of tiles.
         (side as u32).next_multiple_of(8)
     }
 }
 
-/// The pinholes of all lights that together see all that is seen. A scene without extent has none.
+/// Views of all lights that together cover the visible part of the scene; empty for a scene without extent.
 pub(super) fn views(lit: &Lit, sight: &Sight) -> Vec<LightView> {
     let Some(bounds) = lit.bounds else {
         return Vec::new();
@@ -117,13 +117,13 @@ pub(super) fn views(lit: &Lit, sight: &Sight) -> Vec<LightView> {
     views
 }
 
-/// The rectangle around places of a plane.
+/// Rectangle around places on a plane.
 fn around(places: impl Iterator<Item = DVec2>) -> Rectangle {
     let nothing = [DVec2::INFINITY, DVec2::NEG_INFINITY];
     places.fold(nothing, |[low, high], at| [low.min(at), high.max(at)])
 }
 
-/// All of a plane.
+/// Window that covers a whole plane.
 fn whole_window(side: u32) -> Window {
     Window {
         low: [0; 2],
@@ -132,10 +132,10 @@ fn whole_window(side: u32) -> Window {
     }
 }
 
-/// The tiles of a plane around places of the world.
+/// Window with the tiles of a plane around places in the world.
 fn window_around(pinhole: &Pinhole, side: u32, places: &[DVec3]) -> Window {
     let [low, high] = around(places.iter().filter_map(|place| pinhole.project(*place)));
-    // No part is smaller than what rounding may move what is seen by.
+    // The margin is at least as large as the rounding of positions.
     let rim = RIM * f64::from(side);
     let whole = whole_window(side);
     let tile = |at: DVec2, axis: usize| (at[axis] / TILE[axis] as f64).floor() as i64;
@@ -149,7 +149,7 @@ fn window_around(pinhole: &Pinhole, side: u32, places: &[DVec3]) -> Window {
     }
 }
 
-/// The pinholes of a light; nothing if these can't be, since the scene has no extent that 64 bits tell apart.
+/// Pinholes of a light; `None` if the scene's extent vanishes in double precision.
 fn pinholes(
     light: &Light,
     bounds: (DVec3, DVec3),
@@ -162,19 +162,20 @@ fn pinholes(
     }
 }
 
-/// The pinhole of parallel light, with a plane of `side` pixels around what is seen and all of the scene behind it.
+/// Pinhole of a distant light. Its plane of `side` pixels covers the visible part, and the whole scene lies behind the
+/// plane.
 fn distant(along: DVec3, (low, high): (DVec3, DVec3), sight: &Sight, side: u32) -> Option<Pinhole> {
     let a = along.any_orthonormal_vector();
     let b = along.cross(a);
     let diagonal = (high - low).length();
-    // Relative to the scene, wherever it lies in the world.
+    // Positions are relative to the scene's box, so that its place in the world has no effect.
     let on_plane = |place: DVec3| DVec2::new((place - low).dot(a), (place - low).dot(b));
     let places = sight.corners_within(sight.whole, (low, high));
     let [least, most] = around(places.into_iter().map(on_plane));
     let middle = 0.5 * (least + most);
     let extent = (most - least).max_element().max(1e-6 * diagonal) * (1.0 + 2.0 * RIM);
     let first = middle - 0.5 * extent;
-    // The box's nearest and farthest corners.
+    // Distances of the box's nearest and farthest corners.
     let size = high - low;
     let nearest = (size * along).min(DVec3::ZERO).element_sum();
     let farthest = (size * along).max(DVec3::ZERO).element_sum();
@@ -186,7 +187,7 @@ fn distant(along: DVec3, (low, high): (DVec3, DVec3), sight: &Sight, side: u32) 
     Pinhole::new(to_light, origin, a * pixel, b * pixel, 0.0, Some(depth)).ok()
 }
 
-/// The pinholes of a local light: one for a cone that a plane of `side` pixels holds, otherwise a cube.
+/// Pinholes of a point or spot light: one for a cone that fits on a plane of `side` pixels, otherwise a cube.
 fn local(light: &Light, (low, high): (DVec3, DVec3), side: u32) -> Option<Vec<Pinhole>> {
     let (eye, axis) = (light.position, light.direction);
     let near = NEAR * (high - low).length();
@@ -210,7 +211,7 @@ fn local(light: &Light, (low, high): (DVec3, DVec3), side: u32) -> Option<Vec<Pi
 }
 
 impl Sight {
-    /// Corners of the part of a box that is seen through a rectangle; those of the box where that is nothing.
+    /// Corners of the part of a box that is visible through a rectangle; the corners of the box if no part is.
     fn corners_within(&self, seen: Rectangle, (low, high): (DVec3, DVec3)) -> Vec<DVec3> {
         let [first, last] = seen;
         let around = [
@@ -222,7 +223,8 @@ impl Sight {
         let rays = around.map(|at| self.pinhole.ray(at));
         let tips = rays.map(|ray| ray.start + ray.direction);
         let middle = tips.iter().sum::<DVec3>() * 0.25;
-        // The sides of the pyramid or prism that the rays are the edges of, by a point and what points inwards.
+        // The sides of the pyramid or prism whose edges are the rays, each as a point and a vector that points
+        // inwards.
         let side = |i: usize| {
             let normal = rays[i].direction.cross(tips[(i + 1) % 4] - tips[i]);
             let inwards = normal * (middle - rays[i].start).dot(normal).signum();
@@ -267,7 +269,7 @@ impl Sight {
     }
 }
 
-/// The part of a convex polygon before a plane.
+/// The part of a convex polygon in front of a plane.
 fn clip(polygon: &[DVec3], (point, inwards): (DVec3, DVec3)) -> Vec<DVec3> {
     let before = |place: DVec3| (place - point).dot(inwards);
     let mut kept = Vec::with_capacity(polygon.len() + 1);
@@ -310,7 +312,7 @@ mod tests {
         for view in 0..50 {
             let mut place =
                 || bounds.0 + (bounds.1 - bounds.0) * DVec3::new(random(), random(), random());
-            // Every other one looks from outside.
+            // Every other view looks at the box from outside.
             let (eye, target) = (place() * if view % 2 == 0 { 1.0 } else { 5.0 }, place());
             let seen = sight(eye, target);
             let along = (place() - target).normalize();
@@ -346,7 +348,7 @@ mod tests {
 
     #[test]
     fn a_plane_is_no_larger_than_what_is_seen() {
-        // A window of 2 x 1 at the distance 10 of a plane at right angles to the view, that light falls on head-on.
+        // The window has 2 x 1 units, at distance 10, on a plane that is perpendicular to the view and to the light.
         let bounds = (
             DVec3::new(-100.0, -100.0, -10.0),
             DVec3::new(100.0, 100.0, -10.0),

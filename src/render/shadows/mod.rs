@@ -1,16 +1,18 @@
-//! Exact shadows. The places at which surfaces are shaded, those of every sub-sample of a superpixel included, are projected on
-//! the image plane of each light, where they are a sampling set without any pattern: a list of sample locations, which the
-//! engine of all lists samples. That tells which of them another triangle lies before: no map of depths is made, and there is
-//! nothing of one to alias.
+//! Exact shadows.
 //!
-//! A place is in shadow where a triangle other than its own, opaque or passing its alpha test, lies nearer to the light
-//! by more than 2^-17 of its distance (of the scene's depth for a distant light); and where its own triangle turns the
-//! side that is seen from the light, whatever its interpolated normals say, so that the border of light on a smooth ball
-//! of few triangles follows its edges; but not where light from behind shines through it (`KHR_materials_diffuse_transmission`).
-//! BLEND triangles keep as much of the light as their opacities say, and each layer of them receives shadows as other surfaces do.
+//! The places at which surfaces are shaded, including those of every sample of a superpixel, are projected onto the
+//! image plane of each light. There they are a list of sampling locations, which the sampler of all lists samples: it
+//! finds the places that another triangle occludes. No depth map is made, so that there is none that could alias.
 //!
-//! Before superpixels are detected, three more places of each pixel are asked. Where a light reaches them otherwise than the
-//! centre, the pixel is one: so shadows that are narrower than a pixel are found.
+//! A place is in shadow in two cases. First, if another triangle, opaque or passing its alpha test, is nearer to the
+//! light by more than 2^-17 of the distance (of the scene's depth for a distant light). Second, if the visible side of
+//! its own triangle is turned away from the light, whatever the interpolated normals say; so the border of light on a
+//! smooth ball of few triangles follows their edges. The second case does not apply where light from behind shines
+//! through (`KHR_materials_diffuse_transmission`). BLEND triangles absorb light by their opacity, and each of their
+//! layers receives shadows as other surfaces do.
+//!
+//! Before superpixels are detected, three more places of each pixel are probed. If a light reaches them differently
+//! from the centre, the pixel becomes a superpixel, so that shadows narrower than a pixel are found.
 //!
 //! ```text
 //! shaded next: pixels or records ─▶ receivers ─▶ a list on the light's plane ─▶ distribute ─▶ … ─▶ sample ─▶ shadow ─▶ a word for each
@@ -30,11 +32,11 @@ use super::{PreparedScene, RenderError, Renderer, SceneRequest, Shadows};
 use casters::caster_scene;
 use std::sync::Arc;
 
-/// Most lights that cast shadows: bits of a word.
+/// Largest number of lights that cast shadows: the bits of a word.
 const MOST_LIGHTS: usize = 32;
 
 impl Renderer {
-    /// Makes what casts shadows, if shadows are asked for, in what the scene leaves of the memory that both may take.
+    /// Prepares the casters if shadows are asked for, within the memory that the scene leaves of the limit.
     pub(super) fn prepare_casters(
         &self,
         prepared: &mut PreparedScene,

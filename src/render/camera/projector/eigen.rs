@@ -1,17 +1,17 @@
 //! Eigenvectors of small symmetric matrices, by Jacobi's method (G. Golub and C. Van Loan, "Matrix Computations", 4th
 //! edition, section 8.5).
 
-/// Eigenvalue and its unit vector.
+/// An eigenvalue and its unit eigenvector.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Eigen<const N: usize> {
     pub value: f64,
     pub vector: [f64; N],
 }
 
-/// Most sweeps; about six suffice.
+/// Largest number of sweeps; about six suffice.
 const SWEEPS: u32 = 50;
 
-/// Eigenvalues and eigenvectors of a symmetric matrix, the least first.
+/// Eigenvalues and eigenvectors of a symmetric matrix, the smallest eigenvalue first.
 pub(super) fn symmetric<const N: usize>(mut a: [[f64; N]; N]) -> [Eigen<N>; N] {
     let mut vectors = [[0.0; N]; N];
     for (i, vector) in vectors.iter_mut().enumerate() {
@@ -27,7 +27,7 @@ pub(super) fn symmetric<const N: usize>(mut a: [[f64; N]; N]) -> [Eigen<N>; N] {
             if a[p][q] == 0.0 {
                 continue;
             }
-            // The turn in the plane of p and q that brings their common element to 0.
+            // This rotation in the plane of p and q makes their common element 0.
             let theta = 0.5 * (a[q][q] - a[p][p]) / a[p][q];
             let t = theta.signum() / (theta.abs() + theta.hypot(1.0));
             let c = 1.0 / t.hypot(1.0);
@@ -61,7 +61,8 @@ mod tests {
 
     #[test]
     fn known_eigenvalues() {
-        // 1, 2 and 4 with the vectors (1, -1, 0), (1, 1, -1) and (1, 1, 2), scaled.
+        // The matrix has the eigenvalues 1, 2 and 4 with the eigenvectors (1, -1, 0), (1, 1, -1) and (1, 1, 2),
+        // scaled.
         let vectors = [[1.0, -1.0, 0.0], [1.0, 1.0, -1.0], [1.0, 1.0, 2.0]];
         let mut matrix = [[0.0; 3]; 3];
         for (value, vector) in [1.0, 2.0, 4.0].into_iter().zip(vectors) {

@@ -2,21 +2,22 @@
 
 use crate::camera::set::SetError;
 
-/// Correspondences or maps that calibrate no projector.
+/// Error: correspondences or maps that calibrate no projector.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum ProjectorError {
-    /// Fewer than four correspondences: a homography has eight unknowns, and each correspondence determines two.
+    /// Fewer than four correspondences; holds their number. A homography has eight unknowns, and each correspondence
+    /// determines two.
     #[error("{0} correspondences; a homography takes at least 4")]
     TooFew(usize),
-    /// Coordinate that is NaN or infinite, by the index of its correspondence.
+    /// Coordinate that is NaN or infinite; holds the index of its correspondence.
     #[error("correspondence {0} is not finite")]
     NotFinite(usize),
-    /// Points on one line, which leave the homography undetermined.
+    /// Points on one line, which leave the homography undetermined; names the plane that they are on.
     #[error(
         "the points on the {0} are on one line or too nearly so; give some that span the area, no three of four on a line"
     )]
     Collinear(&'static str),
-    /// Correspondences of which too few agree on a homography.
+    /// Correspondences that disagree: too few of them fit one homography.
     #[error(
         "only {agreeing} of {count} correspondences agree to {tolerance} pixels on a homography; are they of a plane?"
     )]
@@ -28,13 +29,13 @@ pub enum ProjectorError {
         /// Tolerance in pixels of the image plane.
         tolerance: f64,
     },
-    /// Projector a corner of which looks behind the horizon of the plane.
+    /// Projector with a corner that looks behind the horizon of the plane; holds its width and height in pixels.
     #[error(
         "the homography has its horizon inside of the projector's {} x {} pixels; the correspondences or the size are wrong",
         .0[0], .0[1]
     )]
     Horizon([u32; 2]),
-    /// Projector without pixels, or with another number of locations.
+    /// Projector without pixels, or with a number of locations that is not that of its pixels.
     #[error("a projector of {} x {} pixels and a map of {found} locations; there must be one for each pixel", .size[0], .size[1])]
     Size {
         /// Width and height in pixels.

@@ -9,28 +9,29 @@ use glam::{DMat2, DMat3, DVec2, DVec3};
 /// Place on a projector and its location on the image plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Correspondence {
-    /// Place on the projector, in pixels, (0, 0) its upper left corner.
+    /// Place on the projector in pixels; (0, 0) is its upper left corner.
     pub place: [f64; 2],
-    /// Location on the image plane, in pixels, (0, 0) its upper left corner.
+    /// Location on the image plane in pixels; (0, 0) is its upper left corner.
     pub location: [f64; 2],
 }
 
-/// Projective map from places to locations.
+/// Projective map from places on a projector to locations on the image plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Homography {
     matrix: DMat3,
     inverse: DMat3,
 }
 
-/// Smallest spread of points across a line, as a share of their spread along it, at which they are not on the line.
+/// Smallest ratio of the spread of points across a line to their spread along it at which they do not count as on the
+/// line.
 const THINNEST: f64 = 1e-4;
 
-/// Largest share of the greatest eigenvalue that counts as zero.
+/// Largest ratio of an eigenvalue to the largest one at which it counts as zero.
 const ZERO: f64 = 1e-12;
 
 impl Homography {
     /// Fits a homography to correspondences by the normalised direct linear transform (R. Hartley, "In Defense of the
-    /// Eight-Point Algorithm", IEEE TPAMI 19(6), 1997). Four correspondences are met exactly.
+    /// Eight-Point Algorithm", IEEE TPAMI 19(6), 1997). The fit to four correspondences is exact.
     ///
     /// # Errors
     /// [`ProjectorError`] if there are fewer than four correspondences, one is not finite, or they do not determine a
@@ -52,8 +53,8 @@ impl Homography {
             normalisation(pairs.iter().map(place)).ok_or(ProjectorError::Collinear("projector"))?;
         let to = normalisation(pairs.iter().map(location))
             .ok_or(ProjectorError::Collinear("image plane"))?;
-        // Twice as many equations as pairs, for nine numbers up to scale: the eigenvector of the least eigenvalue of
-        // their normal matrix.
+        // There are two equations for each pair, in nine numbers that are known up to scale. The solution is the
+        // eigenvector of the smallest eigenvalue of their normal matrix.
         let mut normal = [[0.0; 9]; 9];
         for pair in pairs {
             let p = from.transform_point2(place(pair));
@@ -76,16 +77,16 @@ impl Homography {
         }
         let h = DMat3::from_cols_array(&least.vector).transpose();
         let matrix = to.inverse() * h * from;
-        // The middle of the points is in front of the horizon.
+        // The sign is chosen so that the middle of the points is in front of the horizon.
         let middle = from.inverse() * DVec3::Z;
         let matrix = matrix * (matrix * middle).z.signum();
         Self::new(matrix).ok_or(ProjectorError::Collinear("image plane"))
     }
 
-    /// Fits a homography that most correspondences agree with to `tolerance` pixels of the image plane, and says which
-    /// ones do. The best of random fits to four correspondences, scored by their squared errors up to the tolerance (P.
-    /// Torr and A. Zisserman, "MLESAC", CVIU 78(1), 2000), is fitted again to all that agree. The same `seed` gives the
-    /// same result.
+    /// Fits a homography that agrees with most correspondences to `tolerance` pixels of the image plane. Returns it,
+    /// and for each correspondence whether it agrees. Random fits to four correspondences are scored by their squared
+    /// errors, each up to the tolerance (P. Torr and A. Zisserman, "MLESAC", CVIU 78(1), 2000); the best one is fitted
+    /// again to all correspondences that agree with it. The same `seed` gives the same result.
     ///
     /// # Errors
     /// [`ProjectorError`] if fewer than half agree, otherwise as [`Homography::fit`].
@@ -95,7 +96,7 @@ impl Homography {
         seed: u64,
     ) -> Result<(Self, Vec<bool>), ProjectorError> {
         const TRIALS: u32 = 1000;
-        // Tells what is wrong with all of them, and is the one to beat.
+        // The fit to all correspondences reports their errors, and is the first candidate.
         let mut best = Self::fit(pairs)?;
         let mut lowest = best.cost(pairs, tolerance);
         let mut random = Random::new(seed);
@@ -107,7 +108,7 @@ impl Homography {
                         .copied()
                 })
                 .collect();
-            // Four that are on a line, or not four, are no trial.
+            // Four correspondences that are on a line, or contain duplicates, are skipped.
             let Ok(fitted) = Self::fit(&chosen) else {
                 continue;
             };
@@ -116,7 +117,7 @@ impl Homography {
                 (best, lowest) = (fitted, cost);
             }
         }
-        // Each fit to those that agree may win over some more.
+        // Each fit to the correspondences that agree may make more of them agree.
         for _ in 0..5 {
             let agreeing: Vec<_> = pairs
                 .iter()
@@ -142,13 +143,13 @@ impl Homography {
         valid.then_some(Self { matrix, inverse })
     }
 
-    /// Matrix from (x, y, 1) to (u w, v w, w).
+    /// Matrix from (x, y, 1) to (u w, v w, w); (x, y) is a place and (u, v) its location.
     #[must_use]
     pub fn matrix(&self) -> DMat3 {
         self.matrix
     }
 
-    /// Place of a location; `None` behind the horizon.
+    /// Place that this maps to `location`; `None` behind the horizon.
     #[must_use]
     pub fn inverse(&self, location: DVec2) -> Option<DVec2> {
         let p = self.inverse * location.extend(1.0);
@@ -161,7 +162,7 @@ impl Homography {
         (self.matrix * place.extend(1.0)).z > 0.0
     }
 
-    /// Distance in pixels between the location that the map gives a pair's place and the pair's own.
+    /// Distance in pixels between the pair's location and the one to which this maps its place.
     fn error(&self, pair: &Correspondence) -> f64 {
         let place = DVec2::from(pair.place);
         if !self.is_ahead(place) {
@@ -190,7 +191,8 @@ impl LocationMap for Homography {
     }
 }
 
-/// Similarity that brings points to the mean 0 and the mean distance sqrt(2); `None` if they are on a line.
+/// Similarity transform that gives points the mean 0 and the mean distance sqrt(2) from it; `None` if they are on a
+/// line.
 fn normalisation(points: impl Iterator<Item = DVec2> + Clone) -> Option<DMat3> {
     let count = points.clone().count() as f64;
     let mean = points.clone().sum::<DVec2>() / count;
@@ -202,7 +204,7 @@ fn normalisation(points: impl Iterator<Item = DVec2> + Clone) -> Option<DMat3> {
         yy += way.y * way.y;
         distance += way.length() / count;
     }
-    // Squared spreads along and across the line that fits best.
+    // Squared spreads of the points along and across their best line.
     let spread = (0.5 * (xx - yy)).hypot(xy);
     let (along, across) = (0.5 * (xx + yy) + spread, 0.5 * (xx + yy) - spread);
     if across <= THINNEST * THINNEST * along {

@@ -27,19 +27,19 @@ use super::set::{Sample, SamplingSet};
 use glam::{DMat2, DVec2};
 use rayon::prelude::*;
 
-/// Calibrated projector.
+/// A calibrated projector.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Projector {
     size: [u32; 2],
     map: ProjectorMap,
 }
 
-/// Map from a projector's pixels to the image plane.
+/// Map from a projector's pixels to locations on the image plane.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ProjectorMap {
-    /// Map of a plane wall, and a lens that keeps lines straight.
+    /// Homography, for a plane wall and a lens that keeps lines straight.
     Planar(Homography),
-    /// Map of any other wall or lens.
+    /// Dense map, for any other wall or lens.
     Dense(WarpMap),
 }
 
@@ -53,7 +53,7 @@ impl Projector {
             return Err(ProjectorError::Size { size, found: 0 });
         }
         let [width, height] = size.map(f64::from);
-        // The distance from the horizon is linear, and so least in a corner.
+        // The distance from the horizon is linear in the place, so that its minimum is in a corner.
         let corners = [(0.0, 0.0), (width, 0.0), (0.0, height), (width, height)];
         if !corners
             .into_iter()
@@ -65,7 +65,8 @@ impl Projector {
         Ok(Self { size, map })
     }
 
-    /// Makes a projector of `size` = [width, height] pixels with a location for each: see [`WarpMap::new`].
+    /// Makes a projector of `size` = [width, height] pixels from a location for each of them, as [`WarpMap::new`]
+    /// takes them.
     ///
     /// # Errors
     /// As [`WarpMap::new`].
@@ -86,7 +87,7 @@ impl Projector {
         &self.map
     }
 
-    /// Location that a pixel lights; `None` if it lights nothing.
+    /// Location on the image plane that a pixel lights; `None` if it lights nothing.
     #[must_use]
     pub fn location(&self, row: u32, col: u32) -> Option<DVec2> {
         match &self.map {
@@ -97,8 +98,8 @@ impl Projector {
         }
     }
 
-    /// Change of the location for each column and row at a place on the projector, in pixels; `None` if the place
-    /// lights nothing.
+    /// Jacobian of the location at a place on the projector in pixels: its change per column and per row; `None` if
+    /// the place lights nothing.
     #[must_use]
     pub fn jacobian(&self, place: DVec2) -> Option<DMat2> {
         match &self.map {
@@ -107,7 +108,7 @@ impl Projector {
         }
     }
 
-    /// Place on the projector, in pixels, that lights a location; `None` if none does.
+    /// Place on the projector in pixels that lights a location; `None` if no place does.
     #[must_use]
     pub fn place(&self, location: DVec2) -> Option<DVec2> {
         let place = match &self.map {
@@ -119,7 +120,7 @@ impl Projector {
         inside.then_some(place)
     }
 
-    /// Sampling set of the projector's frame: the location of each of its lit pixels, row by row.
+    /// Sampling set of the projector's frame: the locations of its lit pixels, row by row.
     ///
     /// # Errors
     /// [`ProjectorError`] if a location is too far away, or no pixel is lit.
@@ -141,7 +142,7 @@ impl Projector {
             .or_else(|_| SamplingSet::no_pattern(self.size, samples, None, LEAF_SAMPLES))?)
     }
 
-    /// Depth of a place inside of the projector: 0 on its border, 1 in the middle.
+    /// Depth of a place inside of the projector's frame: 0 on the border, 1 in the middle.
     fn depth(&self, place: DVec2) -> f64 {
         let size = DVec2::new(f64::from(self.size[0]), f64::from(self.size[1]));
         (2.0 * place.min(size - place) / size)
@@ -150,10 +151,10 @@ impl Projector {
     }
 }
 
-/// Blending weights of 0 to 1 for each pixel of each projector, row by row. A weight is the depth of the pixel inside
-/// of its projector over the sum of the depths in all projectors that light the same location. Weights fall to 0 at the
-/// border of an overlap without a jump, and add up to 1 at each location; a projector that shines alone has the weight
-/// 1.
+/// Blending weights of 0 to 1 for each pixel of each projector, row by row. A pixel's weight is its depth inside of
+/// its projector's frame / the sum of the depths in all projectors that light the same location. Weights fall
+/// continuously to 0 at the border of an overlap, and add up to 1 at each location; where a projector shines alone its
+/// weight is 1.
 #[must_use]
 pub fn blend_weights(projectors: &[Projector]) -> Vec<Vec<f32>> {
     let weights = |own: &Projector| {

@@ -8,21 +8,21 @@ use glam::{DMat2, DVec2};
 #[derive(Clone, Debug, PartialEq)]
 pub struct WarpMap {
     size: [u32; 2],
-    /// Locations row by row; not finite for a pixel that lights nothing.
+    /// Locations row by row; NaN for a pixel that lights nothing.
     locations: Vec<DVec2>,
-    /// Homography near the map, for first guesses of places.
+    /// Homography that approximates the map, for first guesses of places.
     rough: Homography,
 }
 
-/// Pixels along each side to which the rough homography is fitted.
+/// Number of pixels along each side to which the rough homography is fitted.
 const FITTED: u32 = 24;
 
-/// Largest distance, in pixels of the image plane, between a location and that of the place found for it.
+/// Tolerance, in pixels of the image plane, for the location of the place that [`WarpMap::inverse`] finds.
 const NEAR: f64 = 1e-6;
 
 impl WarpMap {
-    /// Takes the locations of the centres of `size` = [width, height] pixels, row by row; NaN for a pixel that lights
-    /// nothing.
+    /// Makes a map from the locations of the centres of `size` = [width, height] pixels, row by row; NaN for a pixel
+    /// that lights nothing.
     ///
     /// # Errors
     /// [`ProjectorError`] if the number of locations is not that of the pixels, or too few of them are finite or span
@@ -65,8 +65,8 @@ impl WarpMap {
         location.filter(|location| location.is_finite())
     }
 
-    /// Place that lights a location, by Newton's method on the bilinear map between the centres of pixels; `None` if no
-    /// lit pixel does.
+    /// Place that lights a location, found by Newton's method on the bilinear map between the centres of pixels;
+    /// `None` if no lit pixel lights it.
     #[must_use]
     pub fn inverse(&self, location: DVec2) -> Option<DVec2> {
         let [width, height] = self.size.map(f64::from);
@@ -78,7 +78,7 @@ impl WarpMap {
                 return Some(place);
             }
             let next = place + slope.inverse() * (location - here);
-            // A place beyond the border is looked for on the border, and given up where that leads nowhere.
+            // A step beyond the border is clamped to it; the search ends if that does not lead to a solution.
             let next = next.is_finite().then(|| next.clamp(DVec2::ZERO, size))?;
             if next == place {
                 return None;
@@ -88,14 +88,15 @@ impl WarpMap {
         None
     }
 
-    /// Change of the location for each column and row at a place; `None` if the pixels around it light nothing.
+    /// Jacobian of the location at a place: its change per column and per row; `None` if the pixels around the place
+    /// light nothing.
     #[must_use]
     pub fn jacobian(&self, place: DVec2) -> Option<DMat2> {
         self.bilinear(place).map(|(_, slope)| slope)
     }
 
-    /// Location of a place and its derivative, bilinear between the centres of four pixels. Half a pixel at the borders
-    /// is extrapolated.
+    /// Location of a place and its Jacobian, bilinear between the centres of four pixels. The half pixel along the
+    /// border is extrapolated.
     fn bilinear(&self, place: DVec2) -> Option<(DVec2, DMat2)> {
         let [width, height] = self.size;
         let last = DVec2::new(f64::from(width), f64::from(height)) - DVec2::splat(2.0);

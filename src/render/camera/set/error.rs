@@ -2,7 +2,7 @@
 
 use super::FARTHEST;
 
-/// Locations that make no sampling set.
+/// Error: locations that make no sampling set.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SetError {
     /// Set without locations.
@@ -11,34 +11,34 @@ pub enum SetError {
     /// Number of locations that is too large for a 32-bit index.
     #[error("{0} sampling locations; at most {max} fit in one set", max = u32::MAX)]
     TooMany(usize),
-    /// NaN or infinite.
+    /// Location with a NaN or infinite coordinate.
     #[error("sampling location {index} is ({u}, {v}); both coordinates must be finite")]
     NotFinite {
-        /// Index among the locations.
+        /// Index of the location in the list.
         index: usize,
         /// Coordinate u of the location.
         u: f64,
         /// Coordinate v of the location.
         v: f64,
     },
-    /// Location so far from the image that single precision can't tell pixels apart.
+    /// Location so far from the image that single precision can't tell its pixels apart.
     #[error(
         "sampling location {index} is ({u}, {v}); both coordinates must be within {FARTHEST} pixels of 0"
     )]
     Far {
-        /// Index among the locations.
+        /// Index of the location in the list.
         index: usize,
         /// Coordinate u of the location.
         u: f64,
         /// Coordinate v of the location.
         v: f64,
     },
-    /// The output has no such cell.
+    /// Location that belongs to a cell which the output does not have.
     #[error(
         "sampling location {index} belongs to row {row} and column {col}, which an output of {columns} x {rows} has not"
     )]
     Cell {
-        /// Index among the locations.
+        /// Index of the location in the list.
         index: usize,
         /// Row of the cell.
         row: u32,
@@ -49,7 +49,7 @@ pub enum SetError {
         /// Rows of the output.
         rows: u32,
     },
-    /// The output has no cells or too many.
+    /// Output without cells, or with too many.
     #[error("an output of {columns} x {rows} cells; it must have from 1 to {max}", max = super::MOST_CELLS)]
     Size {
         /// Columns of the output.
@@ -57,7 +57,7 @@ pub enum SetError {
         /// Rows of the output.
         rows: u32,
     },
-    /// The superpixels are not those of the image.
+    /// Marks of superpixels whose number is not that of the pixels.
     #[error(
         "{found} marks for the superpixels of an image of {expected} pixels; give one for each"
     )]
@@ -67,22 +67,22 @@ pub enum SetError {
         /// Number of marks.
         found: usize,
     },
-    /// No grid has at most one location in each cell.
+    /// Locations for which no grid has at most one in each cell.
     #[error(
         "no uniform grid fits: locations {first} and {second} share a cell even of {pitch} pixel; use a no-pattern set"
     )]
     NoGrid {
-        /// Position of one location, from 0.
+        /// Index of one location.
         first: usize,
-        /// Position of the other.
+        /// Index of another location in the same cell.
         second: usize,
         /// Side of the smallest cells tried, in pixels.
         pitch: f64,
     },
-    /// A leaf must be allowed a sample at least.
+    /// Leaf size of 0: leaves must be allowed to hold at least one sample.
     #[error("leaves of at most 0 samples hold nothing; allow at least 1")]
     LeafSize,
-    /// The window of a quad-tree is empty or not finite.
+    /// Window of a quadtree that is empty or not finite.
     #[error("the window from ({}, {}) to ({}, {}) holds nothing", .low[0], .low[1], .high[0], .high[1])]
     Window {
         /// Upper left corner of the window.

@@ -33,16 +33,16 @@ use super::{LocationMap, SampleLocation};
 use glam::{DMat2, DVec2};
 use neighbours::Neighbours;
 
-/// Largest coordinate of a location, in pixels: single precision still tells sixteenths of a pixel apart there.
+/// Largest absolute coordinate of a location, in pixels. Single precision still resolves a sixteenth of a pixel there.
 pub const FARTHEST: f64 = 1_048_576.0;
 
-/// The most cells that an output may have.
+/// Largest number of cells of an output.
 pub const MOST_CELLS: u64 = 1 << 28;
 
-/// The most locations in a leaf of the quad-trees that are made without a choice.
+/// Largest number of locations in a leaf of quadtrees that are made by default.
 const LEAF_SAMPLES: usize = 32;
 
-/// A sampling location and the cell of the output that it belongs to.
+/// A sampling location, and the cell of the output to which it belongs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
     /// Location (u, v) in pixels of the plane.
@@ -60,23 +60,23 @@ pub struct Grid {
     pub origin: [f64; 2],
     /// Side of a cell in pixels.
     pub pitch: f64,
-    /// Cells in a row.
+    /// Number of columns of cells.
     pub columns: u32,
-    /// Cells in a column.
+    /// Number of rows of cells.
     pub rows: u32,
 }
 
-/// The cells of a set.
+/// Cells of a sampling set.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Layout {
     /// Cells of a grid, row by row: planar, offset and superpixel sets.
     Grid(Grid),
-    /// Leaves of a quad-tree, which tile its window: no-pattern sets. Where there are samples outside of the window,
-    /// they are in one more cell after the leaves.
+    /// Leaves of a quadtree, which tile its window: no-pattern sets. Samples outside of the window are in one more
+    /// cell after the leaves.
     Tree(Vec<Leaf>),
 }
 
-/// Samples, in the order given, and their partition into cells.
+/// Samples in the order in which they were given, and their partition into cells.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SamplingSet {
     size: [u32; 2],
@@ -85,12 +85,12 @@ pub struct SamplingSet {
     layout: Layout,
     /// Indices of the samples, cell by cell.
     members: Vec<u32>,
-    /// Index in `members` at which each cell begins, and at which the last one ends.
+    /// Index in `members` of the first sample of each cell; the last entry is the end of the last cell.
     starts: Vec<u32>,
 }
 
 impl SamplingSet {
-    /// The planar set: the centres of `size` = columns and rows of pixels.
+    /// Makes the planar set: one sample at the centre of each of `size` = [columns, rows] pixels.
     ///
     /// # Errors
     /// [`SetError::Size`] if there are no pixels or too many.
@@ -106,25 +106,25 @@ impl SamplingSet {
         Ok(Self::in_pixels(size, samples))
     }
 
-    /// The offset set: a uniform grid fitted to the samples, such that no cell holds more than one. The grid is in
-    /// general finer than the output's, and has nothing to do with rows and columns. Cell sides are powers of the root
-    /// of 2; the largest that will do is taken.
+    /// Makes the offset set: the samples with a uniform grid whose cells hold at most one sample each. The grid is in
+    /// general finer than the output's, and its cells are unrelated to rows and columns. The sides of its cells are
+    /// the largest possible power of the square root of 2.
     ///
     /// # Errors
-    /// [`SetError::NoGrid`] where even 32 cells for each sample do not part them; otherwise if a sample is
-    /// [not finite](SetError::NotFinite), [far away](SetError::Far) or [outside of the output](SetError::Cell).
+    /// [`SetError::NoGrid`] if not even 32 cells for each sample separate them; otherwise if a sample is [not
+    /// finite](SetError::NotFinite), [far away](SetError::Far) or [outside of the output](SetError::Cell).
     pub fn offset(size: [u32; 2], samples: Vec<Sample>) -> Result<Self, SetError> {
         check(size, &samples)?;
         let (grid, owners) = offset::fit(&samples)?;
         Ok(Self::in_grid(size, samples, grid, &owners))
     }
 
-    /// The superpixel set: pixels that `marks` marks, row by row, hold samples at `offsets` from their centres, in
-    /// pixels; the others one at the centre.
+    /// Makes the superpixel set: `marks` tells for each pixel, row by row, whether it is a superpixel. A superpixel
+    /// holds samples at `offsets` from its centre, in pixels; any other pixel holds one at its centre.
     ///
     /// # Errors
-    /// [`SetError::Marks`] unless there is a mark for each pixel, [`SetError::Size`] if there are no pixels or too many,
-    /// and [`SetError::NotFinite`] or [`SetError::Far`] for offsets that lead to such samples.
+    /// [`SetError::Marks`] unless there is a mark for each pixel, [`SetError::Size`] if there are no pixels or too
+    /// many, and [`SetError::NotFinite`] or [`SetError::Far`] for samples at impossible places.
     pub fn superpixel(
         size: [u32; 2],
         marks: &[bool],
@@ -156,13 +156,14 @@ impl SamplingSet {
         Ok(Self::in_pixels(size, samples))
     }
 
-    /// The no-pattern set: any samples, in the leaves of a quad-tree over `window` (its corners in pixels; `None` is
-    /// what holds them all), each split in four until it holds at most `most` samples. A leaf holds more only where
-    /// samples coincide to within 2^-32 of the window's side. Samples outside of the window have a cell of their own.
+    /// Makes the no-pattern set: the samples in the leaves of a quadtree over `window` (its upper left and lower right
+    /// corners in pixels; `None` for a square around all samples). A square is split in four until it holds at most
+    /// `most` samples, or its samples coincide to within 2^-32 of the window's side. Samples outside of the window go
+    /// into a separate cell.
     ///
     /// # Errors
-    /// If there are no samples, one of them is not finite, far away or outside of the output, `most` is 0, or the window
-    /// is empty.
+    /// [`SetError`] if there are no samples, one of them is not finite, far away or outside of the output, `most` is
+    /// 0, or the window is empty.
     pub fn no_pattern(
         size: [u32; 2],
         samples: Vec<Sample>,
@@ -181,8 +182,8 @@ impl SamplingSet {
         })
     }
 
-    /// Makes a set of one sample for each of `size` = [columns, rows] of the output, at the location that `map` gives
-    /// its centre. The set has an offset pattern, or none where no grid fits.
+    /// Makes a set with one sample for each cell of an output of `size` = [columns, rows], at the location to which
+    /// `map` takes the cell's centre. It is an offset set, or a no-pattern set if no grid fits.
     ///
     /// # Errors
     /// [`SetError`] if the output has no cells or too many, or a location is not finite or too far away.
@@ -198,7 +199,7 @@ impl SamplingSet {
         Self::with_jacobians(size, mapped)
     }
 
-    /// Samples with the derivatives of their locations by column and row, where the caller knows them.
+    /// Set of samples whose Jacobians (per output column and row) are known to the caller.
     pub(super) fn with_jacobians(
         size: [u32; 2],
         mapped: Vec<(Sample, DMat2)>,
@@ -213,7 +214,7 @@ impl SamplingSet {
         Ok(set)
     }
 
-    /// Samples in the pixels that they belong to.
+    /// Set of samples in a grid of the output's own pixels.
     fn in_pixels(size: [u32; 2], samples: Vec<Sample>) -> Self {
         let grid = Grid {
             origin: [0.0, 0.0],
@@ -226,7 +227,7 @@ impl SamplingSet {
         Self::in_grid(size, samples, grid, &owners)
     }
 
-    /// Samples in a grid, given the cell of each.
+    /// Set of samples in a grid; `owners` holds the cell of each.
     fn in_grid(size: [u32; 2], samples: Vec<Sample>, grid: Grid, owners: &[u32]) -> Self {
         let count = grid.columns as usize * grid.rows as usize;
         let mut starts = vec![0_u32; count + 1];
@@ -253,13 +254,13 @@ impl SamplingSet {
         }
     }
 
-    /// Columns and rows of the output.
+    /// Number of columns and rows of the output.
     #[must_use]
     pub fn size(&self) -> [u32; 2] {
         self.size
     }
 
-    /// The samples, in the order given.
+    /// Samples in the order in which they were given.
     #[must_use]
     pub fn samples(&self) -> &[Sample] {
         &self.samples
@@ -271,7 +272,7 @@ impl SamplingSet {
         &self.layout
     }
 
-    /// The cells: for each the indices of its samples.
+    /// Cells of the set: for each, the indices of its samples.
     pub fn cells(&self) -> impl Iterator<Item = &[u32]> {
         self.starts.windows(2).map(|bounds| match bounds {
             [start, end] => self
@@ -282,8 +283,8 @@ impl SamplingSet {
         })
     }
 
-    /// The offsets, in pixels, of the samples of grid cells from the centres of their cells: for each cell a list.
-    /// `None` for a set without pattern.
+    /// Offsets of the samples from the centres of their grid cells, in pixels: a list for each cell. `None` for a
+    /// no-pattern set.
     #[must_use]
     pub fn offsets(&self) -> Option<Vec<Vec<[f64; 2]>>> {
         let Layout::Grid(grid) = &self.layout else {
@@ -302,8 +303,8 @@ impl SamplingSet {
         Some(offsets.collect())
     }
 
-    /// Locations that the renderer samples, one for each sample, in their order. Jacobians are those of the location
-    /// map if there is one, otherwise differences of the locations of neighbouring rows and columns.
+    /// Sampling locations for the renderer, one for each sample, in the same order. Their Jacobians are those of the
+    /// location map if there is one, otherwise differences between the locations of neighbouring rows and columns.
     #[must_use]
     pub fn locations(&self) -> Vec<SampleLocation> {
         let output = |sample: &Sample| sample.row * self.size[0] + sample.col;
@@ -329,8 +330,8 @@ impl SamplingSet {
         }
     }
 
-    /// Makes an image by row and column from a colour for each sample: the mean of each cell of the output, transparent
-    /// for a cell without samples. Colours are linear light with premultiplied alpha.
+    /// Makes an image from a colour for each sample: each pixel is the mean of the samples in its cell of the output,
+    /// and transparent if the cell has none. Colours are linear light with premultiplied alpha.
     #[must_use]
     pub fn image(&self, colors: &[[f32; 4]]) -> Vec<[f32; 4]> {
         let count = self.size[0] as usize * self.size[1] as usize;
@@ -348,7 +349,7 @@ impl SamplingSet {
         sums.into_iter().map(mean).collect()
     }
 
-    /// Density and evenness of the samples.
+    /// Statistics of the set: density and evenness of its samples.
     #[must_use]
     pub fn statistics(&self) -> SetStatistics {
         let fullest = self.cells().map(<[u32]>::len).max().unwrap_or_default();
@@ -356,7 +357,7 @@ impl SamplingSet {
     }
 }
 
-/// Rows and columns of an output, row by row.
+/// Rows and columns of all cells of an output, row by row.
 fn cells(size: [u32; 2]) -> impl Iterator<Item = (u32, u32)> {
     (0..size[1]).flat_map(move |row| (0..size[0]).map(move |col| (row, col)))
 }

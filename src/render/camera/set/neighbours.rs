@@ -3,12 +3,12 @@
 use super::Sample;
 use glam::{DMat2, DVec2};
 
-/// The mean location of each cell of an output that has samples.
+/// The mean location of each cell of the output that has samples.
 pub(super) struct Neighbours {
     columns: u64,
-    /// Index of the cell, row by row, and its mean location; in the order of the indices.
+    /// Index (row by row) and mean location of each cell, sorted by index.
     cells: Vec<(u64, DVec2)>,
-    /// Whether every cell up to the last has samples, so that the index is the place in the list.
+    /// Whether every cell up to the last has samples, so that the index is the position in `cells`.
     complete: bool,
 }
 
@@ -37,13 +37,13 @@ impl Neighbours {
         }
     }
 
-    /// Rows and columns of the cells with samples.
+    /// Rows and columns of the cells that have samples.
     pub(super) fn places(&self) -> impl Iterator<Item = (i64, i64)> {
         let place = |index: u64| ((index / self.columns) as i64, (index % self.columns) as i64);
         self.cells.iter().map(move |(index, _)| place(*index))
     }
 
-    /// The mean location of a cell; `None` outside of the output and where there is no sample.
+    /// Mean location of a cell; `None` outside of the output and for a cell without samples.
     pub(super) fn at(&self, row: i64, col: i64) -> Option<DVec2> {
         let (row, col) = (u64::try_from(row).ok()?, u64::try_from(col).ok()?);
         if col >= self.columns {
@@ -60,8 +60,9 @@ impl Neighbours {
         self.cells.get(place).map(|(_, location)| *location)
     }
 
-    /// Differences of locations along columns and rows: central where both neighbours are there, one-sided where one is.
-    /// Without neighbours along one axis the footprint is taken to be square, without any to be a pixel.
+    /// Jacobian from differences of neighbouring locations along columns and rows: central if both neighbours exist,
+    /// one-sided if one does. Without neighbours along one axis the footprint is assumed to be square; without any, to
+    /// be one pixel.
     pub(super) fn jacobian(&self, row: u32, col: u32) -> DMat2 {
         let (row, col) = (i64::from(row), i64::from(col));
         let along = |rows: i64, columns: i64| {

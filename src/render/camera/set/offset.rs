@@ -1,18 +1,18 @@
-//! Fits a uniform grid to locations, such that no cell holds two.
+//! Fits a uniform grid to locations, so that each cell holds at most one.
 
 use super::{Grid, Sample, SetError};
 
-/// Cells that a grid may have for each sample, and a few for sets of few samples.
+/// Largest number of grid cells for each sample. Sets with few samples may have [`FEW`] more.
 const CELLS_PER_SAMPLE: f64 = 32.0;
 const FEW: f64 = 4096.0;
 
-/// The finest k that is tried: cells of 2^-30 pixel, where locations end to differ.
+/// Finest `k` to try: cells of 2^-30 pixel, below which double precision does not resolve locations.
 const FINEST: i32 = 60;
 
 const FREE: u32 = u32::MAX;
 
-/// The coarsest grid with a cell of its own for each sample, and those cells. Sides are 2^(-k/2) pixels and corners
-/// multiples of them, so that the centres of pixels are the centres of the cells of side 1.
+/// Coarsest grid whose cells hold at most one sample each, and the cell of each sample. The sides of cells are
+/// 2^(-k/2) pixels and their corners multiples of that, so that a grid with sides of 1 has the pixels as cells.
 pub(super) fn fit(samples: &[Sample]) -> Result<(Grid, Vec<u32>), SetError> {
     let Some((low, high)) = bounds(samples) else {
         return Err(SetError::Empty);
@@ -25,7 +25,8 @@ pub(super) fn fit(samples: &[Sample]) -> Result<(Grid, Vec<u32>), SetError> {
         let sides = [last[0] - first[0] + 1.0, last[1] - first[1] + 1.0];
         (pitch, first, sides)
     };
-    // The first cells are as wide as all samples together; where many share one, the first two end the attempt.
+    // The first cells are as wide as all samples together. A grid that is too coarse is given up at the first cell
+    // with two samples.
     let widest = (high[0] - low[0]).max(high[1] - low[1]).max(1.0);
     let mut k = (-2.0 * widest.log2()).floor() as i32;
     let most = (CELLS_PER_SAMPLE * samples.len() as f64 + FEW).min(f64::from(FREE));
@@ -72,7 +73,7 @@ fn bounds(samples: &[Sample]) -> Option<([f64; 2], [f64; 2])> {
     }))
 }
 
-/// The cell of each sample, or the first two samples that share one.
+/// Cell of each sample; otherwise the indices of the first two samples that share a cell.
 fn assign(
     samples: &[Sample],
     cells: usize,

@@ -1,11 +1,11 @@
-//! A quad-tree over samples without pattern.
+//! Quadtree over samples without a pattern.
 
 use super::{Sample, SetError};
 
-/// Splits of the window at the most: samples that are closer than 2^-32 of its side stay together.
+/// Largest number of splits of the window: samples that are closer than 2^-32 of its side stay together.
 const DEEPEST: u32 = 32;
 
-/// A square that holds samples: `low <= (u, v) < low + side`.
+/// Square that holds samples: `low <= (u, v) < low + side`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Leaf {
     /// Upper left corner in pixels.
@@ -15,7 +15,7 @@ pub struct Leaf {
 }
 
 impl Leaf {
-    /// Whether a location is in the leaf; its right and lower sides are not.
+    /// Whether the leaf contains a location; its right and lower sides are excluded.
     #[must_use]
     pub fn contains(&self, uv: [f64; 2]) -> bool {
         (0..2).all(|i| uv[i] >= self.low[i] && uv[i] < self.low[i] + self.side)
@@ -25,7 +25,7 @@ impl Leaf {
         self.low.map(|v| v + 0.5 * self.side)
     }
 
-    /// The quarter right (bit 0) and below (bit 1) of the centre.
+    /// Quarter of the square; bit 0 of `which` chooses the right half, bit 1 the lower one.
     fn quarter(&self, which: usize) -> Self {
         let centre = self.centre();
         let corner = |axis: usize| {
@@ -42,14 +42,14 @@ impl Leaf {
     }
 }
 
-/// The leaves, depth first, and the samples of each; after the leaves comes what is outside of the window, if anything.
+/// Leaves, depth first, and the samples of each. Samples outside of the window follow after the last leaf.
 pub(super) struct Tree {
     pub leaves: Vec<Leaf>,
     pub members: Vec<u32>,
     pub starts: Vec<u32>,
 }
 
-/// A square still to be split: its samples are a run of the members.
+/// Square that may have to be split; its samples are a range of the members.
 struct Branch {
     square: Leaf,
     start: usize,
@@ -98,7 +98,7 @@ pub(super) fn build(
             let [u, v] = samples[index as usize].uv;
             usize::from(u >= centre[0]) + 2 * usize::from(v >= centre[1])
         };
-        // A counting sort keeps the order of the samples within each quarter.
+        // A counting sort keeps the order of samples within each quarter.
         let mut ends = [0; 4];
         sorted.clear();
         for (quarter, end) in ends.iter_mut().enumerate() {
@@ -125,7 +125,7 @@ pub(super) fn build(
     Ok(tree)
 }
 
-/// The square over a window; the longer side counts.
+/// Square that holds a window, with the window's longer side as its side.
 fn square(low: [f64; 2], high: [f64; 2]) -> Option<Leaf> {
     let sides = [high[0] - low[0], high[1] - low[1]];
     let valid =
@@ -136,7 +136,7 @@ fn square(low: [f64; 2], high: [f64; 2]) -> Option<Leaf> {
     })
 }
 
-/// A square that holds all samples, in whole pixels so that the last ones are well inside.
+/// Square that holds all samples. Its corner and side are whole pixels, so that no sample lies on its excluded sides.
 fn around(samples: &[Sample]) -> Leaf {
     let extreme = |axis: usize, better: fn(f64, f64) -> f64| {
         let values = samples.iter().map(|sample| sample.uv[axis]);
@@ -150,7 +150,7 @@ fn around(samples: &[Sample]) -> Leaf {
     }
 }
 
-/// Whether no split can part the samples.
+/// Whether all samples have the same location, so that no split separates them.
 fn coincide(samples: &[Sample], members: &[u32]) -> bool {
     let mut places = members.iter().map(|index| samples[*index as usize].uv);
     let first = places.next();

@@ -1,22 +1,23 @@
-//! Statistics of a set: density and evenness of its samples on the plane.
+//! Statistics of a sampling set: density and evenness of its samples.
 
 use super::neighbours::Neighbours;
 use serde::Serialize;
 
-/// Figures of a sampling set. Rates are cells of the output for a square pixel of the plane, from the areas of the quads
-/// between the locations of four neighbouring rows and columns: 1 for a planar set, 1/m^2 where a zoom enlarges by 1/m.
+/// Statistics of a sampling set. A rate is the number of cells of the output per square pixel of the plane, computed
+/// from the quads between the locations of four neighbouring cells: 1 for a planar set, 1/m^2 where a zoom enlarges by
+/// 1/m.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SetStatistics {
-    /// Quads with a location at each corner.
+    /// Number of quads that have a location at each corner.
     pub quads: u64,
-    /// The lowest rate; `None` without quads.
+    /// Lowest rate; `None` without quads.
     pub lowest_rate: Option<f64>,
-    /// The highest rate; infinite where a quad has no area.
+    /// Highest rate, infinite if a quad has no area; `None` without quads.
     pub highest_rate: Option<f64>,
-    /// Quads that are turned over at one corner at least, so that the map folds there: what lies on both sides of the
-    /// fold is seen twice.
+    /// Number of quads that are inverted at one or more corners. The map folds there, and shows the surroundings of
+    /// the fold twice.
     pub folds: u64,
-    /// Samples in the fullest cell of the set.
+    /// Number of samples in the fullest cell of the set.
     pub fullest_cell: usize,
 }
 
@@ -36,7 +37,8 @@ pub(super) fn of(neighbours: &Neighbours, fullest_cell: usize) -> SetStatistics 
             continue;
         };
         found.quads += 1;
-        // Twice the signed areas of the triangles at the corners; y down, so that the upright way around is positive.
+        // Twice the signed areas of the triangles at the corners; with y down, a quad that is not inverted has
+        // positive areas.
         let turns = [
             (b - a).perp_dot(d - a),
             (c - b).perp_dot(a - b),

@@ -33,14 +33,14 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Shape {
-    /// Ellipse with the region's radii as semi-axes; a circle if they are equal.
+    /// Ellipse whose semi-axes are the region's radii; a circle if they are equal.
     #[default]
     Circle,
-    /// Rectangle with the region's radii as half sides.
+    /// Rectangle whose half sides are the region's radii.
     Rectangle,
 }
 
-/// Region of the output that is shown enlarged.
+/// Region of the output that is enlarged.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ZoomRegion {
     /// Centre in pixels of the output; the upper left corner is (0, 0).
@@ -51,14 +51,15 @@ pub struct ZoomRegion {
     pub multiplicity: f64,
     /// Outline of the region.
     pub shape: Shape,
-    /// Transition to the surroundings.
+    /// Transition between the region and its surroundings.
     pub transition: Transition,
 }
 
-/// Region that can't be shown.
+/// Error: regions that make no zoom.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum ZoomError {
-    /// Multiplicity out of range: above 1 the region would shrink, and above the square root of 2 it would fold.
+    /// Multiplicity that is not above 0 and at most 1. Above 1 the region would shrink, and above the square root of 2
+    /// the map would fold.
     #[error(
         "a multiplicity of {0}: it must be above 0 and at most 1; 0.5 shows things twice as large"
     )]
@@ -92,7 +93,7 @@ impl ZoomRegion {
         Profile::new(self.multiplicity, self.transition)
     }
 
-    /// Distance of a place from the centre, in radii, and its gradient.
+    /// Distance of a place from the centre, in radii of the region, and the gradient of this distance.
     fn distance(&self, place: DVec2) -> (f64, DVec2) {
         let scaled = (place - DVec2::from(self.center)) / DVec2::from(self.radius);
         let (q, gradient) = match self.shape {
@@ -105,13 +106,14 @@ impl ZoomRegion {
         (q, gradient / DVec2::from(self.radius))
     }
 
-    /// Distance from the centre, in radii, at which the transition ends: 1 + 1/m.
+    /// Distance from the centre at which the transition ends, in radii of the region: 1 + 1/m.
     #[must_use]
     pub fn outer(&self) -> f64 {
         self.profile().outer()
     }
 
-    /// Window of an ordinary image of the inside: the rectangle around it, with as many pixels as the output has there.
+    /// Window for an ordinary image of the inside: the rectangle around it, with one pixel for each pixel of the
+    /// output there.
     #[must_use]
     pub fn window(&self) -> Window {
         let size = self
@@ -125,7 +127,7 @@ impl ZoomRegion {
         }
     }
 
-    /// Whether a place of the output is inside the region, its transition not included.
+    /// Whether a place of the output is inside the region; the transition is outside.
     #[must_use]
     pub fn contains(&self, place: DVec2) -> bool {
         self.distance(place).0 <= 1.0
@@ -160,7 +162,7 @@ impl ZoomRegion {
     fn jacobian(&self, place: DVec2) -> DMat2 {
         let (q, gradient) = self.distance(place);
         let [factor, slope] = self.profile().factor_and_slope(q);
-        // The derivative of factor * way: factor I + way (gradient of the factor)^T.
+        // Derivative of factor * way: factor * identity + way * (gradient of the factor)^T.
         let scaled = DMat2::from_diagonal(DVec2::splat(factor));
         if slope == factor {
             return scaled;
@@ -171,19 +173,19 @@ impl ZoomRegion {
     }
 }
 
-/// Location map of zoomed regions, composed in their order: the first region's map takes the pixel, and each further
-/// map takes what the one before it gives.
+/// Location map of several zoomed regions. The first region's map is applied to the place in the output, and the map
+/// of each further region to the result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ZoomMap {
     regions: Vec<ZoomRegion>,
 }
 
 impl ZoomMap {
-    /// Composes the maps of regions, in their order.
+    /// Makes the map of several regions, applied in their order.
     ///
     /// # Errors
-    /// [`ZoomError`] if there are none, or one of them has a multiplicity outside of (0, 1], a radius that is not above
-    /// 0 or a centre that is not finite.
+    /// [`ZoomError`] if there are none, or one of them has a multiplicity outside of (0, 1], a radius that is not
+    /// above 0 or a centre that is not finite.
     pub fn new(regions: Vec<ZoomRegion>) -> Result<Self, ZoomError> {
         if regions.is_empty() {
             return Err(ZoomError::Empty);
@@ -192,13 +194,13 @@ impl ZoomMap {
         Ok(Self { regions })
     }
 
-    /// Regions in the order of their maps.
+    /// Regions in the order in which their maps are applied.
     #[must_use]
     pub fn regions(&self) -> &[ZoomRegion] {
         &self.regions
     }
 
-    /// Place of the output that looks at a location: the inverse of [`LocationMap::location`].
+    /// Place of the output that shows a location: the inverse of [`LocationMap::location`].
     #[must_use]
     pub fn inverse(&self, location: DVec2) -> DVec2 {
         let regions = self.regions.iter().rev();

@@ -29,15 +29,15 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Transition {
-    /// Displacement that fades linearly with the distance: locations are continuous, and their rate jumps at both
-    /// borders.
+    /// Linear transition: the displacement of locations fades linearly with the distance. Locations are continuous,
+    /// but their rate jumps at both borders.
     #[default]
     Linear,
-    /// Cubic profile: locations and their rate are continuous.
+    /// Smooth transition, by a cubic profile: locations and their rate are continuous.
     Smooth,
 }
 
-/// Function s(q) for one multiplicity.
+/// The function s(q) for one multiplicity.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Profile {
     m: f64,
@@ -54,7 +54,7 @@ impl Profile {
         1.0 + 1.0 / self.m
     }
 
-    /// Factor s(q) / q on the way from the centre, and the slope s'(q).
+    /// The factor s(q) / q, by which the vector from the centre is scaled, and the slope s'(q).
     pub(super) fn factor_and_slope(&self, q: f64) -> [f64; 2] {
         let m = self.m;
         if q <= 1.0 {
@@ -70,7 +70,7 @@ impl Profile {
                 [factor, factor + q * m * (1.0 - m)]
             }
             Transition::Smooth => {
-                // In the form of Bernstein: x from 0 at the inner border to 1 at the outer one, over a width of 1/m.
+                // Bernstein form: x is 0 at the inner border and 1 at the outer one, over a width of 1/m.
                 let (x, width) = ((q - 1.0) * m, 1.0 / m);
                 let y = 1.0 - x;
                 let outer = self.outer();
@@ -82,7 +82,8 @@ impl Profile {
         }
     }
 
-    /// Distance q of a value of s, by Newton's method in a bracket, which is halved where Newton's step would leave it.
+    /// The q for which s(q) = `s`, by Newton's method within a bracket; a step that would leave the bracket is
+    /// replaced by bisection.
     pub(super) fn inverse(&self, s: f64) -> f64 {
         let outer = self.outer();
         if s <= self.m {
@@ -93,7 +94,7 @@ impl Profile {
         }
         let (mut low, mut high) = (1.0, outer);
         let mut q = 0.5 * (low + high);
-        // Halving alone would take the 53 bits of a number.
+        // Bisection alone would take as many steps as a double has bits, 53.
         for _ in 0..64 {
             let [factor, slope] = self.factor_and_slope(q);
             let excess = factor * q - s;

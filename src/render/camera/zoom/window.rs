@@ -1,12 +1,12 @@
-//! Ordinary view of a part of an image plane.
+//! Regularly sampled rectangle of an image plane.
 
 use crate::camera::LocationMap;
 use glam::{DMat2, DVec2};
 
-/// Rectangle of an image plane that is sampled regularly.
+/// Rectangle of an image plane that is sampled at regular distances.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
-    /// Columns and rows.
+    /// Number of columns and rows.
     pub size: [u32; 2],
     /// Location of the upper left corner, in pixels of the plane.
     pub corner: [f64; 2],

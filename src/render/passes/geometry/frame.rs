@@ -1,4 +1,4 @@
-//! A frame's own part of the geometry.
+//! The part of the geometry that belongs to a frame.
 
 use super::{MovingVertices, PlacedInstances, double_sided};
 use crate::passes::BoundTexels;
@@ -9,17 +9,18 @@ use crate::scene::{DrawClass, Moment};
 use crate::vulkan::{Memory, Recorder, VulkanError};
 use glam::DMat4;
 
-/// Where a frame's camera sees instances, and the vertices that move at the frame's moment.
+/// Instances as a frame's camera sees them, and the vertices that move at the frame's moment.
 pub struct FrameGeometry {
     pub(in crate::render::passes) placed: PlacedInstances,
     pub(in crate::render::passes) moving: Option<MovingVertices>,
 }
 
 impl FrameGeometry {
-    /// Memory for a scene; unless it `moves`, its vertices stay as they were uploaded, but for points and lines.
+    /// Allocates the memory for a scene. Unless `moves` is true, vertices stay as they were uploaded, except those of
+    /// points and lines.
     ///
     /// # Errors
-    /// If memory runs out or could not be mapped.
+    /// If memory runs out or can't be mapped.
     pub fn new(memory: &Memory, scene: &GpuScene, moves: bool) -> Result<Self, VulkanError> {
         let moves = moves || scene.geometry.strokes.is_some();
         let moving = moves.then(|| MovingVertices::new(memory, &scene.geometry));
@@ -29,13 +30,13 @@ impl FrameGeometry {
         })
     }
 
-    /// About how many bytes it takes for a scene that moves.
+    /// Approximate number of bytes for a scene that moves.
     #[must_use]
     pub fn bytes(scene: &GpuScene) -> u64 {
         PlacedInstances::bytes(&scene.geometry) + MovingVertices::bytes(&scene.geometry)
     }
 
-    /// The scene's texel buffers and its own.
+    /// Texel buffers of the scene and of the frame.
     #[must_use]
     pub fn texels(&self, scene: &GpuScene) -> Vec<BoundTexels> {
         let geometry = &scene.geometry;
@@ -88,7 +89,7 @@ impl FrameGeometry {
             .collect()
     }
 
-    /// A scene's triangles as [`Raster`](crate::passes::Raster) draws them, but for what the camera does not see.
+    /// Runs of a scene's triangles for [`Raster`](crate::passes::Raster), without those outside of the camera's view.
     pub(crate) fn runs<'a>(
         &'a self,
         scene: &'a GpuScene,
@@ -106,21 +107,21 @@ impl FrameGeometry {
         })
     }
 
-    /// Records copies of vertices of which some will move, once.
+    /// Records initial copies of the vertices, if some of them will move.
     pub(crate) fn record_upload(&self, recorder: &Recorder<'_>, scene: &GpuScene) {
         if let Some(moving) = &self.moving {
             moving.record_upload(recorder, &scene.geometry);
         }
     }
 
-    /// Places a scene's instances for a camera, whose matrix leads from the space of the scene's geometry to pixel-scaled
-    /// clip space. Before each recording, while the device is done with the one before. `image` is how many pixels `raster`
-    /// draws, if it does.
+    /// Writes a scene's instances for a camera; `to_clip` is the matrix from the scene's coordinates to pixel-scaled
+    /// clip space. Call it before each recording, once the device has finished the one before. `image` is the size in
+    /// pixels of the image that `raster` draws, if it runs.
     pub(crate) fn place(&mut self, scene: &GpuScene, to_clip: &DMat4, image: Option<[u32; 2]>) {
         self.placed.write(&scene.geometry, to_clip, image);
     }
 
-    /// Writes what moves at a moment. Before a recording, while the device is done with the one before.
+    /// Writes what moves at a moment. Call it before a recording, once the device has finished the one before.
     pub(crate) fn write_moment(&mut self, moment: &Moment) {
         if let Some(moving) = &mut self.moving {
             moving.write(moment);

@@ -1,11 +1,11 @@
 //! Triangles on the device: each mesh once, and the instances that draw it.
 //!
-//! A triangle's ID, less 1, is its index. Where nothing is instanced the index is that of the triangle's record. Otherwise
-//! instances own ranges of indices that start at multiples of 64, so that one look-up, of the index over 64, leads to the
-//! instance: `shaders/include/triangle.glsl` has the functions with which every pass reads triangles, and a
-//! specialisation constant leaves the look-up out for scenes without instances.
+//! A triangle's ID minus 1 is its index. Without instances, the index is that of the triangle's record. With
+//! instances, each instance owns a range of indices that starts at a multiple of 64, so that one look-up, by index /
+//! 64, finds the instance. `shaders/include/triangle.glsl` has the functions with which every pass reads triangles; a
+//! specialisation constant removes the look-up for scenes without instances.
 //!
-//! What a camera makes of it belongs to a frame ([`FrameGeometry`]), so that several may be in flight.
+//! Data that depend on a camera belong to a frame ([`FrameGeometry`]), so that several frames may be in flight.
 
 mod frame;
 mod moving;
@@ -23,30 +23,30 @@ use glam::{DAffine3, DVec3};
 use std::borrow::Cow;
 use std::collections::HashMap;
 
-/// Indices that share an instance.
+/// Number of consecutive indices that belong to the same instance.
 const BLOCK: u32 = Instance::ALIGNMENT;
 
-/// Neighbouring triangles of one class and one place, drawn at once.
+/// Consecutive triangles of the same class and the same place, drawn at once.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Run {
     pub(super) class: DrawClass,
     pub(super) first_index: u32,
     pub(super) triangle_count: u32,
-    /// Index of their place.
+    /// Index of the place at which they are drawn.
     pub(super) place: u32,
 }
 
-/// Where some triangles are drawn.
+/// A place at which triangles are drawn.
 #[derive(Clone, Copy, Debug)]
 struct Place {
-    /// What leads from an index to a record, modulo 2^32; the first index that is not theirs; flags.
+    /// Three words: the difference, modulo 2^32, from an index to its record; the index after the last; flags.
     words: [u32; 4],
     transform: DAffine3,
-    /// Lowest and highest corner of the box around their vertices, before the transform.
+    /// Lowest and highest corner of the box around the vertices, before the transform.
     bounds: [DVec3; 2],
 }
 
-/// Set where a place mirrors its triangles.
+/// Flag: the place mirrors its triangles.
 const MIRRORED: u32 = 1;
 
 impl Place {
@@ -65,30 +65,30 @@ impl Place {
 /// A scene's triangles on the device.
 pub(super) struct GpuGeometry {
     pub(super) positions: BufferView,
-    /// Corners, and a word of material, bin and flags.
+    /// For each triangle its corners, and a word with material, bin and flags.
     pub(super) triangles: BufferView,
     pub(super) normals: BufferView,
     pub(super) tangents: BufferView,
     pub(super) uvs: BufferView,
     pub(super) colors: BufferView,
-    /// The place of each block of indices.
+    /// Index of the place for each block of indices.
     pub(super) blocks: BufferView,
     pub(super) runs: Vec<Run>,
     places: Vec<Place>,
-    /// What moves of it.
+    /// Moving vertices; `None` for a scene that does not move.
     pub(super) motion: Option<GpuMotion>,
-    /// Its points and lines.
+    /// Points and lines; `None` without any.
     pub(super) strokes: Option<GpuStrokes>,
     pub(super) has_tangents: bool,
     pub(super) is_instanced: bool,
-    /// Triangles that are drawn.
+    /// Number of triangles that are drawn.
     pub(super) triangle_count: u64,
-    /// Indices, of which some may stand for no triangle.
+    /// Number of indices; some may belong to no triangle.
     pub(super) index_count: u32,
     pub(super) origin: DVec3,
 }
 
-/// A stream or, where it is empty, `count` vectors of one value.
+/// `stream`, or `count` vectors of the same value if it is empty.
 fn or_filled(stream: &[[f32; 4]], value: f32, count: usize) -> Cow<'_, [[f32; 4]]> {
     if stream.is_empty() {
         Cow::Owned(vec![[value; 4]; count])
@@ -98,14 +98,14 @@ fn or_filled(stream: &[[f32; 4]], value: f32, count: usize) -> Cow<'_, [[f32; 4]
 }
 
 impl GpuGeometry {
-    /// Allocates and fills buffers for a scene's geometry, whose triangles have these records.
+    /// Allocates and fills the buffers for a scene's geometry; `triangles` holds the records of its triangles.
     pub(super) fn new(
         uploader: &mut Uploader<'_>,
         scene: &Scene,
         (geometry, motion): (&Geometry, Option<&Motion>),
         records: &[[u32; 4]],
     ) -> Result<Self, VulkanError> {
-        // The alpha test reads both streams whether or not the scene has them.
+        // The alpha test reads both streams, even if the scene has only one of them.
         let has_mask = scene
             .materials
             .iter()
@@ -162,12 +162,12 @@ impl GpuGeometry {
         motion.is_some_and(|motion| !motion.parts.is_empty())
     }
 
-    /// Whether vertices move, in the world or, points and lines, with the camera.
+    /// Whether vertices move: in the world, or, for points and lines, with the camera.
     fn vertices_move(&self) -> bool {
         self.is_posed() || self.strokes.is_some()
     }
 
-    /// Index of the first triangle of a class or a later one; the number of indices where there is none.
+    /// Index of the first triangle of a class or of a later class; the number of indices if there is none.
     pub(super) fn first_of(&self, class: DrawClass) -> u32 {
         self.runs
             .iter()
@@ -176,7 +176,7 @@ impl GpuGeometry {
     }
 }
 
-/// Normals and, as fourth numbers, scales.
+/// Normals, with the scale in the fourth component.
 fn normals_and_scales(geometry: &Geometry) -> Vec<[f32; 4]> {
     let streams = &geometry.streams;
     let scales = streams.scales.iter().copied().chain(std::iter::repeat(1.0));
@@ -184,7 +184,7 @@ fn normals_and_scales(geometry: &Geometry) -> Vec<[f32; 4]> {
     pairs.map(|(&[x, y, z], scale)| [x, y, z, scale]).collect()
 }
 
-/// The place of each block.
+/// Index of the place for each block of indices.
 fn blocks(geometry: &Geometry) -> Vec<u32> {
     let mut blocks = Vec::new();
     for (place, instance) in (0..).zip(&geometry.instances) {
@@ -194,7 +194,8 @@ fn blocks(geometry: &Geometry) -> Vec<u32> {
     blocks
 }
 
-/// All places; the world alone where nothing is instanced. Of what moves there, or has a size in pixels, the box is not known.
+/// All places; without instances a single one, the world. Boxes are infinite if vertices move or have a size in
+/// pixels.
 fn places(geometry: &Geometry, moves: bool) -> Vec<Place> {
     let everywhere = [DVec3::NEG_INFINITY, DVec3::INFINITY];
     if geometry.instances.is_empty() {
@@ -204,7 +205,7 @@ fn places(geometry: &Geometry, moves: bool) -> Vec<Place> {
             bounds: everywhere,
         }];
     }
-    // Instances of a mesh share its box.
+    // Instances of the same mesh share its box.
     let mut boxes: HashMap<(u32, u32), [DVec3; 2]> = HashMap::new();
     let changes = moves || geometry.has_strokes();
     let place = |instance: &Instance| {
@@ -219,7 +220,7 @@ fn places(geometry: &Geometry, moves: bool) -> Vec<Place> {
     geometry.instances.iter().map(place).collect()
 }
 
-/// What is drawn at once.
+/// Runs of triangles that are drawn at once.
 fn runs(geometry: &Geometry) -> Vec<Run> {
     let mut runs: Vec<Run> = Vec::new();
     if geometry.instances.is_empty() {

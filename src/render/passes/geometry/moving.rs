@@ -1,5 +1,5 @@
-//! Vertices that move: what they are at rest, which belongs to the scene, and at a moment or for a camera, which belongs to
-//! a frame.
+//! Moving vertices. Their positions at rest belong to the scene; their positions at a moment, or for a camera, belong
+//! to a frame.
 
 use super::GpuGeometry;
 use crate::passes::upload::Uploader;
@@ -8,9 +8,9 @@ use crate::vulkan::{BufferView, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;
 
-/// What `pose` reads of a scene.
+/// Input of `pose` that belongs to the scene.
 pub(in crate::render::passes) struct GpuMotion {
-    /// Position, normal and tangent of each vertex.
+    /// Position, normal and tangent of each vertex at rest.
     pub(in crate::render::passes) resting: BufferView,
     pub(in crate::render::passes) influences: BufferView,
     pub(in crate::render::passes) displacements: BufferView,
@@ -20,7 +20,7 @@ pub(in crate::render::passes) struct GpuMotion {
 }
 
 impl GpuMotion {
-    /// Allocates and fills its buffers.
+    /// Allocates and fills the buffers.
     pub(super) fn new(uploader: &mut Uploader<'_>, motion: &Motion) -> Result<Self, VulkanError> {
         let float4 = vk::Format::R32G32B32A32_SFLOAT;
         let uint4 = vk::Format::R32G32B32A32_UINT;
@@ -36,29 +36,29 @@ impl GpuMotion {
 }
 
 impl GpuMotion {
-    /// Whether a moment is one of this motion.
+    /// Whether a moment belongs to this motion.
     pub(in crate::render::passes) fn has(&self, moment: &Moment) -> bool {
         Arc::ptr_eq(&self.identity, &moment.identity)
     }
 }
 
-/// What `stroke` reads of a scene.
+/// Input of `stroke` that belongs to the scene.
 pub(in crate::render::passes) struct GpuStrokes {
-    /// Two vectors of each corner of points and lines, then two of each edge.
+    /// Records: two vectors for each corner of points and lines, then two for each edge.
     pub(in crate::render::passes) records: BufferView,
-    /// Of points and lines.
+    /// Number of corners of points and lines.
     pub(in crate::render::passes) corner_count: u32,
     pub(in crate::render::passes) edge_count: u32,
 }
 
-/// Flag of a corner in `shaders/stroke.comp`.
+/// Flag of a corner: the same number as in `shaders/stroke.comp`.
 const FACES_CAMERA: u32 = 1 << 31;
-/// Flags of an edge there.
+/// Flag of an edge: the same number as in `shaders/stroke.comp`.
 const SMOOTH: u32 = 1;
 const DOUBLE_SIDED: u32 = 2;
 
 impl GpuStrokes {
-    /// Allocates and fills its buffer.
+    /// Allocates and fills the buffer.
     pub(super) fn new(
         uploader: &mut Uploader<'_>,
         strokes: &[Stroke],
@@ -89,18 +89,19 @@ impl GpuStrokes {
     }
 }
 
-/// A frame's vertices, of which `pose` and `stroke` write those that move.
+/// A frame's vertices. `pose` and `stroke` overwrite those that move.
 pub(in crate::render::passes) struct MovingVertices {
     pub(in crate::render::passes) positions: BufferView,
     pub(in crate::render::passes) normals: BufferView,
-    /// Where something moves in the world: a camera turns none.
+    /// Tangents; `None` unless a motion moves vertices, because they don't depend on the camera.
     pub(in crate::render::passes) tangents: Option<BufferView>,
-    /// Matrices and weights, which the host writes before each recording.
+    /// Matrices and weights of the moment, which the host writes before each recording.
     pub(in crate::render::passes) moment: Option<BufferView>,
 }
 
 impl MovingVertices {
-    /// Memory for all vertices of a geometry, where some of them move in the world or, points and lines, with the camera.
+    /// Allocates memory for all vertices of a geometry, if some of them move in the world or, as points and lines,
+    /// with the camera.
     pub(in crate::render::passes) fn new(
         memory: &Memory,
         geometry: &GpuGeometry,
@@ -157,7 +158,7 @@ impl MovingVertices {
         vertices + motion.map_or(0, |motion| motion.vector_count * 16)
     }
 
-    /// Records copies of the vertices of the first pose, of which those that don't move stay.
+    /// Records copies of the vertices of the first pose. Vertices that don't move keep them.
     pub(in crate::render::passes) fn record_upload(
         &self,
         recorder: &Recorder<'_>,
@@ -174,7 +175,7 @@ impl MovingVertices {
         recorder.barrier();
     }
 
-    /// Writes a moment, while the device is done with the one before.
+    /// Writes a moment; the device must have finished the previous recording.
     pub(in crate::render::passes) fn write(&mut self, moment: &Moment) {
         let vectors: &[u8] = bytemuck::cast_slice(&moment.vectors);
         let moment = self.moment.as_mut();

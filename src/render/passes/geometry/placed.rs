@@ -1,4 +1,4 @@
-//! Instances as one camera sees them.
+//! Instances as a camera sees them.
 
 use super::GpuGeometry;
 use crate::passes::raster::RasterPush;
@@ -6,20 +6,20 @@ use crate::vulkan::{BufferView, Memory, MemoryUse, VulkanError};
 use ash::vk;
 use glam::{DAffine3, DMat4, DVec3, DVec4};
 
-/// Vectors of an instance in `shaders/include/triangle.glsl`.
+/// Number of vectors of an instance, as in `shaders/include/triangle.glsl`.
 const VECTORS: usize = 8;
 
-/// Where a frame's camera sees instances; the host writes it before each recording.
+/// Instances as a frame's camera sees them; the host writes them before each recording.
 pub(in crate::render::passes) struct PlacedInstances {
-    /// Of each instance its words, four columns to clip space, three rows to the geometry's space; nothing where nothing
-    /// is instanced.
+    /// For each instance: its words, the four columns of its matrix to clip space, and three rows of its matrix to the
+    /// scene's coordinates. Empty without instances.
     pub(in crate::render::passes) buffer: BufferView,
     draws: Vec<RasterPush>,
     hidden: Vec<bool>,
 }
 
 impl PlacedInstances {
-    /// Memory for the instances of a geometry.
+    /// Allocates memory for the instances of a geometry.
     pub(in crate::render::passes) fn new(
         memory: &Memory,
         geometry: &GpuGeometry,
@@ -58,9 +58,9 @@ impl PlacedInstances {
         }
     }
 
-    /// Writes them for a camera whose matrix leads from the geometry's space to pixel-scaled clip space, while the device
-    /// is done with what was written before. Products are of 64 bits and rounded once.
-    /// What lies outside of an `image` of so many pixels is not drawn.
+    /// Writes the instances for a camera; `to_clip` is the matrix from the scene's coordinates to pixel-scaled clip
+    /// space. The device must have finished the previous recording. Products are computed in 64 bits and rounded once.
+    /// Places outside of an `image` of this size in pixels are not drawn.
     pub(in crate::render::passes) fn write(
         &mut self,
         geometry: &GpuGeometry,
@@ -91,7 +91,7 @@ impl PlacedInstances {
         self.draws = draws;
     }
 
-    /// The mapped vectors of so many instances; nothing where the driver did not map them.
+    /// Mapped vectors of `instances` instances; empty if the driver did not map the memory.
     fn vectors(&mut self, instances: usize) -> &mut [[[u32; 4]; VECTORS]] {
         let mapped = self.buffer.buffer.bytes_mut();
         mapped
@@ -100,17 +100,17 @@ impl PlacedInstances {
             .unwrap_or(&mut [])
     }
 
-    /// What the vertex shader is told of a place; nothing where it is not seen.
+    /// Push constants of the vertex shader for a place; `None` if the place is not visible.
     pub(in crate::render::passes) fn draw(&self, place: u32) -> Option<&RasterPush> {
         let is_hidden = self.hidden.get(place as usize).copied()?;
         self.draws.get(place as usize).filter(|_| !is_hidden)
     }
 }
 
-/// Whether all of a box lies on the outer side of one border of an image, before its near plane or beyond its far one;
-/// these are tests of half-spaces, which hold for what is behind the eye too.
+/// Whether a box lies entirely outside of one border of an image, in front of its near plane or beyond its far plane.
+/// These are half-space tests, which also hold for points behind the eye.
 fn is_outside(matrix: &DMat4, [low, high]: [DVec3; 2], image: [u32; 2]) -> bool {
-    /// Farther out than any sample of a pixel on the border, in pixels.
+    /// Margin in pixels beyond the border, larger than the distance of any sample of a border pixel.
     const MARGIN: f64 = 2.0;
     let half = image.map(|pixels| 0.5 * f64::from(pixels) + MARGIN);
     let corners = [0, 1, 2, 3, 4, 5, 6, 7].map(|corner| {
@@ -131,7 +131,7 @@ fn is_outside(matrix: &DMat4, [low, high]: [DVec3; 2], image: [u32; 2]) -> bool 
         || all(&|c| c.z < 0.0)
 }
 
-/// The rows of the way to the geometry's space, floats as bits.
+/// Rows of the transform to the scene's coordinates, as bits of floats.
 fn rows(place: &DAffine3) -> [[u32; 4]; 3] {
     let linear = place.matrix3.transpose();
     let row = |axis: glam::DVec3, offset: f64| {

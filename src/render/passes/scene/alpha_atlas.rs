@@ -1,4 +1,4 @@
-//! The alpha channels that the alpha test reads, in one buffer.
+//! Alpha channels for the alpha test, in one buffer.
 
 use super::mipmaps::halve;
 use crate::passes::alpha_flags::{
@@ -7,7 +7,7 @@ use crate::passes::alpha_flags::{
 };
 use crate::scene::{AlphaMode, Filter, Material, Sampler, Scene, Wrap};
 
-/// The alpha channels of MASK materials' base colour textures, with their mipmaps.
+/// Alpha channels of the base colour textures of MASK materials, with their mipmaps.
 #[derive(Debug)]
 pub(super) struct AlphaAtlas {
     pub(super) words: Vec<u32>,
@@ -15,7 +15,7 @@ pub(super) struct AlphaAtlas {
 }
 
 impl AlphaAtlas {
-    /// An atlas of one untextured entry, for materials without a texture.
+    /// Atlas with one untextured entry, for materials without a texture.
     pub(super) fn new() -> Self {
         Self {
             words: vec![0; 8],
@@ -23,7 +23,7 @@ impl AlphaAtlas {
         }
     }
 
-    /// Places a material's alpha texture, once for each texture; what its `GpuMaterial::alpha` is.
+    /// Adds a material's alpha texture, unless the atlas has it already; returns the material's `GpuMaterial::alpha`.
     pub(super) fn place(&mut self, scene: &Scene, material: &Material) -> [u32; 4] {
         let none = [0, 0x1_0001, 1, NO_MIP];
         let (AlphaMode::Mask { .. }, Some(used)) =
@@ -76,7 +76,7 @@ impl AlphaAtlas {
         alpha
     }
 
-    /// Appends a level as words of 2 x 2 texels, the first of them half outside of the image.
+    /// Appends a level as words of 2 x 2 texels; the first row and column of words reach half out of the image.
     fn push(&mut self, level: &[u8], [width, height]: [u32; 2], sampler: &Sampler) {
         let texel = |x: i64, y: i64| {
             let (x, y) = (
@@ -123,7 +123,7 @@ fn flags(sampler: &Sampler) -> u32 {
         | beyond([mode(sampler.wrap_u), mode(sampler.wrap_v)])
 }
 
-/// The texel that a coordinate one outside of the image falls on.
+/// Index of the texel for a coordinate up to one texel outside of the image.
 fn wrap(i: i64, size: u32, mode: Wrap) -> usize {
     let size = i64::from(size);
     let inside = match mode {

@@ -1,4 +1,4 @@
-//! Material bins: materials that are shaded by one dispatch.
+//! Material bins: materials that the same dispatch shades.
 
 use super::slots::{RoleSlots, SLOTS, Slots};
 use super::texture_set::{TextureIndex, TextureSet};
@@ -9,18 +9,18 @@ use crate::vulkan::VulkanError;
 use ash::vk;
 use std::collections::HashMap;
 
-/// What a shading pipeline is specialised for.
+/// Features for which a shading pipeline is specialised.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct ShadeFeatures {
-    /// Which slot each texture is read from.
+    /// Slot from which each texture is read.
     slots: RoleSlots,
-    /// Vertex colours are multiplied in.
+    /// Whether vertex colours are multiplied in.
     vertex_colors: bool,
-    /// The base colour is the result.
+    /// Whether the base colour is the result.
     unlit: bool,
-    /// All textures are read at the same coordinates.
+    /// Whether all textures are read at the same coordinates.
     one_uv_transform: bool,
-    /// Which lobes there are, in the order of the shader's constants.
+    /// Lobes that are present, in the order of the shader's constants.
     lobes: [bool; 8],
 }
 
@@ -51,10 +51,10 @@ impl ShadeFeatures {
         self.lobes[5]
     }
 
-    /// The shader of materials with these features, by what is the same for all of a scene.
+    /// Shader of materials with these features; `common` holds the constants that are the same for the whole scene.
     pub(in crate::render::passes) fn shader(&self, common: spirv::Shade) -> spirv::Shade {
         use TextureRole as T;
-        // Slots count from 16, so that 0 is none.
+        // Slots are numbered from 16; 0 means no texture.
         let slot = |role: T| self.slots[role as usize].map_or(0, |slot| 16 + u32::from(slot));
         let [
             specular,
@@ -104,31 +104,31 @@ impl ShadeFeatures {
     }
 }
 
-/// Materials that are shaded by one dispatch: same pipeline, same textures.
+/// Materials that the same dispatch shades: same pipeline, same textures.
 pub(in crate::render::passes) struct MaterialBin {
     pub(in crate::render::passes) features: ShadeFeatures,
     pub(in crate::render::passes) textures: vk::DescriptorSet,
 }
 
-/// What tells one material bin from another.
+/// Key of a material bin.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 struct BinKey {
     features: ShadeFeatures,
     textures: [TextureIndex; SLOTS],
 }
 
-/// Largest number of materials and of material bins, by the bits of a triangle's last word.
+/// Largest number of materials, and of material bins: the number of bits that a triangle's last word has for them.
 const MATERIAL_LIMIT: usize = 1 << 16;
 const BIN_LIMIT: usize = 1 << 14;
 
-/// The bin of each material in use, and what each bin is.
+/// The bin of each material in use, and the keys of the bins.
 pub(super) struct Bins {
     bin_of: HashMap<u32, u32>,
     keys: Vec<BinKey>,
 }
 
 impl Bins {
-    /// Sorts the materials of all draws into bins, and makes their textures.
+    /// Sorts the materials of all draws into bins, and creates their textures.
     pub(super) fn new(
         scene: &Scene,
         (materials, geometry): (&[Material], &Geometry),
@@ -168,7 +168,7 @@ impl Bins {
         self.bin_of.get(&material).copied().unwrap_or(0)
     }
 
-    /// The bins, with descriptor sets of a pool of their own where there are any.
+    /// Makes the bins, with descriptor sets from a pool of their own if there are any.
     pub(super) fn allocate(
         &self,
         layout: &FrameLayout,
@@ -198,7 +198,7 @@ fn check(found: usize, unit: &'static str, limit: usize) -> Result<(), VulkanErr
     VulkanError::check_limit("the scene", found as u64, unit, limit as u64)
 }
 
-/// What each slot reads.
+/// Textures of the slots.
 fn textures_of(
     scene: &Scene,
     slots: &Slots,

@@ -1,4 +1,4 @@
-//! The environment as the shaders read it.
+//! Environment in the form that shaders read.
 
 use crate::passes::upload::Uploader;
 use crate::render::passes::prefilter::{self, Prefilter};
@@ -7,38 +7,38 @@ use crate::vulkan::{Buffer, Image, Recorder, VulkanError};
 use ash::vk;
 use half::f16;
 
-/// A cube of half floats with a level for each roughness, and what goes with it in the uniform block. Where a scene has no
-/// environment the cube is a single black texel a face, which is not read.
+/// A cube of half floats with a level for each roughness, and its part of the uniform block. For a scene without an
+/// environment the cube is black, has one texel a face and is not read.
 pub(in crate::render::passes) struct GpuEnvironment {
     image: Image,
     pub(super) uniform: EnvironmentUniform,
-    /// Texels along the side of each level's faces, and the first of its texels in what is copied.
+    /// Side of each level's faces in texels, and the index of its first texel in the source of the copy.
     levels: Vec<(u32, u32)>,
 }
 
-/// What a cube is copied from: texels of four half floats.
+/// Source of a cube: texels of four half floats.
 pub(super) enum EnvironmentUpload {
     /// The levels, one after the other.
     Levels(Buffer),
-    /// Averages, which the device makes levels of.
+    /// Averages from which the device makes the levels.
     Averages(Box<Prefilter>),
 }
 
-/// What of the uniform block `Frame` an environment sets.
+/// Fields of the uniform block `Frame` that belong to the environment.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct EnvironmentUniform {
-    /// Coefficients of the irradiance over pi, the fourth number unused.
+    /// Spherical-harmonic coefficients of the irradiance / pi; the fourth component is unused.
     pub irradiance: [[f32; 4]; 9],
-    /// Rows that turn world space to the map's; in the first one's fourth number a factor on what the cube holds, in the
-    /// second's the last level.
+    /// Rows of the rotation from world space to the map's space. The fourth component of the first row is a factor for
+    /// the cube's values, that of the second row the last level.
     pub axes: [[f32; 4]; 3],
 }
 
-/// Largest number that is stored; half floats end at 65,504.
+/// Largest value that is stored; half floats end at 65,504.
 const LARGEST: f32 = 60_000.0;
 
 impl GpuEnvironment {
-    /// The cube of an environment, and what fills it.
+    /// Makes the cube of an environment, and its source.
     pub(super) fn new(
         uploader: &mut Uploader<'_>,
         environment: Option<&Environment>,
@@ -112,14 +112,14 @@ impl GpuEnvironment {
         Ok((this, upload))
     }
 
-    /// What a binding shows of it.
+    /// Descriptor of the cube.
     pub(in crate::render::passes) fn descriptor(&self) -> vk::DescriptorImageInfo {
         vk::DescriptorImageInfo::default()
             .image_view(self.image.view)
             .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)
     }
 
-    /// Records what fills the cube; buffers have been copied to the device before.
+    /// Records the copies to the cube; its buffers have been uploaded before.
     pub(super) fn record_upload(&self, recorder: &Recorder<'_>, upload: &EnvironmentUpload) {
         let texels = match upload {
             EnvironmentUpload::Levels(levels) => levels,
@@ -149,7 +149,7 @@ impl GpuEnvironment {
                     })
             })
             .collect();
-        // SAFETY: the recorder's contract; the buffer holds all levels, which are in the layout named.
+        // SAFETY: guaranteed by the recorder's caller; the buffer holds all levels, which are in the named layout.
         unsafe {
             recorder.device().cmd_copy_buffer_to_image(
                 recorder.raw(),

@@ -1,4 +1,4 @@
-//! Lights as the shaders read them.
+//! Lights in the form that shaders read.
 
 use crate::scene::{Light, LightKind};
 use glam::DVec3;
@@ -10,7 +10,7 @@ impl GpuLight {
     pub(super) fn of_scene(light: &Light, origin: DVec3) -> Self {
         let position = (light.position - origin).as_vec3();
         let direction = light.direction.as_vec3();
-        // KHR_lights_punctual, "Inner and Outer Cone Angles".
+        // The formulas are those of KHR_lights_punctual, "Inner and Outer Cone Angles".
         let (kind, scale, offset) = match light.kind {
             LightKind::Directional => (0.0, 0.0, 1.0),
             LightKind::Point => (1.0, 0.0, 1.0),
@@ -35,12 +35,12 @@ impl GpuLight {
     }
 }
 
-/// Lights of the scene by what shading must compute.
+/// Lights of a scene, as far as shading pipelines depend on them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LightFeatures {
     /// Number of lights.
     pub count: u32,
-    /// Whether point or spot lights are among them.
+    /// Whether there are point or spot lights.
     pub local: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Materials and lights that change with the moment: what a scene keeps of them, and a frame's own copies.
+//! Materials and lights that change with the moment: the scene's data about them, and a frame's own copies.
 
 use super::light::GpuLight;
 use super::material::MaterialRow;
@@ -9,15 +9,16 @@ use crate::scene::{Moment, Motion};
 use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 
-/// What changes of a scene's look.
+/// Materials and lights of a scene that change.
 pub(super) struct ChangingLook {
-    /// Of each material that changes: its index, and what its row in the table has beside its numbers.
+    /// For each material that changes: its index, and the part of its row in the table that does not come from its
+    /// numbers.
     materials: Vec<(usize, MaterialRow)>,
     lights: bool,
 }
 
 impl ChangingLook {
-    /// What a motion changes; `slots` and `alphas` are those of all materials.
+    /// Materials and lights that a motion changes; `slots` and `alphas` are those of all materials.
     pub(super) fn new(motion: &Motion, slots: &[Slots], alphas: &[[u32; 4]]) -> Self {
         let row = |&index: &usize| {
             let (slots, alpha) = (slots.get(index)?.clone(), *alphas.get(index)?);
@@ -30,12 +31,12 @@ impl ChangingLook {
     }
 }
 
-/// A frame's own copies of the scene's materials and lights, where they change.
+/// A frame's own copies of the scene's materials and lights, if these change.
 #[derive(Default)]
 pub struct FrameLook {
     materials: Option<BufferView>,
     lights: Option<Buffer>,
-    /// What the next recording writes: into the buffer of materials or else of lights, from a byte on.
+    /// Updates for the next recording: of the buffer of materials or of lights, from a byte on.
     updates: Vec<Update>,
 }
 
@@ -46,7 +47,7 @@ struct Update {
 }
 
 impl FrameLook {
-    /// Memory for what changes; without any, the scene's own are shown.
+    /// Allocates memory for what changes. If nothing does, the frame uses the scene's buffers.
     ///
     /// # Errors
     /// If memory runs out.
@@ -81,7 +82,7 @@ impl FrameLook {
         })
     }
 
-    /// Bytes that it takes for a scene.
+    /// Number of bytes for a scene.
     #[must_use]
     pub fn bytes(scene: &GpuScene) -> u64 {
         scene.changing.as_ref().map_or(0, |changing| {
@@ -91,7 +92,7 @@ impl FrameLook {
         })
     }
 
-    /// The table of materials that the frame shows.
+    /// Table of materials of the frame.
     #[must_use]
     pub fn texels(&self, scene: &GpuScene) -> BoundTexels {
         (
@@ -100,13 +101,13 @@ impl FrameLook {
         )
     }
 
-    /// The lights that it shows.
+    /// Buffer of lights of the frame.
     #[must_use]
     pub fn lights<'a>(&'a self, scene: &'a GpuScene) -> &'a Buffer {
         self.lights.as_ref().unwrap_or(&scene.lights)
     }
 
-    /// Records copies of what there is at first, once.
+    /// Records initial copies of the scene's materials and lights.
     pub(crate) fn record_upload(&self, recorder: &Recorder<'_>, scene: &GpuScene) {
         if let Some(materials) = &self.materials {
             let from = &scene.materials.buffer;
@@ -118,7 +119,7 @@ impl FrameLook {
         recorder.barrier();
     }
 
-    /// Prepares what recordings write from now on.
+    /// Prepares the updates for a moment, which the next recording writes.
     pub(crate) fn show(&mut self, scene: &GpuScene, moment: &Moment) {
         let Some(changing) = &scene.changing else {
             return;
@@ -146,7 +147,7 @@ impl FrameLook {
         }
     }
 
-    /// Records what was prepared.
+    /// Records the prepared updates.
     pub(crate) fn record(&self, recorder: &Recorder<'_>) {
         if self.updates.is_empty() {
             return;
@@ -157,7 +158,7 @@ impl FrameLook {
                 false => self.lights.as_ref(),
             };
             let Some(to) = to else { continue };
-            // They lie within the buffer: a moment has no more materials and lights than its scene.
+            // Updates stay within the buffer: a moment has no more materials and lights than its scene.
             recorder.update(to, update.first_byte as u64, &update.bytes);
         }
         recorder.barrier();

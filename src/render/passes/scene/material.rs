@@ -1,12 +1,12 @@
-//! Materials as the shaders read them.
+//! Materials in the form that shaders read.
 
 use super::slots::Slots;
 use crate::scene::{AlphaMode, Lobes, Material, TextureRole, TextureUse};
 
-/// Vectors of a material before those of its textures' coordinates.
+/// Number of vectors of a material before those for texture coordinates.
 const FIXED: usize = 13;
 
-/// The vectors of `shaders/include/material.glsl`, those of coordinates excepted.
+/// The first vectors of a material in `shaders/include/material.glsl`, without those for texture coordinates.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, bytemuck::Pod, bytemuck::Zeroable)]
 pub(super) struct GpuMaterial {
@@ -25,10 +25,10 @@ pub(super) struct GpuMaterial {
     specular_glossiness: [f32; 4],
 }
 
-/// What a material's row in the table has beside its numbers.
+/// Part of a material's row in the table that does not come from its numbers.
 pub(super) struct MaterialRow {
     pub(super) slots: Slots,
-    /// Where the alpha atlas has it.
+    /// Place of its alpha texture in the alpha atlas.
     pub(super) alpha: [u32; 4],
 }
 
@@ -55,15 +55,15 @@ impl MaterialRow {
 /// The vectors of all materials.
 pub(super) struct MaterialTable {
     pub(super) words: Vec<[u32; 4]>,
-    /// Of each material.
+    /// Number of vectors of each material.
     pub(super) vectors: u32,
 }
 
 impl MaterialTable {
-    /// A table of materials, with their slots and where the alpha atlas has them.
+    /// Makes the table of materials from their slots and their places in the alpha atlas.
     pub(super) fn new(materials: &[Material], slots: Vec<Slots>, alphas: Vec<[u32; 4]>) -> Self {
         let most = slots.iter().map(|slots| slots.uses.len()).max();
-        // The alpha test of untextured materials reads the first coordinates, too.
+        // The alpha test reads the first coordinates even of untextured materials.
         let vectors = FIXED + 2 * most.unwrap_or(0).max(1);
         let mut words = Vec::with_capacity(materials.len() * vectors);
         for ((material, slots), alpha) in materials.iter().zip(slots).zip(alphas) {
@@ -77,14 +77,14 @@ impl MaterialTable {
     }
 }
 
-/// Three numbers and a fourth.
+/// Vector of three numbers and a fourth one.
 fn vector([r, g, b]: [f32; 3], w: f32) -> [f32; 4] {
     [r, g, b, w]
 }
 
 impl GpuMaterial {
     fn new(material: &Material, alpha: [u32; 4]) -> Self {
-        // Where alpha is compared with it: that of a BLEND material is an opacity.
+        // The value with which alpha is compared; the alpha of a BLEND material is an opacity.
         let cutoff = match material.alpha_mode {
             AlphaMode::Opaque => 0.0,
             AlphaMode::Mask { cutoff } => cutoff,
@@ -133,11 +133,11 @@ impl GpuMaterial {
     }
 }
 
-/// Largest roughness at which the light that an untextured surface reflects changes within a pixel.
+/// Largest roughness at which the reflection of an untextured surface can change noticeably within a pixel.
 const GLOSSY_ROUGHNESS: f32 = 0.6;
 
-/// Whether light or paint may change so quickly over a material's surface that one shading place in a pixel is too few: it
-/// is textured or glossy, or may become so.
+/// Whether light or colour may change within a pixel on the material's surface, so that one shading a pixel is too
+/// few: the material is textured or glossy, or an animation may make it so.
 pub(super) fn high_frequency(material: &Material) -> bool {
     let may_be_glossy = material.animated || is_glossy(material);
     material.textures().next().is_some() || (!material.unlit && may_be_glossy)

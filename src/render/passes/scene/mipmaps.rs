@@ -1,7 +1,7 @@
-//! Mipmap levels that an image's file does not have.
+//! Mipmap levels that an image file lacks.
 //!
-//! They are made on the host: devices that fill them by blits round each in their own way, and CPU drivers compile shaders
-//! for these blits at every start.
+//! They are computed on the host: devices that compute them with blits round differently, and CPU drivers compile
+//! shaders for these blits at every start.
 
 use crate::color::srgb;
 use crate::scene::Image;
@@ -9,8 +9,8 @@ use rayon::prelude::*;
 use std::borrow::Cow;
 use std::sync::LazyLock;
 
-/// All levels of an image down to a single texel, one after the other; `srgb` for colours, otherwise values are taken as they
-/// are. Means are those of light, and alpha's of its values.
+/// All levels of an image down to a single texel, one after the other. `srgb` is true for colours, whose means are
+/// computed in linear light; other values, and alpha, are averaged as they are.
 pub(super) fn levels(image: &Image, srgb: bool) -> Cow<'_, [u8]> {
     let given = image.levels().count() as u32;
     if given == image.full_levels() {
@@ -27,7 +27,8 @@ pub(super) fn levels(image: &Image, srgb: bool) -> Cow<'_, [u8]> {
     Cow::Owned(all)
 }
 
-/// The next level of one of `N` channels, the fourth of which is alpha: means of 2 x 2 texels, of 3 where a side is odd.
+/// The next level of an image with `N` channels, the fourth of which is alpha: means of 2 x 2 texels, of 3 along an
+/// odd side.
 pub(super) fn halve<const N: usize>(
     level: &[u8],
     [width, height]: [u32; 2],
@@ -66,12 +67,12 @@ pub(super) fn halve<const N: usize>(
     out
 }
 
-/// The sRGB transfer function both ways, of light in units of 2^-22.
+/// The sRGB transfer function and its inverse, for light in units of 2^-22.
 struct Curve {
     light: [u32; 256],
-    /// The least light of each code, and more than there is.
+    /// Smallest light of each code, and a last entry above the largest light.
     least: [u32; 257],
-    /// The code of the light that begins each 4,096th. It reaches the next code there at the most.
+    /// Code at the start of each of 4,096 intervals of light. An interval contains at most one step to the next code.
     codes: [u8; 4097],
 }
 
@@ -79,7 +80,7 @@ static CURVE: LazyLock<Curve> = LazyLock::new(Curve::new);
 
 impl Curve {
     const UNIT: f64 = (1 << 22) as f64;
-    /// Bits of light below a 4,096th.
+    /// Number of bits of light within such an interval.
     const REST: u32 = 10;
 
     fn new() -> Self {
@@ -103,7 +104,7 @@ impl Curve {
         }
     }
 
-    /// The nearest code of so much light.
+    /// Nearest code of a light.
     fn code(&self, light: u32) -> u8 {
         let code = self.codes[(light >> Self::REST) as usize];
         code + u8::from(light >= self.least[usize::from(code) + 1])

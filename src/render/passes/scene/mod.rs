@@ -37,7 +37,7 @@ use texture::{DeviceSampler, Texture};
 use texture_set::TextureSet;
 use triangles::Triangles;
 
-/// A posed scene on the device.
+/// A posed scene in device memory.
 pub struct GpuScene {
     pub(super) geometry: GpuGeometry,
     materials: BufferView,
@@ -57,15 +57,15 @@ pub struct GpuScene {
     _samplers: Vec<DeviceSampler>,
     _pool: Option<DescriptorPool>,
     memory: Memory,
-    /// Whether the copies that fill it were executed.
+    /// Whether the copies that fill it have been executed.
     uploaded: AtomicBool,
 }
 
-/// What fills a scene's buffers and images.
+/// Staged contents of a scene's buffers and images.
 #[derive(Default)]
 pub struct SceneUploads {
     buffers: Vec<Upload>,
-    /// Of the scene's textures, in their order.
+    /// Contents of the scene's textures, in their order.
     textures: Vec<Buffer>,
     environment: Option<EnvironmentUpload>,
 }
@@ -87,10 +87,10 @@ impl SceneUploads {
 }
 
 impl GpuScene {
-    /// Allocates and fills everything; copies that need the device wait for [`SceneUploads::record`].
+    /// Allocates everything and fills what the host can write; the other copies wait for [`SceneUploads::record`].
     ///
     /// # Errors
-    /// If memory runs out or the scene passes a limit of the device.
+    /// If memory runs out or the scene exceeds a limit of the device.
     pub fn new(
         layout: &FrameLayout,
         memory: &Memory,
@@ -161,7 +161,7 @@ impl GpuScene {
         Ok((scene, uploads))
     }
 
-    /// The copies that fill it were executed.
+    /// Notes that the copies have been executed.
     pub(crate) fn set_uploaded(&self) {
         self.uploaded.store(true, Ordering::Relaxed);
     }
@@ -174,7 +174,7 @@ impl GpuScene {
         &self.memory
     }
 
-    /// Bytes of device memory that it takes, with what is left of its uploads.
+    /// Bytes of device memory, including staged uploads that have not been discarded.
     #[must_use]
     pub fn memory_bytes(&self) -> u64 {
         self.memory.used()
@@ -186,32 +186,32 @@ impl GpuScene {
         self.geometry.triangle_count
     }
 
-    /// Whether some of its vertices move.
+    /// Whether a motion moves vertices.
     #[must_use]
     pub fn moves(&self) -> bool {
         self.geometry.is_posed()
     }
 
-    /// Whether it has points or lines.
+    /// Whether the scene has points or lines.
     #[must_use]
     pub fn has_strokes(&self) -> bool {
         self.geometry.strokes.is_some()
     }
 
-    /// Whether a moment is one of what moves in it.
+    /// Whether a moment belongs to the motion of this scene.
     #[must_use]
     pub fn has_moment(&self, moment: &Moment) -> bool {
         let motion = self.geometry.motion.as_ref();
         motion.is_some_and(|motion| motion.has(moment))
     }
 
-    /// Index of the first MASK triangle, or the number of indices that come before where there is none.
+    /// Index of the first MASK triangle; if there is none, the index at which MASK triangles would begin.
     #[must_use]
     pub fn first_mask(&self) -> u32 {
         self.first_mask
     }
 
-    /// Index of the first BLEND triangle, or the number of indices.
+    /// Index of the first BLEND triangle; if there is none, the number of indices.
     #[must_use]
     pub fn first_blend(&self) -> u32 {
         self.first_blend
@@ -223,31 +223,31 @@ impl GpuScene {
         self.material_vectors
     }
 
-    /// Whether surfaces are lit by an environment map in place of the studio.
+    /// Whether an environment map lights surfaces, instead of the built-in studio.
     #[must_use]
     pub fn has_environment(&self) -> bool {
         self.has_environment
     }
 
-    /// What an environment sets in the uniform block.
+    /// Fields of the uniform block that belong to the environment.
     #[must_use]
     pub fn environment(&self) -> &EnvironmentUniform {
         &self.environment.uniform
     }
 
-    /// The scene's lights.
+    /// Lights of the scene, as far as shading pipelines depend on them.
     #[must_use]
     pub fn light_features(&self) -> LightFeatures {
         self.light_features
     }
 
-    /// Whether light from behind shines through some of its surfaces.
+    /// Whether light from behind shines through some surfaces.
     #[must_use]
     pub fn is_backlit(&self) -> bool {
         self.bins.iter().any(|bin| bin.features.is_backlit())
     }
 
-    /// World position that device positions are relative to.
+    /// World position to which device positions are relative.
     #[must_use]
     pub fn origin(&self) -> DVec3 {
         self.geometry.origin

@@ -1,23 +1,24 @@
-//! Where shaders find a material's textures: what is read alike is read once.
+//! Texture slots of a material: textures that are read in the same way share a slot, and are read once.
 
 pub(super) use crate::passes::layout::SLOTS;
 use crate::scene::{Material, Scene, TextureRole, TextureUse};
 use crate::vulkan::VulkanError;
 
-/// The slot of each role, by its number.
+/// Slot of each role, by the role's number.
 pub(in crate::render::passes) type RoleSlots = [Option<u8>; TextureRole::COUNT];
 
-/// The slots of a material. The base colour comes first.
+/// Slots of a material; the base colour has the first.
 #[derive(Clone)]
 pub(super) struct Slots {
     pub(super) of_role: RoleSlots,
-    /// What each slot reads, and whether it is in sRGB.
+    /// Texture of each slot, and whether it is in sRGB.
     pub(super) uses: Vec<(TextureUse, bool)>,
     is_animated: bool,
 }
 
 impl Slots {
-    /// An unlit material has a slot for its base colour alone. Textures that the scene does not have get none.
+    /// Slots of a material. An unlit material has a slot for its base colour only; textures that the scene lacks get
+    /// none.
     pub(super) fn of(scene: &Scene, material: &Material) -> Result<Self, VulkanError> {
         let mut slots = Self {
             of_role: [None; TextureRole::COUNT],
@@ -34,7 +35,7 @@ impl Slots {
                 continue;
             }
             let read = (used, role.is_srgb());
-            // What is alike now may not stay so.
+            // Animated textures don't share a slot, because their transforms may change differently.
             let shared = slots.uses.iter().position(|known| *known == read);
             let slot = shared.filter(|_| !material.animated);
             slots.of_role[role as usize] = Some(slot.unwrap_or(slots.uses.len()) as u8);

@@ -12,7 +12,7 @@ pub(super) struct Texture {
 }
 
 impl Texture {
-    /// The image, and the bytes to fill it with; `srgb` for colours, otherwise values are taken as they are.
+    /// Makes the image, and a buffer with its contents; `srgb` is true for colours.
     pub(super) fn new(
         memory: &Memory,
         source: &SceneImage,
@@ -42,7 +42,7 @@ impl Texture {
         Ok((Self { image }, upload))
     }
 
-    /// Copies all levels.
+    /// Records the copy of all levels.
     pub(super) fn record_upload(&self, recorder: &Recorder<'_>, upload: &Buffer) {
         let image = &self.image;
         let write = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
@@ -69,7 +69,7 @@ impl Texture {
             })
             .collect();
         recorder.transition(image, vk::ImageLayout::UNDEFINED, write);
-        // SAFETY: the recorder's contract; the buffer holds these levels, which are in the layout named.
+        // SAFETY: guaranteed by the recorder's caller; the buffer holds these levels, which are in the named layout.
         unsafe {
             recorder.device().cmd_copy_buffer_to_image(
                 recorder.raw(),
@@ -83,7 +83,7 @@ impl Texture {
     }
 }
 
-/// A sampler that goes with its owner.
+/// A sampler that is destroyed with its owner.
 pub(super) struct DeviceSampler {
     gpu: Arc<Gpu>,
     pub(super) raw: vk::Sampler,

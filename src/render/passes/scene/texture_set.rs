@@ -1,4 +1,4 @@
-//! The images and samplers of a scene, each made once.
+//! Images and samplers of a scene, each created once.
 
 use super::texture::{DeviceSampler, Texture};
 use crate::passes::FrameLayout;
@@ -10,11 +10,11 @@ use std::collections::HashMap;
 /// Indices of an image and a sampler in a [`TextureSet`].
 pub(super) type TextureIndex = (usize, usize);
 
-/// Images and samplers made so far.
+/// Images and samplers that have been created.
 pub(super) struct TextureSet<'a> {
     memory: &'a Memory,
     pub(super) textures: Vec<Texture>,
-    /// What fills each of them.
+    /// Contents of the textures.
     pub(super) texture_uploads: Vec<Buffer>,
     known: HashMap<(u32, bool), usize>,
     pub(super) samplers: Vec<(Sampler, DeviceSampler)>,
@@ -33,7 +33,7 @@ impl<'a> TextureSet<'a> {
         }
     }
 
-    /// A texture of the scene, `srgb` for colours; `None` where the scene has no such texture.
+    /// Index of a texture of the scene; `srgb` is true for colours. `None` if the scene lacks it.
     pub(super) fn get(
         &mut self,
         scene: &Scene,
@@ -77,7 +77,7 @@ impl<'a> TextureSet<'a> {
         Ok(self.samplers.len() - 1)
     }
 
-    /// A texel for bindings that the specialised shader does not read.
+    /// White texel for bindings that the specialised shader does not read.
     pub(super) fn unused(&mut self) -> Result<TextureIndex, VulkanError> {
         let index = match self.white {
             Some(index) => index,
@@ -94,7 +94,7 @@ impl<'a> TextureSet<'a> {
         Ok((index, self.sampler(Sampler::default())?))
     }
 
-    /// Writes textures to the slots of a set, in their order.
+    /// Writes textures to the slots of a descriptor set, in their order.
     pub(super) fn write(
         &self,
         layout: &FrameLayout,

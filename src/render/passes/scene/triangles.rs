@@ -1,4 +1,4 @@
-//! Triangles as the shaders read them: corners, and a word of material, bin and flags.
+//! Triangles in the form that shaders read: corners, and a word with material, bin and flags.
 
 use super::bins::Bins;
 use super::material::high_frequency;
@@ -6,8 +6,8 @@ use crate::passes::TriangleWord;
 use crate::render::passes::geometry::double_sided;
 use crate::scene::{Geometry, Material};
 
-/// A triangle's vertices in their order, beginning with the one whose position comes first. Duplicates of a triangle that
-/// begin elsewhere are then computed alike to the bit, and the same one is seen everywhere.
+/// A triangle's corners, rotated so that the one with the smallest position comes first. Copies of a triangle that
+/// begin with another vertex are then computed identically, and the same copy is visible everywhere.
 fn first_corner_first(corners: [u32; 3], positions: &[[f32; 3]]) -> [u32; 3] {
     let position = |corner: u32| positions.get(corner as usize).copied().unwrap_or_default();
     let before = |a: u32, b: u32| {
@@ -29,9 +29,9 @@ fn first_corner_first(corners: [u32; 3], positions: &[[f32; 3]]) -> [u32; 3] {
 
 /// All triangles of a scene.
 pub(super) struct Triangles {
-    /// Corners and last word of each.
+    /// Corners and last word of each triangle.
     pub(super) records: Vec<[u32; 4]>,
-    /// How many of those that are drawn may ask for several shading places in a pixel.
+    /// Number of drawn triangles that may need several shadings in a pixel.
     pub(super) high_frequency: u64,
 }
 
@@ -66,13 +66,13 @@ impl Triangles {
     }
 }
 
-/// How many drawn triangles have a record with that flag.
+/// Number of drawn triangles whose record has this flag.
 fn high_frequency_count(geometry: &Geometry, records: &[[u32; 4]]) -> u64 {
     let counts = records.iter().scan(0, |count, [.., word]| {
         *count += u64::from(word & TriangleWord::HIGH_FREQUENCY != 0);
         Some(*count)
     });
-    // Up to each triangle and including it, after those up to none.
+    // Counts of all records before each index, and at the end of all of them.
     let counts: Vec<u64> = std::iter::once(0).chain(counts).collect();
     let up_to = |triangle: usize| counts.get(triangle).copied().unwrap_or(0);
     let of = |range: std::ops::Range<usize>| up_to(range.end) - up_to(range.start);

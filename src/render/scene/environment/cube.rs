@@ -1,26 +1,26 @@
-//! Cubes of radiance, and what they are made from.
+//! Cube maps of radiance, and their construction from images.
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::equirectangular::Equirectangular;
 
-/// Largest side of a face.
+/// Largest side of a face in texels.
 const MOST: u32 = 256;
-/// Least side of a face of the finest level.
+/// Smallest side of a face of the finest level in texels.
 const LEAST: u32 = 16;
 
 /// Six faces in Vulkan's order: +x, -x, +y, -y, +z, -z.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Cube {
-    /// Texels along the side of a face.
+    /// Side of a face in texels.
     pub(super) side: u32,
-    /// Face by face, row by row.
+    /// Texels face by face, row by row.
     pub(super) texels: Vec<[f32; 3]>,
 }
 
 impl Cube {
-    /// A cube whose texels are a function of face, column and row.
+    /// Cube whose texels are a function of face, column and row.
     pub(super) fn new(side: u32, texel: impl Fn(u32, u32, u32) -> [f32; 3] + Sync) -> Self {
         let texels = (0..6 * side * side)
             .into_par_iter()
@@ -37,7 +37,7 @@ impl Cube {
         Vec3::from_array(self.texels[index as usize])
     }
 
-    /// Between the nearest texels of the face that a direction falls on.
+    /// Radiance in a direction, interpolated between the nearest texels of its face.
     pub(super) fn sample(&self, direction: DVec3) -> Vec3 {
         let (face, [a, b]) = place(direction);
         let along = |v: f64| {
@@ -52,7 +52,7 @@ impl Cube {
         row(y0).lerp(row(y1), v)
     }
 
-    /// The middle of a texel, within -1 to 1.
+    /// Middle of a texel on its face, from -1 to 1.
     pub(super) fn middle(&self, x: u32, y: u32) -> [f64; 2] {
         middle(self.side, x, y)
     }
@@ -62,7 +62,7 @@ pub(super) fn middle(side: u32, x: u32, y: u32) -> [f64; 2] {
     [x, y].map(|i| (2.0 * f64::from(i) + 1.0) / f64::from(side) - 1.0)
 }
 
-/// The direction of a place on a face, not normalised.
+/// Direction of a place on a face, not normalised.
 pub(super) fn direction(face: u32, [a, b]: [f64; 2]) -> DVec3 {
     match face {
         0 => DVec3::new(1.0, -b, -a),
@@ -74,7 +74,7 @@ pub(super) fn direction(face: u32, [a, b]: [f64; 2]) -> DVec3 {
     }
 }
 
-/// The face that a direction falls on, and where.
+/// Face and place on it of a direction.
 fn place(d: DVec3) -> (u32, [f64; 2]) {
     let size = d.abs();
     if size.x >= size.y && size.x >= size.z {
@@ -89,16 +89,16 @@ fn place(d: DVec3) -> (u32, [f64; 2]) {
     }
 }
 
-/// Solid angle of a texel at a place of a face, in units of that of one in the middle.
+/// Solid angle of a texel at a place of a face / that of a texel in the middle.
 pub(super) fn solid_angle([a, b]: [f64; 2]) -> f64 {
     let square = 1.0 + a * a + b * b;
     1.0 / (square * square.sqrt())
 }
 
-/// An equirectangular image as a cube, and ever coarser averages of it down to a texel a face.
+/// Cube of an equirectangular image, followed by ever coarser averages of it down to one texel a face.
 pub(super) fn pyramid(image: &Equirectangular) -> Vec<Cube> {
     let side = (image.width / 4).next_power_of_two().clamp(LEAST, MOST);
-    // So many points a texel that none of the image falls between them.
+    // So many points are averaged for a texel that no texel of the image is skipped.
     let points = (image.width / 4).div_ceil(side).max(2);
     let finest = Cube::new(side, |face, x, y| {
         let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
@@ -151,7 +151,7 @@ mod tests {
         }
     }
 
-    /// Each direction shows a colour of its own, from every level that tells it apart.
+    /// Each direction shows a colour of its own, on every level that is fine enough.
     #[test]
     fn the_middle_of_the_image_is_ahead() {
         let (width, height) = (64, 32);

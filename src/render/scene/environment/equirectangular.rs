@@ -1,9 +1,9 @@
-//! An image of all directions: longitude along rows, latitude along columns.
+//! Images of all directions: longitude along the width, latitude along the height.
 
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
-/// Equirectangular image, rows from the top. Its middle is seen along -z, the right of it towards +x.
+/// Equirectangular image, rows from the top. Its middle shows the direction -z, and its right side turns towards +x.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Equirectangular {
     pub(super) width: u32,
@@ -12,7 +12,7 @@ pub(super) struct Equirectangular {
 }
 
 impl Equirectangular {
-    /// Colour seen along a unit vector, interpolated between the nearest texels; columns wrap around.
+    /// Colour in the direction of a unit vector, interpolated between the nearest texels; columns wrap around.
     pub(super) fn towards(&self, direction: DVec3) -> DVec3 {
         let u = direction.x.atan2(-direction.z) / TAU + 0.5;
         let v = direction.y.clamp(-1.0, 1.0).acos() / PI;

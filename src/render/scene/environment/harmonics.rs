@@ -6,10 +6,10 @@ use std::f64::consts::PI;
 
 use super::cube::{Cube, direction, solid_angle};
 
-/// Side of the faces that are summed over: the first three bands change slowly.
+/// Largest side of the faces that are integrated: a coarse cube suffices for the first three bands.
 const SIDE: u32 = 32;
 
-/// The real harmonics of the first three bands.
+/// Values of the real spherical harmonics of the first three bands in a direction.
 pub(super) fn basis(d: DVec3) -> [f64; 9] {
     let [zero, one, two] = [1.0 / PI, 3.0 / PI, 15.0 / PI].map(|x: f64| 0.5 * x.sqrt());
     [
@@ -25,13 +25,13 @@ pub(super) fn basis(d: DVec3) -> [f64; 9] {
     ]
 }
 
-/// Factor of the cosine for each band, over pi.
+/// Factors of the clamped cosine for each harmonic, divided by pi.
 const COSINE: [f64; 9] = {
     let (one, two) = (2.0 / 3.0, 0.25);
     [1.0, one, one, one, two, two, two, two, two]
 };
 
-/// Coefficients of the irradiance over pi.
+/// Spherical-harmonic coefficients of the irradiance / pi.
 pub(super) fn irradiance(pyramid: &[Cube]) -> [[f32; 3]; 9] {
     let Some(cube) = pyramid.iter().find(|cube| cube.side <= SIDE) else {
         return [[0.0; 3]; 9];
@@ -61,7 +61,7 @@ mod tests {
     use super::super::Environment;
     use super::*;
 
-    /// Of radiance 1 + y, a surface facing `n` gathers pi (1 + 2/3 n.y).
+    /// If the radiance is 1 + y, the irradiance of a surface with the normal `n` is pi (1 + 2/3 n.y).
     #[test]
     fn a_sky_brighter_above_has_a_closed_form() {
         let (width, height) = (128, 64);

@@ -1,4 +1,4 @@
-//! Light from all around: an environment map.
+//! Environments: light from all directions.
 
 mod cube;
 mod equirectangular;
@@ -9,52 +9,52 @@ use glam::{DMat3, DQuat, DVec3};
 use cube::Cube;
 use equirectangular::Equirectangular;
 
-/// Image that is no environment.
+/// Error: an image that is no environment.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum EnvironmentError {
-    /// The numbers are not those of an image.
+    /// Number of colours that contradicts the size, or a size that is too small.
     #[error(
         "{width} x {height} texels with {found} colours; an equirectangular image is at least 2 x 1, with a colour a texel"
     )]
     Size {
-        /// Texels across.
+        /// Width in texels.
         width: u32,
-        /// Texels down.
+        /// Height in texels.
         height: u32,
-        /// Colours given.
+        /// Number of colours given.
         found: usize,
     },
-    /// A colour is not a radiance.
+    /// Colour that is negative or not finite.
     #[error("texel {x}, {y} is {color}; radiance is finite and not negative")]
     Radiance {
-        /// Column.
+        /// Column of the texel.
         x: u32,
-        /// Row.
+        /// Row of the texel.
         y: u32,
-        /// Colour that was found there.
+        /// Colour of the texel.
         color: String,
     },
 }
 
-/// Environment map, and the light that a matt surface gathers from it.
+/// Environment map, and the irradiance of matt surfaces in it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Environment {
-    /// Image that the environment was made of, if it was one.
+    /// Image that the environment was made from; `None` if it was made from levels.
     image: Option<Equirectangular>,
-    /// The image as a cube, and ever coarser averages of it down to a texel a face. Where there was none, level `i` of `n` is
-    /// what a surface of the perceptual roughness `i / (n - 1)` reflects.
+    /// The image as a cube, followed by ever coarser averages down to one texel a face. For an environment made from
+    /// levels, cube `i` of `n` is the reflection of surfaces with the perceptual roughness `i / (n - 1)`.
     cubes: Vec<Cube>,
     irradiance: [[f32; 3]; 9],
-    /// World space to that of the map.
+    /// Rotation from world space to the space of the map.
     rotation: DMat3,
 }
 
 impl Environment {
-    /// Takes an equirectangular image, rows from the top, linear RGB. Its middle is seen along -z, its top along +y, and what
-    /// is right of the middle towards +x.
+    /// Makes an environment from an equirectangular image, rows from the top, linear RGB. Its middle shows the
+    /// direction -z, its top +y, and its right side turns towards +x.
     ///
     /// # Errors
-    /// [`EnvironmentError`] if the size does not fit or a colour is negative or not finite.
+    /// [`EnvironmentError`] if the number of colours contradicts the size or a colour is negative or not finite.
     pub fn from_equirectangular(
         width: u32,
         height: u32,
@@ -90,8 +90,9 @@ impl Environment {
         })
     }
 
-    /// Levels that are filtered already, each half as large as the one before: texels along the side of a face, and the colours
-    /// of its faces in Vulkan's order, row by row. The irradiance is over pi; `rotation` leads from the map to the world.
+    /// Makes an environment from filtered levels, each half as large as the one before: the side of a face in texels,
+    /// and the colours of its faces in Vulkan's order, row by row. `irradiance` is divided by pi; `rotation` leads
+    /// from the map to the world.
     pub(super) fn from_levels(
         levels: Vec<(u32, Vec<[f32; 3]>)>,
         irradiance: [[f32; 3]; 9],
@@ -106,37 +107,37 @@ impl Environment {
         }
     }
 
-    /// Turns the environment about the vertical axis by `angle` in radians, counter-clockwise seen from above.
+    /// This environment, turned about the vertical axis by `angle` in radians, counter-clockwise seen from above.
     #[must_use]
     pub fn turned(mut self, angle: f64) -> Self {
         self.rotation *= DMat3::from_rotation_y(-angle);
         self
     }
 
-    /// World space to that of the map.
+    /// Rotation from world space to the space of the map.
     #[must_use]
     pub fn rotation(&self) -> DMat3 {
         self.rotation
     }
 
-    /// Whether its cubes are what surfaces reflect, and not averages that the device has still to filter.
+    /// Whether the cubes are filtered reflections, rather than averages that the device has to filter.
     pub(crate) fn is_filtered(&self) -> bool {
         self.image.is_none()
     }
 
-    /// Texels along the side of a face of each cube, and the colours of its faces in Vulkan's order, row by row.
+    /// Side of a face in texels and colours of each cube, the faces in Vulkan's order, row by row.
     pub(crate) fn cubes(&self) -> impl ExactSizeIterator<Item = (u32, &[[f32; 3]])> {
         self.cubes.iter().map(|cube| (cube.side, &cube.texels[..]))
     }
 
-    /// Coefficients of the real spherical harmonics of the first three bands, in the map's space: what a surface gathers,
-    /// over pi, that faces a direction.
+    /// Coefficients, in the map's space, of the real spherical harmonics of the first three bands. They give the
+    /// irradiance / pi of a surface by its normal.
     #[must_use]
     pub fn irradiance(&self) -> [[f32; 3]; 9] {
         self.irradiance
     }
 
-    /// Radiance of the world direction `towards`.
+    /// Radiance from the world direction `towards`.
     #[must_use]
     pub fn radiance(&self, towards: DVec3) -> DVec3 {
         let towards = self.rotation * towards.normalize();
@@ -147,7 +148,7 @@ impl Environment {
         }
     }
 
-    /// Light that a matt white surface with the normal `normal` in the world reflects.
+    /// Light that a matt white surface with the world-space normal `normal` reflects.
     #[must_use]
     pub fn irradiance_towards(&self, normal: DVec3) -> DVec3 {
         let basis = harmonics::basis(self.rotation * normal.normalize());

@@ -1,7 +1,7 @@
-//! Puts all placements' triangles into one geometry.
+//! Assembly of all placements' triangles into one geometry.
 //!
-//! Most placements are moved into world space here, once, where passes read them with the least effort. A large mesh that
-//! many placements share is held once, in a space of its own, and drawn by [`Instance`]s.
+//! Most placements are transformed into world space here, once, so that passes can read them with the least effort. A
+//! large mesh that many placements share is stored once, in its own space, and drawn by [`Instance`]s.
 
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
@@ -15,34 +15,35 @@ use crate::scene::{
     read::MAX_ELEMENTS,
 };
 
-/// Vertices that one task works on; a multiple of 3, so that flat triangles stay whole.
+/// Number of vertices that one task transforms; a multiple of 3, so that triangles with flat normals stay whole.
 const CHUNK: usize = 24_576;
-/// Farthest that a vertex may be from the world's origin; far enough from the largest float that
-/// differences and products of coordinates stay finite in double precision, and relative ones in
-/// single.
+/// Largest distance of a vertex from the world's origin. It is so far below the largest float that differences and
+/// products of coordinates stay finite in double precision, and relative positions in single precision.
 const FARTHEST: f64 = 1e30;
 
-/// Fewest triangles of a mesh that is worth instances: indices of triangles are rounded up to whole blocks for each.
+/// Smallest number of triangles of a mesh that is drawn by instances: each instance rounds its indices up to whole
+/// blocks.
 const LEAST_TRIANGLES: usize = 4 * Instance::ALIGNMENT as usize;
-/// Fewest triangles that instances have to save, at some 60 bytes each; what saves less is quicker in world space.
+/// Smallest number of triangles that instances must save, at some 60 bytes each; smaller scenes are faster in world
+/// space.
 const LEAST_SAVED: usize = 1 << 16;
 
-/// A placement and where its elements go.
+/// A placement, and the place of its elements in the geometry.
 struct Job<'p, 'd> {
     placement: Placement<'d>,
-    /// Index of its placement, or of one of its placements.
+    /// Index of the placement; with instances, of one of its placements.
     index: usize,
     class: DrawClass,
     first_vertex: u32,
-    /// Origin that its positions are relative to.
+    /// Origin to which its positions are relative.
     origin: DVec3,
-    /// Placements that draw it, of one mesh in a space of its own; none where it is in world space.
+    /// Placements that draw the mesh, which is then in its own space; empty for a mesh in world space.
     instances: Vec<&'p Placement<'d>>,
 }
 
 impl Job<'_, '_> {
     fn triangle_count(&self) -> u32 {
-        // Within u32: the total was checked.
+        // The conversion is safe: the total number was checked to fit into u32.
         self.placement.primitive.triangles.len() as u32
     }
 }
@@ -119,7 +120,7 @@ fn stream<T: Clone>(needed: bool, count: usize, default: T) -> Vec<T> {
     vec![default; if needed { count } else { 0 }]
 }
 
-/// Optional vertex streams that some job needs.
+/// Whether some job needs each optional vertex stream.
 struct Needed {
     tangents: bool,
     uvs: bool,
@@ -152,7 +153,7 @@ fn plan<'p, 'd>(
     let mut placed = Vec::new();
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for ((index, placement), corners) in placements.iter().enumerate().zip(boxes) {
-        // Written so that an undefined corner is refused too.
+        // The comparison is false for NaN, so that such corners are refused too.
         let near = |corner: DVec3| corner.abs().cmple(DVec3::splat(FARTHEST)).all();
         if !(near(corners.0) && near(corners.1)) {
             warnings.push(&Fault::new(
@@ -173,13 +174,13 @@ fn plan<'p, 'd>(
     let mut next = 0;
     for job in &mut jobs {
         job.first_vertex = next;
-        // Within u32: the total was checked.
+        // The conversion is safe: the total number was checked to fit into u32.
         next += job.placement.primitive.positions.len() as u32;
     }
     (jobs, origin)
 }
 
-/// The jobs by class: first what is in world space, then meshes with instances.
+/// The jobs by class; within a class, meshes in world space come before meshes with instances.
 fn jobs<'p, 'd>(
     scene: &Scene,
     placed: &[(usize, &'p Placement<'d>)],
@@ -192,7 +193,7 @@ fn jobs<'p, 'd>(
     let is_instanced = |mesh: &Primitive| {
         let copies = sharing.get(&std::ptr::from_ref(mesh)).copied().unwrap_or(0);
         let saved = copies.saturating_sub(1) * mesh.triangles.len();
-        // Points and lines have another shape at each place.
+        // Points and lines have a different shape at each place.
         mesh.triangles.len() >= LEAST_TRIANGLES && saved >= LEAST_SAVED && !mesh.is_strokes()
     };
     let mut jobs: Vec<Job<'p, 'd>> = Vec::new();
@@ -219,7 +220,7 @@ fn jobs<'p, 'd>(
                 index,
                 class,
                 first_vertex: 0,
-                // Rounded as positions are, so that those of the file stay as they are where they are small.
+                // Rounding to single precision keeps small coordinates of the file unchanged.
                 origin: ((low + high) / 2.0).as_vec3().as_dvec3(),
                 instances: Vec::new(),
             });
@@ -274,21 +275,21 @@ fn instances(jobs: &[Job<'_, '_>], origin: DVec3) -> Vec<Instance> {
     }
     let mut next = 0_u64;
     for instance in &mut instances {
-        // The caller checks where this ends.
+        // The caller checks that the last index fits.
         instance.first_index = next as u32;
         next += u64::from(instance.triangle_count).next_multiple_of(Instance::ALIGNMENT.into());
     }
     instances
 }
 
-/// Corners of the box around a placement; undefined where a position is.
+/// Lowest and highest corner of the box around a placement; NaN if a position is not finite.
 fn bounds(placement: &Placement<'_>) -> (DVec3, DVec3) {
     (0..placement.primitive.positions.len())
         .into_par_iter()
         .with_min_len(CHUNK)
         .fold(empty_box, |(low, high), v| {
             let position = placement.position(v);
-            // Minima and maxima would drop a NaN.
+            // `min` and `max` would ignore NaN.
             if position.is_finite() {
                 (low.min(position), high.max(position))
             } else {
@@ -302,7 +303,7 @@ fn empty_box() -> (DVec3, DVec3) {
     (DVec3::INFINITY, DVec3::NEG_INFINITY)
 }
 
-/// Runs of triangles with one material and class.
+/// Ranges of triangles with the same material and class.
 fn draws(jobs: &[Job<'_, '_>]) -> Vec<Draw> {
     let mut draws: Vec<Draw> = Vec::new();
     let mut first_triangle = 0;
@@ -325,7 +326,7 @@ fn draws(jobs: &[Job<'_, '_>]) -> Vec<Draw> {
     draws
 }
 
-/// The parts of all streams that one job fills; a stream that the geometry lacks is empty.
+/// The slices of all streams that one job fills; empty for a stream that the geometry lacks.
 struct Parts<'g> {
     positions: &'g mut [[f32; 3]],
     normals: &'g mut [[f32; 3]],
@@ -367,7 +368,7 @@ fn fill(jobs: &[Job<'_, '_>], geometry: &mut Geometry) {
         .for_each(|(job, parts)| job.fill(parts));
 }
 
-/// Cuts the first `count` elements off, or nothing where the stream is empty.
+/// Splits the first `count` elements off; returns an empty slice if the stream is empty.
 fn take<'g, T>(rest: &mut &'g mut [T], count: usize) -> &'g mut [T] {
     let all = std::mem::take(rest);
     let (part, remaining) = all.split_at_mut(count.min(all.len()));
@@ -385,7 +386,7 @@ impl Job<'_, '_> {
             *scale = placement.frame(v).scale();
         }
         for (to, &[a, b, c]) in parts.triangles.iter_mut().zip(&primitive.triangles) {
-            // Points and lines face the camera in any case.
+            // Points and lines always face the camera.
             let triangle = if placement.mirrored && !primitive.is_strokes() {
                 [a, c, b]
             } else {
@@ -428,7 +429,7 @@ impl Job<'_, '_> {
         }
     }
 
-    /// Corners of its points and lines.
+    /// Corners of the job's points and lines.
     fn strokes(&self) -> impl Iterator<Item = Stroke> {
         let primitive = self.placement.primitive;
         let first = self.first_vertex;
@@ -446,13 +447,13 @@ impl Job<'_, '_> {
             })
     }
 
-    /// Edges of its mesh.
+    /// Edges of the job's mesh.
     fn edges(&self) -> impl Iterator<Item = Edge> {
         let edges = self.placement.primitive.edges.iter();
         edges.map(|edge| edge.placed(self.first_vertex, self.placement.mirrored))
     }
 
-    /// Normals of triangles that have three vertices each for themselves, from vertex `first` on.
+    /// Computes the normals of triangles that have three vertices each to themselves, from vertex `first` on.
     fn flat_normals(&self, first: usize, normals: &mut [[f32; 3]]) {
         for (triangle, normals) in normals.chunks_mut(3).enumerate() {
             let v = first + 3 * triangle;
@@ -464,7 +465,7 @@ impl Job<'_, '_> {
     }
 }
 
-/// Copies a stream that the primitive has; another one keeps its defaults.
+/// Copies a stream if the primitive has it; otherwise the defaults stay.
 fn copy(to: &mut [[f32; 4]], from: &[[f32; 4]]) {
     if to.len() == from.len() {
         to.copy_from_slice(from);

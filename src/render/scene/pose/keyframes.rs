@@ -9,7 +9,7 @@ use crate::scene::{
     document::{Channel, Document},
 };
 
-/// The channels of the animation that a request means; none without one.
+/// Channels of the requested animation; empty if there is none.
 pub fn choose<'d>(
     document: &'d Document,
     request: &PoseRequest,
@@ -49,7 +49,7 @@ fn describe(animations: &[Animation]) -> String {
     format!("the file has {}", names.join(", "))
 }
 
-/// The value of `channel` at `time`: `channel.width` numbers. Rotations are unit quaternions.
+/// Value of `channel` at `time` in seconds: `channel.width` numbers. Rotations are unit quaternions.
 pub fn sample(channel: &Channel, time: f64) -> Vec<f64> {
     let times = &channel.times;
     let last = times.len().saturating_sub(1);
@@ -80,7 +80,7 @@ fn linear(channel: &Channel, i: usize, fraction: f64) -> Vec<f64> {
             [x, y, z, w] => DQuat::from_xyzw(x, y, z, w).normalize(),
             _ => DQuat::IDENTITY,
         };
-        // glam takes the short way around.
+        // glam interpolates along the shorter arc.
         return quaternion(&from)
             .slerp(quaternion(&to), fraction)
             .to_array()

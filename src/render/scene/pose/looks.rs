@@ -13,10 +13,10 @@ use crate::scene::{
     view::SceneProjection,
 };
 
-/// The looks of a scene at one moment.
+/// Appearance of a scene at one moment.
 #[derive(Debug)]
 pub struct Looks {
-    /// Materials that the animation changes, by index and in its order, with their unlit copies.
+    /// Materials that the animation changes, with their indices, and their unlit copies.
     pub materials: Vec<(usize, Material)>,
     /// Lights, in the document's order.
     pub lights: Vec<Option<Light>>,
@@ -83,7 +83,7 @@ impl Looks {
     }
 }
 
-/// The unlit copies of a material.
+/// Indices of the unlit copies of a material.
 fn copies(scene: &Scene, material: usize) -> impl Iterator<Item = usize> {
     let copies = scene.document.unlit_copies.iter();
     copies

@@ -1,4 +1,4 @@
-//! Poses: from a document to the triangles, lights and cameras of one scene at one moment.
+//! Poses: the triangles, lights and cameras of a scene at one moment.
 
 mod assemble;
 mod hierarchy;
@@ -29,15 +29,14 @@ pub(crate) use motion::MovingBounds;
 pub use motion::{Moment, Motion, MotionPart};
 use placement::Placement;
 
-/// Selection of a scene, an animation and a moment of it.
+/// Choice of a scene, an animation and a time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PoseRequest {
-    /// Index of the scene; `None` is the file's default, or else its first.
+    /// Index of the scene; `None` for the file's default scene, or otherwise its first.
     pub scene: Option<usize>,
-    /// Name of the animation, or else its index; `None` is the first one, and only with a
-    /// [`time`](Self::time) above 0.
+    /// Name of the animation, or its index; `None` for the first animation, if [`time`](Self::time) is above 0.
     pub animation: Option<String>,
-    /// Seconds from the animation's start; before its first and after its last keyframe these hold.
+    /// Time in seconds from the animation's start. Before the first keyframe and after the last, their values hold.
     pub time: f64,
 }
 
@@ -46,15 +45,16 @@ pub struct PoseRequest {
 pub struct Pose {
     /// Triangles of the scene.
     pub geometry: Geometry,
-    /// Materials that an animation has changed, in place of the scene's of these indices, which ascend.
+    /// Materials that an animation has changed, each with the index of the scene's material that it replaces; indices
+    /// ascend.
     pub materials: Vec<(usize, Material)>,
-    /// The lights, in the order of a depth-first walk; empty where the file has none.
+    /// Lights of the scene, in the order of a depth-first walk; empty if the file has none.
     pub lights: Vec<Light>,
-    /// The file's own light from all around (`EXT_lights_image_based`), the faces of whose cube are as Vulkan has them.
+    /// Environment of the file (`EXT_lights_image_based`).
     pub environment: Option<Arc<Environment>>,
-    /// The cameras, in the order of a depth-first walk.
+    /// Cameras of the scene, in the order of a depth-first walk.
     pub cameras: Vec<SceneCamera>,
-    /// Warnings: parts that could not be posed, and why.
+    /// Warnings about parts that could not be posed.
     pub warnings: Vec<String>,
 }
 
@@ -74,8 +74,8 @@ impl Pose {
         Cow::Owned(materials)
     }
 
-    /// Environment that lights the pose: its scene's [environment](Scene::environment), or else the file's; `None` if
-    /// the studio lights it.
+    /// Environment that lights the pose: the scene's own [environment](Scene::environment), or otherwise the file's;
+    /// `None` for the built-in studio.
     #[must_use]
     pub fn environment<'s>(&'s self, scene: &'s Scene) -> Option<&'s Environment> {
         let own = self.environment.as_deref();
@@ -83,7 +83,7 @@ impl Pose {
     }
 }
 
-/// Contents of a moment, before triangles are put together.
+/// Contents of a scene at a moment, before its triangles are assembled.
 struct PoseContents<'d> {
     materials: Vec<(usize, Material)>,
     placements: Vec<Placement<'d>>,
@@ -100,7 +100,7 @@ pub(super) fn pose_in_motion(
     request: &PoseRequest,
 ) -> Result<(Pose, Motion), SceneError> {
     let document = &scene.document;
-    // The animation that is chosen for any time but the first.
+    // At time 0 no animation is chosen by default, but a motion needs the one of later times.
     let later = PoseRequest {
         time: f64::MAX,
         ..request.clone()
@@ -113,7 +113,7 @@ pub(super) fn pose_in_motion(
     Ok((pose, motion))
 }
 
-/// A pose, and where what moves is in it.
+/// A pose, and the vertices of moving placements in it.
 fn posed(
     scene: &Scene,
     request: &PoseRequest,
@@ -141,7 +141,7 @@ fn posed(
     Ok((pose, placements))
 }
 
-/// The file's light from all around, of a scene or else the default one.
+/// Environment of a scene of the file, or of its default scene.
 pub(super) fn environment_of(
     document: &Document,
     scene: Option<usize>,
@@ -150,7 +150,7 @@ pub(super) fn environment_of(
     document.environments.get(scene)?.clone()
 }
 
-/// Collects what a scene shows at a moment.
+/// Collects what a scene contains at a moment.
 fn show<'d>(
     scene: &'d Scene,
     request: &PoseRequest,
@@ -216,7 +216,7 @@ fn show<'d>(
     })
 }
 
-/// The nodes of a scene depth first, each once; of all root nodes for `None`.
+/// Nodes of a scene, depth first, each once; `None` walks from all root nodes.
 pub(super) fn drawn_nodes(document: &Document, scene: Option<usize>) -> Vec<usize> {
     let nodes = &document.root.nodes;
     let mut open: Vec<usize> = match scene.and_then(|index| document.root.scenes.get(index)) {
@@ -239,7 +239,7 @@ pub(super) fn drawn_nodes(document: &Document, scene: Option<usize>) -> Vec<usiz
     drawn
 }
 
-/// Name of a node's camera, and its projection, which is one of `cameras`.
+/// Name of a node's camera, and its projection from `cameras`.
 pub(super) fn camera_of(
     document: &Document,
     cameras: &[Option<SceneProjection>],
@@ -251,19 +251,20 @@ pub(super) fn camera_of(
     Some((name.or_else(|| node.name.clone()), projection))
 }
 
-/// The light of a node, one of `lights`.
+/// Light of a node, from `lights`.
 pub(super) fn light_of<'l>(lights: &'l [Option<Light>], node: &Node) -> Option<&'l Light> {
     let extension = node.extensions.as_ref()?.khr_lights_punctual.as_ref()?;
     lights.get(extension.light.value())?.as_ref()
 }
 
-/// The primitives of a node's mesh.
+/// Primitives of a node's mesh.
 pub(super) fn primitives_of<'d>(document: &'d Document, node: &Node) -> &'d [Primitive] {
     let mesh = node.mesh.and_then(|mesh| document.meshes.get(mesh.value()));
     mesh.map_or(&[], Vec::as_slice)
 }
 
-/// Number of times that a node's mesh is drawn. A skin places its mesh by itself, so that instances would coincide.
+/// Number of times that a node's mesh is drawn. A skin alone determines the place of its mesh, so that instances would
+/// coincide; they count as one.
 pub(super) fn copies(document: &Document, index: usize) -> usize {
     match &document.nodes[index].instances {
         Some(instances) if document.root.nodes[index].skin.is_none() => instances.len(),
@@ -279,7 +280,7 @@ fn place_light(light: &Light, world: &DAffine3) -> Light {
     }
 }
 
-/// Right, up and backward of a node that has any, without its scale.
+/// Axes (right, up and backward) of a node without its scale; `None` if the transform has no direction.
 fn axes(world: &DAffine3) -> Option<DMat3> {
     let backward = world.matrix3.z_axis.try_normalize()?;
     let right = world.matrix3.y_axis.cross(backward).try_normalize()?;

@@ -1,4 +1,4 @@
-//! Placements: one primitive at one place, and the way of its vertices into the world.
+//! Placements: a primitive at one place, and the transform of its vertices to the world.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::scene::{
     geometry::length_scale,
 };
 
-/// A primitive and its way into the world.
+/// A primitive, and the transform of its vertices to the world.
 #[derive(Clone, Debug)]
 pub struct Placement<'d> {
     /// Index of the node, for messages.
@@ -22,7 +22,7 @@ pub struct Placement<'d> {
     motion: Motion,
     /// Whether the device moves the vertices.
     pub moves: bool,
-    /// Whether the way into the world mirrors, so that the winding has to be mended.
+    /// Whether the transform to the world mirrors, so that the winding has to be reversed.
     pub mirrored: bool,
 }
 
@@ -37,7 +37,7 @@ enum Motion {
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
     affine: DAffine3,
-    /// The inverse transpose up to a positive factor; exists also where the inverse does not.
+    /// Inverse transpose up to a positive factor. It exists even if the inverse does not.
     normals: DMat3,
     sign: f64,
 }
@@ -58,14 +58,14 @@ impl Frame {
         }
     }
 
-    /// Ratio by which lengths become longer.
+    /// Factor by which the transform enlarges lengths.
     pub fn scale(&self) -> f32 {
         length_scale(&self.affine) as f32
     }
 }
 
 impl<'d> Placement<'d> {
-    /// Placements of all primitives of a node, as often as it draws them.
+    /// Placements of all primitives of a node, one for each time that it draws them.
     pub fn of_node(
         document: &'d Document,
         index: usize,
@@ -123,7 +123,7 @@ impl<'d> Placement<'d> {
         placements
     }
 
-    /// The mesh that it shares with others that differ in their [`rigid`](Self::rigid) transform alone.
+    /// Mesh of the placement, if other placements of it may differ only in their [`rigid`](Self::rigid) transform.
     pub fn mesh(&self) -> Option<&'d Primitive> {
         let is_rigid =
             matches!(self.motion, Motion::Rigid(_)) && self.targets.is_empty() && !self.moves;
@@ -208,8 +208,8 @@ impl<'d> Placement<'d> {
         unit(frame.normals * normal, DVec3::Z)
     }
 
-    /// Unit tangent of vertex `v` in the world. Where the way into the world mirrors, the bitangent's
-    /// sign changes, for cross products do not mirror.
+    /// Unit tangent of vertex `v` in the world. If the transform mirrors, the bitangent's sign changes, because cross
+    /// products do not mirror.
     #[inline]
     pub fn tangent(&self, v: usize, frame: &Frame) -> [f32; 4] {
         let [x, y, z, sign] = self.primitive.tangents[v];
@@ -230,7 +230,7 @@ impl<'d> Placement<'d> {
     }
 }
 
-/// The direction of `v`, also where its length is beyond what floats can square.
+/// Direction of `v`, even if its squared length is out of a float's range; `otherwise` if it has none.
 #[inline]
 fn unit(v: DVec3, otherwise: DVec3) -> [f32; 3] {
     let largest = v.abs().max_element();
@@ -242,8 +242,7 @@ fn unit(v: DVec3, otherwise: DVec3) -> [f32; 3] {
     direction.as_vec3().to_array()
 }
 
-/// Matrices of the joints of a node's skin. The node's own transform has no part in them, as the
-/// specification says.
+/// Matrices of the joints of a node's skin. As the specification says, the node's own transform is ignored.
 fn joint_matrices(document: &Document, node: &Node, state: &State) -> Option<Arc<[DAffine3]>> {
     let skin = document.skins.get(node.skin?.value())?;
     let joints = skin.joints.iter().zip(&skin.inverse_bind);

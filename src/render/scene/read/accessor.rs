@@ -1,7 +1,7 @@
-//! Accessors (glTF 2.0, section 3.6.2), read element by element straight from the buffers.
+//! Accessors (glTF 2.0, section 3.6.2), read element by element from the buffers.
 //!
-//! Nothing is allocated for what an accessor merely claims: every element is checked to lie within
-//! its buffer view first, and an accessor without data is never expanded.
+//! No memory is allocated for a mere claim of the file: every element is first checked to lie within its buffer view,
+//! and an accessor without data is never expanded.
 
 use gltf::json::{
     Index,
@@ -19,7 +19,7 @@ use super::{
 };
 use crate::scene::error::Fault;
 
-/// Elements at equal distances.
+/// Elements at equal distances in a buffer.
 #[derive(Clone, Copy, Debug)]
 struct Elements<'b> {
     bytes: &'b [u8],
@@ -73,10 +73,10 @@ impl<'b> Elements<'b> {
     }
 }
 
-/// Elements that replace others.
+/// Elements that replace others in a sparse accessor.
 #[derive(Clone, Debug)]
 struct Sparse<'b> {
-    /// Ascending.
+    /// Indices of the replaced elements, ascending.
     indices: Vec<u32>,
     values: Elements<'b>,
 }
@@ -88,10 +88,10 @@ pub struct Accessor<'b> {
     pub count: usize,
     /// Type of the components.
     pub component: ComponentType,
-    /// Components of an element: 1 to 4, or 16.
+    /// Number of components of an element: 1 to 4, or 16.
     pub components: usize,
     normalized: bool,
-    /// `None`: zeros.
+    /// The elements; `None` if all are zero.
     elements: Option<Elements<'b>>,
     sparse: Option<Sparse<'b>>,
     place: String,
@@ -182,13 +182,13 @@ impl<'b> Accessor<'b> {
         &self.place
     }
 
-    /// Whether every element is zero for lack of data.
+    /// Whether all elements are zero because the accessor has no data.
     pub fn is_void(&self) -> bool {
         self.elements.is_none() && self.sparse.is_none()
     }
 
-    /// Fails unless data justify to allocate for every element. Needed only where nothing else
-    /// bounds the number of elements that are read.
+    /// Fails if there is too little data to justify an allocation for every element. Needed only where nothing else
+    /// limits the number of elements that are read.
     pub fn check_justified(&self) -> Result<(), Fault> {
         const FREE: usize = 65_536;
         const PER_SPARSE: usize = 1024;
@@ -252,7 +252,7 @@ impl<'b> Accessor<'b> {
         self.elements.map_or(&[], |elements| elements.get(i))
     }
 
-    /// Element `i` as floating-point numbers; components that it lacks are 0.
+    /// Element `i` as floating-point numbers; missing components are 0.
     #[inline]
     pub fn floats<const N: usize>(&self, i: usize) -> [f32; N] {
         let bytes = self.bytes(i);
@@ -281,8 +281,7 @@ impl<'b> Accessor<'b> {
         floats
     }
 
-    /// Element `i` as unsigned integers; components that it lacks, or that are not unsigned
-    /// integers, are 0.
+    /// Element `i` as unsigned integers; components that are missing or no unsigned integers are 0.
     #[inline]
     pub fn integers<const N: usize>(&self, i: usize) -> [u32; N] {
         integers(self.component, self.bytes(i))
@@ -334,7 +333,7 @@ fn read_sparse<'b>(
     Ok(Sparse { indices, values })
 }
 
-/// Unsigned integers of a component type; 0 for numbers that are not unsigned integers.
+/// Unsigned integers of a component type; 0 for other types.
 #[inline]
 fn integers<const N: usize>(component: ComponentType, bytes: &[u8]) -> [u32; N] {
     let mut integers = [0; N];

@@ -25,7 +25,7 @@ use crate::scene::{
     view::SceneProjection,
 };
 
-/// Reads the channels of all animations, and what they have to read again at each moment.
+/// Reads the channels of all animations, and the descriptions that have to be read again at each moment.
 pub fn read_all(
     context: &mut Context<'_>,
     nodes: &[Node],
@@ -79,8 +79,8 @@ fn sampler_of<'i>(
     Ok((sampler, format!("{place}/samplers/{index}")))
 }
 
-/// No channel where it has no node, or animates something that no node has, both of which is valid; several where a pointer
-/// leads to what nodes share.
+/// Reads a channel. Returns none if the channel has no node, or animates something that no node has (both are valid),
+/// and several if its pointer leads to something that several nodes share.
 fn read_channel(
     target: &animation::Target,
     target_place: &str,
@@ -187,17 +187,17 @@ fn read_keyframes(
 struct Reader<'c, 'm> {
     context: &'c mut Context<'m>,
     nodes: &'c [Node],
-    /// Numbers of accessors that were read already: samplers like to share them.
+    /// Numbers of accessors that were read already; samplers often share accessors.
     cache: HashMap<String, Arc<[f32]>>,
     descriptions: Descriptions,
     materials: &'c [Material],
-    /// Keyframes whose effect was looked at.
+    /// Number of keyframes whose effect was examined.
     examined: usize,
 }
 
 impl Reader<'_, '_> {
-    /// Refuses a channel whose values are none that the description can have where `pointer` leads to, and warns of one that
-    /// changes nothing.
+    /// Refuses a channel with values that the description can't have at `pointer`, and warns of a channel that changes
+    /// nothing.
     fn check_effect(
         &mut self,
         described: Described,
@@ -205,13 +205,13 @@ impl Reader<'_, '_> {
         channel: &Channel,
         place: &str,
     ) -> Result<(), Fault> {
-        /// Most keyframes that are looked at, of a channel and of all.
+        /// Largest number of keyframes that are examined for a channel; the next is for all channels.
         const MOST: usize = 64;
         const MOST_OF_ALL: usize = 1 << 14;
         let model = self.context.model;
         let wrong = |fault: Fault| Fault::new(place, format!("{pointer} keeps its value: {fault}"));
         let descriptions = &self.descriptions;
-        // Warnings of a value come when it is drawn.
+        // Warnings about values are reported when they are drawn.
         let mut unheard = self.context.warnings.of_the_same_file();
         let mut read = |changes: &[Change<'_>]| -> Result<Option<Looks>, Fault> {
             Ok(match described {
@@ -241,7 +241,7 @@ impl Reader<'_, '_> {
             Described::Camera(i) => model.check(&Index::<json::Camera>::new(i as u32), place)?,
         }
         let at_rest = read(&[])?;
-        // The first one shows whether the type is right.
+        // At least the first keyframe is examined, to check the type.
         let most = MOST.min(MOST_OF_ALL.saturating_sub(self.examined)).max(1);
         let step = channel.times.len().div_ceil(most);
         for keyframe in (0..channel.times.len()).step_by(step) {
@@ -260,7 +260,7 @@ impl Reader<'_, '_> {
     }
 }
 
-/// Relevance of a description's numbers for the image.
+/// Properties of a description that affect the image.
 #[derive(PartialEq)]
 enum Looks {
     Material(Box<Material>),

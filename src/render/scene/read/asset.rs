@@ -9,13 +9,13 @@ use crate::scene::{
     error::{Fault, Warnings},
 };
 
-/// The extensions that are implemented, some by an optional feature.
+/// The supported extensions; `false` for those whose optional feature is off.
 const SUPPORTED: [(&str, bool); 25] = [
     ("EXT_lights_image_based", true),
     ("EXT_mesh_gpu_instancing", true),
     ("EXT_meshopt_compression", true),
     ("EXT_texture_webp", true),
-    // What a pointer names that does not move is said of each.
+    // A pointer to something that can't be animated gets its own warning.
     ("KHR_animation_pointer", true),
     ("KHR_draco_mesh_compression", cfg!(feature = "draco")),
     ("KHR_lights_punctual", true),
@@ -39,8 +39,7 @@ const SUPPORTED: [(&str, bool); 25] = [
     ("KHR_texture_transform", true),
 ];
 
-/// Supported extensions that are drawn otherwise than a path tracer would, and the difference. Of the others, lighting
-/// alone is approximate.
+/// Supported extensions that are approximated, and how. In the other extensions, only lighting is approximate.
 const APPROXIMATED: [(&str, &str); 3] = [
     (
         "KHR_materials_diffuse_transmission",
@@ -56,8 +55,8 @@ const APPROXIMATED: [(&str, &str); 3] = [
     ),
 ];
 
-/// Extensions without which a file looks different; others that are not supported are metadata, or
-/// have a fallback that looks the same.
+/// Unsupported extensions without which a file looks different. All others are metadata, or have a fallback that looks
+/// the same.
 const VISIBLE: [&str; 3] = [
     "KHR_materials_dispersion",
     "KHR_materials_subsurface",
@@ -90,8 +89,8 @@ pub fn read(value: &Value, file: &str) -> Result<Asset, SceneError> {
     Ok(asset)
 }
 
-/// Refuses extensions that are required but not supported; warns of those that are approximated, and of others that are
-/// seen.
+/// Refuses extensions that are required but unsupported; warns of those that are approximated, and of unsupported ones
+/// that change the image.
 pub fn check_extensions(
     root: &Root,
     file: &str,

@@ -7,7 +7,7 @@ use basisu::{
     ktx2::{BasisFormat, Ktx2Header},
 };
 
-/// Width and height that the header states; an error where it is not what the extension allows.
+/// Width and height from the header; an error if the extension does not allow them.
 pub fn dimensions(bytes: &[u8]) -> Result<(u32, u32), String> {
     let header = Ktx2Header::parse(bytes).ok_or(
         "the KTX2 header is broken, or is not that of a 2D image of Basis Universal; encode it \
@@ -19,7 +19,7 @@ pub fn dimensions(bytes: &[u8]) -> Result<(u32, u32), String> {
     if header.face_count != 1 || header.layer_count > 1 {
         return Err("is a KTX2 image of several layers or faces".to_owned());
     }
-    // The transcoder adds offsets to lengths without a look at what comes out.
+    // The transcoder adds offsets and lengths without checking for overflow.
     let global = (header.sgd_byte_offset, header.sgd_byte_length);
     let levels = header.levels.iter();
     let levels = levels.map(|level| (level.byte_offset, level.byte_length));
@@ -33,7 +33,7 @@ pub fn dimensions(bytes: &[u8]) -> Result<(u32, u32), String> {
             "the KTX2 header refers beyond the {all} bytes of the file"
         ));
     }
-    // It allocates what a level says that it is inflated to.
+    // The transcoder allocates as much as a level claims to decompress to.
     for (index, level) in header.levels.iter().enumerate() {
         let blocks = |side: u32| {
             let side = side.checked_shr(index as u32).unwrap_or(0).max(1);
@@ -50,11 +50,11 @@ pub fn dimensions(bytes: &[u8]) -> Result<(u32, u32), String> {
     Ok((header.width, header.height))
 }
 
-/// Bytes of a block of UASTC.
+/// Number of bytes of a UASTC block.
 const BYTES_A_BLOCK: u64 = 16;
 
-/// The texels of the full image, RGBA, and of all smaller levels where the file has them down to a single texel, of a file
-/// whose [`dimensions`] were found acceptable.
+/// RGBA texels of the full image, followed by all smaller levels if the file has them down to a single texel. `bytes`
+/// is a file that [`dimensions`] has accepted.
 pub fn decode(bytes: &[u8]) -> Result<Vec<u8>, String> {
     let failed = |error: Error| format!("the KTX2 image cannot be decoded: {error:?}");
     let header = Ktx2Header::parse(bytes).ok_or("the KTX2 header is broken")?;
@@ -75,7 +75,7 @@ pub fn decode(bytes: &[u8]) -> Result<Vec<u8>, String> {
         }
         Ok(texels)
     };
-    // The transcoder is young: what it may still panic at is to cost one image, not the process.
+    // The transcoder is young: a panic in it should cost one image, not the process.
     catch_unwind(transcode)
         .unwrap_or_else(|_| Err("the KTX2 image is broken: its transcoder gave up".to_owned()))
 }

@@ -1,4 +1,4 @@
-//! Buffers and buffer views (glTF 2.0, section 3.6.1), fetched when first needed.
+//! Buffers and buffer views (glTF 2.0, section 3.6.1), loaded when they are first needed.
 
 use std::{borrow::Cow, path::Path, sync::OnceLock};
 
@@ -21,7 +21,7 @@ pub struct Buffers<'a> {
 pub struct BufferView<'b> {
     /// The bytes.
     pub bytes: &'b [u8],
-    /// Distance of two elements, where the view prescribes one.
+    /// Distance between two elements, if the view prescribes one.
     pub stride: Option<usize>,
 }
 
@@ -76,7 +76,7 @@ impl<'a> Buffers<'a> {
         })
     }
 
-    /// `length` bytes at `offset` of a buffer, for what lies at `place`.
+    /// `length` bytes at `offset` of a buffer. `place` is the place of what refers to them.
     fn range(
         &self,
         buffer: Index<Buffer>,
@@ -122,7 +122,7 @@ impl<'a> Buffers<'a> {
                 ));
             }
         };
-        // The chunk may be padded.
+        // The chunk may be longer than the buffer, because of padding.
         let length = usize::try_from(length).unwrap_or(usize::MAX);
         match &mut bytes {
             Cow::Owned(bytes) => bytes.truncate(length),

@@ -1,4 +1,4 @@
-//! Cameras (glTF 2.0, section 3.10). One that cannot be used is left out with a warning.
+//! Cameras (glTF 2.0, section 3.10). A camera that can't be used is left out with a warning.
 
 use std::f64::consts::PI;
 
@@ -10,7 +10,7 @@ use gltf::json::{
 use super::{Context, model::Model};
 use crate::scene::{error::Fault, view::SceneProjection};
 
-/// Reads all cameras; `None` for those that cannot be used.
+/// Reads all cameras; `None` for those that can't be used.
 pub fn read_all(context: &mut Context<'_>) -> Vec<Option<SceneProjection>> {
     let model = context.model;
     let read = model.all().map(|found| {
@@ -50,7 +50,7 @@ fn perspective(item: &Perspective) -> Result<SceneProjection, String> {
     }
     Ok(SceneProjection::Perspective {
         yfov,
-        // A ratio is advice only, so that a useless one is no reason to lose the camera.
+        // The aspect ratio is only a hint, so that an invalid one is ignored.
         aspect: item.aspect_ratio.map(wide).filter(|&aspect| aspect > 0.0),
         near,
         far,
@@ -77,7 +77,7 @@ fn orthographic(item: &Orthographic) -> Result<SceneProjection, String> {
     })
 }
 
-/// Double that the file most likely holds: the shortest decimal that is rounded to the float.
+/// Double that the file most likely contains: the shortest decimal that rounds to the float.
 fn wide(x: f32) -> f64 {
     x.to_string().parse().unwrap_or(f64::from(x))
 }

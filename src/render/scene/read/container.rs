@@ -1,4 +1,4 @@
-//! JSON document and binary chunk in a file's bytes (glTF 2.0, section 4).
+//! JSON document and binary chunk of a file (glTF 2.0, section 4).
 
 use serde_json::Value;
 
@@ -27,7 +27,7 @@ pub fn is_glb(bytes: &[u8]) -> bool {
     bytes.starts_with(b"glTF")
 }
 
-/// Tells GLB from JSON by content and takes it apart.
+/// Distinguishes GLB from JSON by content, and splits it.
 pub fn open<'a>(bytes: &'a [u8], file: &str) -> Result<Container<'a>, SceneError> {
     let refuse = |reason: String| SceneError::NotGltf {
         file: file.to_owned(),

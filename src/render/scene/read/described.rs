@@ -1,4 +1,4 @@
-//! Descriptions that animations change (`KHR_animation_pointer`): read again with the numbers of a moment.
+//! Descriptions that animations change (`KHR_animation_pointer`): they are read again with the numbers of each moment.
 
 use gltf::json::{self, Root, camera::Camera, extensions::scene::khr_lights_punctual};
 use serde_json::{Value, json};
@@ -18,7 +18,7 @@ use crate::scene::{
     view::SceneProjection,
 };
 
-/// Numbers in place of those that a description has at a JSON pointer, which starts from it without a slash.
+/// A JSON pointer, relative to a description and without a leading slash, and the numbers to set there.
 pub type Change<'c> = (&'c str, Vec<f64>);
 
 /// The descriptions of materials, lights and cameras as they are at rest.
@@ -45,7 +45,7 @@ impl Descriptions {
             "extensions": {"KHR_lights_punctual": {"lights": lights}},
         });
         let root = Root {
-            // Materials refer to them.
+            // Materials refer to these textures.
             textures: model.root.textures.clone(),
             ..Root::default()
         };
@@ -54,7 +54,7 @@ impl Descriptions {
         }
     }
 
-    /// A material with changes; of its textures, which are those of the material `at_rest`, the coordinates may have changed.
+    /// A material with changes. It has the textures of the material `at_rest`; their coordinates may have changed.
     pub fn material(
         &self,
         index: usize,
@@ -93,7 +93,7 @@ impl Descriptions {
         camera::read(&item, &place, &self.model)
     }
 
-    /// Result of `read` on a description, and its warnings.
+    /// Calls `read` with a description, and collects its warnings.
     fn with_context<T>(
         &self,
         warnings: &mut Warnings,
@@ -131,7 +131,7 @@ impl Descriptions {
     }
 }
 
-/// Heaviest description: it is read again at each moment, and for each channel.
+/// Largest weight of a description, which is read again for each channel and at each moment.
 const MOST: usize = 1 << 12;
 
 /// Number of values in a JSON value; a long text counts as several.
@@ -149,8 +149,8 @@ fn weight(value: &Value) -> usize {
     }
 }
 
-/// Sets what is at a pointer. Objects that have defaults are made, but extensions are not: without one a material stays
-/// without its lobe.
+/// Sets the value at a pointer. Objects that have defaults are created, but extensions are not: a material without the
+/// extension stays without its lobe.
 fn change(description: &mut Value, pointer: &str, numbers: &[f64]) -> Option<()> {
     const HAVE_DEFAULTS: [&str; 3] = [
         "extensions",
@@ -167,7 +167,7 @@ fn change(description: &mut Value, pointer: &str, numbers: &[f64]) -> Option<()>
         }
         parent = parent.pointer_mut(&format!("/{name}"))?;
     }
-    // What no single-precision number is, no type accepts.
+    // A number beyond single precision becomes null, which no type accepts.
     let number = |x: &f64| match (*x as f32).is_finite() {
         true => Value::from(*x),
         false => Value::Null,

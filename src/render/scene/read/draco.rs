@@ -20,12 +20,12 @@ use crate::scene::error::Fault;
 /// The extension's name.
 pub const NAME: &str = "KHR_draco_mesh_compression";
 
-/// Most elements that one encoded byte is allowed to stand for. Equal values cost next to nothing,
-/// so that an honest file may come to thousands.
+/// Largest number of elements for each encoded byte. Equal values are almost free, so that an honest file may have
+/// thousands.
 const ELEMENTS_PER_BYTE: u64 = 65_536;
-/// Allowed excess of decoded over declared elements: a seam splits a vertex.
+/// Number of decoded elements that is allowed beyond the declared one, because seams split vertices.
 const SLACK: u64 = 1024;
-/// Most bytes of one decoded attribute value.
+/// Largest number of bytes of a decoded attribute value.
 const WIDEST: u64 = 64;
 
 /// The extension object.
@@ -36,7 +36,7 @@ struct Compressed {
     attributes: BTreeMap<String, u32>,
 }
 
-/// Decodes the primitive `item` at `place`; `None` where it is not compressed.
+/// Decodes the primitive `item` at `place`; `None` if it is not compressed.
 pub fn read(item: &Primitive, place: &str, context: &Context<'_>) -> Result<Option<Packed>, Fault> {
     let others = item
         .extensions
@@ -50,7 +50,7 @@ pub fn read(item: &Primitive, place: &str, context: &Context<'_>) -> Result<Opti
         .buffers
         .view(compressed.buffer_view, &format!("{place}/bufferView"))?;
 
-    // The accessors say what comes out, so that nothing larger has to be decoded to find out.
+    // The accessors declare the decoded size, so that it can be checked before decoding.
     let claimed = |index: Option<Index<json::Accessor>>| {
         let accessor = index.and_then(|index| context.model.root.get(index));
         accessor.map_or(0, |accessor| accessor.count.0)
@@ -97,7 +97,7 @@ pub fn read(item: &Primitive, place: &str, context: &Context<'_>) -> Result<Opti
     Ok(Some(packed))
 }
 
-/// The values of an attribute, one a point.
+/// Values of an attribute, one for each point.
 fn stream(mesh: &Mesh, id: u32) -> Result<Stream, String> {
     let attribute = mesh
         .attribute_by_unique_id(id)

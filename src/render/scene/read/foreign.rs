@@ -1,6 +1,6 @@
-//! Files of other formats, told by how they begin.
+//! Files of unsupported formats, recognised by their first bytes.
 
-/// How a file of a format begins, what it is called, and what opens it.
+/// First bytes of a format's files, its name, and a program that opens it.
 const FORMATS: [(&[u8], &str, &str); 15] = [
     (b"Kaydara FBX Binary", "an FBX file", FROM_BLENDER),
     (b"; FBX ", "an FBX file", FROM_BLENDER),
@@ -39,7 +39,7 @@ const FROM_BLENDER: &str = "open it in Blender and export glTF (File, Export, gl
 const PHOTOGRAPH: &str = "`gpc zoom` enlarges parts of photographs";
 const LIGHT: &str = "it can light a scene as `gpc render SCENE --environment FILE`";
 
-/// What a file is that is no scene of a known format, and what helps.
+/// Description of a file in an unsupported format, and advice.
 pub fn hint(bytes: &[u8]) -> Option<String> {
     let known = FORMATS.iter().find(|(magic, ..)| bytes.starts_with(magic));
     if let Some((_, name, help)) = known {

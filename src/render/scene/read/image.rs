@@ -17,24 +17,24 @@ use crate::scene::{error::Fault, material::Image};
 const MAX_SIDE: u32 = 16_384;
 /// Most texels of all images together: 4 GiB.
 const MAX_TEXELS: u64 = 1 << 30;
-/// An image of more texels than this has to have a byte for every [`TEXELS_PER_BYTE`] of them, for a
-/// header can claim any size.
+/// Number of texels above which an image must have a byte for every [`TEXELS_PER_BYTE`] of them, because a header can
+/// claim any size.
 const FREE_TEXELS: u64 = 1 << 24;
 const TEXELS_PER_BYTE: u64 = 1024;
 /// Most bytes of an image file.
 const MAX_FILE: u64 = 1 << 30;
 
-/// Images of a document; only those asked for are decoded.
+/// Images of a document; only those that are needed are decoded.
 #[derive(Default)]
 pub struct Images {
-    /// Index into `decoded` of every image that was tried.
+    /// Index into `decoded` of every image that was tried; `None` for a failure.
     places: BTreeMap<usize, Option<u32>>,
     decoded: Vec<Image>,
     texels: u64,
 }
 
 impl Images {
-    /// Decodes the images `wanted` that were not tried yet; failures become warnings.
+    /// Decodes the images `wanted` that were not tried before; failures become warnings.
     pub fn decode(&mut self, context: &mut Context<'_>, wanted: impl IntoIterator<Item = usize>) {
         let wanted: BTreeSet<usize> = wanted
             .into_iter()
@@ -106,7 +106,7 @@ impl Images {
         })
     }
 
-    /// Decodes an image that is not a document's; returns its index among the decoded ones.
+    /// Decodes an image that is not part of a document; returns its index among the decoded images.
     pub fn add(&mut self, bytes: Cow<'_, [u8]>) -> Result<u32, String> {
         let image = self.admit(bytes)?.decode()?;
         self.decoded.push(image);
@@ -152,7 +152,7 @@ enum Format {
     Basis,
 }
 
-/// The format by content; the declared type and the file's extension are often wrong.
+/// Format of an image by its content; the declared type and the file's extension are often wrong.
 fn sniff(bytes: &[u8]) -> Result<Format, String> {
     match image::guess_format(bytes) {
         Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP)) => {
@@ -173,7 +173,7 @@ fn sniff(bytes: &[u8]) -> Result<Format, String> {
 /// First bytes of a KTX2 file.
 const KTX2: &[u8] = b"\xABKTX 20\xBB";
 
-/// An image whose header was found acceptable.
+/// An encoded image whose header was accepted.
 struct Encoded<'b> {
     bytes: Cow<'b, [u8]>,
     format: Format,
@@ -210,7 +210,7 @@ impl Encoded<'_> {
         let mut limits = Limits::default();
         limits.max_image_width = Some(MAX_SIDE);
         limits.max_image_height = Some(MAX_SIDE);
-        // 16 bits a channel, and as much again for the decoder itself.
+        // The limit allows 16 bits a channel, and as much again for the decoder itself.
         limits.max_alloc = Some(16 * u64::from(MAX_SIDE) * u64::from(MAX_SIDE));
         reader.limits(limits);
         let decoder = reader.into_decoder().map_err(failed)?;

@@ -1,4 +1,4 @@
-//! Light from all around (`EXT_lights_image_based`). One that cannot be used is left out with a warning.
+//! Environments of a file (`EXT_lights_image_based`). One that can't be used is left out with a warning.
 
 use std::{collections::BTreeMap, sync::Arc};
 
@@ -11,7 +11,7 @@ use crate::color::srgb;
 use crate::scene::{environment::Environment, error::Fault, material::Image};
 
 const NAME: &str = "EXT_lights_image_based";
-/// Most texels along the side of a face: what all devices have.
+/// Largest side of a face in texels, which every device supports.
 const MAX_SIDE: u32 = 4096;
 
 /// A light of the extension.
@@ -25,13 +25,13 @@ struct LightObject {
     specular_images: Vec<[Index<json::Image>; 6]>,
 }
 
-/// A scene's choice.
+/// Reference of a scene to a light.
 #[derive(Deserialize)]
 struct Reference {
     light: usize,
 }
 
-/// The light of each scene, where it has one.
+/// Environment of each scene, if it has one.
 pub fn read_all(context: &mut Context<'_>) -> Vec<Option<Arc<Environment>>> {
     let mut known = BTreeMap::new();
     let scenes = context.model.root.scenes.iter().enumerate();
@@ -109,14 +109,14 @@ fn read(index: usize, from: &str, context: &mut Context<'_>) -> Result<Environme
         }
         cubes.push((side, texels));
     }
-    // Those of the file are of the irradiance itself.
+    // The file's coefficients are those of the irradiance, which has to be divided by pi.
     let irradiance = item
         .irradiance_coefficients
         .map(|color| color.map(|x| x * intensity / std::f32::consts::PI));
     Ok(Environment::from_levels(cubes, irradiance, rotation))
 }
 
-/// Light that RGBD stands for: an sRGB colour divided by alpha, which is 1 where the image has none.
+/// Radiance of an RGBD texel: an sRGB colour divided by alpha; a missing alpha is 1.
 fn radiance(texel: &[u8], intensity: f32) -> [f32; 3] {
     let [r, g, b, a] = [0, 1, 2, 3].map(|channel| texel.get(channel).copied().unwrap_or(u8::MAX));
     let divisor = f32::from(a.max(1)) / 255.0;

@@ -15,7 +15,7 @@ struct Instancing {
     attributes: BTreeMap<String, Index<json::Accessor>>,
 }
 
-/// Reads the transforms relative to the node at `place`; `None` where it has no instances.
+/// Reads the transforms of instances, relative to the node at `place`; `None` if the node has no instances.
 pub fn read(
     others: &Map<String, Value>,
     place: &str,

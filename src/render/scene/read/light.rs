@@ -1,4 +1,4 @@
-//! Lights (`KHR_lights_punctual`). One that cannot be used is left out with a warning.
+//! Lights (`KHR_lights_punctual`). A light that can't be used is left out with a warning.
 
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 
@@ -11,10 +11,10 @@ use crate::scene::{
     light::{Light, LightKind},
 };
 
-/// Largest inner angle of a spot light's cone, relative to the outer one.
+/// Largest inner angle of a spot light's cone / its outer angle.
 const HARDEST: f32 = 0.999;
 
-/// Reads all lights, each at the origin and along -Z; `None` for those that cannot be used.
+/// Reads all lights, each at the origin and along -Z; `None` for those that can't be used.
 pub fn read_all(context: &mut Context<'_>) -> Vec<Option<Light>> {
     let model = context.model;
     let read = model.all().map(|found| {
@@ -67,7 +67,7 @@ fn read_spot(spot: &Spot, place: &str, context: &mut Context<'_>) -> Result<Ligh
         return Err(Fault::new(place, reason));
     }
     let outer_angle = given_outer.min(FRAC_PI_2);
-    // Exporters write equal angles for a hard edge.
+    // Exporters write equal angles for a hard edge; the inner one is reduced below the outer one.
     let inner_angle = given_inner.clamp(0.0, HARDEST * outer_angle);
     if inner_angle != given_inner || outer_angle != given_outer {
         let reason = format!(

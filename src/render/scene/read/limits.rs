@@ -1,15 +1,15 @@
-//! Bounds on what a small file can blow up to by repeating itself.
+//! Limits for the size of a scene, because a small file can repeat its content.
 
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 use crate::scene::error::Fault;
 
-/// Most triangles of a scene, and most vertices.
+/// Largest number of triangles of a scene, and of vertices.
 pub const MAX_ELEMENTS: u64 = 1 << 27;
-/// Most instances of `EXT_mesh_gpu_instancing` in a file.
+/// Largest number of instances of `EXT_mesh_gpu_instancing` in a file.
 const MAX_INSTANCES: u64 = 1 << 22;
 
-/// Amounts that were read so far.
+/// Numbers of elements that were read so far.
 #[derive(Debug, Default)]
 pub struct Budget {
     vertices: AtomicU64,

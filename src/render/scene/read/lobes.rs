@@ -1,4 +1,4 @@
-//! Material extensions that add lobes and layers to the base (`KHR_materials_*`).
+//! Material extensions that add lobes to the base (`KHR_materials_*`).
 
 use gltf::json::{extensions::material, material::NormalTexture, texture::Info};
 use serde::Deserialize;
@@ -17,7 +17,7 @@ use crate::scene::{
     material::TextureUse,
 };
 
-/// `KHR_materials_clearcoat`.
+/// Extension object of `KHR_materials_clearcoat`.
 #[derive(Default, Deserialize)]
 #[serde(default, rename_all = "camelCase")]
 struct ClearcoatObject {
@@ -28,7 +28,7 @@ struct ClearcoatObject {
     clearcoat_normal_texture: Option<NormalTexture>,
 }
 
-/// `KHR_materials_sheen`.
+/// Extension object of `KHR_materials_sheen`.
 #[derive(Default, Deserialize)]
 #[serde(default, rename_all = "camelCase")]
 struct SheenObject {
@@ -38,7 +38,7 @@ struct SheenObject {
     sheen_roughness_texture: Option<Info>,
 }
 
-/// `KHR_materials_anisotropy`.
+/// Extension object of `KHR_materials_anisotropy`.
 #[derive(Default, Deserialize)]
 #[serde(default, rename_all = "camelCase")]
 struct AnisotropyObject {
@@ -47,7 +47,7 @@ struct AnisotropyObject {
     anisotropy_texture: Option<Info>,
 }
 
-/// `KHR_materials_iridescence`.
+/// Extension object of `KHR_materials_iridescence`.
 #[derive(Deserialize)]
 #[serde(default, rename_all = "camelCase")]
 struct IridescenceObject {
@@ -72,7 +72,7 @@ impl Default for IridescenceObject {
     }
 }
 
-/// `KHR_materials_diffuse_transmission`.
+/// Extension object of `KHR_materials_diffuse_transmission`.
 #[derive(Deserialize)]
 #[serde(default, rename_all = "camelCase")]
 struct DiffuseTransmissionObject {
@@ -93,8 +93,8 @@ impl Default for DiffuseTransmissionObject {
     }
 }
 
-/// Reads the lobes of the material at `place`; one that is broken is left out with a warning. Those that have no effect are
-/// kept where the material is `animated`.
+/// Reads the lobes of the material at `place`; a broken one is left out with a warning. Lobes without an effect are
+/// kept if the material is `animated`.
 pub fn read(
     item: &material::Material,
     place: &str,
@@ -131,14 +131,14 @@ struct Reader<'a, 'c, 'm> {
 }
 
 impl Reader<'_, '_, '_> {
-    /// An extension that `gltf` has no type for.
+    /// Reads an extension for which `gltf` has no type.
     fn other<T: serde::de::DeserializeOwned>(&mut self, name: &str) -> Option<T> {
         let found = model::extension(Some(&self.item.others), name, self.place);
         let found = found.map(|found| found.map(|(object, _)| object));
         self.context.tolerate(found, "it is left out")
     }
 
-    /// A texture of the extension `name`.
+    /// Reads the texture `member` of the extension `name`.
     fn texture(&mut self, info: Option<Info>, name: &str, member: &str) -> Option<TextureUse> {
         let place = format!("{}/extensions/{name}/{member}", self.place);
         let used = read_texture_use(&info?, &place, self.context);
@@ -269,7 +269,7 @@ impl Reader<'_, '_, '_> {
         let volume = self.item.volume.clone().unwrap_or_default();
         let distance = volume.attenuation_distance.0;
         let absorption = |color: f32| {
-            // Black would be an infinite absorption, and times no thickness undefined.
+            // Black would have an infinite absorption, and that times a thickness of 0 is NaN.
             const DARKEST: f32 = 1e-6;
             if distance > 0.0 {
                 -unit(color).max(DARKEST).ln() / distance

@@ -14,7 +14,7 @@ use crate::scene::{
     material::{AlphaMode, Material, TextureTransform, TextureUse},
 };
 
-/// Reads all materials, glTF's default appended. Their textures are the file's: see
+/// Reads all materials, and appends glTF's default material. Their textures are indices into the file's: see
 /// [`texture::resolve`](super::texture::resolve).
 pub fn read_all(context: &mut Context<'_>) -> Vec<Material> {
     let animated = pointer::animated_materials(context.model);
@@ -29,7 +29,7 @@ pub fn read_all(context: &mut Context<'_>) -> Vec<Material> {
     materials
 }
 
-/// Reads the material at `place`; one that is `animated` keeps lobes that have no effect now.
+/// Reads the material at `place`; one that is `animated` keeps lobes that have no effect at present.
 pub fn read(
     item: &json::Material,
     place: &str,
@@ -86,7 +86,7 @@ pub fn read(
         }
         material.lobes = lobes::read(extensions, place, animated, context);
     }
-    // The factor is at most 1, so that a finite strength leaves the product finite.
+    // The product is finite, because the factor is at most 1.
     material.emissive = item.emissive_factor.0.map(|x| unit(x) * strength);
     let mode = context
         .model
@@ -101,7 +101,7 @@ pub fn read(
     Ok(material)
 }
 
-/// A normal texture in the form that `gltf` gives to others.
+/// A normal texture in `gltf`'s type for other textures.
 pub fn normal_info(texture: &NormalTexture) -> Info {
     Info {
         index: texture.index,
@@ -114,7 +114,7 @@ pub fn normal_info(texture: &NormalTexture) -> Info {
     }
 }
 
-/// An occlusion texture in the form that `gltf` gives to others.
+/// An occlusion texture in `gltf`'s type for other textures.
 fn occlusion_info(texture: &OcclusionTexture) -> Info {
     Info {
         index: texture.index,
@@ -127,7 +127,7 @@ fn occlusion_info(texture: &OcclusionTexture) -> Info {
     }
 }
 
-/// Extensions of a texture of which `gltf` knows none.
+/// Extensions of a texture for which `gltf` reads none.
 fn with_transform(others: &Map<String, Value>) -> extensions::texture::Info {
     extensions::texture::Info {
         texture_transform: None,
@@ -135,7 +135,7 @@ fn with_transform(others: &Map<String, Value>) -> extensions::texture::Info {
     }
 }
 
-/// Reads what a material at `place` says of a texture.
+/// Reads a material's reference to a texture; `place` is the material's.
 pub fn read_texture_use(
     item: &Info,
     place: &str,
@@ -170,8 +170,7 @@ pub fn read_texture_use(
     Ok(used)
 }
 
-/// Translation times rotation times scale; the rotation is counter-clockwise in an image whose v
-/// points down.
+/// Matrix: translation * rotation * scale. The rotation is counter-clockwise in an image whose v points down.
 fn transform(given: &extensions::texture::TextureTransform) -> Option<TextureTransform> {
     let ([x, y], [w, h]) = (given.offset.0, given.scale.0);
     let (sin, cos) = given.rotation.0.sin_cos();

@@ -1,4 +1,4 @@
-//! Meshes (glTF 2.0, section 3.7). Only those that a node refers to are read.
+//! Meshes (glTF 2.0, section 3.7). Meshes to which no node refers are not read.
 
 use std::collections::HashMap;
 
@@ -10,7 +10,7 @@ use super::{Context, limits::MAX_ELEMENTS, primitive};
 use crate::scene::{document::Primitive, error::Fault, material::Material};
 
 /// Reads the primitives of the meshes that nodes use, all in parallel; the others stay empty. Points and lines without
-/// normals have [materials](unlit_materials) of their own.
+/// normals get their own [materials](unlit_materials).
 pub fn read_all(
     context: &mut Context<'_>,
     materials: &mut Vec<Material>,
@@ -59,7 +59,7 @@ pub fn read_all(
 /// Indices of materials that are unlit copies, and of their originals.
 pub type UnlitCopies = Vec<(usize, usize)>;
 
-/// Makes points and lines without normals unlit, by copies of their materials.
+/// Makes points and lines without normals unlit, by copying their materials.
 pub fn unlit_materials<'p>(
     materials: &mut Vec<Material>,
     primitives: impl Iterator<Item = &'p mut Primitive>,

@@ -27,12 +27,12 @@ pub struct Compressed {
     filter: Option<String>,
 }
 
-/// The extension among those of a buffer view at `place`, and its own place.
+/// The extension object among the extensions of a buffer view at `place`, and its own place.
 pub fn find(
     others: Option<&Map<String, Value>>,
     place: &str,
 ) -> Result<Option<(Compressed, String)>, Fault> {
-    // The second is the first one's ratified name.
+    // The extension has two names; the KHR name is the ratified one.
     let old = model::extension(others, "EXT_meshopt_compression", place)?;
     match old {
         None => model::extension(others, "KHR_meshopt_compression", place),
@@ -40,14 +40,14 @@ pub fn find(
     }
 }
 
-/// Most bytes that one encoded byte can stand for. Attributes: a block of up to 256 elements has at
-/// least a control byte for every 4 bytes of an element. Triangles: a byte for 3 indices of 4 bytes.
-/// Indices: a byte for each index of 4 bytes.
+/// Largest number of bytes for each encoded byte. Attributes: a block of up to 256 elements has at least a control
+/// byte for every 4 bytes of an element. Triangles: a byte for 3 indices of 4 bytes. Indices: a byte for each index of
+/// 4 bytes.
 const ATTRIBUTE_RATIO: u64 = 1024;
 const TRIANGLE_RATIO: u64 = 12;
 const INDEX_RATIO: u64 = 4;
 
-/// Decodes `encoded` as the extension object `compressed` at `place` describes it.
+/// Decodes `encoded` by the extension object `compressed` at `place`.
 pub fn decode(compressed: &Compressed, encoded: &[u8], place: &str) -> Result<Vec<u8>, Fault> {
     let (stride, count) = (compressed.byte_stride as usize, compressed.count);
     let ratio = match compressed.mode.as_str() {
@@ -138,7 +138,7 @@ fn apply_filter(
             decode_filter_quat(&mut values);
             Ok(to_bytes(values))
         }
-        // Every component is decoded by itself, so the width of an element does not matter.
+        // Each component is decoded separately, so that the width of an element does not matter.
         ("EXPONENTIAL", _) if stride.is_multiple_of(4) => {
             let mut values: Vec<[u32; 1]> = bytemuck::pod_collect_to_vec(&bytes);
             decode_filter_exp(&mut values);
@@ -151,7 +151,7 @@ fn apply_filter(
     }
 }
 
-/// An element of `N` bytes; arrays beyond 32 have no default of their own.
+/// An element of `N` bytes; the standard library has no `Default` for arrays longer than 32.
 #[derive(Clone)]
 struct Element<const N: usize>([u8; N]);
 

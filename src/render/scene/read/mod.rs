@@ -1,8 +1,7 @@
-//! Reads glTF 2.0, and what other formats have of triangles and base colours.
+//! Reads glTF 2.0, and the triangles, lines, points and colours of other formats.
 //!
-//! Faults in what a scene's geometry is made of are errors; faults in how it looks, moves or is
-//! looked at become warnings, and the element is left out or takes its defaults. Unused buffers,
-//! accessors, meshes and images are not read at all.
+//! Faults in a scene's geometry are errors. Faults in appearance, animation and cameras become warnings: the element
+//! is left out or gets its defaults. Unused buffers, accessors, meshes and images are not read at all.
 
 mod accessor;
 mod animation;
@@ -57,10 +56,10 @@ use super::{
     error::{Fault, Warnings},
 };
 
-/// Context that every reader needs.
+/// Context that all readers share.
 struct Context<'a> {
     model: &'a Model,
-    /// Index of the materials' variant that is drawn.
+    /// Index of the selected variant of the materials.
     variant: Option<u32>,
     buffers: Buffers<'a>,
     budget: Budget,
@@ -77,7 +76,7 @@ impl Context<'_> {
         self.warnings.push(fault);
     }
 
-    /// Turns an error into a warning that says what follows from it.
+    /// Turns an error into a warning, which also names the consequence.
     fn tolerate<T>(&mut self, result: Result<Option<T>, Fault>, consequence: &str) -> Option<T> {
         result.unwrap_or_else(|fault| {
             self.warn(&fault.but(consequence));
@@ -86,9 +85,8 @@ impl Context<'_> {
     }
 }
 
-/// Reads a scene from the bytes of a file, whose format is told by its content; `file` is what
-/// messages call it, relative URIs start from `base`, and the materials are those of the `variant`
-/// of that name.
+/// Reads a scene from the bytes of a file; the content tells the format. `file` is its name in messages, relative URIs
+/// start from `base`, and `variant` names a variant of the materials.
 pub fn read(
     bytes: &[u8],
     file: &str,
@@ -111,7 +109,7 @@ pub fn read(
     Ok(loaded)
 }
 
-/// The index of the variant of that name.
+/// Index of the variant with this name.
 fn find_variant(
     root: &json::Root,
     variant: Option<&str>,
@@ -146,7 +144,7 @@ fn read_gltf(
     let mut value = container.json;
     model::settle(&mut value, "");
     let mut warnings = Warnings::new(file);
-    // First, for a file of another version looks malformed throughout.
+    // The version comes first, because a file of another version looks malformed throughout.
     let asset = asset::read(&value, file)?;
     let mut model = Model::new(value, asset, &mut warnings).map_err(malformed)?;
     asset::check_extensions(&model.root, file, &mut warnings)?;
@@ -159,7 +157,7 @@ fn read_gltf(
     };
     let mut scene = read_scene(&mut context).map_err(malformed)?;
     let warnings = context.warnings.into_vec();
-    // Data URIs are large, and nothing refers to them any more.
+    // The buffers are dropped, because data URIs are large and not needed any more.
     model.root.buffers.clear();
     model.root.images.clear();
     scene.document.root = model.root;

@@ -1,8 +1,8 @@
-//! The document as `gltf`'s own types, element by element: what one breaks, the others survive.
+//! The document in `gltf`'s own types, read element by element, so that a broken element does not break the others.
 //!
-//! `gltf` refuses a file as a whole for the first value of a wrong type. Here every element of the
-//! top-level arrays is read by itself; one that cannot be read is remembered with the place of its
-//! fault, which is reported when something refers to it, and a stand-in keeps its index.
+//! `gltf` refuses a whole file for the first value of a wrong type. Here every element of the top-level arrays is read
+//! separately. An element that can't be read is recorded with the place of its fault, which is reported when something
+//! refers to the element, and a stand-in keeps its index.
 
 use std::collections::HashMap;
 
@@ -25,8 +25,8 @@ use crate::scene::error::{Fault, Warnings};
 pub trait Element: DeserializeOwned + 'static {
     /// JSON pointer to the array.
     const PLACE: &'static str;
-    /// Members that the element can do without, `*` for any name. An entry of an array becomes a
-    /// stand-in, which refers to nothing.
+    /// Members that the element can do without; `*` stands for any name. Entries of an array become stand-ins, which
+    /// refer to nothing.
     const SOFT: &'static [&'static str] = &[];
 }
 
@@ -69,19 +69,20 @@ elements! {
 /// Attribute that has to be readable for a primitive to be drawn at all.
 const HARD: &str = "POSITION";
 
-/// A document.
+/// Document of a file.
 #[derive(Clone, Debug, Default)]
 pub struct Model {
-    /// Document. Indices may be out of range, and enums [`Checked::Invalid`].
+    /// The document. Indices may be out of range, and enums [`Checked::Invalid`].
     pub root: Root,
-    /// Document as it was written, for messages and for numbers in double precision.
+    /// The document as it was written, for messages and for numbers in double precision.
     value: Value,
     /// Elements that are stand-ins, by place.
     broken: HashMap<String, Fault>,
 }
 
 impl Model {
-    /// Reads a `value` that was [settled](settle); what elements can do without is left out with a warning.
+    /// Reads a `value` that was [settled](settle). Broken members that an element can do without are left out with a
+    /// warning.
     pub fn new(value: Value, asset: Asset, warnings: &mut Warnings) -> Result<Self, Fault> {
         let mut lists = Lists {
             value: &value,
@@ -129,7 +130,7 @@ impl Model {
         })
     }
 
-    /// Makes a model of a document from which parts were left out, but of which nothing is broken.
+    /// Makes a model of a document from which parts were removed, but of which nothing is broken.
     pub fn of(root: Root, value: Value) -> Self {
         Self {
             root,
@@ -156,7 +157,7 @@ impl Model {
         ))
     }
 
-    /// Elements of a kind; a broken one gives an error.
+    /// All elements of a kind; a broken one is an error.
     pub fn all<T: Element>(&self) -> impl Iterator<Item = Result<(&T, String), Fault>>
     where
         Root: Get<T> + AsRef<[T]>,
@@ -184,7 +185,7 @@ impl Model {
         first.map_or(Ok(()), Err)
     }
 
-    /// A finding of `gltf` in words, at the place that it means.
+    /// Explains an error of `gltf`, with the place that it is about.
     fn explain(&self, path: &Path, error: Error) -> Fault {
         let place = path.as_str().replace("[\"", "/").replace("\"]", "");
         let place = place.replace(['[', '.'], "/").replace(']', "");
@@ -246,7 +247,7 @@ pub fn extension<T: DeserializeOwned>(
     Ok(Some((typed(value, &place)?, place)))
 }
 
-/// A value in words.
+/// Description of a value.
 fn found(value: &Value) -> String {
     match value {
         Value::Array(array) => format!("an array of {}", array.len()),
@@ -255,7 +256,7 @@ fn found(value: &Value) -> String {
     }
 }
 
-/// A JSON value as a `T`.
+/// Converts a JSON value to a `T`.
 pub fn typed<T: DeserializeOwned>(value: &Value, place: &str) -> Result<T, Fault> {
     serde_path_to_error::deserialize(value).map_err(|error| {
         let inner = error.path().iter().map(|segment| match segment {
@@ -317,7 +318,7 @@ impl Lists<'_, '_> {
         Ok(list)
     }
 
-    /// Takes members out of an element that it can do without, as long as they are what is broken.
+    /// Removes broken members from an element that it can do without.
     fn mend<T: Element>(
         &mut self,
         mut value: Value,
@@ -365,7 +366,7 @@ fn typed_object<T: DeserializeOwned>(value: &Value, place: &str) -> Result<T, Fa
     }
 }
 
-/// The part of the path `inner` that the pattern `soft` matches.
+/// The part of the path `inner` that matches the pattern `soft`.
 fn prefix<'p>(inner: &'p str, soft: &str) -> Option<&'p str> {
     let mut rest = inner;
     for (i, wanted) in soft.split('/').enumerate() {
@@ -381,10 +382,10 @@ fn prefix<'p>(inner: &'p str, soft: &str) -> Option<&'p str> {
     inner.strip_suffix(rest)
 }
 
-/// The index of nothing.
+/// Index that refers to nothing.
 const NOTHING: u32 = u32::MAX;
 
-/// Whether an index stands for one that is not there.
+/// Whether an index refers to nothing.
 pub fn is_nothing<T>(index: Index<T>) -> bool {
     index.value() == NOTHING as usize
 }
@@ -405,7 +406,7 @@ fn stand_in_of_animation() -> Value {
     })
 }
 
-/// Numbers that are read in double precision, or as 64 bits.
+/// Members that are read in double precision, or as 64-bit numbers.
 const WIDE: [&str; 7] = [
     "byteLength",
     "byteOffset",
@@ -416,12 +417,12 @@ const WIDE: [&str; 7] = [
     "translation",
 ];
 
-/// Texts that are never worth failing for.
+/// Texts that are never worth an error.
 const TEXT: [&str; 3] = ["copyright", "generator", "name"];
 
-/// Settles what JSON leaves open but `gltf`'s types do not: whole numbers may be written as 3.0; a
-/// name may be anything; a scene needs no nodes, a channel no node. A number that its
-/// type would cut off silently becomes a text that says so, which no type accepts.
+/// Settles differences between JSON and `gltf`'s types: whole numbers may be written as 3.0; a name may be anything; a
+/// scene needs no nodes, a channel no node. A number that its type would silently truncate becomes a text that says
+/// so, which no type accepts.
 pub fn settle(value: &mut Value, key: &str) {
     match value {
         Value::Number(number) => {

@@ -39,8 +39,8 @@ struct Visibility {
     visible: Option<bool>,
 }
 
-/// Parents before children. With one parent each, a node that no root leads to is on a cycle, or
-/// below one.
+/// Order of the nodes, parents before children. A node that no root leads to is on a cycle or below one, because each
+/// node has one parent.
 fn order(nodes: &[Node], items: &[json::Node]) -> Result<Vec<usize>, Fault> {
     let roots = (0..nodes.len()).filter(|&i| nodes[i].parent.is_none());
     let mut order: Vec<usize> = roots.collect();
@@ -154,7 +154,7 @@ fn read_parts(place: &str, context: &mut Context<'_>) -> Result<Parts, Fault> {
     Ok(parts)
 }
 
-/// Checks the scenes; the one that is drawn unless another is asked for.
+/// Checks the scenes; returns the index of the one that is drawn by default.
 pub fn check_scenes(context: &mut Context<'_>, nodes: &[Node]) -> Result<Option<usize>, Fault> {
     let model = context.model;
     for found in model.all::<json::Scene>() {

@@ -22,15 +22,15 @@ use crate::scene::{
     material::{AlphaMode, Material, Sampler, Texture, TextureTransform, TextureUse},
 };
 
-/// Most bytes of an MTL file, and of an image that it names.
+/// Largest number of bytes of an MTL file, and of an image that it names.
 const MAX_FILE: u64 = 1 << 30;
 
-/// The statements that OBJ files start with, comments aside.
+/// Statements with which OBJ files start, apart from comments.
 const STATEMENTS: [&[u8]; 12] = [
     b"v", b"vt", b"vn", b"vp", b"o", b"g", b"s", b"f", b"l", b"p", b"mtllib", b"usemtl",
 ];
 
-/// Whether `bytes` look like an OBJ file: the first statement is one, and the text has a vertex.
+/// Whether `bytes` look like an OBJ file: it begins with a statement of the format, and has a vertex.
 pub fn is_obj(bytes: &[u8]) -> bool {
     let word = |line: &[u8]| {
         let mut words = line.split(u8::is_ascii_whitespace).map(<[u8]>::to_vec);
@@ -44,7 +44,7 @@ pub fn is_obj(bytes: &[u8]) -> bool {
     first == b"v" || words.any(|word| word == b"v")
 }
 
-/// Reads an OBJ file; what it names lies in the folder `base`.
+/// Reads an OBJ file; files that it names are in the folder `base`.
 pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, SceneError> {
     let options = LoadOptions {
         triangulate: true,
@@ -71,7 +71,7 @@ pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, Sce
     };
     let parse =
         |text: &[u8], options: &LoadOptions, load_mtl: &dyn Fn(&Path) -> tobj::MTLLoadResult| {
-            // With checks of overflow, the parser panics at an index before the first vertex.
+            // With overflow checks, the parser panics at an index before the first vertex.
             let parse = || tobj::load_obj_buf(&mut &*text, options, load_mtl);
             let loaded = catch_unwind(AssertUnwindSafe(parse));
             loaded
@@ -97,7 +97,7 @@ pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, Sce
                 ignore_lines: false,
                 ..options
             };
-            // Finds the same faults with the MTL files.
+            // The MTL files have the same faults as in the first parse, which has reported them.
             let (mut models, _) = parse(&text, &options, &load_mtl)?;
             models.retain(|model| !model.mesh.indices.is_empty());
             models
@@ -118,7 +118,7 @@ pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, Sce
         drawing.materials.push(read);
     }
     drawing.images = images.into_decoded();
-    // Of shapes without a material.
+    // Index of the material for shapes without one.
     let grey = drawing.materials.len();
     drawing.materials.push(plain());
     let models = models.into_iter().map(|model| (model, false));
@@ -144,8 +144,8 @@ pub fn read(bytes: &[u8], file: &str, base: Option<&Path>) -> Result<Loaded, Sce
     drawing.into_scene("OBJ", file, warnings)
 }
 
-/// Text that the parser can read: Unicode, with other bytes replaced so that no number contains them, and each
-/// statement in a line of its own.
+/// Text that the parser can read: Unicode, with invalid bytes replaced so that they aren't part of a number, and with
+/// each statement in a line of its own.
 fn plain_text(bytes: &[u8]) -> Vec<u8> {
     let text = String::from_utf8_lossy(bytes);
     text.replace("\\\r\n", " ")
@@ -153,8 +153,9 @@ fn plain_text(bytes: &[u8]) -> Vec<u8> {
         .into_bytes()
 }
 
-/// An OBJ file's text without lines and points; and the same without faces, where it has any: the parser takes a line of
-/// three vertices for a face, and knows no points. There each line is one of two vertices, and a point one of one.
+/// An OBJ file's text without lines and points, and the text without faces if it has lines or points. The parser takes
+/// a line of three vertices for a face, and knows no points; in the second text each line has two vertices, and a
+/// point one.
 fn split(obj: &[u8]) -> (Cow<'_, [u8]>, Option<Vec<u8>>) {
     let lines = || obj.split(|&byte| byte == b'\n');
     let words = |line: &'_ [u8]| -> Vec<Vec<u8>> {
@@ -196,8 +197,8 @@ fn split(obj: &[u8]) -> (Cow<'_, [u8]>, Option<Vec<u8>>) {
     (Cow::Owned(faces.join(&b'\n')), Some(strokes.join(&b'\n')))
 }
 
-/// An MTL file whose colours have three components each, without which the parser panics. Where there
-/// are fewer, the last one stands for the others, as the format says.
+/// An MTL file whose colours all have three components, without which the parser panics. Missing components repeat the
+/// last one, as the format says.
 fn complete_colours(mtl: &[u8]) -> Vec<u8> {
     let mut completed = Vec::with_capacity(mtl.len());
     for line in mtl.split(|&byte| byte == b'\n') {
@@ -219,7 +220,7 @@ fn complete_colours(mtl: &[u8]) -> Vec<u8> {
     completed
 }
 
-/// Colours of vertices, which the format knows without alpha.
+/// Vertex colours with an alpha of 1, because the format has none.
 fn opaque(colors: &[f32]) -> Vec<[f32; 4]> {
     let (colors, _) = colors.as_chunks();
     let opaque = |color: &[f32; 3]| {
@@ -229,8 +230,8 @@ fn opaque(colors: &[f32]) -> Vec<[f32; 4]> {
     colors.iter().map(opaque).collect()
 }
 
-/// The file that a map names, and where its options place it: `-s` multiplies coordinates and `-o` adds to them. Others say
-/// nothing of a base colour that is drawn.
+/// Name of the file in a map statement, and its placement: `-s` multiplies coordinates and `-o` adds to them. Other
+/// options don't affect a base colour.
 fn placed(map: &str) -> (&str, TextureTransform) {
     let (mut scale, mut offset) = ([1.0; 2], [0.0; 2]);
     let mut rest = map.trim();
@@ -268,7 +269,7 @@ fn placed(map: &str) -> (&str, TextureTransform) {
         };
         place.iter_mut().zip(numbers).for_each(|(to, x)| *to = x);
     }
-    // The format's v points up.
+    // In the format v points up.
     let rows = [
         [scale[0], 0.0, offset[0]],
         [0.0, scale[1], 1.0 - scale[1] - offset[1]],
@@ -304,7 +305,7 @@ fn read_material(
     }
     if let Some(name) = &item.diffuse_texture {
         let (name, transform) = placed(name);
-        // Programs of Windows write its separators.
+        // Programs on Windows write backslashes.
         let uri = name.replace('\\', "/");
         let image =
             uri::fetch(&uri, base, MAX_FILE).and_then(|bytes| images.add(Cow::Owned(bytes)));

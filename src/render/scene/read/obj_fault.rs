@@ -1,4 +1,4 @@
-//! The line of an OBJ file that its parser refuses, of which the parser says nothing.
+//! The line of an OBJ file that the parser refuses. The parser itself does not report it.
 
 use std::borrow::Cow;
 
@@ -6,10 +6,10 @@ use tobj::{LoadError, LoadOptions};
 
 use crate::scene::error::Fault;
 
-/// Elements that indices refer to, in the order in which a corner of a face has them.
+/// Elements to which indices refer, in the order of a face's corner.
 const NAMED: [&str; 3] = ["vertex", "texture coordinate", "normal"];
 
-/// Index that is out of range at the line that holds it.
+/// Index that is out of range at its line.
 struct OutOfRange {
     line: usize,
     /// Index into [`NAMED`].
@@ -18,11 +18,11 @@ struct OutOfRange {
 }
 
 impl OutOfRange {
-    /// The fault, unless there is by now what the index names.
+    /// The fault, unless the element that the index refers to exists by now.
     fn fault(&self, counts: [usize; 3]) -> Option<Fault> {
         let Self { line, kind, index } = *self;
         let (name, count) = (NAMED[kind], counts[kind]);
-        // Without any of a kind, the parser ignores indices of it.
+        // If there are no elements of a kind, the parser ignores indices to them.
         let is_ignored = kind > 0 && count == 0;
         let is_there = usize::try_from(index).is_ok_and(|index| (1..=count).contains(&index));
         let reason = format!("{name} {index} is named, and there are {count}, counted from 1");
@@ -35,7 +35,7 @@ fn fault(line: usize, reason: &str) -> Fault {
     Fault::new(format!("line {line}"), reason)
 }
 
-/// Finds the fault for which the parser refuses a file, and its line; `None` if neither can be told.
+/// Finds the fault for which the parser refuses a file, and its line; `None` if it can't be found.
 pub fn find(obj: &[u8]) -> Option<Fault> {
     let text = String::from_utf8_lossy(obj);
     let mut counts = [0; 3];
@@ -58,7 +58,7 @@ pub fn find(obj: &[u8]) -> Option<Fault> {
                         let back = index.unsigned_abs();
                         let is_relative = index < 0 && back <= counts[kind];
                         let is_there = index > 0 && back <= counts[kind];
-                        // No texture coordinate and no normal.
+                        // The corner has neither a texture coordinate nor a normal.
                         let is_none = index == 0 && kind > 0;
                         let is_fine = is_relative || is_there || is_none;
                         (!is_fine).then_some(OutOfRange { line, kind, index })
@@ -66,7 +66,7 @@ pub fn find(obj: &[u8]) -> Option<Fault> {
                 }
                 continue;
             }
-            // Faces are made where their object ends, of what there is by then.
+            // Faces are made at the end of their object, from the elements that exist by then.
             Some("o" | "g") => {
                 let found = out_of_range.drain(..).find_map(|it| it.fault(counts));
                 if found.is_some() {
@@ -84,7 +84,7 @@ pub fn find(obj: &[u8]) -> Option<Fault> {
     out_of_range.iter().find_map(|it| it.fault(counts))
 }
 
-/// Answer of the parser to a statement that needs no others.
+/// Result of the parser for a statement that depends on no others.
 fn parsed(statement: &str) -> Result<(), LoadError> {
     let no_materials = |_: &_| Err(LoadError::OpenFileFailed);
     tobj::load_obj_buf(
@@ -95,7 +95,7 @@ fn parsed(statement: &str) -> Result<(), LoadError> {
     .map(|_| ())
 }
 
-/// Indices of a corner, written `vertex/texture coordinate/normal`. Each may be left out.
+/// Indices of a corner, written `vertex/texture coordinate/normal`; each may be missing.
 fn indices(corner: &str) -> Option<[Option<isize>; 3]> {
     let mut indices = [None; 3];
     for (place, word) in corner.split('/').enumerate() {
@@ -106,13 +106,13 @@ fn indices(corner: &str) -> Option<[Option<isize>; 3]> {
     Some(indices)
 }
 
-/// The statements of a text and the lines that they begin in, counted from 1.
+/// Statements of a text, with the numbers of the lines in which they begin, from 1.
 fn statements(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
     let mut lines = (1..).zip(text.lines());
     std::iter::from_fn(move || {
         let (number, line) = lines.next()?;
         let mut statement = Cow::Borrowed(line);
-        // After a backslash it goes on in the next line.
+        // A statement that ends in a backslash continues in the next line.
         while statement.ends_with('\\') {
             let joined = statement.to_mut();
             joined.pop();

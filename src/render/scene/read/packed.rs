@@ -1,4 +1,4 @@
-//! Decoded streams of a compressed primitive, which replace its accessors.
+//! Decoded streams of a compressed primitive, used instead of its accessors.
 
 use std::collections::BTreeMap;
 
@@ -7,13 +7,13 @@ use gltf::json::accessor::ComponentType;
 /// A primitive's triangles and attributes.
 #[derive(Debug)]
 pub struct Packed {
-    /// Three a triangle.
+    /// Indices, three for each triangle.
     pub indices: Stream,
-    /// Streams by attribute name, with one value a vertex.
+    /// Streams by attribute name, with a value for each vertex.
     pub attributes: BTreeMap<String, Stream>,
 }
 
-/// Values one after the other.
+/// Consecutive values.
 #[derive(Debug)]
 pub struct Stream {
     /// The bytes.
@@ -22,6 +22,6 @@ pub struct Stream {
     pub count: usize,
     /// Type of the components.
     pub component: ComponentType,
-    /// Components of a value.
+    /// Number of components of a value.
     pub components: usize,
 }

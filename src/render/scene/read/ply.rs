@@ -1,4 +1,4 @@
-//! PLY: polygons, strips of triangles and edges, or else points, with normals and colours of vertices.
+//! PLY: polygons, strips of triangles and edges, or otherwise points, with normals and colours of vertices.
 
 use std::io::Cursor;
 
@@ -60,7 +60,7 @@ fn decode(bytes: &[u8], warnings: &mut Warnings) -> Result<Drawing, Fault> {
     Ok(draw(&vertices, triangles, &edges, &header))
 }
 
-/// Fails for an element with more entries than the file can have, since each takes a byte at least.
+/// Fails if an element claims more entries than the file can hold, with at least a byte for each.
 fn check(element: &ElementDef, bytes: usize) -> Result<(), Fault> {
     let ElementDef {
         name,
@@ -87,7 +87,7 @@ fn elements<E: PropertyAccess>(
     Parser::<E>::new().read_payload_for_element(reader, element, header)
 }
 
-/// Polygons as fans, and strips, where every other triangle has two vertices exchanged.
+/// Triangles of polygons, as fans, and of strips, in which every other triangle has two vertices exchanged.
 fn triangles(faces: &[Face], strips: &[Strip], warnings: &mut Warnings) -> Vec<[u32; 3]> {
     let (mut triangles, mut short) = (Vec::new(), 0);
     for Face { indices } in faces {
@@ -125,7 +125,7 @@ fn draw(vertices: &[Vertex], triangles: Vec<[u32; 3]>, edges: &[Edge], header: &
         .iter()
         .find(finite)
         .map_or(DVec3::ZERO, |v| v.position);
-    // Vertices that nothing connects are points.
+    // Vertices that are not connected are drawn as points.
     let is_cloud = triangles.is_empty() && edges.is_empty();
     let points = if is_cloud { vertices.len() as u32 } else { 0 };
     let stream = |present: bool| if present { vertices } else { &[] }.iter();
@@ -155,7 +155,7 @@ fn draw(vertices: &[Vertex], triangles: Vec<[u32; 3]>, edges: &[Edge], header: &
     }
 }
 
-/// A vertex in the making.
+/// A vertex that is being read.
 struct Vertex {
     position: DVec3,
     normal: [f32; 3],
@@ -191,7 +191,7 @@ impl PropertyAccess for Vertex {
     }
 }
 
-/// A scalar's value, and what stands for 1 where it is a colour.
+/// Value of a scalar, and the value that stands for 1 in a colour of this type.
 fn number(property: &Property) -> Option<(f64, f64)> {
     Some(match *property {
         Property::Char(x) => (x.into(), 127.0),
@@ -206,7 +206,7 @@ fn number(property: &Property) -> Option<(f64, f64)> {
     })
 }
 
-/// A polygon; empty where an index is negative.
+/// A polygon; empty if an index is negative.
 #[derive(Default)]
 struct Face {
     indices: Vec<u32>,
@@ -248,12 +248,12 @@ impl PropertyAccess for Strip {
     }
 }
 
-/// Whether a list is of indices of vertices.
+/// Whether a list holds indices of vertices.
 fn is_indices(name: &str) -> bool {
     matches!(name, "vertex_indices" | "vertex_index")
 }
 
-/// Line between two vertices. An index that is not a whole number of 32 bits refers to no vertex.
+/// Line between two vertices. An index that is not a 32-bit whole number refers to no vertex.
 struct Edge {
     ends: [u32; 2],
 }

@@ -10,13 +10,13 @@ use crate::scene::{
     error::Fault,
 };
 
-/// The pointer of the channel target at `place`, and where it is.
+/// Pointer of the channel target at `place`, and the pointer's own place.
 pub fn of<'m>(model: &'m Model, place: &str) -> Option<(&'m str, String)> {
     let place = format!("{place}/extensions/KHR_animation_pointer/pointer");
     Some((model.text(&place)?, place))
 }
 
-/// The materials that pointers of the document's animations lead into.
+/// Indices of the materials into which pointers of animations lead.
 pub fn animated_materials(model: &Model) -> BTreeSet<usize> {
     let animations = model.root.animations.iter().enumerate();
     let targets = animations.flat_map(|(a, animation)| {
@@ -32,7 +32,7 @@ pub fn animated_materials(model: &Model) -> BTreeSet<usize> {
         .collect()
 }
 
-/// The targets of a pointer at `place`: several where nodes share what it leads to.
+/// Targets of a pointer at `place`: several if several nodes share what it leads to.
 pub fn targets(model: &Model, pointer: &str, place: &str) -> Result<Vec<Animated>, Fault> {
     let pointed = parse(pointer).ok_or_else(|| {
         let reason = format!(
@@ -73,7 +73,7 @@ pub fn targets(model: &Model, pointer: &str, place: &str) -> Result<Vec<Animated
     }
 }
 
-/// Fails unless a mesh has a morph target of that index.
+/// Fails unless a mesh has a morph target with this index.
 fn check_weight(
     model: &Model,
     mesh: Option<Index<Mesh>>,
@@ -94,11 +94,11 @@ fn check_weight(
 
 enum Pointed {
     Target(Animated),
-    /// Weights, all or one, of the nodes that draw the mesh and have none of their own.
+    /// Weights (all, or the one with this index) of the nodes that draw the mesh and have no weights of their own.
     Mesh(usize, Option<usize>),
 }
 
-/// Parses a pointer; `None` for an unsupported one.
+/// Parses a pointer; `None` if it is not supported.
 fn parse(pointer: &str) -> Option<Pointed> {
     let index = |text: &str| text.parse::<u32>().ok().map(|index| index as usize);
     let description = |kind: fn(usize) -> Described, at: &str, rest: &[&str]| {

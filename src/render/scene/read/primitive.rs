@@ -1,4 +1,4 @@
-//! Mesh primitives (glTF 2.0, section 3.7.2), reduced to triangles, points and lines and the vertices they use.
+//! Mesh primitives (glTF 2.0, section 3.7.2), reduced to triangles, points and lines and the vertices that they use.
 
 use rayon::prelude::*;
 
@@ -27,8 +27,8 @@ use crate::scene::{
     },
 };
 
-/// Reads the primitive `item` at `place`. What can be mended or left out is noted; what cannot is the
-/// error. `None` where it has nothing that could be drawn; why is among the notes.
+/// Reads the primitive `item` at `place`. Faults that can be mended or left out become notes; others are errors.
+/// `None` if nothing of it can be drawn; a note says why.
 pub fn read(
     item: &mesh::Primitive,
     place: &str,
@@ -45,7 +45,7 @@ pub fn read(
     };
     let positions = context.accessor(positions, &format!("{attributes}/POSITION"));
     let packed = match (unpack(item, place, context), &positions) {
-        // What the file offers to those that cannot decode it.
+        // The file also has uncompressed data for programs that can't decode it.
         (Err(fault), Ok(positions)) if !positions.is_void() => {
             notes.push(fault.but("the uncompressed data are used"));
             None
@@ -68,7 +68,7 @@ pub fn read(
         count: positions.count,
         ..reader
     };
-    // The last material is glTF's default, which no index of the file refers to.
+    // The last material is glTF's default; no index of the file refers to it.
     let default_material = materials.len().saturating_sub(1);
     let (chosen, material_place) = choose_material(item, place, context);
     let material_index = match context.model.check(&chosen, &material_place) {
@@ -81,7 +81,7 @@ pub fn read(
     let material = materials.get(material_index).cloned().unwrap_or_default();
 
     let targets = item.targets.as_deref().unwrap_or_default();
-    // What is decoded is a list of triangles, whatever it was encoded from.
+    // Decoded data is always a list of triangles.
     let mode = reader.packed.map_or(mode, |_| Mode::Triangles);
     let is_strokes = strokes::are_made_of(mode);
     let shape = if is_strokes {
@@ -94,7 +94,7 @@ pub fn read(
     let Some((mut triangles, corners, mut sources)) = shape else {
         return Ok(None);
     };
-    // Without normals, which is known only later, no two triangles share a vertex.
+    // Whether there are normals is not known yet. Without normals, no two triangles share a vertex.
     let most = match is_strokes {
         true => sources.len(),
         false => sources.len().max(triangles.len() * 3),
@@ -179,7 +179,7 @@ fn is_compressed(item: &mesh::Primitive) -> bool {
     extensions.is_some_and(|e| e.others.contains_key("KHR_draco_mesh_compression"))
 }
 
-/// The material of the variant that is drawn, or else the primitive's own; and the place that says so.
+/// Material of the selected variant, or otherwise the primitive's own, and the place of the reference to it.
 fn choose_material(
     item: &mesh::Primitive,
     place: &str,
@@ -198,13 +198,13 @@ fn choose_material(
     }
 }
 
-/// Largest number of triangles that `item` can be read to, found without reading them; 0 if reading will fail.
+/// Largest number of triangles to which `item` can expand, without reading its data; 0 if reading will fail.
 pub fn claimed_triangles(item: &mesh::Primitive, context: &Context<'_>) -> u64 {
     let defining = item
         .indices
         .or_else(|| attribute_of(item, Semantic::Positions));
     if is_compressed(item) {
-        // Its accessors need no data to say how many come out.
+        // The accessors declare the count, without any data.
         let accessor = defining.and_then(|index| context.model.root.get(index));
         return accessor.map_or(0, |accessor| accessor.count.0 / 3);
     }
@@ -218,7 +218,7 @@ pub fn claimed_triangles(item: &mesh::Primitive, context: &Context<'_>) -> u64 {
     }
 }
 
-/// The elements of `accessor` at `sources`.
+/// Elements of `accessor` with the indices `sources`.
 pub fn gather<const N: usize>(accessor: &Accessor<'_>, sources: &[u32]) -> Vec<[f32; N]> {
     sources
         .par_iter()
@@ -227,7 +227,7 @@ pub fn gather<const N: usize>(accessor: &Accessor<'_>, sources: &[u32]) -> Vec<[
         .collect()
 }
 
-/// Reads the indices of a primitive, if it has any, and the number of vertices that it goes through.
+/// Reads the indices of a primitive, if it has any, and the number of vertices that it passes through.
 fn read_indices<'a>(
     reader: &vertex::Reader<'a, '_>,
     positions: &Accessor<'_>,
@@ -250,7 +250,7 @@ fn read_indices<'a>(
     Ok((indices, count))
 }
 
-/// Points or lines that can be drawn, and the vertices of the file that they refer to.
+/// Points or lines that can be drawn, and the file's vertices that they use.
 fn read_strokes(
     reader: &vertex::Reader<'_, '_>,
     mode: Mode,
@@ -283,7 +283,7 @@ fn read_strokes(
         let reason = format!("1 of {count} indices makes no line and is left out");
         notes.push(Fault::new(reader.place, reason));
     }
-    // What a target moves apart may have a length later.
+    // Vertices in the same place may separate if a morph target moves them.
     let is_rigid = reader.primitive.targets.is_none();
     let mut strokes = strokes::assemble(mode, &path, |a, b| {
         a == b || (is_rigid && position(a) == position(b))
@@ -294,7 +294,7 @@ fn read_strokes(
 
 type Triangles = Vec<[u32; 3]>;
 
-/// Triangles that can be drawn, and the vertices of the file that they refer to.
+/// Triangles that can be drawn, and the file's vertices that they use.
 fn read_triangles(
     reader: &vertex::Reader<'_, '_>,
     mode: Mode,

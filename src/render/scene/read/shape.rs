@@ -1,4 +1,4 @@
-//! Scenes of formats that know triangles, lines, points and colours, but neither nodes nor cameras nor lights.
+//! Scenes of formats with triangles, lines, points and colours, but without nodes, cameras and lights.
 
 use gltf::json::{self, Index, mesh::Mode};
 
@@ -16,20 +16,20 @@ use crate::scene::{
 use glam::DVec3;
 use std::sync::Arc;
 
-/// Object of a file. Streams other than the positions are empty or as long as these.
+/// Object of a file. Streams other than the positions are empty or as long as the positions.
 #[derive(Debug, Default)]
 pub struct Shape {
     pub name: Option<String>,
-    /// Index into the materials of the [`Drawing`]; past the end is glTF's default.
+    /// Index into the materials of the [`Drawing`]; an index past the end stands for glTF's default.
     pub material: usize,
     pub triangles: Vec<[u32; 3]>,
     pub lines: Vec<[u32; 2]>,
     pub points: Vec<u32>,
     pub positions: Vec<[f32; 3]>,
     pub normals: Vec<[f32; 3]>,
-    /// Upwards in the image, as in OBJ and PLY.
+    /// Texture coordinates; v points up, as in OBJ and PLY.
     pub uvs: Vec<[f32; 2]>,
-    /// Linear.
+    /// Linear colours.
     pub colors: Vec<[f32; 4]>,
 }
 
@@ -37,15 +37,15 @@ pub struct Shape {
 #[derive(Debug, Default)]
 pub struct Drawing {
     pub shapes: Vec<Shape>,
-    /// Origin that the positions of all shapes are relative to.
+    /// Origin to which the positions of all shapes are relative.
     pub origin: DVec3,
     pub materials: Vec<Material>,
     pub textures: Vec<Texture>,
     pub images: Vec<Image>,
 }
 
-/// The material of files that name none: grey, matt, and seen from both sides, since not every
-/// program that writes such files keeps to one winding.
+/// Material for files that name none: grey, matt and double-sided, because not every program writes consistent
+/// windings.
 pub fn plain() -> Material {
     Material {
         base_color: [0.8, 0.8, 0.8, 1.0],
@@ -55,7 +55,7 @@ pub fn plain() -> Material {
     }
 }
 
-/// The linear value of a fraction of 1 in sRGB; white where it is not a number.
+/// Linear value of an sRGB code of 0 to 1; 1 for NaN.
 pub fn linear(code: f64) -> f32 {
     let code = if code.is_nan() {
         1.0
@@ -71,7 +71,7 @@ pub fn linear(code: f64) -> f32 {
 }
 
 impl Drawing {
-    /// The scene of a file of this `format`.
+    /// Makes a scene of the drawing; `format` is the file's format.
     pub fn into_scene(
         mut self,
         format: &'static str,
@@ -158,7 +158,7 @@ impl Drawing {
 }
 
 impl Shape {
-    /// Makes a primitive of the drawable parts of a shape, and warns of the others.
+    /// Makes a primitive of the parts of a shape that can be drawn, and warns of the others.
     fn into_primitive(
         mut self,
         material: usize,
@@ -215,7 +215,7 @@ impl Shape {
         })
     }
 
-    /// Makes strokes of the drawable lines or points of a shape, and warns of the others.
+    /// Makes strokes of the lines or points of a shape that can be drawn, and warns of the others.
     fn strokes(
         &self,
         mode: Mode,

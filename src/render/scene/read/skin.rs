@@ -59,7 +59,7 @@ fn read(item: &json::Skin, place: &str, context: &Context<'_>) -> Result<Skin, F
     })
 }
 
-/// Checks that the skin of every node has the joints that its mesh's vertices ask for.
+/// Checks that every node's skin has the joints to which its mesh's vertices refer.
 pub fn check_joints(
     nodes: &[json::Node],
     meshes: &[Vec<Primitive>],

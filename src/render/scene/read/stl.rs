@@ -1,4 +1,4 @@
-//! STL: triangles, in binary or as text.
+//! STL: triangles, in binary or text form.
 
 use std::io::Cursor;
 
@@ -9,12 +9,12 @@ use crate::scene::{
 
 use super::shape::{Drawing, Shape, plain};
 
-/// Bytes of the header, the count and one triangle of a binary file.
+/// Numbers of bytes of the header, the count and one triangle of a binary file.
 const HEADER: usize = 80;
 const COUNT: usize = 4;
 const TRIANGLE: usize = 50;
 
-/// First word of a text.
+/// First word of a text file.
 const SOLID: &[u8] = b"solid";
 
 /// Whether `bytes` are an STL file.
@@ -22,8 +22,8 @@ pub fn is_stl(bytes: &[u8]) -> bool {
     is_binary(bytes) || is_text(bytes)
 }
 
-/// Whether a file is binary: its size is the one that it states. The first word does not tell, since many binary files
-/// also start with "solid".
+/// Whether a file is binary: its size agrees with the number of triangles that it states. The first word does not
+/// tell, because many binary files also start with "solid".
 fn is_binary(bytes: &[u8]) -> bool {
     let count = bytes
         .get(HEADER..HEADER + COUNT)
@@ -41,7 +41,7 @@ fn is_text(bytes: &[u8]) -> bool {
 
 /// Reads an STL file.
 pub fn read(bytes: &[u8], file: &str) -> Result<Loaded, SceneError> {
-    // The crate tells the two apart by the first word alone, and wants a blank behind it.
+    // The crate distinguishes the forms by the first word alone, and expects a blank after it.
     let mut bytes = bytes.to_vec();
     if is_binary(&bytes) {
         bytes[..HEADER].fill(0);

@@ -18,7 +18,7 @@ use crate::scene::{
     material::{Image, Material, Sampler, Texture},
 };
 
-/// Extensions that give a texture another image, the best first.
+/// Extensions that give a texture another image, in order of preference.
 const SOURCES: [&str; 2] = ["KHR_texture_basisu", "EXT_texture_webp"];
 
 /// The extension object.
@@ -27,8 +27,8 @@ struct Source {
     source: Index<json::Image>,
 }
 
-/// Replaces the file's texture indices in `materials` by indices into the textures returned. Only
-/// what the materials use is decoded; a texture without a readable image is left out of them.
+/// Replaces the file's texture indices in `materials` by indices into the returned textures. Only images that
+/// materials use are decoded; a texture without a readable image is removed from the materials.
 pub fn resolve(
     context: &mut Context<'_>,
     materials: &mut [Material],
@@ -49,7 +49,7 @@ pub fn resolve(
             ));
         }
     }
-    // The best of all textures at once, then what has to stand in for those that failed.
+    // First the preferred images of all textures are decoded together, then the alternatives for those that failed.
     for rank in 0..=SOURCES.len() {
         let failed = |sources: &Vec<usize>| !sources.iter().any(|&i| images.place(i).is_some());
         let next = wanted.iter().filter(|(_, sources, _)| failed(sources));
@@ -77,7 +77,7 @@ pub fn resolve(
     (textures, images.into_decoded())
 }
 
-/// The images that a texture offers, best first.
+/// Indices of the images that a texture offers, in order of preference.
 fn sources(item: &json::Texture, place: &str, context: &mut Context<'_>) -> Vec<usize> {
     let others = item
         .extensions

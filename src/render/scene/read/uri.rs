@@ -16,7 +16,7 @@ use percent_encoding::percent_decode_str;
 
 use super::container::is_lfs_pointer;
 
-/// Base64 as found in the wild: padded or not.
+/// Base64 decoder that accepts data with and without padding.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
     &STANDARD,
     GeneralPurposeConfig::new()
@@ -24,8 +24,8 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
         .with_decode_allow_trailing_bits(true),
 );
 
-/// Fetches what `uri` stands for, relative to the folder `base`. At most `limit` bytes of a file are
-/// read. The error is a reason in words, without the place.
+/// Reads what `uri` refers to, relative to the folder `base`, and at most `limit` bytes of a file. The error is a
+/// reason without the place.
 pub fn fetch(uri: &str, base: Option<&Path>, limit: u64) -> Result<Vec<u8>, String> {
     if let Some((scheme, rest)) = uri.split_at_checked(5)
         && scheme.eq_ignore_ascii_case("data:")
@@ -33,8 +33,8 @@ pub fn fetch(uri: &str, base: Option<&Path>, limit: u64) -> Result<Vec<u8>, Stri
         return decode_data(rest);
     }
     if let Some((scheme, _)) = uri.split_once(':') {
-        // RFC 3986: a scheme is a letter, then letters, digits, +, - and dots. A drive letter is
-        // one too, and no more welcome: it makes the scene unusable elsewhere.
+        // A scheme is a letter, then letters, digits, +, - and dots (RFC 3986). A drive letter looks the same and is
+        // refused too: it would make the scene unusable elsewhere.
         let mut letters = scheme.chars();
         if letters.next().is_some_and(|c| c.is_ascii_alphabetic())
             && letters.all(|c| c.is_ascii_alphanumeric() || "+-.".contains(c))
@@ -51,7 +51,7 @@ pub fn fetch(uri: &str, base: Option<&Path>, limit: u64) -> Result<Vec<u8>, Stri
     read_file(&path, limit)
 }
 
-/// The part of a data URI after `data:` (RFC 2397).
+/// Decodes the part of a data URI after `data:` (RFC 2397).
 fn decode_data(rest: &str) -> Result<Vec<u8>, String> {
     let (kind, data) = rest
         .split_once(',')
@@ -66,7 +66,7 @@ fn decode_data(rest: &str) -> Result<Vec<u8>, String> {
     }
 }
 
-/// The file of a relative reference: unescaped as the specification asks, else as it is written.
+/// File of a relative reference: unescaped, as the specification requires, or otherwise as it is written.
 fn locate(uri: &str, base: &Path) -> Result<PathBuf, String> {
     let decoded = Cow::from(percent_decode_str(uri));
     let decoded = std::str::from_utf8(&decoded)
@@ -86,7 +86,7 @@ fn locate(uri: &str, base: &Path) -> Result<PathBuf, String> {
 
 fn read_file(path: &Path, limit: u64) -> Result<Vec<u8>, String> {
     let failed = |error: std::io::Error| format!("{} cannot be read: {error}", path.display());
-    // A pipe or a device would block, or never end.
+    // Opening a pipe or a device might block, or reading it never end.
     let found = fs::metadata(path).map_err(failed)?;
     if !found.is_file() {
         return Err(format!("{} is not a regular file", path.display()));

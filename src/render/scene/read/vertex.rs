@@ -1,5 +1,5 @@
-//! Vertex attributes beside the position. None is worth failing for: what cannot be read is noted
-//! and left out.
+//! Vertex attributes other than the position. A fault in them is never an error: what can't be read is noted and left
+//! out.
 
 use rayon::prelude::*;
 
@@ -17,9 +17,9 @@ use crate::scene::{
     material::Material,
 };
 
-/// Types of normals, tangents and displacements, `KHR_mesh_quantization` included.
+/// Component types of normals, tangents and displacements, `KHR_mesh_quantization` included.
 pub const SIGNED: [ComponentType; 3] = [ComponentType::F32, ComponentType::I8, ComponentType::I16];
-/// Types of texture coordinates, `KHR_mesh_quantization` included.
+/// Component types of texture coordinates, `KHR_mesh_quantization` included.
 const ANY: [ComponentType; 5] = [
     ComponentType::F32,
     ComponentType::I8,
@@ -27,10 +27,10 @@ const ANY: [ComponentType; 5] = [
     ComponentType::I16,
     ComponentType::U16,
 ];
-/// Types of colours and weights.
+/// Component types of colours and weights.
 const FRACTION: [ComponentType; 3] = [ComponentType::F32, ComponentType::U8, ComponentType::U16];
 
-/// The accessor of an attribute.
+/// Index of the accessor of an attribute.
 pub fn attribute_of(item: &mesh::Primitive, semantic: Semantic) -> Option<Index<json::Accessor>> {
     item.attributes.get(&Checked::Valid(semantic)).copied()
 }
@@ -45,7 +45,7 @@ pub struct Reader<'r, 'a> {
     pub packed: Option<&'r Packed>,
     /// The document.
     pub context: &'r Context<'a>,
-    /// Number of positions, which the others have to match.
+    /// Number of positions, which the other attributes must match.
     pub count: usize,
 }
 
@@ -69,7 +69,7 @@ impl<'r> Reader<'r, '_> {
             .ok()
     }
 
-    /// An attribute that was decoded, if it was.
+    /// Decoded attribute of a compressed primitive, if it has it.
     pub fn packed(&self, semantic: Semantic) -> Option<Result<Accessor<'r>, Fault>> {
         let name = semantic.to_string();
         let stream = self.packed?.attributes.get(&name)?;
@@ -80,7 +80,7 @@ impl<'r> Reader<'r, '_> {
         Some(Accessor::of_stream(stream, normalized, &place))
     }
 
-    /// An attribute, if the primitive has it.
+    /// Accessor of an attribute, if the primitive has it.
     pub fn attribute(
         &self,
         semantic: Semantic,
@@ -96,7 +96,7 @@ impl<'r> Reader<'r, '_> {
         self.read(accessor, place, components, types, notes)
     }
 
-    /// Both UV sets, if `material` has textures, or needs tangents that the file does not give.
+    /// Both UV sets, if `material` has textures or needs tangents that the file lacks.
     pub fn uvs(
         &self,
         material: &Material,
@@ -141,7 +141,7 @@ impl<'r> Reader<'r, '_> {
             .collect()
     }
 
-    /// Vertex colours, opaque if the file gives no alpha; empty if it gives no colours.
+    /// Vertex colours, opaque if the file has no alpha; empty if it has no colours.
     pub fn colors(&self, sources: &[u32], notes: &mut Vec<Fault>) -> Vec<[f32; 4]> {
         let Some(accessor) = self.attribute(Semantic::Colors(0), &[3, 4], &FRACTION, notes) else {
             return Vec::new();
@@ -162,8 +162,8 @@ impl<'r> Reader<'r, '_> {
         colors
     }
 
-    /// The tangents that the file gives; `None` where they have to be generated. Without normals
-    /// they are ignored, as the specification asks.
+    /// Tangents of the file; `None` if they have to be generated. Without normals they are ignored, as the
+    /// specification requires.
     pub fn tangents(
         &self,
         normals: &[[f32; 3]],
@@ -260,7 +260,7 @@ fn normalize_weights(sets: &mut [Influences], count: usize) {
         } else if let Some(first) = sets.first_mut() {
             first.weights[v] = [1.0, 0.0, 0.0, 0.0];
         }
-        // A joint without weight need not exist.
+        // A joint without weight need not exist, so that its index may be invalid.
         for set in sets.iter_mut() {
             for (joint, weight) in set.joints[v].iter_mut().zip(set.weights[v]) {
                 if weight == 0.0 {

@@ -1,4 +1,4 @@
-//! Normals of faces, for vertices that have none.
+//! Normals from faces, for vertices that have none.
 
 use glam::{DVec3, Vec3};
 
@@ -7,8 +7,8 @@ pub fn is_usable(n: &[f32; 3]) -> bool {
     n.iter().all(|x| x.is_finite()) && n.iter().any(|&x| x != 0.0)
 }
 
-/// Replaces normals that have no direction by the mean of the normals of the faces around, weighted
-/// by area. Returns how many there were; if no normal is usable, `normals` is emptied.
+/// Replaces normals without a direction by the mean of the normals of adjacent faces, weighted by area. Returns the
+/// number of such normals; if no normal is usable, `normals` is emptied.
 pub fn mend_normals(
     triangles: &[[u32; 3]],
     positions: &[[f32; 3]],

@@ -1,30 +1,30 @@
-//! Points and lines of a primitive as triangles, whose corners a renderer places for each camera.
+//! Points and lines of a primitive, as triangles whose corners a renderer places for each camera.
 
 use gltf::json::mesh::Mode;
 
 use super::triangles;
 use crate::scene::stroke::StrokePart;
 
-/// A corner of a point or line, of the vertices of one primitive.
+/// Corner of a point or line, with vertices of one primitive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Corner {
     pub part: StrokePart,
-    /// The vertex that it belongs to, the one at the other end of its segment, and the one that the line goes on to;
-    /// each is the first where there is none.
+    /// Index of the vertex to which the corner belongs. `other` is the vertex at the other end of its segment,
+    /// `beyond` the one to which the line continues; each equals `at` if there is none.
     pub at: u32,
     pub other: u32,
     pub beyond: u32,
 }
 
-/// Points or lines.
+/// Points or lines of a primitive.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Strokes {
     pub triangles: Vec<[u32; 3]>,
-    /// Corners, which are the last vertices, in their order.
+    /// Corners. Their vertices are the last ones, in the same order.
     pub corners: Vec<Corner>,
 }
 
-/// Whether a topology is one of points or lines (glTF 2.0, section 3.7.2.1).
+/// Whether a topology consists of points or lines (glTF 2.0, section 3.7.2.1).
 pub fn are_made_of(mode: Mode) -> bool {
     matches!(
         mode,
@@ -32,7 +32,7 @@ pub fn are_made_of(mode: Mode) -> bool {
     )
 }
 
-/// Most triangles that `count` indices make; modes of triangles make none.
+/// Largest number of triangles that `count` indices make; 0 for topologies of triangles.
 pub fn number(mode: Mode, count: usize) -> usize {
     match mode {
         Mode::Points => count.saturating_mul(StrokePart::DISC_CORNERS as usize - 2),
@@ -42,8 +42,8 @@ pub fn number(mode: Mode, count: usize) -> usize {
     }
 }
 
-/// The points or lines through vertices, where `None` interrupts them; no line goes between vertices that are the `same`.
-/// Of [`Mode::Lines`], neighbours that share a vertex are one line.
+/// Points or lines along a path of vertices, which `None` interrupts. No line connects vertices that are the `same`.
+/// In [`Mode::Lines`], consecutive segments that share a vertex become one line.
 pub fn assemble(mode: Mode, path: &[Option<u32>], same: impl Fn(u32, u32) -> bool) -> Strokes {
     let mut strokes = Strokes::default();
     match mode {
@@ -113,7 +113,7 @@ impl Strokes {
         strokes
     }
 
-    /// Adds a line through vertices, which are taken; it is closed if it ends where it begins.
+    /// Adds a line through the vertices of `path`, which is emptied. The line is closed if it ends where it begins.
     fn add_path(&mut self, path: &mut Vec<u32>) {
         let closed = path.len() > 2 && path.first() == path.last();
         if closed {
@@ -123,7 +123,7 @@ impl Strokes {
         path.clear();
     }
 
-    /// Adds a line through vertices, whose last is joined to its first where it is `closed`.
+    /// Adds a line through vertices; if it is `closed`, the last is joined to the first.
     fn add_line(&mut self, path: &[u32], closed: bool) {
         let count = path.len();
         if count < 2 {
@@ -171,7 +171,8 @@ impl Strokes {
         }
     }
 
-    /// The vertices that they refer to; they then refer to that list, which the corners follow.
+    /// Removes vertices that are not used: returns the indices of the used ones, and renumbers the strokes so that
+    /// they refer to that list, which the corners follow.
     pub fn compact(&mut self, vertex_count: usize) -> Vec<u32> {
         let named = |corner: &Corner| [corner.at, corner.other, corner.beyond];
         let mut named: Vec<[u32; 3]> = self.corners.iter().map(named).collect();

@@ -1,4 +1,4 @@
-//! Tangents by MikkTSpace, as glTF 2.0, section 3.7.2.1, prescribes where a file has none.
+//! Tangents by MikkTSpace, as glTF 2.0, section 3.7.2.1, requires if a file has none.
 
 use std::collections::HashMap;
 
@@ -7,8 +7,8 @@ use glam::Vec3;
 
 use crate::scene::document::{Influences, Primitive, Target};
 
-/// Gives `primitive` tangents for a normal texture on UV set `uv_set`. A vertex whose triangles
-/// disagree is split.
+/// Generates tangents of `primitive` for a normal texture on UV set `uv_set`. A vertex whose triangles have different
+/// tangents is split.
 pub fn generate(primitive: &mut Primitive, uv_set: u32) {
     let mut corners = vec![None; 3 * primitive.triangles.len()];
     let flat = primitive.is_flat();
@@ -25,7 +25,7 @@ pub fn generate(primitive: &mut Primitive, uv_set: u32) {
     split(primitive, &corners);
 }
 
-/// The primitive as MikkTSpace asks for it.
+/// A primitive with the interface of MikkTSpace.
 struct Surface<'p> {
     primitive: &'p Primitive,
     flat: bool,
@@ -69,10 +69,10 @@ impl Geometry for Surface<'_> {
     fn set_tangent(&mut self, tangent: Option<TangentSpace>, face: usize, corner: usize) {
         let tangent = tangent.map(|tangent| {
             let [x, y, z, sign] = tangent.tangent_encoded();
-            // MikkTSpace's v grows upwards, glTF's downwards: the bitangent turns around.
+            // In MikkTSpace v points up, in glTF down, so that the bitangent changes its sign.
             [x, y, z, -sign]
         });
-        // Coordinates near the largest float overflow on the way.
+        // Coordinates near the largest float overflow in between.
         self.corners[3 * face + corner] = tangent.filter(|t| t.iter().all(|x| x.is_finite()));
     }
 }
@@ -81,7 +81,7 @@ impl Geometry for Surface<'_> {
 fn split(primitive: &mut Primitive, corners: &[Option<[f32; 4]>]) {
     let mut origins: Vec<u32> = Vec::new();
     let mut tangents: Vec<[f32; 4]> = Vec::new();
-    // Most vertices have one tangent: the newest of each is tried before the map of all.
+    // Most vertices have a single tangent, so the newest one of each is tried before the map.
     let mut newest: Vec<Option<u32>> = vec![None; primitive.positions.len()];
     let mut places: HashMap<(u32, [u32; 4]), u32> = HashMap::new();
     let mut triangles = primitive.triangles.clone();
@@ -135,7 +135,7 @@ fn select<T: Copy>(stream: &mut Vec<T>, origins: &[u32]) {
     }
 }
 
-/// A tangent where the texture coordinates give none: anything across the normal.
+/// A tangent for texture coordinates that determine none: any vector perpendicular to the normal.
 fn any_tangent(primitive: &Primitive, vertex: usize) -> [f32; 4] {
     let normal = primitive
         .normals
@@ -149,8 +149,7 @@ fn any_tangent(primitive: &Primitive, vertex: usize) -> [f32; 4] {
 mod tests {
     use super::*;
 
-    /// A square that faces +Z, u to the right, v down, as an image lies: two triangles that share
-    /// two vertices.
+    /// A square that faces +Z, with u to the right and v down, like an image: two triangles that share two vertices.
     fn square(uvs: [[f32; 2]; 4]) -> Primitive {
         Primitive {
             triangles: vec![[0, 1, 2], [0, 2, 3]],

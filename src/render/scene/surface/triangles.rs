@@ -3,7 +3,7 @@
 use gltf::json::mesh::Mode;
 use rayon::prelude::*;
 
-/// Number of triangles that `count` indices make; modes of points and lines make none.
+/// Number of triangles that `count` indices make; 0 for topologies of points and lines.
 pub fn number(mode: Mode, count: usize) -> usize {
     match mode {
         Mode::Triangles => count / 3,
@@ -12,7 +12,7 @@ pub fn number(mode: Mode, count: usize) -> usize {
     }
 }
 
-/// The triangles of `count` indices, and how many indices are left over.
+/// Triangles of `count` indices, and the number of indices that are left over.
 pub fn assemble(
     mode: Mode,
     count: usize,
@@ -20,7 +20,7 @@ pub fn assemble(
 ) -> (Vec<[u32; 3]>, usize) {
     let triangle = |t: usize| match mode {
         Mode::Triangles => [index(3 * t), index(3 * t + 1), index(3 * t + 2)],
-        // Every other triangle is turned, so that all wind alike.
+        // Every other triangle is reversed, so that all have the same winding.
         Mode::TriangleStrip => [index(t), index(t + 1 + t % 2), index(t + 2 - t % 2)],
         _ => [index(t + 1), index(t + 2), index(0)],
     };
@@ -37,9 +37,9 @@ pub fn assemble(
     (triangles, left_over)
 }
 
-/// Keeps only the vertices that the triangles use, of `vertex_count`; returns their indices in ascending order and
-/// renumbers the triangles. If few vertices are used the cost does not depend on `vertex_count`, since many primitives
-/// may share one large buffer.
+/// Removes vertices, of `vertex_count`, that no triangle uses: returns the indices of the used ones in ascending
+/// order, and renumbers the triangles. If few vertices are used, the cost does not depend on `vertex_count`, because
+/// many primitives may share a large buffer.
 pub fn compact(triangles: &mut [[u32; 3]], vertex_count: usize) -> Vec<u32> {
     const FEW: usize = 32;
     let corners = triangles.as_flattened_mut();

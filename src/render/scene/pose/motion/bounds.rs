@@ -1,36 +1,36 @@
-//! The box around a scene at any moment of a motion, found without a look at its vertices.
+//! Box around a scene at any moment of a motion, computed without reading its vertices.
 //!
-//! Weights of joints add up to 1, so that a skinned vertex lies between the places that its joints' matrices take it to: a
-//! part lies within the boxes, taken along by each matrix, of the resting vertices that it moves. Morph targets widen these by
-//! the boxes around their displacements.
+//! The weights of a vertex's joints add up to 1, so that a skinned vertex lies between the positions to which its
+//! joints' matrices take it. A part therefore lies within the boxes of the resting vertices of each joint, transformed
+//! by the joint's matrix. Morph targets widen these boxes by the boxes around their displacements.
 
 use super::{Moment, Motion, MotionPart};
 use crate::scene::Geometry;
 use glam::{DMat3, DVec3};
 
-/// Lowest and highest corner.
+/// Lowest and highest corner of a box.
 type Box3 = [DVec3; 2];
 
 const NOTHING: Box3 = [DVec3::INFINITY, DVec3::NEG_INFINITY];
 
-/// Bounds of a motion, known before any moment is.
+/// Bounds of a motion, known before any of its moments.
 pub(crate) struct MovingBounds {
     origin: DVec3,
-    /// Around what does not move.
+    /// Box around what does not move.
     still: Box3,
     parts: Vec<PartBounds>,
 }
 
-/// Bounds of vertices that move alike.
+/// Bounds of vertices that move in the same way.
 struct PartBounds {
-    /// Around the resting vertices that each of its matrices moves.
+    /// Boxes around the resting vertices that each matrix of the part moves.
     resting: Vec<Box3>,
-    /// Around the displacements of each target.
+    /// Boxes around the displacements of each target.
     displacements: Vec<Box3>,
 }
 
 impl MovingBounds {
-    /// Computes the bounds of a motion with its geometry, which has no instances.
+    /// Computes the bounds of a motion and its geometry, which has no instances.
     pub fn new(geometry: &Geometry, motion: &Motion) -> Self {
         let mut moves = vec![false; geometry.positions.len()];
         for part in &motion.parts {
@@ -57,7 +57,7 @@ impl MovingBounds {
         }
     }
 
-    /// The box at a moment, in world space; `None` where there are no triangles.
+    /// Box at a moment, in world space; `None` without triangles.
     pub fn at(&self, moment: &Moment) -> Option<(DVec3, DVec3)> {
         let mut all = self.still;
         for (part, at) in self.parts.iter().zip(&moment.parts) {
@@ -119,7 +119,7 @@ impl PartBounds {
         }
     }
 
-    /// Least and greatest displacements of the vertices along each axis, by weights of targets.
+    /// Lowest and highest displacement of the vertices along each axis, for these weights of targets.
     fn displaced_by(&self, weights: impl Iterator<Item = (f64, usize)>) -> Box3 {
         weights.fold([DVec3::ZERO; 2], |[low, high], (weight, target)| {
             let [a, b] = self
@@ -140,7 +140,7 @@ fn with([low, high]: Box3, place: DVec3) -> Box3 {
     [low.min(place), high.max(place)]
 }
 
-/// The box around a box that the rows of a matrix carry along.
+/// Box around a box that was transformed by a matrix, given by its rows.
 fn carried([low, high]: Box3, rows: &[[f32; 4]; 3]) -> Box3 {
     let linear = DMat3::from_cols(vector(&rows[0]), vector(&rows[1]), vector(&rows[2])).transpose();
     let offset = DVec3::from_array(rows.map(|[.., offset]| f64::from(offset)));
@@ -165,7 +165,7 @@ mod tests {
     const JOINTS: usize = 3;
     const TARGETS: usize = 2;
 
-    /// A part of random vertices, skinned and morphed, after one that a node moves.
+    /// A motion with a part that a node moves, and a part of random vertices with joints and morph targets.
     fn motion(random: &mut dyn FnMut() -> f32) -> Motion {
         let part = |first: u32, sets, matrix_count, target_count| MotionPart {
             placement: 0,
@@ -285,7 +285,7 @@ mod tests {
             assert!(high.cmpge(exact[1] - 1e-9).all(), "{high} {exact:?}");
             extents += (high - low).length() / (exact[1] - exact[0]).length();
         }
-        // Boxes are turned and displacements taken for the largest, but they are no larger than that.
+        // Rotated boxes and the largest displacements overestimate the extent, but by less than this.
         assert!(extents / 50.0 < 2.5, "{}", extents / 50.0);
     }
 }

@@ -1,5 +1,5 @@
-//! Motion of a scene, and the matrices, weights, materials and lights of its moments: all that a device needs to show
-//! them.
+//! Motion of a scene, and the matrices, weights, materials and lights of its moments, which are all that a device
+//! needs to show them.
 
 mod bounds;
 
@@ -20,17 +20,17 @@ use crate::scene::{
 /// Nodes that an animation moves or deforms, and other properties that it changes.
 #[derive(Debug, Default)]
 pub struct Moving {
-    /// Whether each node's place in the world may change; empty if no place does.
+    /// Whether each node's position in the world may change; empty if none may.
     places: Vec<bool>,
-    /// Whether each node's morph weights may change; empty if none do.
+    /// Whether each node's morph weights may change; empty if none may.
     weights: Vec<bool>,
-    /// Indices of materials.
+    /// Indices of the materials that may change.
     materials: Vec<usize>,
     lights: bool,
 }
 
 impl Moving {
-    /// Collects what these channels move and change.
+    /// Collects what these channels change.
     pub fn new(scene: &Scene, animation: &[Channel]) -> Self {
         let document = &scene.document;
         let mut lights = false;
@@ -43,7 +43,7 @@ impl Moving {
                 }
                 Animated::Node(node, _) => places[node] = true,
                 Animated::Description(Described::Light(_), _) => lights = true,
-                // Materials follow below; what comes and goes is posed anew.
+                // Materials are collected below. A change of visibility needs a new pose.
                 Animated::Description(..) | Animated::Visibility(_) => {}
             }
         }
@@ -64,7 +64,7 @@ impl Moving {
         }
     }
 
-    /// Whether what a node draws moves.
+    /// Whether an animation moves what a node draws.
     pub fn has(&self, document: &Document, index: usize, node: &Node) -> bool {
         if self.places.is_empty() {
             return false;
@@ -75,11 +75,11 @@ impl Moving {
     }
 }
 
-/// Moving parts of a [`Pose`]: skins, morph targets, and meshes of animated nodes. A renderer that has them on the
-/// device shows other [moments](Self::at) without reading any vertex.
+/// Moving parts of a [`Pose`]: skins, morph targets, and meshes of animated nodes. A renderer that has uploaded them
+/// shows other [moments](Self::at) without reading any vertex.
 #[derive(Clone, Debug)]
 pub struct Motion {
-    /// Identity that the motion shares with its moments alone.
+    /// Identity that the motion shares only with its moments.
     pub(crate) identity: Arc<()>,
     /// Number of vertices of the geometry.
     vertex_count: usize,
@@ -87,7 +87,7 @@ pub struct Motion {
     origin: DVec3,
     /// Lights of the first pose.
     lights: Vec<Light>,
-    /// Whether they change.
+    /// Whether lights change.
     pub(crate) changes_lights: bool,
     /// Indices of materials that change.
     pub(crate) materials: Vec<usize>,
@@ -95,13 +95,13 @@ pub struct Motion {
     pub(crate) parts: Vec<MotionPart>,
     /// Position, normal and tangent of each vertex as it rests in its mesh.
     pub(crate) vertices: Vec<[[f32; 4]; 3]>,
-    /// Joints and weights of a set of each vertex, the latter's bits.
+    /// Joints and weights of a set for each vertex; the weights as bits.
     pub(crate) influences: Vec<[[u32; 4]; 2]>,
-    /// Displacements of positions, or of positions, normals and tangents in turn.
+    /// Displacements of positions, or of positions, normals and tangents alternately.
     pub(crate) displacements: Vec<[f32; 4]>,
 }
 
-/// Vertices of a mesh that move alike.
+/// Vertices of a mesh that move in the same way.
 #[derive(Clone, Copy, Debug)]
 pub struct MotionPart {
     placement: usize,
@@ -116,11 +116,11 @@ pub struct MotionPart {
     pub sets: u32,
     /// Index in [`Motion::displacements`] of the first displacement; those of a target follow each other.
     pub first_displacement: u32,
-    /// Vectors of a vertex there.
+    /// Number of displacement vectors for each vertex.
     pub displacement_vectors: u32,
     matrix_count: u32,
     target_count: u32,
-    /// Whether normals are those of triangles, each of which has three vertices to itself.
+    /// Whether normals are those of the triangles, each of which has three vertices to itself.
     pub is_flat: bool,
 }
 
@@ -129,17 +129,17 @@ pub struct MotionPart {
 pub struct Moment {
     /// Identity of the motion.
     pub(crate) identity: Arc<()>,
-    /// The cameras, as in [`Pose::cameras`].
+    /// Cameras at the moment, as in [`Pose::cameras`].
     pub cameras: Vec<SceneCamera>,
     /// Materials that change, with their indices.
     pub(crate) materials: Vec<(usize, Material)>,
     pub(crate) lights: Vec<Light>,
-    /// Three rows a matrix, to the geometry's space; and of each target with a weight that, and its index.
+    /// Three rows of each matrix to the geometry's space, and the weight and index of each target with a weight.
     pub(crate) vectors: Vec<[f32; 4]>,
     pub(crate) parts: Vec<MomentPart>,
 }
 
-/// Places of a [`MotionPart`]'s vectors.
+/// Positions of a [`MotionPart`]'s vectors in [`Moment::vectors`].
 #[derive(Clone, Copy, Debug)]
 pub struct MomentPart {
     pub first_matrix: u32,
@@ -233,7 +233,7 @@ impl Motion {
         }
     }
 
-    /// Whether a pose may be the one that it was made with.
+    /// Whether a pose may be the one with which the motion was made.
     pub(crate) fn is_of(&self, pose: &Pose) -> bool {
         self.vertex_count == pose.geometry.positions.len()
     }
@@ -245,9 +245,9 @@ impl Motion {
         self.parts.iter().map(of).sum()
     }
 
-    /// Makes another moment of the same animation and scene, at `time` in seconds. `None` if the first pose can't lead
-    /// there, so that the scene has to be posed anew: if a mesh turns inside out, meshes or lights come or go, or a
-    /// number leaves its range.
+    /// Makes another moment of the same animation and scene, at `time` in seconds. `None` if the first pose can't be
+    /// moved there, so that the scene has to be posed anew: a mesh turns inside out, meshes or lights appear or
+    /// disappear, or a number leaves its range.
     ///
     /// # Errors
     /// As [`Scene::pose`].
@@ -303,7 +303,7 @@ impl Motion {
 }
 
 impl Motion {
-    /// Materials that change: as `shown`, or else as they are at rest.
+    /// Materials that may change: from `shown` if they are there, otherwise as they are at rest.
     fn materials_of(&self, scene: &Scene, shown: Vec<(usize, Material)>) -> Vec<(usize, Material)> {
         let mut shown: BTreeMap<usize, Material> = shown.into_iter().collect();
         let at_rest = |index: usize| scene.materials.get(index).cloned();
@@ -315,7 +315,7 @@ impl Motion {
     }
 }
 
-/// Rows of a matrix that leads to the space around an origin.
+/// Rows of a matrix to the space around an origin.
 fn rows(matrix: &DAffine3, origin: DVec3) -> [[f32; 4]; 3] {
     let linear = matrix.matrix3.transpose();
     let offset = matrix.translation - origin;
