@@ -10,11 +10,11 @@ LAVAPIPE = ls /usr/share/vulkan/icd.d/lvp_icd*.json /etc/vulkan/icd.d/lvp_icd*.j
 # hours there.
 BENCH ?= --size 480x270 --samples 4,16,64,256 --reference 1024 --budget 4
 
-# Where `make install` puts the C library. Its shared object's name has the part of the version that is kept compatible.
+# Where `make install` puts the C library. The shared object's name has the version of its binary interface.
 PREFIX ?= /usr/local
 DESTDIR ?=
 VERSION = $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
-SONAME = libgpc.so.$(basename $(VERSION))
+SONAME = libgpc.so.$(shell sed -n 's/^pub const GPC_ABI_VERSION: u32 = \(.*\);/\1/p' src/capi/version.rs)
 
 # What `make view` opens.
 SCENE ?= assets/letters.glb

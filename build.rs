@@ -32,7 +32,10 @@ const VISIBILITY: &[Variant] = &[
     ("lens", "lens.comp", &[]),
 ];
 
-/// Shaders of the tests' host.
+/// The shader of the tests' host in C, which `tests/hosts/frozen` has a copy of.
+const SAMPLES: &[Variant] = &[("samples", "samples.comp", &[])];
+
+/// Shaders of the tests' host in Rust.
 const HOST: &[Variant] = &[
     ("samples", "samples.comp", &[]),
     ("corners", "corners.comp", &[]),
@@ -195,6 +198,7 @@ fn main() {
     println!("cargo:rerun-if-changed=examples/forward/shaders");
     println!("cargo:rerun-if-changed=examples/visibility/shaders");
     println!("cargo:rerun-if-changed=tests/gpu/host/shaders");
+    println!("cargo:rerun-if-changed=tests/hosts/shaders");
     println!("cargo:rerun-if-changed=build.rs");
     println!("cargo:rerun-if-changed=build");
     println!("cargo:rerun-if-env-changed=GPC_SPIRV");
@@ -209,6 +213,7 @@ fn main() {
     spirv(&group("examples/forward/shaders", FORWARD), &out);
     spirv(&group("examples/visibility/shaders", VISIBILITY), &out);
     spirv(&group("tests/gpu/host/shaders", HOST), &out);
+    spirv(&group("tests/hosts/shaders", SAMPLES), &out);
     let own = group("shaders", VARIANTS);
     let folder = spirv(&own, &out);
     #[cfg(feature = "compile-shaders")]

@@ -732,6 +732,16 @@ fn of_shader(
         code += &set_module(&format!("{name}_set"), &what, bound);
     }
     if *lent {
+        for (id, constant) in &interface.constants {
+            writeln!(
+                code,
+                "\n/// A constant of `shaders/{source}`: its ID and its value.\npub const {}: (u32, {}) = ({id}, {});",
+                constant.name.to_uppercase(),
+                constant.kind,
+                constant.default
+            )
+            .expect("a string");
+        }
         return code;
     }
     let constants = interface.constants.values();

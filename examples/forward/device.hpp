@@ -112,8 +112,8 @@ struct Device {
 
     // What the library is lent.
     GpcDevice lent() const {
-        GpcDevice device{};
-        device.size = sizeof device;
+        GpcDevice device;
+        check(gpc_init_device(&device, sizeof device));
         device.queue_family = family;
         device.get_instance_proc_addr = vkGetInstanceProcAddr;
         device.instance = instance;

@@ -100,6 +100,8 @@ class Pipelines {
         if (!file) throw std::runtime_error(path + " can't be read");
         std::vector<uint32_t> words(size_t(file.tellg()) / 4);
         file.seekg(0).read(reinterpret_cast<char *>(words.data()), std::streamsize(4 * words.size()));
+        // gpc: the shader of samples was compiled with includes that the library takes.
+        if (name == "samples") check(gpc_check_shader(words.data(), 4 * words.size()));
         VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
         info.codeSize = 4 * words.size();
         info.pCode = words.data();
@@ -292,8 +294,8 @@ class Renderer {
 
     // What the library did.
     GpcOutcome outcome() const {
-        GpcOutcome outcome{};
-        outcome.size = sizeof outcome;
+        GpcOutcome outcome;
+        check(gpc_init_outcome(&outcome, sizeof outcome));
         check(gpc_frame_outcome(frame, &outcome));
         return outcome;
     }
@@ -332,8 +334,8 @@ class Renderer {
 
     // gpc: what is lent for this size, once.
     void prepare(const GpcAntialiaser *antialiaser, GpcPattern pattern, GpcShading shading) {
-        GpcGeometry geometry{};
-        geometry.size = sizeof geometry;
+        GpcGeometry geometry;
+        check(gpc_init_geometry(&geometry, sizeof geometry));
         geometry.positions = meshes.vertices.raw;
         geometry.positions_offset = offsetof(Vertex, position);
         geometry.position_stride = sizeof(Vertex);
@@ -346,15 +348,16 @@ class Renderer {
         geometry.triangle_capacity = world.triangle_count;
         geometry.draw_capacity = uint32_t(world.parts.size());
         geometry.keys = KEYS;
-        GpcImages images{};
-        images.size = sizeof images;
+        GpcImages images;
+        check(gpc_init_images(&images, sizeof images));
         images.color_format = COLOR;
         images.ids = {ids.raw, ids.view, ids.aspects, COLOR_DRAWN, COLOR_DRAWN};
         images.depth = {depth.raw, depth.view, depth.aspects, DEPTH_DRAWN, DEPTH_DRAWN};
         images.color = {color.raw, color.view, color.aspects, COLOR_DRAWN, COPIED};
-        GpcOptions options{};
-        options.size = sizeof options;
-        check(gpc_options_init(&options, size.width, size.height));
+        GpcOptions options;
+        check(gpc_init_options(&options, sizeof options));
+        options.width = size.width;
+        options.height = size.height;
         options.pattern = pattern;
         options.shading = shading;
         // Next to no contrast is left where all is shaded.
@@ -379,9 +382,10 @@ class Renderer {
             draw.detailed = VK_TRUE;
             draws.push_back(draw);
         }
-        GpcScenery scenery{};
-        scenery.size = sizeof scenery;
+        GpcScenery scenery;
+        check(gpc_init_scenery(&scenery, sizeof scenery));
         scenery.draw_count = uint32_t(draws.size());
+        scenery.draw_stride = sizeof(GpcDraw);
         scenery.draws = draws.data();
         std::memcpy(scenery.projection, projection.data(), sizeof scenery.projection);
         const auto shade = [](void *user, VkCommandBuffer, const GpcVisibilitySamples *samples) noexcept {

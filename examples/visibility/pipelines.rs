@@ -4,7 +4,7 @@ use crate::Failure;
 use crate::device::Device;
 use crate::meshes::KEYS;
 use ash::vk;
-use gpc::host::{ShadeSamples, VisibilitySamples};
+use gpc::host::{ShadeSamples, VisibilitySamples, check_shader};
 
 /// Formats of what the host draws.
 pub const IDS: vk::Format = vk::Format::R32_UINT;
@@ -104,6 +104,9 @@ impl<'a> Pipelines<'a> {
             pipelines.ids_masked = pipelines.graphics(stages, IDS, Some(DEPTH), none)?;
             let stages = [&spirv!("screen_vertex")[..], &spirv!("screen_fragment")[..]];
             pipelines.screen = pipelines.graphics(stages, COLOR, None, none)?;
+            // The library takes the version of the includes that the shader was compiled with.
+            let words = ash::util::read_spv(&mut std::io::Cursor::new(spirv!("samples")))?;
+            check_shader(&words)?;
             for key in 0..KEYS {
                 let pipeline = pipelines.compute(spirv!("samples"), samples_layout, key)?;
                 pipelines.samples.push(pipeline);

@@ -32,6 +32,10 @@
 #define GPC_SET 0
 #endif
 
+// The version of what this file and the library agree on: bindings, records, functions. The library reads it from a shader's
+// SPIR-V, in gpc_check_shader. An application's own constants have other IDs.
+layout(constant_id = 2046) const uint GPC_SHADER_VERSION = 1u;
+
 layout(set = GPC_SET, binding = 0) uniform GpcFrame {
     vec2 scale;         // clip space to pixels from the image's centre, times w
     vec2 half_size;     // of the image, in pixels
@@ -98,7 +102,8 @@ bool gpc_sample(uint key, out GpcSample s) {
     s.dx = change[0] * sides.x;
     s.dy = change[1] * sides.y;
     s.front = b.facing;
-    return i < listed.x;
+    // Compilers drop a constant that nothing reads.
+    return i < listed.x && GPC_SHADER_VERSION != 0u;
 }
 
 // Writes what a sample shows: linear light that the image's encoding is averaged in, and its opacity, which is 1 where the

@@ -1,29 +1,13 @@
 //! A lent device, and what its frames share.
 
 use super::error::{Error, GpcResult, answer};
-use super::input::{Struct, flag, hand_over, place, read, take_back};
+use super::input::{
+    Element, GpcStructType, Struct, flag, hand_over, init, place, read, sizes, take_back,
+};
 use crate::host::Antialiaser;
 use crate::vulkan::{Host, Requirements};
 use ash::vk;
-use std::ffi::{CStr, c_char};
-
-/// The version of the header: gpc_version says that of the library.
-pub const GPC_VERSION_MAJOR: u32 = 0;
-/// See GPC_VERSION_MAJOR.
-pub const GPC_VERSION_MINOR: u32 = 2;
-/// See GPC_VERSION_MAJOR.
-pub const GPC_VERSION_PATCH: u32 = 0;
-/// The version of the header as one number, larger for later versions; packed as by VK_MAKE_API_VERSION.
-pub const GPC_VERSION: u32 =
-    (GPC_VERSION_MAJOR << 22) | (GPC_VERSION_MINOR << 12) | GPC_VERSION_PATCH;
-
-/// The version of the library, packed as GPC_VERSION is.
-///
-/// Threads: any.
-#[unsafe(no_mangle)]
-pub extern "C" fn gpc_version() -> u32 {
-    GPC_VERSION
-}
+use std::ffi::{CStr, c_char, c_void};
 
 /// Vulkan's own type.
 ///
@@ -36,12 +20,19 @@ pub type GetInstanceProcAddr =
 pub const GPC_VULKAN_API_VERSION: u32 = (1 << 22) | (3 << 12);
 const _: () = assert!(GPC_VULKAN_API_VERSION == Requirements::API_VERSION);
 
-/// A device that the application lends.
+/// A device that the application lends; gpc_init_device fills it.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct GpcDevice {
     /// sizeof(GpcDevice).
     pub size: u32,
+    /// GPC_STRUCT_TYPE_DEVICE.
+    pub r#type: u32,
+    /// NULL, or a structure that extends this one.
+    pub next: *const c_void,
+    /// VK_TRUE if the device was created with VK_EXT_conditional_rendering and its feature conditionalRendering, which is not
+    /// needed: without it, rounds of a frame that have nothing to do take some time.
+    pub conditional_rendering: vk::Bool32,
     /// The family, with graphics and compute, of the queue that commands will be submitted to.
     pub queue_family: u32,
     /// All functions of Vulkan are taken from it: of the loader that made the instance.
@@ -52,14 +43,26 @@ pub struct GpcDevice {
     pub physical_device: vk::PhysicalDevice,
     /// The device, created with the features that gpc_require_features sets.
     pub device: vk::Device,
-    /// VK_TRUE if the device was created with VK_EXT_conditional_rendering and its feature conditionalRendering, which is not
-    /// needed: without it, rounds of a frame that have nothing to do take some time.
-    pub conditional_rendering: vk::Bool32,
 }
 
-// SAFETY: `repr(C)`, its size first; integers, raw handles and a nullable function may have any bytes.
-unsafe impl Struct for GpcDevice {
+// SAFETY: `repr(C)`; integers, raw handles, pointers and a nullable function may have any bytes.
+unsafe impl Element for GpcDevice {
     const NAME: &'static str = "GpcDevice";
+    const SIZES: &'static [usize] = sizes!(GpcDevice, device);
+}
+
+// SAFETY: it begins with size, type and next.
+unsafe impl Struct for GpcDevice {
+    const TYPE: GpcStructType = GpcStructType::Device;
+}
+
+/// Fills a GpcDevice of `size` bytes, which is sizeof(GpcDevice): its handles are null, and nothing is enabled.
+///
+/// Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gpc_init_device(device: *mut GpcDevice, size: usize) -> GpcResult {
+    // SAFETY: passed on to the caller.
+    unsafe { init(device, size) }
 }
 
 /// What frames of one device share: layouts, and the pipelines made so far.
@@ -79,7 +82,7 @@ pub unsafe extern "C" fn gpc_require_features(
         // SAFETY: passed on to the caller.
         let features = unsafe { place(features, "features") }?;
         if features.s_type != vk::StructureType::PHYSICAL_DEVICE_VULKAN_1_3_FEATURES {
-            return Err(Error::StructureType(features.s_type.as_raw()));
+            return Err(Error::FeaturesType(features.s_type.as_raw()));
         }
         let needed = Requirements::features13();
         for (feature, needed) in [
@@ -142,7 +145,7 @@ pub unsafe extern "C" fn gpc_check_device(
 ///
 /// Threads: any. An antialiaser may be used by several threads at once.
 /// Lifetime: instance, device and the loader's library outlive the antialiaser and all frames created with it.
-/// Errors: GPC_RESULT_UNSUPPORTED lists what is missing; GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_OUT_OF_MEMORY,
+/// Errors: GPC_RESULT_UNSUPPORTED lists what is missing; GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_OUT_OF_MEMORY,
 /// GPC_RESULT_VULKAN. `*antialiaser` is then NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_antialiaser_create(

@@ -1,7 +1,8 @@
 //! Answers of functions, and messages.
 
+use super::version::GPC_ABI_VERSION;
 use crate::engine::sampler::RenderError;
-use crate::host::HostError;
+use crate::host::{HostError, ShaderError};
 use crate::vulkan::{Missing, VulkanError};
 use ash::vk;
 use std::any::Any;
@@ -17,8 +18,8 @@ pub enum GpcResult {
     Success = 0,
     /// A pointer is NULL or a handle VK_NULL_HANDLE.
     Null = 1,
-    /// The member `size` of a struct is not the size that the library knows: it was not set, or header and library are of
-    /// different versions.
+    /// A size or a stride is none that the struct has in this or an earlier version of the header: it was not set, or the
+    /// application was compiled with the header of a later version.
     StructSize = 2,
     /// A value is none of those possible, or contradicts another.
     Value = 3,
@@ -36,6 +37,10 @@ pub enum GpcResult {
     Panic = 9,
     /// The commands of the last recording are not done, or there was none.
     NotReady = 10,
+    /// The member `type` of a struct is of another struct, or its member `next` leads to one that the library does not know.
+    StructType = 11,
+    /// A shader was compiled with no gpc_visibility.glsl, or with one of a version that the library does not take.
+    ShaderVersion = 12,
 }
 
 /// Why a function did not do what was asked.
@@ -43,14 +48,26 @@ pub enum GpcResult {
 pub(super) enum Error {
     #[error("{0} is NULL")]
     Null(&'static str),
-    #[error(
-        "{name}.size is {found} and this library's {name} has {expected} bytes: set it to sizeof({name}), and compile with the header of this library"
-    )]
+    #[error("{what} is {found}; {}", sizes(name, *found, *expected))]
     StructSize {
+        what: String,
         name: &'static str,
-        found: u32,
+        found: usize,
         expected: usize,
     },
+    #[error(
+        "{name}.type is {found}; it can be {expected}, as the struct's gpc_init function sets it"
+    )]
+    StructType {
+        name: &'static str,
+        found: u32,
+        expected: u32,
+    },
+    #[error(
+        "{name}.next leads to a struct of type {found}, by which this library, version {}, does not extend a {name}",
+        env!("CARGO_PKG_VERSION")
+    )]
+    Next { name: &'static str, found: u32 },
     #[error("{name} is {found}; it can be {possible}")]
     Value {
         name: &'static str,
@@ -69,13 +86,29 @@ pub(super) enum Error {
         "features->sType is {0}; it can be VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES ({expected})",
         expected = vk::StructureType::PHYSICAL_DEVICE_VULKAN_1_3_FEATURES.as_raw()
     )]
-    StructureType(i32),
+    FeaturesType(i32),
     #[error("the device lacks {}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "))]
     Missing(Vec<Missing>),
+    #[error(transparent)]
+    Shader(#[from] ShaderError),
+    #[error("the size of a shader is {0} bytes; it can be a multiple of 4")]
+    ShaderSize(usize),
     #[error("{}", in_c(.0))]
     Host(#[from] HostError),
     #[error("a defect of the library: {0}")]
     Panic(String),
+}
+
+/// What a size can be, where one was found that is none of the struct's.
+fn sizes(name: &str, found: usize, expected: usize) -> String {
+    if found > expected {
+        let version = env!("CARGO_PKG_VERSION");
+        format!(
+            "a {name} of this library, version {version}, binary interface {GPC_ABI_VERSION}, has {expected} bytes: the program was compiled with the header of a later version; link the library of that version"
+        )
+    } else {
+        format!("it can be sizeof({name}), which is {expected}")
+    }
 }
 
 /// What the error says, with C's names for what C wrote.
@@ -119,11 +152,14 @@ impl Error {
         match self {
             Self::Null(_) => GpcResult::Null,
             Self::StructSize { .. } => GpcResult::StructSize,
+            Self::StructType { .. } | Self::Next { .. } => GpcResult::StructType,
             Self::Value { .. } => GpcResult::Value,
-            Self::StructureType(_) => GpcResult::Value,
+            Self::FeaturesType(_) => GpcResult::Value,
             Self::Function(_) | Self::ConditionalRendering(_) | Self::Missing(_) => {
                 GpcResult::Unsupported
             }
+            Self::ShaderSize(_) | Self::Shader(ShaderError::NotSpirv(_)) => GpcResult::Value,
+            Self::Shader(_) => GpcResult::ShaderVersion,
             Self::Panic(_) => GpcResult::Panic,
             Self::Host(error) => match error {
                 HostError::NullHandle(_) => GpcResult::Null,

@@ -4,7 +4,10 @@ use super::device::GpcAntialiaser;
 use super::error::{Error, GpcResult, answer};
 use super::geometry::{GpcDraw, GpcGeometry};
 use super::images::GpcImages;
-use super::input::{Struct, check, hand_over, object, place, read, take_back};
+use super::input::{
+    Element, GpcStructType, Struct, hand_over, init, object, place, read, shown, sizes, take_back,
+    write,
+};
 use super::options::GpcOptions;
 use crate::host::{Frame, Scenery, ShadeSamples, VisibilitySamples};
 use ash::vk;
@@ -21,8 +24,14 @@ pub struct GpcFrame {
 pub struct GpcScenery {
     /// sizeof(GpcScenery).
     pub size: u32,
+    /// GPC_STRUCT_TYPE_SCENERY.
+    pub r#type: u32,
+    /// NULL, or a structure that extends this one.
+    pub next: *const c_void,
     /// How many draws there are.
     pub draw_count: u32,
+    /// sizeof(GpcDraw), where there are some.
+    pub draw_stride: u32,
     /// The draws, read during the call alone. IDs count from 1 in their order. May be NULL where there are none.
     pub draws: *const GpcDraw,
     /// The projection that positions in clip space were made with, in columns: from view space, in which distances are the world's, to
@@ -30,14 +39,38 @@ pub struct GpcScenery {
     pub projection: [[f32; 4]; 4],
 }
 
-// SAFETY: `repr(C)`, its size first; numbers and raw pointers may have any bytes.
-unsafe impl Struct for GpcScenery {
+// SAFETY: `repr(C)`; numbers and raw pointers may have any bytes.
+unsafe impl Element for GpcScenery {
     const NAME: &'static str = "GpcScenery";
+    const SIZES: &'static [usize] = sizes!(GpcScenery, projection);
+}
+
+// SAFETY: it begins with size, type and next.
+unsafe impl Struct for GpcScenery {
+    const TYPE: GpcStructType = GpcStructType::Scenery;
+}
+
+/// Fills a GpcScenery of `size` bytes, which is sizeof(GpcScenery): there are no draws.
+///
+/// Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gpc_init_scenery(scenery: *mut GpcScenery, size: usize) -> GpcResult {
+    // SAFETY: passed on to the caller.
+    unsafe { init(scenery, size) }
 }
 
 /// Visibility samples of a round, sorted by shading key, on the device.
+#[derive(Clone, Copy)]
 #[repr(C)]
 pub struct GpcVisibilitySamples {
+    /// The library's sizeof(GpcVisibilitySamples).
+    pub size: u32,
+    /// GPC_STRUCT_TYPE_VISIBILITY_SAMPLES.
+    pub r#type: u32,
+    /// NULL, or a structure that extends this one.
+    pub next: *const c_void,
+    /// How many keys there are.
+    pub keys: u32,
     /// The set of gpc_antialiaser_samples_layout, to be bound for compute where the shaders expect it.
     pub descriptor_set: vk::DescriptorSet,
     /// Buffer of the keys' indirect dispatches, in workgroups of 64 invocations.
@@ -50,8 +83,17 @@ pub struct GpcVisibilitySamples {
     /// after vkCmdBeginConditionalRenderingEXT with it, at offset 0, and ended before the callback returns, they take no time
     /// there, as the library's own. VK_NULL_HANDLE without GpcDevice.conditional_rendering, and where what is shaded is no round.
     pub condition: vk::Buffer,
-    /// How many keys there are.
-    pub keys: u32,
+}
+
+// SAFETY: `repr(C)`; numbers, raw handles and pointers may have any bytes.
+unsafe impl Element for GpcVisibilitySamples {
+    const NAME: &'static str = "GpcVisibilitySamples";
+    const SIZES: &'static [usize] = sizes!(GpcVisibilitySamples, condition);
+}
+
+// SAFETY: it begins with size, type and next.
+unsafe impl Struct for GpcVisibilitySamples {
+    const TYPE: GpcStructType = GpcStructType::VisibilitySamples;
 }
 
 /// Records the shading of a round's samples into a command buffer: for each key a pipeline, the samples' set, and the
@@ -73,6 +115,10 @@ pub type GpcShade = Option<
 pub struct GpcOutcome {
     /// sizeof(GpcOutcome).
     pub size: u32,
+    /// GPC_STRUCT_TYPE_OUTCOME.
+    pub r#type: u32,
+    /// NULL, or a structure that extends this one.
+    pub next: *const c_void,
     /// Rounds that had work.
     pub rounds: u32,
     /// Superpixels and tiles that found no room. gpc_frame_grow makes a frame with more.
@@ -89,9 +135,24 @@ pub struct GpcOutcome {
     pub gpu_milliseconds: f64,
 }
 
-// SAFETY: `repr(C)`, its size first; numbers may have any bytes.
-unsafe impl Struct for GpcOutcome {
+// SAFETY: `repr(C)`; numbers and raw pointers may have any bytes.
+unsafe impl Element for GpcOutcome {
     const NAME: &'static str = "GpcOutcome";
+    const SIZES: &'static [usize] = sizes!(GpcOutcome, gpu_milliseconds);
+}
+
+// SAFETY: it begins with size, type and next.
+unsafe impl Struct for GpcOutcome {
+    const TYPE: GpcStructType = GpcStructType::Outcome;
+}
+
+/// Fills a GpcOutcome of `size` bytes, which is sizeof(GpcOutcome).
+///
+/// Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gpc_init_outcome(outcome: *mut GpcOutcome, size: usize) -> GpcResult {
+    // SAFETY: passed on to the caller.
+    unsafe { init(outcome, size) }
 }
 
 /// Makes the pipelines and memory of a frame. An application has one for each frame that it has in flight, and makes new
@@ -99,7 +160,7 @@ unsafe impl Struct for GpcOutcome {
 ///
 /// Threads: any; several frames may be created at once.
 /// Lifetime: the buffers and views lent outlive the frame. The structs are read during the call alone.
-/// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_VALUE, GPC_RESULT_OUT_OF_MEMORY, GPC_RESULT_DEVICE_LOST,
+/// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_VALUE, GPC_RESULT_OUT_OF_MEMORY, GPC_RESULT_DEVICE_LOST,
 /// GPC_RESULT_VULKAN. `*frame` is then NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_frame_create(
@@ -151,7 +212,7 @@ pub unsafe extern "C" fn gpc_frame_grow(
 /// Threads: no other call uses the frame or the command buffer at the time. Different frames may be recorded at once.
 /// Lifetime: the commands of the frame's last recording are done, or will never be executed. The frame, the buffers, the images and what `shade` records
 /// outlive the execution of the commands.
-/// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_VALUE, GPC_RESULT_CAPACITY. Nothing is recorded then.
+/// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_VALUE, GPC_RESULT_CAPACITY. Nothing is recorded then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_frame_record(
     frame: *mut GpcFrame,
@@ -168,7 +229,13 @@ pub unsafe extern "C" fn gpc_frame_record(
         }
         let shade = shade.ok_or(Error::Null("shade"))?;
         // SAFETY: passed on to the caller.
-        let draws = unsafe { GpcDraw::all(scenery.draws, scenery.draw_count, "GpcScenery.draws") }?;
+        let draws = unsafe {
+            GpcDraw::all(
+                scenery.draws,
+                (scenery.draw_count, scenery.draw_stride),
+                ("GpcScenery.draws", "GpcScenery.draw_stride"),
+            )
+        }?;
         let scenery = Scenery {
             draws: &draws,
             projection: scenery.projection,
@@ -187,7 +254,7 @@ pub unsafe extern "C" fn gpc_frame_record(
 /// submitted or still run, it answers GPC_RESULT_NOT_READY.
 ///
 /// Threads: no gpc_frame_record of the frame runs at the time.
-/// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_NOT_READY, GPC_RESULT_DEVICE_LOST, GPC_RESULT_VULKAN.
+/// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_NOT_READY, GPC_RESULT_DEVICE_LOST, GPC_RESULT_VULKAN.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_frame_outcome(
     frame: *const GpcFrame,
@@ -195,27 +262,23 @@ pub unsafe extern "C" fn gpc_frame_outcome(
 ) -> GpcResult {
     answer(|| {
         // SAFETY: passed on to the caller.
-        let frame = unsafe {
-            let frame = object(frame, "frame")?;
-            check(outcome)?;
-            frame
-        };
-        let found = frame.inner.outcome()?;
-        let statistics = &found.statistics;
-        // SAFETY: passed on to the caller; the struct has been found to be as large as is written.
         unsafe {
-            outcome.write(GpcOutcome {
-                size: size_of::<GpcOutcome>() as u32,
-                rounds: u32::try_from(statistics.rounds).unwrap_or(u32::MAX),
-                left_over: found.left_over,
-                superpixels: statistics.superpixels,
-                triangles: statistics.triangles.total,
-                visibility_samples: statistics.records,
-                memory_bytes: statistics.memory_bytes,
-                gpu_milliseconds: statistics.gpu_ms(),
-            });
+            let frame = object(frame, "frame")?;
+            write(outcome, || {
+                let found = frame.inner.outcome()?;
+                let statistics = &found.statistics;
+                Ok(GpcOutcome {
+                    rounds: u32::try_from(statistics.rounds).unwrap_or(u32::MAX),
+                    left_over: found.left_over,
+                    superpixels: statistics.superpixels,
+                    triangles: statistics.triangles.total,
+                    visibility_samples: statistics.records,
+                    memory_bytes: statistics.memory_bytes,
+                    gpu_milliseconds: statistics.gpu_ms(),
+                    ..GpcOutcome::defaults()
+                })
+            })
         }
-        Ok(())
     })
 }
 
@@ -246,14 +309,15 @@ pub(super) struct Callback {
 impl ShadeSamples for Callback {
     fn record(&self, commands: vk::CommandBuffer, samples: &VisibilitySamples) {
         let (dispatches, dispatch_offset) = samples.dispatch(0).unwrap_or_default();
-        let samples = GpcVisibilitySamples {
+        let samples = shown(GpcVisibilitySamples {
             descriptor_set: samples.descriptor_set(),
             dispatches,
             dispatch_offset,
             dispatch_stride: VisibilitySamples::DISPATCH_STRIDE,
             condition: samples.condition().unwrap_or_default(),
             keys: samples.keys(),
-        };
+            ..GpcVisibilitySamples::defaults()
+        });
         // SAFETY: the application's function, called as documented.
         unsafe { (self.shade)(self.user, commands, &raw const samples) };
     }

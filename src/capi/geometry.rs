@@ -1,9 +1,10 @@
 //! Triangles that the application lends.
 
-use super::error::Error;
-use super::input::{Struct, choice, flag};
+use super::error::{Error, GpcResult};
+use super::input::{Element, GpcStructType, Struct, choice, elements, flag, init, sizes};
 use crate::host::{AlphaMap, ClipSpace, Coordinates, Draw, Geometry, PositionSpace};
 use ash::vk;
+use std::ffi::c_void;
 
 /// What positions are.
 #[derive(Clone, Copy)]
@@ -41,6 +42,14 @@ pub struct GpcAlphaMap {
     pub address_v: vk::SamplerAddressMode,
     /// The least alpha that is there.
     pub cutoff: f32,
+    /// 0.
+    pub reserved: u32,
+}
+
+// SAFETY: `repr(C)`; numbers and raw handles may have any bytes.
+unsafe impl Element for GpcAlphaMap {
+    const NAME: &'static str = "GpcAlphaMap";
+    const SIZES: &'static [usize] = sizes!(GpcAlphaMap, reserved);
 }
 
 /// Buffers of the application. They may hold something else in every frame; the library reads them when a recording is
@@ -50,6 +59,10 @@ pub struct GpcAlphaMap {
 pub struct GpcGeometry {
     /// sizeof(GpcGeometry).
     pub size: u32,
+    /// GPC_STRUCT_TYPE_GEOMETRY.
+    pub r#type: u32,
+    /// NULL, or a structure that extends this one.
+    pub next: *const c_void,
     /// How many vertices there can be. Larger indices are taken for the last, or in object space for the last of the draw.
     pub vertex_capacity: u32,
     /// Positions of vertices, made with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT; where they lie in clip space and 16 bytes apart,
@@ -92,17 +105,43 @@ pub struct GpcGeometry {
     pub coordinates_stride: u32,
     /// How many alpha maps there are.
     pub alpha_map_count: u32,
+    /// sizeof(GpcAlphaMap), where there are some.
+    pub alpha_map_stride: u32,
+    /// VK_TRUE if draws may be blended.
+    pub blended: vk::Bool32,
     /// What draws are tested by that are not opaque, read during the call alone. The library reads the images, in
     /// VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, when a frame's first recording is executed, and keeps what they hold then. May
     /// be NULL where there are none.
     pub alpha_maps: *const GpcAlphaMap,
-    /// VK_TRUE if draws may be blended.
-    pub blended: vk::Bool32,
 }
 
-// SAFETY: `repr(C)`, its size first; integers, raw handles and pointers may have any bytes.
-unsafe impl Struct for GpcGeometry {
+// SAFETY: `repr(C)`; integers, raw handles and pointers may have any bytes.
+unsafe impl Element for GpcGeometry {
     const NAME: &'static str = "GpcGeometry";
+    const SIZES: &'static [usize] = sizes!(GpcGeometry, alpha_maps);
+
+    fn defaults() -> Self {
+        Self {
+            keys: 1,
+            // SAFETY: any bytes are a value of it.
+            ..unsafe { std::mem::zeroed() }
+        }
+    }
+}
+
+// SAFETY: it begins with size, type and next.
+unsafe impl Struct for GpcGeometry {
+    const TYPE: GpcStructType = GpcStructType::Geometry;
+}
+
+/// Fills a GpcGeometry of `size` bytes, which is sizeof(GpcGeometry): nothing is lent, and there is one
+/// shading key.
+///
+/// Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gpc_init_geometry(geometry: *mut GpcGeometry, size: usize) -> GpcResult {
+    // SAFETY: passed on to the caller.
+    unsafe { init(geometry, size) }
 }
 
 impl GpcAlphaMap {
@@ -124,12 +163,14 @@ impl GpcGeometry {
     /// # Safety
     /// `alpha_maps` shows as many as are counted.
     pub(super) unsafe fn geometry(&self) -> Result<Geometry, Error> {
-        let maps: &[GpcAlphaMap] = match self.alpha_map_count as usize {
-            0 => &[],
-            _ if self.alpha_maps.is_null() => return Err(Error::Null("GpcGeometry.alpha_maps")),
-            // SAFETY: passed on to the caller; the pointer is not null.
-            count => unsafe { std::slice::from_raw_parts(self.alpha_maps, count) },
-        };
+        // SAFETY: passed on to the caller.
+        let maps = unsafe {
+            elements(
+                self.alpha_maps,
+                (self.alpha_map_count, self.alpha_map_stride),
+                ("GpcGeometry.alpha_maps", "GpcGeometry.alpha_map_stride"),
+            )
+        }?;
         let spaces = [
             (
                 GpcPositionSpace::Clip as u32,
@@ -205,26 +246,28 @@ pub struct GpcDraw {
     pub blended: vk::Bool32,
 }
 
+// SAFETY: `repr(C)`; numbers may have any bytes.
+unsafe impl Element for GpcDraw {
+    const NAME: &'static str = "GpcDraw";
+    const SIZES: &'static [usize] = sizes!(GpcDraw, blended);
+}
+
 impl GpcDraw {
-    /// Draws that a pointer, the argument or member `name`, shows; none where their number is 0.
+    /// Draws that the member `draws` of a struct shows; `names` are that member and its stride.
     ///
     /// # Safety
-    /// The pointer is null, or shows so many draws.
+    /// The pointer is null, or shows so many draws of so many bytes.
     pub(super) unsafe fn all(
         draws: *const Self,
-        count: u32,
-        name: &'static str,
+        counts: (u32, u32),
+        names: (&'static str, &'static str),
     ) -> Result<Vec<Draw>, Error> {
-        let draws: &[Self] = match count as usize {
-            0 => &[],
-            _ if draws.is_null() => return Err(Error::Null(name)),
-            // SAFETY: passed on to the caller; the pointer is not null.
-            count => unsafe { std::slice::from_raw_parts(draws, count) },
-        };
+        // SAFETY: passed on to the caller.
+        let draws = unsafe { elements(draws, counts, names) }?;
         draws.iter().map(Self::draw).collect()
     }
 
-    pub(super) fn draw(&self) -> Result<Draw, Error> {
+    fn draw(&self) -> Result<Draw, Error> {
         Ok(Draw {
             first_index: self.first_index,
             triangle_count: self.triangle_count,

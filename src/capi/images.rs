@@ -1,9 +1,10 @@
 //! Images that the application lends.
 
-use super::error::Error;
-use super::input::{Struct, flag};
+use super::error::{Error, GpcResult};
+use super::input::{Element, GpcStructType, Struct, flag, init, sizes};
 use crate::host::{ColorImage, ImageState, Images, LentImage};
 use ash::vk;
+use std::ffi::c_void;
 
 /// State of an image, as in VkImageMemoryBarrier2.
 #[derive(Clone, Copy)]
@@ -39,6 +40,10 @@ pub struct GpcImage {
 pub struct GpcImages {
     /// sizeof(GpcImages).
     pub size: u32,
+    /// GPC_STRUCT_TYPE_IMAGES.
+    pub r#type: u32,
+    /// NULL, or a structure that extends this one.
+    pub next: *const c_void,
     /// The format of color.view: 8, 10, 16 or 32 bits a channel as UNORM, SRGB or SFLOAT, or B10G11R11_UFLOAT.
     pub color_format: vk::Format,
     /// VK_TRUE if the application's shaders write sRGB codes into a format of plain numbers; VK_FALSE if the image holds
@@ -58,9 +63,24 @@ pub struct GpcImages {
     pub corner: [u32; 2],
 }
 
-// SAFETY: `repr(C)`, its size first; integers and raw handles may have any bytes.
-unsafe impl Struct for GpcImages {
+// SAFETY: `repr(C)`; integers, raw handles and pointers may have any bytes.
+unsafe impl Element for GpcImages {
     const NAME: &'static str = "GpcImages";
+    const SIZES: &'static [usize] = sizes!(GpcImages, corner);
+}
+
+// SAFETY: it begins with size, type and next.
+unsafe impl Struct for GpcImages {
+    const TYPE: GpcStructType = GpcStructType::Images;
+}
+
+/// Fills a GpcImages of `size` bytes, which is sizeof(GpcImages): no image is lent.
+///
+/// Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gpc_init_images(images: *mut GpcImages, size: usize) -> GpcResult {
+    // SAFETY: passed on to the caller.
+    unsafe { init(images, size) }
 }
 
 impl GpcImageState {

@@ -4,7 +4,9 @@ use super::device::GpcAntialiaser;
 use super::error::{Error, GpcResult, answer};
 use super::frame::{Callback, GpcShade};
 use super::geometry::{GpcDraw, GpcGeometry};
-use super::input::{Struct, check, hand_over, object, place, read, take_back};
+use super::input::{
+    Element, GpcStructType, Struct, hand_over, init, object, place, read, sizes, take_back, write,
+};
 use super::options::GpcOptions;
 use crate::host::{List, Location, LocationList};
 use ash::vk;
@@ -36,6 +38,10 @@ const _: () = assert!(size_of::<GpcLocation>() == size_of::<Location>());
 pub struct GpcLocationList {
     /// sizeof(GpcLocationList).
     pub size: u32,
+    /// GPC_STRUCT_TYPE_LOCATION_LIST.
+    pub r#type: u32,
+    /// NULL, or a structure that extends this one.
+    pub next: *const c_void,
     /// Most locations of a recording.
     pub capacity: u32,
     /// GpcLocations, made with VK_BUFFER_USAGE_STORAGE_BUFFER_BIT and VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT. They may change
@@ -50,9 +56,74 @@ pub struct GpcLocationList {
     pub colors_offset: u64,
 }
 
-// SAFETY: `repr(C)`, its size first; numbers and handles may have any bytes.
-unsafe impl Struct for GpcLocationList {
+// SAFETY: `repr(C)`; numbers, raw handles and pointers may have any bytes.
+unsafe impl Element for GpcLocationList {
     const NAME: &'static str = "GpcLocationList";
+    const SIZES: &'static [usize] = sizes!(GpcLocationList, colors_offset);
+}
+
+// SAFETY: it begins with size, type and next.
+unsafe impl Struct for GpcLocationList {
+    const TYPE: GpcStructType = GpcStructType::LocationList;
+}
+
+/// Fills a GpcLocationList of `size` bytes, which is sizeof(GpcLocationList): nothing is
+/// lent.
+///
+/// Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gpc_init_location_list(
+    list: *mut GpcLocationList,
+    size: usize,
+) -> GpcResult {
+    // SAFETY: passed on to the caller.
+    unsafe { init(list, size) }
+}
+
+/// What a recording of a list samples, and where.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct GpcListScenery {
+    /// sizeof(GpcListScenery).
+    pub size: u32,
+    /// GPC_STRUCT_TYPE_LIST_SCENERY.
+    pub r#type: u32,
+    /// NULL, or a structure that extends this one.
+    pub next: *const c_void,
+    /// How many locations are sampled: the first ones of the buffer.
+    pub location_count: u32,
+    /// How many draws there are.
+    pub draw_count: u32,
+    /// The draws that locations see, read during the call alone. May be NULL where there are none.
+    pub draws: *const GpcDraw,
+    /// sizeof(GpcDraw), where there are some.
+    pub draw_stride: u32,
+    /// 0.
+    pub reserved: u32,
+}
+
+// SAFETY: `repr(C)`; numbers and raw pointers may have any bytes.
+unsafe impl Element for GpcListScenery {
+    const NAME: &'static str = "GpcListScenery";
+    const SIZES: &'static [usize] = sizes!(GpcListScenery, reserved);
+}
+
+// SAFETY: it begins with size, type and next.
+unsafe impl Struct for GpcListScenery {
+    const TYPE: GpcStructType = GpcStructType::ListScenery;
+}
+
+/// Fills a GpcListScenery of `size` bytes, which is sizeof(GpcListScenery): no locations are
+/// sampled.
+///
+/// Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gpc_init_list_scenery(
+    scenery: *mut GpcListScenery,
+    size: usize,
+) -> GpcResult {
+    // SAFETY: passed on to the caller.
+    unsafe { init(scenery, size) }
 }
 
 impl GpcLocationList {
@@ -73,6 +144,10 @@ impl GpcLocationList {
 pub struct GpcListOutcome {
     /// sizeof(GpcListOutcome).
     pub size: u32,
+    /// GPC_STRUCT_TYPE_LIST_OUTCOME.
+    pub r#type: u32,
+    /// NULL, or a structure that extends this one.
+    pub next: *const c_void,
     /// Locations off the image, or that are no numbers. They show the background.
     pub left_out: u32,
     /// Cells and tiles that found no room, and show the background. gpc_list_grow makes a list with more.
@@ -85,9 +160,27 @@ pub struct GpcListOutcome {
     pub gpu_milliseconds: f64,
 }
 
-// SAFETY: `repr(C)`, its size first; numbers may have any bytes.
-unsafe impl Struct for GpcListOutcome {
+// SAFETY: `repr(C)`; numbers and raw pointers may have any bytes.
+unsafe impl Element for GpcListOutcome {
     const NAME: &'static str = "GpcListOutcome";
+    const SIZES: &'static [usize] = sizes!(GpcListOutcome, gpu_milliseconds);
+}
+
+// SAFETY: it begins with size, type and next.
+unsafe impl Struct for GpcListOutcome {
+    const TYPE: GpcStructType = GpcStructType::ListOutcome;
+}
+
+/// Fills a GpcListOutcome of `size` bytes, which is sizeof(GpcListOutcome).
+///
+/// Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gpc_init_list_outcome(
+    outcome: *mut GpcListOutcome,
+    size: usize,
+) -> GpcResult {
+    // SAFETY: passed on to the caller.
+    unsafe { init(outcome, size) }
 }
 
 /// Makes the pipelines and memory to sample a list of locations. With one sample each location is sampled where it is, with
@@ -96,7 +189,7 @@ unsafe impl Struct for GpcListOutcome {
 ///
 /// Threads: any; several lists may be created at once.
 /// Lifetime: the buffers and views lent outlive the list. The structs are read during the call alone.
-/// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_VALUE, GPC_RESULT_OUT_OF_MEMORY, GPC_RESULT_DEVICE_LOST,
+/// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_VALUE, GPC_RESULT_OUT_OF_MEMORY, GPC_RESULT_DEVICE_LOST,
 /// GPC_RESULT_VULKAN. `*list` is then NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_list_create(
@@ -142,8 +235,7 @@ pub unsafe extern "C" fn gpc_list_grow(
     unsafe { hand_over(grown, "grown", make) }
 }
 
-/// Records the sampling of the first `location_count` locations, which see `draw_count` draws; these are read during the call
-/// alone, and `draws` may be NULL where there are none. It submits nothing, waits for nothing, allocates nothing on the device
+/// Records the sampling of locations. It submits nothing, waits for nothing, allocates nothing on the device
 /// and updates no descriptor. `commands` is being recorded, outside of a render pass and of conditional rendering, for a queue of the family lent; what was
 /// bound and pushed before has to be bound and pushed again, and what is recorded is visible to all commands after it. `user`
 /// is handed to `shade`, whose shaders write no memory of the library but by gpc_store.
@@ -151,31 +243,35 @@ pub unsafe extern "C" fn gpc_list_grow(
 /// Threads: no other call uses the list or the command buffer at the time. Different lists may be recorded at once.
 /// Lifetime: the commands of the list's last recording are done, or will never be executed. The list, the buffers and what `shade` records outlive the
 /// execution of the commands.
-/// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_VALUE, GPC_RESULT_CAPACITY. Nothing is recorded then.
+/// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_VALUE, GPC_RESULT_CAPACITY. Nothing is recorded then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_list_record(
     list: *mut GpcList,
     commands: vk::CommandBuffer,
-    draws: *const GpcDraw,
-    draw_count: u32,
-    location_count: u32,
+    scenery: *const GpcListScenery,
     shade: GpcShade,
     user: *mut c_void,
 ) -> GpcResult {
     answer(|| {
         // SAFETY: passed on to the caller.
-        let list = unsafe { place(list, "list") }?;
+        let (list, scenery) = unsafe { (place(list, "list")?, read(scenery)?) };
         if commands == vk::CommandBuffer::null() {
             return Err(Error::Null("commands"));
         }
         let shade = shade.ok_or(Error::Null("shade"))?;
         // SAFETY: passed on to the caller.
-        let draws = unsafe { GpcDraw::all(draws, draw_count, "draws") }?;
+        let draws = unsafe {
+            GpcDraw::all(
+                scenery.draws,
+                (scenery.draw_count, scenery.draw_stride),
+                ("GpcListScenery.draws", "GpcListScenery.draw_stride"),
+            )
+        }?;
         let shading = Callback { shade, user };
         // SAFETY: passed on to the caller.
         unsafe {
             list.inner
-                .record(commands, &draws, location_count, &shading)
+                .record(commands, &draws, scenery.location_count, &shading)
         }?;
         Ok(())
     })
@@ -185,7 +281,7 @@ pub unsafe extern "C" fn gpc_list_record(
 /// submitted or still run, it answers GPC_RESULT_NOT_READY.
 ///
 /// Threads: no gpc_list_record of the list runs at the time.
-/// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_NOT_READY, GPC_RESULT_DEVICE_LOST, GPC_RESULT_VULKAN.
+/// Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE, GPC_RESULT_STRUCT_TYPE, GPC_RESULT_NOT_READY, GPC_RESULT_DEVICE_LOST, GPC_RESULT_VULKAN.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_list_outcome(
     list: *const GpcList,
@@ -193,25 +289,21 @@ pub unsafe extern "C" fn gpc_list_outcome(
 ) -> GpcResult {
     answer(|| {
         // SAFETY: passed on to the caller.
-        let list = unsafe {
-            let list = object(list, "list")?;
-            check(outcome)?;
-            list
-        };
-        let found = list.inner.outcome()?;
-        let statistics = &found.statistics;
-        // SAFETY: passed on to the caller; the struct has been found to be as large as is written.
         unsafe {
-            outcome.write(GpcListOutcome {
-                size: size_of::<GpcListOutcome>() as u32,
-                left_out: found.left_out,
-                left_over: found.left_over,
-                visibility_samples: statistics.records,
-                memory_bytes: statistics.memory_bytes,
-                gpu_milliseconds: statistics.gpu_ms(),
-            });
+            let list = object(list, "list")?;
+            write(outcome, || {
+                let found = list.inner.outcome()?;
+                let statistics = &found.statistics;
+                Ok(GpcListOutcome {
+                    left_out: found.left_out,
+                    left_over: found.left_over,
+                    visibility_samples: statistics.records,
+                    memory_bytes: statistics.memory_bytes,
+                    gpu_milliseconds: statistics.gpu_ms(),
+                    ..GpcListOutcome::defaults()
+                })
+            })
         }
-        Ok(())
     })
 }
 

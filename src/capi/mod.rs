@@ -14,6 +14,8 @@ mod images;
 mod input;
 mod list;
 mod options;
+mod shader;
+mod version;
 
 #[cfg(test)]
 mod tests;

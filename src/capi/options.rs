@@ -1,11 +1,12 @@
 //! How frames are antialiased.
 
-use super::error::{Error, GpcResult, answer};
-use super::input::{Struct, check, choice, flag};
+use super::error::{Error, GpcResult};
+use super::input::{Element, GpcStructType, Struct, choice, flag, init, sizes};
 use crate::engine::sampler::{Detection, Shading};
 use crate::host::Options;
 use crate::sampling::Pattern;
 use ash::vk;
+use std::ffi::c_void;
 
 /// Where in a superpixel the samples lie.
 #[derive(Clone, Copy)]
@@ -57,12 +58,16 @@ pub enum GpcDetection {
 /// The value of GpcOptions.contrast for the threshold that suits the samples: 6, and 1 from 128 samples on.
 pub const GPC_CONTRAST_OF_SAMPLES: u32 = u32::MAX;
 
-/// How a frame is antialiased; gpc_options_init gives defaults.
+/// How a frame is antialiased; gpc_init_options gives defaults.
 #[derive(Clone, Copy)]
 #[repr(C)]
 pub struct GpcOptions {
     /// sizeof(GpcOptions).
     pub size: u32,
+    /// GPC_STRUCT_TYPE_OPTIONS.
+    pub r#type: u32,
+    /// NULL, or a structure that extends this one.
+    pub next: *const c_void,
     /// Width in pixels of the images lent.
     pub width: u32,
     /// Their height.
@@ -91,6 +96,10 @@ pub struct GpcOptions {
     pub has_background: vk::Bool32,
     /// Linear light.
     pub background: [f32; 3],
+    /// Bound on the time that a recording takes: the most rounds of superpixels that are detected, and of each growth of these. What
+    /// rounds leave keeps the colours that were drawn, and is counted as left over. 0 for as many as an image may need; those that
+    /// it does not need take next to no time on devices with GpcDevice.conditional_rendering, and little on others.
+    pub max_rounds: u32,
     /// How many pairs `locations` has: `samples`, with GPC_PATTERN_LIST.
     pub location_count: u32,
     /// With GPC_PATTERN_LIST, offsets of the samples from the pixel's centre in pixels, x to the right and y down, each from
@@ -98,55 +107,44 @@ pub struct GpcOptions {
     pub locations: *const [f32; 2],
     /// Bound on the device memory of a frame in bytes, 0 for none.
     pub max_memory: u64,
-    /// Bound on the time that a recording takes: the most rounds of superpixels that are detected, and of each growth of these. What
-    /// rounds leave keeps the colours that were drawn, and is counted as left over. 0 for as many as an image may need; those that
-    /// it does not need take next to no time on devices with GpcDevice.conditional_rendering, and little on others.
-    pub max_rounds: u32,
 }
 
-// SAFETY: `repr(C)`, its size first; numbers and raw pointers may have any bytes.
-unsafe impl Struct for GpcOptions {
+// SAFETY: `repr(C)`; integers, raw handles and pointers may have any bytes.
+unsafe impl Element for GpcOptions {
     const NAME: &'static str = "GpcOptions";
+    const SIZES: &'static [usize] = sizes!(GpcOptions, max_memory);
+
+    fn defaults() -> Self {
+        let defaults = Options::new(0, 0);
+        Self {
+            samples: defaults.samples,
+            pattern: GpcPattern::Sobol as u32,
+            shading: GpcShading::Part as u32,
+            detection: GpcDetection::Contrast as u32,
+            contrast: defaults.contrast.map_or(GPC_CONTRAST_OF_SAMPLES, u32::from),
+            thin: u32::from(defaults.thin),
+            high_dynamic_range: u32::from(defaults.high_dynamic_range),
+            sharp: u32::from(defaults.sharp),
+            shade_all: u32::from(defaults.shade_all),
+            // SAFETY: any bytes are a value of it.
+            ..unsafe { std::mem::zeroed() }
+        }
+    }
 }
 
-/// Defaults for images of a size: 64 samples, contrast and thin triangles detected, shading in parts. Set
-/// `options->size` before.
+// SAFETY: it begins with size, type and next.
+unsafe impl Struct for GpcOptions {
+    const TYPE: GpcStructType = GpcStructType::Options;
+}
+
+/// Fills a GpcOptions of `size` bytes, which is sizeof(GpcOptions), with defaults: 64 samples, contrast and thin
+/// triangles detected, shading in parts. Width and height are still to be set.
 ///
 /// Threads: any. Errors: GPC_RESULT_NULL, GPC_RESULT_STRUCT_SIZE.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn gpc_options_init(
-    options: *mut GpcOptions,
-    width: u32,
-    height: u32,
-) -> GpcResult {
-    answer(|| {
-        let defaults = Options::new(width, height);
-        // SAFETY: passed on to the caller; the struct has been found to be as large as is written.
-        unsafe {
-            check(options)?;
-            options.write(GpcOptions {
-                size: size_of::<GpcOptions>() as u32,
-                width,
-                height,
-                samples: defaults.samples,
-                pattern: GpcPattern::Sobol as u32,
-                shading: GpcShading::Part as u32,
-                detection: GpcDetection::Contrast as u32,
-                contrast: defaults.contrast.map_or(GPC_CONTRAST_OF_SAMPLES, u32::from),
-                thin: u32::from(defaults.thin),
-                high_dynamic_range: u32::from(defaults.high_dynamic_range),
-                sharp: u32::from(defaults.sharp),
-                shade_all: u32::from(defaults.shade_all),
-                has_background: 0,
-                background: [0.0; 3],
-                location_count: 0,
-                locations: std::ptr::null(),
-                max_memory: 0,
-                max_rounds: 0,
-            });
-        }
-        Ok(())
-    })
+pub unsafe extern "C" fn gpc_init_options(options: *mut GpcOptions, size: usize) -> GpcResult {
+    // SAFETY: passed on to the caller.
+    unsafe { init(options, size) }
 }
 
 impl GpcOptions {

@@ -1,8 +1,10 @@
 //! What programs in C can't provoke.
 
-use super::device::{GPC_VERSION_MAJOR, GPC_VERSION_MINOR, GPC_VERSION_PATCH};
 use super::error::{Error, GpcResult, answer, last_error};
+use super::input::{Element, GpcStructType, Struct, elements, init, read, sizes, write};
+use super::version::{GPC_VERSION_MAJOR, GPC_VERSION_MINOR, GPC_VERSION_PATCH};
 use crate::host::{Antialiaser, Frame, List};
+use std::ffi::c_void;
 
 #[test]
 fn a_panic_ends_at_the_boundary_with_a_message() {
@@ -39,4 +41,110 @@ fn objects_can_be_used_from_threads_as_the_header_says() {
 fn the_header_has_the_version_of_the_package() {
     let version = format!("{GPC_VERSION_MAJOR}.{GPC_VERSION_MINOR}.{GPC_VERSION_PATCH}");
     assert_eq!(version, env!("CARGO_PKG_VERSION"));
+}
+
+/// A struct of three versions of a header, the last of which added `third`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+struct Grown {
+    size: u32,
+    r#type: u32,
+    next: *const c_void,
+    first: u64,
+    second: u64,
+    third: u64,
+}
+
+// SAFETY: `repr(C)`; integers and pointers may have any bytes.
+unsafe impl Element for Grown {
+    const NAME: &'static str = "Grown";
+    const SIZES: &'static [usize] = sizes!(Grown, first, second, third);
+
+    fn defaults() -> Self {
+        Self {
+            size: 0,
+            r#type: 0,
+            next: std::ptr::null(),
+            first: 1,
+            second: 2,
+            third: 3,
+        }
+    }
+}
+
+// SAFETY: it begins with size, type and next.
+unsafe impl Struct for Grown {
+    const TYPE: GpcStructType = GpcStructType::Scenery;
+}
+
+/// What an application compiled with a header holds in which `Grown` has so many bytes: it, and what lies behind it.
+fn compiled_with(size: usize) -> Grown {
+    let mut grown = Grown {
+        size: 0,
+        r#type: 0,
+        next: std::ptr::null(),
+        first: 70,
+        second: 80,
+        third: 90,
+    };
+    // SAFETY: the struct has as many bytes or more.
+    assert_eq!(unsafe { init(&raw mut grown, size) }, GpcResult::Success);
+    grown
+}
+
+#[test]
+fn a_struct_of_an_earlier_header_is_read_with_defaults_for_what_it_lacks() {
+    for (size, third) in [(24, 90), (32, 90), (40, 3)] {
+        let mut grown = compiled_with(size);
+        let second = if size < 32 { 80 } else { 2 };
+        assert_eq!((grown.first, grown.second, grown.third), (1, second, third));
+        grown.first = 5;
+        // SAFETY: the struct has as many bytes as it says, or more.
+        let found = unsafe { read(&raw const grown) }.unwrap();
+        assert_eq!((found.first, found.second, found.third), (5, 2, 3));
+        let answered = Grown {
+            first: 6,
+            second: 7,
+            third: 8,
+            ..found
+        };
+        // SAFETY: as above.
+        unsafe { write(&raw mut grown, || Ok(answered)) }.unwrap();
+        let second = if size < 32 { 80 } else { 7 };
+        let third = if size < 40 { 90 } else { 8 };
+        assert_eq!((grown.first, grown.second, grown.third), (6, second, third));
+        assert_eq!(grown.size as usize, size);
+    }
+}
+
+#[test]
+fn a_struct_of_a_later_header_and_one_of_another_size_are_refused() {
+    for (size, message) in [
+        (
+            48,
+            "Grown.size is 48; a Grown of this library, version 0.2.0, binary interface 1, has 40 bytes: the program was compiled with the header of a later version; link the library of that version",
+        ),
+        (36, "Grown.size is 36; it can be sizeof(Grown), which is 40"),
+        (4, "Grown.size is 4; it can be sizeof(Grown), which is 40"),
+    ] {
+        let mut grown = compiled_with(40);
+        grown.size = size;
+        // SAFETY: what is read at most are the first 40 bytes.
+        let error = unsafe { read(&raw const grown) }.unwrap_err();
+        assert_eq!(error.to_string(), message);
+    }
+}
+
+#[test]
+fn elements_of_an_earlier_header_are_read_by_their_stride() {
+    let bytes: Vec<u64> = (0..8).collect();
+    let pointer = bytes.as_ptr().cast::<Grown>();
+    let names = ("array", "array_stride");
+    // SAFETY: there are two elements of 32 bytes.
+    let found = unsafe { elements(pointer, (2, 32), names) }.unwrap();
+    let members: Vec<_> = found.iter().map(|g| (g.first, g.second, g.third)).collect();
+    assert_eq!(members, [(2, 3, 3), (6, 7, 3)]);
+    // SAFETY: refused before anything is read.
+    let error = unsafe { elements(pointer, (2, 33), names) }.unwrap_err();
+    assert!(error.to_string().starts_with("array_stride is 33; it can"));
 }

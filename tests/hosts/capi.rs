@@ -95,6 +95,116 @@ fn what_shaders_include_is_installed() {
     }
 }
 
+/// Programs with nothing but the library, linked in each way that is promised.
+#[test]
+fn the_library_is_linked_by_pkg_config_and_cmake_shared_and_static() {
+    let run = |program: PathBuf| {
+        let library = prefix().join("lib");
+        let said = said(Command::new(program).env("LD_LIBRARY_PATH", library));
+        assert_eq!(said, "linked\n");
+    };
+    let source = "tests/hosts/linked.c";
+    let archive = prefix().join("lib/libgpc.a").display().to_string();
+    let private = pkg_config(&["--static", "--libs-only-l", "gpc"]);
+    let private = private.into_iter().filter(|library| library != "-lgpc");
+    let static_only: Vec<_> = [archive].into_iter().chain(private).collect();
+    let options = ["-std=c99", "-pedantic"];
+    run(compiled("cc", source, &options, &static_only));
+    // Wholly static, as for containers without libraries.
+    let all = pkg_config(&["--static", "--libs", "gpc"]);
+    run(compiled("cc", source, &["-std=c99", "-static"], &all));
+
+    let folder = prefix().join("cmake");
+    std::fs::create_dir_all(&folder).unwrap();
+    let lists = format!(
+        "cmake_minimum_required(VERSION 3.13)
+project(linked C)
+find_package(gpc 0.2 REQUIRED CONFIG)
+find_package(Vulkan REQUIRED)
+if(NOT EXISTS ${{gpc_SHADERS}}/gpc_visibility.glsl)
+    message(FATAL_ERROR \"no includes in ${{gpc_SHADERS}}\")
+endif()
+foreach(kind gpc gpc_static)
+    add_executable(with_${{kind}} {ROOT}/{source})
+    target_link_libraries(with_${{kind}} gpc::${{kind}})
+endforeach()
+find_package(gpc 99 QUIET CONFIG)
+if(gpc_FOUND)
+    message(FATAL_ERROR \"a later version was found\")
+endif()
+"
+    );
+    std::fs::write(folder.join("CMakeLists.txt"), lists).unwrap();
+    let built = folder.join("built");
+    let configured = format!("-DCMAKE_PREFIX_PATH={}", prefix().display());
+    said(
+        Command::new("cmake")
+            .arg("-S")
+            .arg(&folder)
+            .arg("-B")
+            .arg(&built)
+            .arg(configured),
+    );
+    said(Command::new("cmake").arg("--build").arg(&built));
+    run(built.join("with_gpc"));
+    run(built.join("with_gpc_static"));
+}
+
+#[test]
+fn the_libraries_show_the_interface_alone() {
+    for (library, options) in [
+        ("libgpc.a", ["--extern-only", "--defined-only"]),
+        ("libgpc.so", ["--dynamic", "--defined-only"]),
+    ] {
+        let symbols = said(
+            Command::new("nm")
+                .args(options)
+                .arg(prefix().join("lib").join(library)),
+        );
+        let names: Vec<_> = symbols
+            .lines()
+            .filter_map(|line| line.split_whitespace().nth(2))
+            .collect();
+        assert!(names.contains(&"gpc_frame_record"), "{library}: {names:?}");
+        let other: Vec<_> = names
+            .iter()
+            .filter(|name| !name.starts_with("gpc_"))
+            .collect();
+        assert!(other.is_empty(), "{library}: {other:?}");
+    }
+}
+
+#[test]
+fn a_standard_without_what_the_header_needs_is_refused_by_name() {
+    let source = prefix().join("old.cpp");
+    std::fs::write(&source, "#include <gpc.h>\n").unwrap();
+    let run = Command::new("c++")
+        .args(["-std=c++98", "-pedantic", "-fsyntax-only"])
+        .args(pkg_config(&["--cflags", "gpc"]))
+        .arg(&source)
+        .output()
+        .unwrap();
+    let complained = String::from_utf8_lossy(&run.stderr);
+    assert!(!run.status.success());
+    assert!(
+        complained.contains("gpc.h needs C++11 or later: compile with -std=c++11"),
+        "{complained}"
+    );
+}
+
+#[test]
+fn the_manual_and_the_licences_are_installed() {
+    for (file, source) in [
+        ("embedding.md", "docs/embedding.md"),
+        ("LICENSE-MIT", "LICENSE-MIT"),
+        ("LICENSE-APACHE", "LICENSE-APACHE"),
+        ("CHANGELOG.md", "CHANGELOG.md"),
+    ] {
+        let found = std::fs::read(prefix().join("share/doc/gpc").join(file)).unwrap();
+        assert_eq!(found, std::fs::read(Path::new(ROOT).join(source)).unwrap());
+    }
+}
+
 /// In C99, and with the static library.
 #[test]
 fn misuse_is_answered_with_a_result_and_a_message() {
@@ -104,6 +214,23 @@ fn misuse_is_answered_with_a_result_and_a_message() {
     let options = ["-std=c99", "-pedantic"];
     let program = compiled("cc", "tests/hosts/misuse.c", &options, &libraries);
     example::validated(&mut Command::new(program));
+}
+
+/// The program, its header and its SPIR-V are of the first version of the binary interface: see CONTRIBUTING.md.
+#[test]
+fn a_program_of_an_earlier_header_runs_with_the_shared_library() {
+    let frozen = Path::new(ROOT).join("tests/hosts/frozen");
+    let libraries = pkg_config(&["--libs", "gpc", "vulkan"]);
+    let include = format!("-I{}", frozen.display());
+    let options = ["-std=c99", "-pedantic", &include];
+    let program = compiled("cc", "tests/hosts/frozen/program.c", &options, &libraries);
+    let needed = said(Command::new("readelf").arg("--dynamic").arg(&program));
+    assert!(needed.contains("[libgpc.so.1]"), "{needed}");
+    example::validated(
+        Command::new(program)
+            .arg(frozen.join("samples.spv"))
+            .env("LD_LIBRARY_PATH", prefix().join("lib")),
+    );
 }
 
 /// In C++17, and with the shared library.

@@ -94,6 +94,7 @@ static GpcImage make_image(VkFormat format, VkDeviceMemory *memory) {
 
 static void without_a_device(void) {
     VkPhysicalDeviceVulkan13Features features = {.privateData = VK_TRUE};
+    const uint32_t words[5] = {0x07230203};
     EXPECT(gpc_version() == GPC_VERSION && GPC_VERSION >> 12 == (GPC_VERSION_MAJOR << 10 | GPC_VERSION_MINOR), "the version");
     EXPECT(gpc_last_error()[0] == '\0', "the message before any failure");
     ANSWERS(gpc_require_features(NULL), GPC_RESULT_NULL, "features is NULL");
@@ -103,15 +104,23 @@ static void without_a_device(void) {
     EXPECT(features.privateData && features.dynamicRendering && features.synchronization2 && !features.inlineUniformBlock,
            "features are added to what is set");
 
-    GpcOptions options = {.size = 4, .samples = 7};
-    ANSWERS(gpc_options_init(NULL, 1, 1), GPC_RESULT_NULL, "GpcOptions is NULL");
-    ANSWERS(gpc_options_init(&options, 1, 1), GPC_RESULT_STRUCT_SIZE, "GpcOptions.size is 4");
+    GpcOptions options = {.samples = 7};
+    ANSWERS(gpc_init_options(NULL, sizeof options), GPC_RESULT_NULL, "GpcOptions is NULL");
+    ANSWERS(gpc_init_options(&options, 4), GPC_RESULT_STRUCT_SIZE, "the size of a GpcOptions is 4; it can be sizeof(GpcOptions), which is");
+    ANSWERS(gpc_init_options(&options, sizeof options + 8), GPC_RESULT_STRUCT_SIZE, "compiled with the header of a later version");
     EXPECT(options.samples == 7, "a struct of another size is left alone");
+    MUST((VkResult)gpc_init_options(&options, sizeof options));
+    EXPECT(options.size == sizeof options && options.type == GPC_STRUCT_TYPE_OPTIONS && !options.next && options.samples == 64,
+           "a struct that was filled");
 
     ANSWERS(gpc_check_device(NULL, NULL, NULL, NULL), GPC_RESULT_NULL, "get_instance_proc_addr is NULL");
     ANSWERS(gpc_check_device(vkGetInstanceProcAddr, NULL, NULL, NULL), GPC_RESULT_NULL, "instance is NULL");
     ANSWERS(gpc_antialiaser_create(NULL, NULL), GPC_RESULT_NULL, "antialiaser is NULL");
     ANSWERS(gpc_antialiaser_create(NULL, &antialiaser), GPC_RESULT_NULL, "GpcDevice is NULL");
+    ANSWERS(gpc_check_shader(NULL, 4), GPC_RESULT_NULL, "code is NULL");
+    ANSWERS(gpc_check_shader(words, 3), GPC_RESULT_VALUE, "the size of a shader is 3 bytes; it can be a multiple of 4");
+    ANSWERS(gpc_check_shader(words, 4), GPC_RESULT_VALUE, "the shader is not SPIR-V");
+    ANSWERS(gpc_check_shader(words, sizeof words), GPC_RESULT_SHADER_VERSION, "no specialization constant 2046");
     EXPECT(gpc_antialiaser_samples_layout(NULL) == VK_NULL_HANDLE, "the layout of nothing");
     EXPECT(gpc_frame_memory_bytes(NULL) == 0, "the memory of nothing");
     ANSWERS(gpc_frame_grow(NULL, NULL), GPC_RESULT_NULL, "grown is NULL");
@@ -150,16 +159,27 @@ static void make_device(void) {
 }
 
 static void make_antialiaser(void) {
-    GpcDevice lent = {.size = sizeof lent,
-                      .queue_family = family,
-                      .get_instance_proc_addr = vkGetInstanceProcAddr,
-                      .instance = instance,
-                      .physical_device = physical};
+    GpcDevice lent = {.size = 0};
+    GpcOutcome other;
+    ANSWERS(gpc_antialiaser_create(&lent, &antialiaser), GPC_RESULT_STRUCT_SIZE, "GpcDevice.size is 0; it can be sizeof(GpcDevice), which is");
+    MUST((VkResult)gpc_init_outcome(&other, sizeof other));
+    MUST((VkResult)gpc_init_device(&lent, sizeof lent));
+    lent.type = GPC_STRUCT_TYPE_IMAGES;
+    ANSWERS(gpc_antialiaser_create(&lent, &antialiaser), GPC_RESULT_STRUCT_TYPE, "GpcDevice.type is 3; it can be 1");
+    lent.type = GPC_STRUCT_TYPE_DEVICE;
+    lent.next = &other;
+    ANSWERS(gpc_antialiaser_create(&lent, &antialiaser), GPC_RESULT_STRUCT_TYPE, "GpcDevice.next leads to a struct of type 7");
+    lent.next = NULL;
+    ANSWERS(gpc_antialiaser_create(&lent, &antialiaser), GPC_RESULT_NULL, "get_instance_proc_addr is NULL");
+    lent.queue_family = family;
+    lent.get_instance_proc_addr = vkGetInstanceProcAddr;
+    lent.instance = instance;
+    lent.physical_device = physical;
     ANSWERS(gpc_antialiaser_create(&lent, &antialiaser), GPC_RESULT_NULL, "GpcDevice.device is NULL");
     EXPECT(antialiaser == NULL, "what failed gives nothing");
     lent.device = device;
     lent.size += 8;
-    ANSWERS(gpc_antialiaser_create(&lent, &antialiaser), GPC_RESULT_STRUCT_SIZE, "GpcDevice.size is");
+    ANSWERS(gpc_antialiaser_create(&lent, &antialiaser), GPC_RESULT_STRUCT_SIZE, "compiled with the header of a later version");
     lent.size -= 8;
     lent.queue_family = 99;
     ANSWERS(gpc_antialiaser_create(&lent, &antialiaser), GPC_RESULT_VALUE, "queue family 99 of device");
@@ -182,10 +202,14 @@ static void recordings(GpcFrame *frame) {
     VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     VkCommandBuffer commands;
     GpcDraw draws[2] = {{.triangle_count = 2, .vertex_count = 3}, {.first_index = 6, .triangle_count = 2, .vertex_count = 3}};
-    GpcScenery scenery = {.size = sizeof scenery, .draw_count = 2, .draws = draws};
-    GpcOutcome outcome = {.size = sizeof outcome};
+    GpcScenery scenery;
+    GpcOutcome outcome;
     GpcFrame *grown = NULL;
     int calls = 0;
+    MUST((VkResult)gpc_init_outcome(&outcome, sizeof outcome));
+    MUST((VkResult)gpc_init_scenery(&scenery, sizeof scenery));
+    scenery.draw_count = 2;
+    scenery.draws = draws;
     scenery.projection[0][0] = scenery.projection[1][1] = scenery.projection[2][2] = scenery.projection[3][3] = 1;
     MUST(vkCreateCommandPool(device, &pool_info, NULL, &info.commandPool));
     MUST(vkAllocateCommandBuffers(device, &info, &commands));
@@ -200,6 +224,8 @@ static void recordings(GpcFrame *frame) {
     scenery.draws = NULL;
     ANSWERS(RECORD, GPC_RESULT_NULL, "GpcScenery.draws is NULL");
     scenery.draws = draws;
+    ANSWERS(RECORD, GPC_RESULT_STRUCT_SIZE, "GpcScenery.draw_stride is 0; it can be sizeof(GpcDraw), which is");
+    scenery.draw_stride = sizeof draws[0];
     draws[1].material = 70000;
     ANSWERS(RECORD, GPC_RESULT_VALUE, "GpcDraw.material is 70000; it can be 0 to 65535");
     draws[1].material = 0;
@@ -255,7 +281,8 @@ static void lists(const GpcGeometry *geometry, const GpcOptions *options) {
     VkCommandBuffer commands;
     VkDeviceMemory memory[2];
     VkBuffer locations = make_buffer(sizeof(GpcLocation) * LOCATIONS, &memory[0]), colors = make_buffer(16 * LOCATIONS, &memory[1]);
-    GpcLocationList lent = {.size = 0, .capacity = 0};
+    GpcLocationList lent = {.size = 0};
+    GpcListScenery scenery;
     GpcDraw draw = {.triangle_count = 2, .vertex_count = 3};
     GpcListOutcome outcome = {.size = 0};
     GpcList *list = (GpcList *)&list;
@@ -269,7 +296,7 @@ static void lists(const GpcGeometry *geometry, const GpcOptions *options) {
     ANSWERS(gpc_list_create(NULL, geometry, &lent, options, &list), GPC_RESULT_NULL, "antialiaser is NULL");
     EXPECT(list == NULL, "what failed gives nothing");
     ANSWERS(CREATE_LIST, GPC_RESULT_STRUCT_SIZE, "GpcLocationList.size is 0");
-    lent.size = sizeof lent;
+    MUST((VkResult)gpc_init_location_list(&lent, sizeof lent));
     ANSWERS(CREATE_LIST, GPC_RESULT_NULL, "the buffer of locations is VK_NULL_HANDLE");
     lent.locations = locations;
     ANSWERS(CREATE_LIST, GPC_RESULT_NULL, "the buffer of colours is VK_NULL_HANDLE");
@@ -286,11 +313,16 @@ static void lists(const GpcGeometry *geometry, const GpcOptions *options) {
     EXPECT(gpc_list_memory_bytes(list) > 0, "the memory of a list");
     EXPECT(gpc_list_memory_bytes(NULL) == 0, "no list, no memory");
 
-#define RECORD_LIST(count) gpc_list_record(list, commands, &draw, 1, count, shade_nothing, &calls)
-    ANSWERS(gpc_list_record(NULL, commands, &draw, 1, 1, shade_nothing, NULL), GPC_RESULT_NULL, "list is NULL");
-    ANSWERS(gpc_list_record(list, NULL, &draw, 1, 1, shade_nothing, NULL), GPC_RESULT_NULL, "commands is NULL");
-    ANSWERS(gpc_list_record(list, commands, NULL, 1, 1, shade_nothing, NULL), GPC_RESULT_NULL, "draws is NULL");
-    ANSWERS(gpc_list_record(list, commands, &draw, 1, 1, NULL, NULL), GPC_RESULT_NULL, "shade is NULL");
+#define RECORD_LIST(count) (scenery.location_count = (count), gpc_list_record(list, commands, &scenery, shade_nothing, &calls))
+    MUST((VkResult)gpc_init_list_scenery(&scenery, sizeof scenery));
+    ANSWERS(gpc_list_record(NULL, commands, &scenery, shade_nothing, NULL), GPC_RESULT_NULL, "list is NULL");
+    ANSWERS(gpc_list_record(list, NULL, &scenery, shade_nothing, NULL), GPC_RESULT_NULL, "commands is NULL");
+    ANSWERS(gpc_list_record(list, commands, NULL, shade_nothing, NULL), GPC_RESULT_NULL, "GpcListScenery is NULL");
+    ANSWERS(gpc_list_record(list, commands, &scenery, NULL, NULL), GPC_RESULT_NULL, "shade is NULL");
+    scenery.draw_count = 1;
+    scenery.draw_stride = sizeof draw;
+    ANSWERS(RECORD_LIST(1), GPC_RESULT_NULL, "GpcListScenery.draws is NULL");
+    scenery.draws = &draw;
     ANSWERS(RECORD_LIST(LOCATIONS + 1), GPC_RESULT_CAPACITY, "9 locations; the frame was prepared for 8");
     draw.key = 1;
     ANSWERS(RECORD_LIST(LOCATIONS), GPC_RESULT_VALUE, "draw 0 has shading key 1, and there are 1");
@@ -312,24 +344,29 @@ static void frames(void) {
     VkDeviceMemory memory[4];
     VkBuffer positions = make_buffer(16 * VERTICES, &memory[0]), indices = make_buffer(4 * INDICES, &memory[1]);
     GpcImage ids = make_image(VK_FORMAT_R32_UINT, &memory[2]), color = make_image(VK_FORMAT_R8G8B8A8_UNORM, &memory[3]);
-    GpcGeometry geometry = {.size = sizeof geometry,
-                            .vertex_capacity = VERTICES,
-                            .position_stride = 16,
-                            .indices = indices,
-                            .index_type = VK_INDEX_TYPE_UINT32,
-                            .index_capacity = INDICES,
-                            .triangle_capacity = 4,
-                            .draw_capacity = 2,
-                            .keys = 1};
-    GpcImages images = {.size = sizeof images, .color_format = VK_FORMAT_R8G8B8A8_UINT, .ids = ids, .color = color};
-    GpcOptions options = {.size = sizeof options};
+    GpcGeometry geometry;
+    GpcImages images;
+    GpcOptions options;
     GpcAlphaMap map = {.width = SIDE, .height = SIDE, .levels = 1, .cutoff = 0.5f};
     float zero = 0;
     GpcFrame *frame = (GpcFrame *)&frame;
     const float locations[2][2] = {{-0.25f, 0.25f}, {0.25f, -0.25f}};
 
 #define CREATE gpc_frame_create(antialiaser, &geometry, &images, &options, &frame)
-    MUST((VkResult)gpc_options_init(&options, SIDE, SIDE));
+    MUST((VkResult)gpc_init_geometry(&geometry, sizeof geometry));
+    MUST((VkResult)gpc_init_images(&images, sizeof images));
+    MUST((VkResult)gpc_init_options(&options, sizeof options));
+    geometry.vertex_capacity = VERTICES;
+    geometry.position_stride = 16;
+    geometry.indices = indices;
+    geometry.index_type = VK_INDEX_TYPE_UINT32;
+    geometry.index_capacity = INDICES;
+    geometry.triangle_capacity = 4;
+    geometry.draw_capacity = 2;
+    images.color_format = VK_FORMAT_R8G8B8A8_UINT;
+    images.ids = ids;
+    images.color = color;
+    options.width = options.height = SIDE;
     ANSWERS(gpc_frame_create(antialiaser, &geometry, &images, &options, NULL), GPC_RESULT_NULL, "frame is NULL");
     ANSWERS(gpc_frame_create(NULL, &geometry, &images, &options, &frame), GPC_RESULT_NULL, "antialiaser is NULL");
     EXPECT(frame == NULL, "what failed gives nothing");
@@ -338,6 +375,9 @@ static void frames(void) {
     geometry.alpha_map_count = 1;
     ANSWERS(CREATE, GPC_RESULT_NULL, "GpcGeometry.alpha_maps is NULL");
     geometry.alpha_maps = &map;
+    geometry.alpha_map_stride = 4;
+    ANSWERS(CREATE, GPC_RESULT_STRUCT_SIZE, "GpcGeometry.alpha_map_stride is 4; it can be sizeof(GpcAlphaMap), which is");
+    geometry.alpha_map_stride = sizeof map;
     map.view = VK_NULL_HANDLE;
     ANSWERS(CREATE, GPC_RESULT_NULL, "the view of an alpha map is VK_NULL_HANDLE");
     map.view = color.view;

@@ -28,6 +28,7 @@ mod images;
 mod lending;
 mod list;
 mod options;
+mod shader;
 mod shading;
 mod uniform;
 
@@ -40,6 +41,7 @@ pub use geometry::{ClipSpace, Coordinates, Geometry, PositionSpace};
 pub use images::{ColorImage, Images, LentImage};
 pub use list::{List, ListOutcome, Location, LocationList};
 pub use options::Options;
+pub use shader::{ShaderError, check_shader};
 pub use shading::{SHADER_INCLUDES, ShadeSamples, VisibilitySamples};
 
 use crate::passes::{

@@ -997,6 +997,9 @@ pub mod gpc_visibility_set {
     ];
 }
 
+/// A constant of `shaders/include/gpc_visibility.glsl`: its ID and its value.
+pub const GPC_SHADER_VERSION: (u32, u32) = (2046, 1);
+
 /// Constants of `shaders/groups.comp`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Groups {
