@@ -3,7 +3,7 @@
 #
 #   gpc-VERSION-TRIPLE.tar.xz      the command with its window, stripped, manual pages, completions, licences, examples
 #   gpc-render_VERSION-1_ARCH.deb  the same as a package (by cargo-deb)
-#   libgpc-VERSION-TRIPLE.tar.xz   the C library: header, libraries, GLSL includes, pkg-config file, manual, licences
+#   libgpc-VERSION-TRIPLE.tar.xz   the C library: header, libraries, GLSL includes, files for pkg-config and CMake, manual, licences
 #
 # FEATURES=cli leaves the window out.
 #
@@ -69,8 +69,7 @@ make --no-print-directory install PREFIX="$PWD/$library"
 # The prefix is wherever the archive is unpacked.
 sed -i 's,^prefix=.*,prefix=${pcfiledir}/../..,' "$library/lib/pkgconfig/gpc.pc"
 strip --strip-debug "$library"/lib/libgpc.so."$version" "$library"/lib/libgpc.a
-install -d "$library/share/doc/gpc" "$library/share/gpc/examples"
-install -m 644 LICENSE-MIT LICENSE-APACHE CHANGELOG.md docs/embedding.md "$library/share/doc/gpc/"
+install -d "$library/share/gpc/examples"
 licences "$library/share/doc/gpc/THIRD-PARTY.txt" --no-default-features --features capi
 cp -r examples/forward "$library/share/gpc/examples/"
 archive "libgpc-$version-$triple" "$library"

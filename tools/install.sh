@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs the C library that `make install` has built: header, libraries, GLSL includes, pkg-config file.
+# Installs the C library that `make install` has built: header, libraries, GLSL includes, files for pkg-config and CMake, manual,
+# licences.
 #
 #   tools/install.sh BUILT VERSION SONAME PREFIX [DESTDIR]
 #
@@ -9,17 +10,29 @@ set -euo pipefail
 
 built="$1" version="$2" soname="$3" prefix="$4" destdir="${5:-}"
 root="$destdir$prefix"
+work="$(mktemp -d)"
+trap 'rm -rf "$work"' EXIT
 
-install -d "$root/include" "$root/lib/pkgconfig" "$root/share/gpc/shaders"
+install -d "$root/include" "$root/lib/pkgconfig" "$root/lib/cmake/gpc" "$root/share/gpc/shaders" "$root/share/doc/gpc"
 install -m 644 include/gpc.h "$root/include/"
-install -m 644 "$built/libgpc.a" "$root/lib/"
 install -m 755 "$built/libgpc.so" "$root/lib/libgpc.so.$version"
 ln -sf "libgpc.so.$version" "$root/lib/$soname"
 ln -sf "$soname" "$root/lib/libgpc.so"
+install -m 644 docs/embedding.md LICENSE-MIT LICENSE-APACHE CHANGELOG.md "$root/share/doc/gpc/"
+
+# The static library is one object, of which only the interface is visible: programs may have another library written in Rust.
+mapfile -t interface < <(nm --extern-only --defined-only "$built/libgpc.a" 2>/dev/null | sed -n 's/^.* T \(gpc_[a-z_]*\)$/-u\1/p' | sort)
+ld -r --gc-sections --force-group-allocation "${interface[@]}" -o "$work/gpc.o" "$built/libgpc.a"
+objcopy --wildcard --keep-global-symbol='gpc_*' --remove-section=.llvmbc --remove-section=.llvmcmd "$work/gpc.o"
+rm -f "$root/lib/libgpc.a"
+ar rcs "$root/lib/libgpc.a" "$work/gpc.o"
+chmod 644 "$root/lib/libgpc.a"
+
 # What an application's shaders include, and what that includes.
 for name in gpc_visibility gpc_texture gpc_position place place_in_tile barycentric finite; do
     install -m 644 "shaders/include/$name.glsl" "$root/share/gpc/shaders/"
 done
+
 cat >"$root/lib/pkgconfig/gpc.pc" <<END
 prefix=$prefix
 includedir=\${prefix}/include
@@ -31,5 +44,37 @@ Description: Antialiases only where an image aliases, in a Vulkan application's 
 Version: $version
 Cflags: -I\${includedir}
 Libs: -L\${libdir} -lgpc
-Libs.private: -lgcc_s -lutil -lrt -lpthread -lm -ldl -lc
+Libs.private: -lutil -lrt -lpthread -lm -ldl -lc
+END
+
+cat >"$root/lib/cmake/gpc/gpc-config.cmake" <<END
+# gpc::gpc is the shared library, gpc::gpc_static the static one. gpc_SHADERS is the folder of the GLSL includes.
+include(CMakeFindDependencyMacro)
+find_dependency(Vulkan)
+get_filename_component(_gpc_prefix "\${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)
+set(gpc_SHADERS "\${_gpc_prefix}/share/gpc/shaders")
+if(NOT TARGET gpc::gpc)
+    add_library(gpc::gpc SHARED IMPORTED)
+    set_target_properties(gpc::gpc PROPERTIES
+        IMPORTED_LOCATION "\${_gpc_prefix}/lib/libgpc.so.$version"
+        IMPORTED_SONAME "$soname"
+        INTERFACE_INCLUDE_DIRECTORIES "\${_gpc_prefix}/include;\${Vulkan_INCLUDE_DIRS}")
+    add_library(gpc::gpc_static STATIC IMPORTED)
+    set_target_properties(gpc::gpc_static PROPERTIES
+        IMPORTED_LOCATION "\${_gpc_prefix}/lib/libgpc.a"
+        INTERFACE_INCLUDE_DIRECTORIES "\${_gpc_prefix}/include;\${Vulkan_INCLUDE_DIRS}"
+        INTERFACE_LINK_LIBRARIES "util;rt;pthread;m;dl")
+endif()
+END
+# A program that asks for an earlier version of the same binary interface gets this one.
+cat >"$root/lib/cmake/gpc/gpc-config-version.cmake" <<END
+set(PACKAGE_VERSION $version)
+if(PACKAGE_FIND_VERSION VERSION_GREATER PACKAGE_VERSION OR NOT PACKAGE_FIND_VERSION_MAJOR EQUAL ${version%%.*})
+    set(PACKAGE_VERSION_COMPATIBLE FALSE)
+else()
+    set(PACKAGE_VERSION_COMPATIBLE TRUE)
+    if(PACKAGE_FIND_VERSION VERSION_EQUAL PACKAGE_VERSION)
+        set(PACKAGE_VERSION_EXACT TRUE)
+    endif()
+endif()
 END

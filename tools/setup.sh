@@ -75,10 +75,11 @@ needs_validation() {
         || lacks "the Vulkan validation layer (VK_LAYER_KHRONOS_validation)" vulkan-validationlayers
 }
 
-# Programs in C++ that use the library.
+# Programs in C and C++ that use the library.
 needs_c() {
     needs_build
     has pkg-config || lacks "pkg-config" pkg-config
+    has cmake || lacks "cmake" cmake
     [ -e /usr/include/vulkan/vulkan_core.h ] || lacks "Vulkan's headers" libvulkan-dev
 }
 
