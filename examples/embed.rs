@@ -16,7 +16,7 @@ use ash::vk;
 use gpc::camera::{Camera, Orbit};
 use gpc::render::{Encoding, ImageState, Renderer, SceneRequest, Settings, Shadows, Target};
 use gpc::scene::{PoseRequest, Scene};
-use gpc::vulkan::{Host, Requirements, SharedAllocator};
+use gpc::vulkan::{Host, MemorySource, Requirements, SharedAllocator};
 use gpu_allocator::MemoryLocation;
 use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
@@ -128,14 +128,17 @@ impl App {
 
     /// Rows of sRGB-encoded RGBA bytes.
     fn render(&self, scene: &Scene) -> anyhow::Result<Vec<u8>> {
-        let host = Host {
-            instance: self.instance.clone(),
-            physical_device: self.physical_device,
-            device: self.device.clone(),
-            queue_family: self.queue_family,
-            allocator: self.allocator.clone(),
-            conditional_rendering: self.conditional_rendering,
-        };
+        let mut host = Host::new(
+            self.instance.clone(),
+            self.physical_device,
+            self.device.clone(),
+            self.queue_family,
+        );
+        host.memory = self
+            .allocator
+            .clone()
+            .map_or(MemorySource::Own, MemorySource::Shared);
+        host.conditional_rendering = self.conditional_rendering;
         // SAFETY: the handles belong together, the features are enabled, and `self` outlives the renderer.
         let renderer = unsafe { Renderer::new(host) }?;
 

@@ -9,7 +9,7 @@
 //   panic of the library crosses this boundary.
 // - A struct that is handed over is first filled by its gpc_init function, which sets size, type and defaults. Later versions of
 //   the library may add members to its end, and take structs without them. So may they of GpcDraw and GpcAlphaMap, which stand in
-//   arrays: set what an application does not use to 0. GpcImageState, GpcImage and GpcLocation stay as they are.
+//   arrays: set what an application does not use to 0. GpcImageState, GpcImage, GpcLocation and GpcMemory stay as they are.
 // - Numbers of type uint32_t that stand for one of a few values name the enumeration that has them.
 // - A pointer or handle is null, which is an error where nothing else is said, or alive, of the type named and of the device
 //   lent. That it is null is found out; the rest is the application's affair, as with Vulkan itself.
@@ -117,12 +117,36 @@ enum GpcStructType
     GPC_STRUCT_TYPE_LIST_SCENERY = 9,
     // A GpcListOutcome.
     GPC_STRUCT_TYPE_LIST_OUTCOME = 10,
+    // A GpcMemoryRequest.
+    GPC_STRUCT_TYPE_MEMORY_REQUEST = 11,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
 typedef enum GpcStructType GpcStructType;
 #else
 typedef uint32_t GpcStructType;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// Where memory lies.
+enum GpcMemoryUse
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    // On the device.
+    GPC_MEMORY_USE_DEVICE = 0,
+    // Written by the CPU, read by the device: mapped, with VK_MEMORY_PROPERTY_HOST_COHERENT_BIT.
+    GPC_MEMORY_USE_UPLOAD = 1,
+    // Written by the device, read by the CPU: mapped, with VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, at best
+    // VK_MEMORY_PROPERTY_HOST_CACHED_BIT too.
+    GPC_MEMORY_USE_READBACK = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum GpcMemoryUse GpcMemoryUse;
+#else
+typedef uint32_t GpcMemoryUse;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -228,6 +252,47 @@ typedef struct GpcFrame GpcFrame;
 // Pipelines and memory to sample the locations of a list, of one frame in flight.
 typedef struct GpcList GpcList;
 
+// Memory that a buffer or an image of the library needs.
+typedef struct GpcMemoryRequest {
+    // The library's sizeof(GpcMemoryRequest).
+    uint32_t size;
+    // GPC_STRUCT_TYPE_MEMORY_REQUEST.
+    uint32_t type;
+    // NULL, or a structure that extends this one.
+    const void *next;
+    // What it is for, for a log: UTF-8, alive until the function returns.
+    const char *name;
+    // Its size, alignment and possible types.
+    VkMemoryRequirements requirements;
+    // Where it lies: a GpcMemoryUse.
+    uint32_t usage;
+    // VK_TRUE for a buffer, VK_FALSE for an image of optimal tiling: see VkPhysicalDeviceLimits.bufferImageGranularity.
+    VkBool32 linear;
+} GpcMemoryRequest;
+
+// Memory that the application allocated.
+typedef struct GpcMemory {
+    // The memory.
+    VkDeviceMemory memory;
+    // Where in it, in bytes: a multiple of the alignment that was asked for.
+    uint64_t offset;
+    // The address at which that offset is mapped; NULL for memory of the device that is not mapped, or not coherent.
+    void *mapped;
+    // The application's own.
+    void *user;
+} GpcMemory;
+
+// Allocates memory of the device that was lent: as large and aligned as asked for, of one of the types asked for, used by nobody
+// else until it is freed. VK_FALSE where memory ran out. It must not throw or jump out, and must not use the library.
+//
+// Threads: it is called by those that create antialiasers, frames and lists, several at once if the application has several do so.
+typedef VkBool32 (*GpcAllocate)(void *user, const struct GpcMemoryRequest *request, struct GpcMemory *memory);
+
+// Frees memory that a GpcAllocate gave. No command uses it any more. It must not throw or jump out, and must not use the library.
+//
+// Threads: as GpcAllocate, and those that destroy.
+typedef void (*GpcFree)(void *user, const struct GpcMemory *memory);
+
 // A device that the application lends; gpc_init_device fills it.
 typedef struct GpcDevice {
     // sizeof(GpcDevice).
@@ -236,11 +301,14 @@ typedef struct GpcDevice {
     uint32_t type;
     // NULL, or a structure that extends this one.
     const void *next;
+    // The family, with graphics and compute, of the queue that commands will be submitted to.
+    uint32_t queue_family;
     // VK_TRUE if the device was created with VK_EXT_conditional_rendering and its feature conditionalRendering, which is not
     // needed: without it, rounds of a frame that have nothing to do take some time.
     VkBool32 conditional_rendering;
-    // The family, with graphics and compute, of the queue that commands will be submitted to.
-    uint32_t queue_family;
+    // VK_TRUE if the instance was created with VK_EXT_debug_utils: buffers, images and pipelines of the library then have names,
+    // which begin with "gpc", and dispatches have labels.
+    VkBool32 debug_utils;
     // All functions of Vulkan are taken from it: of the loader that made the instance.
     PFN_vkGetInstanceProcAddr get_instance_proc_addr;
     // The instance, created for GPC_VULKAN_API_VERSION or later.
@@ -249,6 +317,15 @@ typedef struct GpcDevice {
     VkPhysicalDevice physical_device;
     // The device, created with the features that gpc_require_features sets.
     VkDevice device;
+    // A cache that pipelines are made with, which outlives the antialiaser and its frames; it was not created with
+    // VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED_BIT. VK_NULL_HANDLE for none.
+    VkPipelineCache pipeline_cache;
+    // Functions for device memory, both or none. Without them, the library has an allocator of its own.
+    GpcAllocate allocate;
+    // See `allocate`.
+    GpcFree free;
+    // Handed to both.
+    void *memory_user;
 } GpcDevice;
 
 // A run of triangles that are shaded alike.
@@ -634,11 +711,13 @@ GpcResult gpc_init_device(struct GpcDevice *device,
 // Threads: any. Errors: GPC_RESULT_NULL; GPC_RESULT_VALUE for another sType.
 GpcResult gpc_require_features(VkPhysicalDeviceVulkan13Features *features);
 
-// Whether a physical device has all that the library needs. `queue_family`, if not NULL, becomes the first family with
-// graphics and compute.
+// Whether a physical device has all that the library needs, and the instance was created for GPC_VULKAN_API_VERSION or later; to
+// find that out, it makes a device and destroys it again. `queue_family`, if not NULL, becomes the first family with graphics and
+// compute.
 //
 // Threads: any.
-// Errors: GPC_RESULT_UNSUPPORTED, with gpc_last_error listing all that is missing; GPC_RESULT_NULL.
+// Errors: GPC_RESULT_UNSUPPORTED, with gpc_last_error listing all that is missing; GPC_RESULT_NULL; GPC_RESULT_VULKAN if the driver
+// makes no device.
 GpcResult gpc_check_device(PFN_vkGetInstanceProcAddr get_instance_proc_addr,
                            VkInstance instance,
                            VkPhysicalDevice physical_device,

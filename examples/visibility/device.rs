@@ -2,7 +2,7 @@
 
 use crate::Failure;
 use ash::vk;
-use gpc::vulkan::{Host, Requirements, SharedAllocator};
+use gpc::vulkan::{Host, MemorySource, Requirements, SharedAllocator};
 use gpu_allocator::MemoryLocation;
 use gpu_allocator::vulkan::{
     Allocation, AllocationCreateDesc, AllocationScheme, Allocator, AllocatorCreateDesc,
@@ -92,14 +92,18 @@ impl Device {
 
     /// What the library is lent.
     pub fn lent(&self) -> Host {
-        Host {
-            instance: self.instance.clone(),
-            physical_device: self.physical,
-            device: self.raw.clone(),
-            queue_family: self.family,
-            allocator: self.allocator.clone(),
-            conditional_rendering: self.conditional_rendering.is_some(),
-        }
+        let mut host = Host::new(
+            self.instance.clone(),
+            self.physical,
+            self.raw.clone(),
+            self.family,
+        );
+        host.memory = self
+            .allocator
+            .clone()
+            .map_or(MemorySource::Own, MemorySource::Shared);
+        host.conditional_rendering = self.conditional_rendering.is_some();
+        host
     }
 
     fn allocate(

@@ -4,10 +4,12 @@ use super::error::{Error, GpcResult, answer};
 use super::input::{
     Element, GpcStructType, Struct, flag, hand_over, init, place, read, sizes, take_back,
 };
+use super::memory::{Functions, GpcAllocate, GpcFree};
 use crate::host::Antialiaser;
-use crate::vulkan::{Host, Requirements};
+use crate::vulkan::{Host, MemorySource, Missing, Requirements};
 use ash::vk;
 use std::ffi::{CStr, c_char, c_void};
+use std::sync::Arc;
 
 /// Vulkan's own type.
 ///
@@ -30,11 +32,14 @@ pub struct GpcDevice {
     pub r#type: u32,
     /// NULL, or a structure that extends this one.
     pub next: *const c_void,
+    /// The family, with graphics and compute, of the queue that commands will be submitted to.
+    pub queue_family: u32,
     /// VK_TRUE if the device was created with VK_EXT_conditional_rendering and its feature conditionalRendering, which is not
     /// needed: without it, rounds of a frame that have nothing to do take some time.
     pub conditional_rendering: vk::Bool32,
-    /// The family, with graphics and compute, of the queue that commands will be submitted to.
-    pub queue_family: u32,
+    /// VK_TRUE if the instance was created with VK_EXT_debug_utils: buffers, images and pipelines of the library then have names,
+    /// which begin with "gpc", and dispatches have labels.
+    pub debug_utils: vk::Bool32,
     /// All functions of Vulkan are taken from it: of the loader that made the instance.
     pub get_instance_proc_addr: GetInstanceProcAddr,
     /// The instance, created for GPC_VULKAN_API_VERSION or later.
@@ -43,12 +48,21 @@ pub struct GpcDevice {
     pub physical_device: vk::PhysicalDevice,
     /// The device, created with the features that gpc_require_features sets.
     pub device: vk::Device,
+    /// A cache that pipelines are made with, which outlives the antialiaser and its frames; it was not created with
+    /// VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED_BIT. VK_NULL_HANDLE for none.
+    pub pipeline_cache: vk::PipelineCache,
+    /// Functions for device memory, both or none. Without them, the library has an allocator of its own.
+    pub allocate: GpcAllocate,
+    /// See `allocate`.
+    pub free: GpcFree,
+    /// Handed to both.
+    pub memory_user: *mut c_void,
 }
 
 // SAFETY: `repr(C)`; integers, raw handles, pointers and a nullable function may have any bytes.
 unsafe impl Element for GpcDevice {
     const NAME: &'static str = "GpcDevice";
-    const SIZES: &'static [usize] = sizes!(GpcDevice, device);
+    const SIZES: &'static [usize] = sizes!(GpcDevice, memory_user);
 }
 
 // SAFETY: it begins with size, type and next.
@@ -104,11 +118,13 @@ pub unsafe extern "C" fn gpc_require_features(
     })
 }
 
-/// Whether a physical device has all that the library needs. `queue_family`, if not NULL, becomes the first family with
-/// graphics and compute.
+/// Whether a physical device has all that the library needs, and the instance was created for GPC_VULKAN_API_VERSION or later; to
+/// find that out, it makes a device and destroys it again. `queue_family`, if not NULL, becomes the first family with graphics and
+/// compute.
 ///
 /// Threads: any.
-/// Errors: GPC_RESULT_UNSUPPORTED, with gpc_last_error listing all that is missing; GPC_RESULT_NULL.
+/// Errors: GPC_RESULT_UNSUPPORTED, with gpc_last_error listing all that is missing; GPC_RESULT_NULL; GPC_RESULT_VULKAN if the driver
+/// makes no device.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn gpc_check_device(
     get_instance_proc_addr: GetInstanceProcAddr,
@@ -122,20 +138,20 @@ pub unsafe extern "C" fn gpc_check_device(
         if physical_device == vk::PhysicalDevice::null() {
             return Err(Error::Null("physical_device"));
         }
-        // SAFETY: passed on to the caller.
-        let missing = unsafe { Requirements::missing(&instance, physical_device) };
-        if !missing.is_empty() {
-            return Err(Error::Missing(missing));
-        }
-        // SAFETY: passed on to the caller.
-        let (answer, family) = unsafe {
-            (
-                queue_family.as_mut(),
-                Requirements::queue_family(&instance, physical_device),
-            )
-        };
-        if let Some(answer) = answer {
-            *answer = family.ok_or(Error::Missing(vec![crate::vulkan::Missing::Queue]))?;
+        // SAFETY: passed on to the caller. Until the instance is known to be made for Vulkan 1.3, nothing newer than 1.0 is called.
+        unsafe {
+            Requirements::check_version(&instance, physical_device)
+                .map_err(|version| Error::Missing(vec![version]))?;
+            let family = Requirements::queue_family(&instance, physical_device)
+                .ok_or(Error::Missing(vec![Missing::Queue]))?;
+            Requirements::check_instance(&instance, physical_device, family)?;
+            let missing = Requirements::missing(&instance, physical_device);
+            if !missing.is_empty() {
+                return Err(Error::Missing(missing));
+            }
+            if let Some(answer) = queue_family.as_mut() {
+                *answer = family;
+            }
         }
         Ok(())
     })
@@ -194,11 +210,6 @@ const OF_INSTANCE: [&CStr; 3] = [
     c"vkGetPhysicalDeviceFeatures2",
     c"vkGetDeviceProcAddr",
 ];
-const OF_DEVICE: [&CStr; 2] = [c"vkCmdPipelineBarrier2", c"vkCmdBeginRendering"];
-const OF_CONDITIONAL_RENDERING: [&CStr; 2] = [
-    c"vkCmdBeginConditionalRenderingEXT",
-    c"vkCmdEndConditionalRenderingEXT",
-];
 
 /// # Safety
 /// The function and the instance are null or alive and belong together.
@@ -234,32 +245,24 @@ unsafe fn load_host(lent: &GpcDevice) -> Result<Host, Error> {
     if lent.device == vk::Device::null() {
         return Err(Error::Null("GpcDevice.device"));
     }
-    for name in OF_DEVICE {
-        // SAFETY: passed on to the caller; the name ends with a zero.
-        let found = unsafe { instance.get_device_proc_addr(lent.device, name.as_ptr()) };
-        found.ok_or(Error::Function(name.to_str().unwrap_or_default()))?;
-    }
-    let conditional_rendering = flag(
+    // SAFETY: passed on to the caller.
+    let device = unsafe { ash::Device::load(instance.fp_v1_0(), lent.device) };
+    let mut host = Host::new(instance, lent.physical_device, device, lent.queue_family);
+    host.conditional_rendering = flag(
         "GpcDevice.conditional_rendering",
         lent.conditional_rendering,
     )?;
-    if conditional_rendering {
-        for name in OF_CONDITIONAL_RENDERING {
-            // SAFETY: passed on to the caller; the name ends with a zero.
-            let found = unsafe { instance.get_device_proc_addr(lent.device, name.as_ptr()) };
-            found.ok_or(Error::ConditionalRendering(
-                name.to_str().unwrap_or_default(),
-            ))?;
-        }
-    }
-    // SAFETY: passed on to the caller.
-    let device = unsafe { ash::Device::load(instance.fp_v1_0(), lent.device) };
-    Ok(Host {
-        instance,
-        physical_device: lent.physical_device,
-        device,
-        queue_family: lent.queue_family,
-        allocator: None,
-        conditional_rendering,
-    })
+    host.debug_utils = flag("GpcDevice.debug_utils", lent.debug_utils)?;
+    host.pipeline_cache = lent.pipeline_cache;
+    host.memory = match (lent.allocate, lent.free) {
+        (None, None) => MemorySource::Own,
+        (None, Some(_)) => return Err(Error::Null("GpcDevice.allocate")),
+        (Some(_), None) => return Err(Error::Null("GpcDevice.free")),
+        (Some(allocate), Some(free)) => MemorySource::Host(Arc::new(Functions {
+            allocate,
+            free,
+            user: lent.memory_user,
+        })),
+    };
+    Ok(host)
 }

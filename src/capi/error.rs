@@ -79,10 +79,6 @@ pub(super) enum Error {
     )]
     Function(&'static str),
     #[error(
-        "GpcDevice.conditional_rendering is VK_TRUE and there is no {0}: create the device with VK_EXT_conditional_rendering and its feature conditionalRendering"
-    )]
-    ConditionalRendering(&'static str),
-    #[error(
         "features->sType is {0}; it can be VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES ({expected})",
         expected = vk::StructureType::PHYSICAL_DEVICE_VULKAN_1_3_FEATURES.as_raw()
     )]
@@ -114,6 +110,14 @@ fn sizes(name: &str, found: usize, expected: usize) -> String {
 /// What the error says, with C's names for what C wrote.
 fn in_c(error: &HostError) -> String {
     match error {
+        HostError::Render(RenderError::Vulkan(VulkanError::NoFunction(name))) => {
+            Error::Function(name).to_string()
+        }
+        HostError::Render(RenderError::Vulkan(VulkanError::NotEnabled {
+            member,
+            function,
+            remedy,
+        })) => format!("GpcDevice.{member} is VK_TRUE and there is no {function}: {remedy}"),
         HostError::NoDepth => {
             "thin triangles are found by depth: lend GpcImages.depth, the depth image, or set GpcOptions.thin to VK_FALSE".to_owned()
         }
@@ -155,9 +159,7 @@ impl Error {
             Self::StructType { .. } | Self::Next { .. } => GpcResult::StructType,
             Self::Value { .. } => GpcResult::Value,
             Self::FeaturesType(_) => GpcResult::Value,
-            Self::Function(_) | Self::ConditionalRendering(_) | Self::Missing(_) => {
-                GpcResult::Unsupported
-            }
+            Self::Function(_) | Self::Missing(_) => GpcResult::Unsupported,
             Self::ShaderSize(_) | Self::Shader(ShaderError::NotSpirv(_)) => GpcResult::Value,
             Self::Shader(_) => GpcResult::ShaderVersion,
             Self::Panic(_) => GpcResult::Panic,
@@ -167,7 +169,9 @@ impl Error {
                 | HostError::Indices { .. }
                 | HostError::Vertices { .. } => GpcResult::Capacity,
                 HostError::Render(RenderError::Vulkan(error)) => match error {
-                    VulkanError::Missing { .. } => GpcResult::Unsupported,
+                    VulkanError::Missing { .. }
+                    | VulkanError::NoFunction(_)
+                    | VulkanError::NotEnabled { .. } => GpcResult::Unsupported,
                     VulkanError::QueueFamily { .. } => GpcResult::Value,
                     VulkanError::OutOfMemory { .. } => GpcResult::OutOfMemory,
                     VulkanError::DeviceLost => GpcResult::DeviceLost,

@@ -32,6 +32,8 @@ pub enum GpcStructType {
     ListScenery = 9,
     /// A GpcListOutcome.
     ListOutcome = 10,
+    /// A GpcMemoryRequest.
+    MemoryRequest = 11,
 }
 
 /// What C hands over by its size.

@@ -13,6 +13,7 @@ mod geometry;
 mod images;
 mod input;
 mod list;
+mod memory;
 mod options;
 mod shader;
 mod version;

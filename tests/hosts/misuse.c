@@ -134,10 +134,111 @@ static PFN_vkVoidFunction VKAPI_PTR without_features2(VkInstance asked, const ch
     return strcmp(name, "vkGetPhysicalDeviceFeatures2") == 0 ? NULL : vkGetInstanceProcAddr(asked, name);
 }
 
+static void old_instances(void) {
+    for (uint32_t minor = 0; minor < 3; ++minor) {
+        VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .apiVersion = VK_MAKE_API_VERSION(0, 1, minor, 0)};
+        VkInstanceCreateInfo instance_info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO, .pApplicationInfo = &application};
+        float priority = 1;
+        VkDeviceQueueCreateInfo queue = {
+            .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, .queueCount = 1, .pQueuePriorities = &priority};
+        VkDeviceCreateInfo info = {
+            .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, .queueCreateInfoCount = 1, .pQueueCreateInfos = &queue};
+        uint32_t count = 1;
+        VkInstance old;
+        GpcDevice lent;
+        MUST(vkCreateInstance(&instance_info, NULL, &old));
+        vkEnumeratePhysicalDevices(old, &count, &physical);
+        ANSWERS(gpc_check_device(vkGetInstanceProcAddr, old, physical, NULL), GPC_RESULT_UNSUPPORTED,
+                "create the instance for Vulkan 1.3");
+        MUST(vkCreateDevice(physical, &info, NULL, &device));
+        MUST((VkResult)gpc_init_device(&lent, sizeof lent));
+        lent.get_instance_proc_addr = vkGetInstanceProcAddr;
+        lent.instance = old;
+        lent.physical_device = physical;
+        lent.device = device;
+        ANSWERS(gpc_antialiaser_create(&lent, &antialiaser), GPC_RESULT_UNSUPPORTED,
+                "create the instance for Vulkan 1.3");
+        vkDestroyDevice(device, NULL);
+        vkDestroyInstance(old, NULL);
+    }
+}
+
+/* Counts what is lent: names that were given to objects, memory that is allocated. */
+static int pipelines_named, buffers_named, images_named, allocated, freed, mapped, cached, uncached;
+static VkPipelineCache cache;
+
+static VkResult VKAPI_PTR count_name(VkDevice named, const VkDebugUtilsObjectNameInfoEXT *info) {
+    PFN_vkSetDebugUtilsObjectNameEXT set =
+        (PFN_vkSetDebugUtilsObjectNameEXT)vkGetDeviceProcAddr(named, "vkSetDebugUtilsObjectNameEXT");
+    EXPECT(strncmp(info->pObjectName, "gpc ", 4) == 0 && info->pObjectName[4], "a name");
+    pipelines_named += info->objectType == VK_OBJECT_TYPE_PIPELINE;
+    buffers_named += info->objectType == VK_OBJECT_TYPE_BUFFER;
+    images_named += info->objectType == VK_OBJECT_TYPE_IMAGE;
+    return set(named, info);
+}
+
+static VkResult VKAPI_PTR count_compute(VkDevice used, VkPipelineCache with, uint32_t count, const VkComputePipelineCreateInfo *infos,
+                                        const VkAllocationCallbacks *callbacks, VkPipeline *made) {
+    *(with == cache ? &cached : &uncached) += 1;
+    return vkCreateComputePipelines(used, with, count, infos, callbacks, made);
+}
+
+static VkResult VKAPI_PTR count_graphics(VkDevice used, VkPipelineCache with, uint32_t count,
+                                         const VkGraphicsPipelineCreateInfo *infos, const VkAllocationCallbacks *callbacks,
+                                         VkPipeline *made) {
+    *(with == cache ? &cached : &uncached) += 1;
+    return vkCreateGraphicsPipelines(used, with, count, infos, callbacks, made);
+}
+
+static PFN_vkVoidFunction VKAPI_PTR counting_device(VkDevice asked, const char *name) {
+    PFN_vkVoidFunction found = vkGetDeviceProcAddr(asked, name);
+    if (strcmp(name, "vkCreateComputePipelines") == 0) return (PFN_vkVoidFunction)count_compute;
+    if (strcmp(name, "vkCreateGraphicsPipelines") == 0) return (PFN_vkVoidFunction)count_graphics;
+    return found && strcmp(name, "vkSetDebugUtilsObjectNameEXT") == 0 ? (PFN_vkVoidFunction)count_name : found;
+}
+
+static PFN_vkVoidFunction VKAPI_PTR counting(VkInstance asked, const char *name) {
+    return strcmp(name, "vkGetDeviceProcAddr") == 0 ? (PFN_vkVoidFunction)counting_device : vkGetInstanceProcAddr(asked, name);
+}
+
+static VkBool32 allocate_for_library(void *user, const GpcMemoryRequest *request, GpcMemory *memory) {
+    VkPhysicalDeviceMemoryProperties properties;
+    VkMemoryAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
+    VkMemoryPropertyFlags wanted = request->usage == GPC_MEMORY_USE_DEVICE
+                                       ? VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT
+                                       : VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    EXPECT(request->size >= sizeof *request && request->type == GPC_STRUCT_TYPE_MEMORY_REQUEST && request->name[0], "a request");
+    vkGetPhysicalDeviceMemoryProperties(physical, &properties);
+    while (!(request->requirements.memoryTypeBits >> info.memoryTypeIndex & 1) ||
+           (properties.memoryTypes[info.memoryTypeIndex].propertyFlags & wanted) != wanted) {
+        ++info.memoryTypeIndex;
+    }
+    /* Not at the beginning of the memory. */
+    memory->offset = request->requirements.alignment;
+    memory->user = user;
+    info.allocationSize = memory->offset + request->requirements.size;
+    if (*(int *)user <= allocated || vkAllocateMemory(device, &info, NULL, &memory->memory) != VK_SUCCESS) return VK_FALSE;
+    if (request->usage != GPC_MEMORY_USE_DEVICE) {
+        MUST(vkMapMemory(device, memory->memory, memory->offset, request->requirements.size, 0, &memory->mapped));
+        ++mapped;
+    }
+    ++allocated;
+    return VK_TRUE;
+}
+
+static void free_of_library(void *user, const GpcMemory *memory) {
+    EXPECT(memory->user == user && memory->offset > 0, "what was allocated");
+    vkFreeMemory(device, memory->memory, NULL);
+    ++freed;
+}
+
 static void make_device(void) {
     VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .apiVersion = GPC_VULKAN_API_VERSION};
+    const char *names[1] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
     VkInstanceCreateInfo instance_info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
-                                          .pApplicationInfo = &application};
+                                          .pApplicationInfo = &application,
+                                          .enabledExtensionCount = 1,
+                                          .ppEnabledExtensionNames = names};
     uint32_t count = 1;
     float priority = 1;
     VkPhysicalDeviceVulkan13Features features = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
@@ -158,7 +259,18 @@ static void make_device(void) {
     MUST(vkCreateDevice(physical, &info, NULL, &device));
 }
 
+static PFN_vkVoidFunction VKAPI_PTR nameless_device(VkDevice asked, const char *name) {
+    return strcmp(name, "vkSetDebugUtilsObjectNameEXT") == 0 ? NULL : vkGetDeviceProcAddr(asked, name);
+}
+
+static PFN_vkVoidFunction VKAPI_PTR nameless(VkInstance asked, const char *name) {
+    return strcmp(name, "vkGetDeviceProcAddr") == 0 ? (PFN_vkVoidFunction)nameless_device : vkGetInstanceProcAddr(asked, name);
+}
+
+static int most_allocations = 1000000;
+
 static void make_antialiaser(void) {
+    VkPipelineCacheCreateInfo cache_info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
     GpcDevice lent = {.size = 0};
     GpcOutcome other;
     ANSWERS(gpc_antialiaser_create(&lent, &antialiaser), GPC_RESULT_STRUCT_SIZE, "GpcDevice.size is 0; it can be sizeof(GpcDevice), which is");
@@ -187,6 +299,20 @@ static void make_antialiaser(void) {
     lent.conditional_rendering = VK_TRUE;
     ANSWERS(gpc_antialiaser_create(&lent, &antialiaser), GPC_RESULT_UNSUPPORTED, "create the device with VK_EXT_conditional_rendering");
     lent.conditional_rendering = VK_FALSE;
+    lent.debug_utils = VK_TRUE;
+    lent.get_instance_proc_addr = nameless;
+    ANSWERS(gpc_antialiaser_create(&lent, &antialiaser), GPC_RESULT_UNSUPPORTED,
+            "GpcDevice.debug_utils is VK_TRUE and there is no vkSetDebugUtilsObjectNameEXT: create the instance with VK_EXT_debug_utils");
+    lent.get_instance_proc_addr = counting;
+    lent.free = free_of_library;
+    ANSWERS(gpc_antialiaser_create(&lent, &antialiaser), GPC_RESULT_NULL, "GpcDevice.allocate is NULL");
+    lent.allocate = allocate_for_library;
+    lent.free = NULL;
+    ANSWERS(gpc_antialiaser_create(&lent, &antialiaser), GPC_RESULT_NULL, "GpcDevice.free is NULL");
+    lent.free = free_of_library;
+    lent.memory_user = &most_allocations;
+    MUST(vkCreatePipelineCache(device, &cache_info, NULL, &cache));
+    lent.pipeline_cache = cache;
     MUST((VkResult)gpc_antialiaser_create(&lent, &antialiaser));
 }
 
@@ -496,6 +622,10 @@ static void frames(void) {
     options.max_memory = 1000;
     ANSWERS(CREATE, GPC_RESULT_OUT_OF_MEMORY, "1000");
     options.max_memory = 0;
+    most_allocations = allocated + 3;
+    ANSWERS(CREATE, GPC_RESULT_OUT_OF_MEMORY, "out of memory");
+    EXPECT(allocated == most_allocations && freed == allocated, "memory of what failed is freed");
+    most_allocations = 1000000;
     EXPECT(frame == NULL, "what failed gives nothing");
     MUST((VkResult)CREATE);
     EXPECT(gpc_frame_memory_bytes(frame) > 0, "the memory of a frame");
@@ -504,6 +634,10 @@ static void frames(void) {
 
     gpc_antialiaser_destroy(antialiaser); /* before its frame */
     gpc_frame_destroy(frame);
+    EXPECT(allocated > 20 && mapped > 0 && freed == allocated, "all memory is the application's, and freed");
+    EXPECT(pipelines_named > 10 && buffers_named > 20 && images_named > 0, "what the library makes has names");
+    EXPECT(cached > 10 && uncached == 0, "pipelines are made with the application's cache");
+    vkDestroyPipelineCache(device, cache, NULL);
     vkDestroyBuffer(device, positions, NULL);
     vkDestroyBuffer(device, indices, NULL);
     vkDestroyImageView(device, ids.view, NULL);
@@ -515,6 +649,7 @@ static void frames(void) {
 
 int main(void) {
     without_a_device();
+    old_instances();
     make_device();
     make_antialiaser();
     frames();

@@ -38,6 +38,21 @@ pub enum VulkanError {
         /// The first family that will do.
         possible: Option<u32>,
     },
+    /// A function is absent that an extension has of which the host said that it is enabled.
+    #[error("Host::{member} is true and there is no {function}: {remedy}")]
+    NotEnabled {
+        /// The member of [`Host`](super::Host).
+        member: &'static str,
+        /// The function.
+        function: &'static str,
+        /// What makes it there.
+        remedy: &'static str,
+    },
+    /// A function of Vulkan 1.3 is absent.
+    #[error(
+        "there is no {0}: create the instance for Vulkan 1.3 (apiVersion), with a loader and a driver that have it"
+    )]
+    NoFunction(&'static str),
     /// The device was lost.
     #[error("the device was lost; its driver may have reset it")]
     DeviceLost,

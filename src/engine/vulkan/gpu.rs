@@ -1,16 +1,16 @@
 //! A device in use: its functions, limits and memory.
 
+use super::allocation::{Allocation, MemoryRequest, MemorySource, Source};
 use super::instance::Instance;
 use super::trace::Trace;
 use super::{Missing, Requirements, VulkanError};
 use ash::vk;
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
+use std::ffi::{CStr, CString};
 use std::sync::{Arc, Mutex};
 
-/// An allocator that several parts of a program share.
-pub type SharedAllocator = Arc<Mutex<Allocator>>;
-
 /// A host's Vulkan objects, in which the renderer works.
+#[non_exhaustive]
 pub struct Host {
     /// The instance, created for Vulkan 1.3 or later.
     pub instance: ash::Instance,
@@ -20,13 +20,96 @@ pub struct Host {
     pub device: ash::Device,
     /// The family, with graphics and compute, of the queue that commands will be submitted to.
     pub queue_family: u32,
-    /// The host's allocator to share, or `None` for one of our own.
-    pub allocator: Option<SharedAllocator>,
+    /// Where the memory of buffers and images comes from.
+    pub memory: MemorySource,
+    /// A cache that pipelines are made with, or null. It was not created with `EXTERNALLY_SYNCHRONIZED`.
+    pub pipeline_cache: vk::PipelineCache,
     /// Whether the device was created with `VK_EXT_conditional_rendering` and its feature `conditionalRendering`, for which
     /// [`Requirements::has_conditional_rendering`] says whether it can be. Without it, rounds of a frame that have nothing to do
     /// take some time.
     pub conditional_rendering: bool,
+    /// Whether the instance was created with `VK_EXT_debug_utils`: buffers, images and pipelines then have names, which begin with
+    /// `gpc`, and dispatches have labels.
+    pub debug_utils: bool,
 }
+
+impl Host {
+    /// A device with no extension, an allocator of the library's own and no pipeline cache.
+    #[must_use]
+    pub fn new(
+        instance: ash::Instance,
+        physical_device: vk::PhysicalDevice,
+        device: ash::Device,
+        queue_family: u32,
+    ) -> Self {
+        Self {
+            instance,
+            physical_device,
+            device,
+            queue_family,
+            memory: MemorySource::Own,
+            pipeline_cache: vk::PipelineCache::null(),
+            conditional_rendering: false,
+            debug_utils: false,
+        }
+    }
+
+    /// Refuses a device without functions that are called: calling one that is absent ends the program. Until then, none but
+    /// those of Vulkan 1.0 are called.
+    ///
+    /// # Safety
+    /// The handles are alive and belong together.
+    unsafe fn check_functions(&self) -> Result<(), VulkanError> {
+        // SAFETY: passed on to the caller.
+        let lacks = |name: &CStr| unsafe {
+            let raw = self.device.handle();
+            self.instance
+                .get_device_proc_addr(raw, name.as_ptr())
+                .is_none()
+        };
+        // SAFETY: passed on to the caller.
+        unsafe {
+            let version = Requirements::check_version(&self.instance, self.physical_device);
+            version.map_err(|version| VulkanError::Missing {
+                device: device_name(&self.instance, self.physical_device),
+                missing: vec![version],
+            })?;
+            Requirements::check_functions(&self.instance, self.device.handle())?;
+        }
+        for (enabled, member, names, remedy) in [
+            (
+                self.conditional_rendering,
+                "conditional_rendering",
+                CONDITIONAL_RENDERING_FUNCTIONS,
+                "create the device with VK_EXT_conditional_rendering and its feature conditionalRendering",
+            ),
+            (
+                self.debug_utils,
+                "debug_utils",
+                DEBUG_UTILS_FUNCTIONS,
+                "create the instance with VK_EXT_debug_utils",
+            ),
+        ] {
+            if let Some(name) = names.iter().find(|name| enabled && lacks(name)) {
+                return Err(VulkanError::NotEnabled {
+                    member,
+                    function: name.to_str().unwrap_or_default(),
+                    remedy,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+const CONDITIONAL_RENDERING_FUNCTIONS: [&CStr; 2] = [
+    c"vkCmdBeginConditionalRenderingEXT",
+    c"vkCmdEndConditionalRenderingEXT",
+];
+const DEBUG_UTILS_FUNCTIONS: [&CStr; 2] = [
+    c"vkSetDebugUtilsObjectNameEXT",
+    c"vkCmdBeginDebugUtilsLabelEXT",
+];
 
 /// Properties of the device that decide how work is laid out.
 #[derive(Clone, Debug)]
@@ -68,12 +151,13 @@ pub struct Gpu {
     pub(crate) device: ash::Device,
     /// Functions that skip commands, where the device has them.
     pub(super) conditional_rendering: Option<ash::ext::conditional_rendering::Device>,
-    /// Functions that label commands, in an instance of our own that has them.
+    /// Functions that label commands and name objects, where the instance has them.
     pub(super) debug_labels: Option<ash::ext::debug_utils::Device>,
     pub(super) trace: Trace,
     pub(crate) queue_family: u32,
+    pub(super) pipeline_cache: vk::PipelineCache,
     /// `None` only while dropping.
-    allocator: Option<SharedAllocator>,
+    memory: Option<Source>,
     limits: Limits,
     /// Set where we created the device: it is destroyed with the Gpu, before the instance.
     owner: Option<Arc<Instance>>,
@@ -83,13 +167,16 @@ impl Gpu {
     /// Works in a host's device.
     ///
     /// # Errors
-    /// [`VulkanError::Missing`] names all that the device lacks, [`VulkanError::QueueFamily`] a family that it has not.
+    /// [`VulkanError::Missing`] names all that the device lacks, [`VulkanError::QueueFamily`] a family that it has not,
+    /// [`VulkanError::NotEnabled`] an extension that is not enabled although the host says so.
     ///
     /// # Safety
     /// - All handles are alive, belong together and outlive the returned value and all made with it.
     /// - The device was created with the features of [`Requirements::features13`], and as [`Host::conditional_rendering`] says.
     pub unsafe fn new(host: Host) -> Result<Arc<Self>, VulkanError> {
         // SAFETY: passed on to the caller.
+        unsafe { host.check_functions() }?;
+        // SAFETY: passed on to the caller; instance and device were made for Vulkan 1.3.
         let mut limits = unsafe { limits(&host.instance, host.physical_device, host.queue_family) };
         limits.conditional_rendering &= host.conditional_rendering;
         // SAFETY: passed on to the caller.
@@ -103,22 +190,25 @@ impl Gpu {
         owner: Option<Arc<Instance>>,
         limits: Limits,
     ) -> Result<Arc<Self>, VulkanError> {
-        let Host {
-            instance,
-            physical_device,
-            device,
-            queue_family,
-            allocator,
-            conditional_rendering: _,
-        } = host;
         // SAFETY: passed on to the caller.
-        let missing: Vec<Missing> = unsafe { Requirements::missing(&instance, physical_device) };
+        let missing: Vec<Missing> =
+            unsafe { Requirements::missing(&host.instance, host.physical_device) };
         if !missing.is_empty() {
             return Err(VulkanError::Missing {
                 device: limits.device_name,
                 missing,
             });
         }
+        let Host {
+            instance,
+            physical_device,
+            device,
+            queue_family,
+            memory,
+            pipeline_cache,
+            conditional_rendering: _,
+            debug_utils,
+        } = host;
         // SAFETY: passed on to the caller.
         let (is_fit, possible) = unsafe {
             (
@@ -133,9 +223,10 @@ impl Gpu {
                 possible,
             });
         }
-        let allocator = match allocator {
-            Some(shared) => shared,
-            None => Arc::new(Mutex::new(
+        let memory = match memory {
+            MemorySource::Shared(shared) => Source::Allocator(shared),
+            MemorySource::Host(host) => Source::Host(host),
+            MemorySource::Own => Source::Allocator(Arc::new(Mutex::new(
                 Allocator::new(&AllocatorCreateDesc {
                     instance: instance.clone(),
                     device: device.clone(),
@@ -148,11 +239,10 @@ impl Gpu {
                     call: "the allocator",
                     result: vk::Result::ERROR_INITIALIZATION_FAILED,
                 })?,
-            )),
+            ))),
         };
-        let has_labels = owner.as_ref().is_some_and(|owner| owner.has_debug_utils());
         let debug_labels =
-            has_labels.then(|| ash::ext::debug_utils::Device::new(&instance, &device));
+            debug_utils.then(|| ash::ext::debug_utils::Device::new(&instance, &device));
         let functions = || ash::ext::conditional_rendering::Device::new(&instance, &device);
         Ok(Arc::new(Self {
             conditional_rendering: limits.conditional_rendering.then(functions),
@@ -160,7 +250,8 @@ impl Gpu {
             trace: Trace::default(),
             device,
             queue_family,
-            allocator: Some(allocator),
+            pipeline_cache,
+            memory: Some(memory),
             limits,
             owner,
         }))
@@ -196,20 +287,37 @@ impl Gpu {
         self.owner.as_ref()
     }
 
-    /// The allocator; a poisoned lock is taken over, as an allocation that panicked left nothing half made.
-    pub(super) fn with_allocator<R>(&self, f: impl FnOnce(&mut Allocator) -> R) -> Option<R> {
-        let allocator = self.allocator.as_ref()?;
-        let mut guard = allocator
-            .lock()
-            .unwrap_or_else(std::sync::PoisonError::into_inner);
-        Some(f(&mut guard))
+    /// Memory, if there is some.
+    pub(super) fn allocate(&self, request: &MemoryRequest<'_>) -> Option<Allocation> {
+        self.memory.as_ref()?.allocate(request)
+    }
+
+    /// Frees memory that [`Self::allocate`] gave.
+    pub(super) fn free(&self, allocation: Allocation) {
+        if let Some(memory) = &self.memory {
+            memory.free(allocation);
+        }
+    }
+
+    /// Names an object of the library's, where debuggers can be told.
+    pub(super) fn name(&self, object: impl vk::Handle, name: &str) {
+        let Some(functions) = &self.debug_labels else {
+            return;
+        };
+        let name = CString::new(format!("gpc {name}")).unwrap_or_default();
+        let info = vk::DebugUtilsObjectNameInfoEXT::default()
+            .object_handle(object)
+            .object_name(&name);
+        // SAFETY: the object was just made from this device by this thread. A debugger that can't keep the name says so, which
+        // matters to nobody else.
+        let _ = unsafe { functions.set_debug_utils_object_name(&info) };
     }
 }
 
 impl Drop for Gpu {
     fn drop(&mut self) {
-        // The allocator frees its blocks while the device is still alive.
-        self.allocator = None;
+        // An allocator frees its blocks while the device is still alive.
+        self.memory = None;
         if self.owner.is_some() {
             // SAFETY: the device is ours, everything made from it holds an `Arc` of this and is gone.
             unsafe { self.device.destroy_device(None) };
@@ -227,6 +335,16 @@ fn lanes_and_size(usual: u32, [least, most]: [u32; 2], can_require: bool) -> (u3
         // The least that may come fits in all others.
         (least.clamp(4, 32), usual)
     }
+}
+
+/// # Safety
+/// The device belongs to the instance, which is alive.
+unsafe fn device_name(instance: &ash::Instance, device: vk::PhysicalDevice) -> String {
+    // SAFETY: passed on to the caller.
+    let properties = unsafe { instance.get_physical_device_properties(device) };
+    let name = properties.device_name_as_c_str();
+    name.map(|name| name.to_string_lossy().into_owned())
+        .unwrap_or_default()
 }
 
 /// Those of a physical device.

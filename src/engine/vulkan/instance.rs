@@ -172,11 +172,6 @@ impl Instance {
         }))
     }
 
-    /// Whether commands can be labelled, for debuggers.
-    pub(super) fn has_debug_utils(&self) -> bool {
-        self.has_debug_utils
-    }
-
     /// Everything the validation layer has said so far.
     #[must_use]
     pub fn validation_messages(&self) -> Vec<String> {
@@ -344,14 +339,9 @@ impl Instance {
         // SAFETY: the physical device has everything asked for, as checked above.
         let device = unsafe { self.raw.create_device(physical_device, &info, None) }
             .map_err(VulkanError::of("vkCreateDevice"))?;
-        let host = Host {
-            instance: self.raw.clone(),
-            physical_device,
-            device,
-            queue_family,
-            allocator: None,
-            conditional_rendering: limits.conditional_rendering,
-        };
+        let mut host = Host::new(self.raw.clone(), physical_device, device, queue_family);
+        host.conditional_rendering = limits.conditional_rendering;
+        host.debug_utils = self.has_debug_utils;
         // SAFETY: the handles are alive, belong together, and the Gpu keeps the instance and owns the device.
         unsafe { Gpu::owning(host, Some(self.clone()), limits) }
     }

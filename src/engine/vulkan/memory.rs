@@ -1,9 +1,8 @@
 //! Buffers, texel views and images that free themselves.
 
+use super::allocation::{Allocation, MemoryRequest};
 use super::{Gpu, VulkanError};
 use ash::vk;
-use gpu_allocator::MemoryLocation;
-use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -44,9 +43,7 @@ struct Block {
 impl Drop for Block {
     fn drop(&mut self) {
         if let Some(allocation) = self.allocation.take() {
-            let _ = self
-                .gpu
-                .with_allocator(|allocator| allocator.free(allocation));
+            self.gpu.free(allocation);
         }
         self.account.used.fetch_sub(self.bytes, Ordering::Relaxed);
     }
@@ -81,7 +78,7 @@ impl Memory {
         &self,
         name: &str,
         requirements: vk::MemoryRequirements,
-        location: MemoryUse,
+        usage: MemoryUse,
         linear: bool,
     ) -> Result<Block, VulkanError> {
         let refuse = || VulkanError::OutOfMemory {
@@ -100,24 +97,13 @@ impl Memory {
             bytes: requirements.size,
             allocation: None,
         };
-        let allocation = self
-            .gpu
-            .with_allocator(|allocator| {
-                allocator.allocate(&AllocationCreateDesc {
-                    name,
-                    requirements,
-                    location: match location {
-                        MemoryUse::Device => MemoryLocation::GpuOnly,
-                        MemoryUse::Upload => MemoryLocation::CpuToGpu,
-                        MemoryUse::Readback => MemoryLocation::GpuToCpu,
-                    },
-                    linear,
-                    allocation_scheme: AllocationScheme::GpuAllocatorManaged,
-                })
-            })
-            .ok_or_else(refuse)?
-            .map_err(|_| refuse())?;
-        block.allocation = Some(allocation);
+        let allocation = self.gpu.allocate(&MemoryRequest {
+            name,
+            requirements,
+            usage,
+            linear,
+        });
+        block.allocation = Some(allocation.ok_or_else(refuse)?);
         Ok(block)
     }
 
@@ -137,6 +123,7 @@ impl Memory {
         // SAFETY: the device is alive as long as the Gpu; on failure below nothing but the handle is leaked to `Drop`.
         let raw = unsafe { self.gpu.device.create_buffer(&info, None) }
             .map_err(VulkanError::of("vkCreateBuffer"))?;
+        self.gpu.name(raw, name);
         let mut buffer = Buffer {
             gpu: self.gpu.clone(),
             raw,
@@ -247,6 +234,7 @@ impl Memory {
         // SAFETY: `info` is valid for the device, whose limits callers have checked.
         let raw = unsafe { self.gpu.device.create_image(info, None) }
             .map_err(VulkanError::of("vkCreateImage"))?;
+        self.gpu.name(raw, name);
         let mut image = Image {
             gpu: self.gpu.clone(),
             raw,
@@ -291,15 +279,6 @@ impl Memory {
     }
 }
 
-/// The allocation, where host and device see what the other writes without flushing. Memory to upload from and to read back
-/// from always is so; that of the device may be mapped and not so.
-fn coherent(allocation: &Allocation) -> Option<&Allocation> {
-    let flags = allocation.memory_properties();
-    flags
-        .contains(vk::MemoryPropertyFlags::HOST_COHERENT)
-        .then_some(allocation)
-}
-
 /// A buffer and its memory.
 pub struct Buffer {
     gpu: Arc<Gpu>,
@@ -327,7 +306,7 @@ impl Buffer {
     pub fn bytes(&self) -> &[u8] {
         self.block
             .as_ref()
-            .and_then(|block| coherent(block.allocation.as_ref()?)?.mapped_slice())
+            .and_then(|block| block.allocation.as_ref()?.bytes())
             .and_then(|all| all.get(..self.size as usize))
             .unwrap_or(&[])
     }
@@ -351,8 +330,7 @@ impl Buffer {
         let size = self.size as usize;
         self.block
             .as_mut()
-            .filter(|block| block.allocation.as_ref().and_then(coherent).is_some())
-            .and_then(|block| block.allocation.as_mut()?.mapped_slice_mut())
+            .and_then(|block| block.allocation.as_mut()?.bytes_mut())
             .and_then(|all| all.get_mut(..size))
             .unwrap_or(&mut [])
     }

@@ -2,6 +2,7 @@
 //!
 //! Hosts see devices alone. Memory, pipelines and commands are the crate's own: their functions trust what they are given.
 
+mod allocation;
 mod barriers;
 pub(crate) mod commands;
 mod completion;
@@ -14,13 +15,15 @@ pub(crate) mod pipeline;
 mod requirements;
 mod trace;
 
+pub use allocation::{AllocateMemory, HostMemory, MemoryRequest, MemorySource, SharedAllocator};
 pub(crate) use commands::{PUSH_STAGES, Recorder, Timings};
 pub(crate) use completion::Completion;
 pub use error::VulkanError;
-pub use gpu::{Gpu, Host, Limits, SharedAllocator};
+pub use gpu::{Gpu, Host, Limits};
 pub use instance::{DeviceInfo, Instance, InstanceOptions};
 pub(crate) use interface::{Access, Binding, Compiled, Interface, Invocations, Specialized, Use};
-pub(crate) use memory::{Buffer, BufferView, Image, Memory, MemoryUse, TexelView};
+pub use memory::MemoryUse;
+pub(crate) use memory::{Buffer, BufferView, Image, Memory, TexelView};
 pub(crate) use pipeline::{Constants, GraphicsPipeline, Pipeline, compute_pipeline};
 pub use requirements::{MISSING_DRIVER_HELP, Missing, Requirements};
 pub(crate) use trace::{Dispatch, Dispatched};

@@ -109,8 +109,9 @@ impl Pipeline {
         }
     }
 
-    /// The same, with what its shader says of itself.
+    /// The same, with what its shader says of itself; debuggers see the shader's name.
     pub(crate) fn of(mut self, interface: &'static Interface) -> Self {
+        self.gpu.name(self.raw, interface.name);
         self.interface = Some(interface);
         self
     }
@@ -160,7 +161,7 @@ pub(crate) fn compute_pipeline(
     // SAFETY: the layout covers what the crate's shader binds; all structures live until after the call.
     let pipelines = unsafe {
         gpu.device
-            .create_compute_pipelines(vk::PipelineCache::null(), &[info], None)
+            .create_compute_pipelines(gpu.pipeline_cache, &[info], None)
     }
     .map_err(|(_, e)| VulkanError::of("vkCreateComputePipelines")(e))?;
     let raw = pipelines.first().copied().unwrap_or_default();
@@ -253,7 +254,7 @@ impl GraphicsPipeline<'_> {
         // SAFETY: all structures live until after the call; the layout covers what the crate's shaders bind.
         let pipelines = unsafe {
             gpu.device
-                .create_graphics_pipelines(vk::PipelineCache::null(), &[info], None)
+                .create_graphics_pipelines(gpu.pipeline_cache, &[info], None)
         }
         .map_err(|(_, e)| VulkanError::of("vkCreateGraphicsPipelines")(e))?;
         let raw = pipelines.first().copied().unwrap_or_default();

@@ -1,5 +1,6 @@
 //! What the renderer needs of a device, known before one is made.
 
+use super::VulkanError;
 use ash::vk;
 
 /// What a user does about a missing driver.
@@ -20,7 +21,7 @@ pub enum Missing {
     #[error("the feature {0}")]
     Feature(&'static str),
     /// The instance was created for a version that has no queries of features; a device says nothing of its own through it.
-    #[error("an instance created for Vulkan 1.3 (VkApplicationInfo::apiVersion is 1.0)")]
+    #[error("an instance created for Vulkan 1.3 (its VkApplicationInfo::apiVersion is 1.0)")]
     Instance,
     /// No queue family does both graphics and compute.
     #[error("a queue family with graphics and compute")]
@@ -147,6 +148,76 @@ impl Requirements {
         conditional.conditional_rendering == vk::TRUE
     }
 
+    /// Refuses a device of an earlier version than Vulkan 1.3. Any instance will do.
+    ///
+    /// # Errors
+    /// [`Missing::Version`].
+    ///
+    /// # Safety
+    /// The device belongs to the instance, which is alive.
+    pub(crate) unsafe fn check_version(
+        instance: &ash::Instance,
+        device: vk::PhysicalDevice,
+    ) -> Result<(), Missing> {
+        // SAFETY: passed on to the caller; a query of Vulkan 1.0.
+        let version = unsafe { instance.get_physical_device_properties(device) }.api_version;
+        if version < Self::API_VERSION {
+            return Err(Missing::Version {
+                major: vk::api_version_major(version),
+                minor: vk::api_version_minor(version),
+            });
+        }
+        Ok(())
+    }
+
+    /// Refuses a device without functions of Vulkan 1.3, as one whose instance was created for an earlier version.
+    ///
+    /// # Errors
+    /// [`VulkanError::NoFunction`].
+    ///
+    /// # Safety
+    /// The device belongs to the instance; both are alive.
+    pub(crate) unsafe fn check_functions(
+        instance: &ash::Instance,
+        device: vk::Device,
+    ) -> Result<(), VulkanError> {
+        for name in [c"vkCmdPipelineBarrier2", c"vkCmdBeginRendering"] {
+            // SAFETY: passed on to the caller; the name ends with a zero.
+            let found = unsafe { instance.get_device_proc_addr(device, name.as_ptr()) };
+            found.ok_or(VulkanError::NoFunction(name.to_str().unwrap_or_default()))?;
+        }
+        Ok(())
+    }
+
+    /// Refuses an instance that was created for an earlier version than Vulkan 1.3. Loaders don't tell, so that a device is
+    /// made and destroyed again.
+    ///
+    /// # Errors
+    /// As [`Self::check_functions`]; [`VulkanError::Call`] if the driver makes no device.
+    ///
+    /// # Safety
+    /// The physical device has the queue family and belongs to the instance, which is alive.
+    #[cfg(feature = "capi")]
+    pub(crate) unsafe fn check_instance(
+        instance: &ash::Instance,
+        device: vk::PhysicalDevice,
+        queue_family: u32,
+    ) -> Result<(), VulkanError> {
+        let queues = [vk::DeviceQueueCreateInfo::default()
+            .queue_family_index(queue_family)
+            .queue_priorities(&[1.0])];
+        let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues);
+        // SAFETY: passed on to the caller; nothing is made with the device.
+        unsafe {
+            let made = instance
+                .create_device(device, &info, None)
+                .map_err(VulkanError::of("vkCreateDevice"))?;
+            let checked = Self::check_functions(instance, made.handle());
+            made.destroy_device(None);
+            checked
+        }
+    }
+
     /// Everything that the physical device lacks; empty if it will do.
     ///
     /// # Safety
@@ -156,14 +227,9 @@ impl Requirements {
         let mut missing = Vec::new();
         let mut subgroup = vk::PhysicalDeviceSubgroupProperties::default();
         let mut size_control = vk::PhysicalDeviceSubgroupSizeControlProperties::default();
-        // SAFETY: passed on to the caller; a 1.0 query that any device answers.
-        let properties = unsafe { instance.get_physical_device_properties(device) };
-        let version = properties.api_version;
-        if version < Self::API_VERSION {
-            return vec![Missing::Version {
-                major: vk::api_version_major(version),
-                minor: vk::api_version_minor(version),
-            }];
+        // SAFETY: passed on to the caller.
+        if let Err(version) = unsafe { Self::check_version(instance, device) } {
+            return vec![version];
         }
         let mut driver = vk::PhysicalDeviceDriverProperties::default();
         let mut properties2 = vk::PhysicalDeviceProperties2::default()

@@ -2,7 +2,7 @@
 
 use anyhow::{Context, anyhow};
 use ash::vk;
-use gpc::vulkan::{Host, Requirements, SharedAllocator, VulkanError};
+use gpc::vulkan::{Host, MemorySource, Requirements, SharedAllocator, VulkanError};
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use std::ffi::{CStr, c_void};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -166,14 +166,18 @@ impl Device {
 
     /// The device's handles, as a host lends them to the renderer.
     pub fn host(&self) -> Host {
-        Host {
-            instance: self.instance.clone(),
-            physical_device: self.physical,
-            device: self.handle.clone(),
-            queue_family: self.queue_family,
-            allocator: self.allocator.clone(),
-            conditional_rendering: self.conditional_rendering,
-        }
+        let mut host = Host::new(
+            self.instance.clone(),
+            self.physical,
+            self.handle.clone(),
+            self.queue_family,
+        );
+        host.memory = self
+            .allocator
+            .clone()
+            .map_or(MemorySource::Own, MemorySource::Shared);
+        host.conditional_rendering = self.conditional_rendering;
+        host
     }
 
     /// The allocator, shared by the renderer and the panel's painter.

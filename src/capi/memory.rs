@@ -1,0 +1,141 @@
+//! Device memory from the application's functions.
+
+use super::input::{Element, GpcStructType, Struct, shown, sizes};
+use crate::vulkan::{AllocateMemory, HostMemory, MemoryRequest, MemoryUse};
+use ash::vk;
+use std::ffi::{CString, c_char, c_void};
+use std::ptr::NonNull;
+
+/// Where memory lies.
+#[derive(Clone, Copy)]
+#[repr(u32)]
+pub enum GpcMemoryUse {
+    /// On the device.
+    Device = 0,
+    /// Written by the CPU, read by the device: mapped, with VK_MEMORY_PROPERTY_HOST_COHERENT_BIT.
+    Upload = 1,
+    /// Written by the device, read by the CPU: mapped, with VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, at best
+    /// VK_MEMORY_PROPERTY_HOST_CACHED_BIT too.
+    Readback = 2,
+}
+
+/// Memory that a buffer or an image of the library needs.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct GpcMemoryRequest {
+    /// The library's sizeof(GpcMemoryRequest).
+    pub size: u32,
+    /// GPC_STRUCT_TYPE_MEMORY_REQUEST.
+    pub r#type: u32,
+    /// NULL, or a structure that extends this one.
+    pub next: *const c_void,
+    /// What it is for, for a log: UTF-8, alive until the function returns.
+    pub name: *const c_char,
+    /// Its size, alignment and possible types.
+    pub requirements: vk::MemoryRequirements,
+    /// Where it lies: a GpcMemoryUse.
+    pub usage: u32,
+    /// VK_TRUE for a buffer, VK_FALSE for an image of optimal tiling: see VkPhysicalDeviceLimits.bufferImageGranularity.
+    pub linear: vk::Bool32,
+}
+
+// SAFETY: `repr(C)`; numbers and pointers may have any bytes.
+unsafe impl Element for GpcMemoryRequest {
+    const NAME: &'static str = "GpcMemoryRequest";
+    const SIZES: &'static [usize] = sizes!(GpcMemoryRequest, linear);
+}
+
+// SAFETY: it begins with size, type and next.
+unsafe impl Struct for GpcMemoryRequest {
+    const TYPE: GpcStructType = GpcStructType::MemoryRequest;
+}
+
+/// Memory that the application allocated.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct GpcMemory {
+    /// The memory.
+    pub memory: vk::DeviceMemory,
+    /// Where in it, in bytes: a multiple of the alignment that was asked for.
+    pub offset: u64,
+    /// The address at which that offset is mapped; NULL for memory of the device that is not mapped, or not coherent.
+    pub mapped: *mut c_void,
+    /// The application's own.
+    pub user: *mut c_void,
+}
+
+/// Allocates memory of the device that was lent: as large and aligned as asked for, of one of the types asked for, used by nobody
+/// else until it is freed. VK_FALSE where memory ran out. It must not throw or jump out, and must not use the library.
+///
+/// Threads: it is called by those that create antialiasers, frames and lists, several at once if the application has several do so.
+pub type GpcAllocate = Option<
+    unsafe extern "C" fn(
+        user: *mut c_void,
+        request: *const GpcMemoryRequest,
+        memory: *mut GpcMemory,
+    ) -> vk::Bool32,
+>;
+
+/// Frees memory that a GpcAllocate gave. No command uses it any more. It must not throw or jump out, and must not use the library.
+///
+/// Threads: as GpcAllocate, and those that destroy.
+pub type GpcFree = Option<unsafe extern "C" fn(user: *mut c_void, memory: *const GpcMemory)>;
+
+/// An application's functions.
+pub(super) struct Functions {
+    pub allocate:
+        unsafe extern "C" fn(*mut c_void, *const GpcMemoryRequest, *mut GpcMemory) -> vk::Bool32,
+    pub free: unsafe extern "C" fn(*mut c_void, *const GpcMemory),
+    pub user: *mut c_void,
+}
+
+// SAFETY: the header says that any thread that uses the library may call the functions with `user`.
+unsafe impl Send for Functions {}
+// SAFETY: as above.
+unsafe impl Sync for Functions {}
+
+// SAFETY: the header asks the application for what the trait does.
+unsafe impl AllocateMemory for Functions {
+    fn allocate(&self, request: &MemoryRequest<'_>) -> Option<HostMemory> {
+        let name = CString::new(request.name).unwrap_or_default();
+        let usage = match request.usage {
+            MemoryUse::Device => GpcMemoryUse::Device,
+            MemoryUse::Upload => GpcMemoryUse::Upload,
+            MemoryUse::Readback => GpcMemoryUse::Readback,
+        };
+        let request = shown(GpcMemoryRequest {
+            name: name.as_ptr(),
+            requirements: request.requirements,
+            usage: usage as u32,
+            linear: u32::from(request.linear),
+            ..GpcMemoryRequest::defaults()
+        });
+        let mut memory = GpcMemory {
+            memory: vk::DeviceMemory::null(),
+            offset: 0,
+            mapped: std::ptr::null_mut(),
+            user: std::ptr::null_mut(),
+        };
+        // SAFETY: the application's function, called as documented.
+        let made = unsafe { (self.allocate)(self.user, &raw const request, &raw mut memory) };
+        (made != vk::FALSE && memory.memory != vk::DeviceMemory::null()).then_some(HostMemory {
+            memory: memory.memory,
+            offset: memory.offset,
+            mapped: NonNull::new(memory.mapped.cast()),
+            user: memory.user,
+        })
+    }
+
+    fn free(&self, memory: HostMemory) {
+        let memory = GpcMemory {
+            memory: memory.memory,
+            offset: memory.offset,
+            mapped: memory
+                .mapped
+                .map_or(std::ptr::null_mut(), |at| at.as_ptr().cast()),
+            user: memory.user,
+        };
+        // SAFETY: as above.
+        unsafe { (self.free)(self.user, &raw const memory) };
+    }
+}
