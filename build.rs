@@ -169,6 +169,7 @@ const VARIANTS: &[Variant] = &[
     ("shadow", "shadow.comp", &[]),
     ("shade", "shade.comp", &[]),
     ("resolve", "resolve.comp", &[]),
+    ("resolve_drawn", "resolve.comp", &[("DRAWN", "")]),
     ("points", "points.comp", &[]),
     ("box_filter", "box_filter.comp", &[]),
     ("multisample", "multisample.comp", &[]),

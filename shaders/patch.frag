@@ -1,5 +1,5 @@
 // patch: the colours of superpixels, drawn into a host's image; all other pixels keep what they hold. ALL: those of all
-// pixels. Reads: masks, marks, color. ENCODED: as for take.
+// pixels. Reads: masks, marks, color. ENCODED: the host writes sRGB codes into a format of plain numbers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"

@@ -1,6 +1,7 @@
 // resolve: the colour of each superpixel, from its shaded records.
 // Sub-samples are tone-mapped one by one, then averaged in linear light; alpha is coverage.
 // Reads: tile_lists, tiles, masks, headers, records, shaded. Writes: color and, where asked, display or marks.
+// DRAWN, a variant: samples that see no triangle show what the host has drawn, in its image, instead of the background.
 // LOCATIONS: the cells of a group, into the colours of their locations.
 // LAYERED records are layers over an opaque surface, composited from those of the header on, the leaves of their lists.
 #version 460
@@ -12,6 +13,9 @@
 #include "include/composite.glsl"
 #include "include/work.glsl"
 #include "include/seen_beside.glsl"
+#ifdef DRAWN
+#include "include/behind.glsl"
+#endif
 layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
 layout(constant_id = RESOLVE_CONSTANT_BLOCK) const uint BLOCK = 256u;
 layout(constant_id = RESOLVE_CONSTANT_LAYERED) const bool LAYERED = false;
@@ -68,7 +72,14 @@ void main() {
             covered += weight;
         }
     } while (++block < filled);
-    sum = (sum + frame.background * (float(frame.sample_count) - covered)) * share;
+    uvec2 place = LOCATIONS && mine ? uvec2(texelFetch(location_cells, int(2u * (location_group.y + cell) + 1u)).x, 0u) : corner + uvec2(bit & 7u, bit >> 3);
+    float uncovered = float(frame.sample_count) - covered;
+    vec4 background = frame.background;
+#ifdef DRAWN
+    // Sums of areas are rounded.
+    if (mine && uncovered > 1e-3) background = behind(place);
+#endif
+    sum = (sum + background * uncovered) * share;
     if (LAYERED && trips > MOST_TRIPS) atomicAdd(counters[COUNTER_STALLED], 1u);
-    if (mine) write(LOCATIONS ? uvec2(texelFetch(location_cells, int(2u * (location_group.y + cell) + 1u)).x, 0u) : corner + uvec2(bit & 7u, bit >> 3), sum);
+    if (mine) write(place, sum);
 }

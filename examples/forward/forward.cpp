@@ -362,8 +362,6 @@ class Renderer {
         options.shading = shading;
         // Next to no contrast is left where all is shaded.
         if (shading == GPC_SHADING_SAMPLE) options.contrast = 2;
-        options.has_background = VK_TRUE;
-        std::memcpy(options.background, SKY, sizeof SKY);
         check(gpc_frame_create(antialiaser, &geometry, &images, &options, &frame));
     }
 

@@ -34,7 +34,7 @@ pub struct Slot<'a> {
     read_back: Buffer<'a>,
 }
 
-/// The background that the host draws, and tells the library.
+/// The background that the host draws, and tells the lens, which has no image of it.
 pub const SKY: [f32; 3] = [0.2, 0.35, 0.6];
 
 /// The state in which the host samples what it has drawn.

@@ -127,6 +127,9 @@ fn in_c(error: &HostError) -> String {
         HostError::BlendedCentres => {
             "GpcGeometry.blended with GpcOptions.shade_all: centres are shaded by the nearest surface alone; draw the colours yourself".to_owned()
         }
+        HostError::BlendedBackground => {
+            "GpcGeometry.blended without GpcOptions.flat_background: blended draws are composited over GpcOptions.background alone; set flat_background and lend the sky as triangles, or draw what is blended after the recording".to_owned()
+        }
         HostError::NotBlended { draw } => {
             format!("draw {draw} is blended; create the frame with GpcGeometry.blended")
         }

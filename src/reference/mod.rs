@@ -6,6 +6,7 @@
 #![forbid(unsafe_code)]
 
 pub mod area;
+pub mod behind;
 pub mod coverage;
 #[cfg(feature = "gltf")]
 pub mod crossings;

@@ -6,6 +6,8 @@ mod blend;
 mod coverage;
 mod detect;
 mod devices;
+#[path = "../common/difference.rs"]
+mod difference;
 mod distribute;
 mod edges;
 mod environment;

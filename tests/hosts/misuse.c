@@ -576,6 +576,10 @@ static void frames(void) {
     options.shade_all = VK_TRUE;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcGeometry.blended with GpcOptions.shade_all");
     options.shade_all = VK_FALSE;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcGeometry.blended without GpcOptions.flat_background");
+    options.flat_background = 2;
+    ANSWERS(CREATE, GPC_RESULT_VALUE, "GpcOptions.flat_background is 2");
+    options.flat_background = VK_FALSE;
     geometry.blended = VK_FALSE;
     ANSWERS(CREATE, GPC_RESULT_VALUE, "a colour image of format R8G8B8A8_UINT");
     images.color_format = VK_FORMAT_R8G8B8A8_UNORM;

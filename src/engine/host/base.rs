@@ -1,14 +1,15 @@
 //! One sample a pixel: what the host has drawn, and what is drawn in its stead.
 
 use super::draw::PlacedDraws;
-use super::{HostError, Images, Options, Shared};
+use super::{HostError, Options, Shared};
 use crate::engine::sampler::{RecordShading, record_shading};
 use crate::passes::{
-    Centres, ColorConstants, Content, FrameUniform, HostDraw, OwnSet, Raster, RasterPush,
-    RasterRun, RasterTargets, Resources, SampleSet, Sort,
+    Centres, ColorConstants, Content, FrameUniform, HostDraw, HostImage, Raster, RasterPush,
+    RasterRun, RasterTargets, Resources, SampleSet, Sort, Take,
 };
-use crate::vulkan::{Pipeline, Recorder};
+use crate::vulkan::Recorder;
 use ash::vk;
+use std::sync::Arc;
 
 /// What fills triangle IDs, depth and colours of all pixels.
 pub(super) struct Base {
@@ -19,21 +20,21 @@ pub(super) struct Base {
 
 enum Colors {
     /// The host's image is read.
-    Drawn { take: Pipeline, set: OwnSet },
+    Drawn(Take),
     /// The host's shading makes them.
     Shaded { centres: Centres, sort: Sort },
 }
 
 impl Base {
-    /// Makes the pipelines; `targets` are there where the host lends no IDs, `output` are the colour constants.
+    /// Makes the pipelines; `image` is there where the host has drawn colours, `targets` where it lends no IDs, `output` are the
+    /// colour constants.
     ///
-    /// # Safety
-    /// The images are as [`Images`] says and outlive this.
-    pub unsafe fn new(
+    /// # Errors
+    /// If the driver refuses one.
+    pub fn new(
         shared: &Shared,
         content: &dyn Content,
-        images: &Images,
-        options: &Options,
+        image: Option<&Arc<HostImage>>,
         targets: Option<RasterTargets>,
         output: &ColorConstants,
     ) -> Result<Self, HostError> {
@@ -41,17 +42,12 @@ impl Base {
         let single = vk::SampleCountFlags::TYPE_1;
         let with_raster =
             |targets| Ok::<_, HostError>((Raster::new(layout, single, content)?, targets));
-        let colors = if options.shade_all {
-            Colors::Shaded {
+        let colors = match image {
+            Some(image) => Colors::Drawn(Take::new(layout, image, output)?),
+            None => Colors::Shaded {
                 centres: Centres::new(layout, output)?,
                 sort: Sort::new(layout, content, false)?,
-            }
-        } else {
-            Colors::Drawn {
-                take: shared.take.pipeline(layout, images.color.encoded, output)?,
-                // SAFETY: passed on to the caller.
-                set: unsafe { shared.take.set(images.color.lent.view) }?,
-            }
+            },
         };
         Ok(Self {
             raster: targets.map(with_raster).transpose()?,
@@ -72,7 +68,6 @@ impl Base {
     pub fn record(
         &self,
         recorder: &mut Recorder<'_>,
-        shared: &Shared,
         (resources, set): (&Resources, &SampleSet),
         (uniform, placed): (&FrameUniform, &PlacedDraws),
         shading: &dyn RecordShading,
@@ -93,10 +88,8 @@ impl Base {
             recorder.mark("raster");
         }
         match &self.colors {
-            Colors::Drawn { take, set: image } => {
-                let sets = [set.descriptor(), image.raw];
-                shared.take.record(recorder, take, sets, width * height);
-                resources.record_bind(recorder, set);
+            Colors::Drawn(take) => {
+                take.record(recorder, width * height);
                 recorder.mark("take");
             }
             Colors::Shaded { centres, sort } => {

@@ -185,6 +185,11 @@ pub enum HostError {
         "Geometry::blended with Options::shade_all: centres are shaded by the nearest surface alone; draw the colours yourself"
     )]
     BlendedCentres,
+    /// The host's colours of pixels that blended draws cover have these in them.
+    #[error(
+        "Geometry::blended without Options::flat_background: blended draws are composited over Options::background alone; set flat_background and lend the sky as triangles, or draw what is blended after the recording"
+    )]
+    BlendedBackground,
     /// A draw has a shading key that there is none of.
     #[error("draw {draw} has shading key {key}, and there are {keys}")]
     Key {

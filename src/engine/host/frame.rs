@@ -84,6 +84,9 @@ impl Frame {
         if geometry.blended && options.shade_all {
             return Err(HostError::BlendedCentres);
         }
+        if geometry.blended && options.shows_drawn() {
+            return Err(HostError::BlendedBackground);
+        }
         images.check(options, gpu.limits().max_image_side)?;
         check_size(settings.size)?;
         let [width, height] = settings.size;
@@ -124,7 +127,16 @@ impl Frame {
             }],
         )?;
         let output = settings.color_constants(content);
+        let image = (!options.shade_all)
+            .then(|| shared.host_image.image(images.color.encoded))
+            .transpose()?
+            .map(Arc::new);
+        if let Some(image) = &image {
+            // SAFETY: the image's set is new; the view outlives the frame, as the caller says.
+            unsafe { image.show(images.color.lent.view) };
+        }
         let cells = PixelCells {
+            behind: image.clone().filter(|_| options.shows_drawn()),
             farther_is_larger: own.is_none() && !geometry.clip.reversed_depth,
             blend_ids: false,
             ..PixelCells::superpixels(&settings)
@@ -143,12 +155,7 @@ impl Frame {
             sampler.limit_rounds(most);
         }
         // SAFETY: of the host's handles, as the caller says; the rest goes with the frame.
-        let (base, visibility_set) = unsafe {
-            (
-                Base::new(shared, content, images, options, own, &output)?,
-                lending.visibility_set(shared, &resources, None)?,
-            )
-        };
+        let visibility_set = unsafe { lending.visibility_set(shared, &resources, None) }?;
         let growths = sampler.growths() as u32;
         let bands = Base::shadings(options, width * height, plan.sizes.record_capacity);
         let patched = match (options.shade_all, growths) {
@@ -157,7 +164,7 @@ impl Frame {
             (false, _) => Patched::Grown,
         };
         Ok(Self {
-            base,
+            base: Base::new(shared, content, image.as_ref(), own, &output)?,
             patch: Patch::new(layout, images.color.format, images.color.encoded, patched)?,
             timings: Timings::new(gpu, 32 + 14 * (1 + growths) + 8 * bands)?,
             lending,
@@ -268,8 +275,7 @@ impl Frame {
         lending.record_visible(recorder, &first);
         resources.record_begin(recorder, set, &uniform);
         let seen = (&uniform, &placed);
-        self.base
-            .record(recorder, &self.shared, (resources, set), seen, &shading);
+        self.base.record(recorder, (resources, set), seen, &shading);
         if shades_all {
             lending.record_visible(recorder, &at_places);
             // What the centres counted is not of superpixels.

@@ -45,7 +45,7 @@ pub use shader::{ShaderError, check_shader};
 pub use shading::{SHADER_INCLUDES, ShadeSamples, VisibilitySamples};
 
 use crate::passes::{
-    self, Adopt, AlphaMaps, FrameLayout, SetLayout, Take, Transform, visibility_layout,
+    self, Adopt, AlphaMaps, FrameLayout, HostImageLayout, SetLayout, Transform, visibility_layout,
 };
 use crate::vulkan::{Gpu, Host, VulkanError};
 use ash::vk;
@@ -63,7 +63,7 @@ pub(crate) struct Shared {
     transform: Transform,
     coordinates: passes::Coordinates,
     alpha_maps: AlphaMaps,
-    take: Take,
+    host_image: Arc<HostImageLayout>,
     visibility: SetLayout,
 }
 
@@ -93,7 +93,7 @@ impl Antialiaser {
                 transform: Transform::new(&gpu)?,
                 coordinates: passes::Coordinates::new(&gpu)?,
                 alpha_maps: AlphaMaps::new(&gpu)?,
-                take: Take::new(&frame)?,
+                host_image: HostImageLayout::new(&frame)?,
                 visibility: visibility_layout(&gpu)?,
                 frame,
                 gpu,

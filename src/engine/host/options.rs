@@ -22,9 +22,14 @@ pub struct Options {
     pub contrast: Option<u8>,
     /// Whether triangles too thin for a pixel's centre to see make superpixels too; where IDs are lent, this needs depth, too.
     pub thin: bool,
-    /// Linear light that shows where no triangle is; `None` is transparent. A sky with more than one colour is drawn as
-    /// triangles.
+    /// Linear light that shows where neither a triangle nor, unless [`Self::flat_background`] says otherwise, something that the
+    /// host has drawn is; `None` is transparent.
     pub background: Option<[f32; 3]>,
+    /// Whether [`Self::background`] shows wherever no triangle is. Otherwise, where the host lends its colours, a sample of a
+    /// superpixel that sees no triangle shows what the host has drawn, with its alpha: the colour of the pixel if its centre saw no
+    /// triangle, else of the nearest one of the 8 pixels around it, then of the 24, whose centre saw none, else the background. It
+    /// has to be true with [`Geometry::blended`](super::Geometry::blended), and does not matter with [`Self::shade_all`].
+    pub flat_background: bool,
     /// Whether the image holds radiance that is tone-mapped later, so that detection compares tone-mapped colours.
     pub high_dynamic_range: bool,
     /// Whether textures are filtered over what each sample stands for, so that the image converges to the scene as it is;
@@ -55,12 +60,18 @@ impl Options {
             contrast: None,
             thin: true,
             background: None,
+            flat_background: false,
             high_dynamic_range: false,
             sharp: true,
             shade_all: false,
             max_memory: None,
             max_rounds: None,
         }
+    }
+
+    /// Whether samples that see no triangle show what the host has drawn.
+    pub(super) fn shows_drawn(&self) -> bool {
+        !self.flat_background && !self.shade_all
     }
 
     pub(super) fn settings(&self) -> Settings {

@@ -29,6 +29,13 @@ pub struct FrameLayout {
 }
 
 impl FrameLayout {
+    /// The push constants of every pipeline.
+    pub(crate) const PUSH_RANGE: vk::PushConstantRange = vk::PushConstantRange {
+        stage_flags: PUSH_STAGES,
+        offset: 0,
+        size: PUSH_BYTES,
+    };
+
     /// Makes the layouts.
     ///
     /// # Errors
@@ -86,11 +93,7 @@ impl FrameLayout {
             layout.frame_set = make(&frame)?;
             layout.texture_set = make(&[textures])?;
             let sets = [layout.frame_set, layout.texture_set];
-            let push = [vk::PushConstantRange {
-                stage_flags: PUSH_STAGES,
-                offset: 0,
-                size: PUSH_BYTES,
-            }];
+            let push = [Self::PUSH_RANGE];
             let info = vk::PipelineLayoutCreateInfo::default()
                 .set_layouts(&sets)
                 .push_constant_ranges(&push);

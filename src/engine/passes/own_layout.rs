@@ -150,7 +150,20 @@ impl PipelineLayout {
             offset: 0,
             size: push_bytes,
         }];
-        let ranges = if push_bytes > 0 { &push[..] } else { &[] };
+        Self::with_ranges(gpu, sets, if push_bytes > 0 { &push[..] } else { &[] })
+    }
+
+    /// With a set beside the frame's, which stays bound where pipelines of this layout and of the frame's are bound by turns.
+    pub fn beside_frame(frame: &FrameLayout, set: &SetLayout) -> Result<Self, VulkanError> {
+        let sets = [frame.frame_set, set.raw];
+        Self::with_ranges(&frame.gpu, &sets, &[FrameLayout::PUSH_RANGE])
+    }
+
+    fn with_ranges(
+        gpu: &Arc<Gpu>,
+        sets: &[vk::DescriptorSetLayout],
+        ranges: &[vk::PushConstantRange],
+    ) -> Result<Self, VulkanError> {
         let info = vk::PipelineLayoutCreateInfo::default()
             .set_layouts(sets)
             .push_constant_ranges(ranges);

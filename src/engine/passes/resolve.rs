@@ -1,5 +1,6 @@
 //! resolve: the colour of each superpixel.
 
+use super::host_image::HostImage;
 use super::{Cells, ColorConstants, FrameLayout, Sample, TileList, spirv};
 use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
@@ -18,20 +19,24 @@ pub enum ResolveTarget {
 /// Averages what the sub-samples of a cell see.
 pub struct Resolve {
     kernels: Vec<(TileList, Arc<Pipeline>)>,
+    /// What shows in samples that see no triangle; without it the background does.
+    behind: Option<Arc<HostImage>>,
 }
 
 impl Resolve {
     /// Makes a pipeline for each list of `sample`; `target` is what a pass after it needs, `output` are the colour constants of
-    /// `shaders/include/color.glsl`.
+    /// `shaders/include/color.glsl`. Samples that see no triangle show what the host has drawn in the image `behind`, or the
+    /// background; layers are composited over the background alone, so that there is no image where there may be some.
     ///
     /// # Errors
     /// If the driver refuses one.
-    pub fn new(
+    pub(crate) fn new(
         layout: &FrameLayout,
         sample: &Sample,
         has_blend: bool,
         target: ResolveTarget,
         output: &ColorConstants,
+        behind: Option<&Arc<HostImage>>,
     ) -> Result<Self, VulkanError> {
         let cells = sample.options().cells;
         let kernels = sample
@@ -48,12 +53,15 @@ impl Resolve {
                         sample.options().has_one_header()
                             && matches!(list, TileList::Plain | TileList::Masked),
                         target,
-                        (cells, output),
+                        (cells, output, behind),
                     )?,
                 ))
             })
             .collect::<Result<_, VulkanError>>()?;
-        Ok(Self { kernels })
+        Ok(Self {
+            kernels,
+            behind: behind.cloned(),
+        })
     }
 
     /// For records that `multisample` wrote: one header a cell.
@@ -73,10 +81,11 @@ impl Resolve {
             false,
             false,
             target,
-            (Cells::Pixels, output),
+            (Cells::Pixels, output, None),
         )?;
         Ok(Self {
             kernels: vec![(TileList::Plain, pipeline)],
+            behind: None,
         })
     }
 
@@ -87,7 +96,7 @@ impl Resolve {
         layered: bool,
         probed: bool,
         target: ResolveTarget,
-        (cells, output): (Cells, &ColorConstants),
+        (cells, output, behind): (Cells, &ColorConstants, Option<&Arc<HostImage>>),
     ) -> Result<Arc<Pipeline>, VulkanError> {
         let lanes = layout.gpu.limits().lanes;
         let shader = spirv::Resolve {
@@ -104,12 +113,19 @@ impl Resolve {
             unsure: layout.is_unsure(lanes),
             tonemap: output.tonemap,
             tonemap_codes: output.tonemap_codes,
+            encoded: behind.is_some_and(|image| image.encoded()),
         };
-        layout.compute(&shader, layout.subgroup())
+        match behind {
+            Some(image) => image.pipeline(layout, spirv::RESOLVE_DRAWN, &shader, layout.subgroup()),
+            None => layout.compute_variant(spirv::RESOLVE, &shader, layout.subgroup()),
+        }
     }
 
     /// Records it over the tiles of the round.
     pub fn record(&self, recorder: &Recorder<'_>, arguments: &Buffer) {
+        if let Some(image) = &self.behind {
+            image.bind(recorder);
+        }
         for (list, pipeline) in &self.kernels {
             recorder.dispatch_indirect(pipeline, arguments, list.argument());
         }

@@ -1568,6 +1568,16 @@ impl Compiled for Receivers {
     }
 }
 
+/// The set beside the frame's that `shaders/resolve.comp` binds.
+pub mod resolve_set {
+    use super::{Binding, Kind};
+
+    pub const HOST_IMAGE: Binding = Binding::new(0, "host_image", Kind::SAMPLED_IMAGE, 1);
+    pub const ALL: [Binding; 1] = [
+        HOST_IMAGE,
+    ];
+}
+
 /// Constants of `shaders/resolve.comp`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Resolve {
@@ -1580,6 +1590,7 @@ pub struct Resolve {
     pub probed: bool,
     pub grows: bool,
     pub tinted: bool,
+    pub encoded: bool,
     pub locations: bool,
     pub unsure: bool,
     pub tonemap: bool,
@@ -1598,6 +1609,7 @@ impl Default for Resolve {
             probed: false,
             grows: false,
             tinted: false,
+            encoded: false,
             locations: false,
             unsure: false,
             tonemap: true,
@@ -1611,6 +1623,7 @@ impl Specialized for Resolve {
         name: "resolve",
         uses: &[
             Use { set: 0, binding: frame_set::FRAME, access: Access::Read },
+            Use { set: 0, binding: frame_set::IDS, access: Access::Read },
             Use { set: 0, binding: frame_set::DISPLAY, access: Access::Read },
             Use { set: 0, binding: frame_set::DISPLAY_OUT, access: Access::Write },
             Use { set: 0, binding: frame_set::COLOR, access: Access::Write },
@@ -1624,6 +1637,7 @@ impl Specialized for Resolve {
             Use { set: 0, binding: frame_set::MARKS, access: Access::ReadWrite },
             Use { set: 0, binding: frame_set::LOCATION_CELLS, access: Access::Read },
             Use { set: 0, binding: frame_set::LOCATION_GROUPS, access: Access::Read },
+            Use { set: 1, binding: resolve_set::HOST_IMAGE, access: Access::Read },
         ],
         push_bytes: 0,
         invocations: Invocations::Constant,
@@ -1640,16 +1654,11 @@ impl Specialized for Resolve {
             .flag(6, self.probed)
             .flag(7, self.grows)
             .flag(16, self.tinted)
+            .flag(18, self.encoded)
             .flag(20, self.locations)
             .flag(24, self.unsure)
             .flag(30, self.tonemap)
             .flag(31, self.tonemap_codes)
-    }
-}
-
-impl Compiled for Resolve {
-    fn code() -> &'static [u8] {
-        RESOLVE
     }
 }
 
@@ -2494,7 +2503,7 @@ impl Specialized for Take {
 
     fn constants(&self) -> Constants {
         Constants::new()
-            .flag(0, self.encoded)
+            .flag(18, self.encoded)
             .flag(30, self.tonemap)
             .flag(31, self.tonemap_codes)
     }

@@ -132,6 +132,7 @@ impl ListCells {
                     blend,
                     ResolveTarget::Nothing,
                     output,
+                    None,
                 )?)),
             })
         })

@@ -3,8 +3,10 @@
 use super::{Finish, Sampler, SamplerContext, Source};
 use crate::engine::sampler::{Detection, RenderError, Settings};
 use crate::passes::{
-    Cells, Detect, DetectMode, DetectOptions, Grow, Resolve, ResolveTarget, SampleOptions, Thin,
+    Cells, Detect, DetectMode, DetectOptions, Grow, HostImage, Resolve, ResolveTarget,
+    SampleOptions, Thin,
 };
+use std::sync::Arc;
 
 /// Which pixels of an image are cells.
 pub(crate) struct PixelCells {
@@ -24,6 +26,8 @@ pub(crate) struct PixelCells {
     pub growths: u32,
     /// Whether `detect` of another sampler compares the resolved colours.
     pub detected: bool,
+    /// What shows where no triangle is; without it, the settings' background.
+    pub behind: Option<Arc<HostImage>>,
 }
 
 impl DetectMode {
@@ -50,6 +54,7 @@ impl PixelCells {
             samples: settings.samples,
             growths: settings.growths(),
             detected: false,
+            behind: None,
         }
     }
 
@@ -75,7 +80,7 @@ impl PixelCells {
                 mode: self.mode,
                 blend_ids,
                 thin: self.thin,
-                transparent: settings.background.is_none(),
+                transparent: settings.background.is_none() || self.behind.is_some(),
                 multisampled: self.multisampled,
                 shadow_words: match self.mode {
                     DetectMode::Blended => 0,
@@ -99,7 +104,14 @@ impl PixelCells {
             (false, false) => ResolveTarget::Nothing,
         };
         Sampler::new(context, &options, source, |sample| {
-            let resolve = Resolve::new(layout, sample, scene.has_blend(), target, context.output)?;
+            let resolve = Resolve::new(
+                layout,
+                sample,
+                scene.has_blend(),
+                target,
+                context.output,
+                self.behind.as_ref(),
+            )?;
             Ok(Some(Finish::Resolve(resolve)))
         })
     }

@@ -137,6 +137,7 @@ fn blended_draws_are_composited_as_those_of_files() {
                         samples,
                         shading,
                         contrast: settings.contrast,
+                        flat_background: true,
                         ..Options::new(SIZE[0], SIZE[1])
                     };
                     let found = machine.see_lent(&way, &world.lent(&way), base, options);

@@ -329,7 +329,10 @@ impl<'a> Machine<'a> {
 
     /// The picture of the world, lent in some way, over what the host has drawn of it.
     pub fn see(&self, way: &Way, base: Base<'_>) -> Seen {
-        let options = Options::new(SIZE[0], SIZE[1]);
+        let options = Options {
+            flat_background: true,
+            ..Options::new(SIZE[0], SIZE[1])
+        };
         self.see_lent(way, &self.world.lent(way), base, options)
     }
 
@@ -376,7 +379,7 @@ impl<'a> Machine<'a> {
             corner: way.corner,
         };
         let options = Options {
-            background: Some(SKY),
+            background: options.background.or(Some(SKY)),
             shade_all: base.colors().is_none(),
             ..options
         };

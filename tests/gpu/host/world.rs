@@ -299,15 +299,23 @@ impl World {
         self.parts.iter().flat_map(of_part).collect()
     }
 
-    /// What the centres of pixels see.
-    pub fn drawn(&self) -> Drawn {
+    /// Its triangles, as the host's renderer has them.
+    pub fn surfaces(&self) -> Surfaces {
         let half = SIZE.map(|side| 0.5 * side as f32);
         let in_pixels = |[x, y, z, w]: [f32; 4]| [x * half[0], y * half[1], z, w];
-        let surfaces: Vec<_> = (1..)
-            .zip(self.corners())
-            .filter_map(|(id, corners)| Surface::new(id, corners.map(in_pixels), true))
-            .collect();
-        let looks = self.looks();
+        let surfaces = (1..).zip(self.corners()).filter_map(|(id, corners)| {
+            let corners = corners.map(in_pixels);
+            Some((bounds(&corners), Surface::new(id, corners, true)?))
+        });
+        Surfaces {
+            surfaces: surfaces.collect(),
+            looks: self.looks(),
+        }
+    }
+
+    /// What the centres of pixels see.
+    pub fn drawn(&self) -> Drawn {
+        let surfaces = self.surfaces();
         let mut drawn = Drawn {
             ids: Vec::new(),
             depths: Vec::new(),
@@ -315,21 +323,51 @@ impl World {
         };
         for pixel in 0..SIZE[0] * SIZE[1] {
             let at = [pixel % SIZE[0], pixel / SIZE[0]];
-            let centre = [0, 1].map(|axis| f64::from(at[axis]) + 0.5 - f64::from(half[axis]));
-            let hit = nearest(&surfaces, centre).nearest;
-            drawn.ids.push(hit.map_or(0, |hit| hit.id));
-            drawn.depths.push(hit.map_or(0.0, |hit| hit.depth as f32));
-            let color = hit.map_or(SKY, |hit| {
-                let surface = surfaces.iter().find(|surface| surface.id() == hit.id);
-                let factors = surface.unwrap().edges().factors(centre);
-                let (color, paints) = looks[hit.id as usize - 1];
-                let sum: f64 = factors.iter().sum();
-                let paint: f64 = (0..3).map(|i| factors[i] * f64::from(paints[i])).sum();
-                color.map(|channel| channel * (paint / sum) as f32)
-            });
-            drawn.colors.push([color[0], color[1], color[2], 1.0]);
+            let hit = surfaces.at(at.map(|at| f64::from(at) + 0.5));
+            let (id, depth, [r, g, b]) = hit.unwrap_or((0, 0.0, SKY));
+            drawn.ids.push(id);
+            drawn.depths.push(depth);
+            drawn.colors.push([r, g, b, 1.0]);
         }
         drawn
+    }
+}
+
+/// The least and the greatest x and y of a triangle, which lies in front of the eye.
+fn bounds(corners: &[[f32; 4]; 3]) -> [[f64; 2]; 2] {
+    [0, 1].map(|axis| {
+        let places = corners.map(|corner| f64::from(corner[axis]) / f64::from(corner[3]));
+        let least = places.into_iter().fold(f64::INFINITY, f64::min);
+        [least, places.into_iter().fold(f64::NEG_INFINITY, f64::max)]
+    })
+}
+
+/// The triangles of a world, with their bounds, and how they look.
+pub struct Surfaces {
+    surfaces: Vec<([[f64; 2]; 2], Surface)>,
+    looks: Vec<([f32; 3], [f32; 3])>,
+}
+
+impl Surfaces {
+    /// ID, depth and colour of the nearest triangle at a place in the image, in pixels from its upper left corner.
+    pub fn at(&self, place: [f64; 2]) -> Option<(u32, f32, [f32; 3])> {
+        let place = [0, 1].map(|axis| place[axis] - 0.5 * f64::from(SIZE[axis]));
+        let near = self.surfaces.iter().filter(|(bounds, _)| {
+            let within = |axis: usize| {
+                let [least, greatest] = bounds[axis];
+                (least - 0.01..greatest + 0.01).contains(&place[axis])
+            };
+            within(0) && within(1)
+        });
+        let near: Vec<_> = near.map(|(_, surface)| surface).collect();
+        let hit = nearest(near.iter().copied(), place).nearest?;
+        let surface = near.iter().find(|known| known.id() == hit.id)?;
+        let factors = surface.edges().factors(place);
+        let (color, paints) = self.looks[hit.id as usize - 1];
+        let sum: f64 = factors.iter().sum();
+        let paint: f64 = (0..3).map(|i| factors[i] * f64::from(paints[i])).sum();
+        let color = color.map(|channel| channel * (paint / sum) as f32);
+        Some((hit.id, hit.depth as f32, color))
     }
 }
 

@@ -574,10 +574,16 @@ typedef struct GpcOptions {
     // VK_TRUE if the application's shading makes the colours of all pixels, so that the colour image may hold anything before;
     // VK_FALSE if of superpixels alone, which are drawn over what it holds.
     VkBool32 shade_all;
-    // VK_TRUE if `background` shows where no triangle is, VK_FALSE if that is transparent.
+    // VK_TRUE if `background` shows where neither a triangle nor, unless `flat_background` says otherwise, something that the
+    // application has drawn is; VK_FALSE if that is transparent.
     VkBool32 has_background;
     // Linear light.
     float background[3];
+    // VK_TRUE if `background`, or nothing, shows wherever no triangle is. With VK_FALSE, where the application lends its colours,
+    // a sample of a superpixel that sees no triangle shows what the application has drawn, with its alpha: the colour of the pixel
+    // if its centre saw no triangle, else of the nearest one of the 8 pixels around it, then of the 24, whose centre saw none, else
+    // the background. It has to be VK_TRUE with GpcGeometry.blended, and does not matter with `shade_all`.
+    VkBool32 flat_background;
     // Bound on the time that a recording takes: the most rounds of superpixels that are detected, and of each growth of these. What
     // rounds leave keeps the colours that were drawn, and is counted as left over. 0 for as many as an image may need; those that
     // it does not need take next to no time on devices with GpcDevice.conditional_rendering, and little on others.

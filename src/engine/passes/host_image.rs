@@ -1,0 +1,95 @@
+//! A host's image of colours, as kernels read it.
+
+use super::FrameLayout;
+use super::own_layout::{OwnSet, PipelineLayout, SetLayout};
+use super::spirv::take_set;
+use crate::vulkan::{Pipeline, Recorder, Specialized, VulkanError, compute_pipeline};
+use ash::vk;
+use std::sync::Arc;
+
+/// The layouts of kernels that read a host's image beside the frame's set.
+pub(crate) struct HostImageLayout {
+    pipeline: PipelineLayout,
+    set: SetLayout,
+}
+
+/// A host's image, as the kernels of one frame read it.
+pub(crate) struct HostImage {
+    set: OwnSet,
+    encoded: bool,
+    layout: Arc<HostImageLayout>,
+}
+
+impl HostImageLayout {
+    /// Makes the layouts.
+    ///
+    /// # Errors
+    /// If the driver refuses one.
+    pub fn new(frame: &FrameLayout) -> Result<Arc<Self>, VulkanError> {
+        let set = SetLayout::new(&frame.gpu, &take_set::ALL)?;
+        Ok(Arc::new(Self {
+            pipeline: PipelineLayout::beside_frame(frame, &set)?,
+            set,
+        }))
+    }
+
+    /// An image that holds linear light or, `encoded`, sRGB codes as plain numbers; [`HostImage::show`] says which one.
+    ///
+    /// # Errors
+    /// If the driver refuses the set.
+    pub fn image(self: &Arc<Self>, encoded: bool) -> Result<HostImage, VulkanError> {
+        Ok(HostImage {
+            set: self.set.allocate()?,
+            encoded,
+            layout: self.clone(),
+        })
+    }
+}
+
+impl HostImage {
+    /// Shows the image behind a view, which is in the layout `SHADER_READ_ONLY_OPTIMAL` when kernels read it.
+    ///
+    /// # Safety
+    /// No commands that use the image's set are pending, and the view outlives those recorded from now on.
+    pub unsafe fn show(&self, view: vk::ImageView) {
+        // SAFETY: passed on to the caller; the binding is that of an image.
+        unsafe { self.set.write_image(take_set::HOST_IMAGE, view) };
+    }
+
+    /// Whether the host writes sRGB codes as plain numbers.
+    pub fn encoded(&self) -> bool {
+        self.encoded
+    }
+
+    /// The pipeline of a kernel that reads the image; `subgroup` fixes the size of its subgroups.
+    ///
+    /// # Errors
+    /// If the driver refuses it.
+    pub fn pipeline<S: Specialized>(
+        &self,
+        frame: &FrameLayout,
+        code: &'static [u8],
+        shader: &S,
+        subgroup: Option<u32>,
+    ) -> Result<Arc<Pipeline>, VulkanError> {
+        let constants = &shader.constants();
+        let layout = self.layout.pipeline.raw;
+        let made = || compute_pipeline(&frame.gpu, layout, code, constants, subgroup);
+        frame.cached(code, S::INTERFACE, constants, subgroup.unwrap_or(0), made)
+    }
+
+    /// Binds the image beside the frame's set, which stays bound.
+    pub fn bind(&self, recorder: &Recorder<'_>) {
+        // SAFETY: the recorder's contract; the set is of the layout, which agrees with the frame's in all before it.
+        unsafe {
+            recorder.device().cmd_bind_descriptor_sets(
+                recorder.bindings(),
+                vk::PipelineBindPoint::COMPUTE,
+                self.layout.pipeline.raw,
+                1,
+                &[self.set.raw],
+                &[],
+            );
+        }
+    }
+}
