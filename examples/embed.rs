@@ -144,11 +144,9 @@ impl App {
 
         // All that can fail happens here: memory, pipelines, limits.
         let pose = scene.pose(&PoseRequest::default())?;
-        let settings = Settings {
-            background: Some([0.2, 0.3, 0.5]),
-            shadows: Shadows::Exact,
-            ..Settings::new(WIDTH, HEIGHT)
-        };
+        let settings = Settings::new(WIDTH, HEIGHT)
+            .background(Some([0.2, 0.3, 0.5]))
+            .shadows(Shadows::Exact);
         let (low, high) = pose
             .geometry
             .bounds()

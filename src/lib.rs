@@ -100,7 +100,6 @@ pub mod testing;
 #[cfg(feature = "cli")]
 mod tools;
 
-use engine::passes;
 pub use engine::{color, host, sampling, vulkan};
 #[cfg(feature = "gltf")]
 pub use render::{camera, scene};

@@ -21,22 +21,8 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// At least `low`, below `high`.
-    #[cfg(feature = "cli")]
-    pub fn range(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
     /// Below `bound`, which must not be 0. The bias is a trillionth for a bound of a million.
     pub fn below(&mut self, bound: u64) -> u64 {
         self.bits() % bound
-    }
-
-    /// Puts items in a random order (Fisher and Yates).
-    #[cfg(feature = "cli")]
-    pub fn shuffle<T>(&mut self, items: &mut [T]) {
-        for last in (1..items.len()).rev() {
-            items.swap(last, self.below(last as u64 + 1) as usize);
-        }
     }
 }

@@ -5,11 +5,14 @@
 //! alone, and recorded with a [`Recorder`] alone: making one of these three is unsafe here, with the duties of all that
 //! follows, so that safe code outside of the crate can't reach anything unsound.
 
-pub use crate::passes::{
-    Argument, CellSizes, Cells, Content, Counter, Distribute, FrameLayout, FrameUniform,
-    ListLength, ListRegion, ListedLocation, LocationSizes, Offsets, RasterTargets, RecordRate,
-    ResourceSizes, Resources, Sample, SampleOptions, Schedule,
+pub use crate::engine::data::{
+    Argument, CellSizes, Cells, Content, Counter, FrameUniform, ListedLocation, LocationSizes,
+    Offsets, ResourceSizes, Resources,
 };
+pub use crate::engine::passes::{
+    Distribute, ListLength, ListRegion, RasterTargets, RecordRate, Sample, SampleOptions, Schedule,
+};
+pub use crate::engine::pipelines::FrameLayout;
 pub use crate::render::passes::prefilter;
 pub use crate::vulkan::commands::Recorder;
 pub use crate::vulkan::memory::{Buffer, Image, Memory, MemoryUse};

@@ -1,7 +1,7 @@
 //! Answers of functions, and messages.
 
 use super::version::GPC_ABI_VERSION;
-use crate::engine::sampler::RenderError;
+use crate::engine::sampler::EngineError;
 use crate::host::{HostError, ShaderError};
 use crate::vulkan::{Missing, VulkanError};
 use ash::vk;
@@ -110,10 +110,10 @@ fn sizes(name: &str, found: usize, expected: usize) -> String {
 /// What the error says, with C's names for what C wrote.
 fn in_c(error: &HostError) -> String {
     match error {
-        HostError::Render(RenderError::Vulkan(VulkanError::NoFunction(name))) => {
+        HostError::Engine(EngineError::Vulkan(VulkanError::NoFunction(name))) => {
             Error::Function(name).to_string()
         }
-        HostError::Render(RenderError::Vulkan(VulkanError::NotEnabled {
+        HostError::Engine(EngineError::Vulkan(VulkanError::NotEnabled {
             member,
             function,
             remedy,
@@ -171,7 +171,7 @@ impl Error {
                 HostError::Capacity { .. }
                 | HostError::Indices { .. }
                 | HostError::Vertices { .. } => GpcResult::Capacity,
-                HostError::Render(RenderError::Vulkan(error)) => match error {
+                HostError::Engine(EngineError::Vulkan(error)) => match error {
                     VulkanError::Missing { .. }
                     | VulkanError::NoFunction(_)
                     | VulkanError::NotEnabled { .. } => GpcResult::Unsupported,
@@ -182,7 +182,7 @@ impl Error {
                     VulkanError::NotRecorded | VulkanError::NotDone => GpcResult::NotReady,
                     _ => GpcResult::Vulkan,
                 },
-                HostError::Render(RenderError::Memory { .. }) => GpcResult::OutOfMemory,
+                HostError::Engine(EngineError::Memory { .. }) => GpcResult::OutOfMemory,
                 _ => GpcResult::Value,
             },
         }

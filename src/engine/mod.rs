@@ -3,8 +3,10 @@
 //! Nothing in this folder knows a file format, a material or a light, and no item in it depends on a feature.
 
 pub mod color;
+pub(crate) mod data;
 pub mod host;
 pub(crate) mod passes;
+pub(crate) mod pipelines;
 pub(crate) mod sampler;
 pub mod sampling;
 pub mod vulkan;

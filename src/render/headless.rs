@@ -1,10 +1,10 @@
 //! Renderer with a device of its own, for images without a window.
 
 use super::renderer::{PreparedScene, Renderer, SceneRequest};
-use super::{Frame, RenderError, Settings, Shadows, Statistics, Target};
+use super::{EngineError, Frame, RenderError, Settings, Shadows, Statistics, Target};
 use crate::camera::Camera;
 use crate::engine::sampler::plan::Capacity;
-use crate::render::passes::GpuScene;
+use crate::render::data::GpuScene;
 use crate::vulkan::{
     Buffer, Gpu, Instance, InstanceOptions, Limits, Memory, MemoryUse, VulkanError,
 };
@@ -274,7 +274,7 @@ impl Headless {
     pub fn render(&mut self, frame: &mut Frame, camera: &Camera) -> Result<Rendered, RenderError> {
         for _ in 0..RETRIES {
             match self.render_once(frame, camera) {
-                Err(RenderError::Unfinished { cells }) => {
+                Err(RenderError::Engine(EngineError::Unfinished { cells })) => {
                     let shortfall = frame.shortfall()?;
                     log::debug!("{cells} cells or tiles are left: {shortfall:?}");
                     self.prepare_again(frame, frame.capacity().more(shortfall))?;

@@ -4,7 +4,10 @@
 //! [`Renderer`].
 
 mod backdrop;
+mod beside_frame;
 pub mod camera;
+mod data;
+mod error;
 mod frame;
 mod headless;
 mod locations;
@@ -16,13 +19,15 @@ pub mod scene;
 mod shadows;
 mod viewpoint;
 
-pub use crate::engine::passes::Encoding;
 pub use crate::engine::sampler::{
-    Coverage, Detection, Footprint, ImageState, Method, PassTime, PixelRect, Reference,
-    RenderError, Settings, Shading, Shadows, Statistics, TriangleCounts,
+    Coverage, Detection, EngineError, Footprint, ImageState, Method, MethodKind, PassTime,
+    PixelRect, Reference, Settings, Shading, Shadows, Statistics, SuperpixelOptions,
+    TriangleCounts,
 };
+pub use error::RenderError;
 pub use frame::{Frame, Target};
 pub use headless::{Headless, HeadlessOptions, PixelAttributes, Rendered};
 pub use locations::{LocationError, PointSample, Sampled};
 pub use pass_list::FramePass;
+pub use passes::Encoding;
 pub use renderer::{PreparedScene, Renderer, SceneRequest};

@@ -2,7 +2,7 @@
 
 use super::{Frame, Headless, RenderError};
 use crate::camera::Camera;
-use crate::passes::Argument;
+use crate::engine::data::Argument;
 use crate::vulkan::{Access, Dispatch, Dispatched};
 
 /// A pass of a frame: a dispatch of a compute shader, or a draw with a pair of shaders.

@@ -2,10 +2,11 @@
 
 use super::Settings;
 use crate::camera::Pinhole;
+use crate::engine::data::{Cells, FrameUniform, ResourceSizes};
+use crate::engine::passes::ListRegion;
 use crate::engine::sampler::footprint::Footprints;
 use crate::engine::sampler::uniform::{PlaneBlock, SceneBlock, frame_uniform};
-use crate::passes::{Cells, FrameUniform, ListRegion, ResourceSizes};
-use crate::render::passes::GpuScene;
+use crate::render::data::GpuScene;
 use glam::{DMat4, DVec2};
 
 /// Width and height of a tile in pixels.

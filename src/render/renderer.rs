@@ -3,9 +3,10 @@
 use super::frame::Frame;
 use super::shadows::Casters;
 use super::{RenderError, Settings, Shadows};
+use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::plan::Capacity;
-use crate::passes::{Encoding, FrameLayout};
-use crate::render::passes::{GpuScene, SceneUploads};
+use crate::render::data::{GpuScene, SceneUploads};
+use crate::render::passes::Encoding;
 use crate::scene::{Motion, Pose, Scene};
 use crate::vulkan::{Gpu, Host, Memory, Recorder, VulkanError};
 use ash::vk;
@@ -227,7 +228,7 @@ impl Renderer {
         self.prepare_with(scene, settings, encoding, Capacity::default(), 0)
     }
 
-    /// Makes a frame like one that ended with [`RenderError::Unfinished`], with more of what it lacked: memory for
+    /// Makes a frame like one that ended with [`EngineError::Unfinished`](crate::render::EngineError::Unfinished), with more of what it lacked: memory for
     /// candidates and layers, or subgroups.
     ///
     /// # Errors

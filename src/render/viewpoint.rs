@@ -1,9 +1,9 @@
 //! Viewpoint of a scene, in the form that passes read.
 
 use crate::camera::{Camera, Pinhole};
+use crate::engine::data::Content;
 use crate::engine::sampler::uniform::SceneBlock;
-use crate::passes::Content;
-use crate::render::passes::GpuScene;
+use crate::render::data::GpuScene;
 use glam::DVec3;
 
 /// Position from which a scene is seen, and the direction of view.

@@ -4,4 +4,5 @@ pub mod bench;
 pub mod compare;
 pub mod names;
 pub mod output;
+mod random;
 pub mod resample;

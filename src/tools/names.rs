@@ -3,11 +3,10 @@
 use crate::camera::panorama::PanoramaProjection;
 use crate::camera::zoom::{Shape, Transition};
 use crate::output::VideoFormat;
-use crate::render::{Coverage, Detection, Footprint, Method, Shading, Shadows};
+use crate::render::{Coverage, Detection, Footprint, MethodKind, Shading, Shadows};
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
 use serde::{Serialize, Serializer};
-use std::fmt;
 
 /// Implements [`ValueEnum`]: gives values a name and, where the name alone is unclear, a help text. Values without a
 /// name can't be selected.
@@ -30,7 +29,7 @@ macro_rules! names {
 }
 
 names! {
-    Method {
+    MethodKind {
         None "none" "One sample a pixel",
         Superpixel "superpixel" "Many samples where the image aliases, one elsewhere",
         Ssaa "ssaa" "Brute force: everything at k x k times the resolution",
@@ -85,13 +84,7 @@ pub fn name(value: &impl ValueEnum) -> String {
     named.map_or_else(String::new, |value| value.get_name().to_owned())
 }
 
-impl fmt::Display for Method {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&name(self))
-    }
-}
-
-impl Serialize for Method {
+impl Serialize for MethodKind {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(self)
     }

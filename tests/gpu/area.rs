@@ -11,11 +11,8 @@ use crate::stage::{Stage, everywhere, flat, on_gpu, seen_at};
 const SIZE: [u32; 2] = [48, 32];
 
 fn by_area(samples: u32) -> Settings {
-    Settings {
-        coverage: Coverage::Area,
-        shading: Shading::Part,
-        ..everywhere(SIZE, Pattern::Sobol, samples)
-    }
+    everywhere(SIZE, Pattern::Sobol, samples)
+        .map_superpixels(|options| options.coverage(Coverage::Area).shading(Shading::Part))
 }
 
 /// A place in the image, in pixels from its centre.

@@ -1,6 +1,6 @@
 //! BLEND surfaces, composited per sample in exact order of depth, against a sum over the twin's surfaces.
 
-use gpc::render::{Headless, Method, Rendered, Settings, Shading};
+use gpc::render::{Headless, Method, Rendered, Shading};
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Material};
 
@@ -155,11 +155,9 @@ fn shared_layers_are_those_of_each_sample() {
         ] {
             for background in [None, Some([0.25, 0.5, 0.125])] {
                 let shaded = |gpu: &mut Headless, shading| {
-                    let settings = Settings {
-                        shading,
-                        background,
-                        ..everywhere(SIZE, Pattern::Sobol, samples)
-                    };
+                    let settings = everywhere(SIZE, Pattern::Sobol, samples)
+                        .background(background)
+                        .map_superpixels(|options| options.shading(shading));
                     stage.render(gpu, &settings)
                 };
                 let each = shaded(gpu, Shading::Sample);
@@ -188,10 +186,7 @@ fn panes_are_composited_from_the_farthest_to_the_nearest() {
 fn assert_is_the_twins(stage: &Stage) {
     let twin = Twin::new(stage, SIZE);
     on_gpu(|gpu| {
-        let none = Settings {
-            method: Method::None,
-            ..once(SIZE)
-        };
+        let none = once(SIZE).method(Method::None);
         let clear = [0.0; 4];
         let grey = [0.25, 0.5, 0.125, 1.0];
         for (settings, back) in [
@@ -200,18 +195,15 @@ fn assert_is_the_twins(stage: &Stage) {
             (none.clone(), clear),
             (none, grey),
         ] {
-            let settings = Settings {
-                background: (back[3] > 0.0).then_some([
-                    back[0] as f32,
-                    back[1] as f32,
-                    back[2] as f32,
-                ]),
-                ..settings
-            };
+            let settings = settings.background((back[3] > 0.0).then_some([
+                back[0] as f32,
+                back[1] as f32,
+                back[2] as f32,
+            ]));
             let rendered = stage.render(gpu, &settings);
-            let offsets = match settings.method {
-                Method::None => vec![[0.0, 0.0]],
-                _ => settings.pattern.offsets(settings.samples).unwrap(),
+            let offsets = match &settings.method {
+                Method::Superpixel(options) => options.pattern.offsets(options.samples).unwrap(),
+                _ => vec![[0.0, 0.0]],
             };
             let (mut checked, mut layered) = (0, 0);
             for (pixel, found) in rendered.colors.iter().enumerate() {

@@ -2,7 +2,10 @@
 
 use gpc::color::srgb::{decode_u8, encode};
 use gpc::reference::detect::{Frame, Mode, superpixels};
-use gpc::render::{Detection, Footprint, Headless, Method, Reference, Rendered, Settings, Shading};
+use gpc::render::{
+    Detection, Footprint, Headless, MethodKind, Reference, Rendered, Settings, Shading,
+    SuperpixelOptions,
+};
 use gpc::scene::{AlphaMode, Filter, Image, Sampler};
 
 use crate::meshes::{Depths, Random, delaunay};
@@ -35,13 +38,12 @@ fn found(
     settings: &Settings,
     detection: Detection,
 ) -> Vec<bool> {
-    let settings = Settings {
-        method: Method::Superpixel,
-        samples: 4,
-        contrast: Some(CONTRAST),
-        detection,
-        ..settings.clone()
-    };
+    let settings = settings.clone().method(
+        SuperpixelOptions::new(4)
+            .thin(false)
+            .contrast(Some(CONTRAST))
+            .detection(detection),
+    );
     let rendered = stage.render(gpu, &settings);
     let marked: Vec<bool> = rendered
         .attributes
@@ -160,11 +162,9 @@ fn masks_of_blended_scenes_are_the_twins() {
             let corners = [corner(), corner(), corner()];
             stage.add(1, corners);
         }
-        let settings = Settings {
-            reference: Reference::Display,
-            tonemapped_detection: true,
-            ..once(size)
-        };
+        let settings = once(size)
+            .reference(Reference::Display)
+            .tonemapped_detection(true);
         let base = stage.render(gpu, &settings);
         let (codes, doubtful) = codes(&base);
         // With BLEND made opaque, the device shows which of its triangles is the nearest.
@@ -241,12 +241,11 @@ fn unseen_wires_make_superpixels() {
         let size = [96, 64];
         let stage = wires(size, 2.0);
         let mut energy = |detection, thin| {
-            let settings = Settings {
-                method: Method::Superpixel,
-                thin,
-                detection,
-                ..once(size)
-            };
+            let settings = once(size).method(
+                SuperpixelOptions::new(Settings::DEFAULT_SAMPLES)
+                    .thin(thin)
+                    .detection(detection),
+            );
             let rendered = stage.render(gpu, &settings);
             rendered.colors.iter().map(|c| f64::from(c[0])).sum::<f64>()
         };
@@ -275,10 +274,8 @@ fn an_image_without_edges_has_no_superpixels() {
             let marked = found(gpu, &stage, &once(size), detection);
             assert!(!marked.contains(&true), "{detection:?}");
         }
-        let settings = Settings {
-            method: Method::Superpixel,
-            ..once(size)
-        };
+        let settings =
+            once(size).method(SuperpixelOptions::new(Settings::DEFAULT_SAMPLES).thin(false));
         let statistics = stage.render(gpu, &settings).statistics;
         assert!(
             statistics.skipped_passes.contains(&"sample"),
@@ -321,12 +318,11 @@ fn paint_makes_superpixels() {
                 .map(|(a, b)| f64::from(a[0] - b[0]).powi(2))
                 .sum::<f64>()
         };
-        let with = |method, samples| Settings {
-            method,
-            samples,
-            contrast: Some(CONTRAST),
-            footprint: Footprint::Pixel,
-            ..once(size)
+        let with = |method: MethodKind, samples| {
+            once(size)
+                .footprint(Footprint::Pixel)
+                .method(method.with_samples(samples))
+                .map_superpixels(|options| options.thin(false).contrast(Some(CONTRAST)))
         };
         for (filter, alpha) in [
             (Filter::Nearest, AlphaMode::Opaque),
@@ -334,13 +330,13 @@ fn paint_makes_superpixels() {
             (Filter::Linear, AlphaMode::Blend),
         ] {
             let stage = stripes(size, filter, alpha);
-            let truth = stage.render(gpu, &with(Method::Ssaa, 1024));
-            let aliased = stage.render(gpu, &with(Method::None, 1));
-            let settings = Settings {
-                detection: Detection::Contrast,
-                shading: Shading::Part,
-                ..with(Method::Superpixel, 64)
-            };
+            let truth = stage.render(gpu, &with(MethodKind::Ssaa, 1024));
+            let aliased = stage.render(gpu, &with(MethodKind::None, 1));
+            let settings = with(MethodKind::Superpixel, 64).map_superpixels(|options| {
+                options
+                    .detection(Detection::Contrast)
+                    .shading(Shading::Part)
+            });
             let smooth = stage.render(gpu, &settings);
             let marked = smooth.statistics.superpixels;
             assert!(marked > 300, "{filter:?}: {marked}");
@@ -353,7 +349,7 @@ fn paint_makes_superpixels() {
             let (codes, doubtful) = codes(&aliased);
             let ids = ids(&aliased);
             let blend = vec![0; ids.len()];
-            let settings = with(Method::Superpixel, 4);
+            let settings = with(MethodKind::Superpixel, 4);
             for mode in [Mode::Contrast(CONTRAST), Mode::Edges(CONTRAST)] {
                 let detection = if mode == Mode::Contrast(CONTRAST) {
                     Detection::Contrast

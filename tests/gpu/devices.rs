@@ -1,8 +1,8 @@
 //! One device as if it were others: with larger and smaller subgroups, and with the limits that every device has.
 
 use gpc::render::{
-    Coverage, Headless, HeadlessOptions, Method, RenderError, Rendered, SceneRequest, Settings,
-    Shading,
+    Coverage, EngineError, Headless, HeadlessOptions, MethodKind, RenderError, Rendered,
+    SceneRequest, Settings, Shading,
 };
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Instance, Material};
@@ -74,11 +74,8 @@ fn larger_subgroups_make_the_same_image() {
         (256, Shading::Triangle, Coverage::Area),
         (16, Shading::Sample, Coverage::Samples),
     ] {
-        let settings = Settings {
-            shading,
-            coverage,
-            ..everywhere([64, 48], Pattern::Sobol, samples)
-        };
+        let settings = everywhere([64, 48], Pattern::Sobol, samples)
+            .map_superpixels(|options| options.shading(shading).coverage(coverage));
         let mut expected = None;
         on_gpu(|gpu| expected = Some(stage.render(gpu, &settings)));
         let expected = expected.unwrap();
@@ -129,17 +126,18 @@ fn other_subgroups_are_an_error() {
         // Those that list spans.
         |limits| limits.subgroup_size *= 2,
     ];
-    for (lower, method) in lowered.into_iter().zip([Method::Superpixel, Method::None]) {
+    for (lower, method) in lowered
+        .into_iter()
+        .zip([MethodKind::Superpixel, MethodKind::None])
+    {
         within(
             |limits| {
                 limits.can_require_subgroup_size = false;
                 lower(limits);
             },
             |gpu| {
-                let settings = Settings {
-                    method,
-                    ..Settings::new(64, 48)
-                };
+                let settings =
+                    Settings::new(64, 48).method(method.with_samples(Settings::DEFAULT_SAMPLES));
                 let (scene, pose) = stage.build();
                 let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
                 let mut frame = gpu.prepare(&prepared, &settings).unwrap();
@@ -147,7 +145,9 @@ fn other_subgroups_are_an_error() {
                 assert!(
                     matches!(
                         failed,
-                        Err(RenderError::Vulkan(VulkanError::Subgroups { .. }))
+                        Err(RenderError::Engine(EngineError::Vulkan(
+                            VulkanError::Subgroups { .. }
+                        )))
                     ),
                     "{:?}",
                     failed.map(|rendered| rendered.statistics)
@@ -192,10 +192,9 @@ fn scenes_beyond_texel_buffers_are_refused() {
         assert!(
             matches!(
                 refused,
-                Some(RenderError::Vulkan(VulkanError::TooLarge {
-                    limit: 65_536,
-                    ..
-                }))
+                Some(RenderError::Engine(EngineError::Vulkan(
+                    VulkanError::TooLarge { limit: 65_536, .. }
+                )))
             ),
             "{refused:?}"
         );

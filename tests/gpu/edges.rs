@@ -227,10 +227,7 @@ impl Look {
 }
 
 fn settings(edge_width: f32) -> Settings {
-    Settings {
-        edge_width,
-        ..everywhere(SIZE, Pattern::Sobol, 256)
-    }
+    everywhere(SIZE, Pattern::Sobol, 256).edge_width(edge_width)
 }
 
 /// All edges that show of something convex are before its faces, and none of those that do not.
@@ -313,10 +310,8 @@ fn thin_edges_are_found() {
         let mesh = Mesh::cube().placed([0.5, 0.7, 0.1], 2.2);
         for width in [0.5, 1.0] {
             let all = mesh.drawn(gpu, &settings(width), &Look::new());
-            let found = Settings {
-                detection: Detection::Contrast,
-                ..settings(width)
-            };
+            let found =
+                settings(width).map_superpixels(|options| options.detection(Detection::Contrast));
             let found = mesh.drawn(gpu, &found, &Look::new());
             let unlike = all
                 .iter()

@@ -1,6 +1,6 @@
 //! Scenes and images at the ends of what there can be.
 
-use gpc::render::{Headless, HeadlessOptions, Method, Rendered, SceneRequest, Settings};
+use gpc::render::{Headless, HeadlessOptions, MethodKind, Rendered, SceneRequest, Settings};
 use gpc::sampling::Pattern;
 use gpc::scene::AlphaMode;
 
@@ -9,33 +9,27 @@ use crate::stage::{Stage, camera, everywhere, flat, ids, on_gpu, once, seen_at};
 
 /// Every method, with attributes where it has them.
 fn all_methods(size: [u32; 2]) -> [Settings; 5] {
-    let method = |method, samples| Settings {
-        method,
-        samples,
-        // Multisampling has no IDs of pixel centres.
-        attributes: method != Method::Msaa,
-        ..once(size)
+    let method = |method: MethodKind, samples| {
+        once(size)
+            // Multisampling has no IDs of pixel centres.
+            .attributes(method != MethodKind::Msaa)
+            .method(method.with_samples(samples))
+            .map_superpixels(|options| options.thin(false))
     };
-    let sampled = Settings {
-        attributes: true,
-        ..everywhere(size, Pattern::Sobol, 16)
-    };
+    let sampled = everywhere(size, Pattern::Sobol, 16).attributes(true);
     [
-        method(Method::None, 1),
-        method(Method::Superpixel, 64),
+        method(MethodKind::None, 1),
+        method(MethodKind::Superpixel, 64),
         sampled,
-        method(Method::Ssaa, 9),
-        method(Method::Msaa, 4),
+        method(MethodKind::Ssaa, 9),
+        method(MethodKind::Msaa, 4),
     ]
 }
 
 fn assert_empty(gpu: &mut Headless, stage: &Stage, what: &str) {
     for settings in all_methods([20, 11]) {
         for background in [None, Some([0.25, 0.5, 1.0])] {
-            let settings = Settings {
-                background,
-                ..settings.clone()
-            };
+            let settings = settings.clone().background(background);
             let rendered = stage.render(gpu, &settings);
             let expected = background.map_or([0.0; 4], |[r, g, b]| [r, g, b, 1.0]);
             assert_eq!(

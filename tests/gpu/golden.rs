@@ -24,11 +24,9 @@ fn displayed(rendered: &Rendered) -> RgbaImage {
 fn images_are_the_goldens() {
     on_gpu(|gpu| {
         let stage = ball_over_checker();
-        let none = Settings {
-            method: Method::None,
-            background: Some([0.2, 0.4, 0.8]),
-            ..Settings::new(SIZE[0], SIZE[1])
-        };
+        let none = Settings::new(SIZE[0], SIZE[1])
+            .background(Some([0.2, 0.4, 0.8]))
+            .method(Method::None);
         let superpixels = Settings::new(SIZE[0], SIZE[1]);
         let results = [("none", none), ("superpixels", superpixels)].map(|(name, settings)| {
             let image = displayed(&stage.render(gpu, &settings));

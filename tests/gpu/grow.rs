@@ -2,7 +2,7 @@
 
 use gpc::reference::detect::{Frame, Mode, superpixels};
 use gpc::reference::grow::grown;
-use gpc::render::{Coverage, Detection, Method, Rendered, Settings};
+use gpc::render::{Coverage, Detection, Rendered, Settings, SuperpixelOptions};
 use gpc::scene::AlphaMode;
 
 use crate::detect::{CONTRAST, codes, mosaic, near, pixels};
@@ -20,12 +20,13 @@ fn check_growths(mut render: impl FnMut(&Settings) -> Rendered) {
     let blend = vec![0; ids.len()];
     let frame = Frame::new(SIZE[0], SIZE[1], &ids, &blend, &seen).unwrap();
     for (samples, growths) in [(4, 1), (144, 2)] {
-        let rendered = render(&Settings {
-            method: Method::Superpixel,
-            samples,
-            contrast: Some(CONTRAST),
-            ..once(SIZE)
-        });
+        let rendered = render(
+            &once(SIZE).method(
+                SuperpixelOptions::new(samples)
+                    .contrast(Some(CONTRAST))
+                    .thin(false),
+            ),
+        );
         let (resolved, doubtful) = codes(&rendered);
         let mut expected = superpixels(&frame, Mode::Contrast(CONTRAST));
         let first = pixels(SIZE, &expected);
@@ -80,15 +81,13 @@ fn growths_of_locations_do_not_depend_on_memory() {
         let prepared = mosaic(11, size).upload(gpu);
         let rig = [(pinhole(size), planar(size))];
         let mut render = |max_memory| {
-            let settings = Settings {
-                method: Method::Superpixel,
-                samples: 144,
-                contrast: Some(CONTRAST),
-                // How many locations of a tile are sampled at once decides of which triangles areas are known.
-                coverage: Coverage::Samples,
-                max_memory,
-                ..once(size)
-            };
+            let settings = once(size).max_memory(max_memory).method(
+                SuperpixelOptions::new(144)
+                    .contrast(Some(CONTRAST))
+                    // How many locations of a tile are sampled at once decides of which triangles areas are known.
+                    .coverage(Coverage::Samples)
+                    .thin(false),
+            );
             gpu.render_locations(&prepared, &rig, size, &settings)
         };
         let whole = render(None).unwrap();
@@ -129,13 +128,8 @@ fn tips_that_no_centre_saw_are_found() {
             stage.add(0, corners.map(|place| seen_at(place, 2.0, size[1])));
         }
         let mut energy = |detection| {
-            let settings = Settings {
-                method: Method::Superpixel,
-                samples: 144,
-                thin: false,
-                detection,
-                ..once(size)
-            };
+            let settings =
+                once(size).method(SuperpixelOptions::new(144).thin(false).detection(detection));
             let rendered = stage.render(gpu, &settings);
             rendered.colors.iter().map(|c| f64::from(c[0])).sum::<f64>()
         };

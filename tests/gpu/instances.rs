@@ -1,7 +1,7 @@
 //! Instances against the same triangles in world space.
 
 use glam::{DAffine3, DMat3, DQuat, DVec3, EulerRot};
-use gpc::render::{Headless, Method, Rendered, SceneRequest, Settings};
+use gpc::render::{Headless, MethodKind, Rendered, SceneRequest, Settings};
 use gpc::sampling::Pattern;
 use gpc::scene::{
     AlphaMode, Draw, DrawClass, GeometryError, Image, Instance, InstanceFault, Material, Pose,
@@ -145,16 +145,12 @@ fn every_method_sees_them() {
         let (scene, pose) = scene();
         let world = in_world_space(&pose);
         for (method, samples) in [
-            (Method::Msaa, 4),
-            (Method::Ssaa, 4),
-            (Method::Superpixel, 16),
-            (Method::Superpixel, 256),
+            (MethodKind::Msaa, 4),
+            (MethodKind::Ssaa, 4),
+            (MethodKind::Superpixel, 16),
+            (MethodKind::Superpixel, 256),
         ] {
-            let settings = Settings {
-                method,
-                samples,
-                ..Settings::new(SIZE[0], SIZE[1])
-            };
+            let settings = Settings::new(SIZE[0], SIZE[1]).method(method.with_samples(samples));
             let found = render(gpu, (&scene, &pose), &settings);
             let expected = render(gpu, (&scene, &world), &settings);
             let apart = difference(&found, &expected);

@@ -67,11 +67,9 @@ fn runs_give_the_same_bytes() {
                 material.unlit = false;
                 material.roughness = 0.4;
             }
-            let settings = Settings {
-                shading,
-                attributes: true,
-                ..Settings::new(size[0], size[1])
-            };
+            let settings = Settings::new(size[0], size[1])
+                .attributes(true)
+                .map_superpixels(|options| options.shading(shading));
             let (scene, pose) = stage.build();
             let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
             let mut frame = gpu.prepare(&prepared, &settings).unwrap();
@@ -92,10 +90,8 @@ fn runs_give_the_same_bytes() {
 fn earlier_frames_do_not_matter() {
     on_gpu(|gpu| {
         let size = [256, 160];
-        let settings = Settings {
-            shading: Shading::Sample,
-            ..Settings::new(size[0], size[1])
-        };
+        let settings = Settings::new(size[0], size[1])
+            .map_superpixels(|options| options.shading(Shading::Sample));
         let (scene, pose) = soup(3, size, 4000, 0).build();
         let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
         let expected = {
@@ -138,10 +134,8 @@ fn crowded_cells_give_the_same_bytes() {
                 });
                 stage.add(triangle % 4, corners);
             }
-            let settings = Settings {
-                detection: Detection::Every,
-                ..Settings::new(size[0], size[1])
-            };
+            let settings = Settings::new(size[0], size[1])
+                .map_superpixels(|options| options.detection(Detection::Every));
             let first = stage.render(gpu, &settings);
             for _ in 0..6 {
                 assert_same(&first, &stage.render(gpu, &settings), "another run");
@@ -214,10 +208,7 @@ fn with_less(gpu: &mut Headless, stage: &Stage, settings: &Settings) -> Vec<Rend
     let mut images: Vec<Rendered> = Vec::new();
     let mut limit = None;
     loop {
-        let settings = Settings {
-            max_memory: limit,
-            ..settings.clone()
-        };
+        let settings = settings.clone().max_memory(limit);
         let rendered = gpu
             .upload(SceneRequest::new(&scene, &pose).within(limit))
             .and_then(|prepared| {
@@ -253,12 +244,9 @@ fn memory_does_not_matter() {
             (Detection::Every, Shading::Sample),
             (Detection::Contrast, Shading::Triangle),
         ] {
-            let settings = Settings {
-                detection,
-                shading,
-                attributes: true,
-                ..everywhere(size, Pattern::Sobol, 64)
-            };
+            let settings = everywhere(size, Pattern::Sobol, 64)
+                .attributes(true)
+                .map_superpixels(|options| options.detection(detection).shading(shading));
             let images = with_less(gpu, &stage, &settings);
             let [first, .., last] = &images[..] else {
                 panic!("{} images", images.len());

@@ -19,10 +19,8 @@ const SIZE: [u32; 2] = [32, 24];
 const SAMPLES: [(u32, u32); 2] = [(64, 8), (256, 16)];
 
 fn on_lines(samples: u32) -> Settings {
-    Settings {
-        shading: Shading::Triangle,
-        ..everywhere(SIZE, Pattern::Lines, samples)
-    }
+    everywhere(SIZE, Pattern::Lines, samples)
+        .map_superpixels(|options| options.shading(Shading::Triangle))
 }
 
 fn coded(mesh: &Mesh) -> Stage {

@@ -1,6 +1,6 @@
 //! MASK surfaces: the alpha test of each sample against a lookup on the CPU.
 
-use gpc::render::{Method, Settings};
+use gpc::render::Method;
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Filter, Image, Sampler};
 
@@ -62,19 +62,16 @@ fn shows(place: [f64; 2]) -> (bool, bool) {
 fn alpha_is_tested_for_each_sample() {
     on_gpu(|gpu| {
         let stage = checker();
-        let none = Settings {
-            method: Method::None,
-            ..once(SIZE)
-        };
+        let none = once(SIZE).method(Method::None);
         for settings in [
             everywhere(SIZE, Pattern::Sobol, 64),
             everywhere(SIZE, Pattern::Korobov, 300),
             none,
         ] {
             let rendered = stage.render(gpu, &settings);
-            let offsets = match settings.method {
-                Method::None => vec![[0.0, 0.0]],
-                _ => settings.pattern.offsets(settings.samples).unwrap(),
+            let offsets = match &settings.method {
+                Method::Superpixel(options) => options.pattern.offsets(options.samples).unwrap(),
+                _ => vec![[0.0, 0.0]],
             };
             let share = 1.0 / offsets.len() as f64;
             let (mut partial, mut doubts) = (0, 0.0);

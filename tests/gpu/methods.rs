@@ -1,7 +1,7 @@
 //! The methods against each other: with the same samples they show the same image.
 
 use gpc::color::srgb::encode;
-use gpc::render::{Detection, Method, Rendered, SceneRequest, Settings, Shading};
+use gpc::render::{Detection, MethodKind, Rendered, SceneRequest, Settings, Shading};
 use gpc::sampling::Pattern;
 
 use crate::scenes::ball_over_checker;
@@ -21,23 +21,20 @@ fn psnr(a: &Rendered, b: &Rendered) -> f64 {
     -10.0 * (squares / a.len() as f64).log10()
 }
 
-fn settings(method: Method, samples: u32) -> Settings {
-    Settings {
-        method,
-        samples,
-        background: Some([0.2, 0.4, 0.8]),
-        ..Settings::new(SIZE[0], SIZE[1])
-    }
+fn settings(method: MethodKind, samples: u32) -> Settings {
+    Settings::new(SIZE[0], SIZE[1])
+        .background(Some([0.2, 0.4, 0.8]))
+        .method(method.with_samples(samples))
 }
 
 /// Superpixels everywhere, on the grid of brute force.
 fn on_the_grid(samples: u32) -> Settings {
-    Settings {
-        pattern: Pattern::Grid,
-        shading: Shading::Sample,
-        detection: Detection::Every,
-        ..settings(Method::Superpixel, samples)
-    }
+    settings(MethodKind::Superpixel, samples).map_superpixels(|options| {
+        options
+            .pattern(Pattern::Grid)
+            .shading(Shading::Sample)
+            .detection(Detection::Every)
+    })
 }
 
 #[test]
@@ -46,7 +43,7 @@ fn superpixels_on_a_grid_are_brute_force() {
         let stage = ball_over_checker();
         for samples in [16, 64] {
             let sampled = stage.render(gpu, &on_the_grid(samples));
-            let brute = stage.render(gpu, &settings(Method::Ssaa, samples));
+            let brute = stage.render(gpu, &settings(MethodKind::Ssaa, samples));
             // Two rasterizations: the device's rounds vertices to 2^-8 of its pixels.
             let ratio = psnr(&sampled, &brute);
             assert!(ratio > 55.0, "{samples} samples: {ratio} dB");
@@ -58,8 +55,8 @@ fn superpixels_on_a_grid_are_brute_force() {
 fn one_sample_is_none() {
     on_gpu(|gpu| {
         let stage = ball_over_checker();
-        let none = stage.render(gpu, &settings(Method::None, 1));
-        let brute = stage.render(gpu, &settings(Method::Ssaa, 1));
+        let none = stage.render(gpu, &settings(MethodKind::None, 1));
+        let brute = stage.render(gpu, &settings(MethodKind::Ssaa, 1));
         assert_eq!(none.colors, brute.colors);
         // A vertex that the device rounds takes an edge over the centre of few pixels.
         let sampled = stage.render(gpu, &on_the_grid(1));
@@ -75,9 +72,9 @@ fn one_sample_is_none() {
 fn superpixels_approach_brute_force_where_it_matters() {
     on_gpu(|gpu| {
         let stage = ball_over_checker();
-        let brute = stage.render(gpu, &settings(Method::Ssaa, 256));
-        let none = psnr(&stage.render(gpu, &settings(Method::None, 1)), &brute);
-        let sampled = stage.render(gpu, &settings(Method::Superpixel, 64));
+        let brute = stage.render(gpu, &settings(MethodKind::Ssaa, 256));
+        let none = psnr(&stage.render(gpu, &settings(MethodKind::None, 1)), &brute);
+        let sampled = stage.render(gpu, &settings(MethodKind::Superpixel, 64));
         let statistics = &sampled.statistics;
         assert!(
             statistics.superpixels * 2 < u64::from(SIZE[0] * SIZE[1]),
@@ -96,12 +93,12 @@ fn superpixels_approach_brute_force_where_it_matters() {
 fn multisampling_is_four_samples_at_the_standard_locations() {
     on_gpu(|gpu| {
         let stage = ball_over_checker();
-        let device = stage.render(gpu, &settings(Method::Msaa, 4));
-        let own = Settings {
-            pattern: Pattern::Rotated,
-            detection: Detection::Every,
-            ..settings(Method::Superpixel, 4)
-        };
+        let device = stage.render(gpu, &settings(MethodKind::Msaa, 4));
+        let own = settings(MethodKind::Superpixel, 4).map_superpixels(|options| {
+            options
+                .pattern(Pattern::Rotated)
+                .detection(Detection::Every)
+        });
         let own = stage.render(gpu, &own);
         let ratio = psnr(&device, &own);
         assert!(ratio > 35.0, "{ratio} dB");
@@ -115,10 +112,10 @@ fn impossible_counts_are_usage_errors() {
         let (scene, pose) = ball_over_checker().build();
         let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
         for (method, samples, named) in [
-            (Method::Superpixel, 0, "1 to 1024"),
-            (Method::Superpixel, 1025, "1 to 1024"),
-            (Method::Ssaa, 10, "1, 4, 9, 16"),
-            (Method::Msaa, 3, "4"),
+            (MethodKind::Superpixel, 0, "1 to 1024"),
+            (MethodKind::Superpixel, 1025, "1 to 1024"),
+            (MethodKind::Ssaa, 10, "1, 4, 9, 16"),
+            (MethodKind::Msaa, 3, "4"),
         ] {
             let error = gpu
                 .prepare(&prepared, &settings(method, samples))

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec3};
 use gpc::camera::{Camera, Orbit};
 use gpc::render::{
-    Frame, Headless, Method, RenderError, Rendered, SceneRequest, Settings, Shadows,
+    Frame, Headless, RenderError, Rendered, SceneRequest, Settings, Shadows, SuperpixelOptions,
 };
 use gpc::scene::{Instance, Loaded, Motion, Pose, PoseRequest};
 use serde_json::json;
@@ -306,11 +306,7 @@ fn moments_are_poses() {
 #[test]
 fn a_moment_depends_on_no_other() {
     on_gpu(|gpu| {
-        let settings = Settings {
-            method: Method::Superpixel,
-            samples: 16,
-            ..Settings::new(SIZE[0], SIZE[1])
-        };
+        let settings = Settings::new(SIZE[0], SIZE[1]).method(SuperpixelOptions::new(16));
         let mut shown = shown(gpu, &settings);
         let first = shown.moved(gpu, TIMES[1]).colors;
         assert_ne!(first, shown.moved(gpu, TIMES[2]).colors);
@@ -327,11 +323,7 @@ fn a_moment_depends_on_no_other() {
 #[test]
 fn looks_are_those_of_poses() {
     on_gpu(|gpu| {
-        let settings = Settings {
-            method: Method::Superpixel,
-            samples: 16,
-            ..Settings::new(SIZE[0], SIZE[1])
-        };
+        let settings = Settings::new(SIZE[0], SIZE[1]).method(SuperpixelOptions::new(16));
         let mut shown = shown_of(gpu, glow(), &settings);
         let still = gpu.render(&mut shown.frame, &shown.camera).unwrap().colors;
         for time in [1.0, 0.3, 0.0] {
@@ -370,10 +362,7 @@ fn pane(half: f32, thickness: f32, scale: f32) -> Builder {
 #[test]
 fn thickness_grows_with_the_mesh() {
     on_gpu(|gpu| {
-        let settings = Settings {
-            background: Some([1.0; 3]),
-            ..Settings::new(SIZE[0], SIZE[1])
-        };
+        let settings = Settings::new(SIZE[0], SIZE[1]).background(Some([1.0; 3]));
         let mut small = pane(1.0, 0.4, 1.0);
         small.pointers(&[("/nodes/0/scale", vec![1., 1., 1., 2.5, 2.5, 2.5])]);
         let mut small = shown_of(gpu, small.load().unwrap(), &settings);
@@ -503,12 +492,9 @@ fn join_animations(builder: &mut Builder) {
 fn shadows_follow_the_moment() {
     on_gpu(|gpu| {
         let scene = lit_film().load().unwrap().scene;
-        let settings = Settings {
-            shadows: Shadows::Exact,
-            method: Method::Superpixel,
-            samples: 16,
-            ..Settings::new(SIZE[0], SIZE[1])
-        };
+        let settings = Settings::new(SIZE[0], SIZE[1])
+            .shadows(Shadows::Exact)
+            .method(SuperpixelOptions::new(16));
         let (pose, motion) = scene.pose_in_motion(&at(0.0)).unwrap();
         let camera = camera(&pose);
         let request = SceneRequest::new(&scene, &pose)
@@ -526,13 +512,7 @@ fn shadows_follow_the_moment() {
                 let request = SceneRequest::new(&scene, &pose).shadowed(Shadows::Exact);
                 let prepared = gpu.upload(request).unwrap();
                 let mut frame = gpu
-                    .prepare(
-                        &prepared,
-                        &Settings {
-                            shadows,
-                            ..settings.clone()
-                        },
-                    )
+                    .prepare(&prepared, &settings.clone().shadows(shadows))
                     .unwrap();
                 gpu.render(&mut frame, &camera).unwrap().colors
             };

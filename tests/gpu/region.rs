@@ -1,7 +1,8 @@
 //! A region of an image holds the numbers of the whole image.
 
 use gpc::render::{
-    Headless, Method, PixelRect, RenderError, Rendered, SceneRequest, Settings, Shading,
+    EngineError, Headless, MethodKind, PixelRect, RenderError, Rendered, SceneRequest, Settings,
+    Shading, SuperpixelOptions,
 };
 use gpc::scene::{AlphaMode, Material};
 
@@ -73,10 +74,7 @@ fn assert_regions_are_parts(
     let row = whole.size[0];
     for (corner, size) in regions.iter().copied() {
         let wanted = region(corner, size);
-        let settings = Settings {
-            region: Some(wanted),
-            ..settings.clone()
-        };
+        let settings = settings.clone().region(Some(wanted));
         let image = render(gpu, stage, &settings);
         assert_eq!(image.size, size);
         assert!(
@@ -102,21 +100,18 @@ fn assert_regions_are_parts(
 fn a_region_is_that_part_of_the_image() {
     on_gpu(|gpu| {
         let methods = [
-            (Method::None, 1, Shading::Part),
-            (Method::Superpixel, 16, Shading::Part),
-            (Method::Superpixel, 256, Shading::Sample),
-            (Method::Ssaa, 4, Shading::Part),
-            (Method::Msaa, 4, Shading::Part),
+            (MethodKind::None, 1, Shading::Part),
+            (MethodKind::Superpixel, 16, Shading::Part),
+            (MethodKind::Superpixel, 256, Shading::Sample),
+            (MethodKind::Ssaa, 4, Shading::Part),
+            (MethodKind::Msaa, 4, Shading::Part),
         ];
         for (name, stage) in [("ball", ball_over_checker()), ("glass", behind_glass())] {
             for (method, samples, shading) in methods {
-                let settings = Settings {
-                    method,
-                    samples,
-                    shading,
-                    attributes: method != Method::Msaa,
-                    ..Settings::new(SIZE[0], SIZE[1])
-                };
+                let settings = Settings::new(SIZE[0], SIZE[1])
+                    .attributes(method != MethodKind::Msaa)
+                    .method(method.with_samples(samples))
+                    .map_superpixels(|options| options.shading(shading));
                 let what = format!("{name}, {method:?} of {samples}");
                 assert_regions_are_parts(gpu, &stage, &settings, &REGIONS, &what);
             }
@@ -129,16 +124,10 @@ fn a_region_is_that_part_of_the_image() {
 fn a_region_of_an_image_in_parts_is_that_part_of_it() {
     on_gpu(|gpu| {
         let stage = ball_over_checker();
-        let settings = Settings {
-            samples: 4,
-            ..Settings::new(2600, 1700)
-        };
+        let settings = Settings::new(2600, 1700).method(SuperpixelOptions::new(4));
         let regions = [([1297, 801], [151, 203]), ([1299, 0], [3, 1700])];
         assert_regions_are_parts(gpu, &stage, &settings, &regions, "in parts");
-        let across = Settings {
-            region: Some(region([1297, 801], [151, 203])),
-            ..settings
-        };
+        let across = settings.region(Some(region([1297, 801], [151, 203])));
         let parts = render(gpu, &stage, &across).statistics.regions;
         assert!(parts > 1, "{parts} parts");
     });
@@ -155,17 +144,14 @@ fn impossible_regions_are_refused() {
             ([0, 0], [0, 4]),
             ([1, 1], [u32::MAX, 1]),
         ] {
-            let settings = Settings {
-                region: Some(region(corner, size)),
-                ..Settings::new(SIZE[0], SIZE[1])
-            };
+            let settings = Settings::new(SIZE[0], SIZE[1]).region(Some(region(corner, size)));
             let refused = gpu.prepare(&prepared, &settings).err().unwrap();
-            assert!(matches!(refused, RenderError::Region { .. }), "{refused}");
+            assert!(
+                matches!(refused, RenderError::Engine(EngineError::Region { .. })),
+                "{refused}"
+            );
         }
-        let settings = Settings {
-            region: Some(region([0, 0], [8, 8])),
-            ..Settings::new(SIZE[0], SIZE[1])
-        };
+        let settings = Settings::new(SIZE[0], SIZE[1]).region(Some(region([0, 0], [8, 8])));
         let refused = gpu.render_locations(&prepared, &[], SIZE, &settings);
         assert!(matches!(refused, Err(RenderError::LocationRegion)));
     });

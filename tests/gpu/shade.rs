@@ -1,6 +1,6 @@
 //! Shading with what a material leaves out left out, against shading that leaves nothing out.
 
-use gpc::render::{Method, SceneRequest, Settings};
+use gpc::render::{Method, SceneRequest};
 use gpc::scene::{AlphaMode, Image, Material, Sampler, Texture, TextureTransform, TextureUse};
 
 use crate::meshes::Random;
@@ -61,10 +61,7 @@ fn packed_occlusion_is_occlusion() {
                 sampler: Sampler::default(),
             });
             let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
-            let settings = Settings {
-                method: Method::None,
-                ..once(SIZE)
-            };
+            let settings = once(SIZE).method(Method::None);
             let mut frame = gpu.prepare(&prepared, &settings).unwrap();
             let rendered = gpu.render(&mut frame, &camera()).unwrap();
             rendered.colors

@@ -3,7 +3,8 @@
 use crate::stage::{Stage, camera, flat, on_gpu, once, textured};
 use crate::submit::{discard, submit};
 use gpc::render::{
-    Frame, Headless, HeadlessOptions, RenderError, Renderer, SceneRequest, Settings, Target,
+    EngineError, Frame, Headless, HeadlessOptions, RenderError, Renderer, SceneRequest, Settings,
+    Target,
 };
 use gpc::scene::{AlphaMode, DrawClass, Geometry, GeometryError, Image, Sampler};
 use gpc::testing::{MemoryUse, memory};
@@ -85,7 +86,7 @@ fn discarded_recordings_change_nothing() {
             attributes: None,
         };
         let refusal = |frame: &Frame| match frame.statistics() {
-            Err(RenderError::Vulkan(error)) => error,
+            Err(RenderError::Engine(EngineError::Vulkan(error))) => error,
             other => panic!("{other:?}"),
         };
         let is_not_done = |error: &_| matches!(error, VulkanError::NotDone);
@@ -100,7 +101,9 @@ fn discarded_recordings_change_nothing() {
         discard(&device, |commands| record(&mut frame, commands));
         assert!(is_not_done(&refusal(&frame)));
         let again = renderer.prepare_again(&frame).err();
-        assert!(matches!(&again, Some(RenderError::Vulkan(error)) if is_not_done(error)));
+        assert!(
+            matches!(&again, Some(RenderError::Engine(EngineError::Vulkan(error))) if is_not_done(error))
+        );
         submit(&device, |commands| record(&mut frame, commands));
         assert_eq!(colors.read::<[f32; 4]>(pixels).unwrap(), expected.colors);
         let found = frame.statistics().unwrap();
@@ -221,12 +224,12 @@ fn the_bound_on_memory_covers_what_is_read_back() {
         let size = [400, 300];
         let prepared = Stage::new(vec![flat([1.0; 4], AlphaMode::Opaque)]).upload(gpu);
         let read_back = u64::from(size[0] * size[1]) * 16;
-        let with = |limit| Settings {
-            max_memory: Some(limit),
-            ..Settings::new(size[0], size[1])
-        };
+        let with = |limit| Settings::new(size[0], size[1]).max_memory(Some(limit));
         let refused = gpu.prepare(&prepared, &with(read_back)).err();
-        assert!(matches!(refused, Some(RenderError::Memory { .. })));
+        assert!(matches!(
+            refused,
+            Some(RenderError::Engine(EngineError::Memory { .. }))
+        ));
         let limit = 2 * read_back + (12 << 20);
         let mut frame = gpu.prepare(&prepared, &with(limit)).unwrap();
         let rendered = gpu.render(&mut frame, &camera()).unwrap();

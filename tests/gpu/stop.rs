@@ -43,11 +43,7 @@ fn locations_are_stopped_between_runs_that_see_the_same() {
     let mut gpu = headless();
     let prepared = ball_over_checker().upload(&mut gpu);
     let locations = planar(SIZE);
-    let settings = Settings {
-        method: Method::Ssaa,
-        samples: 1024,
-        ..Settings::new(96, 64)
-    };
+    let settings = Settings::new(96, 64).method(Method::Ssaa { samples: 1024 });
     let rig = [(pinhole(SIZE), locations)];
     let whole = gpu
         .render_locations(&prepared, &rig, SIZE, &settings)

@@ -5,7 +5,8 @@ use gpc::camera::{Camera, Projection};
 use gpc::reference::area::in_pixel;
 use gpc::reference::stroke::{Clip, disc, joint, segment};
 use gpc::render::{
-    Coverage, Detection, Headless, Method, PixelRect, RenderError, Rendered, SceneRequest, Settings,
+    Coverage, Detection, EngineError, Headless, MethodKind, PixelRect, RenderError, Rendered,
+    SceneRequest, Settings,
 };
 use gpc::sampling::Pattern;
 use gpc::scene::{Loaded, PoseRequest};
@@ -78,11 +79,9 @@ fn difference(image: &Rendered, polygons: &[Vec<[f64; 2]>]) -> (f64, f64) {
 }
 
 fn by_area(line_width: f32) -> Settings {
-    Settings {
-        coverage: Coverage::Area,
-        line_width,
-        ..everywhere(SIZE, Pattern::Sobol, 256)
-    }
+    everywhere(SIZE, Pattern::Sobol, 256)
+        .line_width(line_width)
+        .map_superpixels(|options| options.coverage(Coverage::Area))
 }
 
 /// Segments at odd angles: in one plane, towards the horizon, and from behind the eye.
@@ -125,10 +124,8 @@ fn no_pixel_of_a_thin_line_is_missed() {
     on_gpu(|gpu| {
         for width in [0.3, 1.0] {
             for ends in segments() {
-                let settings = Settings {
-                    detection: Detection::Contrast,
-                    ..by_area(width)
-                };
+                let settings = by_area(width)
+                    .map_superpixels(|options| options.detection(Detection::Contrast));
                 let found = rendered(gpu, &drawn(LINES, &ends), &settings, &camera());
                 let all = rendered(gpu, &drawn(LINES, &ends), &by_area(width), &camera());
                 let unlike = found.colors.iter().zip(&all.colors);
@@ -145,16 +142,13 @@ fn brute_force_and_multisampling_draw_lines_as_wide() {
         let ends = [[-20.3, -11.0], [24.0, 13.7]].map(|at| seen_at(at, 2.0, SIZE[1]));
         let clips = ends.map(|end| clip(&camera(), end));
         for (method, samples, tolerance) in [
-            (Method::Ssaa, 64, 0.02),
-            (Method::Msaa, 4, 0.1),
-            (Method::None, 1, 0.2),
+            (MethodKind::Ssaa, 64, 0.02),
+            (MethodKind::Msaa, 4, 0.1),
+            (MethodKind::None, 1, 0.2),
         ] {
-            let settings = Settings {
-                method,
-                samples,
-                line_width: 3.0,
-                ..by_area(3.0)
-            };
+            let settings = by_area(3.0)
+                .line_width(3.0)
+                .method(method.with_samples(samples));
             let image = rendered(gpu, &drawn(LINES, &ends), &settings, &camera());
             let line = segment(None, clips, None, 3.0);
             let (mean, _) = difference(&image, &[line]);
@@ -228,10 +222,7 @@ fn points_are_discs() {
         let mut points = places.map(|at| seen_at(at, 2.0, SIZE[1])).to_vec();
         points.push([0.0, 0.0, 3.0]);
         for size in [0.5, 1.0, 3.0, 9.0] {
-            let settings = Settings {
-                point_size: size,
-                ..by_area(1.0)
-            };
+            let settings = by_area(1.0).point_size(size);
             let image = rendered(gpu, &drawn(POINTS, &points), &settings, &camera());
             let clips = points.iter().map(|p| clip(&camera(), *p));
             let discs: Vec<_> = clips.map(|p| disc(p, size.into())).collect();
@@ -283,10 +274,8 @@ fn a_region_is_that_part_of_the_whole() {
     on_gpu(|gpu| {
         let ends: Vec<_> = segments().into_iter().flatten().collect();
         let loaded = drawn(LINES, &ends);
-        let settings = Settings {
-            detection: Detection::Contrast,
-            ..by_area(1.5)
-        };
+        let settings =
+            by_area(1.5).map_superpixels(|options| options.detection(Detection::Contrast));
         let whole = rendered(gpu, &loaded, &settings, &camera());
         assert_eq!(
             whole.colors,
@@ -296,10 +285,7 @@ fn a_region_is_that_part_of_the_whole() {
             corner: [17, 9],
             size: [30, 21],
         };
-        let part = Settings {
-            region: Some(region),
-            ..settings
-        };
+        let part = settings.region(Some(region));
         let part = rendered(gpu, &loaded, &part, &camera());
         for (row, colors) in part.colors.chunks(30).enumerate() {
             let first = (9 + row) * SIZE[0] as usize + 17;
@@ -322,10 +308,7 @@ fn lines_without_normals_are_unlit() {
                 attributes["NORMAL"] = Value::from(builder.floats(&[normal; 2]));
             }
             builder.node_with(json!({"attributes": attributes, "mode": LINES}), json!({}));
-            let settings = Settings {
-                line_width: 4.0,
-                ..once(SIZE)
-            };
+            let settings = once(SIZE).line_width(4.0);
             let image = rendered(gpu, &builder.load().unwrap(), &settings, &camera());
             let middle = (SIZE[1] / 2 * SIZE[0] + SIZE[0] / 2) as usize;
             (image.colors[middle], image.attributes[middle].normal)
@@ -429,7 +412,7 @@ fn impossible_sizes_are_refused() {
         for line_width in [0.0, -1.0, f32::NAN, 1e4] {
             let refused = gpu.prepare(&prepared, &by_area(line_width));
             assert!(
-                matches!(refused, Err(RenderError::Stroke(_))),
+                matches!(refused, Err(RenderError::Engine(EngineError::Stroke(_)))),
                 "{line_width}"
             );
         }

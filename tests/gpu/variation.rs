@@ -4,7 +4,7 @@ use crate::meshes::Random;
 use crate::stage::{Stage, on_gpu, once, seen_at, textured};
 use gpc::color::srgb::encode;
 use gpc::reference::variation::{Neighbourhood, Parts, parts};
-use gpc::render::{Coverage, Detection, Method, Rendered, Settings, Shading};
+use gpc::render::{Coverage, Detection, Rendered, Shading, SuperpixelOptions};
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Filter, Image, Sampler};
 
@@ -100,16 +100,17 @@ fn places_are_as_many_as_the_twin_says() {
             let stage = stage(size, seed, materials);
             let base = stage.render(gpu, &once(size));
             for (samples, all) in RATES {
-                let settings = |shading| Settings {
-                    method: Method::Superpixel,
-                    detection: Detection::Every,
-                    coverage: Coverage::Samples,
-                    // The twin counts runs of points; on lines, parts of which a triangle has little share a record.
-                    pattern: Pattern::Sobol,
-                    contrast: Some(CONTRAST),
-                    shading,
-                    samples,
-                    ..once(size)
+                let settings = |shading| {
+                    once(size).method(
+                        SuperpixelOptions::new(samples)
+                            .detection(Detection::Every)
+                            .coverage(Coverage::Samples)
+                            // The twin counts runs of points; on lines, parts of which a triangle has little share a record.
+                            .pattern(Pattern::Sobol)
+                            .contrast(Some(CONTRAST))
+                            .shading(shading)
+                            .thin(false),
+                    )
                 };
                 let rendered = stage.render(gpu, &settings(Shading::Part));
                 let material = |id: u32| if materials == 1 { 0 } else { id };

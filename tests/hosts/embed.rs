@@ -22,11 +22,9 @@ fn headless(width: u32, height: u32) -> Vec<[u8; 4]> {
     let camera = Camera::from_scene(pose.cameras.first().unwrap());
     let request = SceneRequest::new(&scene, &pose).shadowed(Shadows::Exact);
     let prepared = headless.upload(request).unwrap();
-    let settings = Settings {
-        background: Some([0.2, 0.3, 0.5]),
-        shadows: Shadows::Exact,
-        ..Settings::new(width, height)
-    };
+    let settings = Settings::new(width, height)
+        .background(Some([0.2, 0.3, 0.5]))
+        .shadows(Shadows::Exact);
     let mut frame = headless.prepare(&prepared, &settings).unwrap();
     let rendered = headless.render(&mut frame, &camera).unwrap();
     assert!(rendered.statistics.superpixels > 0);

@@ -7,8 +7,8 @@ use gpc::bench::{Growth, Looks, Variant, VariantContender, VariantError, Yardsti
 use gpc::camera::{Camera, Orbit, Projection};
 use gpc::output::Picture;
 use gpc::render::{
-    Footprint, Headless, HeadlessOptions, Method, PreparedScene, RenderError, SceneRequest,
-    Settings,
+    EngineError, Footprint, Headless, HeadlessOptions, MethodKind, PreparedScene, RenderError,
+    SceneRequest, Settings, SuperpixelOptions,
 };
 use gpc::scene::{PoseRequest, Scene};
 use serde_json::Value;
@@ -26,13 +26,10 @@ fn stage(name: &str) -> (Headless, PreparedScene, Camera) {
     (headless, prepared, camera)
 }
 
-fn settings(method: Method, samples: u32) -> Settings {
-    Settings {
-        method,
-        samples,
-        background: Some([0.8; 3]),
-        ..Settings::new(SIZE, SIZE)
-    }
+fn settings(method: MethodKind, samples: u32) -> Settings {
+    Settings::new(SIZE, SIZE)
+        .background(Some([0.8; 3]))
+        .method(method.with_samples(samples))
 }
 
 /// The film moved by whole pixels sees the same picture elsewhere.
@@ -40,7 +37,7 @@ fn settings(method: Method, samples: u32) -> Settings {
 fn a_shift_of_the_film_moves_the_picture_the_other_way() {
     let (mut headless, scene, camera) = stage("letters.glb");
     let mut frame = headless
-        .prepare(&scene, &settings(Method::None, 1))
+        .prepare(&scene, &settings(MethodKind::None, 1))
         .unwrap();
     let mut render = |shift| {
         let camera = Camera { shift, ..camera };
@@ -78,14 +75,14 @@ fn the_reference_lies_beyond_supersampling() {
         &mut headless,
         &scene,
         &camera,
-        &settings(Method::None, 1),
+        &settings(MethodKind::None, 1),
         1024,
         || calls += 1,
     )
     .unwrap();
     assert_eq!(calls, 4);
     let errors = [1, 16, 256].map(|samples| {
-        let settings = settings(Method::Ssaa, samples);
+        let settings = settings(MethodKind::Ssaa, samples);
         let mut frame = headless.prepare(&scene, &settings).unwrap();
         let image = headless.render(&mut frame, &camera).unwrap();
         rmse(&image.colors, &reference)
@@ -101,10 +98,10 @@ fn the_reference_lies_beyond_supersampling() {
 fn a_reference_is_made_of_whole_renderings() {
     let (mut headless, scene, camera) = stage("letters.glb");
     for samples in [0, 100, 257] {
-        let settings = settings(Method::None, 1);
+        let settings = settings(MethodKind::None, 1);
         let asked = brute_force(&mut headless, &scene, &camera, &settings, samples, || {});
         assert!(
-            matches!(asked, Err(RenderError::Samples { .. })),
+            matches!(asked, Err(RenderError::Engine(EngineError::Samples { .. }))),
             "{samples}"
         );
     }
@@ -114,16 +111,15 @@ fn a_reference_is_made_of_whole_renderings() {
 #[test]
 fn unseen_wires_are_not_missed() {
     let (mut headless, scene, camera) = stage("fence.glb");
-    let plain = settings(Method::None, 1);
+    let plain = settings(MethodKind::None, 1);
     let reference = brute_force(&mut headless, &scene, &camera, &plain, 256, || {}).unwrap();
     let mut render = |settings: &Settings| {
         let mut frame = headless.prepare(&scene, settings).unwrap();
         headless.render(&mut frame, &camera).unwrap().colors
     };
     let one = render(&plain);
-    let [with, without] = [true, false].map(|thin| Settings {
-        thin,
-        ..settings(Method::Superpixel, 16)
+    let [with, without] = [true, false].map(|thin| {
+        settings(MethodKind::Superpixel, 16).map_superpixels(|options| options.thin(thin))
     });
     let images = [&with, &without].map(&mut render);
     let size = [SIZE; 2];
@@ -144,10 +140,8 @@ fn unseen_wires_are_not_missed() {
 #[test]
 fn textures_follow_the_footprint_asked_for() {
     let (mut headless, scene, camera) = stage("foliage.glb");
-    let settings = [Footprint::Pixel, Footprint::Sample].map(|footprint| Settings {
-        footprint,
-        ..settings(Method::Ssaa, 64)
-    });
+    let settings = [Footprint::Pixel, Footprint::Sample]
+        .map(|footprint| settings(MethodKind::Ssaa, 64).footprint(footprint));
     let images = settings.clone().map(|settings| {
         let mut frame = headless.prepare(&scene, &settings).unwrap();
         headless.render(&mut frame, &camera).unwrap().colors
@@ -155,12 +149,12 @@ fn textures_follow_the_footprint_asked_for() {
     let apart = rmse(&images[0], &images[1]);
     assert!(apart > 1e-3, "{apart}");
     let [_, sample] = settings;
-    let asked = Settings {
-        footprint: Footprint::Side(2.0),
-        ..sample
-    };
+    let asked = sample.footprint(Footprint::Side(2.0));
     let refused = headless.prepare(&scene, &asked);
-    assert!(matches!(refused, Err(RenderError::Footprint(_))));
+    assert!(matches!(
+        refused,
+        Err(RenderError::Engine(EngineError::Footprint(_)))
+    ));
 }
 
 /// The scenes of the curves are what they say.
@@ -174,11 +168,9 @@ fn what_grows_is_what_is_said_to() {
         let prepared = headless
             .upload(SceneRequest::new(&step.scene, &step.pose))
             .unwrap();
-        let settings = Settings {
-            samples: 4,
-            background: Some([0.8; 3]),
-            ..Settings::new(size[0], size[1])
-        };
+        let settings = Settings::new(size[0], size[1])
+            .background(Some([0.8; 3]))
+            .method(SuperpixelOptions::new(4));
         let mut frame = headless.prepare(&prepared, &settings).unwrap();
         let image = headless.render(&mut frame, &step.camera).unwrap();
         let percent = 100.0 * image.statistics.superpixels as f64 / pixels;
@@ -492,7 +484,7 @@ fn a_variant_that_a_camera_can_not_have_says_why() {
         },
         ..camera
     };
-    let settings = settings(Method::None, 1);
+    let settings = settings(MethodKind::None, 1);
     let mut warm_up =
         |variant| VariantContender::warm_up(variant, &mut headless, &scene, &camera, &settings);
     assert!(warm_up(Variant::Planar).is_ok());

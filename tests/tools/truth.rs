@@ -5,8 +5,8 @@ use gpc::bench::stress::stage::{Stage, camera, flat, seen_at, textured};
 use gpc::bench::{Half, Looks, Random, Stripped, Suspects, Within, Yardstick, brute_force};
 use gpc::output::{DecodedImage, Picture};
 use gpc::render::{
-    Coverage, Detection, Footprint, Headless, HeadlessOptions, Method, PreparedScene, SceneRequest,
-    Settings, Shading,
+    Coverage, Detection, Footprint, Headless, HeadlessOptions, MethodKind, PreparedScene,
+    SceneRequest, Settings, Shading,
 };
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Image, Material, Pose, Sampler, Scene};
@@ -44,14 +44,11 @@ fn headless() -> Headless {
     Headless::new(&HeadlessOptions::default()).unwrap()
 }
 
-fn settings(method: Method, samples: u32, footprint: Footprint) -> Settings {
-    Settings {
-        method,
-        samples,
-        footprint,
-        background: Some([0.8; 3]),
-        ..Settings::new(SIZE[0], SIZE[1])
-    }
+fn settings(method: MethodKind, samples: u32, footprint: Footprint) -> Settings {
+    Settings::new(SIZE[0], SIZE[1])
+        .footprint(footprint)
+        .background(Some([0.8; 3]))
+        .method(method.with_samples(samples))
 }
 
 fn render(headless: &mut Headless, scene: &PreparedScene, settings: &Settings) -> Vec<[f32; 4]> {
@@ -64,7 +61,7 @@ fn reference(
     scene: &PreparedScene,
     footprint: Footprint,
 ) -> Vec<[f32; 4]> {
-    let settings = settings(Method::None, 1, footprint);
+    let settings = settings(MethodKind::None, 1, footprint);
     brute_force(headless, scene, &camera(), &settings, 1024, || {}).unwrap()
 }
 
@@ -77,7 +74,7 @@ fn only_textures_read_for_samples_come_to_the_truth() {
     let truth = reference(&mut headless, &scene, Footprint::Sample);
     let geometry = reference(&mut headless, &scene, Footprint::Pixel);
     let mut error = |footprint, samples| {
-        let settings = settings(Method::Ssaa, samples, footprint);
+        let settings = settings(MethodKind::Ssaa, samples, footprint);
         rmse(&render(&mut headless, &scene, &settings), &truth)
     };
     let errors = [4, 16, 64].map(|samples| error(Footprint::Sample, samples));
@@ -94,7 +91,7 @@ fn only_textures_read_for_samples_come_to_the_truth() {
 fn left(scene: &Scene, pose: &Pose, superpixels: bool) -> Within {
     let mut headless = headless();
     let whole = headless.upload(SceneRequest::new(scene, pose)).unwrap();
-    let plain = settings(Method::None, 1, Footprint::Sample);
+    let plain = settings(MethodKind::None, 1, Footprint::Sample);
     let shown = |colors: &[[f32; 4]]| DecodedImage::from(&Picture::new(SIZE, colors).unwrap());
     let halves = Stripped::ALL.map(|stripped| {
         let scene = headless
@@ -107,14 +104,14 @@ fn left(scene: &Scene, pose: &Pose, superpixels: bool) -> Within {
     let one = render(&mut headless, &whole, &plain);
     let picture = |colors| Picture::new(SIZE, colors).unwrap();
     let yardstick = Yardstick::new(&picture(&truth), &picture(&one)).unwrap();
-    let settings = Settings {
-        detection: if superpixels {
-            Detection::Every
-        } else {
-            Detection::Edges
-        },
-        ..settings(Method::Superpixel, 4, Footprint::Sample)
-    };
+    let settings =
+        settings(MethodKind::Superpixel, 4, Footprint::Sample).map_superpixels(|options| {
+            options.detection(if superpixels {
+                Detection::Every
+            } else {
+                Detection::Edges
+            })
+        });
     let image = render(&mut headless, &whole, &settings);
     let looks = Looks::new(&mut headless, &whole, &camera(), &plain, || {}).unwrap();
     let causes = looks
@@ -179,14 +176,15 @@ fn a_grid_of_shaded_samples_is_brute_force() {
     let mut headless = headless();
     let scene = headless.upload(SceneRequest::new(&scene, &pose)).unwrap();
     for samples in [16, 64] {
-        let brute_force = settings(Method::Ssaa, samples, Footprint::Sample);
-        let superpixels = Settings {
-            detection: Detection::Every,
-            coverage: Coverage::Samples,
-            shading: Shading::Sample,
-            pattern: Pattern::Grid,
-            ..settings(Method::Superpixel, samples, Footprint::Sample)
-        };
+        let brute_force = settings(MethodKind::Ssaa, samples, Footprint::Sample);
+        let superpixels = settings(MethodKind::Superpixel, samples, Footprint::Sample)
+            .map_superpixels(|options| {
+                options
+                    .detection(Detection::Every)
+                    .coverage(Coverage::Samples)
+                    .shading(Shading::Sample)
+                    .pattern(Pattern::Grid)
+            });
         let [brute_force, superpixels] =
             [brute_force, superpixels].map(|settings| render(&mut headless, &scene, &settings));
         let error = rmse(&superpixels, &brute_force);

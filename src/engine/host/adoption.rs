@@ -3,7 +3,9 @@
 use super::content::HostContent;
 use super::draw::PlacedDraws;
 use super::{Geometry, HostError, PositionSpace, Shared};
-use crate::passes::{AdoptedCounts, Draws, OwnSet, VertexCounts};
+use crate::engine::data::Draws;
+use crate::engine::passes::{AdoptedCounts, VertexCounts};
+use crate::engine::pipelines::OwnSet;
 use crate::vulkan::{Memory, Pipeline, Recorder};
 use std::sync::Arc;
 

@@ -3,11 +3,12 @@
 use super::content::HostContent;
 use super::geometry::Geometry;
 use super::{HostError, Shared};
-use crate::passes::alpha_flags::{
+use crate::engine::data::alpha_flags::{
     CLAMP_TO_EDGE, MIRRORED_REPEAT, NEAREST_MAG, NEAREST_MIN, NEAREST_MIP, NO_MIP, REPEAT,
     TEXTURED, beyond,
 };
-use crate::passes::{AlphaLevel, OwnSet, spirv};
+use crate::engine::passes::{AlphaLevel, spirv};
+use crate::engine::pipelines::OwnSet;
 use crate::vulkan::{BufferView, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;

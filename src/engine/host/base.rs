@@ -2,11 +2,11 @@
 
 use super::draw::PlacedDraws;
 use super::{HostError, Options, Shared};
-use crate::engine::sampler::{RecordShading, record_shading};
-use crate::passes::{
-    Centres, ColorConstants, Content, FrameUniform, HostDraw, HostImage, Raster, RasterPush,
-    RasterRun, RasterTargets, Resources, SampleSet, Sort, Take,
+use crate::engine::data::{ColorConstants, Content, FrameUniform, HostDraw, Resources, SampleSet};
+use crate::engine::passes::{
+    Centres, HostImage, Raster, RasterPush, RasterRun, RasterTargets, Sort, Take,
 };
+use crate::engine::sampler::{RecordShading, record_shading};
 use crate::vulkan::Recorder;
 use ash::vk;
 use std::sync::Arc;

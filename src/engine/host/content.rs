@@ -2,9 +2,9 @@
 
 use super::Geometry;
 use super::alpha::Alpha;
-use crate::passes::BoundTexels;
-use crate::passes::Content;
-use crate::passes::spirv::frame_set;
+use crate::engine::data::BoundTexels;
+use crate::engine::data::Content;
+use crate::engine::passes::spirv::frame_set;
 use crate::vulkan::{Buffer, BufferView, Gpu, Memory, MemoryUse, TexelView, VulkanError};
 use ash::vk;
 use std::sync::Arc;

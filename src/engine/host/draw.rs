@@ -1,7 +1,7 @@
 //! What a host draws.
 
 use super::{Geometry, HostError, PositionSpace};
-use crate::passes::{HostDraw, TriangleWord};
+use crate::engine::data::{HostDraw, TriangleWord};
 
 /// A run of triangles that are shaded alike.
 #[derive(Clone, Copy, Debug, PartialEq)]

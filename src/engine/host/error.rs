@@ -1,6 +1,6 @@
 //! What can be wrong with what a host lends.
 
-use crate::engine::sampler::RenderError;
+use crate::engine::sampler::EngineError;
 use crate::vulkan::VulkanError;
 use ash::vk;
 
@@ -9,7 +9,7 @@ use ash::vk;
 pub enum HostError {
     /// The options are impossible, memory runs out, or the driver refuses something.
     #[error(transparent)]
-    Render(#[from] RenderError),
+    Engine(#[from] EngineError),
     /// A handle is null.
     #[error("{0} is VK_NULL_HANDLE")]
     NullHandle(&'static str),
@@ -232,6 +232,6 @@ pub enum HostError {
 
 impl From<VulkanError> for HostError {
     fn from(error: VulkanError) -> Self {
-        Self::Render(error.into())
+        Self::Engine(error.into())
     }
 }

@@ -6,15 +6,15 @@ use super::lending::Lending;
 use super::shading::ShadeSamples;
 use super::uniform::{check_size, plane_block, scene_block};
 use super::{Draw, Geometry, HostError, Images, LentImage, Options, Shared};
+use crate::engine::data::{FrameUniform, IdViews, Offsets, Resources};
+use crate::engine::passes::{ListLength, Patch, Patched, RasterTargets};
+use crate::engine::pipelines::OwnSet;
 use crate::engine::sampler::footprint::Footprints;
 use crate::engine::sampler::plan::{Capacity, Plan};
 use crate::engine::sampler::statistics::Shortfall;
 use crate::engine::sampler::uniform::{PlaneBlock, frame_uniform};
 use crate::engine::sampler::{PixelCells, Sampler, SamplerContext, SamplerRun, with_probes};
 use crate::engine::sampler::{Settings, Statistics};
-use crate::passes::{
-    FrameUniform, IdViews, ListLength, Offsets, OwnSet, Patch, Patched, RasterTargets, Resources,
-};
 use crate::vulkan::{Memory, Recorder, Timings};
 use ash::vk;
 use std::sync::Arc;
@@ -96,7 +96,7 @@ impl Frame {
         let content = &lending.content;
         let taken = memory.used();
         let plan = Plan::whole(&settings, content, gpu.limits(), capacity, taken)?;
-        let offsets = settings.offsets()?;
+        let offsets = settings.method.offsets()?;
         let count = offsets.len() as u32;
         let offsets = with_probes(offsets)?;
         let own_targets = || {
@@ -266,7 +266,7 @@ impl Frame {
         self.images.record_begin(recorder);
         lending.record_triangles(recorder, &placed);
         let shading = lending.shading(shading, &self.visibility_set, (resources, set));
-        let footprints = Footprints::new(&self.settings, self.settings.samples);
+        let footprints = Footprints::new(&self.settings, self.settings.method.samples());
         let boxes = self.settings.filters_boxes();
         let at_centres = lending.visible(&self.settings, footprints.centre, false);
         let at_places = lending.visible(&self.settings, footprints.place, boxes);
@@ -331,17 +331,17 @@ impl Frame {
         let plane = PlaneBlock {
             gap: gap(projection, settings.size[1]),
             // Materials that are filtered over their pixel vary within it by more than centres tell.
-            alike: u32::from(settings.threshold()).div_ceil(4),
+            alike: u32::from(settings.superpixels().threshold()).div_ceil(4),
             seen_corner: self.images.ids.map_or([0, 0], |_| self.images.corner),
             color_corner: self.images.corner,
             ..plane_block(geometry, settings.size)
         };
-        let footprints = Footprints::new(settings, settings.samples);
+        let footprints = Footprints::new(settings, settings.method.samples());
         frame_uniform(
             &scene_block(geometry, placed),
             &plane,
             settings,
-            (settings.samples, &footprints),
+            (settings.method.samples(), &footprints),
             &self.plan.sizes,
         )
     }

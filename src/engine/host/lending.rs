@@ -7,13 +7,14 @@ use super::draw::PlacedDraws;
 use super::shading::{HostShading, ShadeSamples, VisibilitySamples};
 use super::uniform::scale;
 use super::{Geometry, HostError, Shared};
+use crate::engine::data::{
+    ResourceSizes, Resources, SampleSet, VisibilityUniform, VisibleGeometry,
+};
+use crate::engine::pipelines::OwnSet;
 use crate::engine::sampler::Sampler;
 use crate::engine::sampler::Settings;
 use crate::engine::sampler::statistics::Shortfall;
-use crate::engine::sampler::{PassTime, RenderError, Statistics};
-use crate::passes::{
-    OwnSet, ResourceSizes, Resources, SampleSet, VisibilityUniform, VisibleGeometry,
-};
+use crate::engine::sampler::{EngineError, PassTime, Statistics};
 use crate::vulkan::{Buffer, Completion, Memory, MemoryUse, Recorder, Timings};
 use ash::vk;
 use std::sync::Arc;
@@ -177,7 +178,7 @@ impl Lending {
         }
         shortfall
             .check_subgroups(sizes.lanes)
-            .map_err(RenderError::from)?;
+            .map_err(EngineError::from)?;
         Ok(statistics)
     }
 }

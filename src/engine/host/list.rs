@@ -5,16 +5,16 @@ use super::lending::Lending;
 use super::shading::ShadeSamples;
 use super::uniform::{check_size, plane_block, scene_block};
 use super::{Draw, Geometry, HostError, Options, Shared};
+use crate::engine::data::{Cells, FrameUniform, Offsets, Resources, VisibilityUniform};
+use crate::engine::passes::spirv::frame_set;
+use crate::engine::passes::{ListLength, RasterTargets};
+use crate::engine::pipelines::OwnSet;
 use crate::engine::sampler::footprint::Footprints;
 use crate::engine::sampler::plan::Capacity;
 use crate::engine::sampler::statistics::Shortfall;
 use crate::engine::sampler::uniform::{PlaneBlock, frame_uniform};
 use crate::engine::sampler::{ListCells, Sampler, SamplerContext, SamplerRun};
 use crate::engine::sampler::{Settings, Statistics};
-use crate::passes::spirv::frame_set;
-use crate::passes::{
-    Cells, FrameUniform, ListLength, Offsets, OwnSet, RasterTargets, Resources, VisibilityUniform,
-};
 use crate::vulkan::{Memory, Recorder, TexelView, Timings};
 use ash::vk;
 use std::sync::Arc;
@@ -157,7 +157,7 @@ impl List {
         let lending = unsafe { Lending::new(shared, &memory, geometry) }?;
         let content = &lending.content;
         let cells = ListCells {
-            cells: if settings.samples == 1 {
+            cells: if settings.method.samples() == 1 {
                 Cells::Points
             } else {
                 Cells::Superpixels
@@ -359,7 +359,7 @@ impl List {
     }
 
     fn footprints(&self) -> Footprints {
-        Footprints::new(&self.settings, self.settings.samples)
+        Footprints::new(&self.settings, self.settings.method.samples())
     }
 
     fn uniform(&self, placed: &PlacedDraws) -> FrameUniform {

@@ -32,7 +32,7 @@ mod shader;
 mod shading;
 mod uniform;
 
-pub use crate::engine::sampler::{ImageState, PassTime, Statistics, TriangleCounts};
+pub use crate::engine::sampler::{EngineError, ImageState, PassTime, Statistics, TriangleCounts};
 pub use alpha::AlphaMap;
 pub use draw::Draw;
 pub use error::HostError;
@@ -44,9 +44,9 @@ pub use options::Options;
 pub use shader::{ShaderError, check_shader};
 pub use shading::{SHADER_INCLUDES, ShadeSamples, VisibilitySamples};
 
-use crate::passes::{
-    self, Adopt, AlphaMaps, FrameLayout, HostImageLayout, SetLayout, Transform, visibility_layout,
-};
+use crate::engine::data::visibility_layout;
+use crate::engine::passes::{self, Adopt, AlphaMaps, HostImageLayout, Transform};
+use crate::engine::pipelines::{FrameLayout, SetLayout};
 use crate::vulkan::{Gpu, Host, VulkanError};
 use ash::vk;
 use std::sync::Arc;

@@ -1,7 +1,7 @@
 //! How a host's frames are antialiased.
 
 use crate::engine::sampler::{
-    Coverage, Detection, Footprint, Method, Reference, Settings, Shading, Shadows,
+    Coverage, Detection, Footprint, Reference, Settings, Shading, SuperpixelOptions,
 };
 use crate::sampling::Pattern;
 
@@ -75,10 +75,7 @@ impl Options {
     }
 
     pub(super) fn settings(&self) -> Settings {
-        Settings {
-            size: self.size,
-            region: None,
-            method: Method::Superpixel,
+        let superpixels = SuperpixelOptions {
             samples: self.samples,
             pattern: self.pattern.clone(),
             coverage: Coverage::Area,
@@ -86,17 +83,17 @@ impl Options {
             detection: self.detection,
             contrast: self.contrast,
             thin: self.thin,
+        };
+        Settings {
+            method: superpixels.into(),
             background: self.background,
-            exposure: 0.0,
             reference: Reference::Scene,
             tonemapped_detection: self.high_dynamic_range,
-            attributes: false,
             footprint: if self.sharp {
                 Footprint::Sample
             } else {
                 Footprint::Pixel
             },
-            shadows: Shadows::None,
             max_memory: self.max_memory,
             ..Settings::new(self.size[0], self.size[1])
         }

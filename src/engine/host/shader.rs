@@ -1,6 +1,6 @@
 //! Whether a host's shader was compiled with the includes of this library.
 
-use crate::passes::spirv::GPC_SHADER_VERSION;
+use crate::engine::passes::spirv::GPC_SHADER_VERSION;
 
 /// Why the library does not take a shader.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

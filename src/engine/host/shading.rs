@@ -1,7 +1,7 @@
 //! Shading of visibility samples by a host's own pipelines.
 
+use crate::engine::data::{Argument, Resources, SampleSet};
 use crate::engine::sampler::RecordShading;
-use crate::passes::{Argument, Resources, SampleSet};
 use crate::vulkan::Recorder;
 use ash::vk;
 

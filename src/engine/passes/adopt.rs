@@ -1,9 +1,9 @@
 //! adopt: a host's triangles as the other passes read them.
 
-use super::draws::Draws;
-use super::lent_kernel::LentKernel;
-use super::own_layout::{OwnSet, whole};
 use super::spirv::{self, adopt_set};
+use crate::engine::data::Draws;
+use crate::engine::pipelines::lent_kernel::LentKernel;
+use crate::engine::pipelines::own_layout::{OwnSet, whole};
 use crate::vulkan::{Buffer, Gpu, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;

@@ -1,7 +1,7 @@
 //! alpha_map: a host's alpha maps as the alpha test reads them.
 
-use super::own_layout::{OwnSet, PipelineLayout, SetLayout, whole};
 use super::spirv::{self, alpha_map_set};
+use crate::engine::pipelines::own_layout::{OwnSet, PipelineLayout, SetLayout, whole};
 use crate::vulkan::{
     Buffer, Compiled, Gpu, Pipeline, Recorder, Specialized, VulkanError, compute_pipeline,
 };

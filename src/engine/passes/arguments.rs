@@ -1,6 +1,7 @@
 //! arguments: what passes counted, as the sizes of the dispatches that follow.
 
-use super::{FrameLayout, spirv};
+use super::spirv;
+use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;

@@ -1,7 +1,9 @@
 //! bin: triangles into pairs with the tiles they touch.
 
 use super::arguments::{After, Arguments};
-use super::{Argument, Content, FrameLayout, spirv};
+use super::spirv;
+use crate::engine::data::{Argument, Content};
+use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;

@@ -1,6 +1,8 @@
 //! centres: the centres of pixels as visibility samples.
 
-use super::{ColorConstants, FrameLayout, Resources, spirv};
+use super::spirv;
+use crate::engine::data::{ColorConstants, Resources};
+use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use std::ops::Range;
 use std::sync::Arc;

@@ -1,10 +1,10 @@
 //! coordinates: texture coordinates of a host's vertices, one for each position in clip space.
 
 use super::VertexCounts;
-use super::draws::Draws;
-use super::lent_kernel::LentKernel;
-use super::own_layout::{OwnSet, whole};
 use super::spirv::{self, coordinates_set};
+use crate::engine::data::Draws;
+use crate::engine::pipelines::lent_kernel::LentKernel;
+use crate::engine::pipelines::own_layout::{OwnSet, whole};
 use crate::vulkan::{Buffer, Gpu, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;

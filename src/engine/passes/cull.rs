@@ -1,7 +1,9 @@
 //! cull: the triangles that can touch a superpixel.
 
 use super::arguments::{After, Arguments};
-use super::{Argument, Content, FrameLayout, spirv};
+use super::spirv;
+use crate::engine::data::{Argument, Content};
+use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 

@@ -1,6 +1,7 @@
 //! detect: which pixels are superpixels.
 
-use super::{FrameLayout, spirv};
+use super::spirv;
+use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 

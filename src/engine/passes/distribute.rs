@@ -1,9 +1,10 @@
 //! distribute: the sample locations of a list to tiles, cells and groups of cells.
 
-use super::locations::CellSizes;
-use super::own_layout::{OwnSet, PipelineLayout, SetLayout};
 use super::spirv::{self, distribute_set};
-use super::{Argument, Cells, FrameLayout, Resources};
+use crate::engine::data::CellSizes;
+use crate::engine::data::{Argument, Cells, Resources};
+use crate::engine::pipelines::FrameLayout;
+use crate::engine::pipelines::own_layout::{OwnSet, PipelineLayout, SetLayout};
 use crate::vulkan::{Buffer, Pipeline, Recorder, Specialized, VulkanError};
 use ash::vk;
 use std::sync::Arc;

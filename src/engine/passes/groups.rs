@@ -1,7 +1,9 @@
 //! groups: the groups of cells of a round, where cells are locations.
 
 use super::arguments::{After, Arguments};
-use super::{Argument, FrameLayout, Sample, spirv};
+use super::{Sample, spirv};
+use crate::engine::data::Argument;
+use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 

@@ -1,6 +1,7 @@
 //! grow: pixels that contrast with a superpixel beside them become superpixels.
 
-use super::{FrameLayout, spirv};
+use super::spirv;
+use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 

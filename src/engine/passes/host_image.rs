@@ -1,8 +1,8 @@
 //! A host's image of colours, as kernels read it.
 
-use super::FrameLayout;
-use super::own_layout::{OwnSet, PipelineLayout, SetLayout};
 use super::spirv::take_set;
+use crate::engine::pipelines::FrameLayout;
+use crate::engine::pipelines::own_layout::{OwnSet, PipelineLayout, SetLayout};
 use crate::vulkan::{Pipeline, Recorder, Specialized, VulkanError, compute_pipeline};
 use ash::vk;
 use std::sync::Arc;

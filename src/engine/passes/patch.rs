@@ -1,6 +1,7 @@
 //! patch: the colours of superpixels, or of all pixels, drawn into a host's image.
 
-use super::{FrameLayout, spirv};
+use super::spirv;
+use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Compiled, GraphicsPipeline, Pipeline, Recorder, Specialized, VulkanError};
 use ash::vk;
 use std::sync::Arc;

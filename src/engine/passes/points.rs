@@ -1,6 +1,8 @@
 //! points: colour and attributes of locations that are sampled once.
 
-use super::{Argument, ColorConstants, Content, FrameLayout, spirv};
+use super::spirv;
+use crate::engine::data::{Argument, ColorConstants, Content};
+use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 

@@ -1,6 +1,8 @@
 //! raster: depth and triangle ID of every pixel, by the device's rasterizer.
 
-use super::{Content, FrameLayout, IdViews, spirv};
+use super::spirv;
+use crate::engine::data::{Content, IdViews};
+use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{
     Compiled, GraphicsPipeline, Image, Memory, Pipeline, Recorder, Specialized, VulkanError,
 };

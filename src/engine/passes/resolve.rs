@@ -1,7 +1,9 @@
 //! resolve: the colour of each superpixel.
 
 use super::host_image::HostImage;
-use super::{Cells, ColorConstants, FrameLayout, Sample, TileList, spirv};
+use super::{Sample, TileList, spirv};
+use crate::engine::data::{Cells, ColorConstants};
+use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 

@@ -1,7 +1,9 @@
 //! sample: the nearest triangle of every sub-sample.
 
 use super::arguments::{After, Arguments};
-use super::{Argument, Cells, Content, FrameLayout, spirv};
+use super::spirv;
+use crate::engine::data::{Argument, Cells, Content};
+use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 

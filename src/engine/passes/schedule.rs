@@ -1,6 +1,8 @@
 //! tally, schedule, enlist: which tiles are in a round, and where their lists are.
 
-use super::{Argument, FrameLayout, RecordRate, ResourceSizes, Sample, SampleOptions, spirv};
+use super::{RecordRate, Sample, SampleOptions, spirv};
+use crate::engine::data::{Argument, ResourceSizes};
+use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;

@@ -1,6 +1,8 @@
 //! setup: triangles as edge functions around the tiles they touch.
 
-use super::{Argument, Content, FrameLayout, spirv};
+use super::spirv;
+use crate::engine::data::{Argument, Content};
+use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 

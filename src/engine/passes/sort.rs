@@ -1,7 +1,9 @@
 //! sort: visibility samples ordered by material bin.
 
 use super::arguments::{After, Arguments};
-use super::{Argument, Content, FrameLayout, spirv};
+use super::spirv;
+use crate::engine::data::{Argument, Content};
+use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;

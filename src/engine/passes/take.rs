@@ -1,7 +1,9 @@
 //! take: a host's image as what superpixels stand in.
 
 use super::host_image::HostImage;
-use super::{ColorConstants, FrameLayout, spirv};
+use super::spirv;
+use crate::engine::data::ColorConstants;
+use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Compiled, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 

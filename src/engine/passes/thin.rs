@@ -1,7 +1,9 @@
 //! thin: pixels that a thin triangle crosses unseen.
 
 use super::arguments::{After, Arguments};
-use super::{Argument, Content, FrameLayout, spirv};
+use super::spirv;
+use crate::engine::data::{Argument, Content};
+use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;

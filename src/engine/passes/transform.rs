@@ -1,9 +1,9 @@
 //! transform: positions of a host's vertices in clip space.
 
-use super::draws::Draws;
-use super::lent_kernel::LentKernel;
-use super::own_layout::{OwnSet, whole};
 use super::spirv::{self, transform_set};
+use crate::engine::data::Draws;
+use crate::engine::pipelines::lent_kernel::LentKernel;
+use crate::engine::pipelines::own_layout::{OwnSet, whole};
 use crate::vulkan::{Buffer, Gpu, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;

@@ -2,7 +2,7 @@
 
 use super::{Reference, Settings};
 use crate::color::{srgb, tonemap};
-use crate::passes::{ColorConstants, Content};
+use crate::engine::data::{ColorConstants, Content};
 
 impl Settings {
     /// The background as linear, premultiplied RGBA.

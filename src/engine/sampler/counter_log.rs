@@ -1,6 +1,6 @@
 //! Counters of the passes, kept for the host.
 
-use crate::passes::{Counter, Resources};
+use crate::engine::data::{Counter, Resources};
 use crate::vulkan::{Buffer, Memory, MemoryUse, Recorder, VulkanError};
 use ash::vk;
 use std::slice::ChunksExact;

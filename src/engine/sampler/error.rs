@@ -1,23 +1,19 @@
-//! What can go wrong with a frame.
+//! What can go wrong in the engine.
 
 use super::PixelRect;
-#[cfg(feature = "gltf")]
-use crate::render::LocationError;
 use crate::sampling::PatternError;
 use crate::vulkan::VulkanError;
 
-/// An error of the renderer.
+/// An error of the engine that samples triangles.
 #[derive(Debug, thiserror::Error)]
-pub enum RenderError {
+#[non_exhaustive]
+pub enum EngineError {
     /// The device refuses.
     #[error(transparent)]
     Vulkan(#[from] VulkanError),
     /// The pattern can't have that many sub-samples.
     #[error(transparent)]
     Pattern(#[from] PatternError),
-    /// Multisampling samples pixels.
-    #[error("msaa samples the pixels of an image, not any locations; ask another method")]
-    LocationMethod,
     /// A region of an image has no pixels or leaves the image.
     #[error(
         "a region of {} x {} pixels from column {}, row {}: it must have pixels and lie in the image of {} x {}",
@@ -28,47 +24,6 @@ pub enum RenderError {
         region: PixelRect,
         /// Width and height of the image.
         image: [u32; 2],
-    },
-    /// Only the pixels of an image have regions.
-    #[error(
-        "a region is a part of an image's pixels; of locations, hand over those that are wanted"
-    )]
-    LocationRegion,
-    /// A sampling location can't be used.
-    #[cfg(feature = "gltf")]
-    #[error(transparent)]
-    Location(#[from] LocationError),
-    /// The geometry contradicts itself.
-    #[cfg(feature = "gltf")]
-    #[error(transparent)]
-    Geometry(#[from] crate::scene::GeometryError),
-    /// A scene or frame was made for another device.
-    #[error("a scene or frame of one device was handed to another")]
-    OtherDevice,
-    /// A moment or pose is not of the motion that it was handed to.
-    #[error(
-        "a moment or pose of one motion was handed to another: Scene::pose_in_motion makes pose and motion together"
-    )]
-    OtherMotion,
-    /// A scene is not on the device yet.
-    #[error("the scene is not on the device: Headless::upload puts it there")]
-    NotUploaded,
-    /// `Headless::stop_when` said so.
-    #[cfg(feature = "gltf")]
-    #[error("what was being made is no longer wanted")]
-    Stopped,
-    /// A camera makes no pinhole.
-    #[cfg(feature = "gltf")]
-    #[error(transparent)]
-    Pinhole(#[from] crate::camera::PinholeError),
-    /// The scene was prepared without shadows.
-    #[error("the scene was prepared without shadows: ask for them in its SceneRequest")]
-    NoCasters,
-    /// A point has 32 bits for lights.
-    #[error("{found} lights can't all cast shadows; 32 can")]
-    ShadowLights {
-        /// How many there are.
-        found: usize,
     },
     /// The method can't have that many samples.
     #[error("{method} can't have {asked} samples a pixel; it can have {possible}")]
@@ -124,29 +79,17 @@ pub enum RenderError {
         /// How many superpixels or tiles are left.
         cells: u64,
     },
-    /// The format of a host's image is not one of those that can be written.
-    #[error(
-        "a target of format {0:?}: it can be R8G8B8A8_UNORM, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT"
-    )]
-    TargetFormat(ash::vk::Format),
 }
 
-impl RenderError {
+impl EngineError {
     /// Whether what was asked for can't be had from this method at all.
     #[must_use]
     pub fn is_usage(&self) -> bool {
-        #[cfg(feature = "gltf")]
-        if matches!(self, Self::Location(_) | Self::Pinhole(_)) {
-            return true;
-        }
         matches!(
             self,
             Self::Pattern(_)
                 | Self::Samples { .. }
-                | Self::LocationMethod
-                | Self::LocationRegion
                 | Self::Region { .. }
-                | Self::ShadowLights { .. }
                 | Self::Attributes
                 | Self::Footprint(_)
                 | Self::Stroke(_)

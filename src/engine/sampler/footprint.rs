@@ -35,7 +35,7 @@ impl Footprints {
                 place: sample,
                 sample: if samples > 1 { sample } else { ALPHA_SIDE },
             },
-            Footprint::Sample if settings.method == Method::Superpixel => Self {
+            Footprint::Sample if matches!(settings.method, Method::Superpixel(_)) => Self {
                 centre: 1.0,
                 place: 1.0,
                 sample: ALPHA_SIDE * sample,

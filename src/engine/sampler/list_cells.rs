@@ -1,14 +1,13 @@
 //! Cells that are locations of a list.
 
 use super::{Finish, Sampler, SamplerContext, Source, with_probes};
+use crate::engine::data::{CellSizes, Cells, Content, LocationSizes, ResourceSizes, Resources};
+use crate::engine::passes::{Distribute, Points, Resolve, ResolveTarget};
+use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::plan::{
     MOST_CANDIDATES, MOST_PAIRS, MOST_RECORDS, records_of_superpixel,
 };
-use crate::engine::sampler::{RenderError, Settings};
-use crate::passes::{
-    CellSizes, Cells, Content, Distribute, FrameLayout, LocationSizes, Points, Resolve,
-    ResolveTarget, ResourceSizes, Resources,
-};
+use crate::engine::sampler::{EngineError, Settings};
 use ash::vk;
 
 /// What the cells of a list are, and what is asked of them.
@@ -32,18 +31,23 @@ impl ListCells {
         &self,
         layout: &FrameLayout,
         settings: &Settings,
-    ) -> Result<(Vec<[f32; 2]>, u32), RenderError> {
+    ) -> Result<(Vec<[f32; 2]>, u32), EngineError> {
         let (own, count) = if self.cells.are_points() {
             (vec![[0.0; 2]], self.cell_sizes(layout, settings).in_cell)
         } else {
-            let own = settings.pattern.offsets(settings.samples)?;
-            (own, settings.samples)
+            let options = settings.superpixels();
+            let own = options.pattern.offsets(options.samples)?;
+            (own, options.samples)
         };
         Ok((with_probes(own)?, count))
     }
 
     fn cell_sizes(&self, layout: &FrameLayout, settings: &Settings) -> CellSizes {
-        CellSizes::new(layout.gpu.limits().lanes, self.cells, settings.samples)
+        CellSizes::new(
+            layout.gpu.limits().lanes,
+            self.cells,
+            settings.method.samples(),
+        )
     }
 
     /// Room for `locations` locations in a region of so many pixels, whole tiles, and for `lists` times the usual candidates.
@@ -97,7 +101,7 @@ impl ListCells {
         &self,
         context: &SamplerContext<'_>,
         (resources, locations): (&Resources, vk::BufferView),
-    ) -> Result<Sampler, RenderError> {
+    ) -> Result<Sampler, EngineError> {
         let SamplerContext {
             layout,
             scene,
@@ -109,7 +113,7 @@ impl ListCells {
         let samples = if self.cells.are_points() {
             sizes.in_cell
         } else {
-            settings.samples
+            settings.method.samples()
         };
         let options = context.sample_options(self.cells, samples);
         let source = || {

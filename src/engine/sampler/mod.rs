@@ -11,12 +11,29 @@
 //! pixels                       └──────────────────────────────────── grow ◀──────────────────────────────────────┘
 //! ```
 
+/// Methods of an option struct that set one field each and take and return the struct.
+macro_rules! setters {
+    ($options:ident { $($field:ident: $type:ty,)* }) => {
+        impl $options {
+            $(
+                #[doc = concat!("The same with another `", stringify!($field), "`.")]
+                #[must_use]
+                pub fn $field(mut self, $field: $type) -> Self {
+                    self.$field = $field;
+                    self
+                }
+            )*
+        }
+    };
+}
+
 pub(crate) mod color;
 mod counter_log;
 mod error;
 pub(crate) mod footprint;
 pub(crate) mod image_state;
 mod list_cells;
+mod method;
 mod pixel_cells;
 pub(crate) mod plan;
 mod settings;
@@ -24,20 +41,22 @@ pub(crate) mod statistics;
 pub(crate) mod uniform;
 
 pub(crate) use counter_log::CounterLog;
-pub use error::RenderError;
+pub use error::EngineError;
 pub use image_state::ImageState;
 pub(crate) use list_cells::ListCells;
+pub use method::{Coverage, Detection, Method, MethodKind, Shading, SuperpixelOptions};
 pub(crate) use pixel_cells::PixelCells;
-pub use settings::{
-    Coverage, Detection, Footprint, Method, PixelRect, Reference, Settings, Shading, Shadows,
-};
+pub use settings::{Footprint, PixelRect, Reference, Settings, Shadows};
 pub use statistics::{PassTime, Statistics, TriangleCounts};
 
-use crate::passes::{
-    Bin, Cells, ColorConstants, Content, Counter, Cull, CullFilter, Detect, Distribute,
-    FrameLayout, FrameUniform, Groups, Grow, ListLength, ListRegion, Points, RecordRate, Resolve,
-    ResourceSizes, Resources, Sample, SampleOptions, SampleSet, Schedule, Setup, Sort, Thin,
+use crate::engine::data::{
+    Cells, ColorConstants, Content, Counter, FrameUniform, ResourceSizes, Resources, SampleSet,
 };
+use crate::engine::passes::{
+    Bin, Cull, CullFilter, Detect, Distribute, Groups, Grow, ListLength, ListRegion, Points,
+    RecordRate, Resolve, Sample, SampleOptions, Schedule, Setup, Sort, Thin,
+};
+use crate::engine::pipelines::FrameLayout;
 use crate::sampling::Pattern;
 use crate::vulkan::{Memory, Recorder, VulkanError};
 use plan::Capacity;
@@ -79,18 +98,19 @@ impl SamplerContext<'_> {
     /// What `sample` does with cells of so many samples, or at most so many locations that are sampled once.
     fn sample_options(&self, cells: Cells, samples: u32) -> SampleOptions {
         let (settings, scene, points) = (self.settings, self.scene, cells.are_points());
+        let superpixels = settings.superpixels();
         SampleOptions {
             cells,
             samples,
-            lines: settings.pattern == Pattern::Lines,
+            lines: superpixels.pattern == Pattern::Lines,
             records: if points {
                 RecordRate::Sample
             } else {
                 record_rate(settings, scene)
             },
-            exact_areas: settings.coverage == Coverage::Area && samples > 1 && !points,
+            exact_areas: superpixels.coverage == Coverage::Area && samples > 1 && !points,
             // High-frequency triangles are shaded in many places.
-            can_settle: settings.shading != Shading::Part || !scene.is_mostly_high_frequency(),
+            can_settle: superpixels.shading != Shading::Part || !scene.is_mostly_high_frequency(),
             apart: self.capacity.apart,
             unlisted: self.capacity.unlisted,
             has_mask: scene.has_mask(),
@@ -155,9 +175,9 @@ impl Sampler {
     fn new(
         context: &SamplerContext<'_>,
         options: &SampleOptions,
-        source: impl FnOnce() -> Result<Source, RenderError>,
-        finish: impl FnOnce(&Sample) -> Result<Option<Finish>, RenderError>,
-    ) -> Result<Self, RenderError> {
+        source: impl FnOnce() -> Result<Source, EngineError>,
+        finish: impl FnOnce(&Sample) -> Result<Option<Finish>, EngineError>,
+    ) -> Result<Self, EngineError> {
         let SamplerContext {
             layout,
             scene,
@@ -171,7 +191,7 @@ impl Sampler {
         let (sample, others) = std::thread::scope(|scope| {
             let sample = scope.spawn(|| Sample::new(layout, scene, options));
             let others = (|| {
-                Ok::<_, RenderError>((
+                Ok::<_, EngineError>((
                     source()?,
                     Cull::new(layout, scene, CullFilter::Touching)?,
                     Bin::new(layout, scene)?,
@@ -386,14 +406,14 @@ impl Source {
 }
 
 /// Offsets of a cell's samples, followed by those of a first run.
-pub(crate) fn with_probes(mut offsets: Vec<[f32; 2]>) -> Result<Vec<[f32; 2]>, RenderError> {
+pub(crate) fn with_probes(mut offsets: Vec<[f32; 2]>) -> Result<Vec<[f32; 2]>, EngineError> {
     offsets.extend(Pattern::Sobol.offsets(Sample::PROBES)?);
     Ok(offsets)
 }
 
 /// How many records the settings' shading asks for.
 pub(crate) fn record_rate(settings: &Settings, scene: &dyn Content) -> RecordRate {
-    match settings.shading {
+    match settings.superpixels().shading {
         Shading::Part if scene.has_high_frequency() => RecordRate::Part,
         Shading::Triangle | Shading::Part => RecordRate::Triangle,
         Shading::Sample => RecordRate::Sample,

@@ -1,11 +1,11 @@
 //! Cells that are pixels of an image.
 
 use super::{Finish, Sampler, SamplerContext, Source};
-use crate::engine::sampler::{Detection, RenderError, Settings};
-use crate::passes::{
-    Cells, Detect, DetectMode, DetectOptions, Grow, HostImage, Resolve, ResolveTarget,
-    SampleOptions, Thin,
+use crate::engine::data::Cells;
+use crate::engine::passes::{
+    Detect, DetectMode, DetectOptions, Grow, HostImage, Resolve, ResolveTarget, SampleOptions, Thin,
 };
+use crate::engine::sampler::{Detection, EngineError, Settings};
 use std::sync::Arc;
 
 /// Which pixels of an image are cells.
@@ -31,9 +31,9 @@ pub(crate) struct PixelCells {
 }
 
 impl DetectMode {
-    /// What the settings' detection compares.
-    pub(crate) fn of(settings: &Settings) -> Self {
-        match settings.detection {
+    /// What a detection compares.
+    pub(crate) fn of(detection: Detection) -> Self {
+        match detection {
             Detection::Contrast => Self::Contrast,
             Detection::Edges => Self::Edges,
             Detection::Exact => Self::Exact,
@@ -45,13 +45,14 @@ impl DetectMode {
 impl PixelCells {
     /// The superpixels that settings ask for.
     pub fn superpixels(settings: &Settings) -> Self {
+        let options = settings.superpixels();
         Self {
-            mode: DetectMode::of(settings),
-            thin: settings.thin && settings.detection != Detection::Every,
+            mode: DetectMode::of(options.detection),
+            thin: options.thin && options.detection != Detection::Every,
             farther_is_larger: false,
             blend_ids: true,
             multisampled: false,
-            samples: settings.samples,
+            samples: options.samples,
             growths: settings.growths(),
             detected: false,
             behind: None,
@@ -62,7 +63,7 @@ impl PixelCells {
     ///
     /// # Errors
     /// If the driver refuses a pipeline, or memory runs out.
-    pub fn sampler(&self, context: &SamplerContext<'_>) -> Result<Sampler, RenderError> {
+    pub fn sampler(&self, context: &SamplerContext<'_>) -> Result<Sampler, EngineError> {
         let SamplerContext {
             layout,
             scene,

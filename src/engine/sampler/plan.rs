@@ -1,8 +1,8 @@
 //! How an image is worked through in parts: each region fits the device's limits and the memory allowed.
 
 use super::statistics::Shortfall;
-use super::{Method, RenderError, Settings, Shading};
-use crate::passes::{Content, Encoding, ResourceSizes};
+use super::{EngineError, Method, Settings, Shading};
+use crate::engine::data::{Content, ResourceSizes};
 use crate::vulkan::Limits;
 
 /// A part of the image, in output pixels. Where a part of the image is wanted alone, it is what is wanted of one of the
@@ -156,8 +156,9 @@ const TILE_CANDIDATES: u64 = 10;
 
 /// Visibility samples that superpixels have room for, on average.
 pub(crate) fn records_of_superpixel(settings: &Settings, scene: &dyn Content) -> u64 {
-    let samples = u64::from(settings.samples);
-    let usual = if settings.shading == Shading::Sample || scene.has_blend() {
+    let options = settings.superpixels();
+    let samples = u64::from(options.samples);
+    let usual = if options.shading == Shading::Sample || scene.has_blend() {
         samples.min(64)
     } else {
         6 * samples.div_ceil(64)
@@ -166,24 +167,25 @@ pub(crate) fn records_of_superpixel(settings: &Settings, scene: &dyn Content) ->
 }
 
 impl Plan {
-    /// Plans an image whose places have so many words of shadows; `taken` says how many bytes of what the settings allow others
+    /// Plans an image whose pixels take `encoded_bytes` bytes in a buffer for a host's image, 0 where there is none, and whose places
+    /// have `shadow_words` words of shadows; `taken` says how many bytes of what the settings allow others
     /// take beside memory of some sizes.
     ///
     /// # Errors
-    /// [`RenderError::Memory`] if not even a region of 8 x 8 pixels fits.
+    /// [`EngineError::Memory`] if not even a region of 8 x 8 pixels fits.
     pub fn new(
         settings: &Settings,
         scene: &dyn Content,
         limits: &Limits,
-        (encoding, shadow_words): (Option<Encoding>, u32),
+        (encoded_bytes, shadow_words): (u64, u32),
         capacity: Capacity,
         taken: &dyn Fn(&ResourceSizes) -> u64,
-    ) -> Result<Self, RenderError> {
+    ) -> Result<Self, EngineError> {
         let side = settings.side();
         let [width, height] = settings.size;
         let samples_a_pixel = match settings.method {
-            Method::Superpixel | Method::Msaa => u64::from(settings.samples),
-            Method::None | Method::Ssaa => 1,
+            Method::Superpixel(_) | Method::Msaa { .. } => u64::from(settings.method.samples()),
+            Method::None | Method::Ssaa { .. } => 1,
         };
         let lights = if shadow_words > 0 { SHADOWED } else { 1 };
         let most = REGION_PIXELS
@@ -193,7 +195,8 @@ impl Plan {
         let mut region = [width.min(longest), height.min(longest)];
         let allowed = settings.max_memory;
         loop {
-            let mut plan = Self::with_region(settings, scene, limits, encoding, capacity, region)?;
+            let mut plan =
+                Self::with_region(settings, scene, limits, encoded_bytes, capacity, region)?;
             plan.sizes.shadow_words = shadow_words;
             let pixels = u64::from(plan.sizes.pixels());
             let needed = plan.shrink(scene, settings, taken);
@@ -205,7 +208,7 @@ impl Plan {
             }
             let longer = usize::from(region[1] > region[0]);
             if region[longer] <= 8 {
-                return Err(RenderError::Memory {
+                return Err(EngineError::Memory {
                     needed,
                     allowed: allowed.unwrap_or(0),
                 });
@@ -218,19 +221,19 @@ impl Plan {
     /// Plans an image in one region, whatever its size.
     ///
     /// # Errors
-    /// [`RenderError::Memory`] if it does not fit in what is allowed or in the device's buffers.
+    /// [`EngineError::Memory`] if it does not fit in what is allowed or in the device's buffers.
     pub fn whole(
         settings: &Settings,
         scene: &dyn Content,
         limits: &Limits,
         capacity: Capacity,
         taken: u64,
-    ) -> Result<Self, RenderError> {
-        let mut plan = Self::with_region(settings, scene, limits, None, capacity, settings.size)?;
+    ) -> Result<Self, EngineError> {
+        let mut plan = Self::with_region(settings, scene, limits, 0, capacity, settings.size)?;
         let needed = plan.shrink(scene, settings, &|_| taken);
         plan.sizes.check("the largest list of a frame", limits)?;
         match settings.max_memory {
-            Some(allowed) if needed > allowed => Err(RenderError::Memory { needed, allowed }),
+            Some(allowed) if needed > allowed => Err(EngineError::Memory { needed, allowed }),
             _ => Ok(plan),
         }
     }
@@ -259,13 +262,13 @@ impl Plan {
         settings: &Settings,
         scene: &dyn Content,
         limits: &Limits,
-        encoding: Option<Encoding>,
+        encoded_bytes: u64,
         capacity: Capacity,
         region: [u32; 2],
-    ) -> Result<Self, RenderError> {
+    ) -> Result<Self, EngineError> {
         let [width, height] = settings.size;
         let side = settings.side();
-        let detects = settings.method == Method::Superpixel;
+        let detects = matches!(settings.method, Method::Superpixel(_));
         let mut regions = Vec::new();
         for y in (0..height).step_by(region[1] as usize) {
             for x in (0..width).step_by(region[0] as usize) {
@@ -295,14 +298,14 @@ impl Plan {
         }
         let pixels = u64::from(outer[0]) * u64::from(outer[1]);
         let tiles = u64::from(outer[0].div_ceil(8)) * u64::from(outer[1].div_ceil(4));
-        let samples = u64::from(settings.samples);
+        let samples = u64::from(settings.method.samples());
         let records = match settings.method {
-            Method::Superpixel => {
+            Method::Superpixel(_) => {
                 (pixels * records_of_superpixel(settings, scene)).clamp(1 << 16, MOST_RECORDS)
             }
-            Method::Msaa => tiles * 32 * samples * if scene.has_blend() { 2 } else { 1 },
-            Method::None | Method::Ssaa if scene.has_blend() => pixels * 3,
-            Method::None | Method::Ssaa => 0,
+            Method::Msaa { .. } => tiles * 32 * samples * if scene.has_blend() { 2 } else { 1 },
+            Method::None | Method::Ssaa { .. } if scene.has_blend() => pixels * 3,
+            Method::None | Method::Ssaa { .. } => 0,
         };
         let large = LARGE_RECORDS * samples.div_ceil(64);
         let records = if detects && records > large {
@@ -343,9 +346,7 @@ impl Plan {
             filtered: filtered as u32,
             shadow_words: 0,
             attributes: settings.attributes,
-            encoded: encoding
-                .filter(|e| *e != Encoding::Rgba32Float)
-                .map_or(0, |e| e.bytes() * pixels),
+            encoded: encoded_bytes * pixels,
         };
         Ok(Self {
             regions,
@@ -356,10 +357,9 @@ impl Plan {
     }
 
     fn bytes(&self, scene: &dyn Content, settings: &Settings) -> u64 {
-        let samples = if settings.method == Method::Msaa {
-            u64::from(settings.samples)
-        } else {
-            1
+        let samples = match settings.method {
+            Method::Msaa { samples } => u64::from(samples),
+            _ => 1,
         };
         let images =
             u64::from(self.sizes.pixels()) * samples * if scene.has_blend() { 12 } else { 8 };
@@ -370,7 +370,7 @@ impl Plan {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::passes::Counter;
+    use crate::engine::data::Counter;
 
     /// A frame that dropped triangles says how many there were: it is not made again and again for lists that can't hold them.
     #[test]

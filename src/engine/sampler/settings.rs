@@ -1,63 +1,12 @@
 //! What to render and how.
 
-use super::RenderError;
-use crate::sampling::Pattern;
+use super::{Coverage, Detection, EngineError, Method, Shading, SuperpixelOptions};
 use crate::vulkan::Limits;
-use ash::vk;
-
-/// How edges are antialiased.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Method {
-    /// One sample a pixel.
-    None,
-    /// Many samples in the pixels that alias, one in the others.
-    Superpixel,
-    /// Every pixel rendered at k x k times the resolution and box-filtered: brute force.
-    Ssaa,
-    /// The device's own multisampling.
-    Msaa,
-}
-
-/// What makes a pixel a superpixel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Detection {
-    /// A contrasting colour beside it, of another triangle or of the same one; also that which a superpixel beside it
-    /// was found to show.
-    Contrast,
-    /// Another triangle in a contrasting colour beside it: the rule of the sources.
-    Edges,
-    /// Another triangle beside it.
-    Exact,
-    /// Every pixel is one; to measure with.
-    Every,
-}
-
-/// How the coverage of a triangle in a superpixel is found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Coverage {
-    /// Exactly where the triangle is seen whole, and by samples elsewhere. Superpixels that 64 samples settle take no
-    /// more; where most triangles may be shaded in several parts of a pixel, which takes all samples, areas are measured
-    /// up to 64 samples only.
-    Area,
-    /// By counting samples.
-    Samples,
-}
-
-/// How often the inside of a superpixel is shaded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shading {
-    /// Once a visible triangle and block of 64 samples, at the centroid of what is seen of it.
-    Triangle,
-    /// Once a visible triangle, but where the colours around it vary in up to 32 parts of the pixel, at 256 samples in up
-    /// to 128, at 1,024 in up to 256.
-    Part,
-    /// Once a sub-sample.
-    Sample,
-}
 
 /// The part of the image that texture levels, those of MASK alpha included, are chosen for. [`Method::None`] and
 /// [`Method::Msaa`] choose them for the output pixel with either of the first two.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Footprint {
     /// What each shading place stands for: the k-th part of the pixel's side under supersampling by k x k samples; in
     /// superpixels the triangle's share of the pixel that is shaded there. The more samples, the sharper the textures,
@@ -72,6 +21,7 @@ pub enum Footprint {
 
 /// Whether surfaces keep the light from others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Shadows {
     /// Lights shine through everything.
     None,
@@ -103,9 +53,9 @@ impl PixelRect {
     /// Column and row beyond the lower right pixel.
     ///
     /// # Errors
-    /// [`RenderError::Region`] if it has no pixels or leaves an image of that size.
-    pub fn end(&self, image: [u32; 2]) -> Result<[u32; 2], RenderError> {
-        let outside = RenderError::Region {
+    /// [`EngineError::Region`] if it has no pixels or leaves an image of that size.
+    pub fn end(&self, image: [u32; 2]) -> Result<[u32; 2], EngineError> {
+        let outside = EngineError::Region {
             region: *self,
             image,
         };
@@ -123,6 +73,7 @@ impl PixelRect {
 
 /// All that decides an image beside scene and camera.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Settings {
     /// Width and height in pixels.
     pub size: [u32; 2],
@@ -131,21 +82,6 @@ pub struct Settings {
     pub region: Option<PixelRect>,
     /// How edges are antialiased.
     pub method: Method,
-    /// Samples a pixel: 1 to 1,024; squares for supersampling, what the device has for multisampling.
-    pub samples: u32,
-    /// Where sub-samples lie in a superpixel.
-    pub pattern: Pattern,
-    /// How they become coverage.
-    pub coverage: Coverage,
-    /// How often they are shaded.
-    pub shading: Shading,
-    /// What makes a superpixel.
-    pub detection: Detection,
-    /// Differences above this, in 8-bit sRGB code values of any channel, are a contrast; `None` is
-    /// [that of the samples](Self::default_contrast).
-    pub contrast: Option<u8>,
-    /// Whether triangles, and shadows, too thin for a pixel's centre to see make superpixels too.
-    pub thin: bool,
     /// Linear light behind the scene; `None` leaves it transparent.
     pub background: Option<[f32; 3]>,
     /// Exposure in stops.
@@ -178,27 +114,13 @@ impl Settings {
     /// Largest width of lines and size of points.
     pub const LARGEST_STROKE: f32 = 1024.0;
 
-    /// The contrast threshold of so many samples unless another is given, in code values: the more samples, the more of the error
-    /// is left in pixels that are no superpixels.
-    #[must_use]
-    pub fn default_contrast(samples: u32) -> u8 {
-        if samples < 128 { 6 } else { 1 }
-    }
-
     /// Superpixel antialiasing with the defaults, at a size.
     #[must_use]
     pub fn new(width: u32, height: u32) -> Self {
         Self {
             size: [width, height],
             region: None,
-            method: Method::Superpixel,
-            samples: Self::DEFAULT_SAMPLES,
-            pattern: Pattern::Sobol,
-            coverage: Coverage::Area,
-            shading: Shading::Part,
-            detection: Detection::Contrast,
-            contrast: None,
-            thin: true,
+            method: SuperpixelOptions::new(Self::DEFAULT_SAMPLES).into(),
             background: None,
             exposure: 0.0,
             reference: Reference::Display,
@@ -213,11 +135,28 @@ impl Settings {
         }
     }
 
-    /// Differences above this, in code values, are a contrast.
+    /// The same with another method.
     #[must_use]
-    pub fn threshold(&self) -> u8 {
-        self.contrast
-            .unwrap_or_else(|| Self::default_contrast(self.samples))
+    pub fn method(self, method: impl Into<Method>) -> Self {
+        Self {
+            method: method.into(),
+            ..self
+        }
+    }
+
+    /// The same with other options of superpixels, where the method has them.
+    #[must_use]
+    pub fn map_superpixels(
+        self,
+        change: impl FnOnce(SuperpixelOptions) -> SuperpixelOptions,
+    ) -> Self {
+        match self.method {
+            Method::Superpixel(options) => Self {
+                method: change(options).into(),
+                ..self
+            },
+            _ => self,
+        }
     }
 
     /// Width and height in pixels of what is rendered: the region, or the whole image.
@@ -226,42 +165,44 @@ impl Settings {
         self.region.map_or(self.size, |region| region.size)
     }
 
+    /// How superpixels are found and sampled; of another method, what cells have whose samples are no superpixels.
+    pub(crate) fn superpixels(&self) -> SuperpixelOptions {
+        match (&self.method, self.shadows) {
+            (Method::Superpixel(options), _) => options.clone(),
+            (method, Shadows::None) => SuperpixelOptions::new(method.samples()),
+            (method, Shadows::Exact) => shadowed(SuperpixelOptions::new(method.samples())),
+        }
+    }
+
     /// These, with superpixels that are shaded at every sample where it is asked which lights reach them.
     pub(crate) fn with_shadowed_samples(&self) -> Self {
         let settings = self.clone();
-        match self.shadows {
-            Shadows::None => settings,
-            Shadows::Exact => Self {
-                shading: Shading::Sample,
-                coverage: Coverage::Samples,
+        match (&self.method, self.shadows) {
+            (Method::Superpixel(options), Shadows::Exact) => Self {
+                method: shadowed(options.clone()).into(),
                 ..settings
             },
+            _ => settings,
         }
     }
 
     /// Whether superpixels are shaded as brute force is: each sample with the texture levels of the samples' distance.
     pub(crate) fn shades_samples(&self) -> bool {
-        self.method == Method::Superpixel
-            && self.footprint == Footprint::Sample
-            && self.shading == Shading::Sample
+        let of_samples = self.footprint == Footprint::Sample;
+        matches!(&self.method, Method::Superpixel(options) if of_samples && options.shading == Shading::Sample)
     }
 
     /// Whether textures are filtered by boxes: over what each shading place stands for, along both of its axes.
     pub(crate) fn filters_boxes(&self) -> bool {
-        self.method == Method::Superpixel
-            && self.footprint == Footprint::Sample
-            && self.shading != Shading::Sample
+        let of_samples = self.footprint == Footprint::Sample;
+        matches!(&self.method, Method::Superpixel(options) if of_samples && options.shading != Shading::Sample)
     }
 
     /// How often pixels beside superpixels are looked at again, by what these were found to show.
     pub(crate) fn growths(&self) -> u32 {
-        match self.detection {
-            Detection::Contrast if self.method == Method::Superpixel => {
-                if self.samples < 128 {
-                    1
-                } else {
-                    2
-                }
+        match &self.method {
+            Method::Superpixel(options) if options.detection == Detection::Contrast => {
+                if options.samples < 128 { 1 } else { 2 }
             }
             _ => 0,
         }
@@ -270,43 +211,33 @@ impl Settings {
     /// Side of a pixel's grid under supersampling, otherwise 1.
     #[must_use]
     pub(crate) fn side(&self) -> u32 {
-        if self.method == Method::Ssaa {
-            self.samples.isqrt()
-        } else {
-            1
-        }
-    }
-
-    /// Offsets of the sub-samples, relative to the pixel's centre.
-    pub(crate) fn offsets(&self) -> Result<Vec<[f32; 2]>, RenderError> {
         match self.method {
-            Method::None | Method::Ssaa => Ok(vec![[0.0, 0.0]]),
-            Method::Superpixel => Ok(self.pattern.offsets(self.samples)?),
-            Method::Msaa => Ok(Pattern::Rotated.offsets(self.samples)?),
+            Method::Ssaa { samples } => samples.isqrt(),
+            _ => 1,
         }
     }
 
     /// Checks what does not depend on the scene.
-    pub(crate) fn check(&self, limits: &Limits) -> Result<(), RenderError> {
+    pub(crate) fn check(&self, limits: &Limits) -> Result<(), EngineError> {
         const LARGEST_SIDE: u32 = 65_535;
         if let Footprint::Side(side) = self.footprint
             && !(side > 0.0 && side <= 1.0)
         {
-            return Err(RenderError::Footprint(side));
+            return Err(EngineError::Footprint(side));
         }
         if let Some(light) = self.background
             && !light.iter().all(|light| light.is_finite())
         {
-            return Err(RenderError::Background(light));
+            return Err(EngineError::Background(light));
         }
         for size in [self.line_width, self.point_size, self.edge_width] {
             if !(size > 0.0 && size <= Self::LARGEST_STROKE) {
-                return Err(RenderError::Stroke(size));
+                return Err(EngineError::Stroke(size));
             }
         }
         let [width, height] = self.size;
         if !(1..=LARGEST_SIDE).contains(&width) || !(1..=LARGEST_SIDE).contains(&height) {
-            return Err(RenderError::Size {
+            return Err(EngineError::Size {
                 width,
                 height,
                 limit: LARGEST_SIDE,
@@ -315,45 +246,36 @@ impl Settings {
         if let Some(region) = self.region {
             region.end(self.size)?;
         }
-        let refuse = |method, possible| {
-            Err(RenderError::Samples {
-                method,
-                asked: self.samples,
-                possible,
-            })
-        };
-        match self.method {
-            Method::None => Ok(()),
-            Method::Superpixel if !(1..=1024).contains(&self.samples) => {
-                refuse("superpixel", "1 to 1024".to_owned())
-            }
-            Method::Superpixel => self.offsets().map(|_| ()),
-            Method::Ssaa => {
-                let side = self.samples.isqrt();
-                if side == 0 || side > 32 || side * side != self.samples {
-                    return refuse(
-                        "ssaa",
-                        "the squares of 1 to 32: 1, 4, 9, 16, ..., 1024".to_owned(),
-                    );
-                }
-                Ok(())
-            }
-            Method::Msaa if self.attributes => Err(RenderError::Attributes),
-            Method::Msaa => {
-                let possible: Vec<u32> = [2, 4, 8, 16]
-                    .into_iter()
-                    .filter(|n| {
-                        limits
-                            .sample_counts
-                            .contains(vk::SampleCountFlags::from_raw(*n))
-                    })
-                    .collect();
-                if !possible.contains(&self.samples) {
-                    let names: Vec<String> = possible.iter().map(ToString::to_string).collect();
-                    return refuse("msaa on this device", names.join(", "));
-                }
-                Ok(())
-            }
+        if self.attributes && matches!(self.method, Method::Msaa { .. }) {
+            return Err(EngineError::Attributes);
         }
+        self.method.check(limits)
+    }
+}
+
+/// These options with each sample shaded by itself.
+fn shadowed(options: SuperpixelOptions) -> SuperpixelOptions {
+    SuperpixelOptions {
+        shading: Shading::Sample,
+        coverage: Coverage::Samples,
+        ..options
+    }
+}
+
+setters! {
+    Settings {
+        size: [u32; 2],
+        region: Option<PixelRect>,
+        background: Option<[f32; 3]>,
+        exposure: f32,
+        reference: Reference,
+        tonemapped_detection: bool,
+        attributes: bool,
+        footprint: Footprint,
+        shadows: Shadows,
+        line_width: f32,
+        point_size: f32,
+        edge_width: f32,
+        max_memory: Option<u64>,
     }
 }

@@ -1,12 +1,11 @@
 //! What a frame did, and what it left undone because the scene did not need it.
 
-use super::RenderError;
-use crate::passes::Counter;
+use super::EngineError;
+use crate::engine::data::Counter;
 use crate::vulkan::VulkanError;
 
 /// GPU time of one pass.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "gltf", derive(serde::Serialize))]
 pub struct PassTime {
     /// The pass.
     pub pass: &'static str,
@@ -16,7 +15,6 @@ pub struct PassTime {
 
 /// Triangles of the scene, and why some were not sampled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "gltf", derive(serde::Serialize))]
 pub struct TriangleCounts {
     /// Triangles in the scene.
     pub total: u64,
@@ -34,7 +32,6 @@ pub struct TriangleCounts {
 
 /// Figures of one frame; sums over its regions.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "gltf", derive(serde::Serialize))]
 pub struct Statistics {
     /// Superpixels.
     pub superpixels: u64,
@@ -186,11 +183,11 @@ impl Shortfall {
     }
 
     /// Fails where anything is left.
-    pub fn check(&self, lanes: u32) -> Result<(), RenderError> {
+    pub fn check(&self, lanes: u32) -> Result<(), EngineError> {
         self.check_subgroups(lanes)?;
         match self.left() {
             0 => Ok(()),
-            cells => Err(RenderError::Unfinished { cells }),
+            cells => Err(EngineError::Unfinished { cells }),
         }
     }
 }

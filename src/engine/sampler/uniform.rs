@@ -2,7 +2,7 @@
 
 use super::Settings;
 use super::footprint::Footprints;
-use crate::passes::{FrameUniform, ResourceSizes};
+use crate::engine::data::{FrameUniform, ResourceSizes};
 
 /// The triangles and materials that passes read, and who looks at them. A client whose passes read none leaves the default.
 #[derive(Clone, Copy, Debug, Default)]
@@ -104,7 +104,7 @@ pub(crate) fn frame_uniform(
         bin_count: scene.bin_count,
         light_count: scene.light_count,
         material_vectors: scene.material_vectors,
-        contrast: u32::from(settings.threshold()),
+        contrast: u32::from(settings.superpixels().threshold()),
         alike: plane.alike,
         exposure: settings.exposure.exp2(),
         footprint: footprints.centre,

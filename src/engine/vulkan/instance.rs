@@ -35,7 +35,6 @@ pub struct Instance {
 
 /// One device and what it lacks.
 #[derive(Clone, Debug)]
-#[cfg_attr(feature = "gltf", derive(serde::Serialize))]
 pub struct DeviceInfo {
     /// The device's name.
     pub name: String,

@@ -12,12 +12,13 @@ pub use target::Target;
 use super::shadows::{Casters, ShadowFinder};
 use super::{RenderError, Settings, Shadows};
 use crate::camera::Camera;
+use crate::engine::data::{Cells, Content, Offsets, ResourceSizes, Resources};
+use crate::engine::passes::RasterTargets;
+use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::plan::{Capacity, Plan};
 use crate::engine::sampler::{CounterLog, with_probes};
-use crate::passes::{
-    Cells, Content, Encoding, FrameLayout, Offsets, RasterTargets, ResourceSizes, Resources,
-};
-use crate::render::passes::{FrameGeometry, FrameLook, GpuScene};
+use crate::render::data::{FrameGeometry, FrameLook, GpuScene};
+use crate::render::passes::Encoding;
 use crate::scene::Moment;
 use crate::vulkan::{Completion, Memory, Recorder, Timings};
 use ash::vk;
@@ -87,7 +88,7 @@ impl Frame {
             &**scene,
             gpu.limits(),
             (
-                encoding,
+                encoding.map_or(0, Encoding::encoded_bytes),
                 casters.map_or(0, |casters| casters.shadow_words()),
             ),
             capacity,
@@ -105,7 +106,7 @@ impl Frame {
             raster_samples(settings),
             scene.has_blend(),
         )?;
-        let offsets = settings.offsets()?;
+        let offsets = settings.method.offsets()?;
         let sample_count = offsets.len() as u32;
         let offsets = with_probes(offsets)?;
         let centre = Offsets {

@@ -35,7 +35,7 @@ impl Frame {
     /// not wait.
     ///
     /// # Errors
-    /// [`RenderError::Unfinished`] if visibility samples did not fit into memory; [`RenderError::Vulkan`] if the last
+    /// [`EngineError::Unfinished`](crate::render::EngineError::Unfinished) if visibility samples did not fit into memory; [`EngineError::Vulkan`](crate::render::EngineError::Vulkan) if the last
     /// recording has not been executed, or its counters or times can't be read.
     pub fn statistics(&self) -> Result<Statistics, RenderError> {
         let mut statistics = Statistics {

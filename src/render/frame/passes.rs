@@ -1,12 +1,13 @@
 //! The passes that a frame's settings need.
 
+use crate::engine::data::{Cells, Content};
+use crate::engine::passes::{DetectMode, Raster, RecordRate, Resolve, ResolveTarget, Sort};
+use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::plan::Plan;
 use crate::engine::sampler::{PixelCells, Sampler, SamplerContext, record_rate};
-use crate::passes::{
-    Attributes, BoxFilter, Cells, Content, DetectMode, Encode, Encoding, FrameLayout, Multisample,
-    Raster, RecordRate, Resolve, ResolveTarget, Sort, Spans,
-};
-use crate::render::passes::{GpuScene, Pose, Shade, ShadeSource, Stroke};
+use crate::render::data::GpuScene;
+use crate::render::passes::{Attributes, BoxFilter, Encode, Encoding, Multisample, Spans};
+use crate::render::passes::{Pose, Shade, ShadeSource, Stroke};
 use crate::render::{Detection, Method, RenderError, Settings};
 use crate::vulkan::Memory;
 use ash::vk;
@@ -43,10 +44,9 @@ pub(super) struct Passes {
 
 /// Number of samples a pixel with which the rasterizer draws.
 pub(super) fn raster_samples(settings: &Settings) -> vk::SampleCountFlags {
-    if settings.method == Method::Msaa {
-        vk::SampleCountFlags::from_raw(settings.samples)
-    } else {
-        vk::SampleCountFlags::TYPE_1
+    match settings.method {
+        Method::Msaa { samples } => vk::SampleCountFlags::from_raw(samples),
+        _ => vk::SampleCountFlags::TYPE_1,
     }
 }
 
@@ -64,9 +64,10 @@ impl Passes {
         encoding: Option<Encoding>,
     ) -> Result<Self, RenderError> {
         let output = settings.color_constants(scene);
-        let multisampled = settings.method == Method::Msaa;
-        let antialiased = settings.method == Method::Superpixel;
-        let compares = !matches!(settings.detection, Detection::Exact | Detection::Every);
+        let multisampled = matches!(settings.method, Method::Msaa { .. });
+        let antialiased = matches!(settings.method, Method::Superpixel(_));
+        let detection = settings.superpixels().detection;
+        let compares = !matches!(detection, Detection::Exact | Detection::Every);
         let by_part = record_rate(settings, scene) == RecordRate::Part;
         let words = plan.sizes.shadow_words;
         let display_codes = antialiased && (compares || by_part);
@@ -101,7 +102,11 @@ impl Passes {
             mode: DetectMode::Blended,
             thin: false,
             multisampled,
-            samples: if multisampled { settings.samples } else { 1 },
+            samples: if multisampled {
+                settings.method.samples()
+            } else {
+                1
+            },
             growths: 0,
             detected: display_codes,
             ..PixelCells::superpixels(settings)
@@ -114,7 +119,7 @@ impl Passes {
                 sort: Sort::new(layout, scene, scene.bin_count() == 1)?,
                 resolve: Resolve::for_multisample(
                     layout,
-                    settings.samples,
+                    settings.method.samples(),
                     ResolveTarget::Nothing,
                     &output,
                 )?,

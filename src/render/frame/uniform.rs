@@ -2,12 +2,12 @@
 
 use super::recording::Recording;
 use crate::camera::{Camera, Projection};
+use crate::engine::data::FrameUniform;
 use crate::engine::sampler::footprint::Footprints;
 use crate::engine::sampler::plan::Region;
 use crate::engine::sampler::uniform::{PlaneBlock, SceneBlock, frame_uniform};
-use crate::passes::FrameUniform;
 use crate::render::Settings;
-use crate::render::passes::GpuScene;
+use crate::render::data::GpuScene;
 use glam::DMat4;
 
 impl Recording<'_> {
@@ -33,7 +33,7 @@ impl Recording<'_> {
                 [[0, 0], size]
             },
             gap: gap(camera, image[1]),
-            alike: u32::from(self.settings.threshold()),
+            alike: u32::from(self.settings.superpixels().threshold()),
             side,
             ..PlaneBlock::default()
         };

@@ -3,12 +3,11 @@
 use super::plan::LocationPlan;
 use super::run::RunMemory;
 use crate::camera::Pinhole;
+use crate::engine::data::{CellSizes, Cells, Counter, ListedLocation, Offsets};
+use crate::engine::passes::{Bin, Cull, CullFilter, Distribute, ListLength};
+use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::statistics::Shortfall;
 use crate::engine::sampler::{CounterLog, SamplerRun};
-use crate::passes::{
-    Bin, CellSizes, Cells, Counter, Cull, CullFilter, Distribute, FrameLayout, ListLength,
-    ListedLocation, Offsets,
-};
 use crate::render::passes::{Crossings, MarkedOutput, SeenLocation};
 use crate::render::plane::Window;
 use crate::render::{PreparedScene, RenderError, Settings, Statistics};
@@ -120,7 +119,7 @@ impl CrossingFinder {
     /// Checks that the pairs of triangles and tiles of the last run fitted into memory.
     ///
     /// # Errors
-    /// [`RenderError::Unfinished`] if they did not; [`RenderError::Vulkan`] if the counters can't be read.
+    /// [`EngineError::Unfinished`](crate::render::EngineError::Unfinished) if they did not; [`EngineError::Vulkan`](crate::render::EngineError::Vulkan) if the counters can't be read.
     pub fn check(&self) -> Result<(), RenderError> {
         let sizes = self.run.resources.sizes();
         let mut shortfall = Shortfall::default();
@@ -132,7 +131,7 @@ impl CrossingFinder {
             shortfall.dropped += u64::from(dropped) + u64::from(unpaired);
             shortfall.add_subgroups(counters);
         }
-        shortfall.check(sizes.lanes)
+        Ok(shortfall.check(sizes.lanes)?)
     }
 
     /// Adds the times of the last run's passes to `statistics`.

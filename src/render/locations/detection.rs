@@ -8,17 +8,15 @@ use super::partition::Partition;
 use super::plan::LocationPlan;
 use super::{PinholeLists, PointSample};
 use crate::camera::{Pinhole, SampleLocation};
+use crate::engine::data::{Cells, Content, Offsets, ResourceSizes, Resources};
+use crate::engine::passes::{Detect, DetectMode, DetectOptions, Grow};
+use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::footprint::Footprints;
 use crate::engine::sampler::uniform::{PlaneBlock, SceneBlock, frame_uniform};
-use crate::passes::{
-    Cells, Content, Detect, DetectMode, DetectOptions, FrameLayout, Grow, Offsets, ResourceSizes,
-    Resources,
-};
-use crate::render::passes::{
-    FrameLook, LightPlane, MarkedOutput, Neighbours, OutputCells, OutputPlane,
-};
+use crate::render::data::{FrameLook, OutputCells, OutputPlane};
+use crate::render::passes::{LightPlane, MarkedOutput, Neighbours};
 use crate::render::{
-    Headless, PassTime, PreparedScene, RenderError, Settings, Shadows, Statistics,
+    EngineError, Headless, PassTime, PreparedScene, RenderError, Settings, Shadows, Statistics,
 };
 use crate::vulkan::{Buffer, Limits, Memory, MemoryUse, Recorder, Timings, VulkanError};
 use ash::vk;
@@ -71,7 +69,7 @@ impl Headless {
         image: &mut OutputImage,
     ) -> Result<Statistics, RenderError> {
         let mut statistics = Statistics::default();
-        let looks_for_shadows = settings.thin && settings.shadows == Shadows::Exact;
+        let looks_for_shadows = settings.superpixels().thin && settings.shadows == Shadows::Exact;
         let mut shadowed = vec![false; if looks_for_shadows { image.len() } else { 0 }];
         if looks_for_shadows {
             statistics.append(self.mark_shadows(scene, rig, settings, image, &mut shadowed)?);
@@ -82,7 +80,7 @@ impl Headless {
             detector.show(&band, image, &shadowed);
             // SAFETY: the previous submission has run; the detector outlives this one, which is waited for.
             self.submit(|commands| unsafe { detector.record_begin(&band, commands) })?;
-            if settings.thin {
+            if settings.superpixels().thin {
                 for (pinhole, locations) in rig {
                     let taken = band.locations(locations, settings.size[0]);
                     if !taken.is_empty() {
@@ -170,11 +168,10 @@ impl Headless {
         image: &OutputImage,
     ) -> Result<Statistics, RenderError> {
         let layout = self.renderer.layout.clone();
-        let settings = Settings {
-            samples: 1,
-            shadows: Shadows::None,
-            ..detector.settings_beside()
-        };
+        let settings = detector
+            .settings_beside()
+            .shadows(Shadows::None)
+            .map_superpixels(|options| options.samples(1));
         let partition = Partition::new(locations, Cells::Superpixels)?;
         let plan = LocationPlan::new(&layout, scene, &settings, &partition, false)?;
         let marks = &detector.resources.marks;
@@ -205,7 +202,7 @@ impl Headless {
             match crossings.check() {
                 Ok(()) => crossings.add_statistics(scene, &mut statistics)?,
                 // Half of the locations have fewer pairs; cells that were marked before stay marked.
-                Err(RenderError::Unfinished { .. }) if run.len() > 1 => {
+                Err(RenderError::Engine(EngineError::Unfinished { .. })) if run.len() > 1 => {
                     waiting.extend(LocationPlan::halves(&run));
                 }
                 Err(error) => return Err(error),
@@ -297,10 +294,11 @@ impl BandDetector {
             &[no_offsets],
         )?;
         let growths = settings.growths();
+        let superpixels = settings.superpixels();
         let options = DetectOptions {
-            mode: DetectMode::of(settings),
+            mode: DetectMode::of(superpixels.detection),
             blend_ids: scene.has_blend(),
-            thin: settings.thin,
+            thin: superpixels.thin,
             transparent: true,
             multisampled: false,
             shadow_words: sizes.shadow_words,

@@ -5,8 +5,8 @@ use crate::camera::{Pinhole, SampleLocation};
 use crate::engine::sampler::color::display_code;
 use crate::render::passes::SeenLocation;
 use crate::render::{
-    Coverage, Detection, Headless, Method, PixelAttributes, PreparedScene, RenderError, Rendered,
-    Settings, Shading, Statistics,
+    Coverage, Detection, Headless, Method, MethodKind, PixelAttributes, PreparedScene, RenderError,
+    Rendered, Settings, Shading, Statistics, SuperpixelOptions,
 };
 use crate::sampling::Pattern;
 
@@ -48,16 +48,21 @@ impl Headless {
         };
         settings.check(self.gpu().limits())?;
         match settings.method {
-            Method::Msaa => return Err(RenderError::LocationMethod),
-            Method::Ssaa => {
-                // Superpixels with every sample shaded equal supersampling, and read textures as it does.
-                settings.method = Method::Superpixel;
-                settings.pattern = Pattern::Grid;
-                settings.detection = Detection::Every;
-                settings.coverage = Coverage::Samples;
-                settings.shading = Shading::Sample;
+            Method::Msaa { .. } => {
+                return Err(RenderError::LocationMethod {
+                    method: MethodKind::Msaa,
+                });
             }
-            Method::None | Method::Superpixel => {}
+            // Superpixels with every sample shaded equal supersampling, and read textures as it does.
+            Method::Ssaa { samples } => {
+                settings.method = SuperpixelOptions::new(samples)
+                    .pattern(Pattern::Grid)
+                    .detection(Detection::Every)
+                    .coverage(Coverage::Samples)
+                    .shading(Shading::Sample)
+                    .into();
+            }
+            Method::None | Method::Superpixel(_) => {}
         }
         if settings.region.is_some() {
             return Err(RenderError::LocationRegion);
@@ -74,7 +79,7 @@ impl Headless {
             }
         }
         let samples_cells = settings.method != Method::None;
-        let every = samples_cells && settings.detection == Detection::Every;
+        let every = samples_cells && settings.superpixels().detection == Detection::Every;
         let mut statistics = Statistics::default();
         let mut image = OutputImage::new(count as usize, &settings);
         if !every || settings.attributes {
@@ -116,7 +121,7 @@ impl Headless {
             let resolved = self.sample_superpixels(scene, pinhole, locations, settings)?;
             statistics.append(resolved.statistics);
             for (location, color) in locations.iter().zip(&resolved.values) {
-                image.resolve(location.output as usize, *color, settings.samples);
+                image.resolve(location.output as usize, *color, settings.method.samples());
             }
         }
         Ok(statistics)

@@ -16,9 +16,9 @@ mod sampler;
 pub use error::LocationError;
 
 use super::shadows::Sight;
-use super::{Headless, PreparedScene, RenderError, Settings, Statistics};
+use super::{EngineError, Headless, Method, PreparedScene, RenderError, Settings, Statistics};
 use crate::camera::{Pinhole, SampleLocation};
-use crate::passes::Cells;
+use crate::engine::data::Cells;
 use partition::Partition;
 use plan::LocationPlan;
 use sampler::{LocationSampler, LocationValues};
@@ -66,7 +66,8 @@ pub struct Sampled<T> {
 }
 
 impl Headless {
-    /// Samples a scene once at each location. The settings' size, method, samples and detection are ignored.
+    /// Samples a scene once at each location. The settings' size is ignored; of the method counts whether superpixels filter
+    /// textures.
     ///
     /// # Errors
     /// [`RenderError::Location`] names the first location that can't be sampled; with
@@ -102,11 +103,11 @@ impl Headless {
 
     /// Samples each location as a superpixel: its samples lie at the location plus its Jacobian times the offsets of
     /// the settings' pattern. The values are resolved colours in linear light with premultiplied alpha. The settings'
-    /// size, method and detection are ignored. With [`Shadows::Exact`](super::Shadows::Exact) every sample is shaded
+    /// size and detection are ignored. With [`Shadows::Exact`](super::Shadows::Exact) every sample is shaded
     /// separately, whatever the settings say.
     ///
     /// # Errors
-    /// [`RenderError::Location`] names the first location that can't be sampled, [`RenderError::Pattern`] lists the
+    /// [`RenderError::Location`] names the first location that can't be sampled, [`EngineError::Pattern`](crate::render::EngineError::Pattern) lists the
     /// possible numbers of samples; otherwise as [`Headless::render`].
     pub fn sample_superpixels(
         &mut self,
@@ -115,6 +116,10 @@ impl Headless {
         locations: &[SampleLocation],
         settings: &Settings,
     ) -> Result<Sampled<[f32; 4]>, RenderError> {
+        if let Method::None | Method::Msaa { .. } = settings.method {
+            let method = settings.method.kind();
+            return Err(RenderError::LocationMethod { method });
+        }
         let settings = &settings.with_shadowed_samples();
         let partition = Partition::new(locations, Cells::Superpixels)?;
         let mut values: Vec<[f32; 4]> = Vec::with_capacity(locations.len());
@@ -133,6 +138,9 @@ impl Headless {
         mut take: impl FnMut(&RunValues<'_>),
     ) -> Result<Statistics, RenderError> {
         self.check(&scene.gpu_scene)?;
+        if settings.region.is_some() {
+            return Err(RenderError::LocationRegion);
+        }
         let layout = self.renderer.layout.clone();
         let plan = LocationPlan::new(&layout, scene, settings, partition, self.may_stop())?;
         let make = |apart: bool| LocationSampler::new(&layout, scene, settings, &plan, apart);
@@ -157,7 +165,7 @@ impl Headless {
             match sampler.check(&window) {
                 Ok(()) => {}
                 // If one cell is sampled at a time, longer lists fit.
-                Err(RenderError::Unfinished { .. })
+                Err(RenderError::Engine(EngineError::Unfinished { .. }))
                     if !apart && sampler.has_long_lists(&window)? =>
                 {
                     apart = true;
@@ -166,7 +174,7 @@ impl Headless {
                     continue;
                 }
                 // Half of the locations have about half of the visibility samples.
-                Err(RenderError::Unfinished { cells }) if run.len() > 1 => {
+                Err(RenderError::Engine(EngineError::Unfinished { cells })) if run.len() > 1 => {
                     log::debug!(
                         "{cells} cells or tiles of {} locations did not fit",
                         run.len()

@@ -5,7 +5,7 @@
 
 use super::LocationError;
 use crate::camera::SampleLocation;
-use crate::passes::{Cells, ListedLocation};
+use crate::engine::data::{Cells, ListedLocation};
 use crate::render::plane::{TILE, Window};
 use crate::render::shadows::Rectangle;
 use glam::DVec2;

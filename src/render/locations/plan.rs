@@ -2,12 +2,13 @@
 
 use super::partition::Partition;
 use super::sampler::list_cells;
+use crate::engine::data::{Cells, ResourceSizes};
+use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::plan::Capacity;
-use crate::passes::{Cells, FrameLayout, ResourceSizes};
-use crate::render::passes::FrameGeometry;
+use crate::render::data::FrameGeometry;
 use crate::render::plane::Window;
 use crate::render::shadows::{Casters, ShadowFinder};
-use crate::render::{PreparedScene, RenderError, Settings, Shadows};
+use crate::render::{EngineError, PreparedScene, RenderError, Settings, Shadows};
 use std::ops::Range;
 
 /// Largest number of locations of a run; more would not make sampling faster.
@@ -30,7 +31,7 @@ impl LocationPlan {
     /// Plans the runs of a partition.
     ///
     /// # Errors
-    /// [`RenderError::Memory`] if not even short runs fit, [`RenderError::NoCasters`] if shadows are asked for and the
+    /// [`EngineError::Memory`](crate::render::EngineError::Memory) if not even short runs fit, [`RenderError::NoCasters`] if shadows are asked for and the
     /// scene was not prepared for them.
     pub fn new(
         layout: &FrameLayout,
@@ -47,7 +48,7 @@ impl LocationPlan {
         let (cells, capacity) = (partition.cells, Capacity::default());
         let samples = match cells.are_points() {
             true => 1,
-            false => settings.samples.max(1) as usize,
+            false => settings.method.samples().max(1) as usize,
         };
         let places = partition.places();
         let mut longest = if may_stop && samples > 1 {
@@ -78,10 +79,10 @@ impl LocationPlan {
                 });
             }
             if longest <= FEWEST_LOCATIONS {
-                return Err(RenderError::Memory {
+                return Err(RenderError::Engine(EngineError::Memory {
                     needed,
                     allowed: settings.max_memory.unwrap_or(limits.max_storage_bytes),
-                });
+                }));
             }
             longest /= 2;
         }

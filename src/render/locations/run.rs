@@ -1,12 +1,12 @@
 //! What all runs over locations have in common: geometry as the window sees it, memory, counters and times.
 
 use crate::camera::Pinhole;
+use crate::engine::data::{Cells, Content, ListedLocation, Offsets, ResourceSizes, Resources};
+use crate::engine::passes::{ListLength, RasterTargets};
+use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::SamplerRun;
-use crate::passes::{
-    Cells, Content, FrameLayout, ListLength, ListedLocation, Offsets, RasterTargets, ResourceSizes,
-    Resources,
-};
-use crate::render::passes::{FrameGeometry, FrameLook, Stroke, StrokeSizes};
+use crate::render::data::{FrameGeometry, FrameLook};
+use crate::render::passes::{Stroke, StrokeSizes};
 use crate::render::plane::Window;
 use crate::render::{PassTime, PreparedScene, RenderError, Settings, Statistics};
 use crate::vulkan::{Memory, Recorder, Timings, VulkanError};

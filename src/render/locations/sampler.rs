@@ -2,10 +2,11 @@
 
 use super::plan::LocationPlan;
 use super::run::RunMemory;
+use crate::engine::data::{Cells, ListedLocation, Offsets, Resources};
+use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::plan::Capacity;
 use crate::engine::sampler::statistics::Shortfall;
 use crate::engine::sampler::{ListCells, Sampler, SamplerContext, SamplerRun};
-use crate::passes::{Cells, FrameLayout, ListedLocation, Offsets, Resources};
 use crate::render::frame::recording::SceneShading;
 use crate::render::passes::{Shade, ShadeSource};
 use crate::render::plane::Window;
@@ -211,10 +212,10 @@ impl LocationSampler {
     /// long.
     ///
     /// # Errors
-    /// [`RenderError::Unfinished`] if it was not; [`RenderError::Vulkan`] if the counters can't be read.
+    /// [`EngineError::Unfinished`](crate::render::EngineError::Unfinished) if it was not; [`EngineError::Vulkan`](crate::render::EngineError::Vulkan) if the counters can't be read.
     pub fn check(&self, window: &Window) -> Result<(), RenderError> {
-        self.shortfall(window)?
-            .check(self.run.resources.sizes().lanes)
+        let shortfall = self.shortfall(window)?;
+        Ok(shortfall.check(self.run.resources.sizes().lanes)?)
     }
 
     /// Adds the last run to `statistics`.

@@ -1,10 +1,11 @@
 //! crossings: finds cells of a list that a thin triangle crosses without covering the location.
 
-use super::beside_frame::BesideFrame;
-use crate::passes::arguments::{After, Arguments};
-use crate::passes::own_layout::whole;
-use crate::passes::spirv::{self, crossings_set};
-use crate::passes::{Argument, Content, FrameLayout, Resources, SampleSet};
+use crate::engine::data::{Argument, Content, Resources, SampleSet};
+use crate::engine::passes::arguments::{After, Arguments};
+use crate::engine::passes::spirv::{self, crossings_set};
+use crate::engine::pipelines::FrameLayout;
+use crate::engine::pipelines::own_layout::whole;
+use crate::render::beside_frame::BesideFrame;
 use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
@@ -24,7 +25,7 @@ pub struct SeenLocation {
 
 /// The output whose cells are marked: its size in tiles of 8 x 4 cells, its width in cells, and the width of a `pixel`
 /// of the plane in world units, at distance 1 or, for parallel rays, at any distance.
-pub use crate::passes::spirv::CrossingsPush as MarkedOutput;
+pub use crate::engine::passes::spirv::CrossingsPush as MarkedOutput;
 
 /// Marks cells, which `detect` makes superpixels.
 pub struct Crossings {

@@ -1,26 +1,29 @@
-//! Passes that shade and pose scenes of files, and the scene data that they read. A pass has the name of its shader in
+//! Passes that shade and pose scenes of files, and those that make images of what a frame saw. A pass has the name of its shader in
 //! `shaders/`.
 
-mod beside_frame;
+mod attributes;
+mod box_filter;
 mod crossings;
-mod geometry;
+mod encode;
+mod multisample;
 mod neighbours;
-mod output_cells;
 mod pose;
 pub mod prefilter;
 mod receivers;
-mod scene;
 mod shade;
 mod shadow;
+mod spans;
 mod stroke;
 
+pub use attributes::Attributes;
+pub use box_filter::BoxFilter;
 pub use crossings::{Crossings, MarkedOutput, SeenLocation};
-pub use geometry::FrameGeometry;
+pub use encode::{Encode, Encoding};
+pub use multisample::Multisample;
 pub use neighbours::Neighbours;
-pub use output_cells::{OutputCells, OutputPlane};
 pub use pose::Pose;
 pub use receivers::{LightPlane, Receivers, Receiving};
-pub use scene::{FrameLook, GpuScene, SceneUploads};
 pub use shade::{Shade, ShadeSource};
 pub use shadow::{Shadow, ShadowTarget};
+pub use spans::Spans;
 pub use stroke::{Stroke, StrokeSizes};

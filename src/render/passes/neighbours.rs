@@ -1,10 +1,12 @@
 //! neighbours: finds cells of an output that contrast with a superpixel beside them.
 
-use crate::passes::{ColorConstants, FrameLayout, spirv};
+use crate::engine::data::ColorConstants;
+use crate::engine::passes::spirv;
+use crate::engine::pipelines::FrameLayout;
 use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
-/// Marks cells for [`Grow`](crate::passes::Grow), for superpixels that are locations of lists.
+/// Marks cells for [`Grow`](crate::engine::passes::Grow), for superpixels that are locations of lists.
 pub struct Neighbours {
     pipeline: Arc<Pipeline>,
 }

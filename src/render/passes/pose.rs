@@ -1,7 +1,8 @@
 //! pose: computes vertices that move, at a moment.
 
-use super::{FrameGeometry, GpuScene};
-use crate::passes::{FrameLayout, spirv};
+use crate::engine::passes::spirv;
+use crate::engine::pipelines::FrameLayout;
+use crate::render::data::{FrameGeometry, GpuScene};
 use crate::scene::Moment;
 use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use std::sync::Arc;

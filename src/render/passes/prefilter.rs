@@ -5,8 +5,8 @@
 //! large as the solid angle that it stands for, so that small bright lights neither flicker nor sparkle (Křivánek and
 //! Colbert, "Real-time Shading with Filtered Importance Sampling", 2008).
 
-use crate::passes::own_layout::{OwnSet, PipelineLayout, SetLayout, whole};
-use crate::passes::spirv::{self, prefilter_set};
+use crate::engine::passes::spirv::{self, prefilter_set};
+use crate::engine::pipelines::own_layout::{OwnSet, PipelineLayout, SetLayout, whole};
 use crate::vulkan::{
     Buffer, Compiled, Memory, Pipeline, Recorder, Specialized, VulkanError, compute_pipeline,
 };

@@ -1,15 +1,16 @@
 //! receivers: projects the surfaces that are about to be shaded onto the plane of a light.
 
-use super::GpuScene;
-use super::beside_frame::BesideFrame;
-use crate::passes::own_layout::whole;
-use crate::passes::spirv::{self, receivers_set};
-use crate::passes::{Argument, Cells, Content, FrameLayout, Resources, SampleSet};
+use crate::engine::data::{Argument, Cells, Content, Resources, SampleSet};
+use crate::engine::passes::spirv::{self, receivers_set};
+use crate::engine::pipelines::FrameLayout;
+use crate::engine::pipelines::own_layout::whole;
+use crate::render::beside_frame::BesideFrame;
+use crate::render::data::GpuScene;
 use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use std::sync::Arc;
 
 /// Plane of a light, as the pass takes it; `shaders/receivers.comp` describes the fields.
-pub use crate::passes::spirv::ReceiversPush as LightPlane;
+pub use crate::engine::passes::spirv::ReceiversPush as LightPlane;
 
 impl LightPlane {
     /// Face of a plane that does not belong to a cube.

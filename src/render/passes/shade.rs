@@ -1,8 +1,10 @@
 //! shade: computes the radiance of visible places, with one dispatch for each material bin.
 
-use super::GpuScene;
-use super::scene::ShadeFeatures;
-use crate::passes::{Argument, Cells, ColorConstants, Content, FrameLayout, spirv};
+use crate::engine::data::{Argument, Cells, ColorConstants, Content};
+use crate::engine::passes::spirv;
+use crate::engine::pipelines::FrameLayout;
+use crate::render::data::GpuScene;
+use crate::render::data::ShadeFeatures;
 use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::collections::HashMap;

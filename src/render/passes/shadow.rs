@@ -1,10 +1,11 @@
 //! shadow: finds the receivers of light that another triangle occludes.
 
-use super::beside_frame::BesideFrame;
-use crate::passes::arguments::{After, Arguments};
-use crate::passes::own_layout::whole;
-use crate::passes::spirv::{self, shadow_set};
-use crate::passes::{Argument, FrameLayout, Resources, SampleSet};
+use crate::engine::data::{Argument, Resources, SampleSet};
+use crate::engine::passes::arguments::{After, Arguments};
+use crate::engine::passes::spirv::{self, shadow_set};
+use crate::engine::pipelines::FrameLayout;
+use crate::engine::pipelines::own_layout::whole;
+use crate::render::beside_frame::BesideFrame;
 use crate::vulkan::{Buffer, Memory, MemoryUse, Pipeline, Recorder, VulkanError};
 use ash::vk;
 use std::sync::Arc;

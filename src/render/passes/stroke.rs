@@ -1,7 +1,8 @@
 //! stroke: computes points and lines for a camera.
 
-use super::{FrameGeometry, GpuScene};
-use crate::passes::{FrameLayout, spirv};
+use crate::engine::passes::spirv;
+use crate::engine::pipelines::FrameLayout;
+use crate::render::data::{FrameGeometry, GpuScene};
 use crate::scene::Edge;
 use crate::vulkan::{Pipeline, Recorder, VulkanError};
 use glam::{DMat4, DVec3, Vec4Swizzles};

@@ -1,7 +1,7 @@
 //! Casters of shadows: the triangles of a pose, visible from both sides.
 
-use crate::passes::Content;
-use crate::render::passes::GpuScene;
+use crate::engine::data::Content;
+use crate::render::data::GpuScene;
 use crate::scene::{
     AlphaMode, DrawClass, Image, Light, Material, Moment, Motion, MovingBounds, Pose, Scene,
     TextureUse,

@@ -2,17 +2,16 @@
 
 use super::casters::{Casters, Lit, caster_moment};
 use super::light::{LightView, Sight, views};
+use crate::engine::data::{Argument, Cells, Content, Offsets, ResourceSizes, Resources, SampleSet};
+use crate::engine::passes::spirv::frame_set;
+use crate::engine::passes::{ListLength, RasterTargets};
+use crate::engine::pipelines::FrameLayout;
 use crate::engine::sampler::plan::Capacity;
 use crate::engine::sampler::statistics::Shortfall;
 use crate::engine::sampler::{ListCells, RecordShading, Sampler, SamplerContext, SamplerRun};
-use crate::passes::spirv::frame_set;
-use crate::passes::{
-    Argument, Cells, Content, FrameLayout, ListLength, Offsets, RasterTargets, ResourceSizes,
-    Resources, SampleSet,
-};
+use crate::render::data::{FrameGeometry, FrameLook, GpuScene};
 use crate::render::passes::{
-    FrameGeometry, FrameLook, GpuScene, LightPlane, Pose, Receivers, Receiving, Shade, ShadeSource,
-    Shadow, ShadowTarget,
+    LightPlane, Pose, Receivers, Receiving, Shade, ShadeSource, Shadow, ShadowTarget,
 };
 use crate::render::{RenderError, Settings};
 use crate::scene::Moment;

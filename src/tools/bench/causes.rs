@@ -5,7 +5,7 @@ use super::accuracy::squares;
 use crate::camera::Camera;
 use crate::compare::CompareError;
 use crate::output::{DecodedImage, Picture};
-use crate::render::{Headless, Method, PixelAttributes, PreparedScene, RenderError, Settings};
+use crate::render::{Headless, MethodKind, PixelAttributes, PreparedScene, RenderError, Settings};
 use crate::sampling::owen_sobol;
 use glam::DVec2;
 use serde::Serialize;
@@ -68,7 +68,7 @@ impl Looks {
         settings: &Settings,
         mut progress: impl FnMut(),
     ) -> Result<Self, RenderError> {
-        let mut frame = headless.prepare(scene, &with_attributes(settings, Method::None))?;
+        let mut frame = headless.prepare(scene, &with_attributes(settings, MethodKind::None))?;
         let centres = headless.render(&mut frame, camera)?.attributes;
         let mut unseen = vec![false; centres.len()];
         let mut several = unseen.clone();
@@ -108,7 +108,8 @@ impl Looks {
         camera: &Camera,
         settings: &Settings,
     ) -> Result<Vec<Cause>, RenderError> {
-        let mut frame = headless.prepare(scene, &with_attributes(settings, Method::Superpixel))?;
+        let mut frame =
+            headless.prepare(scene, &with_attributes(settings, MethodKind::Superpixel))?;
         let centres = headless.render(&mut frame, camera)?.attributes;
         Ok(self.classify(&centres))
     }
@@ -128,13 +129,11 @@ impl Looks {
 }
 
 /// Settings for IDs and superpixels with one sample a pixel, which suffices for these.
-fn with_attributes(settings: &Settings, method: Method) -> Settings {
-    Settings {
-        method,
-        samples: 1,
-        attributes: true,
-        ..settings.clone()
-    }
+fn with_attributes(settings: &Settings, method: MethodKind) -> Settings {
+    settings
+        .clone()
+        .attributes(true)
+        .method(method.with_samples(1))
 }
 
 /// IDs at the centres of a pixel and its neighbours.

@@ -106,21 +106,19 @@ impl Suspects<'_> {
             let picture = Picture::new(rendered.size, &rendered.colors)?;
             Ok::<_, FaultError>(DecodedImage::from(&picture))
         };
-        let every_sample = Settings {
-            shading: Shading::Sample,
-            ..settings.clone()
-        };
-        let everywhere = Settings {
-            detection: Detection::Every,
-            ..settings.clone()
-        };
+        let every_sample = settings
+            .clone()
+            .map_superpixels(|options| options.shading(Shading::Sample));
+        let everywhere = settings
+            .clone()
+            .map_superpixels(|options| options.detection(Detection::Every));
         // No two 8-bit codes differ by more than this threshold.
-        let nowhere = Settings {
-            contrast: Some(u8::MAX),
-            detection: Detection::Contrast,
-            thin: false,
-            ..settings.clone()
-        };
+        let nowhere = settings.clone().map_superpixels(|options| {
+            options
+                .contrast(Some(u8::MAX))
+                .detection(Detection::Contrast)
+                .thin(false)
+        });
         let image = squares(yardstick.reference(), &DecodedImage::from(picture))?;
         let sampled = squares(yardstick.reference(), &render(self.scene, &every_sample)?)?;
         let mut errors = |half: Half<'_>| -> Result<Errors, FaultError> {

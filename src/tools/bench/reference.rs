@@ -1,7 +1,9 @@
 //! Reference images: supersampling with thousands of samples a pixel.
 
 use crate::camera::Camera;
-use crate::render::{Footprint, Headless, Method, PreparedScene, RenderError, Settings};
+use crate::render::{
+    EngineError, Footprint, Headless, Method, PreparedScene, RenderError, Settings,
+};
 use crate::sampling::owen_sobol;
 use glam::DVec2;
 
@@ -35,7 +37,7 @@ const SEED: u32 = 1;
 /// [`Rendered::colors`](crate::render::Rendered::colors), rows from the top.
 ///
 /// # Errors
-/// [`RenderError::Samples`] unless `samples` is a multiple of [`GRID_SAMPLES`] from it to [`MAX_REFERENCE_SAMPLES`];
+/// [`EngineError::Samples`](crate::render::EngineError::Samples) unless `samples` is a multiple of [`GRID_SAMPLES`] from it to [`MAX_REFERENCE_SAMPLES`];
 /// otherwise as [`Headless::render`].
 pub fn brute_force(
     headless: &mut Headless,
@@ -48,11 +50,11 @@ pub fn brute_force(
     if !(GRID_SAMPLES..=MAX_REFERENCE_SAMPLES).contains(&samples)
         || !samples.is_multiple_of(GRID_SAMPLES)
     {
-        return Err(RenderError::Samples {
+        return Err(RenderError::Engine(EngineError::Samples {
             method: "the reference",
             asked: samples,
             possible: format!("the multiples of {GRID_SAMPLES} up to {MAX_REFERENCE_SAMPLES}"),
-        });
+        }));
     }
     let settings = of_reference(settings, GRID_SAMPLES);
     let size = DVec2::from(settings.size.map(f64::from));
@@ -85,14 +87,12 @@ pub fn brute_force(
 
 /// Settings of one rendering of a reference, with `samples` samples a pixel.
 pub(super) fn of_reference(settings: &Settings, samples: u32) -> Settings {
-    Settings {
-        method: Method::Ssaa,
-        samples,
-        attributes: false,
-        footprint: match settings.footprint {
+    settings
+        .clone()
+        .attributes(false)
+        .footprint(match settings.footprint {
             Footprint::Sample => Footprint::Side(TRUTH_SIDE),
             asked => asked,
-        },
-        ..settings.clone()
-    }
+        })
+        .method(Method::Ssaa { samples })
 }

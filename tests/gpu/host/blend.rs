@@ -5,7 +5,7 @@ use super::world::{Drawn, Mesh, PLACED, Part, SIZE, Way, World};
 use crate::stage::{Stage, flat, ids, on_gpu, once, seen_at};
 use gpc::bench::stress::stage::NEAR;
 use gpc::host::Options;
-use gpc::render::{Method, Settings, Shading};
+use gpc::render::{Shading, SuperpixelOptions};
 use gpc::scene::AlphaMode;
 
 /// A wall, and panes that cross it and each other: their corners' places and distances, and how they look.
@@ -102,10 +102,7 @@ fn blended_draws_are_composited_as_those_of_files() {
     on_gpu(|gpu| {
         let (stage, world) = (stage(), world());
         let machine = Machine::new(gpu, &world);
-        let bare = Settings {
-            background: Some(super::world::SKY),
-            ..once(SIZE)
-        };
+        let bare = once(SIZE).background(Some(super::world::SKY));
         let drawn = stage.render(gpu, &bare);
         let drawn = Drawn {
             ids: ids(&drawn),
@@ -119,13 +116,9 @@ fn blended_draws_are_composited_as_those_of_files() {
         };
         for shading in [Shading::Part, Shading::Sample] {
             for samples in [16, 64] {
-                let settings = Settings {
-                    method: Method::Superpixel,
-                    samples,
-                    shading,
-                    thin: false,
-                    ..bare.clone()
-                };
+                let settings = bare
+                    .clone()
+                    .method(SuperpixelOptions::new(samples).shading(shading).thin(false));
                 let expected = stage.render(gpu, &settings);
                 for (way, base) in [
                     (PLACED, Base::All(&drawn)),
@@ -136,7 +129,6 @@ fn blended_draws_are_composited_as_those_of_files() {
                         thin: false,
                         samples,
                         shading,
-                        contrast: settings.contrast,
                         flat_background: true,
                         ..Options::new(SIZE[0], SIZE[1])
                     };

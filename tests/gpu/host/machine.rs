@@ -9,7 +9,7 @@ use gpc::host::{
     LentImage, ListOutcome, Location, LocationList, Options, Outcome, PositionSpace, Scenery,
     ShadeSamples, VisibilitySamples,
 };
-use gpc::render::{Headless, RenderError};
+use gpc::render::{EngineError, Headless};
 use gpc::testing::{Buffer, Image, Memory, MemoryUse, Recorder, memory};
 use gpc::vulkan::Gpu;
 use gpc::vulkan::VulkanError;
@@ -109,7 +109,7 @@ impl ShadeSamples for Gated<'_> {
 pub fn is_not_recorded(error: Option<HostError>) -> bool {
     matches!(
         error,
-        Some(HostError::Render(RenderError::Vulkan(
+        Some(HostError::Engine(EngineError::Vulkan(
             VulkanError::NotRecorded
         )))
     )
@@ -119,7 +119,7 @@ pub fn is_not_recorded(error: Option<HostError>) -> bool {
 pub fn is_not_done(error: Option<HostError>) -> bool {
     matches!(
         error,
-        Some(HostError::Render(RenderError::Vulkan(VulkanError::NotDone)))
+        Some(HostError::Engine(EngineError::Vulkan(VulkanError::NotDone)))
     )
 }
 

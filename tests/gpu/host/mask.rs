@@ -6,7 +6,7 @@ use crate::stage::{Stage, flat, ids, on_gpu, once, seen_at, textured};
 use ash::vk;
 use gpc::bench::stress::stage::NEAR;
 use gpc::host::Options;
-use gpc::render::{Method, Settings};
+use gpc::render::{Settings, SuperpixelOptions};
 use gpc::scene::{AlphaMode, Filter, Image, Sampler, Wrap};
 
 const SIDE: u32 = 8;
@@ -170,11 +170,8 @@ fn alpha_maps_are_tested_as_those_of_files() {
                 ..Sampler::default()
             },
         ] {
-            let settings = Settings {
-                method: Method::Superpixel,
-                thin: true,
-                ..once(SIZE)
-            };
+            let settings =
+                once(SIZE).method(SuperpixelOptions::new(Settings::DEFAULT_SAMPLES).thin(true));
             let stage = stage(sampler);
             let expected = stage.render(gpu, &settings);
             // As a host draws them that discards fragments itself.
@@ -183,10 +180,9 @@ fn alpha_maps_are_tested_as_those_of_files() {
                 depths: vec![0.0; (SIZE[0] * SIZE[1]) as usize],
                 colors: Vec::new(),
             };
-            let without_depth = Settings {
-                thin: false,
-                ..settings.clone()
-            };
+            let without_depth = settings
+                .clone()
+                .map_superpixels(|options| options.thin(false));
             let expected_of_own = stage.render(gpu, &without_depth);
             let world = world(&sampler);
             let machine = Machine::new(gpu, &world);
@@ -198,8 +194,6 @@ fn alpha_maps_are_tested_as_those_of_files() {
                 let lent = world.lent(&way);
                 let options = Options {
                     thin: matches!(base, Base::Nothing),
-                    samples: settings.samples,
-                    contrast: settings.contrast,
                     ..Options::new(SIZE[0], SIZE[1])
                 };
                 let found = machine.see_lent(&way, &lent, base, options);

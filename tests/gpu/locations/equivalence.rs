@@ -1,6 +1,8 @@
 //! Locations at the places that other paths sample see the same.
 
-use gpc::render::{Coverage, PreparedScene, RenderError, Sampled, Settings, Shading, Statistics};
+use gpc::render::{
+    Coverage, EngineError, PreparedScene, RenderError, Sampled, Settings, Shading, Statistics,
+};
 use gpc::sampling::Pattern;
 
 use super::{pinhole, planar};
@@ -55,10 +57,7 @@ fn a_planar_set_sees_what_raster_sees() {
 fn points_are_superpixels_of_one_sample() {
     on_gpu(|gpu| {
         for (name, stage) in stages() {
-            let settings = Settings {
-                background: Some([0.25, 0.5, 0.75]),
-                ..everywhere(SIZE, Pattern::Sobol, 1)
-            };
+            let settings = everywhere(SIZE, Pattern::Sobol, 1).background(Some([0.25, 0.5, 0.75]));
             let image = stage.render(gpu, &settings);
             let prepared = stage.upload(gpu);
             let points = gpu
@@ -68,10 +67,7 @@ fn points_are_superpixels_of_one_sample() {
                 assert_eq!(image, &point.color, "{name}, pixel {pixel}");
             }
             // And what the image without antialiasing shows, but for what raster rounds.
-            let once = Settings {
-                background: settings.background,
-                ..once(SIZE)
-            };
+            let once = once(SIZE).background(settings.background);
             let none = stage.render(gpu, &once);
             let far = |(a, b): &([f32; 4], [f32; 4])| (0..4).any(|c| (a[c] - b[c]).abs() > 1e-4);
             let pairs = none.colors.iter().zip(&points.values);
@@ -100,11 +96,8 @@ fn superpixels_of_pixels_are_the_antialiased_image() {
                 _ => {}
             }
             for (coverage, shading, samples) in cases {
-                let settings = Settings {
-                    coverage,
-                    shading,
-                    ..everywhere(SIZE, Pattern::Sobol, samples)
-                };
+                let settings = everywhere(SIZE, Pattern::Sobol, samples)
+                    .map_superpixels(|options| options.coverage(coverage).shading(shading));
                 let image = stage.render(gpu, &settings);
                 let locations = gpu
                     .sample_superpixels(&prepared, &pinhole(SIZE), &planar(SIZE), &settings)
@@ -136,12 +129,11 @@ fn least<T: std::fmt::Debug>(
     mut call: impl FnMut(&Settings) -> Result<Sampled<T>, RenderError>,
 ) -> Sampled<T> {
     for extra in (0..256).map(|step| step << 16) {
-        let tight = Settings {
-            max_memory: Some(prepared.memory_bytes() + extra),
-            ..settings.clone()
-        };
+        let tight = settings
+            .clone()
+            .max_memory(Some(prepared.memory_bytes() + extra));
         match call(&tight) {
-            Err(RenderError::Memory { .. }) => {}
+            Err(RenderError::Engine(EngineError::Memory { .. })) => {}
             sampled => {
                 let sampled = sampled.unwrap();
                 assert!(sampled.statistics.regions > 1);

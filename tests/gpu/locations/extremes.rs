@@ -68,13 +68,9 @@ fn sets_that_cannot_be_sampled_are_named() {
                 cells: 4096
             }))
         ));
-        let msaa = Settings {
-            method: Method::Msaa,
-            samples: 4,
-            ..Settings::new(64, 64)
-        };
+        let msaa = Settings::new(64, 64).method(Method::Msaa { samples: 4 });
         let rendered = gpu.render_locations(&prepared, &rig, SIZE, &msaa);
-        assert!(matches!(rendered, Err(RenderError::LocationMethod)));
+        assert!(matches!(rendered, Err(RenderError::LocationMethod { .. })));
     });
 }
 

@@ -1,7 +1,7 @@
 //! Images whose pixels look where locations say.
 
 use gpc::camera::{Pinhole, SampleLocation};
-use gpc::render::{Coverage, Method, Rendered, Settings, Shading};
+use gpc::render::{Coverage, Method, Rendered, Settings, Shading, SuperpixelOptions};
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Filter, Image, Sampler};
 
@@ -57,18 +57,18 @@ fn striped(repeats: f32) -> Stage {
 fn a_planar_image_is_the_cameras() {
     on_gpu(|gpu| {
         let stage = ball_over_checker();
-        let settings = Settings {
-            samples: 16,
-            // Locations have no neighbours to tell how many parts are enough, and are shaded in all.
-            shading: Shading::Triangle,
-            // Where more triangles meet than a subgroup has invocations, locations know no areas.
-            coverage: Coverage::Samples,
-            // Locations have points.
-            pattern: Pattern::Sobol,
-            attributes: true,
-            background: Some([0.2, 0.3, 0.4]),
-            ..Settings::new(SIZE[0], SIZE[1])
-        };
+        let settings = Settings::new(SIZE[0], SIZE[1])
+            .attributes(true)
+            .background(Some([0.2, 0.3, 0.4]))
+            .method(
+                SuperpixelOptions::new(16)
+                    // Locations have no neighbours to tell how many parts are enough, and are shaded in all.
+                    .shading(Shading::Triangle)
+                    // Where more triangles meet than a subgroup has invocations, locations know no areas.
+                    .coverage(Coverage::Samples)
+                    // Locations have points.
+                    .pattern(Pattern::Sobol),
+            );
         let image = stage.render(gpu, &settings);
         let prepared = stage.upload(gpu);
         let pinhole = pinhole(SIZE);
@@ -99,17 +99,10 @@ fn a_planar_image_is_the_cameras() {
         assert!(differing(&whole, &shared) <= 6);
 
         // Brute force is a grid of samples in every pixel.
-        let brute = Settings {
-            method: Method::Ssaa,
-            ..settings.clone()
-        };
-        let reference = stage.render(
-            gpu,
-            &Settings {
-                attributes: false,
-                ..brute.clone()
-            },
-        );
+        let brute = settings.clone().method(Method::Ssaa {
+            samples: Settings::DEFAULT_SAMPLES,
+        });
+        let reference = stage.render(gpu, &brute.clone().attributes(false));
         let locations = gpu.render_locations(&prepared, &one, SIZE, &brute).unwrap();
         assert_eq!(locations.statistics.superpixels, 96 * 64);
         let error: f64 = reference
@@ -156,11 +149,7 @@ fn the_jacobian_is_the_footprint_of_textures() {
 fn brute_force_reads_textures_at_its_samples() {
     on_gpu(|gpu| {
         let stage = striped(3.0);
-        let settings = Settings {
-            method: Method::Ssaa,
-            samples: 16,
-            ..Settings::new(SIZE[0], SIZE[1])
-        };
+        let settings = Settings::new(SIZE[0], SIZE[1]).method(Method::Ssaa { samples: 16 });
         let image = stage.render(gpu, &settings);
         let prepared = stage.upload(gpu);
         let rig = [(pinhole(SIZE), planar(SIZE))];

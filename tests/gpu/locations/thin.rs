@@ -15,12 +15,9 @@ use crate::stage::{Stage, camera, flat, on_gpu, seen_at};
 const SIZE: [u32; 2] = [96, 64];
 
 fn settings(detection: Detection, thin: bool) -> Settings {
-    Settings {
-        detection,
-        thin,
-        attributes: true,
-        ..Settings::new(SIZE[0], SIZE[1])
-    }
+    Settings::new(SIZE[0], SIZE[1])
+        .attributes(true)
+        .map_superpixels(|options| options.detection(detection).thin(thin))
 }
 
 /// What locations of the stages' pinhole see.
@@ -74,10 +71,8 @@ fn wires_of_a_planar_set_are_the_images() {
         for distance in [2.0, 4.999] {
             let stage = wires(SIZE, distance);
             // Locations have points.
-            let settings = Settings {
-                pattern: Pattern::Sobol,
-                ..settings(Detection::Contrast, true)
-            };
+            let settings = settings(Detection::Contrast, true)
+                .map_superpixels(|options| options.pattern(Pattern::Sobol));
             let image = stage.render(gpu, &settings);
             let scene = stage.upload(gpu);
             let locations = seen(gpu, &scene, &planar(SIZE), &settings);
@@ -249,10 +244,8 @@ fn cells_are_marked_as_the_twin_has_it() {
                     }
                 })
                 .collect();
-            let settings = Settings {
-                contrast: Some(255),
-                ..settings(Detection::Contrast, true)
-            };
+            let settings = settings(Detection::Contrast, true)
+                .map_superpixels(|options| options.contrast(Some(255)));
             let rig = [(pinhole, locations)];
             let rendered = gpu.render_locations(&scene, &rig, SIZE, &settings).unwrap();
             let [(_, locations)] = &rig;
@@ -321,11 +314,9 @@ fn bands_of_an_output_find_what_the_whole_does() {
         };
         let rig = [(pinhole(SIZE), (0..times).flat_map(copy).collect())];
         let size = [width, times * height];
-        let settings = Settings {
-            size,
-            samples: 4,
-            ..settings(Detection::Exact, true)
-        };
+        let settings = settings(Detection::Exact, true)
+            .size(size)
+            .map_superpixels(|options| options.samples(4));
         let rendered = gpu.render_locations(&scene, &rig, size, &settings).unwrap();
         let row = |row: u32| {
             let first = (row * width) as usize;

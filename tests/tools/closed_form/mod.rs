@@ -6,7 +6,7 @@
 mod plane;
 mod texture;
 
-use gpc::render::{Footprint, Headless, HeadlessOptions, Method};
+use gpc::render::{Footprint, Headless, HeadlessOptions, MethodKind};
 use gpc::scene::{Filter, Sampler, TextureTransform, Wrap};
 use plane::{Plane, reference, render, rmse, settings};
 use texture::Texture;
@@ -91,7 +91,7 @@ fn check(headless: &mut Headless, name: &str, plane: &Plane) {
         "{name}: {whole} {below}"
     );
     for (samples, most) in BESIDE_SSAA {
-        let [superpixel, ssaa] = [Method::Superpixel, Method::Ssaa].map(|method| {
+        let [superpixel, ssaa] = [MethodKind::Superpixel, MethodKind::Ssaa].map(|method| {
             let image = render(headless, &scene, &settings(method, samples));
             rmse(&image, &expected, 0)
         });

@@ -3,7 +3,9 @@
 use super::texture::Texture;
 use gpc::bench::brute_force;
 use gpc::bench::stress::stage::{Stage, camera, textured};
-use gpc::render::{Footprint, Headless, Method, PreparedScene, Reference, SceneRequest, Settings};
+use gpc::render::{
+    Footprint, Headless, MethodKind, PreparedScene, Reference, SceneRequest, Settings,
+};
 use gpc::scene::{AlphaMode, Filter, TextureTransform, TextureUse};
 use rayon::prelude::*;
 
@@ -148,15 +150,12 @@ impl Plane {
 }
 
 /// Settings under which pixels are means of linear light.
-pub fn settings(method: Method, samples: u32) -> Settings {
-    Settings {
-        method,
-        samples,
-        background: Some([SKY as f32; 3]),
-        reference: Reference::Scene,
-        tonemapped_detection: false,
-        ..Settings::new(SIZE[0], SIZE[1])
-    }
+pub fn settings(method: MethodKind, samples: u32) -> Settings {
+    Settings::new(SIZE[0], SIZE[1])
+        .background(Some([SKY as f32; 3]))
+        .reference(Reference::Scene)
+        .tonemapped_detection(false)
+        .method(method.with_samples(samples))
 }
 
 /// The image of a method.
@@ -172,10 +171,7 @@ pub fn render(headless: &mut Headless, scene: &PreparedScene, settings: &Setting
 
 /// Brute force at 4,096 samples a pixel: the truth, or a reference that reads textures for a whole pixel.
 pub fn reference(headless: &mut Headless, scene: &PreparedScene, footprint: Footprint) -> Vec<f64> {
-    let settings = Settings {
-        footprint,
-        ..settings(Method::None, 1)
-    };
+    let settings = settings(MethodKind::None, 1).footprint(footprint);
     let colors = brute_force(headless, scene, &camera(), &settings, 4096, || {}).unwrap();
     colors.iter().map(|color| f64::from(color[0])).collect()
 }

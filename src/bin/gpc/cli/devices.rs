@@ -16,13 +16,40 @@ pub struct DevicesArgs {
 
 #[derive(Serialize)]
 struct Report<'a> {
-    devices: &'a [DeviceInfo],
+    devices: Vec<Device<'a>>,
+}
+
+#[derive(Serialize)]
+struct Device<'a> {
+    name: &'a str,
+    kind: &'a str,
+    driver: &'a str,
+    api: &'a str,
+    subgroup_size: u32,
+    memory_bytes: u64,
+    missing: &'a [String],
+}
+
+impl<'a> Device<'a> {
+    fn of(info: &'a DeviceInfo) -> Self {
+        Self {
+            name: &info.name,
+            kind: info.kind,
+            driver: &info.driver,
+            api: &info.api,
+            subgroup_size: info.subgroup_size,
+            memory_bytes: info.memory_bytes,
+            missing: &info.missing,
+        }
+    }
 }
 
 pub fn run(args: &DevicesArgs) -> anyhow::Result<ExitCode> {
     let devices = Instance::new(InstanceOptions::default())?.devices()?;
     if args.json {
-        print::json(&Report { devices: &devices })?;
+        print::json(&Report {
+            devices: devices.iter().map(Device::of).collect(),
+        })?;
     } else {
         for device in &devices {
             print::line(&text(device))?;

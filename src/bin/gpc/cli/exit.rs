@@ -1,6 +1,6 @@
 //! Exit codes.
 
-use gpc::render::RenderError;
+use gpc::render::{EngineError, RenderError};
 use gpc::scene::SceneError;
 use gpc::vulkan::VulkanError;
 
@@ -50,7 +50,7 @@ pub fn code(error: &anyhow::Error) -> u8 {
 
 fn of_render(error: &RenderError) -> u8 {
     match error {
-        RenderError::Vulkan(error) => of_vulkan(error),
+        RenderError::Engine(EngineError::Vulkan(error)) => of_vulkan(error),
         error if error.is_usage() => USAGE,
         error if error.is_device_failure() => DEVICE_FAILURE,
         _ => FAILURE,
@@ -95,8 +95,10 @@ pub fn message(error: &anyhow::Error) -> String {
 fn is_of_memory(cause: &(dyn std::error::Error + 'static)) -> bool {
     let is_full = |error: &VulkanError| matches!(error, VulkanError::OutOfMemory { .. });
     match cause.downcast_ref::<RenderError>() {
-        Some(RenderError::Memory { .. } | RenderError::Unfinished { .. }) => true,
-        Some(RenderError::Vulkan(error)) => is_full(error),
+        Some(RenderError::Engine(EngineError::Memory { .. } | EngineError::Unfinished { .. })) => {
+            true
+        }
+        Some(RenderError::Engine(EngineError::Vulkan(error))) => is_full(error),
         Some(_) => false,
         None => cause.downcast_ref::<VulkanError>().is_some_and(is_full),
     }

@@ -6,7 +6,7 @@ use super::values::{self, Background};
 use crate::view::{self, Appearance, Look, Options, Source, Start};
 use clap::Args;
 use gpc::camera::Orbit;
-use gpc::render::{HeadlessOptions, Method, Settings, Shadows};
+use gpc::render::{HeadlessOptions, MethodKind, Settings, Shadows};
 use gpc::scene::PoseRequest;
 use std::fmt::Display;
 use std::path::PathBuf;
@@ -124,29 +124,21 @@ fn look(args: &ViewArgs, background: Background) -> anyhow::Result<Look> {
     };
     let [width, height] = args.size;
     let sampling = &args.sampling;
-    let method = sampling.aa;
-    let settings = args.appearance.settings(Settings {
-        method,
-        samples: sampling
-            .asked_samples()
-            .unwrap_or_else(|| view::default_samples(method)),
-        pattern: sampling.pattern.clone(),
-        coverage: sampling.coverage,
-        shading: sampling.shading,
-        detection: sampling.detect,
-        footprint: sampling.footprint,
-        contrast: sampling.contrast,
-        background,
-        max_memory: args.device.max_memory,
-        ..Settings::new(width, height)
-    });
-    if sampling.aa == Method::None && settings.samples != 1 {
-        usage!(
-            "none can't have {} samples a pixel; it can have 1",
-            settings.samples
-        );
+    let samples = sampling
+        .asked_samples()
+        .unwrap_or_else(|| view::default_samples(sampling.aa));
+    let settings = Settings::new(width, height)
+        .footprint(sampling.footprint)
+        .background(background)
+        .max_memory(args.device.max_memory)
+        .method(sampling.method(samples));
+    if sampling.aa == MethodKind::None && samples != 1 {
+        usage!("none can't have {samples} samples a pixel; it can have 1");
     }
-    Ok(Look { settings })
+    Ok(Look::new(
+        args.appearance.settings(settings),
+        sampling.superpixels(samples),
+    ))
 }
 
 /// The options for the appearance of scenes, as words of a command line. Numbers that the settings hold are left out.

@@ -16,7 +16,7 @@ use super::standpoint::Standpoint;
 use super::window::Viewer;
 use super::worker::{Subject, Task};
 use glam::DVec2;
-use gpc::render::Method;
+use gpc::render::MethodKind;
 use gpc::sampling::MAX_SAMPLES;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -268,13 +268,12 @@ impl Viewer {
     fn change_samples(&mut self, change: impl Fn(u32) -> u32) -> anyhow::Result<()> {
         let layer = self.layer_under_pointer();
         let look = &mut self.looks[layer];
-        let mut samples = look.settings.samples;
+        let mut samples = look.samples();
         // Numbers that aren't allowed are skipped.
         while (1..=MAX_SAMPLES).contains(&change(samples)) {
             samples = change(samples);
-            let changed = Look {
-                settings: look.at(samples, None),
-            };
+            let mut changed = look.clone();
+            changed.set_samples(samples);
             if changed.can_have(samples) {
                 *look = changed;
                 self.notes.say(format!("{samples} samples a pixel"));
@@ -342,9 +341,9 @@ impl Viewer {
             self.looks.truncate(1);
         } else {
             let mut other: Look = self.looks[0].clone();
-            other.set_method(match other.settings.method {
-                Method::None => Method::Superpixel,
-                _ => Method::None,
+            other.set_method(match other.method() {
+                MethodKind::None => MethodKind::Superpixel,
+                _ => MethodKind::None,
             });
             self.looks.push(other);
         }
@@ -369,7 +368,7 @@ impl Viewer {
         if self.canvas.stage().is_none() {
             return;
         }
-        let samples = self.looks[self.layer_under_pointer()].settings.samples;
+        let samples = self.looks[self.layer_under_pointer()].samples();
         self.notes.say(format!("writing {}", path.display()));
         self.order(0, samples, Subject::File(path, self.cover.lenses.map()));
     }

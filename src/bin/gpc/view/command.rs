@@ -6,7 +6,7 @@ use super::standpoint::Standpoint;
 use glam::DVec3;
 use gpc::camera::zoom::{Shape, Transition, ZoomRegion};
 use gpc::names::name;
-use gpc::render::{Footprint, Method, Settings};
+use gpc::render::{Footprint, Method, Settings, SuperpixelOptions};
 use gpc::sampling::Pattern;
 use std::path::Path;
 
@@ -37,7 +37,7 @@ impl Shot<'_> {
             .to_owned(),
             self.source.path.display().to_string(),
         ]);
-        let settings = self.look.at(self.look.settings.samples, None);
+        let settings = self.look.at(self.look.samples(), None);
         arguments.add("-o", output.display());
         arguments.lenses(self.lenses);
         let [width, height] = settings.size;
@@ -111,29 +111,17 @@ impl Arguments {
     /// Adds the settings that differ from the command's defaults.
     fn settings(&mut self, settings: &Settings) {
         let default = Settings::new(settings.size[0], settings.size[1]);
-        if settings.method != default.method {
-            self.add("--aa", settings.method);
+        if settings.method.kind() != default.method.kind() {
+            self.add("--aa", settings.method.kind());
         }
         if settings.method != Method::None {
-            self.add("--samples", settings.samples);
+            self.add("--samples", settings.method.samples());
         }
-        if let Some(contrast) = settings.contrast {
-            self.add("--contrast", contrast);
-        }
-        if settings.detection != default.detection {
-            self.add("--detect", name(&settings.detection));
-        }
-        if settings.pattern != default.pattern {
-            self.add("--pattern", pattern_name(&settings.pattern));
-        }
-        if settings.coverage != default.coverage {
-            self.add("--coverage", name(&settings.coverage));
+        if let Method::Superpixel(options) = &settings.method {
+            self.superpixels(options);
         }
         if settings.footprint == Footprint::Pixel {
             self.add("--footprint", "pixel");
-        }
-        if settings.shading != default.shading {
-            self.add("--shading", name(&settings.shading));
         }
         if settings.exposure != default.exposure {
             self.0.push(format!("--exposure={}", settings.exposure));
@@ -143,6 +131,26 @@ impl Arguments {
         }
         if settings.point_size != default.point_size {
             self.add("--point-size", settings.point_size);
+        }
+    }
+
+    /// Options of superpixels that differ from the command's defaults.
+    fn superpixels(&mut self, options: &SuperpixelOptions) {
+        let default = SuperpixelOptions::new(options.samples);
+        if let Some(contrast) = options.contrast {
+            self.add("--contrast", contrast);
+        }
+        if options.detection != default.detection {
+            self.add("--detect", name(&options.detection));
+        }
+        if options.pattern != default.pattern {
+            self.add("--pattern", pattern_name(&options.pattern));
+        }
+        if options.coverage != default.coverage {
+            self.add("--coverage", name(&options.coverage));
+        }
+        if options.shading != default.shading {
+            self.add("--shading", name(&options.shading));
         }
     }
 
@@ -213,6 +221,10 @@ mod tests {
         Source::new(path.into())
     }
 
+    fn look(settings: Settings) -> Look {
+        Look::new(settings, SuperpixelOptions::new(64))
+    }
+
     fn turntable() -> Turntable {
         Turntable {
             target: DVec3::new(-1.5, 0.1, 2.0),
@@ -225,9 +237,7 @@ mod tests {
 
     #[test]
     fn defaults_are_left_out() {
-        let look = Look {
-            settings: Settings::new(640, 480),
-        };
+        let look = look(Settings::new(640, 480));
         let shot = Shot {
             source: &source("a b.glb"),
             standpoint: &Standpoint::Camera(2),
@@ -244,19 +254,18 @@ mod tests {
 
     #[test]
     fn everything_else_is_said() {
-        let settings = Settings {
-            method: Method::Superpixel,
-            samples: 1024,
-            contrast: Some(5),
-            pattern: Pattern::Lattice,
-            detection: Detection::Edges,
-            shading: Shading::Sample,
-            exposure: -0.5,
-            line_width: 2.5,
-            background: Some([0.0; 3]),
-            ..Settings::new(64, 48)
-        };
-        let look = Look { settings };
+        let settings = Settings::new(64, 48)
+            .exposure(-0.5)
+            .line_width(2.5)
+            .background(Some([0.0; 3]))
+            .method(
+                SuperpixelOptions::new(1024)
+                    .contrast(Some(5))
+                    .pattern(Pattern::Lattice)
+                    .detection(Detection::Edges)
+                    .shading(Shading::Sample),
+            );
+        let look = look(settings);
         let mut source = source("a.glb");
         source.request.animation = Some("run".to_owned());
         let shot = Shot {
@@ -277,9 +286,7 @@ mod tests {
 
     #[test]
     fn a_lens_is_a_zoom() {
-        let look = Look {
-            settings: Settings::new(64, 48),
-        };
+        let look = look(Settings::new(64, 48));
         let lens = ZoomRegion {
             center: [20.0, 30.0],
             radius: [9.0, 9.0],

@@ -1,7 +1,7 @@
 //! Actions of keys, and the list that the window shows.
 
 use super::navigate::Side;
-use gpc::render::Method;
+use gpc::render::MethodKind;
 use winit::keyboard::{Key, ModifiersState, NamedKey};
 
 /// Action of a key or of a button in the panel.
@@ -17,7 +17,7 @@ pub enum Action {
     PreviousScene,
     NextScene,
     Reload,
-    SetMethod(Method),
+    SetMethod(MethodKind),
     MoreSamples,
     FewerSamples,
     Split,
@@ -122,20 +122,25 @@ static BINDINGS: [Binding; 35] = [
     text(
         "s",
         "S",
-        Action::SetMethod(Method::Superpixel),
+        Action::SetMethod(MethodKind::Superpixel),
         "superpixels",
     ),
-    text("n", "N", Action::SetMethod(Method::None), "no antialiasing"),
+    text(
+        "n",
+        "N",
+        Action::SetMethod(MethodKind::None),
+        "no antialiasing",
+    ),
     text(
         "m",
         "M",
-        Action::SetMethod(Method::Msaa),
+        Action::SetMethod(MethodKind::Msaa),
         "the device's multisampling",
     ),
     text(
         "b",
         "B",
-        Action::SetMethod(Method::Ssaa),
+        Action::SetMethod(MethodKind::Ssaa),
         "brute force: supersampling",
     ),
     text("+", "+", Action::MoreSamples, "more samples"),

@@ -7,7 +7,9 @@ use super::preparer::{Preparer, Ticket};
 use super::schedule::{PictureWork, Schedule, Took};
 use ash::vk;
 use gpc::camera::Camera;
-use gpc::render::{Frame, PixelRect, PreparedScene, RenderError, Settings, Shadows, Statistics};
+use gpc::render::{
+    EngineError, Frame, PixelRect, PreparedScene, RenderError, Settings, Shadows, Statistics,
+};
 use gpc::scene::Moment;
 use std::sync::{Arc, Weak};
 use std::time::Instant;
@@ -196,7 +198,7 @@ impl Layer {
                 }
                 Ok(())
             }
-            Err(RenderError::Unfinished { .. }) if job.tries < RETRIES => {
+            Err(RenderError::Engine(EngineError::Unfinished { .. })) if job.tries < RETRIES => {
                 if is_current {
                     let frame = engine.renderer.prepare_again(&job.frame)?;
                     self.again = Some((job.work, frame, job.tries + 1));
@@ -292,9 +294,6 @@ impl Layer {
             ),
         };
         // Frames leave shadows out, which would take too long. The worker's pictures have them.
-        Settings {
-            shadows: Shadows::None,
-            ..settings
-        }
+        settings.shadows(Shadows::None)
     }
 }

@@ -1,6 +1,8 @@
 //! Antialiasing settings of a picture, which keys and panel change.
 
-use gpc::render::{Detection, Footprint, Method, PixelRect, Settings, Shading};
+use gpc::render::{
+    Detection, Footprint, Method, MethodKind, PixelRect, Settings, Shading, SuperpixelOptions,
+};
 
 /// Samples a pixel of a picture at rest, unless another number is asked for.
 pub const DEFAULT_SAMPLES: u32 = 1024;
@@ -13,15 +15,43 @@ const DRAFT_CONTRAST: u8 = 16;
 pub struct Look {
     /// Settings of the picture at rest.
     pub settings: Settings,
+    /// The options that superpixels get when the method changes to them.
+    superpixels: SuperpixelOptions,
 }
 
 impl Look {
+    /// Settings of the picture at rest; where their method is not that of superpixels, the options that these get once it is.
+    pub fn new(settings: Settings, superpixels: SuperpixelOptions) -> Self {
+        Self {
+            settings,
+            superpixels,
+        }
+    }
+
+    /// Method without its options.
+    pub fn method(&self) -> MethodKind {
+        self.settings.method.kind()
+    }
+
+    /// Samples of the picture at rest.
+    pub fn samples(&self) -> u32 {
+        self.settings.method.samples()
+    }
+
+    /// Options of the picture's superpixels, if it has any.
+    pub fn superpixels_mut(&mut self) -> Option<&mut SuperpixelOptions> {
+        match &mut self.settings.method {
+            Method::Superpixel(options) => Some(options),
+            _ => None,
+        }
+    }
+
     /// Settings of a step with `samples` samples, for a part of the picture.
     pub fn at(&self, samples: u32, region: Option<PixelRect>) -> Settings {
-        Settings {
-            samples,
-            region,
-            ..self.settings.clone()
+        let settings = self.settings.clone().region(region);
+        match &self.settings.method {
+            Method::Superpixel(options) => settings.method(options.clone().samples(samples)),
+            _ => settings.method(self.method().with_samples(samples)),
         }
     }
 
@@ -30,50 +60,61 @@ impl Look {
     /// pixel, superpixels would cost time without any gain, so that there are none.
     pub fn draft(&self, samples: u32) -> Settings {
         let settings = self.at(samples, None);
-        match settings.method {
-            Method::Superpixel if samples == 1 => Settings {
-                method: Method::None,
-                ..settings
-            },
-            Method::Superpixel => Settings {
-                shading: Shading::Triangle,
-                footprint: Footprint::Pixel,
-                detection: match settings.detection {
+        match settings.method.clone() {
+            Method::Superpixel(_) if samples == 1 => settings.method(Method::None),
+            Method::Superpixel(options) => {
+                let contrast = options.threshold().max(DRAFT_CONTRAST);
+                let detection = match options.detection {
                     Detection::Contrast => Detection::Edges,
                     asked => asked,
-                },
-                contrast: Some(settings.threshold().max(DRAFT_CONTRAST)),
-                ..settings
-            },
+                };
+                settings.footprint(Footprint::Pixel).method(
+                    options
+                        .shading(Shading::Triangle)
+                        .detection(detection)
+                        .contrast(Some(contrast)),
+                )
+            }
             _ => settings,
         }
     }
 
     /// Whether method and pattern allow `samples` samples.
     pub fn can_have(&self, samples: u32) -> bool {
-        match self.settings.method {
+        match &self.settings.method {
             Method::None => samples == 1,
-            Method::Superpixel => self.settings.pattern.offsets(samples).is_ok(),
-            Method::Ssaa => samples.isqrt().pow(2) == samples,
+            Method::Superpixel(options) => options.pattern.offsets(samples).is_ok(),
+            Method::Ssaa { .. } => samples.isqrt().pow(2) == samples,
             // The number that the device supports is unknown here, so only the number asked for is allowed.
-            Method::Msaa => samples == self.settings.samples,
+            _ => samples == self.samples(),
         }
     }
 
-    /// Changes the method, and sets the method's default number of samples.
-    pub fn set_method(&mut self, method: Method) {
-        self.settings.method = method;
-        self.settings.samples = default_samples(method);
+    /// Changes the number of samples.
+    pub fn set_samples(&mut self, samples: u32) {
+        self.settings = self.at(samples, self.settings.region);
+    }
+
+    /// Changes the method, and the samples to the method's usual number. Superpixels have the options that they had before.
+    pub fn set_method(&mut self, method: MethodKind) {
+        let samples = default_samples(method);
+        if let Method::Superpixel(options) = &self.settings.method {
+            self.superpixels = options.clone();
+        }
+        self.settings.method = match method {
+            MethodKind::Superpixel => self.superpixels.clone().samples(samples).into(),
+            method => method.with_samples(samples),
+        };
     }
 }
 
 /// Samples a pixel at rest, unless another number is asked for.
-pub fn default_samples(method: Method) -> u32 {
+pub fn default_samples(method: MethodKind) -> u32 {
     match method {
-        Method::None => 1,
-        Method::Msaa => 4,
-        Method::Ssaa => 64,
-        Method::Superpixel => DEFAULT_SAMPLES,
+        MethodKind::None => 1,
+        MethodKind::Msaa => 4,
+        MethodKind::Ssaa => 64,
+        _ => DEFAULT_SAMPLES,
     }
 }
 
@@ -81,37 +122,50 @@ pub fn default_samples(method: Method) -> u32 {
 mod tests {
     use super::*;
 
+    fn look(superpixels: SuperpixelOptions) -> Look {
+        let settings = Settings::new(10, 10).method(superpixels.clone());
+        Look::new(settings, superpixels)
+    }
+
     #[test]
     fn drafts_of_superpixels_are_cheaper_and_others_are_as_asked_for() {
-        let look = Look {
-            settings: Settings {
-                contrast: Some(40),
-                ..Settings::new(10, 10)
-            },
+        let mut look = look(SuperpixelOptions::new(64).contrast(Some(40)));
+        let Method::Superpixel(draft) = look.draft(16).method else {
+            panic!("no superpixels");
         };
-        let draft = look.draft(16);
-        assert_eq!((draft.method, draft.samples), (Method::Superpixel, 16));
+        assert_eq!(draft.samples, 16);
         assert_eq!(
             (draft.detection, draft.contrast),
             (Detection::Edges, Some(40))
         );
         assert_eq!(draft.shading, Shading::Triangle);
         assert_eq!(look.draft(1).method, Method::None);
-        let mut other = look;
-        other.set_method(Method::Msaa);
-        assert_eq!(other.draft(4), other.at(4, None));
+        look.set_method(MethodKind::Msaa);
+        assert_eq!(look.draft(4), look.at(4, None));
+    }
+
+    #[test]
+    fn superpixels_keep_their_options_while_another_method_is_shown() {
+        let mut look = look(SuperpixelOptions::new(64).contrast(Some(40)));
+        look.set_method(MethodKind::None);
+        assert_eq!(look.settings.method, Method::None);
+        look.set_method(MethodKind::Superpixel);
+        let expected = SuperpixelOptions::new(DEFAULT_SAMPLES).contrast(Some(40));
+        assert_eq!(look.settings.method, expected.into());
     }
 
     #[test]
     fn the_threshold_is_that_of_the_step_unless_one_is_asked_for() {
-        let mut look = Look {
-            settings: Settings::new(10, 10),
+        let threshold = |look: &Look, samples| match look.at(samples, None).method {
+            Method::Superpixel(options) => options.threshold(),
+            _ => panic!("no superpixels"),
         };
+        let mut look = look(SuperpixelOptions::new(64));
         for samples in [64, 1024] {
-            let expected = Settings::default_contrast(samples);
-            assert_eq!(look.at(samples, None).threshold(), expected);
+            let expected = SuperpixelOptions::default_contrast(samples);
+            assert_eq!(threshold(&look, samples), expected);
         }
-        look.settings.contrast = Some(5);
-        assert_eq!(look.at(1024, None).threshold(), 5);
+        look.superpixels_mut().unwrap().contrast = Some(5);
+        assert_eq!(threshold(&look, 1024), 5);
     }
 }

@@ -1,7 +1,7 @@
 //! Lost devices: how often the viewer may open another one.
 
 use ash::vk;
-use gpc::render::RenderError;
+use gpc::render::{EngineError, RenderError};
 use gpc::vulkan::VulkanError;
 use std::time::{Duration, Instant};
 
@@ -26,7 +26,7 @@ impl Losses {
 pub fn is_lost(error: &anyhow::Error) -> bool {
     error.chain().any(|cause| {
         let vulkan = match cause.downcast_ref::<RenderError>() {
-            Some(RenderError::Vulkan(error)) => Some(error),
+            Some(RenderError::Engine(EngineError::Vulkan(error))) => Some(error),
             _ => cause.downcast_ref::<VulkanError>(),
         };
         matches!(
@@ -59,7 +59,7 @@ mod tests {
     #[test]
     fn other_errors_are_no_loss() {
         assert!(is_lost(&VulkanError::DeviceLost.into()));
-        let rendering = RenderError::Vulkan(VulkanError::DeviceLost);
+        let rendering = RenderError::Engine(EngineError::Vulkan(VulkanError::DeviceLost));
         assert!(is_lost(&anyhow::Error::from(rendering).context("drawing")));
         assert!(!is_lost(&anyhow::anyhow!("the device was lost")));
         assert!(!is_lost(&VulkanError::NoValidation.into()));

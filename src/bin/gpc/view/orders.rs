@@ -45,7 +45,7 @@ impl Viewer {
     fn begin_cover(&mut self, view_changed: bool) {
         self.cover_figures = None;
         let look = &self.looks[self.layer_under_pointer()];
-        let asked = look.settings.samples;
+        let asked = look.samples();
         self.order_cover(|cover| cover.begin(view_changed, asked));
     }
 
@@ -67,7 +67,7 @@ impl Viewer {
             let samples = if look.can_have(samples) {
                 samples
             } else {
-                look.settings.samples
+                look.samples()
             };
             self.order(number, samples, subject);
         } else {

@@ -8,7 +8,7 @@ use super::overlay::Overlay;
 use super::player::Player;
 use gpc::camera::zoom::{Shape, Transition};
 use gpc::compare::heat_color;
-use gpc::render::{Detection, Method, Statistics};
+use gpc::render::{Detection, MethodKind, Statistics};
 use gpc::sampling::Pattern;
 use gpc::scene::AnimationInfo;
 use std::time::Duration;
@@ -300,48 +300,59 @@ fn show_player(
 /// Controls of a picture's antialiasing.
 fn edit(ui: &mut egui::Ui, look: &mut Look) {
     ui.horizontal(|ui| {
-        for method in [Method::Superpixel, Method::None, Method::Msaa, Method::Ssaa] {
-            let is_chosen = look.settings.method == method;
+        for method in [
+            MethodKind::Superpixel,
+            MethodKind::None,
+            MethodKind::Msaa,
+            MethodKind::Ssaa,
+        ] {
+            let is_chosen = look.method() == method;
             if ui.selectable_label(is_chosen, method.to_string()).clicked() && !is_chosen {
                 look.set_method(method);
             }
         }
     });
-    if look.settings.method == Method::None {
+    if look.method() == MethodKind::None {
         return;
     }
     egui::ComboBox::from_label("samples")
-        .selected_text(look.settings.samples.to_string())
+        .selected_text(look.samples().to_string())
         .show_ui(ui, |ui| {
             for samples in (0..=10).map(|exponent| 1 << exponent) {
                 // Most devices have these numbers of samples.
-                let is_common = look.settings.method == Method::Msaa && samples <= 8;
+                let is_common = look.method() == MethodKind::Msaa && samples <= 8;
                 if is_common || look.can_have(samples) {
-                    ui.selectable_value(&mut look.settings.samples, samples, samples.to_string());
+                    let is_chosen = look.samples() == samples;
+                    if ui
+                        .selectable_label(is_chosen, samples.to_string())
+                        .clicked()
+                    {
+                        look.set_samples(samples);
+                    }
                 }
             }
         });
-    if look.settings.method != Method::Superpixel {
+    let Some(superpixels) = look.superpixels_mut() else {
         return;
-    }
+    };
     ui.horizontal(|ui| {
         ui.label("contrast");
-        let mut contrast = look.settings.threshold();
+        let mut contrast = superpixels.threshold();
         if ui
             .add(egui::Slider::new(&mut contrast, 0..=MOST_CONTRAST))
             .changed()
         {
-            look.settings.contrast = Some(contrast);
+            superpixels.contrast = Some(contrast);
         }
-        if look.settings.contrast.is_some() && ui.button("default").clicked() {
-            look.settings.contrast = None;
+        if superpixels.contrast.is_some() && ui.button("default").clicked() {
+            superpixels.contrast = None;
         }
     });
     ui.horizontal(|ui| {
         ui.label("detect");
         for detection in [Detection::Contrast, Detection::Edges, Detection::Exact] {
             let name = gpc::names::name(&detection);
-            ui.selectable_value(&mut look.settings.detection, detection, name);
+            ui.selectable_value(&mut superpixels.detection, detection, name);
         }
     });
     ui.horizontal(|ui| {
@@ -353,8 +364,8 @@ fn edit(ui: &mut egui::Ui, look: &mut Look) {
             (Pattern::Korobov, "korobov"),
             (Pattern::Grid, "grid"),
         ] {
-            if pattern.offsets(look.settings.samples).is_ok() {
-                ui.selectable_value(&mut look.settings.pattern, pattern, name);
+            if pattern.offsets(superpixels.samples).is_ok() {
+                ui.selectable_value(&mut superpixels.pattern, pattern, name);
             }
         }
     });
@@ -370,7 +381,7 @@ fn show_figures(ui: &mut egui::Ui, picture: &PictureFacts<'_>) {
         None => ui.label("kernels are compiled"),
     };
     let [width, height] = picture.look.settings.size.map(f64::from);
-    if picture.look.settings.method == Method::Superpixel {
+    if picture.look.method() == MethodKind::Superpixel {
         let share = 100.0 * statistics.superpixels as f64 / (width * height).max(1.0);
         ui.label(format!(
             "{} superpixels, {share:.1} %",

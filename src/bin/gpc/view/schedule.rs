@@ -2,7 +2,7 @@
 //! window to stay responsive.
 
 use super::look::Look;
-use gpc::render::{Method, Statistics};
+use gpc::render::{MethodKind, Statistics};
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
@@ -107,10 +107,10 @@ enum Phase {
 impl Schedule {
     /// Schedule of a picture that has not been rendered.
     pub fn new(look: &Look, now: Instant) -> Self {
-        let asked = look.settings.samples;
+        let asked = look.samples();
         let below = |samples: &u32| *samples < asked && look.can_have(*samples);
         // Supersampling shades every sample of every pixel, so that only one sample is fast.
-        let is_brute = look.settings.method == Method::Ssaa;
+        let is_brute = look.method() == MethodKind::Ssaa;
         let is_quick = |samples: &u32| below(samples) && (!is_brute || *samples == 1);
         let mut drafts: Vec<_> = DRAFTS.into_iter().filter(is_quick).collect();
         if drafts.is_empty() || (asked <= DRAFTS[0] && !is_brute) {
@@ -267,16 +267,12 @@ impl Schedule {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use gpc::render::Settings;
+    use gpc::render::{Settings, SuperpixelOptions};
     use gpc::sampling::Pattern;
 
-    fn schedule(method: Method, samples: u32, height: u32, now: Instant) -> Schedule {
-        let settings = Settings {
-            method,
-            samples,
-            ..Settings::new(100, height)
-        };
-        Schedule::new(&Look { settings }, now)
+    fn schedule(method: MethodKind, samples: u32, height: u32, now: Instant) -> Schedule {
+        let settings = Settings::new(100, height).method(method.with_samples(samples));
+        Schedule::new(&Look::new(settings, SuperpixelOptions::new(64)), now)
     }
 
     fn after(ms: u64, start: Instant) -> Instant {
@@ -300,7 +296,7 @@ mod tests {
     #[test]
     fn refines_at_rest_and_every_row_once() {
         let start = Instant::now();
-        let mut schedule = schedule(Method::Superpixel, 1024, 540, start);
+        let mut schedule = schedule(MethodKind::Superpixel, 1024, 540, start);
         assert_eq!(
             schedule.take(start),
             Some(PictureWork::Draft { samples: 16 })
@@ -326,7 +322,7 @@ mod tests {
     #[test]
     fn bands_of_many_triangles_are_higher() {
         let start = Instant::now();
-        let mut schedule = schedule(Method::Superpixel, 64, 540, start);
+        let mut schedule = schedule(MethodKind::Superpixel, 64, 540, start);
         let draft = schedule.take(start).unwrap();
         let took = Took {
             ms: 740.0,
@@ -345,7 +341,7 @@ mod tests {
     #[test]
     fn a_change_begins_again() {
         let start = Instant::now();
-        let mut schedule = schedule(Method::Superpixel, 64, 100, start);
+        let mut schedule = schedule(MethodKind::Superpixel, 64, 100, start);
         schedule.take(start);
         assert!(matches!(
             schedule.take(after(200, start)),
@@ -362,7 +358,7 @@ mod tests {
     #[test]
     fn drafts_get_cheaper_until_they_are_fluid() {
         let start = Instant::now();
-        let mut schedule = schedule(Method::Superpixel, 1024, 100, start);
+        let mut schedule = schedule(MethodKind::Superpixel, 1024, 100, start);
         let draft = |schedule: &mut Schedule, ms: f64, now: Instant| {
             schedule.restart(now);
             let work = schedule.take(now).unwrap();
@@ -409,20 +405,24 @@ mod tests {
     #[test]
     fn methods_with_one_number_of_samples_are_done_at_once() {
         let start = Instant::now();
-        for (method, samples) in [(Method::None, 1), (Method::Msaa, 4), (Method::Ssaa, 1)] {
+        for (method, samples) in [
+            (MethodKind::None, 1),
+            (MethodKind::Msaa, 4),
+            (MethodKind::Ssaa, 1),
+        ] {
             let mut schedule = schedule(method, samples, 100, start);
             assert_eq!(schedule.take(start), Some(PictureWork::Draft { samples }));
             assert!(schedule.is_done());
         }
         // Drafts of superpixels have cheaper settings, so that the same number of samples is rendered again at rest.
-        let mut few = schedule(Method::Superpixel, 4, 100, start);
+        let mut few = schedule(MethodKind::Superpixel, 4, 100, start);
         assert_eq!(few.take(start), Some(PictureWork::Draft { samples: 4 }));
         let rest = after(150, start);
         assert!(matches!(
             few.take(rest),
             Some(PictureWork::Band { samples: 4, .. })
         ));
-        let mut brute = schedule(Method::Ssaa, 256, 100, start);
+        let mut brute = schedule(MethodKind::Ssaa, 256, 100, start);
         assert_eq!(brute.take(start), Some(PictureWork::Draft { samples: 1 }));
         let mut samples: Vec<_> = bands(&mut brute, 0.1, after(150, start))
             .into_iter()
@@ -435,12 +435,9 @@ mod tests {
     #[test]
     fn steps_are_what_the_pattern_can_have() {
         let start = Instant::now();
-        let settings = Settings {
-            samples: 1024,
-            pattern: Pattern::Grid,
-            ..Settings::new(100, 100)
-        };
-        let schedule = Schedule::new(&Look { settings }, start);
+        let options = SuperpixelOptions::new(1024).pattern(Pattern::Grid);
+        let settings = Settings::new(100, 100).method(options.clone());
+        let schedule = Schedule::new(&Look::new(settings, options), start);
         assert_eq!(schedule.drafts, [16, 4, 1]);
         assert_eq!(schedule.steps, [64, 256, 1024]);
     }

@@ -95,7 +95,7 @@ impl SceneTask {
     fn is_quick(&self) -> bool {
         let needs_all =
             matches!(self.subject, Subject::Overlay(overlay) if overlay.needs_all_samples());
-        self.settings.samples <= QUICK && !needs_all
+        self.settings.method.samples() <= QUICK && !needs_all
     }
 }
 
@@ -357,11 +357,11 @@ impl Maker {
     }
 
     fn stored(&mut self, task: &SceneTask, kind: AovKind) -> anyhow::Result<Pixels> {
-        let settings = Settings {
-            attributes: true,
-            shadows: Shadows::None,
-            ..task.settings.clone()
-        };
+        let settings = task
+            .settings
+            .clone()
+            .attributes(true)
+            .shadows(Shadows::None);
         let rendered = self.render(task, &settings)?;
         let aov = Aov::from_attributes(kind, &rendered.attributes);
         // The same colours as in files.
@@ -377,14 +377,13 @@ impl Maker {
     /// Picture of the number of triangles in each pixel, counted at a grid of samples.
     fn triangles(&mut self, task: &SceneTask) -> anyhow::Result<Pixels> {
         let size = task.settings.size;
-        let finer = Settings {
-            method: Method::None,
-            samples: 1,
-            size: size.map(|side| side * COUNT_SIDE),
-            attributes: true,
-            shadows: Shadows::None,
-            ..task.settings.clone()
-        };
+        let finer = task
+            .settings
+            .clone()
+            .size(size.map(|side| side * COUNT_SIDE))
+            .attributes(true)
+            .shadows(Shadows::None)
+            .method(Method::None);
         let side = COUNT_SIDE as usize;
         let width = size[0] as usize * side;
         let mut codes = Vec::new();
@@ -408,18 +407,21 @@ impl Maker {
 
     /// Picture of the differences from supersampling.
     fn error(&mut self, task: &SceneTask) -> anyhow::Result<Pixels> {
-        let side = task.settings.samples.max(REFERENCE_SAMPLES).isqrt();
-        let brute = Settings {
-            method: Method::Ssaa,
-            samples: side * side,
-            shadows: Shadows::None,
-            ..task.settings.clone()
-        };
+        let side = task
+            .settings
+            .method
+            .samples()
+            .max(REFERENCE_SAMPLES)
+            .isqrt();
+        let brute = task
+            .settings
+            .clone()
+            .shadows(Shadows::None)
+            .method(Method::Ssaa {
+                samples: side * side,
+            });
         let reference = self.render(task, &brute)?.colors;
-        let rendered = Settings {
-            shadows: Shadows::None,
-            ..task.settings.clone()
-        };
+        let rendered = task.settings.clone().shadows(Shadows::None);
         let rendered = self.render(task, &rendered)?;
         let size = rendered.size;
         let [first, second] = [&reference, &rendered.colors]
@@ -454,10 +456,7 @@ impl Maker {
                 corner: [0, first],
                 size: [width, rows.min(height - first)],
             };
-            let band = Settings {
-                region: Some(region),
-                ..settings.clone()
-            };
+            let band = settings.clone().region(Some(region));
             let (headless, shown) = self.show(task)?;
             let camera = camera(task, shown)?;
             let mut frame = headless.prepare(&shown.prepared, &band)?;
@@ -474,7 +473,7 @@ impl Maker {
             attributes: Vec::new(),
             statistics: Statistics::default(),
         };
-        let rows = if settings.samples <= QUICK {
+        let rows = if settings.method.samples() <= QUICK {
             settings.size[1]
         } else {
             BAND

@@ -82,7 +82,6 @@ impl Images {
             Format::Picture(format) => ImageReader::with_format(Cursor::new(&bytes), format)
                 .into_dimensions()
                 .map_err(|error| format!("cannot be decoded: {error}"))?,
-            #[cfg(feature = "basisu")]
             Format::Basis => super::basis::dimensions(&bytes)?,
         };
         let texels = u64::from(width) * u64::from(height);
@@ -148,7 +147,6 @@ enum Format {
     /// PNG, JPEG or WebP.
     Picture(ImageFormat),
     /// KTX2 of Basis Universal.
-    #[cfg(feature = "basisu")]
     Basis,
 }
 
@@ -158,14 +156,7 @@ fn sniff(bytes: &[u8]) -> Result<Format, String> {
         Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP)) => {
             Ok(Format::Picture(format))
         }
-        #[cfg(feature = "basisu")]
         _ if bytes.starts_with(KTX2) => Ok(Format::Basis),
-        #[cfg(not(feature = "basisu"))]
-        _ if bytes.starts_with(KTX2) => Err(
-            "is a KTX2 image, for which the feature `basisu` is needed; convert it to PNG, JPEG or \
-             WebP"
-                .to_owned(),
-        ),
         _ => Err("is neither PNG, JPEG, WebP nor KTX2".to_owned()),
     }
 }
@@ -184,7 +175,6 @@ impl Encoded<'_> {
     fn decode(&self) -> Result<Image, String> {
         let pixels = match self.format {
             Format::Picture(format) => self.decode_picture(format)?,
-            #[cfg(feature = "basisu")]
             Format::Basis => super::basis::decode(&self.bytes)?,
         };
         let (width, height) = self.size;

@@ -8,11 +8,17 @@ mod animation;
 mod asset;
 #[cfg(feature = "basisu")]
 mod basis;
+#[cfg(not(feature = "basisu"))]
+#[path = "no_basis.rs"]
+mod basis;
 mod buffer;
 mod camera;
 mod container;
 mod described;
 #[cfg(feature = "draco")]
+mod draco;
+#[cfg(not(feature = "draco"))]
+#[path = "no_draco.rs"]
 mod draco;
 mod foreign;
 mod image;

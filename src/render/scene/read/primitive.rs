@@ -9,11 +9,10 @@ use gltf::json::{
     validation::Checked,
 };
 
-#[cfg(feature = "draco")]
-use super::draco::read as unpack;
 use super::{
     Context,
     accessor::Accessor,
+    draco,
     vertex::{self, attribute_of},
 };
 use crate::scene::{
@@ -44,7 +43,7 @@ pub fn read(
         return Ok(None);
     };
     let positions = context.accessor(positions, &format!("{attributes}/POSITION"));
-    let packed = match (unpack(item, place, context), &positions) {
+    let packed = match (draco::read(item, place, context), &positions) {
         // The file also has uncompressed data for programs that can't decode it.
         (Err(fault), Ok(positions)) if !positions.is_void() => {
             notes.push(fault.but("the uncompressed data are used"));
@@ -157,24 +156,7 @@ pub fn read(
     Ok(Some(primitive))
 }
 
-/// Refuses compressed primitives.
-#[cfg(not(feature = "draco"))]
-fn unpack(
-    item: &mesh::Primitive,
-    place: &str,
-    _: &Context<'_>,
-) -> Result<Option<super::packed::Packed>, Fault> {
-    if !is_compressed(item) {
-        return Ok(None);
-    }
-    Err(Fault::new(
-        place,
-        "is compressed with KHR_draco_mesh_compression, for which the feature `draco` is needed; \
-         decode it with `gltf-transform copy IN OUT`",
-    ))
-}
-
-fn is_compressed(item: &mesh::Primitive) -> bool {
+pub(super) fn is_compressed(item: &mesh::Primitive) -> bool {
     let extensions = item.extensions.as_ref();
     extensions.is_some_and(|e| e.others.contains_key("KHR_draco_mesh_compression"))
 }

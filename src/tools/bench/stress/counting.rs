@@ -36,10 +36,7 @@ pub(super) fn count(
     camera: &Camera,
     counts: impl Fn([u32; 2]) -> bool,
 ) -> Result<Hits, RenderError> {
-    let settings = Settings {
-        attributes: true,
-        ..settings.clone()
-    };
+    let settings = settings.clone().attributes(true);
     let mut alphas = |opacity: f32, mode: AlphaMode| {
         let stage = Stage {
             materials: vec![flat([1.0, 1.0, 1.0, opacity], mode)],

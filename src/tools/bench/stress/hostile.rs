@@ -4,22 +4,22 @@
 use super::difference::same;
 use super::stage::once;
 use super::{Finding, Length, soup};
-use crate::render::{Headless, Method, RenderError, Settings};
+use crate::render::{Headless, MethodKind, RenderError};
 
 pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Finding>, RenderError> {
     let size = length.choose([40, 30], [320, 200]);
     let stage = soup(9, size, length.choose(60, 2000), 0);
-    let with = |method, samples| Settings {
-        method,
-        samples,
-        attributes: false,
-        ..once(size)
+    let with = |method: MethodKind, samples| {
+        once(size)
+            .attributes(false)
+            .method(method.with_samples(samples))
+            .map_superpixels(|options| options.thin(false))
     };
     let methods = [
-        ("none", with(Method::None, 1)),
-        ("superpixel", with(Method::Superpixel, 16)),
-        ("ssaa", with(Method::Ssaa, 4)),
-        ("msaa", with(Method::Msaa, 4)),
+        ("none", with(MethodKind::None, 1)),
+        ("superpixel", with(MethodKind::Superpixel, 16)),
+        ("ssaa", with(MethodKind::Ssaa, 4)),
+        ("msaa", with(MethodKind::Msaa, 4)),
     ];
     let mut findings = Vec::new();
     for (name, settings) in methods {

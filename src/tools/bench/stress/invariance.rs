@@ -3,7 +3,7 @@
 use super::difference::same;
 use super::stage::{Stage, everywhere};
 use super::{Finding, Length, Random, soup};
-use crate::render::{Headless, RenderError, Rendered, Settings};
+use crate::render::{EngineError, Headless, RenderError, Rendered, Settings};
 use crate::sampling::Pattern;
 
 /// Samples of a superpixel.
@@ -48,12 +48,11 @@ fn less_memory(
 ) -> Result<(), RenderError> {
     let mut used = first.statistics.memory_bytes;
     loop {
-        let less = Settings {
-            max_memory: Some(used / 4 * 3),
-            ..settings.clone()
-        };
+        let less = settings.clone().max_memory(Some(used / 4 * 3));
         let image = match stage.render(headless, &less) {
-            Err(RenderError::Memory { .. } | RenderError::Unfinished { .. }) => return Ok(()),
+            Err(RenderError::Engine(
+                EngineError::Memory { .. } | EngineError::Unfinished { .. },
+            )) => return Ok(()),
             done => done?,
         };
         used = image.statistics.memory_bytes;

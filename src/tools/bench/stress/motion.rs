@@ -4,7 +4,7 @@
 use super::stage::{Stage, camera, flat, once, seen_at};
 use super::{Finding, Length};
 use crate::camera::Camera;
-use crate::render::{Headless, Method, RenderError, SceneRequest, Settings};
+use crate::render::{Headless, MethodKind, RenderError, SceneRequest, Settings};
 use crate::scene::AlphaMode;
 use glam::DVec2;
 
@@ -25,18 +25,15 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
     for width in WIDTHS {
         let scene = Wires::new(width, height);
         for (name, method, samples, allowed) in [
-            ("one sample", Method::None, 1, None),
-            ("msaa 4", Method::Msaa, 4, None),
-            ("ssaa 64", Method::Ssaa, 64, None),
-            ("superpixel 64", Method::Superpixel, 64, Some(ENERGY)),
+            ("one sample", MethodKind::None, 1, None),
+            ("msaa 4", MethodKind::Msaa, 4, None),
+            ("ssaa 64", MethodKind::Ssaa, 64, None),
+            ("superpixel 64", MethodKind::Superpixel, 64, Some(ENERGY)),
         ] {
-            let settings = Settings {
-                method,
-                samples,
-                attributes: false,
-                thin: true,
-                ..once(scene.size)
-            };
+            let settings = once(scene.size)
+                .attributes(false)
+                .method(method.with_samples(samples))
+                .map_superpixels(|options| options.thin(true));
             let [energy, flicker] = scene.pan(headless, &settings, frames)?;
             for (unit, measured, allowed) in [
                 ("greatest error of an image's energy", energy, allowed),

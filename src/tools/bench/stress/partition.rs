@@ -40,10 +40,8 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
     }
     for samples in [4, 64] {
         // Triangles are larger than pixels, so that superpixels and ordinary pixels lie side by side.
-        let settings = Settings {
-            detection: Detection::Exact,
-            ..everywhere([length.choose(96, 512); 2], Pattern::Sobol, samples)
-        };
+        let settings = everywhere([length.choose(96, 512); 2], Pattern::Sobol, samples)
+            .map_superpixels(|options| options.detection(Detection::Exact));
         let mut hits = Hits::default();
         for mesh in tilings(1, f64::from(settings.size[0]) / 2.0) {
             hits.add(of_mesh(headless, &mesh, &settings, |_| true)?);
@@ -52,10 +50,8 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
         report(&mut findings, &case, hits);
     }
     for samples in [16, 64, 1024] {
-        let settings = Settings {
-            coverage: Coverage::Area,
-            ..everywhere([length.choose(32, 256); 2], Pattern::Sobol, samples)
-        };
+        let settings = everywhere([length.choose(32, 256); 2], Pattern::Sobol, samples)
+            .map_superpixels(|options| options.coverage(Coverage::Area));
         let half = f64::from(settings.size[0]) / 2.0;
         let mut worst = 0.0_f64;
         for mesh in tilings(u64::from(samples), half) {

@@ -4,7 +4,7 @@ use super::difference::{in_codes, same};
 use super::stage::{NEAR, Stage, camera, everywhere, flat, seen_at};
 use super::{Finding, Length, Random, soup};
 use crate::camera::{Camera, Projection};
-use crate::render::{Headless, RenderError, Rendered, SceneRequest, Settings};
+use crate::render::{Headless, RenderError, Rendered, SceneRequest, Settings, SuperpixelOptions};
 use crate::sampling::Pattern;
 use crate::scene::AlphaMode;
 use glam::DVec3;
@@ -19,10 +19,7 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
         material.unlit = false;
         material.roughness = 0.5;
     }
-    let settings = Settings {
-        samples: 16,
-        ..Settings::new(size[0], size[1])
-    };
+    let settings = Settings::new(size[0], size[1]).method(SuperpixelOptions::new(16));
     let first = stage.render(headless, &settings)?;
     let mut findings = Vec::new();
     for power in [-20, -7, 7, 20] {

@@ -4,7 +4,7 @@
 use super::meshes::{Depths, delaunay, fan, ground, slivers};
 use super::stage::{Stage, camera, everywhere, flat};
 use super::{Finding, Length, Random};
-use crate::render::{Headless, Method, RenderError, SceneRequest, Settings, Shading};
+use crate::render::{Headless, Method, RenderError, SceneRequest, Shading};
 use crate::sampling::Pattern;
 use crate::scene::AlphaMode;
 
@@ -22,14 +22,11 @@ pub(super) fn check(headless: &mut Headless, length: Length) -> Result<Vec<Findi
         delaunay(3, half, length.choose(60, 400), Depths::Random),
         ground(3, half, 2.0, 24),
     ];
-    let sampled = |shading| Settings {
-        shading,
-        ..everywhere([side; 2], Pattern::Sobol, 16)
+    let sampled = |shading| {
+        everywhere([side; 2], Pattern::Sobol, 16)
+            .map_superpixels(|options| options.shading(shading))
     };
-    let one = Settings {
-        method: Method::None,
-        ..sampled(Shading::Triangle)
-    };
+    let one = sampled(Shading::Triangle).method(Method::None);
     let methods = [
         ("one sample", one),
         ("shaded once a triangle", sampled(Shading::Triangle)),

@@ -8,7 +8,7 @@ use super::{Mesh, Random};
 use crate::camera::{Camera, Projection};
 use crate::render::{
     Coverage, Detection, Headless, Method, Reference, RenderError, Rendered, SceneRequest,
-    Settings, Shading,
+    Settings, Shading, SuperpixelOptions,
 };
 use crate::sampling::Pattern;
 use crate::scene::{
@@ -266,28 +266,24 @@ pub fn code(id: u32) -> [f32; 3] {
 /// Settings that sample every pixel `samples` times; its colour is the mean of the samples' radiance.
 #[must_use]
 pub fn everywhere(size: [u32; 2], pattern: Pattern, samples: u32) -> Settings {
-    Settings {
-        method: Method::Superpixel,
-        samples,
-        pattern,
-        coverage: Coverage::Samples,
-        shading: Shading::Triangle,
-        detection: Detection::Every,
-        reference: Reference::Scene,
-        tonemapped_detection: false,
-        ..Settings::new(size[0], size[1])
-    }
+    Settings::new(size[0], size[1])
+        .reference(Reference::Scene)
+        .tonemapped_detection(false)
+        .method(
+            SuperpixelOptions::new(samples)
+                .pattern(pattern)
+                .coverage(Coverage::Samples)
+                .shading(Shading::Triangle)
+                .detection(Detection::Every),
+        )
 }
 
 /// Settings for one sample at each pixel's centre, with attributes and without tone mapping.
 #[must_use]
 pub fn once(size: [u32; 2]) -> Settings {
-    Settings {
-        method: Method::None,
-        thin: false,
-        reference: Reference::Scene,
-        tonemapped_detection: false,
-        attributes: true,
-        ..Settings::new(size[0], size[1])
-    }
+    Settings::new(size[0], size[1])
+        .reference(Reference::Scene)
+        .tonemapped_detection(false)
+        .attributes(true)
+        .method(Method::None)
 }

@@ -6,7 +6,9 @@ use crate::camera::panorama::{Panorama, PanoramaProjection};
 use crate::camera::set::{Sample, SamplingSet, SetError};
 use crate::camera::zoom::{Shape, Transition, ZoomError, ZoomMap, ZoomRegion};
 use crate::camera::{Camera, Pinhole, SampleLocation};
-use crate::render::{Frame, Headless, Method, PreparedScene, RenderError, Settings, Statistics};
+use crate::render::{
+    Frame, Headless, MethodKind, PreparedScene, RenderError, Settings, Statistics,
+};
 
 /// Largest number of samples in a leaf of the quadtree.
 const LEAF_SAMPLES: usize = 32;
@@ -40,12 +42,9 @@ impl VariantWork {
         settings: &Settings,
     ) -> Result<Self, VariantError> {
         let size = settings.size;
-        let with = |method, samples| Settings {
-            method,
-            samples,
-            ..settings.clone()
-        };
-        let once = with(Method::None, 1);
+        let with =
+            |method: MethodKind, samples| settings.clone().method(method.with_samples(samples));
+        let once = with(MethodKind::None, 1);
         let pinhole = Pinhole::from_camera(camera, size)?;
         let points = |set: SamplingSet| vec![(pinhole, set.locations())];
         let rig = match variant {
@@ -53,7 +52,7 @@ impl VariantWork {
                 return Ok(Self::Frame(Box::new(headless.prepare(scene, &once)?)));
             }
             Variant::Superpixel => {
-                let settings = with(Method::Superpixel, Settings::DEFAULT_SAMPLES);
+                let settings = with(MethodKind::Superpixel, Settings::DEFAULT_SAMPLES);
                 let locations = SamplingSet::planar(size)?.locations();
                 return Ok(Self::TwoRates(
                     vec![(pinhole, locations)],
@@ -99,7 +98,7 @@ impl VariantWork {
             Self::TwoRates(rig, settings) => {
                 let rendered = headless.render_locations(scene, rig, settings.size, settings)?;
                 let pixels = rendered.colors.len() as u64;
-                let more = rendered.statistics.superpixels * u64::from(settings.samples);
+                let more = rendered.statistics.superpixels * u64::from(settings.method.samples());
                 Ok(done(pixels + more, &rendered.statistics))
             }
         }

@@ -90,10 +90,7 @@ fn render(gpu: &mut Headless, prepared: &PreparedScene, settings: &Settings) -> 
 }
 
 fn exact() -> Settings {
-    Settings {
-        shadows: Shadows::Exact,
-        ..once(SIZE)
-    }
+    once(SIZE).shadows(Shadows::Exact)
 }
 
 fn ask(

@@ -1,6 +1,6 @@
 //! Images with shadows that are made in parts.
 
-use gpc::render::{PixelRect, Settings, Shadows};
+use gpc::render::{PixelRect, Settings, Shadows, SuperpixelOptions};
 use gpc::scene::{AlphaMode, Material};
 
 use super::{OVER, floor, lamp, lit, render, spot, sun, upload};
@@ -19,33 +19,27 @@ fn parts_of_an_image_have_the_shadows_of_the_whole() {
         let mut stage = floor(vec![lit(AlphaMode::Opaque), dim]);
         stage.add(0, OVER);
         stage.add(1, OVER.map(|[x, y, z]| [x - 0.5, y + 0.2, z]));
-        let settings = Settings {
-            samples: 16,
-            shadows: Shadows::Exact,
-            attributes: true,
-            ..Settings::new(SIZE[0], SIZE[1])
-        };
+        let settings = Settings::new(SIZE[0], SIZE[1])
+            .shadows(Shadows::Exact)
+            .attributes(true)
+            .method(SuperpixelOptions::new(16));
         let prepared = upload(gpu, &stage, &[sun(), lamp(spot(40.0))]);
         let whole = render(gpu, &prepared, &settings);
         assert!(whole.statistics.superpixels > 200);
         assert_eq!(whole.statistics.regions, 1);
 
-        let bounded = Settings {
-            max_memory: Some(prepared.memory_bytes() + (40 << 20)),
-            ..settings.clone()
-        };
+        let bounded = settings
+            .clone()
+            .max_memory(Some(prepared.memory_bytes() + (40 << 20)));
         let in_parts = render(gpu, &prepared, &bounded);
         assert!(in_parts.statistics.regions > 1);
         assert!(in_parts.statistics.memory_bytes <= bounded.max_memory.unwrap());
         assert!(in_parts.colors == whole.colors);
 
-        let part = Settings {
-            region: Some(PixelRect {
-                corner: [33, 47],
-                size: [61, 50],
-            }),
-            ..settings
-        };
+        let part = settings.region(Some(PixelRect {
+            corner: [33, 47],
+            size: [61, 50],
+        }));
         let part = render(gpu, &prepared, &part);
         for (row, colors) in part.colors.chunks_exact(61).enumerate() {
             let first = (47 + row) * SIZE[0] as usize + 33;

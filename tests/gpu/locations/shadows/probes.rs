@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 use gpc::reference::shadow::PROBES;
-use gpc::render::{Detection, Rendered, Settings, Shadows};
+use gpc::render::{Detection, Rendered, Shadows};
 use gpc::sampling::Pattern;
 use gpc::scene::AlphaMode;
 
@@ -58,12 +58,10 @@ fn pixels_are_probed_where_the_twin_has_it() {
         assert!(probed >= PROBES.len() && probed < 10, "{probed}");
 
         let prepared = upload(gpu, &stage, &[sun()]);
-        let settings = Settings {
-            shadows: Shadows::Exact,
-            detection: Detection::Edges,
-            attributes: true,
-            ..everywhere(SIZE, Pattern::Sobol, 16)
-        };
+        let settings = everywhere(SIZE, Pattern::Sobol, 16)
+            .shadows(Shadows::Exact)
+            .attributes(true)
+            .map_superpixels(|options| options.detection(Detection::Edges));
         let frame = render(gpu, &prepared, &settings);
         let rig = [(pinhole, planar(SIZE))];
         let list = gpu.render_locations(&prepared, &rig, SIZE, &settings);

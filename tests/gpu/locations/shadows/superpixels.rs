@@ -3,7 +3,7 @@
 use glam::DVec2;
 use gpc::camera::SampleLocation;
 use gpc::reference::shadow::PROBES;
-use gpc::render::{Detection, Settings, Shading, Shadows};
+use gpc::render::{Detection, Method, Shading, Shadows};
 use gpc::sampling::Pattern;
 use gpc::scene::{AlphaMode, Light};
 
@@ -21,19 +21,13 @@ fn borders_of_shadows_are_antialiased() {
         stage.add(0, OVER);
         let pinhole = pinhole(SIZE);
         let corners = OVER.map(|corner| cast(&sun(), corner, &pinhole));
-        let settings = Settings {
-            samples: 64,
-            shadows: Shadows::Exact,
-            detection: Detection::Edges,
-            attributes: true,
-            ..everywhere(SIZE, Pattern::Sobol, 64)
-        };
+        let settings = everywhere(SIZE, Pattern::Sobol, 64)
+            .shadows(Shadows::Exact)
+            .attributes(true)
+            .map_superpixels(|options| options.samples(64).detection(Detection::Edges));
         let prepared = upload(gpu, &stage, &[sun()]);
         let image = render(gpu, &prepared, &settings);
-        let once = Settings {
-            method: gpc::render::Method::None,
-            ..settings
-        };
+        let once = settings.method(Method::None);
         let single = render(gpu, &prepared, &once);
         let offsets = Pattern::Sobol.offsets(64).unwrap();
         let value = |x: u32, y: u32| f64::from(single.colors[(y * SIZE[0] + x) as usize][1]);
@@ -86,10 +80,8 @@ fn borders_of_shadows_are_antialiased() {
 fn superpixels_without_shadows_stay_as_they_were() {
     on_gpu(|gpu| {
         let stage = ball_over_checker();
-        let settings = Settings {
-            shading: Shading::Sample,
-            ..everywhere(SIZE, Pattern::Sobol, 16)
-        };
+        let settings = everywhere(SIZE, Pattern::Sobol, 16)
+            .map_superpixels(|options| options.shading(Shading::Sample));
         let black = Light {
             color: [0.0; 3],
             ..sun()
@@ -107,10 +99,7 @@ fn superpixels_without_shadows_stay_as_they_were() {
             })
             .collect();
         let mut values = [Shadows::None, Shadows::Exact].map(|shadows| {
-            let settings = Settings {
-                shadows,
-                ..settings.clone()
-            };
+            let settings = settings.clone().shadows(shadows);
             gpu.sample_superpixels(&prepared, &pinhole(SIZE), &locations, &settings)
                 .unwrap()
                 .values

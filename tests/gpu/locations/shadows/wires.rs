@@ -58,10 +58,7 @@ fn the_shadow_of_a_thin_wire_keeps_its_energy() {
         }
         let rig = [(pinhole, planar(SIZE))];
         let mut image = |sun: Light, shadows: Shadows, as_list: bool| {
-            let settings = Settings {
-                shadows,
-                ..Settings::new(SIZE[0], SIZE[1])
-            };
+            let settings = Settings::new(SIZE[0], SIZE[1]).shadows(shadows);
             let prepared = upload(gpu, &stage, &[sun]);
             if as_list {
                 let rendered = gpu.render_locations(&prepared, &rig, SIZE, &settings);

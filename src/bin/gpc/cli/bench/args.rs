@@ -4,7 +4,7 @@ use super::METHODS;
 use crate::cli::values;
 use clap::Args;
 use gpc::bench::{GRID_SAMPLES, MAX_REFERENCE_SAMPLES};
-use gpc::render::Method;
+use gpc::render::MethodKind;
 use gpc::sampling::MAX_SAMPLES;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -44,7 +44,7 @@ pub struct BenchArgs {
         value_delimiter = ',',
         default_value = "none,msaa,ssaa,superpixel"
     )]
-    methods: Vec<Method>,
+    methods: Vec<MethodKind>,
     /// Samples a pixel; a method leaves out the numbers that it doesn't allow
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "4,16,64,256,1024",
         value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES)))]
@@ -89,7 +89,7 @@ pub struct BenchArgs {
 
 impl BenchArgs {
     /// The methods and numbers of samples to measure, without duplicates, starting with one sample a pixel.
-    pub fn cells(&self) -> Vec<(Method, u32)> {
+    pub fn cells(&self) -> Vec<(MethodKind, u32)> {
         let mut counts = self.samples.clone();
         counts.sort_unstable();
         counts.dedup();
@@ -98,7 +98,7 @@ impl BenchArgs {
             if !self.methods.contains(&method) {
                 continue;
             }
-            if method == Method::None {
+            if method == MethodKind::None {
                 cells.push((method, 1));
             } else {
                 cells.extend(counts.iter().map(|count| (method, *count)));

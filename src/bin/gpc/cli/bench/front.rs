@@ -1,7 +1,7 @@
 //! The Pareto front of time and error, and the time at which it reaches an error.
 
 use super::results::{Row, SceneResults};
-use gpc::render::Method;
+use gpc::render::MethodKind;
 
 /// Numbers of samples of supersampling whose error serves as a target for superpixels.
 pub const TARGETS: [u32; 2] = [64, 256];
@@ -39,9 +39,9 @@ pub fn front<'a>(
 /// Superpixel time / supersampling time, at the error of supersampling with `samples` samples: the time that
 /// superpixels need to reach this error. `Some(None)` if they never reach it, `None` if either was not measured.
 pub fn time_to_error(scene: &SceneResults, samples: u32) -> Option<Option<f64>> {
-    let goal = scene.row(Method::Ssaa, samples)?;
+    let goal = scene.row(MethodKind::Ssaa, samples)?;
     let rows = scene.rows.iter();
-    let superpixels = rows.filter(|row| row.method == Method::Superpixel);
+    let superpixels = rows.filter(|row| row.method == MethodKind::Superpixel);
     let points: Vec<_> = front(superpixels, error)
         .into_iter()
         .map(|row| [time(row), error(row)])

@@ -46,7 +46,7 @@ impl Gallery {
         superpixels: Option<&GalleryImage>,
     ) -> anyhow::Result<Self> {
         let truth = yardstick.reference();
-        let method = |name: String, image| Method {
+        let method = |name: String, image| MethodKind {
             errors: ErrorMap::new(truth, image),
             name,
             image,
@@ -64,7 +64,7 @@ impl Gallery {
             images.push(superpixels);
         }
         let mut overview = vec![version("truth", small_jpeg(truth.size, &colors(truth))?)];
-        for Method { name, errors, .. } in &images {
+        for MethodKind { name, errors, .. } in &images {
             let picture = small_jpeg(truth.size, &errors.colors())?;
             overview.push(version(&format!("error of {name}"), picture));
         }
@@ -115,7 +115,7 @@ impl GalleryImage {
 const LEAST_PERCENT: f64 = 5.0;
 
 /// The image that a method made, and its errors.
-struct Method<'a> {
+struct MethodKind<'a> {
     name: String,
     image: &'a DecodedImage,
     errors: ErrorMap,
@@ -124,15 +124,15 @@ struct Method<'a> {
 fn versions(
     window: Window,
     reference: &DecodedImage,
-    images: &[Method<'_>],
+    images: &[MethodKind<'_>],
 ) -> anyhow::Result<Vec<Version>> {
     let size = reference.size;
     let mut versions = vec![version("truth", window.png(size, &colors(reference))?)];
-    for Method { name, image, .. } in images {
+    for MethodKind { name, image, .. } in images {
         versions.push(version(name, window.png(size, &colors(image))?));
     }
     // The last method is the one that the gallery is about.
-    if let Some(Method { name, errors, .. }) = images.last() {
+    if let Some(MethodKind { name, errors, .. }) = images.last() {
         let picture = window.png(size, &errors.colors())?;
         versions.push(version(&format!("error of {name}"), picture));
     }

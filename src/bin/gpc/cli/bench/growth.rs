@@ -4,7 +4,7 @@ use super::results::{Curve, Point, Time};
 use super::subject::{Bench, settings};
 use crate::cli::print;
 use gpc::bench::{self, Contender, Growth, GrowthStep};
-use gpc::render::{Method, RenderError, SceneRequest, Settings};
+use gpc::render::{MethodKind, RenderError, SceneRequest, Settings};
 use std::fmt::Write;
 
 const COLUMNS: &str = "quantity,value,width,height,triangles,superpixel_fraction,method,samples,gpu_ms_median,wall_ms_median";
@@ -38,10 +38,10 @@ pub fn csv(curves: &[Curve]) -> String {
 }
 
 /// The methods to compare, with their samples a pixel.
-const METHODS: [(Method, u32); 3] = [
-    (Method::None, 1),
-    (Method::Superpixel, Settings::DEFAULT_SAMPLES),
-    (Method::Ssaa, Settings::DEFAULT_SAMPLES),
+const METHODS: [(MethodKind, u32); 3] = [
+    (MethodKind::None, 1),
+    (MethodKind::Superpixel, Settings::DEFAULT_SAMPLES),
+    (MethodKind::Ssaa, Settings::DEFAULT_SAMPLES),
 ];
 
 impl Bench<'_> {
@@ -80,7 +80,12 @@ impl Bench<'_> {
     }
 
     /// Removes the methods that would take too long for the next scene.
-    fn drop_slow(&self, point: &Point, methods: &mut Vec<(Method, u32)>, notes: &mut Vec<String>) {
+    fn drop_slow(
+        &self,
+        point: &Point,
+        methods: &mut Vec<(MethodKind, u32)>,
+        notes: &mut Vec<String>,
+    ) {
         let budget = self.args.budget;
         methods.retain(|(method, _)| {
             let time = point.times.iter().find(|time| time.method == *method);
@@ -99,7 +104,7 @@ impl Bench<'_> {
     fn point(
         &mut self,
         step: &GrowthStep,
-        methods: &mut Vec<(Method, u32)>,
+        methods: &mut Vec<(MethodKind, u32)>,
         notes: &mut Vec<String>,
     ) -> Result<Point, RenderError> {
         let prepared = self
@@ -113,7 +118,7 @@ impl Bench<'_> {
             let headless = &mut self.headless;
             match Contender::warm_up(headless, &prepared, &step.camera, &settings) {
                 Ok((contender, rendered)) => {
-                    if *method == Method::Superpixel {
+                    if *method == MethodKind::Superpixel {
                         superpixel_fraction = Some(rendered.statistics.superpixels as f64 / pixels);
                     }
                     contenders.push(contender);
@@ -174,9 +179,9 @@ pub fn print(curve: &Curve) -> anyhow::Result<()> {
             point
                 .superpixel_fraction
                 .map_or_else(|| "-".to_owned(), |share| format!("{:.1} %", 100.0 * share)),
-            ms(point.ms(Method::None)),
-            ms(point.ms(Method::Superpixel)),
-            ms(point.ms(Method::Ssaa)),
+            ms(point.ms(MethodKind::None)),
+            ms(point.ms(MethodKind::Superpixel)),
+            ms(point.ms(MethodKind::Ssaa)),
         ))?;
     }
     for note in &curve.notes {

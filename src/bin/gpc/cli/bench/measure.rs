@@ -6,7 +6,7 @@ use super::split::Splitter;
 use super::subject::{self, Bench, Subject};
 use gpc::bench::{self, Accuracy, Contender, Yardstick};
 use gpc::output::{DecodedImage, Picture};
-use gpc::render::{Footprint, Method, RenderError, Settings};
+use gpc::render::{EngineError, Footprint, MethodKind, RenderError, Settings};
 use std::path::Path;
 
 /// A method that takes part, with the figures that are known before it is timed.
@@ -21,7 +21,7 @@ impl Bench<'_> {
         let name = subject::name(path);
         self.progress.begin(&name);
         let subject = self.upload(path, self.args.size)?;
-        let settings = self.settings(Method::None, 1);
+        let settings = self.settings(MethodKind::None, 1);
         let wanted = subject.wanted(&settings, self.args.reference, "its truth");
         let (truth, reference_seconds) = self.reference(&wanted)?;
         let (_, one_sample) = self.warm_up(&subject, &settings)?;
@@ -45,7 +45,7 @@ impl Bench<'_> {
                 .say(&format!("{method} {samples}, warming up"));
             let (contender, rendered) =
                 match self.warm_up(&subject, &self.settings(method, samples)) {
-                    Err(RenderError::Samples { possible, .. }) => {
+                    Err(RenderError::Engine(EngineError::Samples { possible, .. })) => {
                         notes.leave_out(method, samples, possible);
                         continue;
                     }
@@ -80,11 +80,11 @@ impl Bench<'_> {
                 },
                 contender,
             });
-            if (method, Some(samples)) == (Method::Ssaa, shown) {
+            if (method, Some(samples)) == (MethodKind::Ssaa, shown) {
                 ssaa = Some(DecodedImage::from(&picture));
             }
             if let Some(pieces) = pieces
-                && (method, Some(samples)) == (Method::Superpixel, shown)
+                && (method, Some(samples)) == (MethodKind::Superpixel, shown)
             {
                 superpixels = Some(GalleryImage {
                     samples,
@@ -113,7 +113,7 @@ impl Bench<'_> {
         let cells = self.args.cells();
         let counts = cells
             .iter()
-            .filter(|(method, _)| *method == Method::Superpixel)
+            .filter(|(method, _)| *method == MethodKind::Superpixel)
             .map(|(_, samples)| *samples);
         counts.max_by_key(|samples| (*samples == Settings::DEFAULT_SAMPLES, *samples))
     }
@@ -128,7 +128,7 @@ impl Bench<'_> {
         if !self.args.geometry {
             return Ok(None);
         }
-        let settings = for_whole_pixels(self.settings(Method::None, 1));
+        let settings = for_whole_pixels(self.settings(MethodKind::None, 1));
         let name = "its reference for geometry alone";
         let (reference, _) =
             self.reference(&subject.wanted(&settings, self.args.reference, name))?;
@@ -141,7 +141,7 @@ impl Bench<'_> {
         &mut self,
         subject: &Subject,
         yardstick: &Yardstick,
-        method: Method,
+        method: MethodKind,
         samples: u32,
     ) -> anyhow::Result<Accuracy> {
         let settings = for_whole_pixels(self.settings(method, samples));
@@ -163,7 +163,8 @@ impl Bench<'_> {
             self.args.budget(),
             |contender| {
                 let settings = contender.settings();
-                progress.say(&format!("{:?} {}", settings.method, settings.samples));
+                let method = &settings.method;
+                progress.say(&format!("{} {}", method.kind(), method.samples()));
             },
         )?;
         Ok(entries
@@ -178,18 +179,15 @@ impl Bench<'_> {
 
 /// Settings whose textures are read over a whole pixel, at every number of samples.
 fn for_whole_pixels(settings: Settings) -> Settings {
-    Settings {
-        footprint: Footprint::Pixel,
-        ..settings
-    }
+    settings.footprint(Footprint::Pixel)
 }
 
 /// Notes on numbers of samples that were left out: a line for each method and reason.
 #[derive(Default)]
-struct Notes(Vec<(Method, String, Vec<u32>)>);
+struct Notes(Vec<(MethodKind, String, Vec<u32>)>);
 
 impl Notes {
-    fn leave_out(&mut self, method: Method, samples: u32, possible: String) {
+    fn leave_out(&mut self, method: MethodKind, samples: u32, possible: String) {
         match self
             .0
             .iter_mut()
@@ -201,7 +199,7 @@ impl Notes {
     }
 
     fn lines(&self) -> Vec<String> {
-        let line = |(method, possible, counts): &(Method, String, Vec<u32>)| {
+        let line = |(method, possible, counts): &(MethodKind, String, Vec<u32>)| {
             let counts: Vec<_> = counts.iter().map(ToString::to_string).collect();
             format!(
                 "{method} left out at {} samples: it can have {possible}",

@@ -25,7 +25,7 @@ use anyhow::Context;
 use gpc::bench::stress::Check;
 use gpc::bench::{Cache, Growth};
 use gpc::output;
-use gpc::render::{Headless, HeadlessOptions, Method};
+use gpc::render::{Headless, HeadlessOptions, MethodKind};
 use progress::Progress;
 use results::Results;
 use std::path::Path;
@@ -33,7 +33,12 @@ use std::process::ExitCode;
 use subject::Bench;
 
 /// Every method, in the order of tables.
-const METHODS: [Method; 4] = [Method::None, Method::Msaa, Method::Ssaa, Method::Superpixel];
+const METHODS: [MethodKind; 4] = [
+    MethodKind::None,
+    MethodKind::Msaa,
+    MethodKind::Ssaa,
+    MethodKind::Superpixel,
+];
 
 pub fn run(args: &BenchArgs) -> anyhow::Result<ExitCode> {
     let mut files = args.scenes.iter().chain(&args.motion);

@@ -7,7 +7,7 @@ use crate::cli::print;
 use gpc::bench::{Motion, Sequence};
 use gpc::camera::Camera;
 use gpc::output::{DecodedImage, Picture};
-use gpc::render::{Method, RenderError, Settings};
+use gpc::render::{EngineError, MethodKind, RenderError, Settings};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::Path;
@@ -16,13 +16,13 @@ use std::path::Path;
 const TRUTH_SAMPLES: u32 = 1024;
 
 /// The methods to measure, with their samples a pixel.
-const CELLS: [(Method, u32); 6] = [
-    (Method::None, 1),
-    (Method::Msaa, 4),
-    (Method::Ssaa, 16),
-    (Method::Ssaa, 64),
-    (Method::Superpixel, 16),
-    (Method::Superpixel, 64),
+const CELLS: [(MethodKind, u32); 6] = [
+    (MethodKind::None, 1),
+    (MethodKind::Msaa, 4),
+    (MethodKind::Ssaa, 16),
+    (MethodKind::Ssaa, 64),
+    (MethodKind::Superpixel, 16),
+    (MethodKind::Superpixel, 64),
 ];
 
 /// Superpixel / supersampling ratios in motion, at equal numbers of samples, over all scenes and both motions.
@@ -57,7 +57,7 @@ impl Bench<'_> {
                         steadiness: sequence.steadiness(),
                     }),
                     Err(error) => match error.downcast_ref() {
-                        Some(RenderError::Samples { possible, .. }) => notes.push(format!(
+                        Some(RenderError::Engine(EngineError::Samples { possible, .. })) => notes.push(format!(
                             "{motion}: {method} left out at {samples} samples: it can have {possible}"
                         )),
                         _ => return Err(error),
@@ -82,7 +82,7 @@ impl Bench<'_> {
         size: [u32; 2],
         motion: Motion,
     ) -> anyhow::Result<Vec<DecodedImage>> {
-        let settings = subject::settings(Method::None, 1, size);
+        let settings = subject::settings(MethodKind::None, 1, size);
         let mut truths = Vec::new();
         for (index, camera) in cameras.iter().enumerate() {
             let name = format!("{motion}, truth {} of {}", index + 1, cameras.len());
@@ -118,14 +118,14 @@ impl Bench<'_> {
 pub fn summarize(scenes: &[SceneMotion]) -> Vec<MotionRatio> {
     let counts = CELLS
         .iter()
-        .filter(|(method, _)| *method == Method::Superpixel);
-    let at = |&(_, samples): &(Method, u32)| {
+        .filter(|(method, _)| *method == MethodKind::Superpixel);
+    let at = |&(_, samples): &(MethodKind, u32)| {
         let pairs = || {
             scenes.iter().flat_map(move |scene| {
                 Motion::ALL.into_iter().filter_map(move |motion| {
                     let find = |method| scene.row(motion, method, samples);
-                    let superpixel = find(Method::Superpixel)?.steadiness;
-                    let ssaa = find(Method::Ssaa)?.steadiness;
+                    let superpixel = find(MethodKind::Superpixel)?.steadiness;
+                    let ssaa = find(MethodKind::Ssaa)?.steadiness;
                     Some((format!("{}, {motion}", scene.name), superpixel, ssaa))
                 })
             })

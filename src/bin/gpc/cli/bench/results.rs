@@ -6,7 +6,7 @@ use super::motion::MotionRatio;
 use super::summary::Summary;
 use gpc::bench::stress::Finding;
 use gpc::bench::{Accuracy, Cost, Motion, Split, Spread, Steadiness, VariantCost, Within};
-use gpc::render::Method;
+use gpc::render::MethodKind;
 use gpc::vulkan::Limits;
 use serde::Serialize;
 
@@ -55,7 +55,7 @@ pub struct SceneMotion {
 #[derive(Serialize)]
 pub struct MotionRow {
     pub motion: Motion,
-    pub method: Method,
+    pub method: MethodKind,
     pub samples: u32,
     #[serde(flatten)]
     pub steadiness: Steadiness,
@@ -119,7 +119,7 @@ pub struct Point {
 /// Time of a method.
 #[derive(Serialize)]
 pub struct Time {
-    pub method: Method,
+    pub method: MethodKind,
     pub samples: u32,
     /// Milliseconds on the device.
     pub gpu_ms: Spread,
@@ -145,7 +145,7 @@ pub struct SceneResults {
 /// Measurements of one method at one number of samples.
 #[derive(Serialize)]
 pub struct Row {
-    pub method: Method,
+    pub method: MethodKind,
     pub samples: u32,
     #[serde(flatten)]
     pub cost: Cost,
@@ -220,7 +220,7 @@ impl VariantRow {
 
 impl Point {
     /// The median device time of a method, in milliseconds.
-    pub fn ms(&self, method: Method) -> Option<f64> {
+    pub fn ms(&self, method: MethodKind) -> Option<f64> {
         let time = self.times.iter().find(|time| time.method == method)?;
         Some(time.gpu_ms.median)
     }
@@ -228,7 +228,7 @@ impl Point {
 
 impl SceneMotion {
     /// The row of a motion, a method and a number of samples.
-    pub fn row(&self, motion: Motion, method: Method, samples: u32) -> Option<&MotionRow> {
+    pub fn row(&self, motion: Motion, method: MethodKind, samples: u32) -> Option<&MotionRow> {
         let wanted = |row: &&MotionRow| {
             row.motion == motion && row.method == method && row.samples == samples
         };
@@ -238,7 +238,7 @@ impl SceneMotion {
 
 impl SceneResults {
     /// The row of a method and a number of samples.
-    pub fn row(&self, method: Method, samples: u32) -> Option<&Row> {
+    pub fn row(&self, method: MethodKind, samples: u32) -> Option<&Row> {
         let wanted = |row: &&Row| row.method == method && row.samples == samples;
         self.rows.iter().find(wanted)
     }

@@ -3,7 +3,7 @@
 use super::subject::{Bench, Subject, Wanted};
 use gpc::bench::{self, Cause, Fault, Half, Looks, Split, Stripped, Suspects, Within, Yardstick};
 use gpc::output::{DecodedImage, Picture};
-use gpc::render::{Method, PreparedScene, SceneRequest};
+use gpc::render::{MethodKind, PreparedScene, SceneRequest};
 
 /// Most samples a pixel of the references of stripped scenes. They only have to tell which of two errors is larger.
 const MOST_SAMPLES: u32 = 1024;
@@ -31,7 +31,7 @@ pub(super) struct Pieces {
 impl Splitter {
     /// Looks up the triangles in each pixel, and renders the references of the scene's paint alone and light alone.
     pub fn new(bench: &mut Bench<'_>, subject: &Subject, shown: u32) -> anyhow::Result<Self> {
-        let settings = bench.settings(Method::None, 1);
+        let settings = bench.settings(MethodKind::None, 1);
         let progress = &bench.progress;
         let mut looks = 0;
         let found = Looks::new(
@@ -74,12 +74,12 @@ impl Splitter {
         subject: &Subject,
         yardstick: &Yardstick,
         picture: &Picture<'_>,
-        method: Method,
+        method: MethodKind,
         samples: u32,
     ) -> anyhow::Result<Pieces> {
-        let superpixels = method == Method::Superpixel;
+        let superpixels = method == MethodKind::Superpixel;
         let samples = if superpixels { samples } else { self.shown };
-        let settings = bench.settings(Method::Superpixel, samples);
+        let settings = bench.settings(MethodKind::Superpixel, samples);
         let camera = &subject.view.camera;
         let scene = &subject.prepared;
         let causes = self

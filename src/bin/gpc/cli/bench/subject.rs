@@ -8,7 +8,9 @@ use gpc::bench::{self, Cache, Contender, Fingerprint};
 use gpc::camera::Camera;
 use gpc::color::srgb;
 use gpc::output::Picture;
-use gpc::render::{Headless, Method, PreparedScene, RenderError, Rendered, SceneRequest, Settings};
+use gpc::render::{
+    Headless, MethodKind, PreparedScene, RenderError, Rendered, SceneRequest, Settings,
+};
 use gpc::scene::{Geometry, Pose, PoseRequest, Scene};
 use std::path::Path;
 use std::time::Instant;
@@ -64,7 +66,7 @@ impl Bench<'_> {
         })
     }
 
-    pub(super) fn settings(&self, method: Method, samples: u32) -> Settings {
+    pub(super) fn settings(&self, method: MethodKind, samples: u32) -> Settings {
         settings(method, samples, self.args.size)
     }
 
@@ -157,13 +159,10 @@ impl Subject {
 }
 
 /// Settings of a method.
-pub fn settings(method: Method, samples: u32, [width, height]: [u32; 2]) -> Settings {
-    Settings {
-        method,
-        samples,
-        background: Some(BACKGROUND.map(|value| srgb::decode(value) as f32)),
-        ..Settings::new(width, height)
-    }
+pub fn settings(method: MethodKind, samples: u32, [width, height]: [u32; 2]) -> Settings {
+    Settings::new(width, height)
+        .background(Some(BACKGROUND.map(|value| srgb::decode(value) as f32)))
+        .method(method.with_samples(samples))
 }
 
 /// Name of a scene: its file's name without the ending, or its folder's name if the file is called `scene`, as

@@ -4,7 +4,7 @@ use super::front::{TARGETS, time_to_error};
 use super::results::{Row, SceneResults};
 use super::split::shares;
 use gpc::bench::Spread;
-use gpc::render::{Method, Settings};
+use gpc::render::{MethodKind, Settings};
 use serde::Serialize;
 
 /// Summary of the scenes with textures, or of those without.
@@ -85,7 +85,7 @@ pub fn summarize(scenes: &[SceneResults]) -> Vec<Summary> {
 /// Numbers of samples that superpixels were measured with.
 pub fn counts<'a>(scenes: impl IntoIterator<Item = &'a SceneResults>) -> Vec<u32> {
     let rows = scenes.into_iter().flat_map(|scene| &scene.rows);
-    let superpixels = rows.filter(|row: &&Row| row.method == Method::Superpixel);
+    let superpixels = rows.filter(|row: &&Row| row.method == MethodKind::Superpixel);
     let mut counts: Vec<_> = superpixels.map(|row| row.samples).collect();
     counts.sort_unstable();
     counts.dedup();
@@ -110,7 +110,7 @@ fn at(scenes: &[&SceneResults], samples: u32) -> AtSamples {
         median(scenes.iter().filter_map(|s| ratio(s)))
     };
     let row = |scene: &SceneResults| {
-        let row = scene.row(Method::Superpixel, samples)?;
+        let row = scene.row(MethodKind::Superpixel, samples)?;
         Some(row.accuracy.removed)
     };
     AtSamples {
@@ -170,36 +170,36 @@ impl Ratio {
 
 /// Supersampling time / superpixel time.
 pub fn speedup(scene: &SceneResults, samples: u32) -> Option<f64> {
-    let ssaa = scene.row(Method::Ssaa, samples)?;
-    let superpixel = scene.row(Method::Superpixel, samples)?;
+    let ssaa = scene.row(MethodKind::Ssaa, samples)?;
+    let superpixel = scene.row(MethodKind::Superpixel, samples)?;
     ratio(ssaa.cost.gpu_ms.median, superpixel.cost.gpu_ms.median)
 }
 
 /// Superpixel time / time of one sample a pixel.
 pub fn over_none(scene: &SceneResults, samples: u32) -> Option<f64> {
-    let superpixel = scene.row(Method::Superpixel, samples)?;
-    let none = scene.row(Method::None, 1)?;
+    let superpixel = scene.row(MethodKind::Superpixel, samples)?;
+    let none = scene.row(MethodKind::None, 1)?;
     ratio(superpixel.cost.gpu_ms.median, none.cost.gpu_ms.median)
 }
 
 /// Superpixel RMSE / supersampling RMSE.
 pub fn rmse_ratio(scene: &SceneResults, samples: u32) -> Option<f64> {
-    let superpixel = scene.row(Method::Superpixel, samples)?;
-    let ssaa = scene.row(Method::Ssaa, samples)?;
+    let superpixel = scene.row(MethodKind::Superpixel, samples)?;
+    let ssaa = scene.row(MethodKind::Ssaa, samples)?;
     ratio(superpixel.accuracy.rmse, ssaa.accuracy.rmse)
 }
 
 /// Superpixel FLIP / supersampling FLIP.
 fn flip_ratio(scene: &SceneResults, samples: u32) -> Option<f64> {
-    let superpixel = scene.row(Method::Superpixel, samples)?;
-    let ssaa = scene.row(Method::Ssaa, samples)?;
+    let superpixel = scene.row(MethodKind::Superpixel, samples)?;
+    let ssaa = scene.row(MethodKind::Ssaa, samples)?;
     ratio(superpixel.accuracy.flip, ssaa.accuracy.flip)
 }
 
 /// Largest part of the squared error that superpixels leave, and its share. The number of samples is the default, or
 /// otherwise the largest that was measured.
 pub fn most_of_what_is_left(scene: &SceneResults) -> Option<(&'static str, f64)> {
-    let superpixels = |row: &&Row| row.method == Method::Superpixel;
+    let superpixels = |row: &&Row| row.method == MethodKind::Superpixel;
     let row = scene
         .rows
         .iter()
@@ -214,8 +214,8 @@ pub fn most_of_what_is_left(scene: &SceneResults) -> Option<(&'static str, f64)>
 
 /// Superpixel RMSE / supersampling RMSE of geometry alone.
 pub fn geometry_ratio(scene: &SceneResults, samples: u32) -> Option<f64> {
-    let superpixel = scene.row(Method::Superpixel, samples)?;
-    let ssaa = scene.row(Method::Ssaa, samples)?;
+    let superpixel = scene.row(MethodKind::Superpixel, samples)?;
+    let ssaa = scene.row(MethodKind::Ssaa, samples)?;
     ratio(superpixel.geometry?.rmse, ssaa.geometry?.rmse)
 }
 
@@ -233,8 +233,8 @@ mod tests {
     use super::*;
     use gpc::bench::{Accuracy, Cost};
 
-    fn scene(name: &str, textured: bool, rows: &[(Method, u32, f64, f64)]) -> SceneResults {
-        let row = |&(method, samples, ms, rmse): &(Method, u32, f64, f64)| Row {
+    fn scene(name: &str, textured: bool, rows: &[(MethodKind, u32, f64, f64)]) -> SceneResults {
+        let row = |&(method, samples, ms, rmse): &(MethodKind, u32, f64, f64)| Row {
             method,
             samples,
             cost: Cost {
@@ -266,7 +266,7 @@ mod tests {
 
     #[test]
     fn untextured_scenes_do_not_flatter() {
-        use Method::{Ssaa, Superpixel};
+        use MethodKind::{Ssaa, Superpixel};
         let scenes = [
             scene(
                 "paint",

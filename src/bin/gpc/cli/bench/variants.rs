@@ -4,7 +4,7 @@ use super::results::{SceneVariants, VariantRow};
 use super::subject::{self, Bench};
 use crate::cli::print;
 use gpc::bench::{Variant, VariantContender, VariantError};
-use gpc::render::Method;
+use gpc::render::MethodKind;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -14,7 +14,7 @@ impl Bench<'_> {
         let name = subject::name(path);
         self.progress.begin(&format!("{name}, variants"));
         let subject = self.upload(path, self.args.size)?;
-        let settings = subject::settings(Method::Superpixel, 64, self.args.size);
+        let settings = subject::settings(MethodKind::Superpixel, 64, self.args.size);
         let mut contenders = Vec::new();
         let mut notes = Vec::new();
         for variant in Variant::ALL {

@@ -6,7 +6,10 @@ use crate::cli::values::{self, Shard};
 use clap::{Args, ValueEnum};
 use glam::DVec3;
 use gpc::output::VideoFormat;
-use gpc::render::{Coverage, Detection, Footprint, Method, PixelRect, Settings, Shading};
+use gpc::render::{
+    Coverage, Detection, Footprint, Method, MethodKind, PixelRect, Settings, Shading,
+    SuperpixelOptions,
+};
 use gpc::sampling::Pattern;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
@@ -53,7 +56,7 @@ pub struct RenderArgs {
 pub struct SamplingArgs {
     /// Method
     #[arg(long, value_name = "METHOD", default_value = "superpixel")]
-    pub aa: Method,
+    pub aa: MethodKind,
     /// Samples a pixel [default: 64; 4 for msaa]
     ///
     /// 1 to 1024 for superpixel, a square for ssaa, what the device supports for msaa.
@@ -95,12 +98,30 @@ impl SamplingArgs {
         self.samples
     }
 
+    /// The method with so many samples and the options of superpixels asked for.
+    pub fn method(&self, samples: u32) -> Method {
+        match self.aa {
+            MethodKind::Superpixel => self.superpixels(samples).into(),
+            method => method.with_samples(samples),
+        }
+    }
+
+    /// The options of superpixels asked for, with so many samples.
+    pub fn superpixels(&self, samples: u32) -> SuperpixelOptions {
+        SuperpixelOptions::new(samples)
+            .pattern(self.pattern.clone())
+            .coverage(self.coverage)
+            .shading(self.shading)
+            .detection(self.detect)
+            .contrast(self.contrast)
+    }
+
     /// The number of samples asked for, or otherwise the method's default.
     pub fn samples(&self) -> u32 {
         self.samples.unwrap_or(match self.aa {
-            Method::None => 1,
-            Method::Msaa => 4,
-            Method::Superpixel | Method::Ssaa => Settings::DEFAULT_SAMPLES,
+            MethodKind::None => 1,
+            MethodKind::Msaa => 4,
+            _ => Settings::DEFAULT_SAMPLES,
         })
     }
 }

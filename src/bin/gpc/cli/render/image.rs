@@ -6,7 +6,7 @@ use crate::cli::input;
 use crate::cli::values::{self, Background, EdgeLines};
 use clap::Args;
 use gpc::output::{AovKind, Format};
-use gpc::render::{Method, Reference, Settings, Shadows};
+use gpc::render::{MethodKind, Reference, Settings, Shadows};
 use gpc::scene::{Edges, Environment, Loaded, Motion, Pose, PoseRequest, SceneError};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -91,14 +91,12 @@ impl AppearanceArgs {
 
     /// `settings` with this appearance.
     pub fn settings(&self, settings: Settings) -> Settings {
-        Settings {
-            exposure: self.exposure as f32,
-            shadows: self.shadows,
-            line_width: self.line_width as f32,
-            point_size: self.point_size as f32,
-            edge_width: self.edges.map_or(1.0, |edges| edges.width) as f32,
-            ..settings
-        }
+        settings
+            .exposure(self.exposure as f32)
+            .shadows(self.shadows)
+            .line_width(self.line_width as f32)
+            .point_size(self.point_size as f32)
+            .edge_width(self.edges.map_or(1.0, |edges| edges.width) as f32)
     }
 }
 
@@ -118,7 +116,7 @@ impl ImageArgs {
     /// Checks the number of samples against the method, as far as that is independent of the device.
     pub fn check_samples(&self) -> Result<(), Usage> {
         match (self.sampling.aa, self.sampling.samples()) {
-            (Method::None, samples) if samples != 1 => Err(Usage(format!(
+            (MethodKind::None, samples) if samples != 1 => Err(Usage(format!(
                 "none can't have {samples} samples a pixel; it can have 1"
             ))),
             _ => Ok(()),
@@ -161,29 +159,22 @@ impl ImageArgs {
     pub fn settings(&self, format: Format) -> Settings {
         let [width, height] = self.size;
         let tonemaps = self.tonemap != Some(Tonemap::None);
-        self.appearance.settings(Settings {
-            method: self.sampling.aa,
-            samples: self.sampling.samples(),
-            pattern: self.sampling.pattern.clone(),
-            coverage: self.sampling.coverage,
-            shading: self.sampling.shading,
-            detection: self.sampling.detect,
-            footprint: self.sampling.footprint,
-            contrast: self.sampling.contrast,
-            background: match self.background {
+        let settings = Settings::new(width, height)
+            .method(self.sampling.method(self.sampling.samples()))
+            .footprint(self.sampling.footprint)
+            .background(match self.background {
                 Background::Transparent | Background::Environment => None,
                 Background::Color(color) => Some(values::linear(color)),
-            },
-            reference: if tonemaps && !format.is_scene_linear() {
+            })
+            .reference(if tonemaps && !format.is_scene_linear() {
                 Reference::Display
             } else {
                 Reference::Scene
-            },
-            tonemapped_detection: tonemaps,
-            attributes: !self.aov.is_empty(),
-            max_memory: self.device.max_memory,
-            ..Settings::new(width, height)
-        })
+            })
+            .tonemapped_detection(tonemaps)
+            .attributes(!self.aov.is_empty())
+            .max_memory(self.device.max_memory);
+        self.appearance.settings(settings)
     }
 
     /// The AOVs to write, without duplicates.

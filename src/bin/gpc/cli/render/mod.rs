@@ -145,10 +145,7 @@ pub fn run(args: &RenderArgs) -> anyhow::Result<ExitCode> {
 fn settings(args: &RenderArgs) -> anyhow::Result<(Format, Settings)> {
     args.report.check(&args.output)?;
     let format = args.image.format(&args.output)?;
-    let settings = Settings {
-        region: args.region,
-        ..args.image.settings(format)
-    };
+    let settings = args.image.settings(format).region(args.region);
     if let Some(region) = args.region {
         region.end(settings.size)?;
     }

@@ -61,7 +61,7 @@ impl Effort {
     pub fn new(settings: &Settings, work: &RenderWork<'_>) -> Self {
         let statistics = work.statistics;
         Self {
-            samples: settings.samples,
+            samples: settings.method.samples(),
             superpixels: Superpixels {
                 count: statistics.superpixels,
                 fraction: statistics.superpixels as f64 / work.cells.max(1) as f64,

@@ -14,7 +14,7 @@ use clap::Args;
 use gpc::camera::Pinhole;
 use gpc::camera::set::SamplingSet;
 use gpc::output::{self, Format, OutputError, Picture};
-use gpc::render::{Method, PointSample, Sampled};
+use gpc::render::{MethodKind, PointSample, Sampled};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -147,7 +147,7 @@ fn sample(
     stage: &mut Stage,
     pinhole: &Pinhole,
     set: &SamplingSet,
-    aa: Method,
+    aa: MethodKind,
 ) -> anyhow::Result<Sampled<PointSample>> {
     let locations = set.locations();
     let Stage {
@@ -158,15 +158,15 @@ fn sample(
     } = stage;
     let mut samples = headless.sample_points(scene, pinhole, &locations, settings)?;
     match aa {
-        Method::None => {}
-        Method::Superpixel | Method::Ssaa => {
+        MethodKind::None => {}
+        MethodKind::Superpixel | MethodKind::Ssaa => {
             let means = headless.sample_superpixels(scene, pinhole, &locations, settings)?;
             for (sample, color) in samples.values.iter_mut().zip(means.values) {
                 sample.color = color;
             }
             samples.statistics.append(means.statistics);
         }
-        Method::Msaa => usage!("--aa msaa: the device's own samples lie in pixels only"),
+        _ => usage!("--aa {aa}: the device's own samples lie in pixels only"),
     }
     Ok(samples)
 }

@@ -2,7 +2,7 @@
 
 use super::{escape, short};
 use crate::cli::bench::results::{Row, SceneResults};
-use gpc::render::Method;
+use gpc::render::MethodKind;
 use std::fmt::Write;
 
 const WIDTH: f64 = 1120.0;
@@ -18,7 +18,7 @@ const LEAST: f64 = 0.012;
 /// Draws a bar for one sample a pixel and one for each number of samples of the superpixels. Supersampling is left
 /// out: its bar would dwarf the others.
 pub fn chart(scene: &SceneResults) -> String {
-    let shown = |row: &&Row| matches!(row.method, Method::None | Method::Superpixel);
+    let shown = |row: &&Row| matches!(row.method, MethodKind::None | MethodKind::Superpixel);
     let rows: Vec<&Row> = scene.rows.iter().filter(shown).collect();
     let longest = rows
         .iter()
@@ -33,7 +33,7 @@ pub fn chart(scene: &SceneResults) -> String {
     for (index, row) in rows.iter().enumerate() {
         let top = STEP * index as f64 + 4.0;
         let baseline = top + 13.5;
-        let name = if row.method == Method::None {
+        let name = if row.method == MethodKind::None {
             "one sample".to_owned()
         } else {
             format!("{} {}", row.method, row.samples)

@@ -5,7 +5,7 @@ use super::short;
 use crate::cli::bench::METHODS;
 use crate::cli::bench::front::{self, front, time};
 use crate::cli::bench::results::{Row, SceneResults};
-use gpc::render::Method;
+use gpc::render::MethodKind;
 use std::fmt::Write;
 
 const WIDTH: f64 = 660.0;
@@ -114,11 +114,11 @@ fn mark(svg: &mut String, row: &Row, measure: &Measure, x: f64, y: f64) {
     axis::mark(svg, (x, y), &words);
     // Curves fall to the right, and superpixels lie left of the other methods.
     let (dx, dy, anchor) = match row.method {
-        Method::None => (0.0, -10.0, "middle"),
-        Method::Superpixel => (-8.0, 13.0, "end"),
-        Method::Msaa | Method::Ssaa => (8.0, -6.0, "start"),
+        MethodKind::None => (0.0, -10.0, "middle"),
+        MethodKind::Superpixel => (-8.0, 13.0, "end"),
+        _ => (8.0, -6.0, "start"),
     };
-    if row.method != Method::None {
+    if row.method != MethodKind::None {
         let _ = write!(
             svg,
             "<text class=\"count\" x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"{anchor}\">{}</text>",

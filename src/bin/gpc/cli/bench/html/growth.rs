@@ -3,7 +3,7 @@
 use super::axis::{self, Axis, Frame, points};
 use super::{escape, short, times};
 use crate::cli::bench::results::{Curve, Point};
-use gpc::render::Method;
+use gpc::render::MethodKind;
 use std::fmt::Write;
 
 const WIDTH: f64 = 540.0;
@@ -14,7 +14,7 @@ const FRAME: Frame = Frame {
     top: 34.0,
     bottom: HEIGHT - 44.0,
 };
-const METHODS: [Method; 3] = [Method::None, Method::Superpixel, Method::Ssaa];
+const METHODS: [MethodKind; 3] = [MethodKind::None, MethodKind::Superpixel, MethodKind::Ssaa];
 
 /// The section; empty where no growth was measured.
 pub fn section(curves: &[Curve]) -> String {
@@ -89,8 +89,8 @@ fn table(curve: &Curve) -> String {
             point
                 .superpixel_fraction
                 .map_or_else(|| "–".to_owned(), |share| format!("{:.1} %", 100.0 * share)),
-            times(ratio(point, Method::Superpixel, Method::None)),
-            times(ratio(point, Method::Ssaa, Method::Superpixel)),
+            times(ratio(point, MethodKind::Superpixel, MethodKind::None)),
+            times(ratio(point, MethodKind::Ssaa, MethodKind::Superpixel)),
         )
     };
     let rows = curve.points.iter().map(row);
@@ -134,8 +134,11 @@ mod tests {
         let curve = Curve {
             quantity: "superpixels, %".to_owned(),
             points: vec![
-                point(0.0, vec![time(Method::None, 2.0), time(Method::Ssaa, 8.0)]),
-                point(50.0, vec![time(Method::None, 3.0)]),
+                point(
+                    0.0,
+                    vec![time(MethodKind::None, 2.0), time(MethodKind::Ssaa, 8.0)],
+                ),
+                point(50.0, vec![time(MethodKind::None, 3.0)]),
             ],
             notes: vec!["ssaa ends".to_owned()],
         };

@@ -93,7 +93,7 @@ mod tests {
     use crate::cli::bench::motion::summarize;
     use crate::cli::bench::results::MotionRow;
     use gpc::bench::Steadiness;
-    use gpc::render::Method;
+    use gpc::render::MethodKind;
 
     #[test]
     fn superpixels_are_held_against_supersampling_of_as_many_samples() {
@@ -111,10 +111,10 @@ mod tests {
             textured: true,
             size: [320, 180],
             rows: vec![
-                row(Motion::Pan, Method::Ssaa, 0.01),
-                row(Motion::Pan, Method::Superpixel, 0.02),
-                row(Motion::Turn, Method::Ssaa, 0.01),
-                row(Motion::Turn, Method::Superpixel, 0.04),
+                row(Motion::Pan, MethodKind::Ssaa, 0.01),
+                row(Motion::Pan, MethodKind::Superpixel, 0.02),
+                row(Motion::Turn, MethodKind::Ssaa, 0.01),
+                row(Motion::Turn, MethodKind::Superpixel, 0.04),
             ],
             notes: Vec::new(),
         };

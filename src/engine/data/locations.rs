@@ -1,0 +1,260 @@
+//! Sample locations of the caller's own on the device, in the place of pixels.
+
+use super::{BoundTexels, Resources, SampleSet};
+use crate::engine::passes::spirv::distribute_set;
+use crate::engine::passes::{Distribute, ListLength, ListRegion};
+use crate::engine::pipelines::own_layout::{BoundBuffer, whole};
+use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, Recorder, VulkanError};
+use ash::vk;
+
+/// What a cell is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cells {
+    /// A pixel of the mask, with sub-samples.
+    Pixels,
+    /// A location, with sub-samples that its Jacobian places.
+    Superpixels,
+    /// A few locations of a tile, each sampled once, where it is.
+    Points,
+    /// The same, for surfaces that a light's pinhole sees: which triangle lies before theirs.
+    Occluders,
+}
+
+impl Cells {
+    /// Whether its locations are sampled once each.
+    #[must_use]
+    pub fn are_points(self) -> bool {
+        matches!(self, Self::Points | Self::Occluders)
+    }
+
+    /// Whether they are made of sample locations.
+    pub(crate) fn are_locations(self) -> bool {
+        self != Self::Pixels
+    }
+
+    /// Whether it is asked what lies before their locations.
+    pub(crate) fn are_occluders(self) -> bool {
+        self == Self::Occluders
+    }
+}
+
+/// How many locations, cells and groups of cells a run has at the most.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LocationSizes {
+    /// Locations.
+    pub locations: u32,
+    /// Cells.
+    pub cells: u32,
+    /// Places of the order: cells have room for as many locations.
+    pub places: u32,
+    /// Groups of cells that a subgroup takes.
+    pub groups: u32,
+    /// Whether an application lends the list and takes the colours on the device.
+    pub lent: bool,
+}
+
+impl LocationSizes {
+    /// Room for so many locations in a region of so many tiles.
+    #[must_use]
+    pub fn new(locations: u32, tiles: u32, cells: &CellSizes) -> Self {
+        let cell_count = cells.most_cells(locations, tiles);
+        Self {
+            locations,
+            cells: cell_count,
+            places: cell_count.saturating_mul(cells.in_cell),
+            groups: most_parts(cell_count, cells.in_group, tiles),
+            lent: false,
+        }
+    }
+
+    /// Bytes of the buffers that locations need beside those of pixels, over `tiles` tiles.
+    #[must_use]
+    pub fn bytes(&self, tiles: u64) -> u64 {
+        let [locations, cells, places, groups] =
+            [self.locations, self.cells, self.places, self.groups].map(u64::from);
+        let listed = if self.lent { 0 } else { locations };
+        32 * (listed + cells) + 4 * places + 16 * groups + (8 + 4 * LocationBuffers::LOAD) * tiles
+    }
+}
+
+/// A sample location, as `shaders/include/locations.glsl` describes it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct ListedLocation {
+    /// The pixel of the plane that it lies in.
+    pub pixel: [i32; 2],
+    /// Where it lies in the pixel, x and y from 0 to 1.
+    pub within: [f32; 2],
+    /// Its Jacobian, by columns: change of x and y a column, and a row, of the output.
+    pub jacobian: [[f32; 2]; 2],
+}
+
+/// How locations share cells, and cells groups.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CellSizes {
+    /// Most locations of a cell.
+    pub in_cell: u32,
+    /// Most cells of a group.
+    pub in_group: u32,
+    /// Samples of a cell that is one location.
+    pub samples: u32,
+}
+
+impl CellSizes {
+    /// Locations of a cell that are sampled once each, at the least; a subgroup may hold more.
+    const POINTS_IN_CELL: u32 = 16;
+
+    /// Those that suit a device, of whose subgroups so many invocations are used.
+    #[must_use]
+    pub fn new(lanes: u32, cells: Cells, samples: u32) -> Self {
+        let in_cell = match cells {
+            Cells::Points | Cells::Occluders => Self::POINTS_IN_CELL.next_multiple_of(lanes),
+            Cells::Superpixels | Cells::Pixels => 1,
+        };
+        Self {
+            in_cell,
+            in_group: lanes,
+            samples,
+        }
+    }
+
+    /// Most cells that so many locations make in a region of so many tiles.
+    pub(crate) fn most_cells(&self, locations: u32, tiles: u32) -> u32 {
+        most_parts(locations, self.in_cell, tiles)
+    }
+}
+
+/// Most parts of at most `size` that so many things make, where each tile has parts of its own.
+fn most_parts(count: u32, size: u32, tiles: u32) -> u32 {
+    count.min((count / size).saturating_add(tiles))
+}
+
+/// The buffers of a list, see `shaders/include/locations.glsl`.
+pub struct LocationBuffers {
+    /// The list, where no application lends it.
+    pub locations: Option<BufferView>,
+    /// Indices of locations that are sampled once each, cell by cell.
+    pub order: BufferView,
+    /// Two vectors a cell.
+    pub cells: BufferView,
+    /// A vector a group.
+    pub groups: BufferView,
+    /// Cells and samples of each tile.
+    pub tile_loads: Buffer,
+    /// What `distribute` knows of each tile, as `shaders/include/tile_locations.glsl` describes it.
+    pub(crate) loads: Buffer,
+}
+
+impl LocationBuffers {
+    /// Words of a tile in `loads`, see `shaders/include/tile_locations.glsl`.
+    const LOAD: u64 = 35;
+
+    pub(crate) fn new(
+        memory: &Memory,
+        sizes: &LocationSizes,
+        tiles: u64,
+    ) -> Result<Self, VulkanError> {
+        let storage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_SRC;
+        let texels = |name, count: u32, format, place| {
+            let usage = vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | storage;
+            memory.texel_buffer(name, count.into(), format, usage, place)
+        };
+        let uint4 = vk::Format::R32G32B32A32_UINT;
+        let vectors = |name, count| texels(name, count, uint4, MemoryUse::Device);
+        let listed = || texels("locations", 2 * sizes.locations, uint4, MemoryUse::Upload);
+        let tiles = if sizes.locations == 0 { 0 } else { tiles };
+        let words = |name, count: u64| {
+            let usage = storage | vk::BufferUsageFlags::TRANSFER_DST;
+            memory.buffer(name, 4 * count, usage, MemoryUse::Device)
+        };
+        Ok(Self {
+            locations: (!sizes.lent).then(listed).transpose()?,
+            order: texels(
+                "order of locations",
+                sizes.places,
+                vk::Format::R32_UINT,
+                MemoryUse::Device,
+            )?,
+            cells: vectors("cells of locations", 2 * sizes.cells)?,
+            groups: vectors("groups of cells", sizes.groups)?,
+            tile_loads: words("cells and samples of tiles", 2 * tiles)?,
+            loads: words("loads of tiles", Self::LOAD * tiles)?,
+        })
+    }
+}
+
+impl Resources {
+    /// The first `count` locations of the list, to be written while the device is idle.
+    ///
+    /// # Errors
+    /// If there is no room for so many, or the driver did not map the buffer.
+    pub fn listed_mut(&mut self, count: usize) -> Result<&mut [ListedLocation], VulkanError> {
+        let bytes = count * size_of::<ListedLocation>();
+        let listed = self.locations.locations.as_mut().ok_or(UNMAPPED)?;
+        Ok(bytemuck::cast_slice_mut(mapped(&mut listed.buffer, bytes)?))
+    }
+
+    /// The whole list, where no application lends it.
+    ///
+    /// # Errors
+    /// If one does.
+    pub fn listed(&self) -> Result<vk::BufferView, VulkanError> {
+        let listed = self.locations.locations.as_ref().ok_or(UNMAPPED)?;
+        Ok(listed.view)
+    }
+
+    /// All that `distribute` reads and writes.
+    pub(crate) fn location_buffers(
+        &self,
+        locations: vk::BufferView,
+    ) -> ([BoundBuffer; 8], [BoundTexels; 2]) {
+        let LocationBuffers {
+            order,
+            cells,
+            groups,
+            tile_loads,
+            loads,
+            ..
+        } = &self.locations;
+        let buffers = [
+            (distribute_set::LOADS, whole(loads)),
+            // Nothing is shaded yet.
+            (distribute_set::RANKS, whole(&self.shade_order)),
+            (distribute_set::ORDER_OUT, whole(&order.buffer)),
+            (distribute_set::CELLS_OUT, whole(&cells.buffer)),
+            (distribute_set::GROUPS_OUT, whole(&groups.buffer)),
+            (distribute_set::TILE_LOADS, whole(tile_loads)),
+            (distribute_set::MASKS, whole(&self.masks)),
+            (distribute_set::COUNTERS, whole(&self.counters)),
+        ];
+        let texels = [
+            (distribute_set::LOCATIONS, locations),
+            (distribute_set::ORDER, order.view),
+        ];
+        (buffers, texels)
+    }
+
+    /// Records the sorting of a list into a region that has begun.
+    pub fn record_locations(
+        &self,
+        recorder: &Recorder<'_>,
+        (set, distribute): (&SampleSet, &Distribute),
+        region: &ListRegion,
+        length: ListLength<'_>,
+    ) {
+        recorder.clear(&self.locations.loads);
+        recorder.barrier();
+        distribute.record(recorder, region, length);
+        self.record_reach(recorder, set);
+        self.record_bind(recorder, set);
+    }
+}
+
+const UNMAPPED: VulkanError = VulkanError::Call {
+    call: "mapping locations",
+    result: vk::Result::ERROR_MEMORY_MAP_FAILED,
+};
+
+fn mapped(buffer: &mut Buffer, bytes: usize) -> Result<&mut [u8], VulkanError> {
+    buffer.bytes_mut().get_mut(..bytes).ok_or(UNMAPPED)
+}

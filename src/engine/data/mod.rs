@@ -1,0 +1,24 @@
+//! What the passes read and write: the memory of a frame, and the layouts of what lies in it.
+
+pub(crate) mod alpha_flags;
+mod color_constants;
+mod content;
+mod counters;
+mod draws;
+mod locations;
+mod resources;
+mod triangle_word;
+pub(crate) mod upload;
+mod visibility;
+
+/// The uniform block `Frame` of `shaders/include/frame.glsl`, whose comments say what the fields are.
+pub use crate::engine::passes::spirv::Frame as FrameUniform;
+pub use color_constants::ColorConstants;
+pub use content::Content;
+pub(crate) use counters::STRETCH;
+pub use counters::{Argument, Counter};
+pub(crate) use draws::{Draws, HostDraw};
+pub use locations::{CellSizes, Cells, ListedLocation, LocationSizes};
+pub use resources::{BoundTexels, IdViews, Offsets, ResourceSizes, Resources, SampleSet};
+pub(crate) use triangle_word::TriangleWord;
+pub(crate) use visibility::{VisibilityUniform, VisibleGeometry, visibility_layout};

@@ -1,0 +1,141 @@
+//! Which buffer or image each binding of a frame's descriptor set shows.
+
+use super::{Resources, SampleSet};
+use crate::engine::data::Content;
+use crate::engine::passes::spirv::frame_set;
+use crate::vulkan::{Binding, Buffer};
+use ash::vk;
+
+/// A texel buffer, and the binding of the frame's set that shows it.
+pub type BoundTexels = (Binding, vk::BufferView);
+
+/// What shows triangle IDs and depth to passes, in the layout `SHADER_READ_ONLY_OPTIMAL`.
+#[derive(Clone, Copy, Debug)]
+pub struct IdViews {
+    /// Triangle IDs.
+    pub ids: vk::ImageView,
+    /// IDs of the nearest BLEND triangles, where there are any.
+    pub blend_ids: Option<vk::ImageView>,
+    /// Depth, where `thin` reads it.
+    pub depth: Option<vk::ImageView>,
+    /// Stands for the single-sampled IDs where these are multisampled.
+    pub placeholder: Option<vk::ImageView>,
+}
+
+impl Resources {
+    /// Writes a set that was just allocated; `texels` and `lights` belong to a scene or to what a frame sees of it.
+    pub(crate) fn write_set(
+        &self,
+        set: &SampleSet,
+        scene: &dyn Content,
+        (texels, lights): (&[BoundTexels], &Buffer),
+        shown: &IdViews,
+    ) {
+        let own_texels = [
+            (frame_set::DISPLAY, &self.display),
+            (frame_set::CANDIDATES, &self.candidates),
+            (frame_set::RECORDS, &self.records),
+            (frame_set::SHADED, &self.shaded),
+            (frame_set::PATTERN_OFFSETS, &set.offsets),
+            (frame_set::FILTERED, &self.filtered),
+            (frame_set::PAIRS, &self.pairs),
+            (frame_set::LOCATION_ORDER, &self.locations.order),
+            (frame_set::LOCATION_CELLS, &self.locations.cells),
+            (frame_set::LOCATION_GROUPS, &self.locations.groups),
+            (frame_set::SHADOW_WORDS, &self.shadow_words),
+        ]
+        .map(|(binding, texels)| (binding, texels.view));
+        let listed = self.locations.locations.as_ref();
+        let listed = listed.map(|listed| (frame_set::LOCATIONS, listed.view));
+        let texels: Vec<_> = texels
+            .iter()
+            .copied()
+            .chain(own_texels)
+            .chain(listed)
+            .map(|(binding, view)| (binding, [view]))
+            .collect();
+        let whole = |buffer: &Buffer| {
+            [vk::DescriptorBufferInfo::default()
+                .buffer(buffer.raw)
+                .range(vk::WHOLE_SIZE)]
+        };
+        let buffers = [
+            (frame_set::FRAME, &set.uniform),
+            (frame_set::LIGHTS, lights),
+            (frame_set::DISPLAY_OUT, &self.display.buffer),
+            (frame_set::COLOR, &self.color.buffer),
+            (frame_set::CANDIDATES_OUT, &self.candidates.buffer),
+            (frame_set::RECORDS_OUT, &self.records.buffer),
+            (frame_set::SHADED_OUT, &self.shaded.buffer),
+            (frame_set::PAIRS_OUT, &self.pairs.buffer),
+            (frame_set::COUNTERS, &self.counters),
+            (frame_set::MASKS, &self.masks),
+            (frame_set::TILES, &self.tiles),
+            (frame_set::TILE_LISTS, &self.tile_lists),
+            (frame_set::SURVIVORS, &self.survivors),
+            (frame_set::HEADERS, &self.headers),
+            (frame_set::SHADE_ORDER, &self.shade_order),
+            (frame_set::BINS, &self.bins),
+            (frame_set::ARGUMENTS, &self.arguments),
+            (frame_set::ATTRIBUTES_OUT, &self.attributes),
+            (frame_set::ENCODED, &self.encoded),
+            (frame_set::MARKS, &self.marks),
+            (frame_set::TILE_LOADS, &self.locations.tile_loads),
+            (frame_set::PATTERN, &set.offsets.buffer),
+        ]
+        .map(|(binding, buffer)| (binding, whole(buffer)));
+        // A set shows either single-sampled or multisampled IDs; pipelines that could read the former but are
+        // specialised not to see a placeholder. Without BLEND its binding shows the opaque IDs, which is not read either.
+        let IdViews { ids, .. } = *shown;
+        let blend_ids = shown.blend_ids.unwrap_or(ids);
+        let images = match (shown.placeholder, shown.depth) {
+            (Some(unread), _) => vec![
+                (frame_set::IDS, unread),
+                (frame_set::BLEND_IDS, unread),
+                (frame_set::IDS_MS, ids),
+                (frame_set::BLEND_IDS_MS, blend_ids),
+            ],
+            (None, Some(depth)) => vec![
+                (frame_set::IDS, ids),
+                (frame_set::BLEND_IDS, blend_ids),
+                (frame_set::RASTER_DEPTH, depth),
+            ],
+            (None, None) => vec![(frame_set::IDS, ids), (frame_set::BLEND_IDS, blend_ids)],
+        };
+        let images: Vec<_> = images
+            .into_iter()
+            .map(|(binding, view)| {
+                let info = vk::DescriptorImageInfo::default()
+                    .image_view(view)
+                    .image_layout(vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
+                (binding, [info])
+            })
+            .collect();
+        let environment = scene.environment_map().map(|map| [map]);
+        let write = |binding: Binding| {
+            vk::WriteDescriptorSet::default()
+                .dst_set(set.descriptor())
+                .dst_binding(binding.number)
+                .descriptor_type(binding.kind)
+        };
+        let texels = texels
+            .iter()
+            .map(|(binding, view)| write(*binding).texel_buffer_view(view));
+        let buffers = buffers
+            .iter()
+            .map(|(binding, info)| write(*binding).buffer_info(info));
+        let images = images
+            .iter()
+            .map(|(binding, info)| write(*binding).image_info(info));
+        let environment = environment
+            .as_ref()
+            .map(|map| write(frame_set::ENVIRONMENT_MAP).image_info(map));
+        let writes: Vec<_> = texels
+            .chain(buffers)
+            .chain(images)
+            .chain(environment)
+            .collect();
+        // SAFETY: the set was just allocated and no frame uses it; every handle is alive and outlives the set.
+        unsafe { self.layout.gpu.device.update_descriptor_sets(&writes, &[]) };
+    }
+}

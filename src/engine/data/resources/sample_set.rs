@@ -1,0 +1,122 @@
+//! Sub-sample offsets on the device, and the descriptor set of the passes that read them.
+
+use crate::engine::data::FrameUniform;
+use crate::engine::data::upload::Upload;
+use crate::engine::pipelines::FrameLayout;
+use crate::engine::pipelines::pool::DescriptorPool;
+use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, VulkanError};
+use ash::vk;
+
+/// Offsets of sub-samples from the pixel's centre, in pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Offsets<'a> {
+    /// Those of a cell, and then those of a first run of few samples where there is one.
+    pub all: &'a [[f32; 2]],
+    /// Samples of a cell.
+    pub count: u32,
+}
+
+/// Sub-sample offsets and the descriptor set that reads them.
+pub struct SampleSet {
+    pub(crate) uniform: Buffer,
+    pub(crate) offsets: BufferView,
+    pub(crate) upload: Upload,
+    count: u32,
+    set: vk::DescriptorSet,
+}
+
+impl SampleSet {
+    /// Allocates a list of offsets, its uniform block and its set, which is not written yet.
+    pub(crate) fn new(
+        layout: &FrameLayout,
+        memory: &Memory,
+        pool: &DescriptorPool,
+        Offsets { all, count }: &Offsets<'_>,
+    ) -> Result<Self, VulkanError> {
+        let mut content = all.to_vec();
+        content.extend(sums_of_runs(all, *count));
+        let offsets = memory.texel_buffer(
+            "offsets of sub-samples",
+            content.len() as u64,
+            vk::Format::R32G32_SFLOAT,
+            vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER
+                | vk::BufferUsageFlags::UNIFORM_BUFFER
+                | vk::BufferUsageFlags::TRANSFER_DST,
+            MemoryUse::Device,
+        )?;
+        let upload = Upload::new(
+            memory,
+            "location upload",
+            &offsets.buffer,
+            bytemuck::cast_slice(&content),
+        )?;
+        Ok(Self {
+            uniform: memory.buffer(
+                "frame uniform",
+                size_of::<FrameUniform>().next_multiple_of(16) as u64,
+                vk::BufferUsageFlags::UNIFORM_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
+                MemoryUse::Device,
+            )?,
+            offsets,
+            upload,
+            count: *count,
+            set: pool.allocate(layout.frame_set)?,
+        })
+    }
+
+    /// Number of offsets.
+    #[must_use]
+    pub fn count(&self) -> u32 {
+        self.count
+    }
+
+    /// The descriptor set.
+    pub(crate) fn descriptor(&self) -> vk::DescriptorSet {
+        self.set
+    }
+}
+
+/// Samples of a cell that fit in a mask of `shaders/include/mask.glsl`.
+const MASK: usize = 64;
+/// Samples of a run whose sums are listed.
+const RUN: usize = 4;
+
+/// For each run of four samples of the first 64, and for one behind them: the sums of the offsets of those that the bits of
+/// a number from 0 to 15 name.
+fn sums_of_runs(all: &[[f32; 2]], count: u32) -> Vec<[f32; 2]> {
+    let known = &all[..all.len().min(count as usize).min(MASK)];
+    let numbers =
+        (0..(MASK + RUN) / RUN).flat_map(|run| (0..1_usize << RUN).map(move |bits| (run, bits)));
+    numbers
+        .map(|(run, bits)| {
+            let named = known.iter().skip(run * RUN).take(RUN).enumerate();
+            named
+                .filter(|(place, _)| bits >> place & 1 == 1)
+                .fold([0.0; 2], |[x, y], (_, at)| [x + at[0], y + at[1]])
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sums_of_runs_are_those_of_the_samples_that_bits_name() {
+        let offsets: Vec<[f32; 2]> = (0..100).map(|n| [1.0, (n * n) as f32]).collect();
+        for count in [1, 5, 64, 100] {
+            let sums = sums_of_runs(&offsets, count);
+            assert_eq!(sums.len(), 17 * 16);
+            let number = |sample: usize| sample / 4 * 16 + (1 << (sample % 4));
+            for sample in 0..64 {
+                let known = sample < count as usize;
+                let expected = if known { offsets[sample] } else { [0.0; 2] };
+                assert_eq!(sums[number(sample)], expected);
+            }
+            let first: [f32; 2] =
+                [0, 1].map(|axis| (0..4.min(count as usize)).map(|n| offsets[n][axis]).sum());
+            assert_eq!(sums[15], first);
+            assert_eq!(sums[16 * 16 + 15], [0.0; 2]);
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! What a host's shaders see of a frame: the set of `shaders/include/gpc_visibility.glsl`.
+
+use super::Resources;
+use super::draws::Draws;
+use crate::engine::passes::spirv::gpc_visibility_set;
+use crate::engine::pipelines::own_layout::{OwnSet, SetLayout, whole};
+use crate::vulkan::{Buffer, Gpu, VulkanError};
+use ash::vk;
+use std::sync::Arc;
+
+/// What hosts' shaders are told of a frame.
+pub(crate) use crate::engine::passes::spirv::GpcFrame as VisibilityUniform;
+
+/// The set's layout, which hosts make their pipelines with.
+pub(crate) fn visibility_layout(gpu: &Arc<Gpu>) -> Result<SetLayout, VulkanError> {
+    SetLayout::new(gpu, &gpc_visibility_set::ALL)
+}
+
+/// What a host's shaders see beside a frame's resources.
+pub(crate) struct VisibleGeometry<'a> {
+    pub triangles: &'a Buffer,
+    /// In clip space.
+    pub positions: vk::DescriptorBufferInfo,
+    pub draws: &'a Draws,
+    /// The draw of each triangle.
+    pub draw_of: &'a Buffer,
+    /// Where a list is sampled.
+    pub locations: Option<vk::DescriptorBufferInfo>,
+}
+
+impl Resources {
+    /// A set that shows these resources and a host's geometry.
+    ///
+    /// # Safety
+    /// Positions and locations that are the host's outlive the set's use.
+    pub(crate) unsafe fn visibility_set(
+        &self,
+        layout: &SetLayout,
+        uniform: &Buffer,
+        geometry: &VisibleGeometry<'_>,
+    ) -> Result<OwnSet, VulkanError> {
+        let set = layout.allocate()?;
+        let draw_of = whole(geometry.draw_of);
+        let buffers = [
+            (gpc_visibility_set::GPC_FRAME, whole(uniform)),
+            (gpc_visibility_set::GPC_KEYS, whole(&self.bins)),
+            (gpc_visibility_set::GPC_ORDER, whole(&self.shade_order)),
+            (gpc_visibility_set::GPC_RECORDS, whole(&self.records.buffer)),
+            (gpc_visibility_set::GPC_TRIANGLES, whole(geometry.triangles)),
+            (gpc_visibility_set::GPC_POSITIONS, geometry.positions),
+            (gpc_visibility_set::GPC_SHADED, whole(&self.shaded.buffer)),
+            (gpc_visibility_set::GPC_DRAWS, whole(&geometry.draws.table)),
+            (gpc_visibility_set::GPC_DRAW_OF, draw_of),
+            // A frame's shaders read none.
+            (
+                gpc_visibility_set::GPC_LOCATIONS,
+                geometry.locations.unwrap_or(draw_of),
+            ),
+        ];
+        // SAFETY: the set is new; of the host's buffers as the caller says, ours go with the frame.
+        unsafe { set.write_buffers(&buffers) };
+        Ok(set)
+    }
+}

@@ -1,0 +1,9 @@
+//! What the passes read of scenes of files: geometry, materials, textures and lights, and the cells of an output.
+
+mod geometry;
+mod output_cells;
+mod scene;
+
+pub use geometry::FrameGeometry;
+pub use output_cells::{OutputCells, OutputPlane};
+pub use scene::{FrameLook, GpuScene, SceneUploads, ShadeFeatures};

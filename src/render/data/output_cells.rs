@@ -1,0 +1,177 @@
+//! Contents of an output's cells, uploaded by the host for `detect`.
+
+use crate::engine::data::{IdViews, Resources};
+use crate::vulkan::{Buffer, Image, Memory, MemoryUse, Recorder, VulkanError};
+use ash::vk;
+
+/// Plane of data about the cells, row by row. A cell has one word, except in marks and colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OutputPlane {
+    /// ID of the nearest opaque or MASK triangle.
+    Ids,
+    /// ID of the nearest BLEND triangle.
+    BlendIds,
+    /// Colour as detection compares it: 8-bit sRGB codes and alpha.
+    Codes,
+    /// A bit for each light that does not reach the place.
+    Shadows,
+    /// Cells that become superpixels whatever they show: a word for each tile of 8 x 4 cells.
+    Marks,
+    /// Colours of superpixels: four words for each cell.
+    Colors,
+}
+
+impl OutputPlane {
+    /// Number of words for a cell, over all planes.
+    const WORDS: u64 = 9;
+
+    /// Begin and length of the plane, in words for each cell.
+    fn range(self) -> [u64; 2] {
+        match self {
+            Self::Colors => [5, 4],
+            single => [single as u64, 1],
+        }
+    }
+}
+
+/// Rows of an output, and images of their triangle IDs.
+pub struct OutputCells {
+    size: [u32; 2],
+    /// Words of all planes, each [`OutputPlane`] after the other.
+    words: Buffer,
+    ids: Image,
+    blend_ids: Image,
+}
+
+impl OutputCells {
+    /// Allocates memory for `width` x `height` cells.
+    ///
+    /// # Errors
+    /// If memory runs out.
+    pub fn new(memory: &Memory, [width, height]: [u32; 2]) -> Result<Self, VulkanError> {
+        let image = |name| {
+            let info = vk::ImageCreateInfo::default()
+                .image_type(vk::ImageType::TYPE_2D)
+                .format(vk::Format::R32_UINT)
+                .extent(vk::Extent3D {
+                    width,
+                    height,
+                    depth: 1,
+                })
+                .mip_levels(1)
+                .array_layers(1)
+                .samples(vk::SampleCountFlags::TYPE_1)
+                .usage(vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST);
+            memory.image(name, &info, vk::ImageAspectFlags::COLOR)
+        };
+        Ok(Self {
+            size: [width, height],
+            words: memory.buffer(
+                "what cells show",
+                Self::bytes_of([width, height]) * OutputPlane::WORDS,
+                vk::BufferUsageFlags::TRANSFER_SRC,
+                MemoryUse::Upload,
+            )?,
+            ids: image("IDs of cells")?,
+            blend_ids: image("BLEND IDs of cells")?,
+        })
+    }
+
+    /// Number of bytes for `width` x `height` cells.
+    #[must_use]
+    pub fn bytes([width, height]: [u32; 2]) -> u64 {
+        Self::bytes_of([width, height]) * (OutputPlane::WORDS + 2)
+    }
+
+    fn bytes_of([width, height]: [u32; 2]) -> u64 {
+        4 * u64::from(width) * u64::from(height)
+    }
+
+    /// Views of the IDs for passes.
+    #[must_use]
+    pub fn views(&self) -> IdViews {
+        IdViews {
+            ids: self.ids.view,
+            blend_ids: Some(self.blend_ids.view),
+            depth: None,
+            placeholder: None,
+        }
+    }
+
+    /// Words of a plane, to be written while the device is idle; empty if the driver did not map the buffer.
+    pub fn words_mut(&mut self, plane: OutputPlane) -> &mut [u32] {
+        let [first, bytes] = plane.range().map(|part| part * Self::bytes_of(self.size));
+        let range = first as usize..(first + bytes) as usize;
+        let words = self.words.bytes_mut().get_mut(range);
+        words.map_or(&mut [], bytemuck::cast_slice_mut)
+    }
+
+    /// Records the upload of the first `rows` rows: to the images, and to the buffers of `resources`, which have room
+    /// for them.
+    pub fn record(&self, recorder: &Recorder<'_>, resources: &Resources, rows: u32) {
+        let planes = [
+            (&self.ids, OutputPlane::Ids),
+            (&self.blend_ids, OutputPlane::BlendIds),
+        ];
+        for (image, plane) in planes {
+            let written = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
+            recorder.transition(image, vk::ImageLayout::UNDEFINED, written);
+            let copies = [vk::BufferImageCopy::default()
+                .buffer_offset(plane.range()[0] * Self::bytes_of(self.size))
+                .image_subresource(vk::ImageSubresourceLayers {
+                    aspect_mask: vk::ImageAspectFlags::COLOR,
+                    mip_level: 0,
+                    base_array_layer: 0,
+                    layer_count: 1,
+                })
+                .image_extent(vk::Extent3D {
+                    width: self.size[0],
+                    height: rows,
+                    depth: 1,
+                })];
+            // SAFETY: guaranteed by the recorder's caller; the buffer has the words of these rows, and the image has
+            // their size and this layout.
+            unsafe {
+                recorder.device().cmd_copy_buffer_to_image(
+                    recorder.raw(),
+                    self.words.raw,
+                    image.raw,
+                    written,
+                    &copies,
+                );
+            }
+            recorder.transition(image, written, vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL);
+        }
+        let bytes = Self::bytes_of([self.size[0], rows]);
+        self.record_copy(
+            recorder,
+            OutputPlane::Codes,
+            &resources.display.buffer,
+            bytes,
+        );
+        if resources.sizes().shadow_words > 0 {
+            let shadows = &resources.shadow_words.buffer;
+            self.record_copy(recorder, OutputPlane::Shadows, shadows, bytes);
+        }
+        let tiles = u64::from(self.size[0].div_ceil(8) * rows.div_ceil(4));
+        recorder.clear(&resources.marks);
+        recorder.barrier();
+        self.record_copy(recorder, OutputPlane::Marks, &resources.marks, 4 * tiles);
+        recorder.barrier();
+    }
+
+    /// Records the upload of the colours of the first `rows` rows.
+    pub fn record_colors(&self, recorder: &Recorder<'_>, resources: &Resources, rows: u32) {
+        let bytes = 4 * Self::bytes_of([self.size[0], rows]);
+        let colors = &resources.color.buffer;
+        self.record_copy(recorder, OutputPlane::Colors, colors, bytes);
+        recorder.barrier();
+    }
+
+    /// Records a copy of the first bytes of a plane to a buffer, which is at least as large.
+    fn record_copy(&self, recorder: &Recorder<'_>, plane: OutputPlane, to: &Buffer, bytes: u64) {
+        let first = plane.range()[0] * Self::bytes_of(self.size);
+        // SAFETY: both buffers have this many bytes, were created for copies, and outlive the execution.
+        unsafe { recorder.copy_raw((self.words.raw, first), (to.raw, 0), bytes) };
+    }
+}

@@ -1,0 +1,166 @@
+//! Materials and lights that change with the moment: the scene's data about them, and a frame's own copies.
+
+use super::light::GpuLight;
+use super::material::MaterialRow;
+use super::{GpuScene, Slots};
+use crate::engine::data::BoundTexels;
+use crate::engine::passes::spirv::frame_set;
+use crate::scene::{Moment, Motion};
+use crate::vulkan::{Buffer, BufferView, Memory, MemoryUse, Recorder, VulkanError};
+use ash::vk;
+
+/// Materials and lights of a scene that change.
+pub(super) struct ChangingLook {
+    /// For each material that changes: its index, and the part of its row in the table that does not come from its
+    /// numbers.
+    materials: Vec<(usize, MaterialRow)>,
+    lights: bool,
+}
+
+impl ChangingLook {
+    /// Materials and lights that a motion changes; `slots` and `alphas` are those of all materials.
+    pub(super) fn new(motion: &Motion, slots: &[Slots], alphas: &[[u32; 4]]) -> Self {
+        let row = |&index: &usize| {
+            let (slots, alpha) = (slots.get(index)?.clone(), *alphas.get(index)?);
+            Some((index, MaterialRow { slots, alpha }))
+        };
+        Self {
+            materials: motion.materials.iter().filter_map(row).collect(),
+            lights: motion.changes_lights,
+        }
+    }
+}
+
+/// A frame's own copies of the scene's materials and lights, if these change.
+#[derive(Default)]
+pub struct FrameLook {
+    materials: Option<BufferView>,
+    lights: Option<Buffer>,
+    /// Updates for the next recording: of the buffer of materials or of lights, from a byte on.
+    updates: Vec<Update>,
+}
+
+struct Update {
+    of_materials: bool,
+    first_byte: usize,
+    bytes: Vec<u8>,
+}
+
+impl FrameLook {
+    /// Allocates memory for what changes. If nothing does, the frame uses the scene's buffers.
+    ///
+    /// # Errors
+    /// If memory runs out.
+    pub fn new(memory: &Memory, scene: &GpuScene) -> Result<Self, VulkanError> {
+        let Some(changing) = &scene.changing else {
+            return Ok(Self::default());
+        };
+        let materials = |view: &BufferView| {
+            memory.texel_buffer(
+                "materials that change",
+                view.buffer.size() / 16,
+                vk::Format::R32G32B32A32_UINT,
+                vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
+                MemoryUse::Device,
+            )
+        };
+        let lights = |buffer: &Buffer| {
+            memory.storage_buffer(
+                "lights that change",
+                buffer.size(),
+                vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
+                MemoryUse::Device,
+            )
+        };
+        let has_materials = !changing.materials.is_empty();
+        Ok(Self {
+            materials: has_materials
+                .then(|| materials(&scene.materials))
+                .transpose()?,
+            lights: changing.lights.then(|| lights(&scene.lights)).transpose()?,
+            updates: Vec::new(),
+        })
+    }
+
+    /// Number of bytes for a scene.
+    #[must_use]
+    pub fn bytes(scene: &GpuScene) -> u64 {
+        scene.changing.as_ref().map_or(0, |changing| {
+            let materials = !changing.materials.is_empty();
+            let of = |buffer: &Buffer, changes| if changes { buffer.size() } else { 0 };
+            of(&scene.materials.buffer, materials) + of(&scene.lights, changing.lights)
+        })
+    }
+
+    /// Table of materials of the frame.
+    #[must_use]
+    pub fn texels(&self, scene: &GpuScene) -> BoundTexels {
+        (
+            frame_set::MATERIALS,
+            self.materials.as_ref().unwrap_or(&scene.materials).view,
+        )
+    }
+
+    /// Buffer of lights of the frame.
+    #[must_use]
+    pub fn lights<'a>(&'a self, scene: &'a GpuScene) -> &'a Buffer {
+        self.lights.as_ref().unwrap_or(&scene.lights)
+    }
+
+    /// Records initial copies of the scene's materials and lights.
+    pub(crate) fn record_upload(&self, recorder: &Recorder<'_>, scene: &GpuScene) {
+        if let Some(materials) = &self.materials {
+            let from = &scene.materials.buffer;
+            recorder.copy(from, from.size(), &materials.buffer, 0);
+        }
+        if let Some(lights) = &self.lights {
+            recorder.copy(&scene.lights, scene.lights.size(), lights, 0);
+        }
+        recorder.barrier();
+    }
+
+    /// Prepares the updates for a moment, which the next recording writes.
+    pub(crate) fn show(&mut self, scene: &GpuScene, moment: &Moment) {
+        let Some(changing) = &scene.changing else {
+            return;
+        };
+        self.updates.clear();
+        let changed = changing.materials.iter().zip(&moment.materials);
+        for ((index, row), (_, material)) in changed {
+            let words = row.words(material);
+            self.updates.push(Update {
+                of_materials: true,
+                first_byte: index * scene.material_vectors as usize * 16,
+                bytes: bytemuck::cast_slice(&words).to_vec(),
+            });
+        }
+        if self.lights.is_some() {
+            let lights = moment.lights.iter();
+            let lights: Vec<_> = lights
+                .map(|light| GpuLight::of_scene(light, scene.origin()))
+                .collect();
+            self.updates.push(Update {
+                of_materials: false,
+                first_byte: 0,
+                bytes: bytemuck::cast_slice(&lights).to_vec(),
+            });
+        }
+    }
+
+    /// Records the prepared updates.
+    pub(crate) fn record(&self, recorder: &Recorder<'_>) {
+        if self.updates.is_empty() {
+            return;
+        }
+        for update in &self.updates {
+            let to = match update.of_materials {
+                true => self.materials.as_ref().map(|view| &view.buffer),
+                false => self.lights.as_ref(),
+            };
+            let Some(to) = to else { continue };
+            // Updates stay within the buffer: a moment has no more materials and lights than its scene.
+            recorder.update(to, update.first_byte as u64, &update.bytes);
+        }
+        recorder.barrier();
+    }
+}

@@ -1,0 +1,64 @@
+//! Texture slots of a material: textures that are read in the same way share a slot, and are read once.
+
+pub(super) use crate::engine::pipelines::layout::SLOTS;
+use crate::scene::{Material, Scene, TextureRole, TextureUse};
+use crate::vulkan::VulkanError;
+
+/// Slot of each role, by the role's number.
+pub(in crate::render) type RoleSlots = [Option<u8>; TextureRole::COUNT];
+
+/// Slots of a material; the base colour has the first.
+#[derive(Clone)]
+pub(super) struct Slots {
+    pub(super) of_role: RoleSlots,
+    /// Texture of each slot, and whether it is in sRGB.
+    pub(super) uses: Vec<(TextureUse, bool)>,
+    is_animated: bool,
+}
+
+impl Slots {
+    /// Slots of a material. An unlit material has a slot for its base colour only; textures that the scene lacks get
+    /// none.
+    pub(super) fn of(scene: &Scene, material: &Material) -> Result<Self, VulkanError> {
+        let mut slots = Self {
+            of_role: [None; TextureRole::COUNT],
+            uses: Vec::new(),
+            is_animated: material.animated,
+        };
+        let wanted = |role| role == TextureRole::BaseColor || !material.unlit;
+        let exists = |used: &TextureUse| {
+            let texture = scene.textures.get(used.texture as usize);
+            texture.is_some_and(|texture| (texture.image as usize) < scene.images.len())
+        };
+        for (role, used) in material.textures() {
+            if !wanted(role) || !exists(&used) {
+                continue;
+            }
+            let read = (used, role.is_srgb());
+            // Animated textures don't share a slot, because their transforms may change differently.
+            let shared = slots.uses.iter().position(|known| *known == read);
+            let slot = shared.filter(|_| !material.animated);
+            slots.of_role[role as usize] = Some(slot.unwrap_or(slots.uses.len()) as u8);
+            if slot.is_none() {
+                slots.uses.push(read);
+            }
+        }
+        VulkanError::check_limit(
+            "a material",
+            slots.uses.len() as u64,
+            "textures",
+            SLOTS as u64,
+        )?;
+        Ok(slots)
+    }
+
+    /// Whether all textures are read at the same coordinates.
+    pub(super) fn one_uv_transform(&self) -> bool {
+        let mut places = self
+            .uses
+            .iter()
+            .map(|(used, _)| (used.uv_set, used.transform));
+        let first = places.next();
+        places.all(|place| Some(place) == first && !self.is_animated)
+    }
+}

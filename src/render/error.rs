@@ -1,0 +1,92 @@
+//! What can go wrong with the rendering of a scene.
+
+use super::locations::LocationError;
+use crate::engine::sampler::{EngineError, MethodKind};
+use crate::sampling::PatternError;
+use crate::vulkan::VulkanError;
+
+/// An error of the renderer.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RenderError {
+    /// The settings are impossible, memory runs out, or the device refuses something.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    /// The method can't sample any locations as it samples the pixels of an image.
+    #[error("{method} can't sample locations as superpixels; superpixel and ssaa can")]
+    LocationMethod {
+        /// What was asked for.
+        method: MethodKind,
+    },
+    /// Only the pixels of an image have regions.
+    #[error(
+        "a region is a part of an image's pixels; of locations, hand over those that are wanted"
+    )]
+    LocationRegion,
+    /// A sampling location can't be used.
+    #[error(transparent)]
+    Location(#[from] LocationError),
+    /// The geometry contradicts itself.
+    #[error(transparent)]
+    Geometry(#[from] crate::scene::GeometryError),
+    /// A scene or frame was made for another device.
+    #[error("a scene or frame of one device was handed to another")]
+    OtherDevice,
+    /// A moment or pose is not of the motion that it was handed to.
+    #[error(
+        "a moment or pose of one motion was handed to another: Scene::pose_in_motion makes pose and motion together"
+    )]
+    OtherMotion,
+    /// A scene is not on the device yet.
+    #[error("the scene is not on the device: Headless::upload puts it there")]
+    NotUploaded,
+    /// `Headless::stop_when` said so.
+    #[error("what was being made is no longer wanted")]
+    Stopped,
+    /// A camera makes no pinhole.
+    #[error(transparent)]
+    Pinhole(#[from] crate::camera::PinholeError),
+    /// The scene was prepared without shadows.
+    #[error("the scene was prepared without shadows: ask for them in its SceneRequest")]
+    NoCasters,
+    /// A point has 32 bits for lights.
+    #[error("{found} lights can't all cast shadows; 32 can")]
+    ShadowLights {
+        /// How many there are.
+        found: usize,
+    },
+}
+
+impl From<VulkanError> for RenderError {
+    fn from(error: VulkanError) -> Self {
+        Self::Engine(error.into())
+    }
+}
+
+impl From<PatternError> for RenderError {
+    fn from(error: PatternError) -> Self {
+        Self::Engine(error.into())
+    }
+}
+
+impl RenderError {
+    /// Whether what was asked for can't be had from this method at all.
+    #[must_use]
+    pub fn is_usage(&self) -> bool {
+        match self {
+            Self::Engine(error) => error.is_usage(),
+            Self::Location(_)
+            | Self::Pinhole(_)
+            | Self::LocationMethod { .. }
+            | Self::LocationRegion
+            | Self::ShadowLights { .. } => true,
+            _ => false,
+        }
+    }
+
+    /// Whether the device is lost or out of memory.
+    #[must_use]
+    pub fn is_device_failure(&self) -> bool {
+        matches!(self, Self::Engine(error) if error.is_device_failure())
+    }
+}

@@ -1,0 +1,32 @@
+//! box_filter: k x k supersampled pixels to one.
+
+use crate::engine::passes::spirv;
+use crate::engine::pipelines::FrameLayout;
+use crate::vulkan::{Pipeline, Recorder, VulkanError};
+use std::sync::Arc;
+
+/// Averages squares of pixels.
+pub struct BoxFilter {
+    layout: ash::vk::PipelineLayout,
+    pipeline: Arc<Pipeline>,
+}
+
+impl BoxFilter {
+    /// Makes the pipeline.
+    ///
+    /// # Errors
+    /// If the driver refuses it.
+    pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
+        let pipeline = layout.compute(&spirv::BoxFilter, None)?;
+        Ok(Self {
+            layout: layout.pipeline,
+            pipeline,
+        })
+    }
+
+    /// Records it for a region that becomes `pixels` pixels, each of `side` x `side`.
+    pub fn record(&self, recorder: &Recorder<'_>, pixels: u32, side: u32) {
+        recorder.push(self.layout, &spirv::BoxFilterPush { side });
+        recorder.dispatch(&self.pipeline, u64::from(pixels.div_ceil(64)));
+    }
+}

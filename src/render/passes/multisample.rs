@@ -1,0 +1,29 @@
+//! multisample: what the device's own multisampling saw, as visibility samples.
+
+use crate::engine::passes::spirv;
+use crate::engine::pipelines::FrameLayout;
+use crate::vulkan::{Pipeline, Recorder, VulkanError};
+use std::sync::Arc;
+
+/// Turns multisampled triangle IDs into records.
+pub struct Multisample {
+    pipeline: Arc<Pipeline>,
+}
+
+impl Multisample {
+    /// Makes the pipeline.
+    ///
+    /// # Errors
+    /// If the driver refuses it.
+    pub fn new(layout: &FrameLayout) -> Result<Self, VulkanError> {
+        let lanes = layout.gpu.limits().lanes;
+        Ok(Self {
+            pipeline: layout.compute(&spirv::Multisample { lanes }, None)?,
+        })
+    }
+
+    /// Records it for a region of `tiles` tiles.
+    pub fn record(&self, recorder: &Recorder<'_>, tiles: u32) {
+        recorder.dispatch(&self.pipeline, u64::from((tiles * 32).div_ceil(64)));
+    }
+}

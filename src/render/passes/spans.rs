@@ -1,0 +1,60 @@
+//! spans: rows of 8 pixels, listed by material bin.
+
+use crate::engine::data::Content;
+use crate::engine::passes::arguments::{After, Arguments};
+use crate::engine::passes::spirv;
+use crate::engine::pipelines::FrameLayout;
+use crate::vulkan::{Buffer, Pipeline, Recorder, VulkanError};
+use ash::vk;
+use std::sync::Arc;
+
+/// Lists what of a region is to be shaded.
+pub struct Spans {
+    layout: vk::PipelineLayout,
+    pipeline: Arc<Pipeline>,
+    /// Spans need not be counted beforehand.
+    one_bin: bool,
+    arguments: Arguments,
+}
+
+impl Spans {
+    /// Invocations of a workgroup, which may be several subgroups.
+    const WORKGROUP: u32 = 64;
+
+    /// Makes the pipelines.
+    ///
+    /// # Errors
+    /// If the driver refuses one.
+    pub fn new(layout: &FrameLayout, scene: &dyn Content) -> Result<Self, VulkanError> {
+        let one_bin = scene.bin_count() == 1;
+        let lanes = layout.gpu.limits().subgroup_size.min(Self::WORKGROUP);
+        let shader = spirv::Spans {
+            lanes,
+            one_bin,
+            instanced: scene.is_instanced(),
+            unsure: layout.is_unsure(lanes),
+        };
+        Ok(Self {
+            layout: layout.pipeline,
+            pipeline: layout.compute(&shader, layout.subgroup())?,
+            one_bin,
+            arguments: Arguments::new(layout, After::Spans)?,
+        })
+    }
+
+    /// Records it for a region of `width` x `height` pixels.
+    pub fn record(&self, recorder: &Recorder<'_>, bins: &Buffer, [width, height]: [u32; 2]) {
+        let groups = (u64::from(width.div_ceil(8)) * u64::from(height)).div_ceil(64);
+        recorder.clear(bins);
+        recorder.barrier();
+        let run = |scatter| {
+            recorder.push(self.layout, &spirv::SpansPush { scatter });
+            recorder.dispatch(&self.pipeline, groups);
+        };
+        run(u32::from(self.one_bin));
+        self.arguments.record(recorder);
+        if !self.one_bin {
+            run(1);
+        }
+    }
+}
