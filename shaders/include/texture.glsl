@@ -1,6 +1,6 @@
 // The textures of a material, each read once for all that it is used for.
 // A texture is read at the level that its sampler chooses, or (BOX_FILTER) averaged over the rectangle that a place stands for:
-// at several places along the longer side that it has in the texture.
+// at one place or two along the longer side that it has in the texture.
 #ifndef TEXTURE_GLSL
 #define TEXTURE_GLSL
 #include "interface.glsl"
@@ -42,10 +42,31 @@ struct Place {
     Barycentric w;
 };
 
-// Places along the longer axis of a footprint that a texture is read at, at the most.
-const float MOST_PROBES = 8.0;
+// Where a texture is read for a place: at `count` places along the longer axis of the place's footprint. A place lies in the
+// middle of its share of that axis.
+struct Probes {
+    vec2 first, step_;
+    float count, level;
+};
+
+const float MOST_PROBES = 2.0;
 // Width of the texels, over that of a box, whose trilinear filter has the variance of the box: root of 1/3.
 const float LEVEL_WIDTH = 0.57735;
+
+// The probes in a texture of `size` texels. Twin: src/reference/texture.rs.
+Probes probes_of(vec2 size, vec2 at, vec2 dx, vec2 dy) {
+    vec2 tx = dx * size, ty = dy * size;
+    float square_x = dot(tx, tx), square_y = dot(ty, ty);
+    float longest = sqrt(max(square_x, square_y));
+    float across = abs(tx.x * ty.y - tx.y * ty.x) / max(longest, 1e-20);
+    Probes r;
+    r.count = clamp(ceil(longest / max(across, 1.0) - 0.25), 1.0, MOST_PROBES);
+    r.step_ = (square_x > square_y ? dx : dy) / r.count;
+    r.first = at - r.step_ * (0.5 * r.count - 0.5);
+    // A whole level reads one mipmap, not two.
+    r.level = round(log2(max(max(across, longest / r.count) * LEVEL_WIDTH, 1e-20)));
+    return r;
+}
 
 vec4 read_texture(sampler2D image, uint slot, Place place) {
     uint rows = MATERIAL_UV_ROWS + (ONE_UV_TRANSFORM ? 0u : 2u * slot);
@@ -55,23 +76,15 @@ vec4 read_texture(sampler2D image, uint slot, Place place) {
     vec2 at = linear * (uv * place.w.at) + vec2(row_u.z, row_v.z);
     vec2 dx = linear * (uv * place.w.dx), dy = linear * (uv * place.w.dy);
     if (!BOX_FILTER) return textureGrad(image, at, dx, dy);
-    vec2 size = vec2(textureSize(image, 0));
-    vec2 tx = dx * size, ty = dy * size;
-    float square_x = dot(tx, tx), square_y = dot(ty, ty);
-    float longest = sqrt(max(square_x, square_y));
-    float across = abs(tx.x * ty.y - tx.y * ty.x) / max(longest, 1e-20);
-    float wanted = clamp(ceil(longest / max(across, 1.0) - 0.25), 1.0, MOST_PROBES);
-    vec2 step_ = (square_x > square_y ? dx : dy) / wanted;
-    float level = log2(max(across, longest / wanted) * LEVEL_WIDTH);
-    vec2 first = at - step_ * (0.5 * wanted - 0.5);
+    Probes probes = probes_of(vec2(textureSize(image, 0)), at, dx, dy);
     vec4 sum = vec4(0.0);
     float probe = 0.0;
     do {
-        vec4 texel = textureLod(image, first + probe * step_, level);
-        sum += probe < wanted ? texel : vec4(0.0);
+        vec4 texel = textureLod(image, probes.first + probe * probes.step_, probes.level);
+        sum += probe < probes.count ? texel : vec4(0.0);
         probe += 1.0;
-    } while (subgroupAny(probe < wanted));
-    return sum / wanted;
+    } while (subgroupAny(probe < probes.count));
+    return sum / probes.count;
 }
 
 // A role's texture at a place; white where it has none. A macro, since the index is to be a constant.

@@ -40,6 +40,7 @@ mod stage;
 mod stop;
 mod stroke;
 mod submit;
+mod texture;
 mod ties;
 mod timers;
 mod twin;

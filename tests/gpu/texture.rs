@@ -1,0 +1,169 @@
+//! Where textures are read for a place that is shaded, against the CPU: each mipmap level has noise of its own, so that
+//! another level, or another number of places, gives another colour.
+
+use gpc::reference::texture::{Probes, probes};
+use gpc::render::{Headless, Method, Settings};
+use gpc::scene::{AlphaMode, Image, Sampler};
+
+use crate::meshes::Random;
+use crate::stage::{Stage, on_gpu, once, seen_at, textured};
+
+const SIZE: [u32; 2] = [96, 64];
+/// Side of the squares of pixels that have texture coordinates of their own.
+const PATCH: u32 = 4;
+
+/// An image all of whose levels are noise of black and white channels, whatever the level before.
+fn noise(size: [u32; 2], random: &mut Random) -> Image {
+    let mut image = Image {
+        width: size[0],
+        height: size[1],
+        pixels: Vec::new(),
+    };
+    for level in 0..image.full_levels() {
+        let [width, height] = image.level_size(level);
+        for _ in 0..width * height {
+            let channel = |random: &mut Random| 255 * random.below(2) as u8;
+            let [r, g, b] = [0; 3].map(|_| channel(random));
+            image.pixels.extend([r, g, b, 255]);
+        }
+    }
+    image
+}
+
+/// The light of a level at texture coordinates, by a bilinear filter of the repeated image.
+fn bilinear(image: &Image, level: u32, at: [f64; 2]) -> [f64; 3] {
+    let size = image.level_size(level);
+    let pixels = image.levels().nth(level as usize).unwrap();
+    let places = [0, 1].map(|axis| at[axis] * f64::from(size[axis]) - 0.5);
+    let mut sum = [0.0; 3];
+    for corner in [[0, 0], [1, 0], [0, 1], [1, 1]] {
+        let mut weight = 1.0;
+        let texel = [0, 1].map(|axis| {
+            let part = places[axis] - places[axis].floor();
+            weight *= if corner[axis] == 1 { part } else { 1.0 - part };
+            (places[axis].floor() as i64 + corner[axis]).rem_euclid(i64::from(size[axis])) as usize
+        });
+        let first = 4 * (texel[1] * size[0] as usize + texel[0]);
+        for (sum, channel) in sum.iter_mut().zip(&pixels[first..]) {
+            *sum += weight * f64::from(u32::from(*channel) / 255);
+        }
+    }
+    sum
+}
+
+/// What the footprint of a place shows of an image.
+fn filtered(image: &Image, found: &Probes) -> [f64; 3] {
+    let level = found.level.clamp(0, image.full_levels() as i32 - 1) as u32;
+    let mut mean = [0.0; 3];
+    for probe in 0..found.count {
+        let at = [0, 1].map(|axis| found.first[axis] + f64::from(probe) * found.step[axis]);
+        for (mean, channel) in mean.iter_mut().zip(bilinear(image, level, at)) {
+            *mean += channel / f64::from(found.count);
+        }
+    }
+    mean
+}
+
+/// Texture coordinates as they change over the image: at the first pixel's centre, by a pixel to the right, and by one down.
+struct Map {
+    origin: [f64; 2],
+    sides: [[f64; 2]; 2],
+}
+
+impl Map {
+    /// From an eighth of a texel to 16 texels a pixel, up to 16 times as many along one axis of the image as along the other,
+    /// turned and skewed.
+    fn new(image: &Image, random: &mut Random) -> Self {
+        let mut unit = || random.below(1 << 20) as f64 / f64::from(1 << 20);
+        let texels = (7.0 * unit() - 3.0).exp2();
+        let stretch = (8.0 * unit() - 4.0).exp2().sqrt();
+        let [turn, skew] = [unit() * std::f64::consts::TAU, unit() - 0.5];
+        let sides = [texels * stretch, texels / stretch];
+        let directions = [turn, turn + std::f64::consts::FRAC_PI_2 + skew];
+        let size = [image.width, image.height].map(f64::from);
+        Self {
+            origin: [unit(), unit()],
+            sides: [0, 1].map(|side| {
+                let (sine, cosine) = f64::sin_cos(directions[side]);
+                [sides[side] * cosine / size[0], sides[side] * sine / size[1]]
+            }),
+        }
+    }
+
+    /// At a place in pixels from the first pixel's centre.
+    fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|axis| self.origin[axis] + x * self.sides[0][axis] + y * self.sides[1][axis])
+    }
+}
+
+/// Renders patches of an image, and holds their pixels against the CPU; counts pixels by number of places and level.
+fn compare(gpu: &mut Headless, image: &Image, random: &mut Random, seen: &mut [[u32; 8]; 2]) {
+    let mut stage = Stage::new(vec![textured(AlphaMode::Opaque)]);
+    stage.texture = Some((image.clone(), Sampler::default()));
+    let mut maps = Vec::new();
+    for patch in 0..(SIZE[0] / PATCH) * (SIZE[1] / PATCH) {
+        let first = [patch % (SIZE[0] / PATCH), patch / (SIZE[0] / PATCH)]
+            .map(|column| f64::from(PATCH * column));
+        let map = Map::new(image, random);
+        let side = f64::from(PATCH);
+        let corners = [[0.0, 0.0], [0.0, side], [side, side], [side, 0.0]];
+        let centre = SIZE.map(|side| f64::from(side) / 2.0);
+        stage.add_quad(
+            0,
+            corners.map(|[x, y]| {
+                let place = [first[0] + x - centre[0], first[1] + y - centre[1]];
+                seen_at(place, 1.0, SIZE[1])
+            }),
+        );
+        let uvs = corners.map(|[x, y]| map.at([x - 0.5, y - 0.5]).map(|v| v as f32));
+        let [.., a, b] = &mut stage.triangles[..] else {
+            unreachable!("a patch has two triangles");
+        };
+        a.uvs = [uvs[0], uvs[1], uvs[2]];
+        b.uvs = [uvs[0], uvs[2], uvs[3]];
+        maps.push(map);
+    }
+    // No contrast makes a superpixel, and pixels' centres are shaded over all of the pixel.
+    let settings = Settings {
+        method: Method::Superpixel,
+        contrast: Some(255),
+        ..once(SIZE)
+    };
+    let rendered = stage.render(gpu, &settings);
+    for (pixel, color) in rendered.colors.iter().enumerate() {
+        let [x, y] = [pixel as u32 % SIZE[0], pixel as u32 / SIZE[0]];
+        let map = &maps[(y / PATCH * (SIZE[0] / PATCH) + x / PATCH) as usize];
+        let at = map.at([x % PATCH, y % PATCH].map(f64::from));
+        let found = probes([image.width, image.height], at, map.sides);
+        // Rounding may choose otherwise there.
+        if found.margin < 1e-3 {
+            continue;
+        }
+        seen[found.count as usize - 1][found.level.clamp(0, 7) as usize] += 1;
+        let expected = filtered(image, &found);
+        for channel in 0..3 {
+            let apart = (f64::from(color[channel]) - expected[channel]).abs();
+            assert!(
+                apart < 0.01,
+                "({x}, {y}): {color:?}, not {expected:?} of {found:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn textures_are_averaged_over_footprints() {
+    on_gpu(|gpu| {
+        let mut random = Random::new(7);
+        let mut seen = [[0; 8]; 2];
+        for size in [[64, 64], [128, 32], [60, 33]] {
+            let image = noise(size, &mut random);
+            compare(gpu, &image, &mut random, &mut seen);
+        }
+        // Both numbers of places, at the finest levels and at coarse ones.
+        let enough = seen
+            .iter()
+            .all(|levels| levels[..4].iter().all(|n| *n > 100));
+        assert!(enough, "{seen:?}");
+    });
+}
