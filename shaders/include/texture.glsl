@@ -9,6 +9,7 @@
 
 layout(constant_id = CONSTANT_TEXTURED) const bool TEXTURED = false;            // any is used
 layout(constant_id = CONSTANT_ONE_UV_TRANSFORM) const bool ONE_UV_TRANSFORM = false;   // and UV set, for all textures
+layout(constant_id = CONSTANT_ONE_TEXTURE_SIZE) const bool ONE_TEXTURE_SIZE = false;   // all textures of the material have that of the first
 layout(constant_id = CONSTANT_BOX_FILTER) const bool BOX_FILTER = false; // textures are filtered over what a place stands for, along both of its axes
 
 // Which of `textures` a role reads, 16 added; 0 for none.
@@ -76,7 +77,9 @@ vec4 read_texture(sampler2D image, uint slot, Place place) {
     vec2 at = linear * (uv * place.w.at) + vec2(row_u.z, row_v.z);
     vec2 dx = linear * (uv * place.w.dx), dy = linear * (uv * place.w.dy);
     if (!BOX_FILTER) return textureGrad(image, at, dx, dy);
-    Probes probes = probes_of(vec2(textureSize(image, 0)), at, dx, dy);
+    // Where coordinates and sizes are the same, compilers compute the probes once for all textures.
+    ivec2 size = ONE_TEXTURE_SIZE ? textureSize(textures[0], 0) : textureSize(image, 0);
+    Probes probes = probes_of(vec2(size), at, dx, dy);
     vec4 sum = vec4(0.0);
     float probe = 0.0;
     do {

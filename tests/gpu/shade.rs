@@ -74,3 +74,52 @@ fn packed_occlusion_is_occlusion() {
         assert_ne!(packed, shaded(None));
     });
 }
+
+/// Each texture of a material is filtered over its own texels, though the one read first has fewer.
+#[test]
+fn textures_of_other_sizes_keep_their_own_footprint() {
+    on_gpu(|gpu| {
+        let mut random = Random::new(4);
+        let larger = Image {
+            width: 64,
+            height: 64,
+            pixels: (0..64 * 64 * 4).map(|_| random.below(256) as u8).collect(),
+        };
+        let mut shaded = |base, emissive: Option<TextureUse>| {
+            let stage = lit(Material {
+                base_color_texture: base,
+                emissive: [if emissive.is_some() { 1.0 } else { 0.0 }; 3],
+                emissive_texture: emissive,
+                ..flat([0.9, 0.8, 0.7, 1.0], AlphaMode::Opaque)
+            });
+            let (mut scene, pose) = stage.build();
+            scene.images.push(larger.clone());
+            scene.textures.push(Texture {
+                image: 1,
+                sampler: Sampler::default(),
+            });
+            let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
+            // No contrast makes a superpixel, and pixels' centres are shaded over all of the pixel.
+            let settings = Settings {
+                method: Method::Superpixel,
+                contrast: Some(255),
+                ..once(SIZE)
+            };
+            let mut frame = gpu.prepare(&prepared, &settings).unwrap();
+            gpu.render(&mut frame, &camera()).unwrap().colors
+        };
+        let [small, large] = [read(0, 1.0), read(1, 1.0)];
+        let [plain, base] = [None, small].map(|base| shaded(base, None));
+        let [alone, both] = [None, small].map(|base| shaded(base, large));
+        let mut most = 0.0_f32;
+        for pixel in 0..plain.len() {
+            for channel in 0..3 {
+                let emitted = alone[pixel][channel] - plain[pixel][channel];
+                let apart = both[pixel][channel] - base[pixel][channel] - emitted;
+                assert!(apart.abs() < 1e-4, "pixel {pixel}: {emitted} and {apart}");
+                most = most.max(emitted);
+            }
+        }
+        assert!(most > 0.3, "{most}");
+    });
+}

@@ -2068,6 +2068,7 @@ pub struct Shade {
     pub box_filter: bool,
     pub tinted: bool,
     pub environment: bool,
+    pub one_texture_size: bool,
     pub locations: bool,
     pub occluders: bool,
     pub instanced: bool,
@@ -2120,6 +2121,7 @@ impl Default for Shade {
             box_filter: false,
             tinted: false,
             environment: false,
+            one_texture_size: false,
             locations: false,
             occluders: false,
             instanced: false,
@@ -2205,6 +2207,7 @@ impl Specialized for Shade {
             .flag(15, self.box_filter)
             .flag(16, self.tinted)
             .flag(17, self.environment)
+            .flag(19, self.one_texture_size)
             .flag(20, self.locations)
             .flag(22, self.occluders)
             .flag(23, self.instanced)

@@ -21,6 +21,8 @@ pub struct ShadeFeatures {
     unlit: bool,
     /// Whether all textures are read at the same coordinates.
     one_uv_transform: bool,
+    /// Whether all textures have the same width and height.
+    one_texture_size: bool,
     /// Lobes that are present, in the order of the shader's constants.
     lobes: [bool; 8],
 }
@@ -43,6 +45,7 @@ impl ShadeFeatures {
             vertex_colors,
             unlit: material.unlit,
             one_uv_transform: slots.one_uv_transform(),
+            one_texture_size: slots.one_size,
             lobes: lobes.map(|lobe| lobe && !material.unlit),
         }
     }
@@ -72,6 +75,7 @@ impl ShadeFeatures {
             vertex_colors: self.vertex_colors,
             unlit: self.unlit,
             one_uv_transform: self.one_uv_transform,
+            one_texture_size: self.one_texture_size,
             specular,
             clearcoat,
             sheen,

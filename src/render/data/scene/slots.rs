@@ -13,6 +13,8 @@ pub(super) struct Slots {
     pub(super) of_role: RoleSlots,
     /// Texture of each slot, and whether it is in sRGB.
     pub(super) uses: Vec<(TextureUse, bool)>,
+    /// Whether all textures have the same width and height.
+    pub(super) one_size: bool,
     is_animated: bool,
 }
 
@@ -23,15 +25,16 @@ impl Slots {
         let mut slots = Self {
             of_role: [None; TextureRole::COUNT],
             uses: Vec::new(),
+            one_size: false,
             is_animated: material.animated,
         };
         let wanted = |role| role == TextureRole::BaseColor || !material.unlit;
-        let exists = |used: &TextureUse| {
-            let texture = scene.textures.get(used.texture as usize);
-            texture.is_some_and(|texture| (texture.image as usize) < scene.images.len())
+        let image = |used: &TextureUse| {
+            let texture = scene.textures.get(used.texture as usize)?;
+            scene.images.get(texture.image as usize)
         };
         for (role, used) in material.textures() {
-            if !wanted(role) || !exists(&used) {
+            if !wanted(role) || image(&used).is_none() {
                 continue;
             }
             let read = (used, role.is_srgb());
@@ -49,6 +52,10 @@ impl Slots {
             "textures",
             SLOTS as u64,
         )?;
+        let mut sizes = (slots.uses.iter().filter_map(|(used, _)| image(used)))
+            .map(|image| [image.width, image.height]);
+        let first = sizes.next();
+        slots.one_size = sizes.all(|size| Some(size) == first);
         Ok(slots)
     }
 
