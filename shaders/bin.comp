@@ -8,6 +8,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/workgroup.glsl"
+#include "include/append.glsl"
 #include "include/tiles.glsl"
 #include "include/triangle.glsl"
 #include "include/pairs.glsl"
@@ -18,18 +19,21 @@ layout(push_constant) uniform Push { uint large; } push;     // 1: a workgroup a
 void main() {
     bool large = push.large != 0u;
     uint i = large ? workgroup_number() : invocation_number();
-    if (i >= min(counters[large ? COUNTER_LARGE : COUNTER_SURVIVORS], frame.survivor_capacity)) return;
-    uint t = survivors[large ? frame.survivor_capacity - 1u - i : i];
+    uint listed = min(counters[large ? COUNTER_LARGE : COUNTER_SURVIVORS], frame.survivor_capacity);
+    bool exists = i < listed;
+    i = min(i, frame.survivor_capacity - 1u);
+    uint t = exists ? survivors[large ? frame.survivor_capacity - 1u - i : i] : 0u;
     Triangle corners = triangle_at(t);
     Footprint f = footprint_of(corners.v0, corners.v1, corners.v2);
     uint flag = t >= frame.first_blend ? TILE_HAS_BLEND : t >= frame.first_mask ? TILE_HAS_MASK : 0u;
 
     ivec2 low = f.low / ivec2(8, 4), high = f.high / ivec2(8, 4);
-    uint columns = uint(high.x - low.x + 1), count = columns * uint(high.y - low.y + 1);
+    uint columns = uint(high.x - low.x + 1), count = exists ? columns * uint(high.y - low.y + 1) : 0u;
     float inverse_columns = 1.0 / float(columns);
     uint k = large ? gl_LocalInvocationID.x : 0u;
+    // Invocations stay together as long as one has a tile left, as `append` asks.
     do {
-        uint kk = min(k, count - 1u);
+        uint kk = min(k, max(count, 1u) - 1u);
         uint row = uint((float(kk) + 0.5) * inverse_columns);
         ivec2 tile = low + ivec2(kk - row * columns, row);
         uint index = uint(tile.y) * frame.tiles.x + uint(tile.x);
@@ -38,18 +42,15 @@ void main() {
         Setup s = setup_triangle(corners.v0, corners.v1, corners.v2, tile_center(tile), false);
         vec3 reach = s.c + (3.75 + frame.reach) * abs(s.a) + (1.75 + frame.reach) * abs(s.b);
         touches = touches && !(min(reach.x, min(reach.y, reach.z)) < 0.0);
+        uint slot = append(COUNTER_PAIRS, touches);
         if (touches) {
-            uvec4 together = subgroupBallot(true);
-            uint slot = 0u;
-            if (subgroupElect()) slot = atomicAdd(counters[COUNTER_PAIRS], subgroupBallotBitCount(together));
-            slot = subgroupBroadcastFirst(slot) + subgroupBallotExclusiveBitCount(together);
             uint rank = atomicAdd(tiles[index].x, 1u);
             bool kept = slot < frame.pair_capacity && rank < pair_ranks();
             uint flags = flag | (kept ? 0u : TILE_OVERFLOW);
-            if ((tiles[index].w & flags) != flags) atomicOr(tiles[index].w, flags);
+            if (flags != 0u) atomicOr(tiles[index].w, flags);
             // One that is not kept leaves no gap: its tile gets no list.
             if (slot < frame.pair_capacity) pairs_out[slot] = make_pair(t, index, rank);
         }
         k += large ? 64u : 1u;
-    } while (k < count);
+    } while (subgroupAny(k < count));
 }

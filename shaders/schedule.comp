@@ -7,6 +7,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/load.glsl"
+#include "include/pairs.glsl"
 layout(local_size_x_id = CONSTANT_LOCAL_SIZE) in;
 
 // Sums over the invocations up to this one.
@@ -74,7 +75,8 @@ void main() {
         counters[COUNTER_ROUNDS] += idle ? 0u : 1u;
         counters[COUNTER_CANDIDATES_TOTAL] += taken.needs.x;
         arguments[ARGUMENT_ENLIST] = idle ? uvec4(0u) : groups((next + STRETCH - 1u) / STRETCH - start / STRETCH);
-        arguments[ARGUMENT_SETUP] = idle ? uvec4(0u) : groups((min(counters[COUNTER_PAIRS], frame.pair_capacity) + 63u) / 64u);
+        uint pairs_of_group = 64u * PAIRS_OF_SETUP;
+        arguments[ARGUMENT_SETUP] = idle ? uvec4(0u) : groups((min(counters[COUNTER_PAIRS], frame.pair_capacity) + pairs_of_group - 1u) / pairs_of_group);
         arguments[ARGUMENT_GROUPS] = idle ? uvec4(0u) : groups((counters[COUNTER_GROUPS] + 63u) / 64u);
         arguments[ARGUMENT_SAMPLE_PLAIN] = groups(taken.entries.x * push.subgroups_first);
         arguments[ARGUMENT_SAMPLE_MASKED] = groups(taken.entries.y * push.subgroups_first);

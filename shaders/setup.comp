@@ -12,22 +12,37 @@
 #include "include/pairs.glsl"
 layout(local_size_x = 64) in;
 
-void main() {
-    uint i = invocation_number();
-    if (i >= min(counters[COUNTER_PAIRS], frame.pair_capacity)) return;
+// Writes pair `i` of the round.
+void set_up(uint i) {
     uvec2 pair = texelFetch(pairs, int(i)).xy;
     uint tile_index = pair_tile(pair);
     uvec4 tile = tiles[tile_index];
-    if (!in_round(tile_index) || (tile.w & TILE_LISTED) == 0u) return;
     Triangle k = triangle_at(pair.x);
     ivec2 tile_at = ivec2(split(tile_index, frame.tiles.x));
     Setup s = setup_triangle(k.v0, k.v1, k.v2, tile_center(tile_at), (k.word >> 31) == 0u);
     // A triangle that does not show keeps its place and touches nothing.
     s.c = s.valid ? s.c : vec3(-3.4e38);
     uint touches = s.valid ? pixels_touched(s) & footprint_mask(footprint_of(k.v0, k.v1, k.v2), tile_at) : 0u;
+    if ((tile.w & TILE_LISTED) == 0u) return;
     int o = int(tile.y + pair_rank(pair)) * 4;
     candidates_out[o] = floatBitsToUint(vec4(s.a.x, s.b.x, s.c.x, s.a.y));
     candidates_out[o + 1] = floatBitsToUint(vec4(s.b.y, s.c.y, s.a.z, s.b.z));
     candidates_out[o + 2] = floatBitsToUint(vec4(s.c.z, s.depth));
     candidates_out[o + 3] = uvec4(floatBitsToUint(s.near), floatBitsToUint(s.far), pair.x + 1u, touches);
+}
+
+// Each round looks at all pairs, and sets up its own. An invocation looks at several before it sets up any, since CPU devices
+// compute what no invocation of a subgroup needs, too.
+void main() {
+    uint count = min(counters[COUNTER_PAIRS], frame.pair_capacity);
+    uint first = workgroup_number() * 64u * PAIRS_OF_SETUP + gl_LocalInvocationID.x;
+    uint wanted = 0u;
+    [[unroll]] for (uint k = 0u; k < PAIRS_OF_SETUP; k++) {
+        uint i = first + k * 64u, tile = pair_tile(texelFetch(pairs, int(min(i, count - 1u))).xy);
+        wanted |= i < count && in_round(tile) ? 1u << k : 0u;
+    }
+    while (wanted != 0u) {
+        set_up(first + uint(findLSB(wanted)) * 64u);
+        wanted &= wanted - 1u;
+    }
 }

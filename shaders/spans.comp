@@ -7,6 +7,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "include/frame.glsl"
 #include "include/workgroup.glsl"
+#include "include/append.glsl"
 #include "include/lanes.glsl"
 #include "include/triangle.glsl"
 layout(local_size_x = 64) in;
@@ -58,8 +59,8 @@ void main() {
         more = current != NONE;
         uvec4 together = subgroupBallot(more && mine == current);
         uint n = subgroupBallotBitCount(together), base = 0u;
-        if (subgroupElect() && more) base = atomicAdd(bins[current][ONE_BIN || !scatter ? 0 : 2], n);
-        base = subgroupBroadcastFirst(base);
+        if (lane == 0u && more) base = atomicAdd(bins[current][ONE_BIN || !scatter ? 0 : 2], n);
+        base = of_first(base);
         if (scatter && more && mine == current)
             shade_order[base + subgroupBallotExclusiveBitCount(together)] = first_span + lane;
         done = current;

@@ -4,6 +4,7 @@
 #define PAIRS_GLSL
 
 const uint INVOCATIONS_OF_PAIR = 8u;    // in `crossings`
+const uint PAIRS_OF_SETUP = 16u;        // that an invocation of `setup` looks at
 
 uint pair_tile_bits() {
     return uint(findMSB(frame.tiles.x * frame.tiles.y) + 1);

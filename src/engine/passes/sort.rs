@@ -22,6 +22,9 @@ struct Passes {
 }
 
 impl Sort {
+    /// Invocations of a workgroup, which may be several subgroups.
+    const WORKGROUP: u32 = 64;
+
     /// Makes the pipelines.
     ///
     /// # Errors
@@ -32,9 +35,14 @@ impl Sort {
         one_bin: bool,
     ) -> Result<Self, VulkanError> {
         let passes = || {
-            let instanced = scene.is_instanced();
+            let lanes = layout.gpu.limits().subgroup_size.min(Self::WORKGROUP);
+            let shader = spirv::Sort {
+                lanes,
+                instanced: scene.is_instanced(),
+                unsure: layout.is_unsure(lanes),
+            };
             Ok::<_, VulkanError>(Passes {
-                pipeline: layout.compute(&spirv::Sort { instanced }, None)?,
+                pipeline: layout.compute(&shader, layout.subgroup())?,
                 arguments: Arguments::new(layout, After::Records)?,
             })
         };

@@ -2327,13 +2327,17 @@ pub struct SortPush {
 /// Constants of `shaders/sort.comp`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sort {
+    pub lanes: u32,
     pub instanced: bool,
+    pub unsure: bool,
 }
 
 impl Default for Sort {
     fn default() -> Self {
         Self {
+            lanes: 8,
             instanced: false,
+            unsure: false,
         }
     }
 }
@@ -2346,7 +2350,7 @@ impl Specialized for Sort {
             Use { set: 0, binding: frame_set::TRIANGLES, access: Access::Read },
             Use { set: 0, binding: frame_set::INSTANCE_OF, access: Access::Read },
             Use { set: 0, binding: frame_set::INSTANCES, access: Access::Read },
-            Use { set: 0, binding: frame_set::COUNTERS, access: Access::Read },
+            Use { set: 0, binding: frame_set::COUNTERS, access: Access::ReadWrite },
             Use { set: 0, binding: frame_set::RECORDS, access: Access::Read },
             Use { set: 0, binding: frame_set::SHADE_ORDER, access: Access::Write },
             Use { set: 0, binding: frame_set::BINS, access: Access::ReadWrite },
@@ -2357,7 +2361,9 @@ impl Specialized for Sort {
 
     fn constants(&self) -> Constants {
         Constants::new()
+            .with(1, self.lanes)
             .flag(23, self.instanced)
+            .flag(24, self.unsure)
     }
 }
 
