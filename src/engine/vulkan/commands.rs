@@ -1,6 +1,7 @@
 //! Recording into a command buffer, and the time that each pass takes.
 
 use super::barriers::{Barriers, Commands};
+use super::conditions::{Change, Conditions};
 use super::trace::Dispatched;
 use super::{Buffer, Gpu, Image, Pipeline, VulkanError};
 use ash::vk;
@@ -19,9 +20,7 @@ pub struct Recorder<'a> {
     /// A barrier that is asked for is recorded before the next command. A mark goes before it: some drivers take the time of
     /// a timestamp no earlier than at the barrier that follows it.
     barriers: Cell<Barriers>,
-    /// The word that dispatches depend on now, and that which the command buffer was last told of.
-    condition: vk::Buffer,
-    begun: Cell<vk::Buffer>,
+    conditions: Cell<Conditions>,
     timings: Option<&'a mut Timings>,
     /// Whether dispatches are labelled, and kept for who asks.
     labels: bool,
@@ -45,8 +44,7 @@ impl<'a> Recorder<'a> {
             gpu,
             raw,
             barriers: Cell::new(Barriers::new()),
-            condition: vk::Buffer::null(),
-            begun: Cell::new(vk::Buffer::null()),
+            conditions: Cell::new(Conditions::default()),
             timings,
             labels: gpu.debug_labels.is_some(),
             traces: gpu.trace.is_asked(),
@@ -55,42 +53,41 @@ impl<'a> Recorder<'a> {
 
     /// The command buffer, to record commands of any kind until the next [`Self::barrier`]. None of them is skipped.
     pub(crate) fn raw(&self) -> vk::CommandBuffer {
-        self.depend_on(vk::Buffer::null());
+        self.change_condition(Conditions::before_others);
         self.before(Commands::Any)
     }
 
     /// Records dispatches that the device skips where the first word of a buffer is zero. What they are recorded with does not
-    /// write that word. Within them, others may depend on another word instead. Copies, and commands recorded with
-    /// [`Self::raw`], are not skipped.
+    /// write that word; it may be written before and after. Within them, others may depend on another word instead. Copies, and
+    /// commands recorded with [`Self::raw`], are not skipped.
     ///
     /// The device [can skip commands](super::Limits::conditional_rendering), and the buffer was made for it.
     pub(crate) fn unless_zero(&mut self, word: &Buffer, record: impl FnOnce(&mut Self)) {
-        let outer = std::mem::replace(&mut self.condition, word.raw);
+        let before = self.conditions.get_mut().enter(word.raw);
         record(self);
-        self.condition = outer;
+        self.change_condition(|conditions| conditions.leave(before));
     }
 
     /// The word that [`Self::unless_zero`] has dispatches depend on now, if any: the first of a buffer.
     pub(crate) fn condition(&self) -> Option<vk::Buffer> {
-        (self.condition != vk::Buffer::null()).then_some(self.condition)
+        self.conditions.get().word()
     }
 
-    /// Has the commands that follow depend on a word, or on none.
-    fn depend_on(&self, word: vk::Buffer) {
-        let begun = self.begun.replace(word);
+    /// Records what begins or ends at a step.
+    fn change_condition(&self, step: impl FnOnce(&mut Conditions) -> Change) {
+        let mut conditions = self.conditions.get();
+        let change = step(&mut conditions);
+        self.conditions.set(conditions);
         let Some(functions) = &self.gpu.conditional_rendering else {
             return;
         };
-        if begun == word {
-            return;
-        }
         // SAFETY: `new`'s contract; what was begun is ended before anything else is begun, and both happen outside of render
         // passes, which are recorded with `raw`.
         unsafe {
-            if begun != vk::Buffer::null() {
+            if change.ends {
                 (functions.fp().cmd_end_conditional_rendering_ext)(self.raw);
             }
-            if word != vk::Buffer::null() {
+            if let Some(word) = change.begins {
                 let info = vk::ConditionalRenderingBeginInfoEXT::default().buffer(word);
                 (functions.fp().cmd_begin_conditional_rendering_ext)(self.raw, &info);
             }
@@ -100,7 +97,7 @@ impl<'a> Recorder<'a> {
     /// The command buffer, to record a dispatch.
     fn dispatching(&self) -> vk::CommandBuffer {
         let raw = self.before(Commands::Dispatches);
-        self.depend_on(self.condition);
+        self.change_condition(Conditions::before_dispatch);
         raw
     }
 

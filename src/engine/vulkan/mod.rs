@@ -6,6 +6,7 @@ mod allocation;
 mod barriers;
 pub(crate) mod commands;
 mod completion;
+mod conditions;
 mod error;
 mod gpu;
 mod instance;
