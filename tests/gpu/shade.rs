@@ -1,6 +1,6 @@
 //! Shading with what a material leaves out left out, against shading that leaves nothing out.
 
-use gpc::render::{Method, SceneRequest};
+use gpc::render::{Method, SceneRequest, Settings, SuperpixelOptions};
 use gpc::scene::{AlphaMode, Image, Material, Sampler, Texture, TextureTransform, TextureUse};
 
 use crate::meshes::Random;
@@ -100,11 +100,8 @@ fn textures_of_other_sizes_keep_their_own_footprint() {
             });
             let prepared = gpu.upload(SceneRequest::new(&scene, &pose)).unwrap();
             // No contrast makes a superpixel, and pixels' centres are shaded over all of the pixel.
-            let settings = Settings {
-                method: Method::Superpixel,
-                contrast: Some(255),
-                ..once(SIZE)
-            };
+            let uniform = SuperpixelOptions::new(Settings::DEFAULT_SAMPLES).contrast(Some(u8::MAX));
+            let settings = once(SIZE).method(uniform.thin(false));
             let mut frame = gpu.prepare(&prepared, &settings).unwrap();
             gpu.render(&mut frame, &camera()).unwrap().colors
         };

@@ -2,7 +2,7 @@
 //! another level, or another number of places, gives another colour.
 
 use gpc::reference::texture::{Probes, probes};
-use gpc::render::{Headless, Method, Settings};
+use gpc::render::{Headless, Settings, SuperpixelOptions};
 use gpc::scene::{AlphaMode, Image, Sampler};
 
 use crate::meshes::Random;
@@ -124,11 +124,8 @@ fn compare(gpu: &mut Headless, image: &Image, random: &mut Random, seen: &mut [[
         maps.push(map);
     }
     // No contrast makes a superpixel, and pixels' centres are shaded over all of the pixel.
-    let settings = Settings {
-        method: Method::Superpixel,
-        contrast: Some(255),
-        ..once(SIZE)
-    };
+    let uniform = SuperpixelOptions::new(Settings::DEFAULT_SAMPLES).contrast(Some(u8::MAX));
+    let settings = once(SIZE).method(uniform.thin(false));
     let rendered = stage.render(gpu, &settings);
     for (pixel, color) in rendered.colors.iter().enumerate() {
         let [x, y] = [pixel as u32 % SIZE[0], pixel as u32 / SIZE[0]];
